@@ -111,9 +111,9 @@ class PageMaker {
       watch_.report(double(k + 1) / count);
     }
     if (const auto& bar = stage.colour_bar())
-      page.add_colour_bar({157, 3, 19, photo ? 48.0 : 40.0}, *bar);
+      page.add_colour_bar({157, 3, 19, photo ? 48.0 : 31.0}, *bar);
     const double bar_mm = records_.front()->preset.figure.scale_bar_mm;
-    page.add_scale_bar({photo ? 158.0 : 2.0, photo ? 106.0 : 36.0, 18, 8}, bar_mm, units);
+    page.add_scale_bar({photo ? 158.0 : 157.0, photo ? 106.0 : 36.0, 18, 8}, bar_mm, units);
     return page;
   }
 
@@ -208,10 +208,11 @@ class PageMaker {
     page.add_figure("A", left, std::move(*blocks));
     const int count = int(shells_.size());
     for (int k = 0; k < count; ++k)
-      page.add(numbered("B", k, count), "", {92 + k * 84.0 / count, 2, 84.0 / count, 54},
+      page.add(numbered("B", k, count), "", {92 + k * 84.0 / count, 2, 84.0 / count, 49},
                [&run = *shells_[std::size_t(k)].run, kinds](Canvas& canvas, const Box& box) {
                  render::draw_block_footprints(canvas, box, run, kinds);
                });
+    page.add_note({92, 52, 84, 4}, "B: blocks, joined; dashed: the rim of the shell at rest");
     TRY(over, render::draw_over_nets(shells_, filling(below, std::min(2, count)), renderer_, watch_,
                                      2));
     for (int k = 0; k < count && count > 1; ++k)

@@ -118,7 +118,8 @@ struct Page {
 // Fig. 2 of [Baek 2018] on one page: states of one footprint, the phase diagram, and a state of
 // each class from above.
 
-/// A: the states ii, iii and iv of the first record. B: the sweep that the preset names, or an
+/// A: the states ii, iii and iv of the first record, and the dome (state i) of lowest energy that
+/// any has, which the paper shows within B. B: the sweep that the preset names, or an
 /// empty frame. C: of each class the state of lowest energy that any record has, or an empty frame.
 /// Errors: bad_input where no record is a search or the sweep cannot be read; the renderer's;
 /// cancelled.

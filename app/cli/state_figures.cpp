@@ -12,6 +12,7 @@
 #include "render/canvas/legend.h"
 #include "render/canvas/plot.h"
 #include "render/movie/run_figures.h"
+#include "render/movie/run_summary.h"
 #include "render/movie/shell_lines.h"
 #include "render/movie/stage.h"
 #include "render/movie/state_charts.h"
@@ -181,9 +182,9 @@ using render::Box;
 using render::Canvas;
 
 // places on the page, mm
-constexpr double page_width = 178, page_height = 152, margin = 2;
-constexpr Box above{margin, margin, 160, 46}, diagram{margin, 50, 97, 94}, maps{101, 50, 75, 94},
-    foot{margin, 145, 97, 5};
+constexpr double page_width = 178, page_height = 144, margin = 2;
+constexpr Box above{margin, margin, 160, 38}, diagram{margin, 42, 97, 94}, maps{101, 42, 75, 94},
+    foot{margin, 137, 97, 5};
 constexpr double points_per_mm = 72 / 25.4, caption = 12;  // points
 
 /// A state of a record.
@@ -236,10 +237,35 @@ int state_measured(const Eigen::Matrix3Xd& measured, const record::Trajectory& s
   return int(std::ranges::min_element(away) - away.begin());
 }
 
-/// The first record's states ii, iii and iv in space, at one scale and with one colour bar; joints
-/// measured over the one that they lie nearest to.
-Result<void> add_states(Page& page, const Run& one, render::MovieStyle style,
+/// A state in space on its page.
+Result<void> add_state(Page& page, const Found& found, const render::Stage& stage,
+                       render::Drawing drawing, const std::string& letter,
+                       const std::string& caption, const Box& box, render::Renderer& renderer) {
+  const render::MovieStyle& style = stage.style();
+  const render::Camera camera = stage.camera(0);
+  TRY(picture, renderer.draw(drawing, camera, render::draw_quality(style), style.width(),
+                             style.height()));
+  render::Panel panel{std::move(*picture), letter, ""};
+  if (style.vector) panel.lines = render::shell_lines(std::move(drawing), camera);
+  page.add_panel(fmt::format("*{}*, {}: {}", found.row().name(), group_text(found.row().group),
+                             caption),
+                 box, std::move(panel));
+  return {};
+}
+
+/// How wide a shell is against another.
+double width_over(const record::Trajectory& run, const record::Trajectory& other) {
+  const auto reach = [](const record::Trajectory& one) {
+    return one.layout.actuated_boundary.topRows<2>().colwise().norm().maxCoeff();
+  };
+  return reach(run) / reach(other);
+}
+
+/// The first record's states ii, iii and iv in space and the lowest dome of any, at one scale and
+/// with one colour bar; joints measured over the one that they lie nearest to.
+Result<void> add_states(Page& page, const Runs& records, render::MovieStyle style,
                         render::Renderer& renderer, Watch& watch) {
+  const Run& one = *records.front();
   std::vector<std::size_t> which;
   for (const StateClass kind : {StateClass::ii, StateClass::iii, StateClass::iv})
     if (const auto found = lowest_of(kind, one)) which.push_back(found->at);
@@ -247,35 +273,45 @@ Result<void> add_states(Page& page, const Run& one, render::MovieStyle style,
     page.add_empty("A", above, "none of the states ii, iii and iv was found");
     return {};
   }
-  const double width = above.width / 3;
-  style = at_size(style, width, above.height - caption / points_per_mm, one.preset.figure.dpi);
+  const auto dome = lowest_of(StateClass::i, records);
+  const double wider = dome ? width_over(dome->record->trajectory, one.trajectory) : 0;
+  const double width = above.width / (3 + wider), dpi = one.preset.figure.dpi,
+               height = above.height - caption / points_per_mm;
   style.captions = style.inset = style.legends = false;
   style.turn_deg = 0;
   const record::Trajectory run = states_alone(one.trajectory, which);
-  const render::Stage stage(run, style);
+  const render::Stage stage(run, at_size(style, width, height, dpi));
   const Eigen::Matrix3Xd measured = scan_of(one.preset);
   const int over = state_measured(measured, run);
   for (std::size_t k = 0; k < which.size(); ++k) {
     if (watch.cancelled()) return fail(Fault::cancelled, "stopped while drawing a page");
-    const record::StateRow& row = one.states.rows[which[k]];
+    const Found found{&one, which[k]};
     render::Drawing drawing = stage.drawing(run.frames[k]);
     // joints are drawn red too: where some are measured no others are
     if (over >= 0) drawing.joint_diameter_mm = 0;
     if (over == int(k)) render::show_measured_joints(measured, drawing);
-    TRY(picture, renderer.draw(drawing, stage.camera(int(k)), render::draw_quality(style),
-                               style.width(), style.height()));
-    render::Panel panel{std::move(*picture), "A" + std::to_string(k + 1), ""};
-    if (style.vector) panel.lines = render::shell_lines(std::move(drawing), stage.camera(int(k)));
-    page.add_panel(fmt::format("*{}*, {}: {:.2f} mJ, {:.1f} mm high", row.name(),
-                               group_text(row.group), row.energy_mJ(), row.height_mm),
-                   {above.x + double(k) * width, above.y, width, above.height}, std::move(panel));
-    watch.report(double(k + 1) / double(which.size()));
+    TRY_DO(add_state(page, found, stage, std::move(drawing), "A" + std::to_string(k + 1),
+                     fmt::format("{:.2f} mJ", found.row().energy_mJ()),
+                     {above.x + double(k) * width, above.y, width, above.height}, renderer));
+    watch.report(double(k + 1) / double(which.size() + 1));
   }
-  if (const auto& bar = stage.colour_bar()) page.add_colour_bar({162, 3, 14, 34}, *bar);
+  if (dome) {
+    const record::Trajectory alone = states_alone(dome->record->trajectory, {dome->at});
+    render::MovieStyle wide = at_size(style, wider * width, height, dpi);
+    const auto staged = [&] {
+      return render::Stage(alone.layout, render::summarise_run(alone), wide, stage.colour_bar());
+    };
+    wide.zoom *= stage.pixels_per_mm() / staged().pixels_per_mm();
+    const render::Stage beside = staged();
+    TRY_DO(add_state(page, *dome, beside, beside.drawing(alone.frames.front()), "A4",
+                     fmt::format("{:.2f} mJ, at {}", dome->row().energy_mJ(),
+                                 place_of(dome->record->preset)),
+                     {above.x + 3 * width, above.y, wider * width, above.height}, renderer));
+  }
+  if (const auto& bar = stage.colour_bar()) page.add_colour_bar({163, 3, 14, 28}, *bar);
   if (over >= 0) page.add_keys({128, 1, 32, 4}, {render::scan_key()});
-  const double units =
-      (above.height * points_per_mm - caption) * stage.pixels_per_mm() / style.height();
-  page.add_scale_bar({158, 38, 18, 8}, one.preset.figure.scale_bar_mm, units);
+  const double units = height * points_per_mm * stage.pixels_per_mm() / stage.style().height();
+  page.add_scale_bar({159, 31, 18, 8}, one.preset.figure.scale_bar_mm, units);
   return {};
 }
 
@@ -299,7 +335,7 @@ Result<void> add_diagram(Page& page, const std::string& named) {
 void add_foot(Page& page, const preset::Preset& preset) {
   const double d = preset.footprint.spacing_mm;
   const std::string shell =
-      fmt::format("A at {}; all: circles, *d* = {:g} mm, *R*_{{a}} = {:.3g} *R*_{{o}}",
+      fmt::format("A1–A3 at {}; all: circles, *d* = {:g} mm, *R*_{{a}} = {:.3g} *R*_{{o}}",
                   place_of(preset), d, preset.actuated_radius_mm() / preset.original_radius_mm());
   if (preset.footprint.kind == preset::FootprintKind::circle) page.add_note(foot, shell);
 }
@@ -347,7 +383,7 @@ Result<Page> states_page(const Runs& records, const render::MovieStyle& style,
                             "confined above 0",
                             first.preset.name));
   Page page{page_width, page_height};
-  TRY_DO(add_states(page, first, style, renderer, watch));
+  TRY_DO(add_states(page, records, style, renderer, watch));
   TRY_DO(add_diagram(page, first.preset.page.sweep));
   add_maps(page, records);
   add_foot(page, first.preset);

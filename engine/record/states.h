@@ -76,6 +76,8 @@ template <RecordOf<StateRow> Row, class Visit>
 void fields(Row& row, const Visit& visit) {
   visit_each(visit, "state", row.state, "class", row.kind, "group", row.group);
   visit_energies(row.energies, visit);
+  double sum = row.energy_mJ();  // told, not kept
+  visit("energy_mJ", sum);
   visit_each(visit, "height_mm", row.height_mm, "z_max_mm", row.z_max_mm, "z_min_mm", row.z_min_mm,
              "inflections", row.inflections, "count", row.count, "count_confined",
              row.count_confined, "lives_to", row.lives_to, "lives_to_radius_mm",

@@ -129,8 +129,7 @@ void keep(const Scene& scene, const preset::SearchSettings& jitter,
     if (at == library.states.size()) {
       one.row.state = int(at) + 1;
       one.frame.index = int(at);
-      one.frame.event = fmt::format("state {}: {}, class {}", one.row.state, one.row.group,
-                                    word_of(one.row.kind));
+      one.frame.event = fmt::format("state {}: {}", one.row.name(), one.row.group);
       library.states.push_back(std::move(one));
     } else {
       ++library.search.finer_merged;

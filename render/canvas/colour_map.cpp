@@ -76,6 +76,18 @@ Colour to_colour(Oklab lab, float alpha) {
           float(gamma(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s)), alpha};
 }
 
+double contrast_to_white(Colour c) {
+  const double luminance =
+      0.2126 * to_linear(c.r) + 0.7152 * to_linear(c.g) + 0.0722 * to_linear(c.b);
+  return 1.05 / (luminance + 0.05);
+}
+
+Colour readable(Colour colour) {
+  Oklab lab = to_oklab(colour);
+  for (; contrast_to_white(colour) < 4.5; colour = to_colour(lab, colour.a)) lab.L -= 0.005;
+  return colour;
+}
+
 Colour diverging(double t, double start) {
   // lightness and chroma of the ends are the strongest that both hues have within sRGB
   constexpr double middle_L = 0.975, end_L = 0.46, end_chroma = 0.165;

@@ -17,6 +17,11 @@ Oklab to_oklab(Colour colour);
 /// Components outside of sRGB are clipped.
 Colour to_colour(Oklab lab, float alpha = 1);
 
+/// How far a colour stands out from white: 1.05/(Y + 0.05), Y its relative luminance [WCAG 2.1].
+double contrast_to_white(Colour colour);
+/// For words on white: the colour itself, or darker until its contrast is 4.5.
+Colour readable(Colour colour);
+
 /// Blue - white - red over t in [-1, 1] (clipped): from the neutral middle two straight lines of
 /// equal length and equal lightness, so that equal |t| looks equally strong. `start` greys the
 /// middle by that share of the way to the ends' lightness.

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "render/canvas/colour_map.h"
+
 #include "render/canvas/plot_frame.h"
 
 namespace gridshell::render {
@@ -35,7 +37,7 @@ void draw_horizontal(Canvas& canvas, const Box& in, const ReferenceLine& line, d
   const bool above = y - 1.9 * size > in.y;
   canvas.text(line.label, {in.right() - 0.8 * size, above ? y - 0.15 * size : y + 0.15 * size},
               {.size = size,
-               .colour = line.stroke.colour,
+               .colour = readable(line.stroke.colour),
                .align_x = AlignX::right,
                .align_y = above ? AlignY::bottom : AlignY::top});
 }
@@ -51,7 +53,7 @@ void draw_vertical(Canvas& canvas, const Box& in, const ReferenceLine& line, dou
               {right ? x + 0.4 * size : x - 0.4 * size,
                top_is_free ? in.y + 0.5 * size : in.bottom() - 0.5 * size},
               {.size = size,
-               .colour = line.stroke.colour,
+               .colour = readable(line.stroke.colour),
                .align_x = right ? AlignX::left : AlignX::right,
                .align_y = top_is_free ? AlignY::top : AlignY::bottom});
 }
@@ -135,7 +137,7 @@ void draw_line_and_markers(Canvas& canvas, const PlotFrame& frame, const Series&
 
 Colour series_colour(std::size_t index) {
   constexpr std::array<int, 10> colours = {0x4477AA, 0xEE6677, 0x228833, 0xCCBB44, 0x66CCEE,
-                                           0xAA3377, 0x555555, 0x004488, 0xDDAA33, 0xBB5566};
+                                           0xAA3377, 0x555555, 0x004488, 0xDDAA33, 0x000000};
   return hex_colour(colours[index % colours.size()]);
 }
 
@@ -197,7 +199,7 @@ void draw_plot(Canvas& canvas, const Box& box, const Plot& plot) {
     const Box at = note_box(canvas, plot, frame, note);
     canvas.text(note.text, {at.x, at.y},
                 {.size = plot.font_size,
-                 .colour = note.colour,
+                 .colour = readable(note.colour),
                  .align_y = AlignY::top,
                  .halo = {1, 1, 1, 0.85f}});
   }

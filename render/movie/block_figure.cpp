@@ -123,10 +123,11 @@ BlockKinds::BlockKinds(const std::vector<NetRun>& runs) {
 }
 
 Colour BlockKinds::colour(const std::string& block) const {
-  constexpr Colour colours[] = {{0.16f, 0.42f, 0.78f, 1},
-                                {0.85f, 0.45f, 0.10f, 1},
+  // blue last: under a dark shell it reads as that
+  constexpr Colour colours[] = {{0.85f, 0.45f, 0.10f, 1},
                                 {0.10f, 0.55f, 0.40f, 1},
-                                {0.62f, 0.25f, 0.62f, 1}};
+                                {0.62f, 0.25f, 0.62f, 1},
+                                {0.16f, 0.42f, 0.78f, 1}};
   const auto at = std::ranges::find(kinds_, block_kind(block)) - kinds_.begin();
   return colours[std::size_t(at) % std::size(colours)];
 }
@@ -181,6 +182,7 @@ struct BlockSheet {
 };
 
 constexpr double between = 14, bar_height = 20;  // points
+constexpr const char* rim_text = "dashed: the shell's rim";
 
 }  // namespace
 
@@ -207,8 +209,11 @@ void draw_block_footprints(Canvas& canvas, const Box& box, const record::Traject
   const double below = down.at.y + scale * sheet.below.size().y();
   const Point left{box.x, below + 0.6 * bar_height};
   const Box length = draw_spacing(canvas, left, layout, scale);
-  canvas.text("dashed: the shell's rim", {length.right() + 8, left.y},
-              {.size = 7, .align_y = AlignY::middle});
+  const TextStyle style{.size = 7, .align_y = AlignY::middle};
+  const Point after{length.right() + 8, left.y};
+  // a page says it once for all
+  if (after.x + canvas.measure(rim_text, style).width <= box.right())
+    canvas.text(rim_text, after, style);
 }
 
 Result<void> write_block_footprints(const std::filesystem::path& stem,

@@ -25,7 +25,7 @@ void draw_fitted(Canvas& canvas, const Box& box, const Image& image) {
 void draw_empty_frame(Canvas& canvas, const Box& box, const std::string& of_what) {
   canvas.rectangle(box, {0, 0, 0, 0}, {pale, 0.7, {4, 3}});
   canvas.text(of_what, box.middle(),
-              {.size = 8, .colour = pale, .align_x = AlignX::centre, .align_y = AlignY::middle});
+              {.size = 8, .colour = ink, .align_x = AlignX::centre, .align_y = AlignY::middle});
 }
 
 Result<void> write_page(const std::filesystem::path& stem, const std::string& title,
@@ -78,7 +78,7 @@ void draw_in(Canvas& canvas, const Box& cell, const std::optional<Image>& image)
     canvas.rectangle(cell, {0, 0, 0, 0}, {empty_ink, 1, {4, 3}});
     canvas.text(
         "none", cell.middle(),
-        {.size = size, .colour = empty_ink, .align_x = AlignX::centre, .align_y = AlignY::middle});
+        {.size = size, .colour = ink, .align_x = AlignX::centre, .align_y = AlignY::middle});
     return;
   }
   const double scale = std::min(cell.width / image->width, cell.height / image->height);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "render/canvas/colour_map.h"
 #include "render/canvas/text.h"
 #include "render/movie/run_figures.h"
 
@@ -39,7 +40,7 @@ bool planes_differ(const std::vector<NamedRun>& runs) {
 /// The names of the runs in their colours, one after the other.
 void draw_names(Canvas& canvas, Point at, const std::vector<NamedRun>& runs) {
   for (std::size_t k = 0; k < runs.size(); ++k) {
-    const TextStyle style{.size = 8, .colour = series_colour(k), .align_y = AlignY::middle};
+    const TextStyle style{.size = 8, .colour = readable(series_colour(k)), .align_y = AlignY::middle};
     at.x = canvas.text(runs[k].name, at, style).right() + 8;
   }
 }
@@ -111,7 +112,7 @@ void draw_planes(Canvas& canvas, const Box& box, const std::vector<NamedRun>& ru
     const Point name{centre.x + half + 8, std::min(y, free)};
     canvas.line({centre.x + half, y}, {name.x - 1.5, name.y}, {colour, 0.6});
     canvas.text(fmt::format("{}{:g}", k == 0 ? "*z*^{*}/*ρ* = " : "", share), name,
-                {.size = size, .colour = colour, .align_y = AlignY::middle});
+                {.size = size, .colour = readable(colour), .align_y = AlignY::middle});
     free = name.y - 1.25 * size;
   }
 }

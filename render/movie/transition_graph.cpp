@@ -8,6 +8,7 @@
 #include <set>
 #include <vector>
 
+#include "render/canvas/colour_map.h"
 #include "render/canvas/plot_frame.h"
 #include "render/movie/run_plots.h"
 
@@ -170,13 +171,12 @@ class TransitionGraph {
       const double d = std::max(1e-9, distance(p, middle));
       return Point{p.x + r * (middle.x - p.x) / d, p.y + r * (middle.y - p.y) / d};
     };
-    arrow(canvas, off(from.at, from.radius()), middle, off(to.at, to.radius() + 0.8),
-          one.by);
+    arrow(canvas, off(from.at, from.radius()), middle, off(to.at, to.radius() + 0.8), one.by);
     if (released || one.count < 2) return;
     const Point label{0.25 * from.at.x + 0.5 * middle.x + 0.25 * to.at.x,
                       0.25 * from.at.y + 0.5 * middle.y + 0.25 * to.at.y};
     const TextStyle style{.size = font - 1,
-                          .colour = colour_of(one.by),
+                          .colour = readable(colour_of(one.by)),
                           .bold = true,
                           .align_x = AlignX::centre,
                           .align_y = AlignY::middle,

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/core/file_io.h"
+#include "engine/preset/preset_access.h"
 #include "engine/preset/preset_file.h"
 #include "tests/temporary_folder.h"
 
@@ -277,10 +278,38 @@ second = "right.west"
        "bad.toml:6:11: [[block]] 1 profile = [[1.0, 2.0], [3.0, 4.0]]: 2 points, must be at least "
        "4 for kind = \"profile\""},
       {"[block]\nname = \"a\"", "bad.toml:1:2: block: must be tables, each [[block]]"},
-      {"[[case]]\nname = \"a\"\n[[case.block]]\nname = \"b\"",
-       "bad.toml:3:8: block: stands outside of cases, as [[block]]"},
+      {start + "[[case]]\nname = \"a\"\n[case.block]\nname = \"b\"",
+       "bad.toml:7:7: block: must be tables, each [[case.block]]"},
+      {start + "[[case]]\nname = \"a\"\n[[case.block]]\nname = \"b\"\neast = 0.5",
+       "bad.toml:9:8: [[block]] 1 east = 0.5: is a number, must be an integer from -500 to 500, "
+       "or \"none\""},
   }));
   CHECK(faults_of(text) == sentence);
+}
+
+TEST_CASE("a case's list of tables stands in the place of the file's") {
+  const auto presets = read_preset_text(
+      "[footprint]\nkind = \"blocks\"\n[[block]]\nname = \"a\"\nradius_mm = 90.0\n[[block]]\n"
+      "name = \"b\"\n[[join]]\nfirst = \"a.east\"\nsecond = \"b.west\"\n[[case]]\nname = \"both\"\n"
+      "[[case]]\nname = \"one\"\n[[case.block]]\nname = \"c\"\n[[case.join]]\n"
+      "first = \"c.east\"\nsecond = \"c.west\"\n",
+      "list.toml", "list");
+  REQUIRE(presets);
+  REQUIRE(presets->cases.size() == 2);
+  CHECK(presets->cases[0].preset.block.size() == 2);
+  const Preset& one = presets->cases[1].preset;
+  REQUIRE(one.block.size() == 1);
+  CHECK(one.block[0].name == "c");
+  // nothing is left of the file's
+  CHECK(one.block[0].net.radius_mm == default_items().block[0].net.radius_mm);
+  CHECK(one.join.size() == 1);
+  // written down it comes to the same, and only where it differs
+  const std::string text = to_toml(*presets);
+  CHECK(text.find("[[case.block]]") != text.npos);
+  CHECK(text.find("[[case.block]]") == text.rfind("[[case.block]]"));
+  const auto again = read_preset_text(text, "again.toml", "list");
+  REQUIRE(again);
+  CHECK(to_toml(*again) == text);
 }
 
 TEST_CASE("points stand in the preset or in a file beside it") {

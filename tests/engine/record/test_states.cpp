@@ -50,6 +50,8 @@ TEST_CASE("state tables: what is written is read back, what is unknown stays so"
   CHECK(record::csv_table(read->transitions) == record::csv_table(written.transitions));
   CHECK(record::csv_table(read->barriers) == record::csv_table(written.barriers));
   CHECK(std::isnan(read->barriers[1].back_mJ));
+  CHECK(record::csv_table(written.transitions) ==
+        "from,to,by,count\niv.1,other.2,released,1\niv.1,,pushed,7\n");
   CHECK(read->rows[1].barrier_mJ == 0.25);
   CHECK(std::isnan(read->rows[0].barrier_mJ));
   CHECK(text_of(json_of(read->search)) == text_of(json_of(written.search)));
@@ -70,6 +72,7 @@ TEST_CASE("state tables of earlier versions: a number that has no column is unkn
   const TemporaryFolder folder;
   record::StateTables written = sample();
   written.barriers.clear();
+  written.transitions.clear();
   REQUIRE(record::write_state_tables(folder.path(), written));
   // as it was before there were barriers
   std::string table = record::csv_table(written.rows), older;
@@ -98,6 +101,15 @@ TEST_CASE("state tables of earlier versions: a number that has no column is unkn
   REQUIRE(two_terms);
   CHECK(std::isnan(two_terms->rows.at(0).energies[Term::twist]));
   CHECK(two_terms->rows.at(0).energy_mJ() == Approx(40));
+  // states were numbers, and what disturbed them had other words
+  REQUIRE(write_file(folder.path() / "transitions.csv",
+                     "from,to,by,count\n1,1,let out,1\n1,0,poked,4\n"));
+  const auto older_words = record::read_state_tables(folder.path());
+  REQUIRE(older_words);
+  CHECK(older_words->transitions[0].from.text() == "iv.1");
+  CHECK(older_words->transitions[0].by == record::Disturbance::released);
+  CHECK(older_words->transitions[1].by == record::Disturbance::pushed);
+  CHECK(older_words->transitions[1].to == 0);
   // what cannot be unknown, and what is of no version
   for (const char* heading : {"state,group\n", "state,state\n", "from,to\n"}) {
     REQUIRE(write_file(folder.path() / "states.csv", heading));
@@ -135,6 +147,8 @@ TEST_CASE("state tables: damaged ones are refused with file and line") {
     refused("states.json", search.replace(at, 3, number), "\"trials\" must be a whole number");
   }
   refused("transitions.csv", "from,to\n", "first line");
+  refused("transitions.csv", "from,to,by,count\niv.1,iv.7,pushed,1\n", "does not have");
+  refused("transitions.csv", "from,to,by,count\niv.1,iv.1,kicked,1\n", "its by");
   refused("barriers.csv", "from,to,energy_mJ,barrier_mJ,back_mJ,residual_N\n1,2,x,,,\n",
           "energy_mJ");
 }

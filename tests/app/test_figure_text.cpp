@@ -1,0 +1,326 @@
+// What words and numbers of pictures are held to: sizes, contrast, places, the files of their run.
+#include <cmath>
+#include <regex>
+#include <set>
+
+#include "app/cli/finished_run.h"
+#include "app/cli/paper_page.h"
+#include "engine/formats/csv.h"
+#include "render/canvas/colour_map.h"
+#include "render/gl/image.h"
+#include "tests/app/bench.h"
+#include "tests/render/canvas/ink.h"
+
+using namespace gridshell;
+
+namespace {
+
+constexpr double page_mm = 178;
+
+/// A line of words of an SVG.
+struct Words {
+  std::string text;       ///< what is raised or lowered is a space
+  std::string fill;       ///< "#1a1a1f"
+  double size = 0;        ///< of its largest letters, in units of the picture
+  double x = 0, y = 0;    ///< where it begins
+  bool raised = false;    ///< some of it is raised or lowered
+};
+
+double number_after(const std::string& text, const std::string& before) {
+  const std::size_t at = text.find(before);
+  return at == text.npos ? 0 : std::strtod(text.c_str() + at + before.size(), nullptr);
+}
+
+std::string unescaped(std::string text) {
+  for (const auto& [code, sign] :
+       {std::pair("&lt;", "<"), {"&gt;", ">"}, {"&quot;", "\""}, {"&apos;", "'"}, {"&amp;", "&"}})
+    for (std::size_t at = 0; (at = text.find(code, at)) != text.npos; ++at)
+      text.replace(at, std::strlen(code), sign);
+  return text;
+}
+
+std::vector<Words> words_of_svg(const std::string& svg) {
+  std::vector<Words> all;
+  for (std::size_t at = svg.find("<text "); at != svg.npos; at = svg.find("<text ", at + 1)) {
+    const std::string one = svg.substr(at, svg.find("</text>", at) - at);
+    Words words;
+    const double scale = number_after(one, "scale(");
+    words.x = scale * number_after(one, "translate(");
+    const std::size_t place = one.find("translate(");
+    words.y = scale * number_after(one.substr(one.find(' ', place)), " ");
+    const std::size_t fill = one.find("fill=\"");
+    words.fill = one.substr(fill + 6, 7);
+    std::vector<std::pair<double, std::string>> pieces;
+    for (std::size_t k = one.find("<tspan"); k != one.npos; k = one.find("<tspan", k + 1)) {
+      const std::size_t begin = one.find('>', k) + 1;
+      pieces.emplace_back(number_after(one.substr(k, begin - k), "font-size=\""),
+                          unescaped(one.substr(begin, one.find("</tspan>", k) - begin)));
+      words.size = std::max(words.size, pieces.back().first);
+    }
+    for (const auto& [size, text] : pieces) {
+      const bool small = size < 0.9 * words.size;
+      words.raised = words.raised || small;
+      words.text += small ? " " : text;
+    }
+    words.size *= scale;
+    if (!words.text.empty()) all.push_back(std::move(words));
+  }
+  return all;
+}
+
+double width_of_svg(const std::string& svg) { return number_after(svg, " width=\""); }
+
+/// The shared runs of all presets.
+std::vector<fs::path> all_runs() {
+  std::vector<fs::path> runs;
+  for (const auto& entry : fs::directory_iterator(GRIDSHELL_SHARED_RUNS))
+    if (entry.is_directory() && entry.path().filename() != "window") runs.push_back(entry.path());
+  REQUIRE(runs.size() > 40);
+  return runs;
+}
+
+std::string page_of(int figure) { return "page_fig" + std::to_string(figure); }
+
+}  // namespace
+
+TEST_CASE("no text of a page is below 6 points at its print width", "[shared]") {
+  for (int k = 1; k <= 5; ++k) {
+    const std::string svg = text_of(shared_run(page_of(k)) / (page_of(k) + "_page.svg"));
+    const std::vector<Words> all = words_of_svg(svg);
+    REQUIRE(all.size() > 3);
+    for (const Words& words : all) {
+      INFO(page_of(k) << ": " << words.text);
+      CHECK(words.size * page_mm / 25.4 * 72 / width_of_svg(svg) >= 5.99);
+    }
+  }
+}
+
+TEST_CASE("all words of all figures stand out from white at 4.5 to 1", "[shared]") {
+  std::set<std::string> fills;
+  for (const fs::path& run : all_runs())
+    for (const fs::path& file : files_under(run, ".svg"))
+      for (const Words& words : words_of_svg(text_of(file))) fills.insert(words.fill);
+  CHECK(fills.size() > 2);
+  for (const std::string& fill : fills) {
+    INFO(fill);
+    REQUIRE(fill.size() == 7);
+    CHECK(render::contrast_to_white(
+              render::hex_colour(std::strtol(fill.c_str() + 1, nullptr, 16))) >= 4.45);
+  }
+}
+
+// Numbers.
+
+namespace {
+
+/// A number as it is printed: its value, and half of its last digit.
+struct Printed {
+  std::string text;
+  double value = 0, half = 0;
+};
+
+std::vector<Printed> numbers_of(std::string text) {
+  for (std::size_t at; (at = text.find("−")) != text.npos;) text.replace(at, 3, "-");
+  static const std::regex number(R"((^|[^\w.])([0-9]+(\.[0-9]+)?)(?![\w.]*[A-Za-z_]))");
+  std::vector<Printed> found;
+  for (std::sregex_iterator k(text.begin(), text.end(), number), end; k != end; ++k) {
+    const std::string digits = (*k)[2];
+    const int decimals = (*k)[3].matched ? int((*k)[3].length()) - 1 : 0;
+    found.push_back({digits, std::stod(digits), 0.5 * std::pow(10, -decimals)});
+  }
+  return found;
+}
+
+/// Sizes of all numbers of a run's files, but of its shapes, in which any number would be found.
+std::set<double> numbers_in_files(const fs::path& run) {
+  std::set<double> all;
+  for (const char* kind : {".csv", ".json", ".toml"})
+    for (const fs::path& file : files_under(run, kind)) {
+      if (file.filename() == "joints.csv" || file.filename() == "cells.csv") continue;
+      const std::string text = text_of(file);
+      for (const char* at = text.c_str(); *at != 0;) {
+        char* end = nullptr;
+        const double value = std::isdigit((unsigned char)*at) ? std::strtod(at, &end) : 0;
+        if (end == nullptr || end == at) {
+          ++at;
+          continue;
+        }
+        all.insert(value);
+        at = end;
+      }
+    }
+  return all;
+}
+
+/// What a picture works out of frames.csv by a difference: the change of the total of K since the
+/// first frame in per cent, and what it lacks of 2 pi there.
+std::set<double> changes_of_K(const fs::path& run) {
+  std::set<double> all;
+  for (const fs::path& file : files_under(run, ".csv")) {
+    if (file.filename() != "frames.csv") continue;
+    const auto rows = record::csv_cells(text_of(file));
+    const auto column = std::ranges::find(rows[0], "total_K") - rows[0].begin();
+    const auto total = [&](std::size_t row) {
+      return std::strtod(rows[row][std::size_t(column)].c_str(), nullptr);
+    };
+    if (!(std::abs(total(1)) > 0.1)) continue;
+    all.insert(std::abs(2 * M_PI - total(1)));
+    for (std::size_t k = 1; k < rows.size(); ++k)
+      all.insert(100 * std::abs(total(k) / total(1) - 1));
+  }
+  return all;
+}
+
+bool holds(const std::set<double>& all, double value, double half) {
+  const double slack = 1e-9 * std::max(1.0, value);
+  const auto at = all.lower_bound(value - half - slack);
+  return at != all.end() && *at <= value + half + slack;
+}
+
+bool is_bare(const Words& words) {
+  static const std::regex bare("(−|-)?[0-9]+([.][0-9]+)?");
+  return !words.raised && std::regex_match(words.text, bare);
+}
+
+/// Whether a bare number is a tick's: with two others it stands in a row or a column where places
+/// go with values.
+bool is_tick(const Words& one, const std::vector<Words>& bare) {
+  const auto value = [](const Words& words) {
+    const double size = numbers_of(words.text).front().value;
+    return std::isdigit((unsigned char)words.text.front()) ? size : -size;
+  };
+  for (const bool row : {true, false}) {
+    std::vector<double> units;  // of the picture a unit of the axis
+    for (const Words& other : bare) {
+      const bool aligned = row ? std::abs(other.y - one.y) < 0.5 : std::abs(other.x - one.x) < 30;
+      const double step = value(other) - value(one);
+      if (aligned && step != 0) units.push_back((row ? other.x - one.x : one.y - other.y) / step);
+    }
+    for (std::size_t a = 0; a < units.size(); ++a)
+      for (std::size_t b = a + 1; b < units.size(); ++b)
+        if (units[a] > 0 && std::abs(units[a] / units[b] - 1) < (row ? 0.2 : 0.05)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("every number in a figure stands in a file of its run, to the digits printed",
+          "[shared]") {
+  int looked_up = 0;
+  for (const fs::path& run : all_runs()) {
+    const std::set<double> files = numbers_in_files(run), changes = changes_of_K(run);
+    for (const fs::path& file : files_under(run, ".svg")) {
+      const std::vector<Words> all = words_of_svg(text_of(file));
+      std::vector<Words> bare;
+      std::ranges::copy_if(all, std::back_inserter(bare), is_bare);
+      for (const Words& words : all) {
+        // a power of ten
+        if (words.raised && words.text.find("10 ") != std::string::npos) continue;
+        if (is_bare(words) && is_tick(words, bare)) continue;
+        for (const Printed& number : numbers_of(words.text)) {
+          INFO(file.filename() << ": " << words.text << ": " << number.text);
+          const auto [value, half] = std::pair(number.value, number.half);
+          // in per cent of what the file says too
+          CHECK((holds(files, value, half) || holds(files, value / 100, half / 100) ||
+                 holds(changes, value, half)));
+          ++looked_up;
+        }
+      }
+    }
+  }
+  CHECK(looked_up > 300);
+}
+
+TEST_CASE("a number that no file has is not found") {
+  const std::set<double> files{0.0291, 39.9876, 12};
+  const auto found = [&](const char* text) {
+    const Printed one = numbers_of(text).front();
+    return holds(files, one.value, one.half) || holds(files, one.value / 100, one.half / 100);
+  };
+  CHECK(found("39.99 mJ"));
+  CHECK(found("at most 2.91 %"));
+  CHECK_FALSE(found("39.98 mJ"));
+  CHECK_FALSE(found("at most 2.92 %"));
+  CHECK(numbers_of("u12 and E4").empty());
+}
+
+// Pages.
+
+namespace {
+
+/// How many of the pixels around a box are not as white as paper.
+double ink_around(const render::Image& picture, const render::Box& box) {
+  int inked = 0, all = 0;
+  const auto look = [&](double x, double y) {
+    const int px = int(std::lround(x)), py = int(std::lround(y));
+    if (px < 0 || py < 0 || px >= picture.width || py >= picture.height) return;
+    const std::uint8_t* p = picture.pixel(px, py);
+    ++all;
+    inked += std::min({p[0], p[1], p[2]}) < 200;
+  };
+  for (double x = box.x; x <= box.right(); ++x) look(x, box.y), look(x, box.bottom());
+  for (double y = box.y; y <= box.bottom(); ++y) look(box.x, y), look(box.right(), y);
+  return all == 0 ? 0 : double(inked) / all;
+}
+
+}  // namespace
+
+TEST_CASE("on a page no words lie over others, nor over what is drawn", "[shared]") {
+  auto maker = app::PictureMaker::create("auto", "");
+  REQUIRE(maker);
+  for (int k = 1; k <= 5; ++k) {
+    const TemporaryFolder folder;
+    const fs::path stem = folder.path() / page_of(k);
+    auto records = app::read_runs(shared_run(page_of(k)), {}, false);
+    REQUIRE(records);
+    app::Runs runs;
+    for (const app::Run& run : *records) runs.push_back(&run);
+    std::vector<std::string> texts;
+    std::vector<render::Box> boxes;
+    double width = 1;
+    Watch watch;
+    {
+      const test::CanvasObserver observer([&](const render::Canvas& canvas) {
+        test::check_apart(canvas);
+        texts = canvas.texts();
+        boxes = canvas.text_boxes();
+        width = canvas.width();
+      });
+      REQUIRE(app::draw_page(runs, maker->renderer(), stem, watch));
+    }
+    REQUIRE(boxes.size() > 3);
+    const auto picture = render::read_png(fs::path(stem) += "_page.png");
+    REQUIRE(picture);
+    const double scale = picture->width / width;
+    for (std::size_t n = 0; n < boxes.size(); ++n) {
+      const render::Box box{scale * boxes[n].x, scale * boxes[n].y, scale * boxes[n].width,
+                            scale * boxes[n].height};
+      if (box.empty()) continue;
+      INFO(page_of(k) << ": " << texts[n]);
+      CHECK(ink_around(*picture, box.inset(-2)) < 0.06);
+    }
+  }
+}
+
+TEST_CASE("a page's PDF has its words as text and is small", "[shared]") {
+  for (int k = 1; k <= 5; ++k) {
+    const fs::path pdf = shared_run(page_of(k)) / (page_of(k) + "_page.pdf");
+    INFO(pdf);
+    CHECK(fs::file_size(pdf) < 5e6);
+    CHECK_THAT(text_of(pdf), Contains("/FontFile"));
+  }
+  if (std::system("pdftotext -v >/dev/null 2>&1") != 0) {
+    WARN("no pdftotext on the PATH (Debian's poppler-utils): its text was not read");
+    return;
+  }
+  const std::array<const char*, 5> words{"126.0 mm", "longest leg", "latitude", "hemisphere",
+                                         "peanut"};
+  for (int k = 1; k <= 5; ++k) {
+    const TemporaryFolder folder;
+    const fs::path text = folder.path() / "page.txt";
+    const fs::path pdf = shared_run(page_of(k)) / (page_of(k) + "_page.pdf");
+    REQUIRE(std::system(("pdftotext '" + pdf.string() + "' '" + text.string() + "'").c_str()) == 0);
+    CHECK_THAT(text_of(text), Contains(words[std::size_t(k - 1)]));
+  }
+}
