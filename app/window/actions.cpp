@@ -172,7 +172,7 @@ const Action table[] = {
     look<render::view_front>("view_front", "Front", on(Key::n1), "along y"),
     look<render::view_side>("view_side", "Side", on(Key::n3), "against x"),
     look<render::view_corner>("view_iso", "Corner", on(Key::n9), "the three axes alike"),
-    {"orthographic", "View", "Orthographic", on(Key::n5), "without perspective",
+    {"orthographic", "View", "Parallel projection", on(Key::n5), "without perspective",
      [](auto& v) { v.camera.field_of_view_deg = v.camera.field_of_view_deg > 0 ? 0 : 20; },
      [](auto& v) { return v.camera.field_of_view_deg == 0; }},
     {"measure", "View", "Measure", on(Key::w),

@@ -250,6 +250,8 @@ Result<void> EditSession::act(const Redo&, const Watch&) {
 Result<void> EditSession::note_events(const Report& report) {
   view_.message = text_of_events(report.events);
   for (const Event& event : report.events) now_.snapped = now_.snapped || event.to.has_value();
+  if (!report.events.empty() && report.events.back().to && report.certificate.stable())
+    view_.message += ", at rest in another state";
   if (report.end == Outcome::cancelled) return stopped();
   if (report.end == Outcome::reached) return {};
   return fail(Fault::no_equilibrium, words_of(report.end).what);

@@ -21,7 +21,7 @@ constexpr FileText file_texts[] = {
     {"Save preset as", "Save", "a preset; tables of its ends and rods come beside it"},
     {"Save picture as", "Save", "a PNG of the view"},
     {"Export", "Export",
-     ".vtp (ParaView), .obj .dxf (Rhino, Blender), .glb .html (any browser), .csv;\nof the flat "
+     ".vtp .pvd (ParaView), .obj .dxf (Rhino, Blender), .glb .html (any browser), .csv;\nof the flat "
      "footprint .svg, of the workshop .pdf"}};
 
 /// What of a folder can be picked: folders, and files that the use is for.
@@ -59,7 +59,10 @@ bool is_run(const fs::path& folder) {
 
 void list(const Panel& panel, FileRequest& request) {
   const fs::path path = request.path;
-  const fs::path folder = path.parent_path().empty() ? fs::path(".") : path.parent_path();
+  std::error_code error;
+  if (path.has_parent_path() && fs::is_directory(path.parent_path(), error))
+    request.folder = path.parent_path().string();
+  const fs::path folder = request.folder.empty() ? fs::path(".") : fs::path(request.folder);
   if (ImGui::Selectable("../##up"))
     request.path = (fs::absolute(folder).lexically_normal().parent_path() / "").string();
   panel.named("file ..", "the folder above");
@@ -79,12 +82,13 @@ void list(const Panel& panel, FileRequest& request) {
 void picture_size(const Panel& panel, FileRequest& request, const PictureSize& view) {
   auto width = float(request.width_mm), dpi = float(request.dpi);
   ImGui::SetNextItemWidth(panel.px(110));
-  if (ImGui::DragFloat("##width", &width, 0.5f, 10, 1000, "%.4g mm wide"))
+  if (ImGui::DragFloat("##width", &width, 0.5f, 10, 1000, "%.4g mm wide",
+                       ImGuiSliderFlags_AlwaysClamp))
     request.width_mm = double(width);
   panel.named("picture_width_mm", "its width in print; Ctrl+click to type");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(panel.px(110));
-  if (ImGui::DragFloat("##dpi", &dpi, 1, 36, 1200, "%.4g dpi")) request.dpi = double(dpi);
+  if (ImGui::DragFloat("##dpi", &dpi, 1, 36, 1200, "%.4g dpi", ImGuiSliderFlags_AlwaysClamp)) request.dpi = double(dpi);
   panel.named("picture_dpi", "dots per inch; Ctrl+click to type");
   const double pixels = request.width_mm / 25.4 * request.dpi;
   ImGui::SameLine();

@@ -201,11 +201,19 @@ void Interface::feed(const InputEvent& event) {
   }
 }
 
+/// What lies over the rest; false: nothing does.
+bool Interface::close_top() {
+  if (close_popups()) return true;
+  const bool any = viewer_.file_request || viewer_.help || viewer_.terms;
+  viewer_.file_request.reset();
+  viewer_.help = viewer_.terms = false;
+  return any;
+}
+
 void Interface::press_key(Key key) {
   const ImGuiIO& io = ImGui::GetIO();
+  if (key == Key::escape && close_top()) return;
   if (is_modifier(key) || io.WantTextInput) return;
-  if (key == Key::escape && close_popups()) return;
-  if (key == Key::escape && viewer_.file_request) return viewer_.file_request.reset();
   if (key == Key::escape && viewer_.picking && viewer_.shell->any()) viewer_.picking = false;
   const Action* action = action_of({key, io.KeyCtrl, io.KeyShift});
   if (!action) return;

@@ -65,6 +65,7 @@ class Interface {
   void feed(const InputEvent& event);
   Result<Eigen::Vector2d> place_of(const InputEvent& event) const;
   void press_key(Key key);
+  bool close_top();
   void lay_out();
   void view_panel(const Panel& panel, const render::Box& box);
   Result<void> draw_shell();

@@ -345,7 +345,7 @@ constexpr std::pair<const char*, const char*> terms[] = {
 
 /// The keys of some menus.
 void keys(const Panel& panel, const std::string& menus) {
-  if (!begin_table(panel, menus.c_str(), 62)) return;
+  if (!begin_table(panel, menus.c_str(), 104)) return;
   for (const Action& action : actions())
     if (action.key.key && menus.find(action.menu) != std::string::npos)
       row(name_of(action.key), std::string(action.label) + ": " + action.help);

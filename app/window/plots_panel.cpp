@@ -40,7 +40,7 @@ class PlotBox {
   }
 
   void draw(const Curve& curve) {
-    title(curve.y_label);
+    title(curve.x.empty() ? curve.y_label : fmt::format("{} over {}", curve.y_label, curve.x_label));
     if (curve.x.empty()) return say_none(curve.without);
     const Span x = curve.bars ? Span(-1, 1) : Span(curve.x);
     const auto shown = [&](float value) {
@@ -60,7 +60,7 @@ class PlotBox {
       return points;
     };
     ticks_y(y, curve.logarithmic);
-    ticks_x(x, curve.x_label);
+    ticks_x(x);
     if (curve.bars)
       draw_bars(points_of(curve.y), height_of(y, 0));
     else
@@ -77,9 +77,9 @@ class PlotBox {
   static ImU32 grid() { return ImGui::GetColorU32(ImGuiCol_Border, 0.6f); }
   static ImU32 ink() { return ImGui::GetColorU32(ImGuiCol_PlotLines); }
 
-  void title(const char* text) {
+  void title(const std::string& text) {
     list_.AddText({from_.x - panel_.px(58), from_.y - 1.3f * line_},
-                  ImGui::GetColorU32(ImGuiCol_Text), text);
+                  ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
   }
   void say_none(const char* text) {
     const ImVec2 size = ImGui::CalcTextSize(text);
@@ -98,6 +98,7 @@ class PlotBox {
     std::size_t from = 0;
     for (const std::size_t end : ends) {
       list_.AddPolyline(points.data() + from, int(end - from), colour, 0, panel_.px(1.4));
+      if (end == from + 1) list_.AddCircleFilled(points[from], panel_.px(2), colour);
       from = end;
     }
     list_.AddCircleFilled(points.back(), panel_.px(3), colour);
@@ -118,23 +119,23 @@ class PlotBox {
           text.c_str());
     }
   }
-  void ticks_x(const Span& x, const char* label) {
-    const float y = to_.y + panel_.px(2), end = to_.x - ImGui::CalcTextSize(label).x - panel_.px(8);
-    list_.AddText({end + panel_.px(8), y}, pale(), label);
-    const int count = std::max(1, int((end - from_.x) / (3.2f * line_)));
+  void ticks_x(const Span& x) {
+    const float y = to_.y + panel_.px(2);
+    const int count = std::max(1, int((to_.x - from_.x) / (3.2f * line_)));
     for (const render::Tick& tick : render::linear_ticks(double(x.low), double(x.high), count)) {
       if (!tick.major) continue;
       const float at = from_.x + x.at(float(tick.value)) * (to_.x - from_.x);
       const std::string text = fmt::format("{:.6g}", tick.value);
       const float half = 0.5f * ImGui::CalcTextSize(text.c_str()).x;
       list_.AddLine({at, from_.y}, {at, to_.y}, grid());
-      if (at + half < end) list_.AddText({at - half, y}, pale(), text.c_str());
+      if (at + half < to_.x + panel_.px(6)) list_.AddText({at - half, y}, pale(), text.c_str());
     }
   }
   /// The values of the point next to the mouse.
   void tell_nearest(const Curve& curve, const std::vector<ImVec2>& points) {
     const ImVec2 mouse = ImGui::GetIO().MousePos;
-    if (!ImGui::IsMouseHoveringRect(from_, to_) || ImGui::IsAnyMouseDown()) return;
+    const bool menu = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
+    if (menu || !ImGui::IsMouseHoveringRect(from_, to_) || ImGui::IsAnyMouseDown()) return;
     const auto next = std::ranges::min_element(
         points, {}, [&](const ImVec2& p) { return std::abs(p.x - mouse.x); });
     const auto k = std::size_t(next - points.begin());
@@ -193,10 +194,10 @@ Curve curve_of(const ViewerState& viewer, const PlotAxes& axes) {
       (points.empty() || points.back().joint < 0))
     return curve.without = "no joint is held", curve;
   for (std::size_t k = 0; k < points.size(); ++k) {
-    // the boundary was put elsewhere, not drawn there
-    if (k > 0 && points[k].joint < 0 &&
-        std::abs(points[k].progress - points[k - 1].progress) > jump)
-      curve.jumps.push_back(k);
+    // the boundary was put elsewhere, not drawn there; and a drag's coarse mesh has other numbers
+    const bool put = k > 0 && points[k].joint < 0 &&
+                     std::abs(points[k].progress - points[k - 1].progress) > jump;
+    if (put || (k > 0 && points[k].refined != points[k - 1].refined)) curve.jumps.push_back(k);
     curve.x.push_back(float(points[k].*over.value));
     curve.y.push_back(float(points[k].*shown.value));
   }

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <sstream>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -81,12 +82,16 @@ const CardGroup& group_of(const std::string& name) {
   });
 }
 
+/// All words that are looked for, in any order.
 bool contains(std::string text, std::string sought) {
   const auto lower = [](std::string& s) {
     std::ranges::transform(s, s.begin(), [](unsigned char c) { return char(std::tolower(c)); });
   };
   lower(text), lower(sought);
-  return text.find(sought) != std::string::npos;
+  std::istringstream words(sought);
+  for (std::string word; words >> word;)
+    if (text.find(word) == std::string::npos) return false;
+  return true;
 }
 
 }  // namespace
@@ -120,6 +125,10 @@ void PresetPicker::draw(const Panel& panel, const render::Box& box) {
   opened_last(panel);
   const float width = ImGui::GetContentRegionAvail().x;
   const int columns = std::max(1, int(width / panel.px(card_points)));
+  if (std::ranges::none_of(cards, [&](const PresetCard& card) {
+        return contains(card.name + " " + card.title, sought_);
+      }))
+    ImGui::TextDisabled("no preset has these words");
   for (const CardGroup& group : groups) {
     const auto shown = [&](const PresetCard& card) {
       return &group_of(card.name) == &group && contains(card.name + " " + card.title, sought_);
@@ -161,6 +170,7 @@ std::string meaning_of_zero(const Field& field) {
 
 /// A control for the member of a key; whether it was changed.
 struct Control {
+  ViewerState& viewer;
   const Field& field;
   const char* id;
 
@@ -173,9 +183,12 @@ struct Control {
     const float step = std::max(1e-6f, 0.005f * std::abs(shown));
     const auto& range = field.range;
     if (!ImGui::DragFloat(id, &shown, step, bound(range.low), bound(range.high),
-                          format(shown == 0, "%.6g").c_str(), ImGuiSliderFlags_AlwaysClamp) ||
-        !range.holds(double(shown)))
+                          format(shown == 0, "%.6g").c_str(), ImGuiSliderFlags_AlwaysClamp))
       return false;
+    if (!range.holds(double(shown))) {
+      viewer.say(fmt::format("{} must be {}", name_of(field), allowed(field)), true);
+      return false;
+    }
     *value = double(shown);
     return true;
   }
@@ -235,7 +248,7 @@ void NumbersPanel::edit(const Panel& panel, const Field& field) {
   // a default is pale
   if (!changed_before)
     ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetColorU32(ImGuiCol_TextDisabled));
-  const bool changed = std::visit(Control{field, id.c_str()}, field.in(edited_, -1));
+  const bool changed = std::visit(Control{panel.viewer, field, id.c_str()}, field.in(edited_, -1));
   if (!changed_before) ImGui::PopStyleColor();
   panel.named(field.table + "." + field.key,
               fmt::format("{} = {}: {}", name, value_text(field, edited_), help_of(field)));

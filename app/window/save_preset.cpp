@@ -146,12 +146,32 @@ static const char* ending_of(FileUse use) {
   return "";
 }
 
+/// Why no file of that name is written; empty: it is.
+static std::string fault_of(FileUse use, const fs::path& file) {
+  std::error_code error;
+  // one new folder is made
+  const fs::path folder = fs::absolute(file, error).parent_path();
+  if (!fs::is_directory(folder, error) && !fs::is_directory(folder.parent_path(), error))
+    return "there is no folder '" + folder.string() + "'";
+  const std::string ending = file.extension().string();
+  if (use != FileUse::export_shell)
+    return ending == ending_of(use) ? "" : fmt::format("'{}': it is written as {}", ending, ending_of(use));
+  constexpr std::string_view formats[] = {".vtp", ".pvd", ".obj",  ".dxf", ".glb",
+                                          ".html", ".csv", ".svg", ".pdf"};
+  return std::ranges::find(formats, ending) != std::end(formats)
+             ? ""
+             : fmt::format("'{}' is no format: must be one of {}", ending, fmt::join(formats, " "));
+}
+
 void ViewerState::ask_file(FileUse use) {
   if (use != FileUse::open && !shell->any()) return say("there is no shell yet", true);
-  FileRequest request{.use = use, .path = ""};
+  say("");
+  FileRequest request;
+  request.use = use;
   const char* ending = ending_of(use);
   request.path = *ending ? path_to_save({ending}).string() + ending
                          : (fs::path(library.save_to) / "").string();
+  request.folder = fs::path(request.path).parent_path().string();
   file_request = request;
 }
 
@@ -159,13 +179,16 @@ void ViewerState::take_file() {
   const FileRequest request = *file_request;
   if (request.path.empty()) return say("a path is to be typed or picked", true);
   fs::path file = request.path;
+  if (!file.has_parent_path() && !fs::exists(file)) file = request.folder / file;
   const char* ending = ending_of(request.use);
   if (request.use == FileUse::save_preset || request.use == FileUse::save_picture)
-    if (!file.filename().empty() && file.extension() != ending) file += ending;
+    if (!file.filename().empty() && !file.has_extension()) file += ending;
   std::error_code error;
   const bool loads = request.use == FileUse::open || request.use == FileUse::compare;
   if (!loads && (file.filename().empty() || fs::is_directory(file, error)))
     return say("'" + request.path + "' is a folder: a file's name is to follow", true);
+  if (const std::string fault = loads ? "" : fault_of(request.use, file); !fault.empty())
+    return say(fault, true);
   if (!loads && fs::exists(file, error) && request.replaced != request.path) {
     file_request->replaced = request.path;
     return say("it is there already: once more replaces it", true);
@@ -173,7 +196,7 @@ void ViewerState::take_file() {
   message_bad = false;
   switch (request.use) {
     case FileUse::open:
-      open(request.path);
+      open(file.string());
       break;
     case FileUse::compare:
       compare_with(file);
@@ -202,8 +225,6 @@ void ViewerState::take_file() {
 /// By the program's own `run` and `export` of the preset as the shell stands, beside the window.
 void ViewerState::export_as(const fs::path& file) {
   if (export_task.under_way()) return say("one export is under way already", true);
-  if (file.extension().empty())
-    return say("the file's ending is to name the format: .obj, .vtp, .glb, .dxf, .svg, .csv …", true);
   if (auto made = make_folder_of(file); !made) return say(made.error().message, true);
   export_task.begin(
       [make = library.export_shell, preset = preset_to_save(), file](
@@ -295,6 +316,7 @@ void ViewerState::save_plot(const PlottedCurve& curve) {
   plot.x.label = curve.x_label;
   plot.y.label = curve.y_label;
   plot.series.push_back(render::line_series("", render::series_colour(0), 1.2));
+  if (curve.x.size() == 1) plot.series.back().marker = render::Marker::circle;
   std::string table = fmt::format("{},{}\n", curve.x_label, curve.y_label);
   for (std::size_t k = 0; k < curve.x.size(); ++k) {
     plot.series.back().add(curve.x[k], curve.y[k]);

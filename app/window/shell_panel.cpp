@@ -61,6 +61,7 @@ void path(const Panel& panel) {
   }
   speed(panel, gap);
   float part = float(viewer.part());
+  if (std::abs(part) < 5e-4f) part = 0;  // round-off
   if (slider(panel, "path", part, 0, std::max(1.f, part), push ? "push %.3f" : "progress %.3f",
              push ? "share of the preset's depth" : "share of the boundary's way"))
     viewer.playing = false, viewer.go(part, true);
@@ -77,7 +78,10 @@ void boundary(const Panel& panel) {
   ImGui::TextUnformatted("Boundary's radius");
   float radius = float(now);
   if (slider(panel, "R_a", radius, float(0.6 * from), float(from + shell.least_progress * way),
-             "R_a = %.2f mm", "radius of the actuated boundary, mm; Ctrl+click to type"))
+             "R_a = %.2f mm",
+             fmt::format("radius of the actuated boundary, from {:.1f} to {:.1f} mm; Ctrl+click to "
+                         "type",
+                         0.6 * from, from + shell.least_progress * way)))
     viewer.playing = false, viewer.post(Move{(four_digits(radius) - from) / way}, true);
   if (ImGui::IsItemDeactivated()) viewer.end_drag();
 }

@@ -42,8 +42,18 @@ void ViewerState::go_to_step(int step) {
 
 void ViewerState::note_step() {
   timeline.resize(std::max(timeline.size(), std::size_t(shell->undo_steps) + 1));
-  timeline[std::size_t(shell->undo_steps)] = {text_of_step(*shell), shell->message,
-                                              shell->stable()};
+  TimelineEntry& entry = timeline[std::size_t(shell->undo_steps)];
+  const auto& steps = shell->steps;
+  const bool still = entry.event_at ? std::ranges::find(steps, entry.event_at) != steps.end()
+                                    : steps.empty();
+  entry.text = text_of_step(*shell);
+  entry.stable = shell->stable();
+  if (!shell->message.empty()) {
+    entry.event = shell->message;
+    entry.event_at = steps.empty() ? nullptr : steps.back();
+  } else if (!still) {
+    entry.event.clear();
+  }
   timeline.resize(std::size_t(shell->undo_steps + shell->redo_steps) + 1);
 }
 

@@ -82,7 +82,11 @@ void Overlay::mark_picked() {
 void Overlay::mark_under() {
   const record::Layout& layout = *shell_.layout;
   const int joint = viewer_.joint_under, edge = viewer_.edge_under;
-  if (joint >= 0 && joint < int(layout.joints.size())) return ring(joint, 7);
+  if (joint >= 0 && joint < int(layout.joints.size())) {
+    const record::Joint& under = layout.joints[std::size_t(joint)];
+    label(fmt::format("({}, {})", under.i, under.j), point_of(joint));
+    return ring(joint, 7);
+  }
   if (edge >= 0 && edge < int(layout.edge_points.size()))
     ring(layout.edge_points[std::size_t(edge)], 7);
 }
@@ -108,10 +112,16 @@ void Overlay::write_forces() {
 /// Between two joints their distance, at the second of three the angle.
 void Overlay::write_measure() {
   const std::vector<int>& joints = viewer_.measured;
+  if (viewer_.measuring && joints.size() < 2)
+    label("measuring: click on two joints, and on a third one for the angle (W ends it)",
+          {float(view_.x), float(view_.y) + panel_.px(58)});
   if (joints.empty()) return;
   for (const int joint : joints) ring(joint, 9);
   line(joints, false);
-  if (joints.size() > 1) label(text_of_measure(shell_, joints), point_of(joints[1]));
+  // beside what is measured, not over it
+  const int right = *std::ranges::max_element(
+      joints, {}, [&](int joint) { return in_view(viewer_, view_, joint).x(); });
+  if (joints.size() > 1) label(text_of_measure(shell_, joints), point_of(right));
 }
 
 /// What the green rods are, and how far the joints are from theirs.

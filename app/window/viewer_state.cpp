@@ -87,6 +87,7 @@ void ViewerState::open(const std::string& name) {
   recent.insert(recent.begin(), name);
   recent.resize(std::min(recent.size(), most_recent));
   show.other.reset();
+  run_opened_ = fs::is_directory(name);
   file_ = fs::is_regular_file(name) ? fs::path(name) : fs::path();
   std::error_code error;
   if (!file_.empty()) written_ = fs::last_write_time(file_, error);
@@ -222,7 +223,9 @@ void ViewerState::take(std::shared_ptr<const ShellView> next) {
   else if (newer)
     say("");
   if (!shell->any() || !newer) return;
+  const bool to_end = fresh_ && std::exchange(run_opened_, false) && part() < 1;
   if (fresh_) reset_view();
+  if (to_end) go(1, false), say("on to where the run ended");
   show.scale = next_scale(show.scale, scale_of(*shell, show), range_of);
   add_plot_point();
   note_step();

@@ -47,6 +47,7 @@ struct PictureRequest {
 struct TimelineEntry {
   std::string text, event;
   bool stable = true;
+  std::shared_ptr<const preset::Step> event_at = {};  ///< the step in which it happened
 };
 /// What led to the state that is shown: "pushed (0, 0): 8.16 mm, 0.0342 N".
 std::string text_of_step(const ShellView& shell);
@@ -58,6 +59,7 @@ enum class FileUse { open, compare, save_preset, save_picture, export_shell };
 struct FileRequest {
   FileUse use = FileUse::open;
   std::string path;                 ///< as typed so far
+  std::string folder;               ///< that is shown, which a bare name is of
   double width_mm = 85, dpi = 300;  ///< of a picture
   std::string replaced = {};        ///< a file that is there and was confirmed to go
 };
@@ -110,9 +112,9 @@ inline constexpr Quantity quantities[] = {
     {"progress", "progress", &PlotPoint::progress},
     {"boundary_radius_mm", "R_a (mm)", &PlotPoint::radius_mm},
     {"depth_mm", "depth (mm)", &PlotPoint::depth_mm},
-    {"force_N", "force along its way (N)", &PlotPoint::force_N},
+    {"force_N", "force (N)", &PlotPoint::force_N},
     {"height_mm", "height (mm)", &PlotPoint::height_mm},
-    {"energy_mJ", "energy (mJ)", &PlotPoint::energy_mJ},
+    {"energy_mJ", "total energy (mJ)", &PlotPoint::energy_mJ},
     {"total_K", "ΣK□ (rad)", &PlotPoint::total_K},
     {"residual_N", "residual (N)", &PlotPoint::residual_N},
     {"error_estimate_mm", "error estimate (mm)", &PlotPoint::error_mm}};
@@ -275,6 +277,7 @@ class ViewerState {
   void report_finished_tasks();
 
   int drag_ = 1;
+  bool run_opened_ = false;  // the next sight goes on to where the run ended
   bool fresh_ = true;  // the next sight is of another shell: the camera goes round it
   std::filesystem::path file_;
   std::filesystem::file_time_type written_{};
