@@ -59,10 +59,12 @@ void install_terminate_handler() {
     }
     end_at_once(words, ExitCode::failed);
   });
-  // under `ulimit -v` OpenGL's libraries use memory that they were refused
+  // under `ulimit -v` OpenGL's libraries use memory that they were refused, and GLib stops where it
+  // is refused a thread
   rlimit space{};
   if (getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur != RLIM_INFINITY)
-    std::signal(SIGSEGV, [](int) { end_at_once(out_of_memory, ExitCode::failed); });
+    for (const int refused : {SIGSEGV, SIGTRAP, SIGABRT})
+      std::signal(refused, [](int) { end_at_once(out_of_memory, ExitCode::failed); });
 }
 
 namespace {

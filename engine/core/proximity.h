@@ -38,24 +38,22 @@ inline NearestPoints nearest_points(const Eigen::Vector3d& p, const Eigen::Vecto
 
 // Boxes that are near each other, by a sweep along the axis on which they lie farthest apart.
 
-using Box = Eigen::AlignedBox3d;
-
 /// Whether two boxes are within mm of each other.
-inline bool are_near(const Box& a, const Box& b, double mm) {
+inline bool are_near(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b, double mm) {
   return ((a.min() - b.max()).array() <= mm).all() && ((b.min() - a.max()).array() <= mm).all();
 }
 
 /// visit(i, j), i < j, once for every two boxes that are within mm of each other.
 template <class Visit>
-void each_near_pair(const std::vector<Box>& boxes, double mm, const Visit& visit) {
-  Box all;
-  for (const Box& box : boxes) all.extend(box);
+void each_near_pair(const std::vector<Eigen::AlignedBox3d>& boxes, double mm, const Visit& visit) {
+  Eigen::AlignedBox3d all;
+  for (const Eigen::AlignedBox3d& box : boxes) all.extend(box);
   Eigen::Index along = 0;
   all.sizes().maxCoeff(&along);
   std::vector<std::pair<double, int>> order;
   for (std::size_t k = 0; k < boxes.size(); ++k) order.emplace_back(boxes[k].min()[along], int(k));
   std::ranges::sort(order);
-  std::vector<Box> sorted;
+  std::vector<Eigen::AlignedBox3d> sorted;
   for (const auto& [low, k] : order) sorted.push_back(boxes[std::size_t(k)]);
   for (std::size_t i = 0; i < sorted.size(); ++i) {
     const double end = sorted[i].max()[along] + mm;

@@ -174,8 +174,9 @@ void differentiate(const NearEdges& near, Eigen::Matrix<double, 12, 1>& gradient
     hessian -= 2 / A(1, 1) * mixed.col(1) * mixed.col(1).transpose();
 }
 
-std::vector<Box> boxes_of(const Model& model, std::initializer_list<const Eigen::Matrix3Xd*> at) {
-  std::vector<Box> boxes(model.contact.edges.size());
+std::vector<Eigen::AlignedBox3d> boxes_of(const Model& model,
+                                          std::initializer_list<const Eigen::Matrix3Xd*> at) {
+  std::vector<Eigen::AlignedBox3d> boxes(model.contact.edges.size());
   for (std::size_t k = 0; k < boxes.size(); ++k) {
     const ModelEdge& edge = model.edges[std::size_t(model.contact.edges[k].edge)];
     for (const Eigen::Matrix3Xd* x : at) {

@@ -25,6 +25,7 @@ class ShapeContacts {
   Contacts found(bool by_all_pairs);
 
  private:
+  using Box = Eigen::AlignedBox3d;
   using Segment = ContactSearch::Segment;
   /// Points of two segments so near to a joint that they share, along the rods, are not told.
   struct Joint {
@@ -132,7 +133,7 @@ void ShapeContacts::grow_tree(int k) {
   grown(s.begin, s.end);
 }
 
-Box ShapeContacts::grown(int begin, int end) {
+Eigen::AlignedBox3d ShapeContacts::grown(int begin, int end) {
   if (end - begin == 1) return edge_[begin];
   const int middle = (begin + end) / 2;
   Box box = grown(begin, middle);
