@@ -3,6 +3,7 @@
 #include <Spectra/SymEigsSolver.h>
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "engine/core/try.h"
 
@@ -68,11 +69,13 @@ Result<bool> extend(const InverseBeside& inverse, Spectra::SortRule rule, Index 
     solver.init();
     solver.compute(rule, most_restarts, converged, rule);
     next = {solver.eigenvalues(), solver.eigenvectors()};
-    if (next.values.size() == 0)
-      return fail(Fault::no_equilibrium, "the softest modes of the state do not converge");
   } catch (const Stopped&) {
     return stopped();
+  } catch (const std::runtime_error&) {
+    // Spectra's word for what is not finite
   }
+  if (next.values.size() == 0)
+    return fail(Fault::no_equilibrium, "the softest modes of the state do not converge");
   const Index known = found.values.size();
   const double least = known < count ? round_off * next.values.cwiseAbs().maxCoeff()
                                      : std::abs(found.values[count - 1]) * more;

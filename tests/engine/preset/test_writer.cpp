@@ -125,6 +125,7 @@ Preset pushed(bool joint) {
   preset.figure.radii_mm = {120.1, 1e2};
   preset.rod.diameter_mm = 0.3;
   preset.rod.density_kg_m3 = 6450;
+  preset.rod.yield_strain = 0.011;
   static_cast<Rod&>(preset.rod_v) = preset.rod;
   preset.rod_v.differs = true;
   preset.dynamics = {true, 0.0011, 13.7};

@@ -328,6 +328,12 @@ TEST_CASE("what no frame knows cannot be what is coloured") {
   CHECK(lacks(ColourBy::deviation).empty());
   run.frames.edit()[2].axial_force_N.setConstant(record::edges_of_rods(run.layout), -0.1);
   CHECK(lacks(ColourBy::axial_force).empty());
+  CHECK(lacks(ColourBy::stress).find("stress") != std::string::npos);
+  run.frames.edit()[2].stress_MPa.setConstant(record::points_of_rods(run.layout), 300);
+  CHECK(lacks(ColourBy::stress).empty());
+  CHECK(lacks(ColourBy::utilisation).find("strength") != std::string::npos);
+  run.layout.strength_MPa.assign(run.layout.rods.size(), 500);
+  CHECK(lacks(ColourBy::utilisation).empty());
 }
 
 TEST_CASE("rods are coloured by their forces, grey where a frame does not know them") {
