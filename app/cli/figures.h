@@ -55,8 +55,8 @@ record::Trajectory states_alone(const record::Trajectory& run,
 /// The atlas: the states side by side from one camera with class, group, energy and how often they
 /// were met (`<stem>.png`, each by itself `<stem>_1.png` ...); energy against how often they were
 /// met (`<stem>_energies.*`); how far back along the path they live (`<stem>_lives.*`); which goes
-/// to which (`<stem>_transitions.*`) and the barriers between them (`<stem>_barriers.*`), where that was
-/// found out.
+/// to which (`<stem>_transitions.*`) and the barriers between them (`<stem>_barriers.*`), where
+/// that was found out.
 Result<void> draw_states(const Run& run, render::Renderer& renderer,
                          const std::filesystem::path& stem, Watch& watch);
 

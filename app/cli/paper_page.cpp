@@ -210,11 +210,14 @@ class PageMaker {
     for (int k = 0; k < count; ++k)
       page.add(numbered("B", k, count), "", {92 + k * 84.0 / count, 2, 84.0 / count, 49},
                [&run = *shells_[std::size_t(k)].run, kinds](Canvas& canvas, const Box& box) {
-                 render::draw_block_footprints(canvas, box, run, kinds);
+                 // "B1" is wider than the room beside it
+                 constexpr double room = 6;
+                 render::draw_block_footprints(
+                     canvas, {box.x + room, box.y, box.width - room, box.height}, run, kinds);
                });
     page.add_note({92, 52, 84, 4}, "B: blocks, joined; dashed: the rim of the shell at rest");
-    TRY(over, render::draw_over_nets(shells_, filling(below, std::min(2, count)), renderer_, watch_,
-                                     2));
+    TRY(over,
+        render::draw_over_nets(shells_, filling(below, std::min(2, count)), renderer_, watch_, 2));
     for (int k = 0; k < count && count > 1; ++k)
       over->panels[std::size_t(k)].letter = numbered("C", k, count);
     // the blocks' colours stand above

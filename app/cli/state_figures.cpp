@@ -145,10 +145,9 @@ std::string found_text(const record::StateTables& states) {
                         search.passes_found, search.paths_followed);
   for (const record::Barrier& one : states.barriers)
     if (one.to != 0)
-      text +=
-          fmt::format("  from state {} to {}: {:.4g} mJ, back {:.4g} mJ (on {} edges a segment)\n",
-                      one.from.text(), one.to.text(), one.barrier_mJ, one.back_mJ,
-                      search.judged_edges);
+      text += fmt::format(
+          "  from state {} to {}: {:.4g} mJ, back {:.4g} mJ (on {} edges a segment)\n",
+          one.from.text(), one.to.text(), one.barrier_mJ, one.back_mJ, search.judged_edges);
   return text;
 }
 
@@ -243,13 +242,13 @@ Result<void> add_state(Page& page, const Found& found, const render::Stage& stag
                        const std::string& caption, const Box& box, render::Renderer& renderer) {
   const render::MovieStyle& style = stage.style();
   const render::Camera camera = stage.camera(0);
-  TRY(picture, renderer.draw(drawing, camera, render::draw_quality(style), style.width(),
-                             style.height()));
+  TRY(picture,
+      renderer.draw(drawing, camera, render::draw_quality(style), style.width(), style.height()));
   render::Panel panel{std::move(*picture), letter, ""};
   if (style.vector) panel.lines = render::shell_lines(std::move(drawing), camera);
-  page.add_panel(fmt::format("*{}*, {}: {}", found.row().name(), group_text(found.row().group),
-                             caption),
-                 box, std::move(panel));
+  page.add_panel(
+      fmt::format("*{}*, {}: {}", found.row().name(), group_text(found.row().group), caption), box,
+      std::move(panel));
   return {};
 }
 
@@ -303,10 +302,10 @@ Result<void> add_states(Page& page, const Runs& records, render::MovieStyle styl
     };
     wide.zoom *= stage.pixels_per_mm() / staged().pixels_per_mm();
     const render::Stage beside = staged();
-    TRY_DO(add_state(page, *dome, beside, beside.drawing(alone.frames.front()), "A4",
-                     fmt::format("{:.2f} mJ, at {}", dome->row().energy_mJ(),
-                                 place_of(dome->record->preset)),
-                     {above.x + 3 * width, above.y, wider * width, above.height}, renderer));
+    TRY_DO(add_state(
+        page, *dome, beside, beside.drawing(alone.frames.front()), "A4",
+        fmt::format("{:.2f} mJ, at {}", dome->row().energy_mJ(), place_of(dome->record->preset)),
+        {above.x + 3 * width, above.y, wider * width, above.height}, renderer));
   }
   if (const auto& bar = stage.colour_bar()) page.add_colour_bar({163, 3, 14, 28}, *bar);
   if (over >= 0) page.add_keys({128, 1, 32, 4}, {render::scan_key()});

@@ -36,7 +36,9 @@ void PresetBuilder::forget_items(const std::string& table) {
   each_list([&](const char* name, auto member) {
     if (table == name) (preset.*member).clear();
   });
-  const auto of_table = [&](const std::string& key) { return key.starts_with("[[" + table + "]]"); };
+  const auto of_table = [&](const std::string& key) {
+    return key.starts_with("[[" + table + "]]");
+  };
   std::erase_if(set_at, [&](const auto& one) { return of_table(one.first); });
   std::erase_if(faulty, of_table);
 }

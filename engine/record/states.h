@@ -37,8 +37,8 @@ namespace gridshell::record {
 /// symmetry; none of these.
 enum class StateClass { i, ii, iii, iv, other };
 
-/// A state in the tables of others, by its name, "ii.2"; of one that was not met the number is 0 and
-/// the name empty.
+/// A state in the tables of others, by its name, "ii.2"; of one that was not met the number is 0
+/// and the name empty.
 struct StateName {
   int number = 0;  ///< StateRow::state
   StateClass kind = StateClass::other;

@@ -42,8 +42,8 @@ struct Plan {
 Result<Plan> plan(const preset::Preset& preset);
 
 /// Runs the experiment and hands every certified frame to `sink`. Frames sample the path at
-/// `preset.movie.frames` even steps, or at its end or `preset.figure.radii_mm` when `stills` is set. Errors:
-/// bad_input, no_equilibrium, cancelled, and what the sink says.
+/// `preset.movie.frames` even steps, or at its end or `preset.figure.radii_mm` when `stills` is
+/// set. Errors: bad_input, no_equilibrium, cancelled, and what the sink says.
 Result<record::Summary> run(const preset::Preset& preset, bool stills, record::Sink& sink,
                             Watch& watch);
 

@@ -45,8 +45,8 @@ class StateSearcher {
   Result<State> trial(int k, const Watch& watch);
   /// The same from a form confined to the k-th of groups(), counted round and round.
   Result<State> symmetric_trial(int k, const Watch& watch);
-  /// From a state at the end of the actuation: the boundary released to progress `to` and contracted
-  /// again, past the snaps on its path. Errors as trial().
+  /// From a state at the end of the actuation: the boundary released to progress `to` and
+  /// contracted again, past the snaps on its path. Errors as trial().
   Result<State> release_boundary(const State& from, double to, const Watch& watch);
   /// The same of random pushes, the k-th of this state.
   Result<State> push_at_random(const State& from, int k, const Watch& watch);

@@ -17,7 +17,7 @@ using record::Disturbance;
 using record::StateName;
 
 constexpr int pushes = 8, paths = pushes + 1;  // of a state; on the first its boundary is released
-constexpr double beyond = 0.98;             // of the progress at which a state ends
+constexpr double beyond = 0.98;                // of the progress at which a state ends
 
 /// The shell on the mesh that states are judged on, and a library's states by what they look like
 /// there; one a thread.
@@ -84,9 +84,9 @@ Result<std::vector<record::Transition>> transitions_between(
 
 namespace {
 
-constexpr int neighbours = 2;        // of each state
+constexpr int neighbours = 2;         // of each state
 constexpr double step_down_mm = 0.5;  // off a saddle, and steps from there
-constexpr double step_over_d = 0.1;  // of a node of a string that goes down
+constexpr double step_over_d = 0.1;   // of a node of a string that goes down
 
 /// Two states to be joined by a path, and which image of the second is nearest to the first.
 struct Pairing {
@@ -235,7 +235,8 @@ Result<std::vector<record::Barrier>> barriers_between(StateLibrary& library,
   const auto cross = [&](Crossings& crossings, int k) {
     found[std::size_t(k)] = crossings.cross(pairs[std::size_t(k)], watch);
   };
-  TRY_DO(parallel_for(int(pairs.size()), threads, watch, make, cross, reporting(watch, begun, end)));
+  TRY_DO(
+      parallel_for(int(pairs.size()), threads, watch, make, cross, reporting(watch, begun, end)));
   std::vector<record::Barrier> all;
   for (const auto& crossing : found)
     if (crossing) all.push_back(barrier_of(*crossing));

@@ -98,8 +98,8 @@ Result<PanelFigure> draw_blocks(const std::vector<NetRun>& runs, const MovieStyl
 void draw_block_footprints(Canvas& canvas, const Box& box, const record::Trajectory& run,
                            const BlockKinds& kinds);
 
-/// The blocks' footprints apart, and below them the joined footprint with its original boundary and,
-/// dashed, the actuated one, to scale. Writes `<stem>.png` and `<stem>.svg`.
+/// The blocks' footprints apart, and below them the joined footprint with its original boundary
+/// and, dashed, the actuated one, to scale. Writes `<stem>.png` and `<stem>.svg`.
 Result<void> write_block_footprints(const std::filesystem::path& stem,
                                     const record::Trajectory& run, const std::string& title = "",
                                     const Print& print = {});

@@ -40,7 +40,8 @@ bool planes_differ(const std::vector<NamedRun>& runs) {
 /// The names of the runs in their colours, one after the other.
 void draw_names(Canvas& canvas, Point at, const std::vector<NamedRun>& runs) {
   for (std::size_t k = 0; k < runs.size(); ++k) {
-    const TextStyle style{.size = 8, .colour = readable(series_colour(k)), .align_y = AlignY::middle};
+    const TextStyle style{
+        .size = 8, .colour = readable(series_colour(k)), .align_y = AlignY::middle};
     at.x = canvas.text(runs[k].name, at, style).right() + 8;
   }
 }

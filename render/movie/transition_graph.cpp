@@ -90,7 +90,7 @@ class TransitionGraph {
     draw_names(canvas, frame.inside.inset(2));
     for (std::size_t k = 0; k < disturbed_.size(); ++k) draw_thumb(canvas, k, box.bottom());
     canvas.text(
-        "of 9 disturbances each: back to the state itself; new, to one that the search had not met",
+        "back: how often to the state itself; new: how often to one that the search had not met",
         {0.5 * width, height() - margin},
         {.size = font - 1, .colour = ink, .align_x = AlignX::centre, .align_y = AlignY::bottom});
   }
@@ -133,7 +133,7 @@ class TransitionGraph {
       x = canvas.text(text, {x + 27, y}, {.size = font, .align_y = AlignY::middle}).right() + 14;
     };
     entry(Disturbance::released, "boundary released and contracted again");
-    entry(Disturbance::pushed, "a joint pushed (number: how often of 8)");
+    entry(Disturbance::pushed, "a joint pushed (number: how often)");
   }
 
   /// A curve a -> b bent through c, with a head at b.

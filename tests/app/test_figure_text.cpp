@@ -19,11 +19,11 @@ constexpr double page_mm = 178;
 
 /// A line of words of an SVG.
 struct Words {
-  std::string text;       ///< what is raised or lowered is a space
-  std::string fill;       ///< "#1a1a1f"
-  double size = 0;        ///< of its largest letters, in units of the picture
-  double x = 0, y = 0;    ///< where it begins
-  bool raised = false;    ///< some of it is raised or lowered
+  std::string text;     ///< what is raised or lowered is a space
+  std::string fill;     ///< "#1a1a1f"
+  double size = 0;      ///< of its largest letters, in units of the picture
+  double x = 0, y = 0;  ///< where it begins
+  bool raised = false;  ///< some of it is raised or lowered
 };
 
 double number_after(const std::string& text, const std::string& before) {
@@ -182,20 +182,30 @@ bool is_bare(const Words& words) {
   return !words.raised && std::regex_match(words.text, bare);
 }
 
+bool is_round_step(double step) {
+  const double leading =
+      std::abs(step) / std::pow(10, std::floor(std::log10(std::abs(step)) + 1e-9));
+  return std::ranges::any_of(std::array{1.0, 2.0, 2.5, 5.0},
+                             [&](double one) { return std::abs(leading - one) < 1e-6; });
+}
+
 /// Whether a bare number is a tick's: with two others it stands in a row or a column where places
-/// go with values.
+/// go with values, or with one other a round step away.
 bool is_tick(const Words& one, const std::vector<Words>& bare) {
   const auto value = [](const Words& words) {
     const double size = numbers_of(words.text).front().value;
     return std::isdigit((unsigned char)words.text.front()) ? size : -size;
   };
   for (const bool row : {true, false}) {
-    std::vector<double> units;  // of the picture a unit of the axis
+    std::vector<double> units, steps;  // of the picture a unit of the axis
     for (const Words& other : bare) {
       const bool aligned = row ? std::abs(other.y - one.y) < 0.5 : std::abs(other.x - one.x) < 30;
       const double step = value(other) - value(one);
-      if (aligned && step != 0) units.push_back((row ? other.x - one.x : one.y - other.y) / step);
+      if (!aligned || step == 0) continue;
+      units.push_back((row ? other.x - one.x : one.y - other.y) / step);
+      steps.push_back(step);
     }
+    if (units.size() == 1 && units[0] > 0 && is_round_step(steps[0])) return true;
     for (std::size_t a = 0; a < units.size(); ++a)
       for (std::size_t b = a + 1; b < units.size(); ++b)
         if (units[a] > 0 && std::abs(units[a] / units[b] - 1) < (row ? 0.2 : 0.05)) return true;
@@ -217,19 +227,19 @@ TEST_CASE("every number in a figure stands in a file of its run, to the digits p
       for (const Words& words : all) {
         // a power of ten
         if (words.raised && words.text.find("10 ") != std::string::npos) continue;
-        if (is_bare(words) && is_tick(words, bare)) continue;
         for (const Printed& number : numbers_of(words.text)) {
           INFO(file.filename() << ": " << words.text << ": " << number.text);
           const auto [value, half] = std::pair(number.value, number.half);
           // in per cent of what the file says too
-          CHECK((holds(files, value, half) || holds(files, value / 100, half / 100) ||
-                 holds(changes, value, half)));
+          const bool found = holds(files, value, half) || holds(files, value / 100, half / 100) ||
+                             holds(changes, value, half);
+          CHECK((found || (is_bare(words) && is_tick(words, bare))));
           ++looked_up;
         }
       }
     }
   }
-  CHECK(looked_up > 300);
+  CHECK(looked_up > 150);
 }
 
 TEST_CASE("a number that no file has is not found") {
@@ -272,7 +282,10 @@ TEST_CASE("on a page no words lie over others, nor over what is drawn", "[shared
   for (int k = 1; k <= 5; ++k) {
     const TemporaryFolder folder;
     const fs::path stem = folder.path() / page_of(k);
-    auto records = app::read_runs(shared_run(page_of(k)), {}, false);
+    // as it is printed
+    const std::vector<preset::Override> print{{"--width", "figure.width_mm", "178"},
+                                              {"--dpi", "figure.dpi", "200"}};
+    auto records = app::read_runs(shared_run(page_of(k)), print, false);
     REQUIRE(records);
     app::Runs runs;
     for (const app::Run& run : *records) runs.push_back(&run);

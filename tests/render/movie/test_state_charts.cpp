@@ -175,17 +175,17 @@ record::StateTables tables() {
     all.rows.push_back(row);
   }
   all.rows[0].kind = record::StateClass::ii;
-  all.transitions = {
-      {{1}, {2}, Disturbance::released, 1},
-      {{1}, {1}, Disturbance::pushed, 5},
-      {{1}, {}, Disturbance::pushed, 3},
-      {{2}, {3}, Disturbance::pushed, 2}};
+  all.transitions = {{{1}, {2}, Disturbance::released, 1},
+                     {{1}, {1}, Disturbance::pushed, 5},
+                     {{1}, {}, Disturbance::pushed, 3},
+                     {{2}, {3}, Disturbance::pushed, 2}};
   return all;
 }
 
 }  // namespace
 
-TEST_CASE("the graph of transitions writes every state and what came back, apart from one another") {
+TEST_CASE(
+    "the graph of transitions writes every state and what came back, apart from one another") {
   const TemporaryFolder folder;
   {
     const test::CanvasObserver watch([&](const Canvas& canvas) {
