@@ -100,6 +100,13 @@ Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follo
     if (asked) return located(led_by_finer(std::move(*path), follow, watch), watch);
     if (!(worst > allowed))
       return located(confirm_on_finer_meshes(scene, std::move(*path), follow, watch), watch);
+    // twice the edges leave a quarter, and the leader that confirms events has them
+    if ((*path)->has_events() && !plan.extrapolate && !scene.leader_asked && worst <= 4 * allowed) {
+      path = confirm_on_finer_meshes(scene, std::move(*path), follow, watch);
+      if (!path) return path;
+      if ((*path)->mesh_disagreement.empty() && worst_estimate_mm(**path) <= allowed)
+        return located(std::move(path), watch);
+    }
     const auto next = finer(plan);
     const auto fits = next ? fits_memory(scene, *next) : Result<void>{};
     if (!next || !fits)
