@@ -109,9 +109,9 @@ std::optional<PathSegment> GuidedSegment::followed() {
     for (Event& event : segment.report.events)
       if (event.to && *event.to == steps[next].point.t) event.to = steps[*step].point.t;
     const std::size_t last = end_of_branch(*step);
-    const Report way = simulation_.go(
-        steps[last].point.t, watch_,
-        {.wanted = false, .through_unstable = through_unstable(*step)}, &segment);
+    const Report way =
+        simulation_.go(steps[last].point.t, watch_,
+                       {.wanted = false, .through_unstable = through_unstable(*step)}, &segment);
     const bool all = last + 1 == steps.size();
     if (all && at_its_limit(way, segment)) return segment;
     if (way.end == Outcome::reached) {
@@ -152,12 +152,10 @@ bool follow_guide(EquilibriumPath& path, const EquilibriumPath& guide, double al
 }
 
 bool uneventful(const EquilibriumPath& path) {
-  return !path.has_events() &&
-         std::ranges::all_of(path.segments, [](const PathSegment& segment) {
-           return std::ranges::all_of(segment.load_steps, [](const LoadStep& step) {
-             return step.certificate.stable();
-           });
-         });
+  return !path.has_events() && std::ranges::all_of(path.segments, [](const PathSegment& segment) {
+    return std::ranges::all_of(segment.load_steps,
+                               [](const LoadStep& step) { return step.certificate.stable(); });
+  });
 }
 
 bool begin_alike(const EquilibriumPath& a, const EquilibriumPath& b) {

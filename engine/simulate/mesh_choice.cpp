@@ -209,7 +209,6 @@ Result<SharedPath> confirm_on_finer_meshes(const Scene& scene, SharedPath path,
                                            const Follow& follow, const Watch& watch) {
   // the first buckling is a choice too, which the coarsest mesh made
   const auto chose = [&] { return path->has_events() || !scene.from_net; };
-  const double allowed = scene.tolerance * scene.length_scale_mm;
   auto plan = std::optional(path->asked);
   std::vector<SharedPath> before;
   for (int asked = 0; asked < most_leaders && chose(); ++asked) {
@@ -235,12 +234,12 @@ Result<SharedPath> confirm_on_finer_meshes(const Scene& scene, SharedPath path,
     auto differs = mesh_disagreement(*path, **fine);
     if (!differs) differs = only_on_leaders(*path, **fine, watch);
     if (!differs) {
-      const bool better = !(worst_estimate_mm(*path) <= allowed),
-                 later = path->single_motion && ends_later(path->segments, (*fine)->segments);
+      const bool later = path->single_motion && !scene.leader_asked &&
+                         ends_later(path->segments, (*fine)->segments);
       extrapolate_events(path->segments, (*fine)->segments);
       extrapolate_events(path->earlier, (*fine)->earlier);
       path->mesh_disagreement.clear();
-      if (!scene.leader_asked && (better || later)) {
+      if (later) {
         keep_fine();
         return path;
       }
