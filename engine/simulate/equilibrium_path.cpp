@@ -7,6 +7,7 @@
 #include "engine/core/try.h"
 #include "engine/simulate/frames.h"
 #include "engine/simulate/frames_between.h"
+#include "engine/simulate/guided_path.h"
 #include "engine/simulate/mesh_choice.h"
 
 namespace gridshell::simulate {
@@ -30,6 +31,18 @@ double worst_estimate_mm(const EquilibriumPath& path) {
     }
   return worst;
 }
+
+namespace {
+
+/// Whether the path goes on beyond a loss of stability without leaving its branch.
+bool stays_beyond_event(const EquilibriumPath& path) {
+  return std::ranges::any_of(path.segments, [](const PathSegment& segment) {
+    return segment.report.end == Outcome::reached &&
+           std::ranges::any_of(segment.report.events, [](const Event& event) { return !event.to; });
+  });
+}
+
+}  // namespace
 
 double distance_of_joints(const Simulation& simulation, const Eigen::Matrix3Xd& nodes) {
   const Eigen::Index joints = simulation.shell().finest().joints;
@@ -100,6 +113,14 @@ Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follo
     if (asked) return located(led_by_finer(std::move(*path), follow, watch), watch);
     if (!(worst > allowed))
       return located(confirm_on_finer_meshes(scene, std::move(*path), follow, watch), watch);
+    // twice the edges leave a quarter, and may lose no stability where the leader does alone
+    if (stays_beyond_event(**path) && !plan.extrapolate && !scene.leader_asked &&
+        worst <= 4 * allowed) {
+      path = confirm_on_finer_meshes(scene, std::move(*path), follow, watch);
+      if (!path) return path;
+      if (uneventful(**path) && worst_estimate_mm(**path) <= allowed)
+        return located(std::move(path), watch);
+    }
     const auto next = finer(plan);
     const auto fits = next ? fits_memory(scene, *next) : Result<void>{};
     if (!next || !fits)

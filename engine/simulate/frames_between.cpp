@@ -225,7 +225,8 @@ record::Frame FramesBetween::composed(record::Frame frame, double t, double shar
                                       const Weights& weights) const {
   using record::Frame;
   const auto sum = [&](const Eigen::VectorXd& w, auto member) {
-    return weighted(knots, w, [&](const Knot& knot) -> const auto& { return knot.added.*member; });
+    return weighted(
+        knots, w, [&](const Knot& knot) -> const auto& { return knot.added.*member; });
   };
   // by how much a polynomial is in doubt
   const auto doubt = [&](auto member, const auto& size) {
@@ -244,8 +245,8 @@ record::Frame FramesBetween::composed(record::Frame frame, double t, double shar
   frame.stiffness_N_per_mm = sum(weights.all, &Frame::stiffness_N_per_mm);
 
   const auto error = [&](double Frame::*member, double by_polynomial) {
-    frame.*member = (1 - share) * around[0]->added.*member + share * around[1]->added.*member +
-                    by_polynomial;
+    frame.*member =
+        (1 - share) * around[0]->added.*member + share * around[1]->added.*member + by_polynomial;
   };
   double force_N = doubt(&Frame::reactions_N, [](const Eigen::Matrix3Xd& forces) {
     return forces.cols() > 0 ? max_column_norm(forces) : 0;

@@ -40,9 +40,9 @@ class FramesBetween {
     Eigen::VectorXd without[2];  ///< less those without the first, the last of its knots
   };
   struct Window {
-    std::size_t first = 0;  ///< load step
-    std::vector<double> t;  ///< of the load steps
-    std::size_t before = 0; ///< that in front of the sample
+    std::size_t first = 0;   ///< load step
+    std::vector<double> t;   ///< of the load steps
+    std::size_t before = 0;  ///< that in front of the sample
   };
   static Weights weights_at(const std::vector<double>& known, double t);
   std::optional<Window> window_at(const PathSegment& segment, double t) const;

@@ -30,6 +30,7 @@ class GuidedSegment {
 
  private:
   bool begin(std::size_t step);
+  std::optional<std::size_t> begin_from(std::size_t step, int& restarts);
   bool beside(std::size_t step) const;
   bool through_unstable(std::size_t step) const;
   std::size_t end_of_branch(std::size_t step) const;
@@ -61,9 +62,8 @@ bool GuidedSegment::begin(std::size_t step) {
 
 /// As the guide went: back towards the flat, or on along the branch that lost its stability.
 bool GuidedSegment::through_unstable(std::size_t step) const {
-  return std::ranges::any_of(guide_.load_steps | std::views::take(step + 1),
-                             [](const LoadStep& at) { return !at.certificate.stable(); }) ||
-         !guide_.load_steps[end_of_branch(step)].certificate.stable();
+  return std::ranges::any_of(guide_.load_steps | std::views::take(end_of_branch(step) + 1),
+                             [](const LoadStep& at) { return !at.certificate.stable(); });
 }
 
 /// The last load step before the guide goes on in a rest further on.
@@ -89,28 +89,43 @@ bool GuidedSegment::at_its_limit(const Report& report, PathSegment& segment) con
   return true;
 }
 
+/// From a load step of the guide, or from the next where these meshes lose or regain the branch a
+/// little beside the guide's; its number.
+std::optional<std::size_t> GuidedSegment::begin_from(std::size_t step, int& restarts) {
+  for (const std::size_t last = end_of_branch(step); step <= last; ++step) {
+    if (begin(step)) return step;
+    if (watch_.cancelled() || ++restarts > most_restarts) break;
+  }
+  return std::nullopt;
+}
+
 std::optional<PathSegment> GuidedSegment::followed() {
+  const auto& steps = guide_.load_steps;
   PathSegment segment{{}, guide_.from, guide_.to, guide_.report, guide_.back};
   int restarts = 0;
-  for (std::size_t step = 0; begin(step) && !watch_.cancelled();) {
-    const std::size_t last = end_of_branch(step);
-    const double to = guide_.load_steps[last].point.t;
+  for (std::size_t next = 0; next < steps.size();) {
+    const auto step = begin_from(next, restarts);
+    if (!step) break;
+    for (Event& event : segment.report.events)
+      if (event.to && *event.to == steps[next].point.t) event.to = steps[*step].point.t;
+    const std::size_t last = end_of_branch(*step);
     const Report way =
-        simulation_.go(to, watch_, {.wanted = false, .through_unstable = through_unstable(step)},
-                       &segment);
-    const bool all = last + 1 == guide_.load_steps.size();
+        simulation_.go(steps[last].point.t, watch_,
+                       {.wanted = false, .through_unstable = through_unstable(*step)}, &segment);
+    const bool all = last + 1 == steps.size();
+    if (all && at_its_limit(way, segment)) return segment;
     if (way.end == Outcome::reached) {
       if (!beside(last)) break;
       segment.report.certificate = way.certificate;
       if (all) return segment;
-      step = last + 1;
+      next = last + 1;
       continue;
     }
-    if (all && at_its_limit(way, segment)) return segment;
     // the leader alone loses the branch: on where the guide stands next
     if (at_limit(way.end) || ++restarts > most_restarts) break;
-    while (step <= last && guide_.sign() * (guide_.load_steps[step].point.t - way.t) <= 0) ++step;
-    if (step > last) break;
+    next = *step;
+    while (next <= last && guide_.sign() * (steps[next].point.t - way.t) <= 0) ++next;
+    if (next > last) break;
   }
   return std::nullopt;
 }
@@ -137,12 +152,10 @@ bool follow_guide(EquilibriumPath& path, const EquilibriumPath& guide, double al
 }
 
 bool uneventful(const EquilibriumPath& path) {
-  return !path.has_events() &&
-         std::ranges::all_of(path.segments, [](const PathSegment& segment) {
-           return std::ranges::all_of(segment.load_steps, [](const LoadStep& step) {
-             return step.certificate.stable();
-           });
-         });
+  return !path.has_events() && std::ranges::all_of(path.segments, [](const PathSegment& segment) {
+    return std::ranges::all_of(segment.load_steps,
+                               [](const LoadStep& step) { return step.certificate.stable(); });
+  });
 }
 
 bool begin_alike(const EquilibriumPath& a, const EquilibriumPath& b) {
