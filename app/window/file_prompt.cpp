@@ -1,10 +1,13 @@
-// Asks for a file: its path, what lies in its folder, and what is to be known of it.
+// Asks for a preset by pictures of all, and for a file by its path and what lies in its folder.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <string_view>
 
+#include "app/window/imgui_painter.h"
 #include "app/window/panel.h"
+#include "render/gl/image.h"
 
 namespace gridshell::window {
 namespace {
@@ -123,6 +126,127 @@ void file_prompt(const Panel& panel, const render::Box& box) {
   viewer.file_request = request;
   if (taken) viewer.take_file();
   if (cancelled) viewer.file_request.reset();
+}
+
+// All presets to choose from, as pictures.
+
+namespace {
+
+constexpr double card_points = 216;             // the least width of a card
+constexpr float height_of_width = 160 / 256.f;  // of the pictures in presets/pictures/cards
+
+/// A title that is too long for its card ends in dots.
+std::string shortened(const std::string& title, float width) {
+  if (ImGui::CalcTextSize(title.c_str()).x <= width) return title;
+  std::string begin = title;
+  const auto too_long = [&] { return ImGui::CalcTextSize((begin + "…").c_str()).x > width; };
+  while (!begin.empty() && too_long()) begin.pop_back();
+  return begin + "…";
+}
+
+}  // namespace
+
+void PresetPicker::load(const std::vector<PresetCard>& cards) {
+  for (std::size_t k = pictures_.size(); k < cards.size(); ++k) {
+    auto& picture = pictures_.emplace_back();
+    const auto image = render::decode_png(cards[k].picture, cards[k].name);
+    if (!image) continue;  // a preset without one is a card of words
+    picture.emplace(*gl_);
+    fill_texture(*gl_, picture->id(), image->width, image->height, image->rgba.data());
+  }
+}
+
+void PresetPicker::card(const Panel& panel, const PresetCard& card, std::size_t number) {
+  const float gap = panel.px(4), line = ImGui::GetTextLineHeight();
+  const ImVec2 at = ImGui::GetCursorPos();
+  const float width = ImGui::GetContentRegionAvail().x, inside = width - 2 * gap,
+              high = height_of_width * inside;
+  const float height = high + 2.4f * line + 2 * gap;
+  ImGui::PushID(card.name.c_str());
+  if (ImGui::Selectable("##card", false, 0, {0, height})) panel.viewer.open(card.name);
+  panel.named("preset " + card.name, card.title);
+  ImGui::SetCursorPos({at.x + gap, at.y + gap});
+  if (const auto& picture = pictures_[number])
+    ImGui::Image(texture_id(picture->id()), {inside, high});
+  ImGui::SetCursorPos({at.x + gap, at.y + high + 1.5f * gap});
+  ImGui::TextUnformatted(shortened(card.name, inside).c_str());
+  ImGui::SetCursorPos({at.x + gap, at.y + high + 1.5f * gap + 1.15f * line});
+  ImGui::TextDisabled("%s", shortened(card.title, inside).c_str());
+  ImGui::SetCursorPos({at.x, at.y + height + panel.px(6)});
+  ImGui::PopID();
+}
+
+namespace {
+
+/// What presets are about, by how their names begin; the last has all others.
+struct CardGroup {
+  const char* title;
+  std::vector<std::string_view> begins;
+};
+const CardGroup groups[] = {{"Movies of the paper", {"s1_", "s2_", "s3_", "s4_", "s5_"}},
+                            {"Figures of the paper", {"fig"}},
+                            {"Pages of the paper", {"page_"}},
+                            {"Designed to meet a surface", {"design_", "ring_"}},
+                            {"Curves, nets and surfaces of your own", {"curve_", "net_", "surface_"}},
+                            {"Networks of rods", {"network_"}},
+                            {"Models, limits, loads, steps", {""}}};
+
+const CardGroup& group_of(const std::string& name) {
+  return *std::ranges::find_if(groups, [&](const CardGroup& group) {
+    return std::ranges::any_of(group.begins, [&](auto begin) { return name.starts_with(begin); });
+  });
+}
+
+}  // namespace
+
+void PresetPicker::opened_last(const Panel& panel) const {
+  if (panel.viewer.recent.empty() || !sought_.empty()) return;
+  heading(panel, "Opened last");
+  const auto recent = panel.viewer.recent;
+  for (const std::string& name : recent) {
+    const std::string label = std::filesystem::path(name).filename().string();
+    if (ImGui::Button((label + "##" + name).c_str())) panel.viewer.open(name);
+    panel.named("recent " + name, name);
+    ImGui::SameLine();
+  }
+  ImGui::NewLine();
+}
+
+void PresetPicker::draw(const Panel& panel, const render::Box& box) {
+  const std::vector<PresetCard>& cards = panel.viewer.library.cards;
+  load(cards);
+  begin_fixed("presets", box, 0, Layer::over);
+  ImGui::TextUnformatted("Pick a preset");
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(panel.px(200));
+  text_input("##sought", sought_, "search");
+  panel.named("search presets", "words of a name or a title");
+  ImGui::SameLine();
+  panel.button("open_file");
+  ImGui::SameLine();
+  ImGui::TextDisabled("(Ctrl+O comes back here; F1 lists keys and mouse)");
+  opened_last(panel);
+  const float width = ImGui::GetContentRegionAvail().x;
+  const int columns = std::max(1, int(width / panel.px(card_points)));
+  if (std::ranges::none_of(cards, [&](const PresetCard& card) {
+        return contains_words(card.name + " " + card.title, sought_);
+      }))
+    ImGui::TextDisabled("no preset has these words");
+  for (const CardGroup& group : groups) {
+    const auto shown = [&](const PresetCard& card) {
+      return &group_of(card.name) == &group && contains_words(card.name + " " + card.title, sought_);
+    };
+    if (std::ranges::none_of(cards, shown)) continue;
+    heading(panel, group.title);
+    if (!ImGui::BeginTable(group.title, columns)) continue;
+    for (std::size_t k = 0; k < cards.size(); ++k) {
+      if (!shown(cards[k])) continue;
+      ImGui::TableNextColumn();
+      card(panel, cards[k], k);
+    }
+    ImGui::EndTable();
+  }
+  ImGui::End();
 }
 
 }  // namespace gridshell::window

@@ -59,7 +59,7 @@ std::string help_of(const preset::Field& field);
 /// A small heading within a panel.
 void heading(const Panel& panel, const char* text);
 
-// ---- the panels, a file each ----
+// ---- the panels, by where they stand ----
 
 void menu_bar(const Panel& panel);
 void shell_panel(const Panel& panel, const render::Box& box);
@@ -82,6 +82,9 @@ Eigen::Vector2d in_view(const ViewerState& viewer, const render::Box& view, int 
 
 /// "diameter" of diameter_mm.
 std::string label_of(const preset::Field& field);
+
+/// Whether a text has all words that are looked for, in any order and case.
+bool contains_words(std::string text, std::string sought);
 
 /// A line of text to type into, of at most 1 kB; true once it is entered.
 bool text_input(const char* id, std::string& text, const char* hint = "");

@@ -1,6 +1,9 @@
 #include "app/window/shell_drawing.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <numbers>
 
 #include "engine/gridshell.h"
 #include "render/canvas/text.h"
@@ -134,6 +137,38 @@ render::ColourScale next_scale(const render::ColourScale& before, const render::
       break;
   }
   return next;
+}
+
+namespace {
+
+/// Along a rod from one of its nodes to another, mm; none: it has not both.
+std::optional<double> along_rod(const ShellView& shell, const std::vector<int>& rod, int from,
+                                int to) {
+  auto first = std::ranges::find(rod, from), last = std::ranges::find(rod, to);
+  if (first == rod.end() || last == rod.end()) return {};
+  if (last < first) std::swap(first, last);
+  double way = 0;
+  for (; first != last; ++first)
+    way += (shell.frame.nodes.col(first[1]) - shell.frame.nodes.col(first[0])).norm();
+  return way;
+}
+
+}  // namespace
+
+std::string text_of_measure(const ShellView& shell, const std::vector<int>& joints) {
+  const auto way = [&](std::size_t from, std::size_t to) -> Eigen::Vector3d {
+    return shell.frame.nodes.col(joints[to]) - shell.frame.nodes.col(joints[from]);
+  };
+  if (joints.size() < 2) return "";
+  if (joints.size() > 2) {
+    const Eigen::Vector3d a = way(1, 0), b = way(1, 2);
+    return fmt::format("{:.2f}°", 180 / std::numbers::pi * std::atan2(a.cross(b).norm(), a.dot(b)));
+  }
+  std::string text = fmt::format("{:.2f} mm", way(0, 1).norm());
+  for (const std::vector<int>& rod : shell.layout->rods)
+    if (const auto along = along_rod(shell, rod, joints[0], joints[1]))
+      text += fmt::format(", {:.2f} mm along the rod", *along);
+  return text;
 }
 
 namespace {

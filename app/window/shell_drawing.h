@@ -39,6 +39,10 @@ struct Show {
   bool operator==(const Show&) const = default;
 };
 
+/// Of two joints how far they are apart, straight and, where one has both, along their rod; of three
+/// the angle at the second.
+std::string text_of_measure(const ShellView& shell, const std::vector<int>& joints);
+
 /// As the interface names it of a shell, with its unit: "bending energy (mJ/m)".
 std::string label_of(const ShellView& shell, const Show& show);
 /// What it is, in a sentence.

@@ -135,10 +135,6 @@ struct PlottedCurve {
   std::vector<double> x, y;
 };
 
-/// Of two joints how far they are apart, straight and, where one has both, along their rod; of three
-/// the angle at the second.
-std::string text_of_measure(const ShellView& shell, const std::vector<int>& joints);
-
 /// How a shell was looked at last.
 struct SavedCamera {
   std::string preset;  ///< its name

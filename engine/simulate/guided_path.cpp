@@ -4,7 +4,6 @@
 #include <cmath>
 #include <ranges>
 
-#include "engine/elastic/state.h"
 
 namespace gridshell::simulate {
 namespace {

@@ -1,5 +1,5 @@
-// What was done to the shell, step by step along the bottom, to go back to; and why a state is
-// what its certificate says.
+// Along the bottom: what was done, step by step, to go back to; the state's certificate, and why it
+// is what it is.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -128,6 +128,91 @@ void why_popup(const Panel& panel) {
   }
   ImGui::PopTextWrapPos();
   ImGui::EndPopup();
+}
+
+// The certificate of the state shown, what the engine is at, what was said last.
+
+namespace {
+
+/// "8 and 16 edges per segment".
+std::string meshes_of(const std::vector<int>& meshes) {
+  std::string text;
+  for (std::size_t k = 0; k < meshes.size(); ++k)
+    text += fmt::format("{}{}", k == 0 ? "" : k + 1 < meshes.size() ? ", " : " and ", meshes[k]);
+  return text + " edges per segment";
+}
+
+std::string certificate_of(const ShellView& shell, bool timed) {
+  const Certificate& c = shell.certificate;
+  const std::string error = std::isfinite(c.error_estimate_mm)
+                                ? fmt::format("error ± {:.2g} mm", c.error_estimate_mm)
+                                : "error not known";
+  const std::string took = timed ? fmt::format("   {:.0f} ms", 1000 * shell.seconds) : "";
+  return fmt::format("{} ({})   residual {:.0e} N{}", error, meshes_of(shell.meshes), c.residual_N,
+                     took);
+}
+
+std::string standing_of(const DesignProgress& course) {
+  const double percent = 100 / course.length_scale_mm;
+  const DesignPoint& now = course.points.back();
+  return fmt::format("designing: iteration {}, largest {:.3f} %, mean {:.3f} % (Esc stops)",
+                     course.iterations, percent * now.max_mm, percent * now.mean_mm);
+}
+
+/// How far the movie is that is made beside the window.
+void movie_standing(const Panel& panel) {
+  const std::string said = panel.viewer.movie_task.standing();
+  const std::string line = "movie " + (said.empty() ? "0 %" : said);
+  const char* stop = find_action("stop_movie")->label;
+  const float width = ImGui::CalcTextSize(line.c_str()).x + ImGui::CalcTextSize(stop).x +
+                      3 * ImGui::GetStyle().FramePadding.x + panel.px(18);
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - width);
+  ImGui::TextUnformatted(line.c_str());
+  ImGui::SameLine(0, panel.px(10));
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {panel.px(6), 0});
+  panel.button("stop_movie");
+  ImGui::PopStyleVar();
+}
+
+}  // namespace
+
+void status_line(const Panel& panel, const render::Box& box) {
+  const ViewerState& viewer = panel.viewer;
+  const ShellView& shell = *viewer.shell;
+  const TextColours& colours = text_colours(viewer.show.dark);
+  begin_fixed("status", box, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+  if (shell.any()) {
+    const ImU32 colour = !shell.stable()                  ? colours.error
+                         : shell.accuracy_warning.empty() ? colours.ok
+                                                          : colours.warning;
+    const std::string lacks = shell.accuracy_warning.empty() ? "" : ", " + shell.accuracy_warning;
+    coloured_text(colour, (shell.stable() ? "● stable" : "● not stable") + lacks);
+    if (ImGui::IsItemClicked()) ImGui::OpenPopup("why");
+    panel.named("stability", "whether the state is stable; a click says why");
+    why_popup(panel);
+    if (!shell.symmetry.empty()) {
+      ImGui::SameLine(0, panel.px(14));
+      ImGui::TextUnformatted(shell.symmetry.c_str());
+      panel.named("symmetry", "symmetries of the square that leave this shape as it is");
+    }
+    ImGui::SameLine(0, panel.px(14));
+    ImGui::TextUnformatted(certificate_of(shell, viewer.timed).c_str());
+    panel.named("certificate",
+                "estimated error of the joints, from the meshes named; largest force that nothing "
+                "holds; time of the last equilibrium");
+    ImGui::SameLine(0, panel.px(18));
+  }
+  const double busy = viewer.engine.busy_seconds();
+  std::string said =
+      busy > 0.3 ? fmt::format("solving for {:.1f} s (Esc stops)", busy) : viewer.message;
+  if (shell.designing()) said = standing_of(*shell.design);
+  const bool bad = busy <= 0.3 && viewer.message_bad && !shell.designing();
+  // one line, however much was said: the tooltip has all of it
+  coloured_text(bad ? colours.error : ImGui::GetColorU32(ImGuiCol_TextDisabled),
+                said.substr(0, said.find('\n')));
+  panel.named("message", said);
+  if (viewer.movie_task.under_way()) movie_standing(panel);
+  ImGui::End();
 }
 
 }  // namespace gridshell::window
