@@ -321,6 +321,19 @@ std::optional<double> end_of_branch_on(int level, EquilibriumPath& path, const P
 
 }  // namespace
 
+std::string why_so_fine(const EquilibriumPath& path) {
+  constexpr double clearly = 10;
+  const Scene& scene = path.simulation.scene();
+  const double allowed = scene.tolerance * scene.length_scale_mm, worst = worst_estimate_mm(path);
+  if (scene.edges_per_segment > 0 || !(worst > 0 && clearly * worst < allowed)) return "";
+  const std::string over =
+      fmt::format("the error estimate is {:.1g} of the tolerance, as ", worst / allowed);
+  if (path.asked.edges_per_segment.front() > initial_levels(scene).edges_per_segment.front())
+    return over + "coarser meshes do not follow the branch that finer ones confirm";
+  return over + (path.asked.extrapolate ? "coarser meshes leave more than it, as a rule"
+                                        : "on fewer meshes the error would not be known");
+}
+
 void locate_on_meshes(EquilibriumPath& path, const Follow& follow, const Watch& watch) {
   const int last = path.simulation.shell().levels() - 1;
   if (last == 0 && path.has_events()) {

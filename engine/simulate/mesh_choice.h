@@ -35,15 +35,20 @@ std::optional<std::string> mesh_disagreement(const EquilibriumPath& coarse,
 /// once more with leading meshes of twice the edges.
 /// Where both tell the same, the events' places are extrapolated (the error falls fourfold), with
 /// an error, and where the path turns back clearly later with the finer one, its path is kept;
-/// where they do not, the finer one is asked against a still finer one, at most three
-/// times. Where a leader was asked for, its path is kept, and what a finer one does not confirm
-/// is said. What remains in doubt is said. Errors: cancelled.
+/// where they do not, the finer one is asked against a still finer one, at most three times, unless
+/// nothing happens on its whole way, stable on its finest mesh. What is confirmed without a doubt
+/// is followed on the coarsest meshes tried that have it (guided_path.h). Where a leader was asked
+/// for, its path is kept, and what a finer one does not confirm is said. What remains in doubt is
+/// said. Errors: cancelled.
 Result<SharedPath> confirm_on_finer_meshes(const Scene& scene, SharedPath path,
                                            const Follow& follow, const Watch& watch);
 
 /// A path on the meshes asked for that did not come to its end, followed once more without its
 /// leading mesh, and again: the first that does, else the path as it was.
 SharedPath led_by_finer(SharedPath path, const Follow& follow, const Watch& watch);
+
+/// Why a path is on finer meshes than its tolerance takes by more than tenfold; empty: it is not.
+std::string why_so_fine(const EquilibriumPath& path);
 
 /// Places of events that one leader alone tells, looked for on the finer meshes of the path too:
 /// extrapolated from the last two, with an error. One mesh alone is followed beside one of twice

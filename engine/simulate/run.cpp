@@ -170,20 +170,6 @@ std::string near_image(const EquilibriumPath& path) {
       off);
 }
 
-/// Why a run is on finer meshes than its tolerance takes by more than tenfold; empty: it is not.
-std::string why_so_fine(const EquilibriumPath& path) {
-  constexpr double clearly = 10;
-  const Scene& scene = path.simulation.scene();
-  const double allowed = scene.tolerance * scene.length_scale_mm, worst = worst_estimate_mm(path);
-  if (scene.edges_per_segment > 0 || !(worst > 0 && clearly * worst < allowed)) return "";
-  const std::string over =
-      fmt::format("the error estimate is {:.1g} of the tolerance, as ", worst / allowed);
-  if (path.asked.edges_per_segment.front() > initial_levels(scene).edges_per_segment.front())
-    return over + "coarser meshes do not follow the branch that finer ones confirm";
-  return over + (path.asked.extrapolate ? "coarser meshes leave more than it, as a rule"
-                                        : "on fewer meshes the error would not be known");
-}
-
 /// What was followed, and on which meshes.
 void put_path(const EquilibriumPath& path, record::Summary& s) {
   const NestedShell& shell = path.simulation.shell();
