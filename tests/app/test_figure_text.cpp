@@ -197,15 +197,15 @@ bool is_tick(const Words& one, const std::vector<Words>& bare) {
     return std::isdigit((unsigned char)words.text.front()) ? size : -size;
   };
   for (const bool row : {true, false}) {
-    std::vector<double> units, steps;  // of the picture a unit of the axis
+    std::vector<double> units;  // of the picture a unit of the axis
     for (const Words& other : bare) {
       const bool aligned = row ? std::abs(other.y - one.y) < 0.5 : std::abs(other.x - one.x) < 30;
       const double step = value(other) - value(one);
       if (!aligned || step == 0) continue;
       units.push_back((row ? other.x - one.x : one.y - other.y) / step);
-      steps.push_back(step);
+      const bool exactly = std::abs(row ? other.y - one.y : other.x - one.x) < 0.5;
+      if (exactly && units.back() > 0 && is_round_step(step)) return true;
     }
-    if (units.size() == 1 && units[0] > 0 && is_round_step(steps[0])) return true;
     for (std::size_t a = 0; a < units.size(); ++a)
       for (std::size_t b = a + 1; b < units.size(); ++b)
         if (units[a] > 0 && std::abs(units[a] / units[b] - 1) < (row ? 0.2 : 0.05)) return true;
