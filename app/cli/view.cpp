@@ -74,8 +74,12 @@ Result<void> export_shell(const preset::Preset& preset, const fs::path& file,
   };
   const std::string shell = (aside / "shell.toml").string(), ran = (aside / "run").string();
   const auto made = write_preset_with_tables(preset, shell)
-                        .and_then([&] { return run({"run", shell, "-o", ran}); })
-                        .and_then([&] { return run({"export", ran, "--to", file.string()}); });
+                        .and_then([&] {
+                          return run({"run", shell, "-o", ran});
+                        })
+                        .and_then([&] {
+                          return run({"export", ran, "--to", file.string()});
+                        });
   std::error_code error;
   fs::remove_all(aside, error);
   return made;

@@ -24,7 +24,8 @@ constexpr FileText file_texts[] = {
     {"Save preset as", "Save", "a preset; tables of its ends and rods come beside it"},
     {"Save picture as", "Save", "a PNG of the view"},
     {"Export", "Export",
-     ".vtp .pvd (ParaView), .obj .dxf (Rhino, Blender), .glb .html (any browser), .csv;\nof the flat "
+     ".vtp .pvd (ParaView), .obj .dxf (Rhino, Blender), .glb .html (any browser), .csv;\nof the "
+     "flat "
      "footprint .svg, of the workshop .pdf"}};
 
 /// What of a folder can be picked: folders, and files that the use is for.
@@ -73,8 +74,10 @@ void list(const Panel& panel, FileRequest& request) {
     const fs::path there = folder / entry.name;
     const bool loads = request.use == FileUse::open || request.use == FileUse::compare;
     const bool run = entry.folder && loads && is_run(there);
-    const std::string label =
-        fmt::format("{}{}", entry.name, run ? "   (run)" : entry.folder ? "/" : "");
+    const std::string label = fmt::format("{}{}", entry.name,
+                                          run            ? "   (run)"
+                                          : entry.folder ? "/"
+                                                         : "");
     if (ImGui::Selectable(label.c_str(), path == there))
       request.path = entry.folder && !run ? (there / "").string() : there.string();
     panel.named("file " + entry.name, "");
@@ -91,7 +94,8 @@ void picture_size(const Panel& panel, FileRequest& request, const PictureSize& v
   panel.named("picture_width_mm", "its width in print; Ctrl+click to type");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(panel.px(110));
-  if (ImGui::DragFloat("##dpi", &dpi, 1, 36, 1200, "%.4g dpi", ImGuiSliderFlags_AlwaysClamp)) request.dpi = double(dpi);
+  if (ImGui::DragFloat("##dpi", &dpi, 1, 36, 1200, "%.4g dpi", ImGuiSliderFlags_AlwaysClamp))
+    request.dpi = double(dpi);
   panel.named("picture_dpi", "dots per inch; Ctrl+click to type");
   const double pixels = request.width_mm / 25.4 * request.dpi;
   ImGui::SameLine();
@@ -183,13 +187,14 @@ struct CardGroup {
   const char* title;
   std::vector<std::string_view> begins;
 };
-const CardGroup groups[] = {{"Movies of the paper", {"s1_", "s2_", "s3_", "s4_", "s5_"}},
-                            {"Figures of the paper", {"fig"}},
-                            {"Pages of the paper", {"page_"}},
-                            {"Designed to meet a surface", {"design_", "ring_"}},
-                            {"Curves, nets and surfaces of your own", {"curve_", "net_", "surface_"}},
-                            {"Networks of rods", {"network_"}},
-                            {"Models, limits, loads, steps", {""}}};
+const CardGroup groups[] = {
+    {"Movies of the paper", {"s1_", "s2_", "s3_", "s4_", "s5_"}},
+    {"Figures of the paper", {"fig"}},
+    {"Pages of the paper", {"page_"}},
+    {"Designed to meet a surface", {"design_", "ring_"}},
+    {"Curves, nets and surfaces of your own", {"curve_", "net_", "surface_"}},
+    {"Networks of rods", {"network_"}},
+    {"Models, limits, loads, steps", {""}}};
 
 const CardGroup& group_of(const std::string& name) {
   return *std::ranges::find_if(groups, [&](const CardGroup& group) {
@@ -234,7 +239,8 @@ void PresetPicker::draw(const Panel& panel, const render::Box& box) {
     ImGui::TextDisabled("no preset has these words");
   for (const CardGroup& group : groups) {
     const auto shown = [&](const PresetCard& card) {
-      return &group_of(card.name) == &group && contains_words(card.name + " " + card.title, sought_);
+      return &group_of(card.name) == &group &&
+             contains_words(card.name + " " + card.title, sought_);
     };
     if (std::ranges::none_of(cards, shown)) continue;
     heading(panel, group.title);

@@ -116,7 +116,8 @@ Result<Eigen::Vector2d> Interface::place_of(const InputEvent& event) const {
   int i = 0, j = 0;
   if (viewer_.shell->any() && std::sscanf(event.text.c_str(), "joint:%d,%d", &i, &j) == 2)
     for (const record::Joint& joint : viewer_.shell->layout->joints)
-      if (joint.i == i && joint.j == j) return Eigen::Vector2d(in_view(viewer_, view_, joint.node) + beside);
+      if (joint.i == i && joint.j == j)
+        return Eigen::Vector2d(in_view(viewer_, view_, joint.node) + beside);
   if (viewer_.shell->any() && std::sscanf(event.text.c_str(), "edge:%d", &i) == 1 && i >= 0 &&
       i < int(viewer_.shell->layout->edge_points.size()))
     return Eigen::Vector2d(
@@ -218,8 +219,7 @@ void Interface::press_key(Key key) {
   const Action* action = action_of({key, io.KeyCtrl, io.KeyShift});
   if (!action) return;
   // nothing happens to a shell that is not seen
-  const bool hidden =
-      viewer_.help || viewer_.terms || viewer_.picking || viewer_.file_request;
+  const bool hidden = viewer_.help || viewer_.terms || viewer_.picking || viewer_.file_request;
   const std::string menu = action->menu;
   if (hidden && (menu == "Shell" || menu == "Edit")) return;
   action->act(viewer_);

@@ -5,8 +5,8 @@
 #include <imgui_internal.h>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cctype>
+#include <cmath>
 #include <memory>
 #include <sstream>
 #include <string>
@@ -262,7 +262,8 @@ constexpr std::pair<const char*, const char*> terms[] = {
     {"edge point", "the end of a rod, pinned to the boundary"},
     {"leg", "the piece of a rod between its last joint and the boundary"},
     {"cell", "four joints and the rods between them"},
-    {"K□", "integrated Gauss curvature of a cell: 2π less its four angles; red domes, blue saddles"},
+    {"K□",
+     "integrated Gauss curvature of a cell: 2π less its four angles; red domes, blue saddles"},
     {"Δ/ρ", "distance from the net that the shell was designed on, over its radius"},
     {"stable", "every small move raises the energy: no negative pivot of the Hessian"},
     {"soft mode", "the move along which the energy rises least, or falls"},

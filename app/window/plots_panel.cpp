@@ -40,7 +40,8 @@ class PlotBox {
   }
 
   void draw(const Curve& curve) {
-    title(curve.x.empty() ? curve.y_label : fmt::format("{} over {}", curve.y_label, curve.x_label));
+    title(curve.x.empty() ? curve.y_label
+                          : fmt::format("{} over {}", curve.y_label, curve.x_label));
     if (curve.x.empty()) return say_none(curve.without);
     const Span x = curve.bars ? Span(-1, 1) : Span(curve.x);
     const auto shown = [&](float value) {
@@ -140,8 +141,8 @@ class PlotBox {
         points, {}, [&](const ImVec2& p) { return std::abs(p.x - mouse.x); });
     const auto k = std::size_t(next - points.begin());
     list_.AddCircle(*next, panel_.px(4), ImGui::GetColorU32(ImGuiCol_Text), 0, panel_.px(1.4));
-    std::string told = fmt::format("{} {:.5g}\n{} {:.5g}", curve.x_label, curve.x[k],
-                                   curve.y_label, curve.y[k]);
+    std::string told =
+        fmt::format("{} {:.5g}\n{} {:.5g}", curve.x_label, curve.x[k], curve.y_label, curve.y[k]);
     if (!curve.second.empty()) told += fmt::format(", {:.5g}", curve.second[k]);
     ImGui::SetTooltip("%s", told.c_str());
   }
@@ -172,9 +173,8 @@ int abscissa_of(const ViewerState& viewer, std::span<const PlotPoint> points) {
     return std::abs(point.progress - points.front().progress) > 1e-9;
   });
   if (!moved) return quantity_called("equilibrium");
-  return quantity_called(std::isfinite(viewer.shell->frame.boundary_radius_mm)
-                             ? "boundary_radius_mm"
-                             : "progress");
+  return quantity_called(
+      std::isfinite(viewer.shell->frame.boundary_radius_mm) ? "boundary_radius_mm" : "progress");
 }
 
 /// Those since the joint was taken that is held now.
@@ -227,7 +227,8 @@ void plot_menu(const Panel& panel, PlotAxes& axes, const Curve& curve, const std
   choose_quantity("Show", axes.y);
   choose_quantity("Over", axes.x);
   if (ImGui::MenuItem("Save as PDF, SVG, PNG and CSV", nullptr, false, !curve.x.empty()))
-    panel.viewer.save_plot({curve.x_label, curve.y_label,
+    panel.viewer.save_plot({curve.x_label,
+                            curve.y_label,
                             {curve.x.begin(), curve.x.end()},
                             {curve.y.begin(), curve.y.end()}});
   panel.named(name + " save", "");

@@ -18,8 +18,8 @@ using preset::Field;
 
 /// Those that the shell hangs on; how it is pictured has controls of its own.
 constexpr std::string_view shown_tables[] = {"rod",          "rod_v",  "joints",    "ends",
-                                        "footprint",    "net",    "actuation", "loads",
-                                        "imperfection", "limits", "accuracy",  "dynamics"};
+                                             "footprint",    "net",    "actuation", "loads",
+                                             "imperfection", "limits", "accuracy",  "dynamics"};
 
 float bound(double value) { return float(std::clamp(value, -1e9, 1e9)); }
 
@@ -160,7 +160,7 @@ bool NumbersPanel::is_shown(const Field& field) {
   if (!has_control(field, edited_) || (!all_ && idle_.contains(field.table + "." + field.key)))
     return false;
   return contains_words(field.table + " " + field.key + " " + label_of(field) + " " + field.meaning,
-                  sought_);
+                        sought_);
 }
 
 void NumbersPanel::draw(const Panel& panel, const render::Box& box) {
@@ -182,8 +182,7 @@ void NumbersPanel::draw(const Panel& panel, const render::Box& box) {
         return field.table == table.name && is_shown(field);
       };
       if (std::ranges::none_of(preset::field_table(), shown)) continue;
-      const bool open =
-          ImGui::CollapsingHeader(table.name.c_str(), ImGuiTreeNodeFlags_DefaultOpen);
+      const bool open = ImGui::CollapsingHeader(table.name.c_str(), ImGuiTreeNodeFlags_DefaultOpen);
       panel.named("table " + table.name, table.meaning);
       if (!open) continue;
       for (const Field& field : preset::field_table())

@@ -100,8 +100,8 @@ Result<void> rest(Interface& interface, ViewerState& viewer) {
     viewer.export_task.wait();
     if (auto drawn = interface.frame_aside(frame_s); !drawn) return drawn;
     const bool rests = viewer.engine.idle() && viewer.engine.shell() == viewer.shell &&
-                       !viewer.playing && viewer.picture_task.idle() &&
-                       viewer.movie_task.idle() && viewer.export_task.idle();
+                       !viewer.playing && viewer.picture_task.idle() && viewer.movie_task.idle() &&
+                       viewer.export_task.idle();
     if (rests && !interface.events_wait()) return {};
   }
   return {};

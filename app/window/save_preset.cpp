@@ -155,8 +155,10 @@ static std::string fault_of(FileUse use, const fs::path& file) {
     return "there is no folder '" + folder.string() + "'";
   const std::string ending = file.extension().string();
   if (use != FileUse::export_shell)
-    return ending == ending_of(use) ? "" : fmt::format("'{}': it is written as {}", ending, ending_of(use));
-  constexpr std::string_view formats[] = {".vtp", ".pvd", ".obj",  ".dxf", ".glb",
+    return ending == ending_of(use)
+               ? ""
+               : fmt::format("'{}': it is written as {}", ending, ending_of(use));
+  constexpr std::string_view formats[] = {".vtp",  ".pvd", ".obj", ".dxf", ".glb",
                                           ".html", ".csv", ".svg", ".pdf"};
   return std::ranges::find(formats, ending) != std::end(formats)
              ? ""
@@ -226,12 +228,10 @@ void ViewerState::take_file() {
 void ViewerState::export_as(const fs::path& file) {
   if (export_task.under_way()) return say("one export is under way already", true);
   if (auto made = make_folder_of(file); !made) return say(made.error().message, true);
-  export_task.begin(
-      [make = library.export_shell, preset = preset_to_save(), file](
-          const ProgressListener& listener, const Watch& watch) {
-        return make(preset, file, listener, watch);
-      },
-      file);
+  export_task.begin([make = library.export_shell, preset = preset_to_save(), file](
+                        const ProgressListener& listener,
+                        const Watch& watch) { return make(preset, file, listener, watch); },
+                    file);
   say("exporting " + file.string());
 }
 
@@ -322,9 +322,10 @@ void ViewerState::save_plot(const PlottedCurve& curve) {
     plot.series.back().add(curve.x[k], curve.y[k]);
     table += fmt::format("{},{}\n", curve.x[k], curve.y[k]);
   }
-  const auto written = make_folder_of(stem)
-                           .and_then([&] { return render::write_plot(stem, plot); })
-                           .and_then([&] { return write_file(stem.string() + ".csv", table); });
+  const auto written =
+      make_folder_of(stem).and_then([&] { return render::write_plot(stem, plot); }).and_then([&] {
+        return write_file(stem.string() + ".csv", table);
+      });
   if (!written) return say(written.error().message, true);
   say("saved " + stem.string() + ".pdf, .svg, .png and .csv");
 }

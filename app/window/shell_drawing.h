@@ -34,13 +34,13 @@ struct Show {
   ColourBy colour_by = ColourBy::K;
   render::ColourScale scale;  ///< of the colours
   bool joints = true, rings = true, ground = true, net = false, footprint = false, dark = false;
-  double mode_mm = 0;  ///< how far along the soft mode it is drawn
+  double mode_mm = 0;                            ///< how far along the soft mode it is drawn
   std::shared_ptr<const OtherShell> other = {};  ///< drawn over it; null: none
   bool operator==(const Show&) const = default;
 };
 
-/// Of two joints how far they are apart, straight and, where one has both, along their rod; of three
-/// the angle at the second.
+/// Of two joints how far they are apart, straight and, where one has both, along their rod; of
+/// three the angle at the second.
 std::string text_of_measure(const ShellView& shell, const std::vector<int>& joints);
 
 /// As the interface names it of a shell, with its unit: "bending energy (mJ/m)".

@@ -20,10 +20,10 @@ std::string text_of_step(const ShellView& shell) {
                  ? fmt::format("boundary to R_a = {:.4g} mm", shell.frame.boundary_radius_mm)
                  : fmt::format("boundary to progress {:.3g}", step.progress);
     case preset::StepKind::push:
-      return shell.held.empty() ? "pushed" + at
-                                : fmt::format("pushed{}: {:.3g} mm, {:.3g} N", at,
-                                              shell.held.back().moved_mm.norm(),
-                                              shell.held.back().force_N.norm());
+      return shell.held.empty()
+                 ? "pushed" + at
+                 : fmt::format("pushed{}: {:.3g} mm, {:.3g} N", at,
+                               shell.held.back().moved_mm.norm(), shell.held.back().force_N.norm());
     case preset::StepKind::hold:
     case preset::StepKind::release:
     case preset::StepKind::load:
@@ -44,8 +44,8 @@ void ViewerState::note_step() {
   timeline.resize(std::max(timeline.size(), std::size_t(shell->undo_steps) + 1));
   TimelineEntry& entry = timeline[std::size_t(shell->undo_steps)];
   const auto& steps = shell->steps;
-  const bool still = entry.event_at ? std::ranges::find(steps, entry.event_at) != steps.end()
-                                    : steps.empty();
+  const bool still =
+      entry.event_at ? std::ranges::find(steps, entry.event_at) != steps.end() : steps.empty();
   entry.text = text_of_step(*shell);
   entry.stable = shell->stable();
   if (!shell->message.empty()) {
@@ -70,9 +70,9 @@ void timeline_panel(const Panel& panel, const render::Box& box) {
   for (int k = 0; k < count; ++k) {
     const TimelineEntry& entry = viewer.timeline[std::size_t(k)];
     const ImVec2 at{left + step * float(k), y};
-    const ImU32 colour = !entry.stable            ? colours.error
-                         : !entry.event.empty()   ? colours.warning
-                                                  : ImGui::GetColorU32(ImGuiCol_PlotLines);
+    const ImU32 colour = !entry.stable          ? colours.error
+                         : !entry.event.empty() ? colours.warning
+                                                : ImGui::GetColorU32(ImGuiCol_PlotLines);
     const float radius = panel.px(entry.event.empty() ? 4 : 6);
     // what was undone is hollow
     if (k > now)
@@ -101,7 +101,8 @@ void why_popup(const Panel& panel) {
   if (!shell.stable()) {
     ImGui::TextWrapped(
         "This is an equilibrium that no shell stays in: along %d direction%s the energy falls "
-        "(negative pivots of the Hessian with what is held held). The soft mode shows the steepest.",
+        "(negative pivots of the Hessian with what is held held). The soft mode shows the "
+        "steepest.",
         shell.certificate.negative_pivots, shell.certificate.negative_pivots == 1 ? "" : "s");
     panel.tick("soft_mode");
     panel.button("rest_along");

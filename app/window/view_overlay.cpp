@@ -155,10 +155,9 @@ void Overlay::draw_axes() {
     Eigen::Vector3d way;
     ImU32 colour;
   };
-  const AxisEnd ends[] = {
-      {"x", "view_side", Eigen::Vector3d::UnitX(), IM_COL32(200, 60, 50, 255)},
-      {"y", "view_front", Eigen::Vector3d::UnitY(), IM_COL32(60, 150, 60, 255)},
-      {"z", "view_top", Eigen::Vector3d::UnitZ(), IM_COL32(60, 100, 210, 255)}};
+  const AxisEnd ends[] = {{"x", "view_side", Eigen::Vector3d::UnitX(), IM_COL32(200, 60, 50, 255)},
+                          {"y", "view_front", Eigen::Vector3d::UnitY(), IM_COL32(60, 150, 60, 255)},
+                          {"z", "view_top", Eigen::Vector3d::UnitZ(), IM_COL32(60, 100, 210, 255)}};
   const render::CameraAxes axes = render::camera_axes(viewer_.camera);
   const ImVec2 centre{float(view_.x) + panel_.px(40), float(view_.bottom()) - panel_.px(62)};
   const float reach = panel_.px(24), half = panel_.px(8);

@@ -178,8 +178,8 @@ class ViewerState {
   bool message_bad = false;
   int picked_joint = -1, picked_cell = -1;  ///< whose figures are shown
   PointOnRod picked_rod;
-  bool measuring = false;     ///< a click on a joint measures
-  std::vector<int> measured;  ///< joints, at most three
+  bool measuring = false;                 ///< a click on a joint measures
+  std::vector<int> measured;              ///< joints, at most three
   int joint_under = -1, edge_under = -1;  ///< marked: what the cursor is at
   bool push_freely = false;  ///< a joint goes with the mouse instead of along its normal
   bool animate_mode = false;
@@ -190,9 +190,9 @@ class ViewerState {
   BackgroundTask picture_task, movie_task, export_task;
   std::optional<FileRequest> file_request;
   std::vector<std::string> recent;  ///< what was opened, the last first
-  std::string copied;  ///< text for the clipboard
-  bool timed = true;   ///< whether what took how long is shown
-  bool over = false;   ///< the window is to close
+  std::string copied;               ///< text for the clipboard
+  bool timed = true;                ///< whether what took how long is shown
+  bool over = false;                ///< the window is to close
 
   // ---- what is done ----
 
@@ -274,7 +274,7 @@ class ViewerState {
 
   int drag_ = 1;
   bool run_opened_ = false;  // the next sight goes on to where the run ended
-  bool fresh_ = true;  // the next sight is of another shell: the camera goes round it
+  bool fresh_ = true;        // the next sight is of another shell: the camera goes round it
   std::filesystem::path file_;
   std::filesystem::file_time_type written_{};
   double since_look_ = 0;

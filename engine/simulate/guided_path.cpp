@@ -4,7 +4,6 @@
 #include <cmath>
 #include <ranges>
 
-
 namespace gridshell::simulate {
 namespace {
 

@@ -128,8 +128,8 @@ TEST_CASE("every quantity of a plot has a name and a place of its own") {
 TEST_CASE("an event reads back as it was written") {
   for (const char* line :
        {"size 1280 720 1.5", "mouse 12.5 300", "mouse @R_a 0.25 0.5", "mouse @joint:3,-4 0 -20",
-        "press left", "release middle", "wheel -2", "down Ctrl", "up F1", "type R a", "type Space", "do undo",
-        "open s1_actuation", "wait 0.25"}) {
+        "press left", "release middle", "wheel -2", "down Ctrl", "up F1", "type R a", "type Space",
+        "do undo", "open s1_actuation", "wait 0.25"}) {
     const auto event = read_event(line);
     REQUIRE(event);
     CHECK(write_event(*event) == line);
