@@ -99,6 +99,7 @@ void EditSession::execute(const Command& command, const Watch& watch) {
   if (!settles) {
     view_.error.clear();
     view_.message.clear();
+    view_.event.clear();
   }
   this_drag_ = command.drag;
   const bool remembered = !travels && !settles && remember(command);
@@ -252,6 +253,7 @@ Result<void> EditSession::note_events(const Report& report) {
   for (const Event& event : report.events) now_.snapped = now_.snapped || event.to.has_value();
   if (!report.events.empty() && report.events.back().to && report.certificate.stable())
     view_.message += ", at rest in another state";
+  view_.event = view_.message;
   if (report.end == Outcome::cancelled) return stopped();
   if (report.end == Outcome::reached) return {};
   return fail(Fault::no_equilibrium, words_of(report.end).what);
@@ -266,7 +268,7 @@ Result<void> EditSession::form(const preset::Preset& preset, const Watch& watch)
   set_shell(preset, scene, std::move(course->simulation));
   now_.snapped = course->has_events();
   now_.first.reset();
-  view_.message = course->limit_reason;
+  view_.message = view_.event = course->limit_reason;
   for (const preset::Step& step : preset.step) {
     // what stands before a step is what it is seen against
     update_view();

@@ -316,7 +316,7 @@ void standing(const Panel& panel, const DesignProgress& course) {
 }
 
 void plot(const Panel& panel, const DesignProgress& course) {
-  Curve curve{"largest and (grey) mean, % of ρ", "iteration", "", {}, {}};
+  Curve curve{"largest, mean (grey), % of ρ", "steps", "", {}, {}};
   curve.logarithmic = true;
   const double percent = 100 / course.length_scale_mm;
   for (const DesignPoint& point : course.points) {

@@ -92,7 +92,8 @@ Eigen::VectorXd values_of(const ShellView& shell, const Show& show) {
       return shell.axial_N;
     case ColourBy::stress:
     case ColourBy::utilisation:
-      return record::stress_of_nodes_MPa(*shell.layout, shell.frame, by == ColourBy::utilisation);
+      return record::stress_of_nodes_MPa(*shell.layout, shell.frame,
+                                         show.colour_by == ColourBy::utilisation);
     case ColourBy::displacement:
       if (!show.other) return displacement(shell, shell.first->nodes);
       if (!same_joints(shell.layout->joints, show.other->joints)) return {};

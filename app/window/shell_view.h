@@ -85,7 +85,8 @@ struct ShellView : ViewedState {
   /// design aims at; empty without a net.
   Eigen::VectorXd deviation;
   Eigen::Matrix3Xd soft_mode;  ///< of a state that is not stable: unit moves of its nodes
-  std::string message;         ///< what happened on the way; empty: nothing
+  std::string message;         ///< what was done, or happened on the way; empty: nothing
+  std::string event;           ///< what happened to the branch on the way; empty: nothing
   std::string error;           ///< why the last command was not met; empty: it was
   int undo_steps = 0, redo_steps = 0;
   int equilibria = 0;  ///< found so far

@@ -48,8 +48,8 @@ void ViewerState::note_step() {
       entry.event_at ? std::ranges::find(steps, entry.event_at) != steps.end() : steps.empty();
   entry.text = text_of_step(*shell);
   entry.stable = shell->stable();
-  if (!shell->message.empty()) {
-    entry.event = shell->message;
+  if (!shell->event.empty()) {
+    entry.event = shell->event;
     entry.event_at = steps.empty() ? nullptr : steps.back();
   } else if (!still) {
     entry.event.clear();

@@ -65,7 +65,7 @@ TEST_CASE("bash completes commands, options, their words, presets and keys") {
   const auto of = [&](const std::vector<std::string>& words) {
     return offered(words, folder.path());
   };
-  CHECK(of({"gridshell", "mo"}) == std::set<std::string>{"movie"});
+  CHECK(of({"gridshell", "mo"}) == std::set<std::string>{"modes", "movie"});
   CHECK(of({"gridshell", "movie", "s1_a"}) == std::set<std::string>{"s1_actuation"});
   CHECK(of({"gridshell", "movie", "s1_actuation", "--con"}) == std::set<std::string>{"--context"});
   CHECK(of({"gridshell", "render", "run", "--context", "o"}) == std::set<std::string>{"osmesa"});
