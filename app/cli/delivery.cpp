@@ -58,6 +58,19 @@ std::string bar_text(const ProgressState& at, const std::string& label, int widt
   return fmt::format("[{}] {:3d} %  {}{}", bar, int(at.fraction * 100), label, left_text(at));
 }
 
+namespace {
+
+constexpr double place_every_s = 5, first_place_s = 1;  // of a path that is followed, on lines
+
+/// Where a path stands that is still followed.
+std::string place_text(const Watch& watch) {
+  const Watch::Place place = watch.place();
+  if (place.edges == 0 || watch.progress() >= 0.5) return "";
+  return fmt::format(": the path at {:.3f}, led by {} edges a segment", place.t, place.edges);
+}
+
+}  // namespace
+
 Progress::Show Progress::show_for(bool quiet) {
   return quiet ? Show::nothing : isatty(STDERR_FILENO) ? Show::bar : Show::lines;
 }
@@ -82,6 +95,7 @@ Watch& Progress::next_phase() {
   const std::lock_guard lock(mutex_);
   watches_.push_back(std::make_unique<Watch>());
   phase_began_ = seconds_now();
+  place_shown_at_ = phase_began_ - place_every_s + first_place_s;
   if (interrupted_) watches_.back()->cancel();
   return *watches_.back();
 }
@@ -122,7 +136,7 @@ void Progress::show_now() {
   const auto current = watches_.size() - 1;
   const auto at =
       standing(phases_, current, watches_.back()->progress(), seconds_now() - phase_began_);
-  const auto& label = phases_[current].label;
+  const std::string label = phases_[current].label + place_text(*watches_.back());
   if (show_ == Show::bar) {
     std::fprintf(stderr, "\r%s\033[K", bar_text(at, label, 40).c_str());
     bar_open_ = true;
@@ -131,6 +145,10 @@ void Progress::show_now() {
   if (show_ == Show::lines && tenth > tenth_shown_) {
     std::fprintf(stderr, "%d %%  %s%s\n", tenth * 10, label.c_str(), left_text(at).c_str());
     tenth_shown_ = tenth;
+  } else if (show_ == Show::lines && label != phases_[current].label &&
+             seconds_now() - place_shown_at_ > place_every_s) {
+    std::fprintf(stderr, "%s\n", label.c_str());
+    place_shown_at_ = seconds_now();
   }
 }
 

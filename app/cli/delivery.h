@@ -74,6 +74,7 @@ class Progress {
   double phase_began_ = 0, interrupted_at_ = 0;  // seconds_now()
   bool interrupted_ = false;
   int tenth_shown_ = 0;
+  double place_shown_at_ = 0;  // seconds_now()
   bool bar_open_ = false;
   std::thread thread_;
 };

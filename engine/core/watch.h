@@ -20,10 +20,26 @@ class Watch {
   }
   double progress() const noexcept { return progress_.load(std::memory_order_relaxed); }
 
+  /// where on an equilibrium path the work stands, and how many edges a segment lead there
+  struct Place {
+    double t = 0;
+    int edges = 0;  ///< 0: on no path yet
+  };
+  void stand_at(double t, int edges) const noexcept {
+    t_.store(t, std::memory_order_relaxed);
+    edges_.store(edges, std::memory_order_relaxed);
+  }
+  Place place() const noexcept {
+    return {t_.load(std::memory_order_relaxed), edges_.load(std::memory_order_relaxed)};
+  }
+
  private:
   static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<double>::is_always_lock_free);
   std::atomic<bool> cancelled_{false};
   std::atomic<double> progress_{0.0};
+  // told by work that is only to be stopped
+  mutable std::atomic<double> t_{0.0};
+  mutable std::atomic<int> edges_{0};
 };
 
 /// For work that nobody stops.

@@ -134,6 +134,7 @@ void Simulation::Walk::note() {
 /// Notes a load step from which the path goes on.
 void Simulation::Walk::keep() {
   note();
+  if (&watch_ != &unwatched) watch_.stand_at(now(), shell_.plan().edges_per_segment.front());
   if (record_ && of_.actuating_ && leaving_.wanted && scene_.imperfection.chooses())
     softening_.take(shell_, watch_);
 }

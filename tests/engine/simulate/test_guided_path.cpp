@@ -30,6 +30,16 @@ void check_same_end(const EquilibriumPath& a, const EquilibriumPath& b) {
 
 }  // namespace
 
+TEST_CASE("who watches a path sees where it stands and which mesh leads") {
+  const Watch watch;
+  CHECK(watch.place().edges == 0);
+  const preset::Preset p = circle(6, 66, 60, 2);
+  const auto path = follow_actuation(shared_scene(p), coarse, false, 1, watch);
+  REQUIRE(path);
+  CHECK(watch.place().edges == 4);
+  CHECK(watch.place().t == path->segments.back().end());
+}
+
 TEST_CASE("a guide is followed to its end, back and forth, on coarser meshes") {
   preset::Preset p = circle(12, 126, 94.5, 3);
   p.imperfection.size = 0;
