@@ -73,7 +73,7 @@ struct ShellView : ViewedState {
   int leader = 4;                ///< of the mesh that led when the shell was formed
   std::string accuracy_warning;  ///< of a refined state: what it lacks; empty: nothing
   double progress = 0;           ///< of the boundary; beyond 1 further than the preset has it
-  double least_progress = 0;     ///< to which it can be let out
+  double least_progress = 0;     ///< to which it can be released
   std::string symmetry;          ///< "two diagonal mirrors"; empty while a drag passes
   std::vector<HeldJoint> held;
   double radius_end_mm = 0;  ///< of a circle's boundary where its motion ends

@@ -69,9 +69,13 @@ void draw_boundaries(Canvas& canvas, const Box& box, const std::vector<NamedRun>
                     true);
   const Point left{box.x, box.bottom() + 9};
   const Box length = draw_spacing(canvas, left, runs.front().run->layout, place.scale);
-  if (runs.size() == 1)
-    canvas.text("flat footprint; dashed: the shell's rim", {length.right() + 10, left.y},
-                {.size = 8, .align_y = AlignY::middle});
+  if (runs.size() == 1) {
+    const Point at{length.right() + 10, left.y};
+    const std::string text = "flat footprint; dashed: the shell's rim";
+    canvas.text(
+        text, at,
+        canvas.fitted(text, canvas.width() - at.x - 4, {.size = 8, .align_y = AlignY::middle}));
+  }
   // caps are named beside the planes that cut them, where these are theirs alone
   if (runs.size() > 1 && !(all_caps(runs) && planes_differ(runs)))
     draw_names(canvas, {length.right() + 14, left.y}, runs);
@@ -112,10 +116,13 @@ void draw_planes(Canvas& canvas, const Box& box, const std::vector<NamedRun>& ru
     }
     const Point name{centre.x + half + 8, std::min(y, free)};
     canvas.line({centre.x + half, y}, {name.x - 1.5, name.y}, {colour, 0.6});
-    canvas.text(fmt::format("{}{:g}", k == 0 ? "*z*^{*}/*ρ* = " : "", share), name,
+    canvas.text(fmt::format("{:g}", share), name,
                 {.size = size, .colour = readable(colour), .align_y = AlignY::middle});
     free = name.y - 1.25 * size;
   }
+  if (runs.size() > 1)
+    canvas.text("*z*^{*}/*ρ*", {centre.x + 1.1 * scale * rho + 8, free - 0.2 * size},
+                {.size = size, .align_y = AlignY::middle});
 }
 
 double latitude_deg(double sine) {
