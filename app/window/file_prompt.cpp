@@ -72,8 +72,7 @@ void list(const Panel& panel, FileRequest& request) {
   panel.named("file ..", "the folder above");
   for (const Entry& entry : entries_of(request.use, folder)) {
     const fs::path there = folder / entry.name;
-    const bool loads = request.use == FileUse::open || request.use == FileUse::compare;
-    const bool run = entry.folder && loads && is_run(there);
+    const bool run = entry.folder && is_read(request.use) && is_run(there);
     const std::string label = fmt::format("{}{}", entry.name,
                                           run            ? "   (run)"
                                           : entry.folder ? "/"

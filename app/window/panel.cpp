@@ -282,14 +282,19 @@ void keys(const Panel& panel, const std::string& menus) {
   ImGui::EndTable();
 }
 
+/// A page over the window with its title and how it closes.
+void begin_sheet(const char* name, const render::Box& box, const char* title, const char* closes) {
+  begin_fixed(name, box, 0, Layer::over);
+  ImGui::TextUnformatted(title);
+  ImGui::SameLine();
+  ImGui::TextDisabled("%s", closes);
+  ImGui::Separator();
+}
+
 }  // namespace
 
 void terms_sheet(const Panel& panel, const render::Box& box) {
-  begin_fixed("terms", box, 0, Layer::over);
-  ImGui::TextUnformatted("What is this?");
-  ImGui::SameLine();
-  ImGui::TextDisabled("(Esc closes)");
-  ImGui::Separator();
+  begin_sheet("terms", box, "What is this?", "(Esc closes)");
   if (begin_table(panel, "terms", 150)) {
     for (const auto& [term, meaning] : terms) row(term, meaning);
     ImGui::EndTable();
@@ -298,11 +303,7 @@ void terms_sheet(const Panel& panel, const render::Box& box) {
 }
 
 void help_sheet(const Panel& panel, const render::Box& box) {
-  begin_fixed("help", box, 0, Layer::over);
-  ImGui::TextUnformatted("Keys and mouse");
-  ImGui::SameLine();
-  ImGui::TextDisabled("(F1 or Esc closes)");
-  ImGui::Separator();
+  begin_sheet("help", box, "Keys and mouse", "(F1 or Esc closes)");
   if (ImGui::BeginTable("sheet", 2)) {
     ImGui::TableNextColumn();
     keys(panel, "File Edit Shell");

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "app/window/viewer_state.h"
 #include "engine/core/file_io.h"
@@ -130,8 +132,10 @@ void ViewerState::draw_picture_as(const fs::path& file, const PictureFormat& for
 
 // ---- files that are asked for ----
 
+namespace {
+
 /// Of a file that is written, as a rule.
-static const char* ending_of(FileUse use) {
+const char* ending_of(FileUse use) {
   switch (use) {
     case FileUse::save_preset:
       return ".toml";
@@ -147,7 +151,7 @@ static const char* ending_of(FileUse use) {
 }
 
 /// Why no file of that name is written; empty: it is.
-static std::string fault_of(FileUse use, const fs::path& file) {
+std::string fault_of(FileUse use, const fs::path& file) {
   std::error_code error;
   // one new folder is made
   const fs::path folder = fs::absolute(file, error).parent_path();
@@ -165,6 +169,8 @@ static std::string fault_of(FileUse use, const fs::path& file) {
              : fmt::format("'{}' is no format: must be one of {}", ending, fmt::join(formats, " "));
 }
 
+}  // namespace
+
 void ViewerState::ask_file(FileUse use) {
   if (use != FileUse::open && !shell->any()) return say("there is no shell yet", true);
   say("");
@@ -181,17 +187,16 @@ void ViewerState::take_file() {
   const FileRequest request = *file_request;
   if (request.path.empty()) return say("a path is to be typed or picked", true);
   fs::path file = request.path;
-  if (!file.has_parent_path() && !fs::exists(file)) file = request.folder / file;
-  const char* ending = ending_of(request.use);
-  if (request.use == FileUse::save_preset || request.use == FileUse::save_picture)
-    if (!file.filename().empty() && !file.has_extension()) file += ending;
   std::error_code error;
-  const bool loads = request.use == FileUse::open || request.use == FileUse::compare;
-  if (!loads && (file.filename().empty() || fs::is_directory(file, error)))
+  if (!file.has_parent_path() && !fs::exists(file, error)) file = request.folder / file;
+  if (request.use == FileUse::save_preset || request.use == FileUse::save_picture)
+    if (!file.filename().empty() && !file.has_extension()) file += ending_of(request.use);
+  const bool reads = is_read(request.use);
+  if (!reads && (file.filename().empty() || fs::is_directory(file, error)))
     return say("'" + request.path + "' is a folder: a file's name is to follow", true);
-  if (const std::string fault = loads ? "" : fault_of(request.use, file); !fault.empty())
+  if (const std::string fault = reads ? "" : fault_of(request.use, file); !fault.empty())
     return say(fault, true);
-  if (!loads && fs::exists(file, error) && request.replaced != request.path) {
+  if (!reads && fs::exists(file, error) && request.replaced != request.path) {
     file_request->replaced = request.path;
     return say("it is there already: once more replaces it", true);
   }
@@ -256,17 +261,19 @@ void ViewerState::compare(std::shared_ptr<const OtherShell> other) {
 }
 
 std::string ViewerState::difference_text() const {
+  std::map<std::pair<int, int>, int> others;
+  for (const record::Joint& joint : show.other->joints) others[{joint.i, joint.j}] = joint.node;
   double largest = -1, sum = 0;
   int count = 0;
   const record::Joint* at = nullptr;
-  for (const record::Joint& joint : shell->layout->joints)
-    for (const record::Joint& same : show.other->joints) {
-      if (same.i != joint.i || same.j != joint.j) continue;
-      const double apart =
-          (shell->frame.nodes.col(joint.node) - show.other->nodes.col(same.node)).norm();
-      sum += apart, ++count;
-      if (apart > largest) largest = apart, at = &joint;
-    }
+  for (const record::Joint& joint : shell->layout->joints) {
+    const auto same = others.find({joint.i, joint.j});
+    if (same == others.end()) continue;
+    const double apart =
+        (shell->frame.nodes.col(joint.node) - show.other->nodes.col(same->second)).norm();
+    sum += apart, ++count;
+    if (apart > largest) largest = apart, at = &joint;
+  }
   if (!at) return "no joint has the same name in both";
   return fmt::format("largest distance {:.3g} mm at joint ({}, {}), mean {:.3g} mm", largest, at->i,
                      at->j, sum / count);

@@ -52,9 +52,9 @@ void ViewerState::open(const std::string& name) {
   recent.insert(recent.begin(), name);
   recent.resize(std::min(recent.size(), most_recent));
   show.other.reset();
-  run_opened_ = fs::is_directory(name);
-  file_ = fs::is_regular_file(name) ? fs::path(name) : fs::path();
   std::error_code error;
+  run_opened_ = fs::is_directory(name, error);
+  file_ = fs::is_regular_file(name, error) ? fs::path(name) : fs::path();
   if (!file_.empty()) written_ = fs::last_write_time(file_, error);
   picking = playing = false;
   fresh_ = true;

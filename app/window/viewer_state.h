@@ -54,6 +54,8 @@ std::string text_of_step(const ShellView& shell);
 
 /// What a file is asked for.
 enum class FileUse { open, compare, save_preset, save_picture, export_shell };
+/// Whether the file is read; else it is written.
+constexpr bool is_read(FileUse use) { return use == FileUse::open || use == FileUse::compare; }
 
 /// A file that the user is asked for.
 struct FileRequest {

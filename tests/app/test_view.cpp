@@ -282,6 +282,10 @@ TEST_CASE("a shell is saved under a name, exported, and compared with a run", "[
   // what is there goes only when asked for once more
   const json asked = played(folder, "do save_as\n" + entered("deep/mine"));
   CHECK(asked["message"] == "it is there already: once more replaces it");
+  // a name that no file system takes is a sentence too, bare and in a folder
+  for (const std::string& name : {std::string(300, 'x'), "deep/" + std::string(300, 'x')})
+    CHECK(played(folder, "do save_as\n" + entered(name))["message"].get<std::string>().find(
+              "File name too long") != std::string::npos);
   CHECK(played(folder, "do compare\n" + entered("deep"))["message"].get<std::string>().find(
             "deep") != std::string::npos);
 }
