@@ -277,6 +277,14 @@ struct Sweep {
 };
 
 struct Preset {
+  // compiled once: a file that copies one itself takes much longer
+  Preset();
+  ~Preset();
+  Preset(const Preset&);
+  Preset(Preset&&) noexcept;
+  Preset& operator=(const Preset&);
+  Preset& operator=(Preset&&) noexcept;
+
   std::string name;  ///< of the file, without ".toml"
   std::string title, description, source;
   bool allow_unstable = false;

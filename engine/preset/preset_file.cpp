@@ -16,6 +16,14 @@
 #include "engine/preset/toml_reader.h"
 
 namespace gridshell::preset {
+
+Preset::Preset() = default;
+Preset::~Preset() = default;
+Preset::Preset(const Preset&) = default;
+Preset::Preset(Preset&&) noexcept = default;
+Preset& Preset::operator=(const Preset&) = default;
+Preset& Preset::operator=(Preset&&) noexcept = default;
+
 namespace {
 
 constexpr std::size_t longest_name = 100;
