@@ -2,9 +2,11 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -58,13 +60,13 @@ Result<std::vector<render::PicturePair>> pictures_of(const fs::path& before,
 }
 
 /// Puts every picture that is not the same in the place of the kept one, takes away what is gone,
-/// and writes the reason with the names into `before`/WHY.md.
+/// and writes the reason, and how many of each folder it were, into `before`/WHY.md.
 Result<void> update_baselines(const fs::path& before, const std::vector<render::PicturePair>& pairs,
                               double threshold, const std::string& why) {
-  std::string names;
+  std::map<std::string, int> changed;
   for (const render::PicturePair& pair : pairs) {
     if (render::compare_versions(pair, threshold).same) continue;
-    names += (names.empty() ? "" : ", ") + pair.name;
+    ++changed[fs::path(pair.name).begin()->string()];
     const fs::path file = before / pair.name;
     if (!pair.after) {
       std::error_code error;
@@ -74,15 +76,19 @@ Result<void> update_baselines(const fs::path& before, const std::vector<render::
     TRY_DO(make_folder(file.parent_path()));
     TRY_DO(render::write_png(*pair.after, file));
   }
-  if (names.empty()) return {};
+  if (changed.empty()) return {};
   std::error_code missing;
   std::string text = "# Why the kept pictures changed\n\n";
   if (fs::exists(before / "WHY.md", missing)) {
     TRY(kept, read_file(before / "WHY.md"));
     text = std::move(*kept);
   }
+  std::vector<std::string> names;
+  for (const auto& [name, count] : changed)
+    names.push_back(count == 1 ? name : fmt::format("{} {}", name, count));
   const std::time_t now = std::time(nullptr);
-  text += fmt::format("- {:%Y-%m-%d}: {} ({})\n", fmt::gmtime(now), why, names);
+  text += fmt::format("- {:%Y-%m-%d}: {} ({})\n", fmt::gmtime(now), why,
+                      fmt::join(names, ", "));
   return write_file(before / "WHY.md", text);
 }
 

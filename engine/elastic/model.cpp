@@ -88,17 +88,19 @@ class Builder {
       double share = 0.5;
       if (e == entry.ghost_begin) share = rod.begin == RodEnd::clamped ? 0 : 1;
       if (f == entry.ghost_end) share = rod.end == RodEnd::clamped ? 1 : 0;
-      add_bend(rod.material, entry, e, f, share);
+      const std::size_t node = entry.ghost_begin >= 0 ? k - 1 : k;
+      add_bend(rod.material, entry, {e, f}, share, rod.turns.empty() ? 0 : rod.turns[node]);
     }
-    if (entry.closed) rings_.push_back({int(model_.rods.size()), rod.material});
+    if (entry.closed)
+      rings_.push_back({model_.rods.size(), rod.material, rod.turns.empty() ? 0 : rod.turns[0]});
     model_.rods.push_back(std::move(entry));
   }
 
   Model build(const std::vector<ModelRod>& rods, std::vector<char> crossings) {
     // after all others, as they join edges that do not follow one another in the list
-    for (const auto& [rod, material] : rings_)
-      add_bend(material, model_.rods[rod], model_.rods[rod].edges.back(),
-               model_.rods[rod].edges.front(), 0.5);
+    for (const auto& [rod, material, turn] : rings_)
+      add_bend(material, model_.rods[rod],
+               {model_.rods[rod].edges.back(), model_.rods[rod].edges.front()}, 0.5, turn);
     crossings.resize(std::size_t(model_.nodes), 0);
     mark_shared(rods, crossings);
     model_.held.assign(std::size_t(model_.nodes), 0);
@@ -119,8 +121,10 @@ class Builder {
     return entry.edges.back();
   }
 
-  /// `share`: MaterialBend's.
-  void add_bend(const RodMaterial& m, const Model::Rod& entry, int e, int f, double share) {
+  /// Between two edges; `share`: MaterialBend's, `turn`: one of ModelRod::turns.
+  void add_bend(const RodMaterial& m, const Model::Rod& entry, std::pair<int, int> edges,
+                double share, double turn) {
+    const auto [e, f] = edges;
     // at a held end only the half edge on the rod's side bends
     const double before = e == entry.ghost_begin ? 0 : model_.edges[std::size_t(e)].rest_length,
                  after = f == entry.ghost_end ? 0 : model_.edges[std::size_t(f)].rest_length;
@@ -138,7 +142,8 @@ class Builder {
           .push_back({e,
                       f,
                       bend,
-                      {{Eigen::Vector2d(m.EI1, m.EI2) / length, length * m.curvature, share}}});
+                      {{Eigen::Vector2d(m.EI1, m.EI2) / length,
+                        length * m.curvature + turn * Eigen::Vector2d::UnitX(), share}}});
   }
 
   /// nodes that rods share
@@ -232,7 +237,12 @@ class Builder {
 
   Model model_;
   bool twist_;
-  std::vector<std::pair<std::size_t, RodMaterial>> rings_;
+  struct Ring {
+    std::size_t rod;
+    RodMaterial material;
+    double turn;
+  };
+  std::vector<Ring> rings_;
 };
 
 /// the edges of a rod that meet at a node

@@ -133,6 +133,8 @@ struct ModelRod {
   std::vector<int> nodes;
   std::vector<double> position;  ///< mm, ascending
   RodMaterial material;
+  /// Curvature binormal at rest about m1 at every node, beside the material's curvature; empty: 0.
+  std::vector<double> turns{};
   RodEnd begin = RodEnd::pinned, end = RodEnd::pinned;
   Eigen::Vector3d director{0, 0, 1};     ///< m1 at the begin, as near as the tangent allows
   int ghost_begin = -1, ghost_end = -1;  ///< nodes of the ghosts; -1: numbered after the others

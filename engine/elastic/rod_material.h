@@ -49,9 +49,10 @@ struct RodMaterial {
   Eigen::Vector2d curvature{0, 0};  ///< at rest, about m1 and m2, 1/mm
   double twist = 0;                 ///< at rest, rad/mm
   FibreReach fibres = {};
+  bool as_drawn = false;  ///< at rest it turns as its line in the flat does, besides `curvature`
 
   /// Bends alike in every direction, straight at rest: the spin of its section changes nothing.
-  bool round_and_straight() const { return EI1 == EI2 && curvature.isZero(0); }
+  bool round_and_straight() const { return EI1 == EI2 && curvature.isZero(0) && !as_drawn; }
 };
 
 /// A round rod that is straight at rest. Of its radius r: EI/EA = r^2/4.

@@ -7,6 +7,20 @@
 namespace gridshell {
 namespace {
 
+/// the curvature binormal of a line in the flat at each of its nodes, about +z; 0 at ends
+std::vector<double> turns_of(const RodMesh& mesh, const std::vector<int>& nodes, bool closed) {
+  const std::size_t size = nodes.size();
+  const auto way = [&](std::size_t from, std::size_t to) -> Eigen::Vector2d {
+    return (mesh.flat.col(nodes[to]) - mesh.flat.col(nodes[from])).normalized();
+  };
+  std::vector<double> turns(size, 0);
+  for (std::size_t k = closed ? 0 : 1; k + (closed ? 0 : 1) < size; ++k) {
+    const Eigen::Vector2d t = way((k + size - 1) % size, k), s = way(k, (k + 1) % size);
+    turns[k] = 2 * (t.x() * s.y() - t.y() * s.x()) / (1 + t.dot(s));
+  }
+  return turns;
+}
+
 /// the rod without its ghosts, and what holds its ends
 ModelRod rod_of(const RodMesh& mesh, std::size_t r, const RodMaterial& material) {
   ModelRod rod;
@@ -22,6 +36,7 @@ ModelRod rod_of(const RodMesh& mesh, std::size_t r, const RodMaterial& material)
   }
   // a closed rod comes back to its first node
   if (rod.nodes.front() == rod.nodes.back()) rod.nodes.pop_back();
+  if (material.as_drawn) rod.turns = turns_of(mesh, rod.nodes, rod.closed());
   // what hangs on a spring is free in itself
   const auto held = [&](RodEnd end) {
     return end == RodEnd::joined || end == RodEnd::sprung ? RodEnd::free : end;

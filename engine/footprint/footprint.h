@@ -114,7 +114,8 @@ struct FootprintRod {
   Interval span;                ///< edge points
   std::vector<int> joints;      ///< in order along the rod, at least one
   std::vector<double> marks{};  ///< where they are
-  double diameter_mm = 0;       ///< of a network's rod with its own; 0: none
+  int number = -1;              ///< of a network's rod in its file
+  bool reversed = false;        ///< of that rod: it runs against its order in the file
   RodEnd begin = RodEnd::pinned, end = RodEnd::pinned;
   double tail_begin = 0, tail_end = 0;  ///< beyond the edge point to a second pin, mm; 0: none
   /// of a designed shell: what its legs are longer than those that end on the net's boundary, mm

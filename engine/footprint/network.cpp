@@ -156,7 +156,7 @@ Result<FootprintRod> rod_of(const RodNetwork& network, std::size_t r, const Role
   const std::vector<int>& numbers = network.rods[r];
   FootprintRod rod;
   rod.family = Family::other;
-  rod.index = int(r);
+  rod.index = rod.number = int(r);
   lay(network.points, numbers, rod);
   double position = 0;
   for (std::size_t k = 0; k < numbers.size(); ++k) {
@@ -289,6 +289,8 @@ std::optional<FootprintRod> grid_rod(const FootprintRod& rod, const Footprint& f
   }
   named.begin = first > last ? rod.end : rod.begin;
   named.end = first > last ? rod.begin : rod.end;
+  named.number = rod.number;
+  named.reversed = first > last;
   return named;
 }
 
@@ -325,7 +327,6 @@ void name_as_grid(NetworkFootprint& network, Placement placement) {
   for (std::size_t k = 0; k < order.size(); ++k) {
     const std::size_t r = order[k];
     network.footprint.rods[k] = grid.rods[r];
-    network.rods[k] = named.rods[r];
     network.ends[2 * k] = named.ends[2 * r];
     network.ends[2 * k + 1] = named.ends[2 * r + 1];
   }
@@ -370,7 +371,6 @@ Result<NetworkFootprint> network_footprint(const RodNetwork& network) {
   for (std::size_t r = 0; r < network.rods.size(); ++r) {
     TRY(rod, rod_of(network, r, roles, joint_at));
     footprint.rods.push_back(std::move(*rod));
-    made.rods.push_back(int(r));
     made.ends.insert(made.ends.end(), {network.rods[r].front(), network.rods[r].back()});
   }
   TRY_DO(check_held(network, roles, footprint));

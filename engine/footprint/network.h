@@ -23,7 +23,6 @@ struct RodNetwork {
 /// The footprint, and which points of the network its ends and held joints are.
 struct NetworkFootprint {
   Footprint footprint;
-  std::vector<int> rods;    ///< of each rod its number in the network
   std::vector<int> ends;    ///< of each end: begin of rod r at 2 r
   std::vector<int> joints;  ///< of each of its held_joints
 };

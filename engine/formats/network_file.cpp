@@ -138,6 +138,10 @@ std::string network_fault(const NetworkData& network) {
   for (const double diameter : network.diameters)
     if (diameter != 0 && !(diameter >= 1e-6 && diameter <= 1e6))
       return fmt::format("a diameter of {:g} mm, must be from 1e-6 to 1e6", diameter);
+  const auto of_rod = [](const RodValue& value) { return value.rod; };
+  if (!std::ranges::is_sorted(network.own, {}, of_rod) ||
+      (rods > 0 && !network.own.empty() && network.own.back().rod >= int(rods)))
+    return "own must be rows [rod, key, value], in the order of the rods";
   std::set<double> named;
   for (const auto& row : network.supports) {
     if (row.size() != 1 && row.size() != 4)

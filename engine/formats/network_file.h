@@ -25,7 +25,7 @@ inline constexpr double softest_spring = 1e-6, stiffest_spring = 1e6;
 /// Reads a file as its name's ending says:
 ///   .json  {"points_mm": [[x, y], ...], "rods": [[0, 1, ...], ...], "supports": [...]}; a rod is a
 ///          list of numbers of points (from 0) or of places [x, y], or {"points": list,
-///          "diameter_mm": d}; a support {"point": number or place, "to_mm": [x, y, z]}, where
+///          "diameter_mm": d} with any more keys of [rod]; a support {"point": number or place, "to_mm": [x, y, z]}, where
 ///          "to_mm" may be "free" (of an end that nothing holds) or left out (as the preset says),
 ///          and "spring_N_per_mm": k or [kx, ky, kz] puts it on a spring;
 ///          "joints": [[a, b, ...], ...] lists points that are one joint though they lie apart
@@ -60,6 +60,10 @@ class NetworkBuilder {
   /// A rod through points. Errors (bad_input): fewer than two points apart, a point that follows
   /// itself, too many rods.
   Result<void> add_rod(std::vector<int> points, double diameter_mm, const std::string& at);
+  /// A key of [rod] that the last rod has of its own.
+  void add_own(const std::string& key, double value) {
+    network_.own.push_back({int(network_.rods.size()) - 1, key, value});
+  }
   void add_support(std::vector<double> row) { network_.supports.push_back(std::move(row)); }
   /// The spring of a support, along x, y, z, N/mm.
   void add_spring(int point, const std::vector<double>& k) {

@@ -51,6 +51,7 @@ class CountingIterator {
 constexpr int deepest = 6;
 
 constexpr std::size_t most_at_a_joint = 100;
+constexpr std::size_t longest_key = 40;
 
 /// A text with the lines on which the items of its lists begin.
 struct Document {
@@ -172,14 +173,20 @@ class Reader {
   Result<void> rod(const Json& value) {
     const Json* list = &value;
     double diameter = 0;
+    std::vector<std::pair<std::string, double>> own;
     if (value.is_object()) {
       for (const auto& [key, inner] : value.items()) {
         if (key == "points") {
           list = &inner;
         } else if (key == "diameter_mm" && inner.is_number() && inner.get<double>() > 0) {
           diameter = inner.get<double>();
+        } else if (key != "diameter_mm" && (inner.is_number() || inner.is_boolean())) {
+          // which keys there are is known where [rod] is
+          own.emplace_back(key.substr(0, longest_key),
+                           inner.is_boolean() ? double(inner.get<bool>()) : inner.get<double>());
         } else {
-          return wrong("must be {\"points\": list, \"diameter_mm\": number above 0}");
+          return wrong("must be {\"points\": list, \"diameter_mm\": number above 0} and may have "
+                       "other keys of [rod], each a number, true or false");
         }
       }
     }
@@ -189,7 +196,9 @@ class Reader {
       TRY(point, point_of(item));
       points.push_back(*point);
     }
-    return draft_.add_rod(std::move(points), diameter, at_);
+    TRY_DO(draft_.add_rod(std::move(points), diameter, at_));
+    for (const auto& [key, number] : own) draft_.add_own(key, number);
+    return {};
   }
 
   Result<void> joint(const Json& value) {

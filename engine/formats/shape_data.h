@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <string>
 #include <vector>
 
 #include "engine/core/fields.h"
@@ -33,12 +34,20 @@ struct SurfaceData {
   bool empty() const { return z.empty() && triangles.empty(); }
 };
 
+/// What a network's rod has of its own: a key of [rod] and its number, true: 1, false: 0.
+struct RodValue {
+  int rod = 0;
+  std::string key;
+  double value = 0;
+};
+
 /// A network of rods that a file gives. Points have one place each: rods that name the same
 /// point are joined there.
 struct NetworkData {
   Points points;                       ///< x, y, z, mm
   std::vector<std::vector<int>> rods;  ///< each the numbers of its points in order
   std::vector<double> diameters;       ///< one a rod, mm, 0: that of [rod]; empty: all that
+  std::vector<RodValue> own;           ///< else of single rods, in the order of these
   Points supports;                     ///< number of a point and where it goes: x, y, z, mm
   Points springs;         ///< number of a support's point, stiffness along x, y, z, N/mm
   std::vector<int> free;  ///< numbers of points at rods' ends that nothing holds
@@ -65,6 +74,7 @@ void each_part(Data& data, bool, const Visit& visit) {
   visit("points_mm", data.points, true);
   visit("rods", data.rods, true);
   visit("diameters_mm", data.diameters, false);
+  visit("own", data.own, false);
   visit("supports_mm", data.supports, false);
   visit("springs_N_per_mm", data.springs, false);
   visit("free", data.free, false);

@@ -3,10 +3,91 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
+#include <span>
+#include <utility>
 
+#include "engine/core/text.h"
 #include "engine/preset/preset_access.h"
 
 namespace gridshell::preset {
+
+namespace {
+
+std::span<const RodValue> own_of(const NetworkData& network, int number) {
+  const auto [first, last] = std::ranges::equal_range(network.own, number, {}, &RodValue::rod);
+  return {first, last};
+}
+
+/// Sets a key of [rod], or says what is wrong with it.
+std::string put_own(const RodValue& own, Preset& preset) {
+  const Field* field = own.key == "diameter_mm" ? nullptr : find_field("rod", own.key);
+  if (!field || field->as<Points>(preset))
+    return fmt::format("unknown key '{}', must be points, diameter_mm or another key of [rod]{}",
+                       own.key, did_you_mean(own.key, keys_of("rod")));
+  bool* flag = field->as<bool>(preset);
+  const bool fits = flag ? own.value == 0 || own.value == 1 : field->range.holds(own.value);
+  if (!fits)
+    return fmt::format("{} = {:g}, must be {}", own.key, own.value, allowed(*field));
+  if (flag)
+    *flag = own.value == 1;
+  else
+    *field->as<double>(preset) = own.value;
+  return "";
+}
+
+/// [rod] of every rod of a network that is another than those before it, with one such rod.
+std::vector<std::pair<int, Rod>> rods_of_their_own(const Preset& preset) {
+  std::vector<std::pair<int, Rod>> found;
+  if (preset.footprint.kind != FootprintKind::network) return found;
+  int last = -1;
+  for (const RodValue& own : preset.footprint.file.own) {
+    if (std::exchange(last, own.rod) == own.rod) continue;
+    const Rod rod = rod_of_network(preset, own.rod);
+    if (std::ranges::none_of(found, [&](const auto& known) { return known.second == rod; }))
+      found.emplace_back(own.rod, rod);
+  }
+  return found;
+}
+
+/// The rules of [rod] for such rods.
+void look_at_own_rods(const Preset& preset, RuleKind kind, std::vector<KeyFault>& found) {
+  const auto rods = rods_of_their_own(preset);
+  if (rods.empty() || kind == RuleKind::unused) return;
+  Preset one = preset;
+  one.footprint.file.own.clear();
+  for (const auto& [number, rod] : rods) {
+    one.rod = rod;
+    for (const Field& field : field_table())
+      for (const Rule& rule : field.rules) {
+        if (field.table != "rod" || rule.kind != kind) continue;
+        if (const auto what = rule.fault(one, -1); !what.empty())
+          found.push_back({"rod", field.key, -1, {}, fmt::format("of rods[{}], {}", number, what)});
+      }
+  }
+}
+
+}  // namespace
+
+Rod rod_of_network(const Preset& preset, int number, bool reversed) {
+  const NetworkData& file = preset.footprint.file;
+  Preset one;
+  one.rod = preset.rod;
+  for (RodValue own : own_of(file, number)) {
+    if (reversed && own.key == "curvature_sideways_per_mm") own.value *= -1;
+    put_own(own, one);
+  }
+  const double diameter = file.diameters.empty() ? 0 : file.diameters[std::size_t(number)];
+  if (diameter > 0) one.rod.diameter_mm = diameter;
+  return one.rod;
+}
+
+std::string own_value_fault(const NetworkData& network) {
+  Preset any;
+  for (const RodValue& own : network.own)
+    if (const auto wrong = put_own(own, any); !wrong.empty())
+      return fmt::format("rods[{}]: {}", own.rod, wrong);
+  return "";
+}
 
 std::vector<KeyFault> key_faults(const Preset& preset, RuleKind kind) {
   std::vector<KeyFault> found;
@@ -27,6 +108,7 @@ std::vector<KeyFault> key_faults(const Preset& preset, RuleKind kind) {
     if (!items) look(field, -1);
     for (int item = 0; item < items.value_or(0); ++item) look(field, item);
   }
+  look_at_own_rods(preset, kind, found);
   return found;
 }
 
@@ -111,18 +193,21 @@ std::vector<KeyFault> model_conflicts(const Preset& preset) {
   const auto needs = key_faults(preset, RuleKind::needs_twist);
   const KeyFault cause =
       needs.empty() ? KeyFault{"accuracy", "model", -1, {}, "it is asked for"} : needs.front();
-  const auto check = [&](const Rod& rod, const char* table) {
+  const auto check = [&](const Rod& rod, const std::string& table) {
     if (rod.shear_GPa == 0)
       found.push_back({cause.table,
                        cause.key,
                        -1,
-                       {fmt::format("[{}] shear_GPa", table)},
+                       {fmt::format("{} shear_GPa", table)},
                        fmt::format("twists the rods ({}), and their torsional stiffness is not "
-                                   "known: [{}] shear_GPa must be above 0",
+                                   "known: {} shear_GPa must be above 0",
                                    cause.what, table)});
   };
-  check(preset.rod, "rod");
-  if (preset.rod_v.differs) check(preset.rod_v, "rod_v");
+  check(preset.rod, "[rod]");
+  if (preset.rod_v.differs) check(preset.rod_v, "[rod_v]");
+  if (preset.rod.shear_GPa > 0)
+    for (const auto& [number, rod] : rods_of_their_own(preset))
+      check(rod, fmt::format("rods[{}]", number));
   return found;
 }
 

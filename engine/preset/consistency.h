@@ -30,6 +30,14 @@ std::vector<KeyFault> conflicts(const Preset& preset);
 /// something, the writer leaves them out.
 std::vector<KeyFault> unused_keys(const Preset& preset);
 
+/// `[rod]` as a rod of a network has it: with what the file says of that rod. Keys that are none of
+/// [rod] or out of range count for nothing; own_value_fault() finds them. `reversed`: left of it is
+/// right of the rod in the file.
+Rod rod_of_network(const Preset& preset, int number, bool reversed = false);
+
+/// What is wrong with the first such value, naming its rod; empty: nothing.
+std::string own_value_fault(const NetworkData& network);
+
 /// A side of a block as a join names it.
 struct NamedSide {
   int block = 0;     ///< index in Preset::block

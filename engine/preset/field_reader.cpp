@@ -77,6 +77,13 @@ std::string read_part(const toml::node& value, int& number) {
   number = int(whole);
   return whole >= 0 && whole <= 1000000000 ? "" : "must hold whole numbers from 0 to 1e9";
 }
+std::string read_part(const toml::node& value, RodValue& of) {
+  const auto* row = value.as_array();
+  if (!row || row->size() != 3 || !row->at(1).is_string()) return "must hold rows [rod, key, value]";
+  of.key = row->at(1).as_string()->get();
+  const auto wrong = read_part(row->at(0), of.rod);
+  return wrong.empty() ? read_part(row->at(2), of.value) : wrong;
+}
 template <class List>
 std::string read_part(const toml::node& value, List& list) {
   const auto* items = value.as_array();

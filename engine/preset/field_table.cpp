@@ -86,6 +86,13 @@ const std::vector<Field>& field_table() {
   return all;
 }
 
+std::vector<std::string> keys_of(const std::string& table) {
+  std::vector<std::string> keys;
+  for (const auto& field : field_table())
+    if (field.table == table) keys.push_back(field.key);
+  return keys;
+}
+
 const Field* find_field(const std::string& table, const std::string& key) {
   for (const auto& field : field_table())
     if (field.table == table && field.key == key) return &field;

@@ -125,6 +125,8 @@ const std::vector<Table>& tables();
 /// All keys; those of a table stand in the order of the reference. Defaults are those of a
 /// default-built Preset.
 const std::vector<Field>& field_table();
+/// The keys of a table, in that order.
+std::vector<std::string> keys_of(const std::string& table);
 
 /// The key `key` of `table`, or null.
 const Field* find_field(const std::string& table, const std::string& key);

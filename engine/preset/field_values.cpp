@@ -33,6 +33,10 @@ std::string text_of(const std::optional<int>& value) {
   return value ? text_of(*value) : "\"none\"";
 }
 
+std::string text_of(const RodValue& of) {
+  return fmt::format("[{}, {}, {}]", of.rod, text_of(of.key), text_of(of.value));
+}
+
 template <class List>
 requires requires(const List& list) { list.begin(), list.size(); }
 std::string text_of(const List& list) {

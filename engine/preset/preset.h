@@ -30,6 +30,7 @@ struct Rod {
   double curvature_per_mm = 0;            ///< at rest, upright
   double curvature_sideways_per_mm = 0;   ///< at rest, in the flat
   double twist_rad_per_mm = 0;            ///< at rest
+  bool as_drawn = false;                  ///< a network's: at rest along its line in the flat
 
   bool rectangular() const { return width_mm > 0 && thickness_mm > 0; }
   /// Stress that a fibre bears, MPa; 0: not given.

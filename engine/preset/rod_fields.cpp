@@ -58,6 +58,17 @@ void add_rods(FieldList<Rod> rods, const std::string& table) {
             return rod.twist_rad_per_mm != 0 &&
                    (two_axes(rod) || curved || preset.ends.kind == EndKind::clamped);
           });
+  if (table == "rod")
+    rods.add<&Rod::as_drawn>(
+            "whether a network's rods are cut as they are drawn in the flat, so that their lines "
+            "are their shapes at rest, or are straight at rest")
+        .needs_twist("rods cut as drawn keep their curves", &Rod::as_drawn)
+        .refused({"[footprint] kind"},
+                 "the rods of a grid are straight as drawn, must be false, or [footprint] kind = "
+                 "\"network\"",
+                 [](const Preset& preset, const Rod& rod) {
+                   return rod.as_drawn && preset.footprint.kind != FootprintKind::network;
+                 });
 }
 
 /// Whether a net ends in two rings.

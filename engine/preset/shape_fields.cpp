@@ -82,6 +82,11 @@ void add_footprint(std::vector<Field>& all) {
       .used_by(&Footprint::kind, {Kinds::network})
       .refused({"kind"}, "kind = \"network\" needs rods, must be the name of a file",
                [=](const Footprint& of) { return network(of) && of.file.empty(); })
+      .refused({},
+               [=](const Preset& preset) {
+                 const Footprint& of = preset.footprint;
+                 return network(of) ? own_value_fault(of.file) : std::string();
+               })
       .refused({"[rod] width_mm"},
                "gives diameters, and rectangular rods have none, [rod] width_mm must be 0",
                [=](const Preset& preset, const Footprint& of) {

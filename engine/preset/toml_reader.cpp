@@ -15,13 +15,6 @@
 namespace gridshell::preset {
 namespace {
 
-std::vector<std::string> keys_of(const std::string& table) {
-  std::vector<std::string> keys;
-  for (const auto& field : field_table())
-    if (field.table == table) keys.push_back(field.key);
-  return keys;
-}
-
 std::vector<std::string> table_names() {
   std::vector<std::string> names{"case"};
   for (const auto& table : tables())

@@ -10,6 +10,7 @@
 #include "engine/core/try.h"
 #include "engine/footprint/domains.h"
 #include "engine/footprint/network.h"
+#include "engine/preset/consistency.h"
 
 namespace gridshell {
 namespace {
@@ -176,19 +177,17 @@ void put_boundaries(const NetworkFootprint& made, const Eigen::Matrix3Xd& points
   scene.length_scale_mm = 0.5 * box.diagonal().norm();
 }
 
-/// Diameters of the file, of rods that have one.
-Result<void> put_diameters(const preset::Preset& preset, NetworkFootprint& made) {
-  const std::vector<double>& diameters = preset.footprint.file.diameters;
-  for (std::size_t r = 0; r < made.rods.size(); ++r) {
-    const int number = made.rods[r];
-    const double given = diameters.empty() ? 0 : diameters[std::size_t(number)];
-    const double diameter = given > 0 ? given : preset.rod.diameter_mm;
-    if (!(diameter < made.footprint.spacing))
+/// Rods are thinner than joints lie apart.
+Result<void> check_diameters(const preset::Preset& preset, const Footprint& footprint) {
+  for (const FootprintRod& drawn : footprint.rods) {
+    const preset::Rod rod = preset::rod_of_network(preset, drawn.number);
+    const double across = rod.rectangular() ? rod.width_mm : rod.diameter_mm;
+    if (!(across < footprint.spacing))
       return fail(Fault::bad_input,
-                  "rods[{}]: a diameter of {:g} mm, must be less than the usual "
-                  "distance of {:g} mm between joints",
-                  number, diameter, made.footprint.spacing);
-    made.footprint.rods[r].diameter_mm = given;
+                  "rods[{}]: a {} of {:g} mm, must be less than the usual distance of {:g} mm "
+                  "between joints",
+                  drawn.number, rod.rectangular() ? "width" : "diameter", across,
+                  footprint.spacing);
   }
   return {};
 }
@@ -204,7 +203,7 @@ Result<void> build_network(const preset::Preset& preset, Scene& scene) {
   };
   auto made = network_footprint(network);
   if (!made) return refuse(made.error());
-  if (auto put = put_diameters(preset, *made); !put) return refuse(put.error());
+  if (auto thin = check_diameters(preset, made->footprint); !thin) return refuse(thin.error());
   put_motion(*made, network.points, Way(preset, scene), scene);
   put_boundaries(*made, network.points, scene);
   scene.footprint = std::move(made->footprint);

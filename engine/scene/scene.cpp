@@ -35,12 +35,14 @@ RodMaterial material_of(const preset::Rod& rod) {
   // about the second, a tangent that turns downwards turns backwards
   material.curvature = {rod.curvature_sideways_per_mm, -rod.curvature_per_mm};
   material.twist = rod.twist_rad_per_mm;
+  material.as_drawn = rod.as_drawn;
   return material;
 }
 
-const preset::Rod& rod_of(const preset::Preset& preset, Family family) {
-  if (family == Family::v && preset.rod_v.differs) return preset.rod_v;
-  return preset.rod;
+/// The rod of a table or, of a network, of its file.
+preset::Rod rod_of(const preset::Preset& preset, const FootprintRod& drawn) {
+  if (drawn.number >= 0) return preset::rod_of_network(preset, drawn.number, drawn.reversed);
+  return drawn.family == Family::v && preset.rod_v.differs ? preset.rod_v : preset.rod;
 }
 
 Result<std::vector<PointLoad>> points_of(const preset::Loads& loads, const Footprint& footprint) {
@@ -56,20 +58,17 @@ Result<std::vector<PointLoad>> points_of(const preset::Loads& loads, const Footp
   return points;
 }
 
-/// The diameters of `[rod] table`, of all rods.
-Result<std::vector<double>> diameters_of(const preset::Preset& preset, const Footprint& footprint) {
-  std::vector<double> diameters;
-  for (const FootprintRod& one : footprint.rods)
-    diameters.push_back(one.diameter_mm > 0 ? one.diameter_mm
-                                            : rod_of(preset, one.family).diameter_mm);
-  std::vector<bool> named(diameters.size(), false);
+/// All rods, with the diameters of `[rod] table`.
+Result<std::vector<preset::Rod>> rods_of(const preset::Preset& preset, const Footprint& footprint) {
+  std::vector<preset::Rod> rods;
+  for (const FootprintRod& one : footprint.rods) rods.push_back(rod_of(preset, one));
+  std::vector<bool> named(rods.size(), false);
   for (const auto& row : preset.rod_table) {
     const Family family = row[0] == 0 ? Family::u : Family::v;
     const auto wrong = [&](const std::string& what) {
       return fail(Fault::bad_input, "[rod] table: {}-rod {:g}: {}", row[0] == 0 ? "u" : "v", row[1],
                   what);
     };
-    if (rod_of(preset, family).rectangular()) return wrong("is rectangular, it has no diameter");
     if (!(row[2] > 0 && row[2] < preset.footprint.spacing_mm))
       return wrong(
           fmt::format("a diameter of {:g} mm, must be above 0 and less than "
@@ -77,15 +76,16 @@ Result<std::vector<double>> diameters_of(const preset::Preset& preset, const Foo
                       row[2], preset.footprint.spacing_mm));
     // of several rods on one line the first row is the first rod's
     std::size_t at = 0;
-    while (at < footprint.rods.size() &&
+    while (at < rods.size() &&
            (named[at] || footprint.rods[at].family != family || footprint.rods[at].index != row[1]))
       ++at;
-    if (at == footprint.rods.size())
+    if (at == rods.size())
       return wrong("the footprint has no such rod, or it is named more often than it is there");
+    if (rods[at].rectangular()) return wrong("is rectangular, it has no diameter");
     named[at] = true;
-    diameters[at] = row[2];
+    rods[at].diameter_mm = row[2];
   }
-  return diameters;
+  return rods;
 }
 
 /// Gives a scene's footprint the preset's rods, joints and loads. Errors (bad_input): a load on a
@@ -93,11 +93,9 @@ Result<std::vector<double>> diameters_of(const preset::Preset& preset, const Foo
 Result<void> put_rods(const preset::Preset& preset, Scene& scene) {
   const Footprint& footprint = scene.footprint;
   const preset::Loads& loads = preset.loads;
-  TRY(diameters, diameters_of(preset, footprint));
-  scene.diameters_mm = std::move(*diameters);
-  for (std::size_t r = 0; r < footprint.rods.size(); ++r) {
-    preset::Rod rod = rod_of(preset, footprint.rods[r].family);
-    rod.diameter_mm = scene.diameters_mm[r];
+  TRY(rods, rods_of(preset, footprint));
+  for (const preset::Rod& rod : *rods) {
+    scene.diameters_mm.push_back(rod.diameter_mm);
     scene.drawn_diameters_mm.push_back(2 * std::sqrt(area_of(rod) / M_PI));
     const double mass = 1e-12 * rod.density_kg_m3 * area_of(rod);  // 1 kg/m^3 = 1e-12 t/mm^3
     scene.rods.materials.push_back(material_of(rod));

@@ -42,7 +42,7 @@ std::vector<MeshSymmetry> symmetries_of_shell(const Scene& scene, const RodMesh&
                                               const std::vector<MeshSymmetry>& of_mesh) {
   const ShellRods& rods = scene.rods;
   const bool shaped = std::ranges::any_of(rods.materials, [](const RodMaterial& material) {
-    return !material.curvature.isZero(0) || material.twist != 0;
+    return !material.curvature.isZero(0) || material.twist != 0 || material.as_drawn;
   });
   std::vector<MeshSymmetry> kept;
   for (const MeshSymmetry& symmetry : of_mesh) {

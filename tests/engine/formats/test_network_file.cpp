@@ -21,6 +21,10 @@ void same(const NetworkData& a, const NetworkData& b) {
   CHECK(a.points == b.points);
   CHECK(a.rods == b.rods);
   CHECK(a.diameters == b.diameters);
+  CHECK(a.own.size() == b.own.size());
+  for (std::size_t k = 0; k < std::min(a.own.size(), b.own.size()); ++k)
+    CHECK((a.own[k].rod == b.own[k].rod && a.own[k].key == b.own[k].key &&
+           a.own[k].value == b.own[k].value));
   CHECK(a.supports == b.supports);
   CHECK(a.springs == b.springs);
   CHECK(a.free == b.free);
@@ -30,7 +34,7 @@ const std::string crossed = R"({
   "points_mm": [[-10, 0], [10, 0], [0, -10], [0, 10], [0, 0], [0.0005, 0]],
   "rods": [
     [0, 4, 1],
-    {"points": [2, [0.0005, 0], [0, 10]], "diameter_mm": 0.5}
+    {"points": [2, [0.0005, 0], [0, 10]], "diameter_mm": 0.5, "young_GPa": 70, "as_drawn": false}
   ],
   "supports": [
     {"point": 0, "to_mm": [-8, 0, 1], "spring_N_per_mm": [2, 0.125, 0]},
@@ -52,6 +56,8 @@ TEST_CASE("a network in JSON: points by number or place, nearby ones are one") {
   CHECK(read->points.size() == 6);
   CHECK(read->rods == std::vector<std::vector<int>>{{0, 4, 1}, {2, 4, 3}});
   CHECK(read->diameters == std::vector<double>{0, 0.5});
+  REQUIRE(read->own.size() == 2);
+  CHECK((read->own[1].rod == 1 && read->own[1].key == "young_GPa" && read->own[1].value == 70));
   CHECK(read->supports == Points{{0, -8, 0, 1}, {1}});
   CHECK(read->springs == Points{{0, 2, 0.125, 0}, {1, 3, 3, 3}});
   CHECK(read->free == std::vector<int>{3});
@@ -124,8 +130,8 @@ TEST_CASE("files of networks that are broken say where") {
   wrong(with("[0, 4, 1]", "[0, 4, [0, 0], 1]"), "n.json", "and point 4 follows itself");
   wrong(with("[0, 4, 1]", "[]"), "n.json", "a rod of one point");
   wrong(with("[0, 4, 1]", "[[[[[[[[[[1]]]]]]]]]]"), "n.json", "rods[0]");
-  wrong(with("0.5}", "-1}"), "n.json", "n.json:5: rods[1]");
-  wrong(with("0.5}", "1e300}"), "n.json", "a diameter of 1e+300");
+  wrong(with("0.5,", "-1,"), "n.json", "n.json:5: rods[1]");
+  wrong(with("0.5,", "1e300,"), "n.json", "a diameter of 1e+300");
   wrong(with("\"point\": 0,", "\"point\": 9,"), "n.json", "n.json:8: supports[0]: names a point");
   wrong(with("\"point\": 0,", ""), "n.json", "n.json:8: supports[0]: must be");
   wrong(with("\"point\": [10, 0]", "\"point\": 0"), "n.json",

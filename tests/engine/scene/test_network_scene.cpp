@@ -4,6 +4,7 @@
 
 #include "engine/formats/drawing.h"
 #include "engine/formats/network_file.h"
+#include "engine/preset/consistency.h"
 #include "engine/record/fabrication.h"
 #include "engine/simulate/fabrication_plan.h"
 #include "tests/engine/simulate/run.h"
@@ -109,7 +110,8 @@ TEST_CASE("the circle of Fig. 1 as a network comes to the circle's states", "[st
 
 TEST_CASE("the shipped networks come to certified rest", "[standard]") {
   for (const char* name :
-       {"network_triaxial", "network_cut", "network_ring", "network_kagome", "network_space"}) {
+       {"network_triaxial", "network_cut", "network_ring", "network_kagome", "network_rosette",
+        "network_space"}) {
     const auto outcome = run_stills(shipped(name));
     CAPTURE(name, outcome.summary.limit_reason);
     // a branch that is left on the way is told, and the rest is one of its own
@@ -153,6 +155,19 @@ TEST_CASE("rods with sections of their own, springs and shearing joints work on 
   const auto thick = value_of(scene_of(p));
   CHECK(thick.rods.material(2).EI1 == Approx(16 * plain.rods.material(2).EI1));
   CHECK(thick.rods.material(1).EI1 == plain.rods.material(1).EI1);
+  // what is between a rod's own keys and what they may be is told with the rod
+  const auto fault_of = [&](const std::string& key, double value) {
+    preset::Preset other = shipped("network_triaxial");
+    other.footprint.file.own = {{3, key, value}};
+    const auto faults = conflicts(other);
+    return faults.empty() ? "none" : faults.front().what;
+  };
+  CHECK_THAT(fault_of("widht_mm", 3), Catch::Contains("rods[3]: unknown key 'widht_mm'") &&
+                                          Catch::Contains("did you mean 'width_mm'"));
+  CHECK_THAT(fault_of("young_GPa", -1), Catch::Contains("rods[3]: young_GPa = -1, must be"));
+  CHECK_THAT(fault_of("width_mm", 3), Catch::Contains("rods[3]") && Catch::Contains("thickness"));
+  CHECK_THAT(fault_of("curvature_per_mm", 0.01), Catch::Contains("shear_GPa must be above 0"));
+  CHECK(fault_of("young_GPa", 70) == "none");
   file.diameters[2] = 31;
   CHECK_THAT(refusal(scene_of(p)), Catch::Contains("rods[2]: a diameter of 31 mm"));
 }

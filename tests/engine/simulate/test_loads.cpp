@@ -277,6 +277,54 @@ TEST_CASE("a grillage shares the force at its joint as its beams are stiff, at a
   CHECK(sag_of(L, L, P) > 0.1 * L);
 }
 
+TEST_CASE("beams of a grillage have sections of their own") {
+  preset::NetworkData file;
+  file.points = {{-100, 0, 0}, {100, 0, 0}, {0, -100, 0}, {0, 100, 0}, {0, 0, 0}};
+  file.rods = {{0, 4, 1}, {2, 4, 3}};
+  // a lath on its flat side beside a round rod
+  file.own = {{0, "shear_GPa", 4}, {0, "thickness_mm", 0.5}, {0, "width_mm", 3}, {0, "young_GPa", 10}};
+  preset::Preset p = network(file);
+  p.ends.kind = preset::EndKind::clamped;
+  p.rod.shear_GPa = 31;
+  p.loads.points = {{4, 0, 0, 0, -1e-4}};
+  p.accuracy.edges_per_segment = 64;
+  const auto outcome = run(p);
+  CHECK(outcome.summary.stable);
+  const double lath = 10e3 * 3 * 0.5 * 0.5 * 0.5 / 12;
+  CHECK(-last_frame(outcome).nodes(2, 0) ==
+        Approx(1e-4 * L * L * L / (192 * (EI + lath))).epsilon(1e-3));
+}
+
+TEST_CASE("rods cut as they are drawn lie in the flat without stress, however they turn") {
+  // a ring of 24 corners beside a bow, both of laths on edge
+  preset::NetworkData file;
+  for (int k = 0; k < 24; ++k)
+    file.points.push_back(
+        {50 * std::cos(k * std::numbers::pi / 12), 50 * std::sin(k * std::numbers::pi / 12), 0});
+  file.points.insert(file.points.end(), {{0, 20, 0}, {-50.0 - 40, 0, 0}});
+  file.rods.emplace_back();
+  for (int k = 0; k <= 24; ++k) file.rods[0].push_back(k % 24);
+  file.rods.push_back({0, 24, 12, 25});
+  file.supports = {{6, 0, 50, 0}, {18, 0, -50, 0}, {0, 50, 0, 0}, {25}};
+  preset::Preset p = network(file);
+  p.rod.width_mm = 1;
+  p.rod.thickness_mm = 3;
+  p.rod.shear_GPa = 31;
+  p.rod.as_drawn = true;
+  p.accuracy.edges_per_segment = 4;
+  const auto model_of = [&] {
+    const Scene scene = value_of(scene_of(p));
+    const RodMesh mesh = mesh_rods(scene.footprint, 4);
+    const Model model = value_of(build_model(mesh, scene.rods, RodModel::twist));
+    Eigen::Matrix3Xd nodes = Eigen::Matrix3Xd::Zero(3, mesh.nodes());
+    nodes.topRows(2) = mesh.flat;
+    return energies_of(model, start_state(model, columns_of(mesh, model, nodes)));
+  };
+  CHECK(model_of().total() < 1e-20);
+  p.rod.as_drawn = false;
+  CHECK(model_of().total() > 1);
+}
+
 TEST_CASE("a cable net hangs as its lengths allow") {
   constexpr double d = 0.05, P = 0.1, EA = 83e3 * std::numbers::pi * d * d / 4;
   preset::NetworkData file;
