@@ -146,7 +146,7 @@ CriticalLoad critical_load(Linearisation& system, const PinnedMotion& motion, co
   TraceOptions how;
   how.arc.parameter_mm = rate;
   how.arc.step_mm = std::sqrt(2.0) * rate * ahead / options.steps_to_linear;
-  how.arc.largest_mm = how.arc.step_mm;
+  how.arc.largest_mm = 2.5 * how.arc.step_mm;
   how.arc.smallest_mm = 1e-4 * how.arc.step_mm;
   how.arc.tolerance_mm = options.tolerance_mm;
   how.from = -ahead;

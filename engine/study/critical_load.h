@@ -13,7 +13,7 @@ namespace gridshell::study {
 struct CriticalOptions {
   double max_strain = 1e-3;      ///< the path ends there
   double most_factor = 1000;     ///< of the load
-  double steps_to_linear = 40;   ///< arc steps up to the linear estimate
+  double steps_to_linear = 40;   ///< first arc steps up to the linear estimate
   int most_steps = 160;          ///< of the path
   int after_turn = 24;           ///< of it beyond its first limit point
   double tolerance_mm = 1e-7;
