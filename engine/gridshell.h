@@ -46,6 +46,7 @@
 #include "engine/solve/equilibrium.h"          // IWYU pragma: export
 #include "engine/study/accuracy_study.h"       // IWYU pragma: export
 #include "engine/study/bifurcation_diagram.h"  // IWYU pragma: export
+#include "engine/study/load_study.h"           // IWYU pragma: export
 #include "engine/study/modes.h"                // IWYU pragma: export
 #include "engine/study/scan.h"                 // IWYU pragma: export
 #include "engine/study/stability_study.h"      // IWYU pragma: export

@@ -152,6 +152,7 @@ void add_commands(CommandLine& program) {
       "moves pins, legs, held directions or diameters until the shell meets its surface",
       produce_design, "folder to write, by default out/<preset>_design");
   add_export(program);
+  add_load(program);
   add_modes(program);
   add_scan(program);
   // the command line of a movie can be checked as it stands

@@ -11,6 +11,7 @@ void add_view(CommandLine& program);
 void add_chart(CommandLine& program);
 void add_sweep(CommandLine& program);
 void add_export(CommandLine& program);
+void add_load(CommandLine& program);
 void add_modes(CommandLine& program);
 void add_scan(CommandLine& program);
 void add_compare(CommandLine& program);

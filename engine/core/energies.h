@@ -23,7 +23,7 @@ struct TermName {
 
 inline constexpr std::array energy_terms{
     TermName{Term::bend, "bend", "bending of the rods"},
-    TermName{Term::stretch, "stretch", "stretching of the rods"},
+    TermName{Term::stretch, "stretch", "stretching of the rods and of braces"},
     TermName{Term::twist, "twist", "torsion of the rods"},
     TermName{Term::joint, "joint", "springs of the joints, and the twist that they pass"},
     TermName{Term::shear, "shear", "resistance of the joints to shear"},

@@ -8,12 +8,16 @@
 
 namespace gridshell {
 
-inline EdgeGeometry geometry_of(const Eigen::Matrix3Xd& x, const ModelEdge& edge) {
+inline EdgeGeometry geometry_between(const Eigen::Matrix3Xd& x, int from, int to) {
   EdgeGeometry g;
-  g.tangent = x.col(edge.to) - x.col(edge.from);
+  g.tangent = x.col(to) - x.col(from);
   g.length = g.tangent.norm();
   g.tangent *= 1 / g.length;
   return g;
+}
+
+inline EdgeGeometry geometry_of(const Eigen::Matrix3Xd& x, const ModelEdge& edge) {
+  return geometry_between(x, edge.from, edge.to);
 }
 
 /// Edges one after another, and every bend with its two edges: on_edge(k, edge, geometry),

@@ -148,6 +148,22 @@ void add_contact_hessian(const Model& model, const EdgeContact& contact, BlockHe
     }
 }
 
+void add_bar(const ModelBar& bar, const State& state, bool with_hessian, Assembly& out) {
+  const NodeBar& law = bar.law;
+  const EdgeGeometry along = geometry_between(state.x, law.a, law.b);
+  const double strain = law.strain(along.length), force = law.force(strain);
+  out.energies[Term::stretch] += law.value(strain);
+  out.gradient.col(law.a) -= force * along.tangent;
+  out.gradient.col(law.b) += force * along.tangent;
+  if (!with_hessian) return;
+  const Eigen::Matrix3d tt = along.tangent * along.tangent.transpose();
+  const Eigen::Matrix3d m = law.stiffness(strain) / law.rest_length * tt +
+                            force / along.length * (Eigen::Matrix3d::Identity() - tt);
+  out.hessian.diagonal[std::size_t(law.a)].matrix() += m;
+  out.hessian.diagonal[std::size_t(law.b)].matrix() += m;
+  out.hessian.add(bar.slot, -m);
+}
+
 /// What stores energy beside edges and bends.
 void add_others(const Model& model, const State& state, const ExternalLoads& outside,
                 bool with_hessian, Assembly& out) {
@@ -170,6 +186,7 @@ void add_others(const Model& model, const State& state, const ExternalLoads& out
     out.hessian.diagonal[std::size_t(spring.law.b)].matrix() += m;
     out.hessian.add(spring.slot, -m);
   }
+  for (const ModelBar& bar : model.bars) add_bar(bar, state, with_hessian, out);
   each_action(model, outside, [&](const NodeAction& action, double factor) {
     const Eigen::Vector3d x = state.x.col(action.node);
     out.energies[action.term] += factor * action.value(x);

@@ -15,6 +15,24 @@ Eigen::Vector3d NodeAction::gradient(const Eigen::Vector3d& x) const {
   return -force + stiffness.cwiseProduct(x - anchor);
 }
 
+double NodeBar::value(double e) const {
+  constexpr double w = taking_up;
+  if (!cable) return EA * rest_length * 0.5 * e * e;
+  if (e <= 0) return 0;
+  return EA * rest_length * (e < w ? e * e * e / (6 * w) : 0.5 * e * (e - w) + w * w / 6);
+}
+
+double NodeBar::force(double e) const {
+  constexpr double w = taking_up;
+  if (!cable) return EA * e;
+  if (e <= 0) return 0;
+  return EA * (e < w ? 0.5 * e * e / w : e - 0.5 * w);
+}
+
+double NodeBar::stiffness(double e) const {
+  return cable ? EA * std::clamp(e / taking_up, 0.0, 1.0) : EA;
+}
+
 PairEnergy& PairEnergy::operator+=(const PairEnergy& other) {
   gradient += other.gradient;
   hessian += other.hessian;

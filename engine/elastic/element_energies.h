@@ -34,6 +34,22 @@ struct NodeSpring {
   Eigen::Vector3d gradient(const Eigen::Vector3d& gap) const { return stiffness.cwiseProduct(gap); }
 };
 
+/// A straight bar between nodes a and b that may be slack: E = EA l F(e), e = |x_b - x_a|/l - 1. Of
+/// a strut F' = e. A cable bears no compression; so that its stiffness has no jump it comes on over
+/// a small strain w: F' = 0 below 0, e^2/(2w) up to w, e - w/2 beyond.
+struct NodeBar {
+  int a = 0, b = 0;
+  double rest_length = 0;  ///< l, mm
+  double EA = 0;           ///< N
+  bool cable = false;
+  static constexpr double taking_up = 1e-5;  ///< w
+
+  double strain(double length) const { return length / rest_length - 1; }
+  double value(double strain) const;
+  double force(double strain) const;      ///< N
+  double stiffness(double strain) const;  ///< change of the force with the strain, N
+};
+
 // What energies of two edges share: their eight local unknowns and the curvature binormal with its
 // derivatives.
 

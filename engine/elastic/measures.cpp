@@ -79,6 +79,9 @@ Energies energies_of(const Model& model, const State& state, const ExternalLoads
   });
   for (const ModelSpring& spring : model.springs)
     sum[spring.law.term] += spring.law.value(gap_of(state, spring.law));
+  for (const ModelBar& bar : model.bars)
+    sum[Term::stretch] +=
+        bar.law.value(bar.law.strain(geometry_between(state.x, bar.law.a, bar.law.b).length));
   each_action(model, outside, [&](const NodeAction& action, double factor) {
     sum[action.term] += factor * action.value(state.x.col(action.node));
   });

@@ -245,15 +245,6 @@ class Builder {
   std::vector<Ring> rings_;
 };
 
-/// the edges of a rod that meet at a node
-std::vector<int> edges_beside(const Model& model, int rod, int node) {
-  std::vector<int> edges;
-  for (int edge : model.rods[std::size_t(rod)].edges)
-    if (model.edges[std::size_t(edge)].from == node || model.edges[std::size_t(edge)].to == node)
-      edges.push_back(edge);
-  return edges;
-}
-
 /// l/EI of a bend in the flat plane, l its length, 1/(N mm).
 double give_of(const Model& model, int bend) {
   const auto* end = law_of<EndBending>(model, bend);
@@ -332,13 +323,21 @@ Result<Model> build_model(int nodes, const std::vector<ModelRod>& rods, RodModel
   return builder.build(rods, crossings);
 }
 
+std::vector<int> edges_beside(const Model& model, int rod, int node) {
+  std::vector<int> edges;
+  for (int edge : model.rods[std::size_t(rod)].edges)
+    if (model.edges[std::size_t(edge)].from == node || model.edges[std::size_t(edge)].to == node)
+      edges.push_back(edge);
+  return edges;
+}
+
 void add_joint_shear(Model& model, int rod_a, int node_a, int rod_b, int node_b, double stiffness,
-                     double rest_angle) {
+                     const std::function<double(int e, int f)>& rest_angle) {
   const double between = turn_between(model, rod_a, edges_beside(model, rod_a, node_a)) +
                          turn_between(model, rod_b, edges_beside(model, rod_b, node_b));
-  stiffness /= 1 + stiffness * between;
+  stiffness = std::isinf(stiffness) ? 1 / between : stiffness / (1 + stiffness * between);
   at_crossing(model, rod_a, node_a, rod_b, node_b, stiffness, [&](int e, int f, double share) {
-    std::get<std::vector<Pair<JointShear>>>(model.pairs).push_back({e, f, -1, {share, rest_angle}});
+    std::get<std::vector<Pair<JointShear>>>(model.pairs).push_back({e, f, -1, {share, rest_angle(e, f)}});
   });
 }
 
@@ -365,6 +364,7 @@ void finish(Model& model) {
                                    model.edges[std::size_t(bend.f)].to);
   for (ModelSpring& spring : model.springs)
     spring.slot = model.pattern.slot(spring.law.a, spring.law.b);
+  for (ModelBar& bar : model.bars) bar.slot = model.pattern.slot(bar.law.a, bar.law.b);
   std::apply(
       [&](auto&... lists) {
         const auto place = [&](auto& list) {

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -103,6 +104,12 @@ struct ModelSpring {
   BlockSlot slot = 0;
 };
 
+/// Two nodes with a bar between them.
+struct ModelBar {
+  NodeBar law;
+  BlockSlot slot = 0;
+};
+
 /// Blocks between the nodes of two edges and the columns of their angles; -1: none.
 struct PairSlots {
   BlockSlot e = -1, f = -1;                                         ///< between the ends of an edge
@@ -151,6 +158,7 @@ struct Model {
   std::vector<ModelEdge> edges;
   std::vector<ModelBend> bends;  ///< in the order of their edges, those that close a ring last
   std::vector<ModelSpring> springs;
+  std::vector<ModelBar> bars;  ///< braces
   PairLists pairs;
   std::vector<NodeAction> loads;   ///< dead; they count times a load factor
   std::vector<NodeAction> ground;  ///< what the shell stands on
@@ -223,12 +231,23 @@ auto* law_of(AnyModel& model, int bend) {
   return at != pairs.end() && at->bend == bend ? &at->law : nullptr;
 }
 
+/// The edges of a rod that meet at a node, one or two.
+std::vector<int> edges_beside(const Model& model, int rod, int node);
+
 /// Adds the resistance to shear `stiffness` (N mm/rad) where rods `a` and `b` of the model cross
 /// at a node (or at two nodes that a spring joins): the edges before and after it on each rod.
 /// It acts on the rods' tangents at the joint, which lie between those of the edges: what these
-/// turn less than the joint is put in series with it. finish() afterwards; so for the two below.
+/// turn less than the joint is put in series with it (of a rigid one, infinite, that alone is
+/// left). `rest_angle`: between edge e of `a` and edge f of `b`. finish() afterwards; so for the
+/// two below.
 void add_joint_shear(Model& model, int rod_a, int node_a, int rod_b, int node_b, double stiffness,
-                     double rest_angle);
+                     const std::function<double(int e, int f)>& rest_angle);
+/// The same with one angle of all four.
+inline void add_joint_shear(Model& model, int rod_a, int node_a, int rod_b, int node_b,
+                            double stiffness, double rest_angle) {
+  add_joint_shear(model, rod_a, node_a, rod_b, node_b, stiffness,
+                  [rest_angle](int, int) { return rest_angle; });
+}
 
 /// Adds the resistance to spin `stiffness` (N mm/rad) of both rods where they cross: their first
 /// directors stay near the joint's normal, from the direction of `a` to that of `b`.

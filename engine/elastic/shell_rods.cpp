@@ -1,5 +1,8 @@
 #include "engine/elastic/shell_rods.h"
 
+#include "engine/elastic/along_rods.h"
+
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -90,6 +93,31 @@ void add_joints(const RodMesh& mesh, const JointLaw& law, Model& model) {
   }
 }
 
+double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+/// how far the middle of an edge lies beyond one of its nodes, mm
+double beyond(const ModelEdge& edge, int node) {
+  return (edge.to == node ? -0.5 : 0.5) * edge.rest_length;
+}
+
+void add_bolts(const RodMesh& mesh, const Bolts& bolts, bool springs, Model& model) {
+  const auto crossings = crossings_of(mesh);
+  for (int joint = 0; joint < mesh.joints; ++joint) {
+    const int other = springs ? mesh.nodes() + joint : joint;
+    const std::vector<int>& rods = crossings[std::size_t(joint)];
+    const auto& held = bolts.rods[std::size_t(joint)];
+    for (std::size_t k = 1; k < rods.size(); ++k)
+      add_joint_shear(model, rods[0], joint, rods[k], other, bolts.stiffness_Nmm,
+                      [&](int e, int f) {
+                        return angle_between(
+                            held[0].at(beyond(model.edges[std::size_t(e)], joint)),
+                            held[k].at(beyond(model.edges[std::size_t(f)], other)));
+                      });
+  }
+}
+
 /// edge points with a tail, or without a rod, joints that the boundary holds, supports of springs
 std::vector<int> pinned_beside_ends(const RodMesh& mesh) {
   std::vector<int> nodes = mesh.held_joints;
@@ -153,9 +181,41 @@ std::vector<NodeAction> dead_loads(const RodMesh& mesh, const ShellRods& rods) {
   return loads;
 }
 
+Eigen::Vector3d JointDirections::at(double mm) const {
+  const double between = before_mm + after_mm;
+  return between > 0 ? before + (mm + before_mm) / between * (after - before) : before;
+}
+
+Bolts tightened(const RodMesh& mesh, const Model& model, const Eigen::Matrix3Xd& columns,
+                double stiffness_Nmm) {
+  Bolts bolts{stiffness_Nmm, {}};
+  const auto crossings = crossings_of(mesh);
+  const bool springs = model.nodes >= mesh.nodes() + mesh.joints;
+  for (int joint = 0; joint < mesh.joints; ++joint) {
+    auto& held = bolts.rods.emplace_back();
+    for (const int rod : crossings[std::size_t(joint)]) {
+      const int node = springs && !held.empty() ? mesh.nodes() + joint : joint;
+      JointDirections& one = held.emplace_back();
+      const std::vector<int> beside = edges_beside(model, rod, node);
+      for (const int k : beside) {
+        const ModelEdge& edge = model.edges[std::size_t(k)];
+        const bool before = edge.to == node;
+        (before ? one.before : one.after) = geometry_between(columns, edge.from, edge.to).tangent;
+        (before ? one.before_mm : one.after_mm) = 0.5 * edge.rest_length;
+      }
+      if (beside.size() > 1) continue;
+      const bool ends = one.before_mm > 0;
+      (ends ? one.after : one.before) = ends ? one.before : one.after;
+      one.before_mm = one.after_mm = 0;
+    }
+  }
+  return bolts;
+}
+
 Result<Model> build_model(const RodMesh& mesh, const ShellRods& shell, RodModel rung) {
   // a member more does not compile here: whoever adds one puts it into the model
-  const auto& [materials, joints, weight_N_per_mm, joint_weight_N, points, contact] = shell;
+  const auto& [materials, joints, weight_N_per_mm, joint_weight_N, points, contact, bolts, braces] =
+      shell;
   const bool springs = rung == RodModel::twist && joints.spring_N_per_mm > 0;
   std::vector<ModelRod> rods;
   std::vector<char> taken(std::size_t(mesh.joints), 0);
@@ -178,7 +238,10 @@ Result<Model> build_model(const RodMesh& mesh, const ShellRods& shell, RodModel 
     model->springs.push_back({{spring.support, spring.node, spring.N_per_mm, Term::support}});
   const std::vector<int> pinned = pinned_beside_ends(mesh);
   for (const int node : pinned) model->pin(node);
-  if (rung == RodModel::twist || !pinned.empty()) finish(*model);
+  if (bolts) add_bolts(mesh, *bolts, springs, *model);
+  for (const Brace& brace : braces)
+    model->bars.push_back({{brace.a, brace.b, brace.rest_length_mm, brace.EA, brace.cable}});
+  if (rung == RodModel::twist || !pinned.empty() || bolts || !braces.empty()) finish(*model);
   model->loads = dead_loads(mesh, shell);
   if (contact.barrier.acts()) model->contact = contact_pairs(mesh, *model, contact);
   lay_flat(mesh, *model);

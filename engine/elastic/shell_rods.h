@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "engine/elastic/model.h"
@@ -23,6 +24,30 @@ struct JointLaw {
   double twist_Nmm = 0;        ///< per rad; 0: they pass no twist
 };
 
+/// How a rod runs through a joint: unit tangents of the edges before and after it, and how far off
+/// their middles lie, mm. Of a rod that ends there both are those of its one edge.
+struct JointDirections {
+  Eigen::Vector3d before, after;
+  double before_mm = 0, after_mm = 0;
+
+  /// Where it points `mm` beyond the joint, between the two along a straight line.
+  Eigen::Vector3d at(double mm) const;
+};
+
+/// Bolts that keep the angles that crossing rods had when they were tightened: free of stress in
+/// that shape, on every mesh.
+struct Bolts {
+  double stiffness_Nmm = 0;  ///< per rad, of each joint; infinite: rigid
+  std::vector<std::vector<JointDirections>> rods;  ///< of every joint, in the order of its rods
+};
+
+/// A straight member between two joints.
+struct Brace {
+  int a = 0, b = 0;
+  double rest_length_mm = 0, EA = 0;
+  bool cable = false;  ///< bears no compression
+};
+
 /// Sections, joints and dead loads of the rods of a footprint.
 struct ShellRods {
   std::vector<RodMaterial> materials;   ///< one a rod, or one for all
@@ -31,6 +56,8 @@ struct ShellRods {
   double joint_weight_N = 0;            ///< of every joint, downwards
   std::vector<PointLoad> points;
   ContactLaw contact;
+  std::shared_ptr<const Bolts> bolts;  ///< null: none
+  std::vector<Brace> braces;
 
   ShellRods() = default;
   ShellRods(const RodMaterial& material) : materials{material} {}  // NOLINT: rods all alike
@@ -41,7 +68,7 @@ struct ShellRods {
   }
   bool loaded() const {
     // a member more does not compile here: whoever adds one says whether it loads the shell
-    const auto& [rods, law, weight, of_joints, loads, touching] = *this;
+    const auto& [rods, law, weight, of_joints, loads, touching, tight, diagonals] = *this;
     return !weight.empty() || of_joints != 0 || !loads.empty();
   }
 };
@@ -59,6 +86,10 @@ std::vector<NodeAction> dead_loads(const RodMesh& mesh, const ShellRods& rods);
 /// the order of the joints. First directors stand up from the flat (+z). Errors as build_model().
 Result<Model> build_model(const RodMesh& mesh, const ShellRods& rods,
                           RodModel rung = RodModel::bend);
+
+/// Bolts tightened in a state of that model.
+Bolts tightened(const RodMesh& mesh, const Model& model, const Eigen::Matrix3Xd& columns,
+                double stiffness_Nmm);
 
 /// Columns of a model's state from positions of the mesh's nodes: twins of joints where these are,
 /// angles zero.

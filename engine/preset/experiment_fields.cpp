@@ -6,19 +6,6 @@ namespace {
 bool by_net_alone(const Preset& preset) { return preset.accuracy.model == RodModel::net; }
 constexpr const char* nothing_solved = "nothing is solved with [accuracy] model = \"net\"";
 
-/// What asks for a mass that a family of rods lacks.
-template <class Struct>
-void needs_mass(FieldList<Struct>& list, const char* what, bool (*asks)(const Struct&)) {
-  for (const char* table : {"rod", "rod_v"})
-    list.refused({fmt::format("[{}] density_kg_m3", table)},
-                 fmt::format("{} needs a mass, [{}] density_kg_m3 must be above 0", what, table),
-                 [=, v = std::string(table) == "rod_v"](const Preset& preset, const Struct& of) {
-                   const bool lacks = v ? preset.rod_v.differs && preset.rod_v.density_kg_m3 == 0
-                                        : preset.rod.density_kg_m3 == 0;
-                   return asks(of) && lacks;
-                 });
-}
-
 void add_imperfection(FieldList<Imperfection> list) {
   list.unused({"[accuracy] model"}, nothing_solved, by_net_alone);
   const auto perfect = [](const Imperfection& of) { return of.size == 0; };
@@ -80,120 +67,6 @@ void add_indentation(FieldList<Indentation> list) {
   list.add<&I::unload>(
       "whether the push is taken back at the end, in the second half of the frames");
   pushed();
-}
-
-/// What the steps of a preset cannot stand beside, said of the first.
-void step_rules(FieldList<Step>& list) {
-  const auto first = [](const Preset& preset, const Step& of) { return &of == preset.step.data(); };
-  list.refused({"[indentation] depth", "[indentation] depth_mm"},
-               "[indentation] pushes already, must be a step \"push\" in its place",
-               [=](const Preset& preset, const Step& of) {
-                 return first(preset, of) && preset.indentation.wanted();
-               })
-      .refused({"[jitter] trials", "[jitter] confined"},
-               "states are looked for of a shell that no hand touches, must be without [[step]], "
-               "or [jitter] trials and confined 0",
-               [=](const Preset& preset, const Step& of) {
-                 return first(preset, of) && preset.jitter.wanted();
-               })
-      .needs_equilibrium("a net does not answer a hand", first);
-}
-
-void add_steps(FieldList<Step> list) {
-  using K = StepKind;
-  const auto only = [&list](std::vector<StepKind> kinds) -> FieldList<Step>& {
-    return list.used_by(&Step::kind, std::move(kinds));
-  };
-  list.add<&Step::kind>(
-          "\"move\" the boundary; \"push\" a joint, which is held from then on; \"hold\" one where "
-          "it is; \"release\" one; \"load\": more or less of what [loads] says; \"rest\": down the "
-          "energy; \"jitter\": random forces on all joints come on and go away again")
-      .named("do");
-  step_rules(list);
-  list.add<&Step::progress>(
-      between(0, 10),
-      "of a move: 0 the original boundary, 1 the actuated one, beyond it further on");
-  only({K::move}).unused({"radius_mm"}, "radius_mm takes its place",
-                         [](const Step& of) { return of.radius_mm > 0; });
-  list.add<&Step::radius_mm>(at_least(0),
-                             "of a move of a circle, in the place of `progress`; 0: not given");
-  only({K::move})
-      .refused({}, "only a circle's boundary has a radius, must be 0: `progress` serves all",
-               [](const Preset& preset, const Step& of) {
-                 return of.radius_mm > 0 && preset.footprint.kind != FootprintKind::circle;
-               })
-      .refused({}, [](const Preset& preset, const Step& of) {
-        return of.radius_mm > preset.original_radius_mm()
-                   ? fmt::format("larger than the footprint, must be at most R_o = {}",
-                                 preset.original_radius_mm())
-                   : "";
-      });
-  list.add<&Step::edge_points>(
-          "of a move: by how much edge points, counted from 0, lie off the boundary's motion; "
-          "others lie on it")
-      .points({"edge_point", "x_mm", "y_mm", "z_mm"});
-  only({K::move}).refused({},
-                          "names an edge point that is no number, must be a whole number from 0 on",
-                          [](const Step& of) {
-                            return std::ranges::any_of(of.edge_points, [](const auto& row) {
-                              return row[0] < 0 || row[0] != double(int(row[0]));
-                            });
-                          });
-  list.add<&Step::joint>(between(-500, 500),
-                         "of the joint; of a release that names none: all that are held")
-      .shape("[i, j]");
-  only({K::push, K::hold, K::release}).refused({}, "must be [i, j]", [](const Step& of) {
-    return of.joint.empty() && (of.kind == K::push || of.kind == K::hold);
-  });
-  list.add<&Step::to_mm>("place to which a push brings the joint; empty: `depth_mm` says how far")
-      .shape("[x, y, z]");
-  only({K::push});
-  list.add<&Step::depth_mm>(
-      "by how much a push moves the joint against the shell's normal, inward, from where it is; "
-      "below 0 outward");
-  only({K::push}).refused(
-      {}, "a push goes to `to_mm` or by `depth_mm`, must be one of the two",
-      [](const Step& of) { return of.kind == K::push && of.to_mm.empty() == (of.depth_mm == 0); });
-  list.add<&Step::along>(
-          "direction in which a joint is held that may move across it; empty: the way of the push, "
-          "of a hold all directions")
-      .shape("[x, y, z]");
-  only({K::push, K::hold})
-      .refused({}, "is no direction, must have a length",
-               [](const Step& of) {
-                 return of.along == std::vector<double>{0, 0, 0};
-               })
-      .refused(
-          {},
-          "a joint that is held across the push has no direction of its own, must be empty, or "
-          "lateral = \"free\"",
-          [](const Step& of) {
-            return of.kind == K::push && of.lateral == Lateral::held && !of.along.empty();
-          });
-  list.add<&Step::lateral>("whether the joint pushed may move across the push");
-  only({K::push});
-  list.add<&Step::factor>(between(-1000, 1000),
-                          "how many times what [loads] says counts from then on; 0: not at all");
-  only({K::load});
-  list.add<&Step::side>(
-      "of a rest from a state that is not stable: where the energy ends lower, or along or against "
-      "its soft mode");
-  only({K::rest});
-  list.add<&Step::seed>(between(0, 1 << 30), "of a jitter: another one shakes otherwise");
-  only({K::jitter});
-  list.add<&Step::force_N>(above(0), "of a jitter: largest force on a joint along each axis");
-  only({K::jitter});
-}
-
-void add_loads(FieldList<Loads> list) {
-  list.add<&Loads::gravity_m_s2>(
-      "gravity, downwards; loads come on with the actuation, in full at its end");
-  needs_mass<Loads>(list, "gravity", [](const Loads& of) { return of.gravity_m_s2 != 0; });
-  list.add<&Loads::field_N_per_mm>(
-      "artificial gravity: force on every millimetre of rod, downwards");
-  list.add<&Loads::points>("forces in N on joints")
-      .points({"i", "j", "F_x", "F_y", "F_z"})
-      .needs_equilibrium("a net does not answer loads", &Loads::any);
 }
 
 void add_dynamics(FieldList<Dynamics> list) {
@@ -424,10 +297,7 @@ void add_sweep(FieldList<Sweep> list) {
 void add_experiment_fields(std::vector<Field>& all) {
   add_imperfection({all, "imperfection", &Preset::imperfection});
   add_indentation({all, "indentation", &Preset::indentation});
-  add_steps({all, "step", [](Preset& preset, int item) -> Step& {
-               return item < 0 ? preset.step.back() : preset.step[std::size_t(item)];
-             }});
-  add_loads({all, "loads", &Preset::loads});
+  add_hand_fields(all);
   add_dynamics({all, "dynamics", &Preset::dynamics});
   FieldList<Limits>(all, "limits", &Preset::limits)
       .unused({"[accuracy] model"}, nothing_solved, by_net_alone)

@@ -195,10 +195,24 @@ class FieldList {
   std::vector<Rule> common_;
 };
 
+/// What asks for a mass that a family of rods lacks.
+template <class Struct>
+void needs_mass(FieldList<Struct>& list, const char* what, bool (*asks)(const Struct&)) {
+  for (const char* table : {"rod", "rod_v"})
+    list.refused({fmt::format("[{}] density_kg_m3", table)},
+                 fmt::format("{} needs a mass, [{}] density_kg_m3 must be above 0", what, table),
+                 [=, v = std::string(table) == "rod_v"](const Preset& preset, const Struct& of) {
+                   const bool lacks = v ? preset.rod_v.differs && preset.rod_v.density_kg_m3 == 0
+                                        : preset.rod.density_kg_m3 == 0;
+                   return asks(of) && lacks;
+                 });
+}
+
 /// The keys of the tables, by what they are about.
 void add_rod_fields(std::vector<Field>& all);         ///< [rod], [rod_v], [joints], [ends]
 void add_shape_fields(std::vector<Field>& all);       ///< [footprint], [net], [[block]], …
 void add_experiment_fields(std::vector<Field>& all);  ///< what is done to a shell, and how
+void add_hand_fields(std::vector<Field>& all);        ///< [[step]], [loads]
 void add_picture_fields(std::vector<Field>& all);     ///< [movie], [style], [figure], [page]
 
 }  // namespace gridshell::preset

@@ -25,6 +25,7 @@ std::string unit_of(const std::string& key) {
                                                                   {"_per_s", "1/s"},
                                                                   {"_kg_m3", "kg/m^3"},
                                                                   {"_m_s2", "m/s^2"},
+                                                                  {"_N_m2", "N/m^2"},
                                                                   {"_Nmm", "N mm/rad"},
                                                                   {"_GPa", "GPa"},
                                                                   {"_GB", "GB"},
@@ -54,6 +55,11 @@ const std::vector<Table>& tables() {
       {"indentation", "The push at one joint of the actuated shell."},
       {"step", "What a hand does to the actuated shell, one step after the other.", true},
       {"loads", "What pulls on the shell beside its boundary."},
+      {"loads.case",
+       "Loads that come on together on the formed shell, by `[[step]]` or in `gridshell load`, "
+       "beside those that it was formed under: dead forces, worked out on the shape in which they "
+       "come on and fixed from then.",
+       true},
       {"dynamics", "How a shell moves that has lost its stability."},
       {"limits", "Where the model stops being valid."},
       {"contact", "What keeps rods apart."},

@@ -12,7 +12,7 @@
 
 namespace gridshell::preset {
 
-enum class StepKind { move, push, hold, release, load, rest, jitter };
+enum class StepKind { move, push, hold, release, load, rest, jitter, tighten, brace };
 
 // A preset: everything an experiment and its pictures need, as plain values with defaults. The
 // names are those of the TOML keys: `[rod] diameter_mm` is `preset.rod.diameter_mm`. What each key
@@ -161,6 +161,11 @@ struct Indentation {
   bool wanted() const { return depth > 0 || depth_mm > 0; }
 };
 
+/// What a release takes out or lets go.
+enum class Released { joints, bolts, braces };
+enum class Diagonals { both, first, second };
+enum class BraceKind { cable, strut };
+
 /// One step of a hand, in a list that is done in order; numbers that its kind does not use count
 /// for nothing.
 struct Step {
@@ -177,14 +182,42 @@ struct Step {
   BranchSide side = BranchSide::lower;
   int seed = 1;
   double force_N = 0.4;  ///< of a jitter
+  std::string load_case;     ///< whose factor it is; empty: that of the dead loads
+  double stiffness_Nmm = 0;  ///< of the bolts, per rad; 0: rigid
+  Points cells;              ///< (i, j) of those that are braced; empty: all
+  Diagonals diagonals = Diagonals::both;
+  BraceKind brace = BraceKind::cable;
+  double EA_N = 0;
+  Released what = Released::joints;
 };
 
 struct Loads {
   double gravity_m_s2 = 0;    ///< downwards
   double field_N_per_mm = 0;  ///< of rod, downwards
   Points points;              ///< (i, j, F_x, F_y, F_z), N
+  // what cases have of it acts on the formed shell
+  double snow_N_m2 = 0;  ///< of plan, downwards
+  double wind_N_m2 = 0;  ///< its pressure where it meets the shell at right angles
+  double imperfection = 0.002;  ///< of the length scale
+  double wind_deg = 0;   ///< where it blows to, from +x towards +y
 
   bool any() const { return gravity_m_s2 != 0 || field_N_per_mm != 0 || !points.empty(); }
+};
+
+/// Which half of the shell snow lies on, as seen from the middle.
+enum class SnowSide { all, x, minus_x, y, minus_y };
+constexpr auto words(SnowSide) {
+  return names_except<SnowSide>({{SnowSide::x, "+x"},
+                                 {SnowSide::minus_x, "-x"},
+                                 {SnowSide::y, "+y"},
+                                 {SnowSide::minus_y, "-y"}});
+}
+/// Loads that come on together on the formed shell, beside those that it was formed under.
+struct LoadCase {
+  std::string name;
+  double dead = 0, snow = 0, wind = 0;  ///< factors
+  SnowSide snow_side = SnowSide::all;
+  Points points;  ///< (i, j, F_x, F_y, F_z), N
 };
 
 /// Of a snap in time.
@@ -303,6 +336,7 @@ struct Preset {
   Indentation indentation;
   std::vector<Step> step;  ///< [[step]]
   Loads loads;
+  std::vector<LoadCase> load_case;  ///< [[loads.case]]
   Dynamics dynamics;
   Imperfection imperfection;
   Inverse inverse;

@@ -13,7 +13,8 @@ inline const std::string& title_or_name(const Preset& preset) {
   return preset.title.empty() ? preset.name : preset.title;
 }
 
-// The tables of a preset that stand once an item, [[block]], [[join]] and [[step]], all at once.
+// The tables of a preset that stand once an item, [[block]], [[join]], [[step]] and
+// [[loads.case]], all at once.
 
 /// Calls visit(name, member) for each of them, in the order of the file; `member` is that of
 /// Preset.
@@ -22,6 +23,7 @@ void each_list(const Visit& visit) {
   visit("block", &Preset::block);
   visit("join", &Preset::join);
   visit("step", &Preset::step);
+  visit("loads.case", &Preset::load_case);
 }
 
 /// One item more with its defaults, at the end of that list.

@@ -182,7 +182,8 @@ std::string item_text(const std::string& table, const Preset& preset, const Used
   for (const auto& field : field_table()) {
     if (field.table != table || !used(field, item)) continue;
     const auto value = value_text(field, preset, item);
-    if (table == "step" && field.key != "do" && value == value_text(field, defaults)) continue;
+    const bool sparse = (table == "step" && field.key != "do") || table == "loads.case";
+    if (sparse && value == value_text(field, defaults)) continue;
     text += fmt::format("{} = {}\n", field.key, value);
   }
   return text;

@@ -68,7 +68,7 @@ void TomlReader::apply(const toml::table& root, const std::string& apart, Preset
     const std::string name(key.str());
     if (name == apart) continue;
     if (is_list_name(name))
-      read_items(key, value, draft);
+      read_items(name, key, value, draft);
     else if (!is_table_name(name) && !value.is_table())
       assign_key("", key, value, draft);
     else
@@ -94,8 +94,8 @@ void TomlReader::apply_override(const Override& change, PresetBuilder& draft) {
 
 // the items of a list of tables, each with defaults of its own; those of a case stand in place of
 // the file's
-void TomlReader::read_items(const toml::key& key, const toml::node& value, PresetBuilder& draft) {
-  const std::string name(key.str());
+void TomlReader::read_items(const std::string& name, const toml::key& key, const toml::node& value,
+                            PresetBuilder& draft) {
   if (!value.is_array_of_tables()) {
     faults_.add(place_of(key.source()),
                 fmt::format("{}: must be tables, each [[{}{}]]", name,
@@ -119,7 +119,11 @@ void TomlReader::read_table(const toml::key& key, const toml::node& value, Prese
     faults_.add(place,
                 fmt::format("[{}]: unknown table{}", name, did_you_mean(name, table_names())));
   } else if (const auto* table = value.as_table()) {
-    for (const auto& [inner, item] : *table) assign_key(name, inner, item, draft);
+    for (const auto& [inner, item] : *table)
+      if (const auto list = fmt::format("{}.{}", name, inner.str()); is_list_name(list))
+        read_items(list, inner, item, draft);
+      else
+        assign_key(name, inner, item, draft);
   } else {
     faults_.add(place, fmt::format("{} = {}: is a table, must hold keys: {}", name,
                                    toml_text(value), fmt::join(keys_of(name), ", ")));

@@ -64,7 +64,8 @@ class TomlReader {
   LocatedFaults& faults() { return faults_; }
 
  private:
-  void read_items(const toml::key& key, const toml::node& value, PresetBuilder& draft);
+  void read_items(const std::string& name, const toml::key& key, const toml::node& value,
+                  PresetBuilder& draft);
   void read_table(const toml::key& key, const toml::node& value, PresetBuilder& draft);
   void assign_key(const std::string& table, const toml::key& key, const toml::node& value,
                   PresetBuilder& draft, int item = -1);

@@ -45,17 +45,36 @@ preset::Rod rod_of(const preset::Preset& preset, const FootprintRod& drawn) {
   return drawn.family == Family::v && preset.rod_v.differs ? preset.rod_v : preset.rod;
 }
 
-Result<std::vector<PointLoad>> points_of(const preset::Loads& loads, const Footprint& footprint) {
+/// Rows of `key` as forces on joints.
+Result<std::vector<PointLoad>> points_of(const preset::Points& rows, const std::string& key,
+                                         const Footprint& footprint) {
   std::vector<PointLoad> points;
-  for (const auto& row : loads.points) {
+  for (const auto& row : rows) {
     const int i = int(std::lround(row[0])), j = int(std::lround(row[1]));
     const int joint = row[0] == i && row[1] == j ? joint_at(footprint, i, j) : -1;
     if (joint < 0)
-      return fail(Fault::bad_input, "[loads] points: the footprint has no joint [{:g}, {:g}]",
+      return fail(Fault::bad_input, "{} points: the footprint has no joint [{:g}, {:g}]", key,
                   row[0], row[1]);
     points.push_back({joint, {row[2], row[3], row[4]}});
   }
   return points;
+}
+
+/// Towards the half of the shell that snow lies on; zero: all of it.
+Eigen::Vector2d side_of(preset::SnowSide side) {
+  switch (side) {
+    case preset::SnowSide::x:
+      return {1, 0};
+    case preset::SnowSide::minus_x:
+      return {-1, 0};
+    case preset::SnowSide::y:
+      return {0, 1};
+    case preset::SnowSide::minus_y:
+      return {0, -1};
+    case preset::SnowSide::all:
+      break;
+  }
+  return {0, 0};
 }
 
 /// All rods, with the diameters of `[rod] table`.
@@ -63,6 +82,14 @@ Result<std::vector<preset::Rod>> rods_of(const preset::Preset& preset, const Foo
   std::vector<preset::Rod> rods;
   for (const FootprintRod& one : footprint.rods) rods.push_back(rod_of(preset, one));
   std::vector<bool> named(rods.size(), false);
+||||||| 45e9587
+/// The diameters of `[rod] table`, of all rods.
+Result<std::vector<double>> diameters_of(const preset::Preset& preset, const Footprint& footprint) {
+  std::vector<double> diameters;
+  for (const FootprintRod& one : footprint.rods)
+    diameters.push_back(one.diameter_mm > 0 ? one.diameter_mm
+                                            : rod_of(preset, one.family).diameter_mm);
+  std::vector<bool> named(diameters.size(), false);
   for (const auto& row : preset.rod_table) {
     const Family family = row[0] == 0 ? Family::u : Family::v;
     const auto wrong = [&](const std::string& what) {
@@ -107,8 +134,16 @@ Result<void> put_rods(const preset::Preset& preset, Scene& scene) {
   scene.joint_mass_t = 1e-6 * preset.joints.mass_g;
   scene.rods.joint_weight_N = 1e3 * loads.gravity_m_s2 * scene.joint_mass_t;
   if (std::ranges::count(scene.strength_MPa, 0) > 0) scene.strength_MPa.clear();
-  TRY(points, points_of(loads, footprint));
+  TRY(points, points_of(loads.points, "[loads]", footprint));
   scene.rods.points = std::move(*points);
+  for (std::size_t k = 0; k < preset.load_case.size(); ++k) {
+    const preset::LoadCase& one = preset.load_case[k];
+    const auto key = fmt::format("[[loads.case]] {}", k + 1);
+    TRY(forces, points_of(one.points, key, footprint));
+    scene.load_cases.push_back({one.name, one.dead, 1e-6 * one.snow * loads.snow_N_m2,
+                                1e-6 * one.wind * loads.wind_N_m2, loads.wind_deg * M_PI / 180,
+                                side_of(one.snow_side), std::move(*forces)});
+  }
   const bool springs = preset.joints.kind == preset::JointKind::spring;
   scene.rods.joints = {springs ? preset.joints.stiffness_N_per_mm : 0, preset.joints.shear_Nmm,
                        preset.joints.twist_Nmm};
@@ -284,6 +319,7 @@ Result<Scene> scene_of(const preset::Preset& preset) {
   scene.imperfection = {preset.imperfection.size * scene.footprint.spacing,
                         preset.imperfection.seed,
                         preset.imperfection.form == preset::ImperfectionForm::soft_mode};
+  scene.load_imperfection_mm = preset.loads.imperfection * scene.length_scale_mm;
   scene.edges_per_segment = preset.accuracy.edges_per_segment;
   scene.leader_asked = preset.accuracy.leading_edges > 0;
   if (scene.leader_asked) scene.leading_edges = preset.accuracy.leading_edges;

@@ -15,6 +15,7 @@
 #include "engine/footprint/mesh.h"
 #include "engine/geometry/chebyshev_net.h"
 #include "engine/preset/preset.h"
+#include "engine/scene/load_case.h"
 
 namespace gridshell {
 
@@ -60,6 +61,8 @@ struct Scene {
   bool stops_at_contact = false;
   bool table = false;  ///< whether no rod passes the plane of the flat
   SnapDynamics snap;
+  std::vector<LoadCase> load_cases;
+  double load_imperfection_mm = 0;  ///< of shells that are not perfect
   std::shared_ptr<Team> team;  ///< of whoever follows one path alone: who helps with large shells
 
   /// The rung of the mechanics, where there is one.

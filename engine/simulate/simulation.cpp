@@ -39,7 +39,7 @@ Result<Simulation> Simulation::open(std::shared_ptr<const Scene> scene, const Le
 }
 
 Result<void> Simulation::build(const LevelPlan& plan) {
-  TRY(shell, NestedShell::make(scene_->footprint, rods_ ? *rods_ : scene_->rods,
+  TRY(shell, NestedShell::make(scene_->footprint, rods(),
                                scene_->solved_model(), scene_->motion, plan, options_for(*scene_)));
   if (shell_) spent_ += shell_->effort();
   shell_ = std::make_unique<NestedShell>(std::move(*shell));
@@ -190,7 +190,7 @@ Report Simulation::begin_flat() {
 Result<Report> Simulation::begin_buckled(double shortening, const Watch& watch) {
   const CallBegin begin = call_begin();
   TRY(t, parameter_of_shortening(shell_->mesh(0), shell_->motion(0), shortening));
-  TRY(first, buckled_state(*shell_, *scene_, rods_ ? *rods_ : scene_->rods, *t, watch));
+  TRY(first, buckled_state(*shell_, *scene_, rods(), *t, watch));
   const Report there = begin_at(*t, *first, watch);
   return report(there.end, there.t, begin);
 }
@@ -201,7 +201,7 @@ Result<Report> Simulation::begin_on_net(const Watch& watch) {
 }
 
 Result<Report> Simulation::begin_as_drawn(const Watch& watch) {
-  TRY(rest, state_as_drawn(*shell_, *scene_, rods_ ? *rods_ : scene_->rods, watch));
+  TRY(rest, state_as_drawn(*shell_, *scene_, rods(), watch));
   return begin_at(0, *rest, watch);
 }
 
@@ -260,7 +260,7 @@ Result<Outcome> Simulation::replace_meshes(const LevelPlan& plan, bool nearby, c
 Checkpoint Simulation::save() const {
   return {shell_->state(), shell_->plan(),   rods_,     shell_->motions(), holds_,
           field_,          load_scale_,      progress_, actuating_,        boundary,
-          grip_origins,    first_stiffness_, along_};
+          grip_origins,    cases,            first_stiffness_, along_};
 }
 
 void Simulation::restore(const Checkpoint& kept) {
@@ -276,6 +276,7 @@ void Simulation::restore(const Checkpoint& kept) {
   actuating_ = kept.actuating;
   boundary = kept.boundary;
   grip_origins = kept.grip_origins;
+  cases = kept.cases;
   first_stiffness_ = kept.first_stiffness;
   along_ = kept.along;
   apply_field(kept.field);

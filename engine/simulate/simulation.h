@@ -99,6 +99,14 @@ struct BoundaryPosition {
   Eigen::Matrix3Xd dragged;  ///< 3 x edge points, mm
 };
 
+/// A load case on the shell: the forces that it came on with, times a factor.
+struct CaseOnShell {
+  std::string name;
+  std::vector<NodeAction> forces;
+  double dead = 0;  ///< its part of the dead loads
+  double factor = 0;
+};
+
 /// A state to go back to; taking one and going back cost a copy.
 struct Checkpoint {
   NestedState state;
@@ -111,6 +119,7 @@ struct Checkpoint {
   bool actuating = true;
   BoundaryPosition boundary;
   std::map<int, Eigen::Vector3d> grip_origins;
+  std::vector<CaseOnShell> cases;
   double first_stiffness = 0;  ///< of the push, N/mm
   Eigen::VectorXd along;       ///< its direction
 };
@@ -161,8 +170,9 @@ class Simulation {
   Report release(int joint, const Watch& watch);
   /// From now on the scene's dead loads count `factor` times.
   Report load(double factor, const Watch& watch);
-  /// Puts a field of forces on, or takes it away (empty).
-  Report set_field(std::vector<NodeAction> field, const Watch& watch);
+  /// Puts a field of forces in the place of that which is there, or takes it away (empty), and with
+  /// it the factor of the dead loads by `dead` up.
+  Report set_field(std::vector<NodeAction> field, const Watch& watch, double dead = 0);
   /// Down the energy to rest from where it is, whatever happened to it; off a saddle to that side.
   Report rest(const Watch& watch, BranchSide side = BranchSide::lower);
   /// The same in time, with the scene's damping; `seen` after each time step.
@@ -194,6 +204,10 @@ class Simulation {
   /// The force that holds joint `k` of holds(), N.
   Eigen::Vector3d force(std::size_t k) const { return shell_->state().reactions[k]; }
   const std::vector<Constraint>& holds() const { return holds_; }
+  const std::vector<NodeAction>& field() const { return field_; }
+  const ShellRods& rods() const { return rods_ ? *rods_ : scene_->rods; }
+  /// How many times the dead loads act.
+  LoadFactor steady_load() const;
   double progress() const { return progress_; }
   /// Tells a frame how far the joint held last was pushed, with what force it resists, and how that
   /// grows; nothing where none is held. The depth is the way of the joint since it was taken hold
@@ -224,6 +238,8 @@ class Simulation {
   BoundaryPosition boundary;
   /// Where the joints that are held were when they were taken hold of, mm.
   std::map<int, Eigen::Vector3d> grip_origins;
+  /// Load cases that are on, the last that came last.
+  std::vector<CaseOnShell> cases;
 
  private:
   Simulation(std::shared_ptr<const Scene> scene) : scene_(std::move(scene)) {}
@@ -237,7 +253,6 @@ class Simulation {
   Report drive(const PrescribedMove& drive, std::vector<NodeAction> field, const Watch& watch);
   void apply_field(std::vector<NodeAction> field);
   void set_progress(double progress);
-  LoadFactor steady_load() const;
   double load_step() const;
   Result<Outcome> replace_meshes(const LevelPlan& plan, bool nearby, const Watch& watch);
   double push_stiffness() const;

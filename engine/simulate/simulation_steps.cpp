@@ -147,10 +147,11 @@ Report Simulation::load(double factor, const Watch& watch) {
   return done;
 }
 
-Report Simulation::set_field(std::vector<NodeAction> field, const Watch& watch) {
-  const LoadFactor load = steady_load();
+Report Simulation::set_field(std::vector<NodeAction> field, const Watch& watch, double dead) {
+  const LoadFactor load{steady_load().begin, dead};
   const std::vector<NodeAction> coming = difference(field, field_);
   Report done = drive({.holds = holds_, .load = load, .field = {0, 1}}, coming, watch);
+  if (dead != 0) load_scale_ = load.begin + done.t * dead;
   if (done.end == Outcome::reached) apply_field(std::move(field));
   return done;
 }

@@ -10,6 +10,7 @@
 #include "engine/record/gauss_curvature.h"
 #include "engine/simulate/indentation.h"
 #include "engine/simulate/mesh_choice.h"
+#include "engine/simulate/stiffening.h"
 
 namespace gridshell::simulate {
 namespace {
@@ -193,11 +194,13 @@ std::vector<NodeAction> random_field(const Scene& scene, int seed, double force_
 
 Result<Report> jitter(Simulation& simulation, const preset::Step& step, const Watch& watch) {
   const Checkpoint before = simulation.save();
-  const auto field = random_field(simulation.scene(), step.seed, step.force_N);
+  const std::vector<NodeAction> steady = simulation.field();
+  auto field = random_field(simulation.scene(), step.seed, step.force_N);
+  field.insert(field.end(), steady.begin(), steady.end());
   const Report thrown = simulation.set_field(field, watch);
   // a field that the shell cannot bear all the way has moved it as well
   if (watch.cancelled()) return simulation.restore(before), thrown;
-  Report back = simulation.set_field({}, watch);
+  Report back = simulation.set_field(steady, watch);
   back.events.insert(back.events.begin(), thrown.events.begin(), thrown.events.end());
   if (back.end != Outcome::reached) simulation.restore(before);
   return back;
@@ -217,13 +220,20 @@ Result<Report> take_step(Simulation& simulation, const preset::Step& step, const
       return led([&] { return push(simulation, *goal, watch, way); });
     }
     case preset::StepKind::release:
+      if (step.what != preset::Released::joints) return take_out(simulation, step.what, watch);
       return led([&] { return release(simulation, step, watch); });
     case preset::StepKind::load:
+      if (!step.load_case.empty())
+        return bring_case(simulation, step.load_case, step.factor, watch);
       return simulation.load(step.factor, watch);
     case preset::StepKind::rest:
       return led([&]() -> Result<Report> { return simulation.rest(watch, step.side); });
     case preset::StepKind::jitter:
       return led([&] { return jitter(simulation, step, watch); });
+    case preset::StepKind::tighten:
+      return tighten(simulation, step, watch);
+    case preset::StepKind::brace:
+      return brace(simulation, step, watch);
   }
   return Report{};
 }
@@ -232,6 +242,8 @@ Result<Report> take_step(Simulation& simulation, const preset::Step& step, const
 
 std::string text_of(const preset::Step& step) {
   std::string text(word_of(step.kind));
+  if (!step.load_case.empty()) text += " " + step.load_case;
+  if (step.what != preset::Released::joints) text += fmt::format(" {}", word_of(step.what));
   if (!step.joint.empty()) text += fmt::format(" [{}]", fmt::join(step.joint, ", "));
   return text;
 }

@@ -18,6 +18,7 @@ struct TraceOptions {
   double from = 0, to = 1;  ///< of the path parameter: it ends at either
   double max_strain = 1e-3;
   int most_steps = 300;
+  int after_turn = most_steps;  ///< beyond its first limit point
 };
 
 /// One equilibrium on the way.

@@ -32,8 +32,9 @@ class Tracer {
 
   std::vector<TracedPoint> run() {
     points_.push_back(traced(path_.at()));
+    int after_turn = 0;
     for (int k = 0; k < options_.most_steps && !watch_.cancelled(); ++k)
-      if (!step()) break;
+      if (!step() || (turned_ && ++after_turn > options_.after_turn)) break;
     return std::move(points_);
   }
 
@@ -72,6 +73,7 @@ class Tracer {
       if (past) break;
     }
     points_.back().event = BranchEvent::turn;
+    turned_ = true;
     slow.set_step(step * parts);
     path_ = slow;
     return true;
@@ -149,6 +151,7 @@ class Tracer {
   const MeetsBranch& met_;
   const Watch& watch_;
   std::vector<TracedPoint> points_;
+  bool turned_ = false;
 };
 
 }  // namespace

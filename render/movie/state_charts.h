@@ -35,6 +35,10 @@ Result<void> write_branches(const std::filesystem::path& stem,
                             const std::vector<record::BranchPoint>& points,
                             const std::string& title);
 
+/// The load factor over a joint's way, a curve a case, dashed where it is not stable; limit points
+/// and bifurcations are marked.
+Plot load_plot(const std::vector<record::LoadPoint>& points, const std::string& title);
+
 // Which states footprints of so many rods and so long legs can rest in [Baek 2018, Fig. 2B].
 
 /// L_d along x, n upwards. At each point a marker a class of the paper, filled where trials met it

@@ -1,0 +1,32 @@
+// Loads that come on together on the formed shell: how snow, wind and point forces become forces on
+// its nodes.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "engine/elastic/shell_rods.h"
+#include "engine/footprint/footprint.h"
+
+namespace gridshell {
+
+/// One case, its factors taken in.
+struct LoadCase {
+  std::string name;
+  double dead = 0;                  ///< how many times more the dead loads of forming
+  double snow_N_mm2 = 0;            ///< of plan, downwards
+  double wind_N_mm2 = 0;            ///< pressure q
+  double wind_rad = 0;              ///< where it blows to, from +x towards +y
+  Eigen::Vector2d snow_side{0, 0};  ///< the half that has snow; zero: all
+  std::vector<PointLoad> points;
+};
+
+/// The case's forces on joints and edge points, its dead part left out, worked out on the shape
+/// `nodes` (joints first, then edge points) and fixed from then on. Each corner of a face bears the
+/// same share of what acts on it: snow s on the face's area in plan A_z, where that is not
+/// overhung, -s A_z z; wind of direction w on its area A = |A| n the force q (w . n) A.
+std::vector<NodeAction> forces_of(const LoadCase& load, const Footprint& footprint,
+                                  const Eigen::Matrix3Xd& nodes);
+
+}  // namespace gridshell

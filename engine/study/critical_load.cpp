@@ -1,0 +1,180 @@
+#include "engine/study/critical_load.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/dense.h"
+
+namespace gridshell::study {
+namespace {
+
+using record::BranchEvent;
+
+/// dK/dfactor along the path's tangent, by central differences.
+BlockHessian stiffness_slope(const Linearisation& system, const State& begin,
+                             const ExternalLoads& at, const ExternalLoads& growth,
+                             const Eigen::Matrix3Xd& velocity) {
+  const Model& model = system.model();
+  double edge = 0;
+  for (const ModelEdge& one : model.edges) edge += one.rest_length / double(model.edges.size());
+  const double h = 1e-4 * edge / max_column_norm(velocity);
+  const auto hessian = [&](double by) {
+    State state = begin;
+    move_to(model, begin.x + by * velocity, state);
+    ExternalLoads outside = at;
+    outside.load += by * growth.load;
+    outside.field_factor += by * growth.field_factor;
+    Assembly out;
+    assemble_hessian(model, state, outside, {}, out);
+    return std::move(out.hessian);
+  };
+  BlockHessian up = hessian(h);
+  const BlockHessian down = hessian(-h);
+  const auto slope = [&](std::vector<Block3>& a, const std::vector<Block3>& b) {
+    for (std::size_t k = 0; k < a.size(); ++k)
+      a[k].matrix() = (a[k].matrix() - b[k].matrix()) / (2 * h);
+  };
+  slope(up.diagonal, down.diagonal);
+  slope(up.pair, down.pair);
+  up.beyond.clear();
+  return up;
+}
+
+/// What one unit of the parameter is worth: as much as positions move with it at the begin.
+double rate_of(Linearisation& system, const PinnedMotion& motion, const State& begin,
+               Eigen::Matrix3Xd* velocity) {
+  State moves;
+  motion.velocity(system, 0, begin, moves);
+  if (velocity) *velocity = moves.x;
+  return std::sqrt(moves.x.squaredNorm() / double(moves.x.cols()));
+}
+
+/// The top of the parabola of t through the last three of the points up to `k`, over their
+/// distance.
+double top_of(const std::vector<TracedPoint>& points, std::size_t k) {
+  if (k < 2) return points[k].at.t;
+  double s[3] = {0, 0, 0}, t[3];
+  for (std::size_t n = 0; n < 3; ++n) {
+    const PathPoint& here = points[k - 2 + n].at;
+    t[n] = here.t;
+    if (n > 0) s[n] = s[n - 1] + (here.state.x - points[k - 3 + n].at.state.x).norm();
+  }
+  const double a = (t[1] - t[0]) / (s[1] - s[0]), b = (t[2] - t[1]) / (s[2] - s[1]);
+  const double bend = (b - a) / (s[2] - s[0]);
+  const double at = 0.5 * (s[0] + s[1]) - 0.5 * a / bend;
+  return t[0] + a * (at - s[0]) + bend * (at - s[0]) * (at - s[1]);
+}
+
+/// The first place on a path where stability is lost.
+void take_critical(CriticalLoad& found) {
+  const auto& points = found.points;
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    const bool turns = points[k].event == BranchEvent::turn;
+    const bool branches =
+        points[k].event == BranchEvent::bifurcation || points[k].event == BranchEvent::joins;
+    const bool slipped = points[k].negative_pivots > points[0].negative_pivots;
+    if (!turns && !branches && !slipped) continue;
+    found.event = turns ? BranchEvent::turn : BranchEvent::bifurcation;
+    found.factor = turns      ? top_of(points, k)
+                   : branches ? points[k].at.t
+                              : 0.5 * (points[k - 1].at.t + points[k].at.t);
+    return;
+  }
+  found.event = points.back().event;
+}
+
+}  // namespace
+
+double linear_critical_factor(Linearisation& system, const PinnedMotion& motion, const State& begin,
+                              const Watch& watch) {
+  constexpr int most_rounds = 80, vectors = 8;
+  motion.apply_loads(system, 0);
+  if (!system.at(begin, false).positive_definite()) return record::unknown;
+  Eigen::Matrix3Xd velocity;
+  if (!(rate_of(system, motion, begin, &velocity) > 0)) return record::unknown;
+  ExternalLoads growth;
+  growth.load = motion.load.change;
+  growth.field_factor = motion.field.change;
+  const Model& model = system.model();
+  const BlockHessian slope = stiffness_slope(system, begin, system.outside, growth, velocity);
+  const BlockHessian& stiffness = system.assembly().hessian;
+  const Eigen::Index columns = model.columns(), count = std::min(vectors, model.dof());
+  Eigen::MatrixXd basis(3 * columns, count), geometric = basis, elastic = basis;
+  for (Eigen::Index k = 0; k < count; ++k)
+    for (Eigen::Index row = 0; row < basis.rows(); ++row)
+      basis(row, k) = std::sin(1 + double(row) * (1.3 + 0.61 * double(k)));
+  Eigen::Matrix3Xd column, product;
+  const auto times = [&](const BlockHessian& matrix, Eigen::Index k, double sign) {
+    column = basis.col(k).reshaped(3, columns);
+    clear_held(model, column);
+    multiply(model, matrix, column, product);
+    clear_held(model, product);
+    return Eigen::VectorXd(sign * product.reshaped());
+  };
+  double factor = record::unknown;
+  for (int round = 0; round < most_rounds && !watch.cancelled(); ++round) {
+    for (Eigen::Index k = 0; k < count; ++k) {
+      geometric.col(k) = times(slope, k, -1);
+      elastic.col(k) = times(stiffness, k, 1);
+    }
+    const auto inner = eigen_pairs(basis.transpose() * geometric, basis.transpose() * elastic);
+    const double before = factor, largest = inner.values[count - 1];
+    factor = largest > 0 ? 1 / largest : record::unknown;
+    if (std::abs(factor - before) <= 1e-8 * factor) break;
+    for (Eigen::Index k = 0; k < count; ++k) {
+      column = geometric.col(k).reshaped(3, columns);
+      system.solve(column);
+      basis.col(k) = column.reshaped();
+    }
+    basis = orthonormal(basis);
+    if (basis.cols() < count) break;
+  }
+  return factor;
+}
+
+CriticalLoad critical_load(Linearisation& system, const PinnedMotion& motion, const State& begin,
+                           const CriticalOptions& options, const Watch& watch) {
+  CriticalLoad found;
+  found.linear = linear_critical_factor(system, motion, begin, watch);
+  motion.apply_loads(system, 0);
+  if (!system.at(begin, false).usable) {
+    found.event = BranchEvent::lost;
+    return found;
+  }
+  const double rate = rate_of(system, motion, begin, nullptr);
+  const double ahead = std::isfinite(found.linear) ? found.linear : 1;
+  TraceOptions how;
+  how.arc.parameter_mm = rate;
+  how.arc.step_mm = std::sqrt(2.0) * rate * ahead / options.steps_to_linear;
+  how.arc.largest_mm = 2.5 * how.arc.step_mm;
+  how.arc.smallest_mm = 1e-4 * how.arc.step_mm;
+  how.arc.tolerance_mm = options.tolerance_mm;
+  how.from = -ahead;
+  how.to = options.most_factor;
+  how.max_strain = options.max_strain;
+  how.most_steps = options.most_steps;
+  how.after_turn = options.after_turn;
+  ArcFollower path(system, motion, how.arc);
+  if (path.start(0, begin, 1, watch) != Outcome::reached) {
+    found.event = BranchEvent::lost;
+    return found;
+  }
+  // beyond a bifurcation the shell goes another way
+  const auto leaves = [](const TracedPoint&) { return true; };
+  found.points = trace(system, motion, std::move(path), how, leaves, watch);
+  take_critical(found);
+  const auto at = std::ranges::find_if(found.points, [&](const TracedPoint& point) {
+    return point.event == BranchEvent::turn || point.event == BranchEvent::joins;
+  });
+  if (at == found.points.end()) return found;
+  if (at->event == BranchEvent::turn) found.mode = at->at.velocity.x;
+  if (at->event == BranchEvent::joins) {
+    const auto modes = crossing_modes(system, motion, *at, watch);
+    if (!modes.empty()) found.mode = modes.front();
+    at->event = BranchEvent::bifurcation;
+  }
+  if (found.mode.size() > 0) found.mode /= max_column_norm(found.mode);
+  return found;
+}
+
+}  // namespace gridshell::study

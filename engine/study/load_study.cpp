@@ -1,0 +1,210 @@
+#include "engine/study/load_study.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "engine/core/algorithms.h"
+#include "engine/core/try.h"
+#include "engine/scene/scene.h"
+#include "engine/simulate/run.h"
+#include "engine/solve/eigenmodes.h"
+#include "engine/solve/equilibrium.h"
+#include "engine/study/critical_load.h"
+
+namespace gridshell::study {
+namespace {
+
+using record::BranchEvent;
+
+/// A case on its way up, on the meshes of a simulation.
+class Loading {
+ public:
+  Loading(Simulation& simulation, const LoadCase& load, const Watch& watch)
+      : shell_(simulation.shell()), scene_(simulation.scene()), load_(load), watch_(watch) {
+    steady_ = simulation.field();
+    dead_now_ = simulation.steady_load().begin;
+    forces_ = forces_of(load, scene_.footprint, simulation.nodes());
+    shell_.set_fields(steady_, forces_);
+    shell_.drive({.holds = simulation.holds(),
+                  .load = {dead_now_, load.dead},
+                  .field = {0, 1}});
+  }
+
+  CriticalLoad on(int level, const State& begin) {
+    CriticalOptions options;
+    options.max_strain = std::max(scene_.max_strain, 1e-2);
+    options.tolerance_mm = 1e-8 * scene_.length_scale_mm;
+    return critical_load(shell_.system(level), shell_.motion(level), begin, options, watch_);
+  }
+  CriticalLoad on(int level) { return on(level, shell_.state().levels[std::size_t(level)]); }
+
+  /// Of the shell with its shape off by so much.
+  Result<CriticalLoad> imperfect(int level, const Eigenmodes& soft, int seed, double size_mm) {
+    std::mt19937 random{std::uint32_t(seed)};
+    const Model& model = shell_.model(level);
+    Eigen::Matrix3Xd shape = Eigen::Matrix3Xd::Zero(3, model.columns()), force = shape;
+    for (std::size_t k = 0; k < soft.shapes.size(); ++k) {
+      const double share = symmetric_uniform(random);
+      const double lambda = soft.values[Eigen::Index(k)];
+      shape += share * soft.shapes[k];
+      force += share * lambda * soft.shapes[k];
+    }
+    force *= size_mm / max_column_norm(shape.leftCols(model.nodes));
+    std::vector<NodeAction> acting = steady_;
+    for (int node = 0; node < model.nodes; ++node)
+      if (!force.col(node).isZero(0)) acting.push_back({node, force.col(node)});
+    Linearisation& system = shell_.system(level);
+    const auto* before = system.outside.steady;
+    system.outside.steady = &acting;
+    shell_.motion(level).apply_loads(system, 0);
+    Result<CriticalLoad> found = fail(Fault::no_equilibrium, "");
+    if (auto bent = find_equilibrium(system, shell_.state().levels[std::size_t(level)],
+                                     10 * size_mm, watch_))
+      found = on(level, *bent);
+    system.outside.steady = before;
+    return found;
+  }
+
+  /// The sum of all that comes on with a factor of one, N.
+  Eigen::Vector3d sum() const {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const NodeAction& one : forces_) sum += one.force;
+    for (const NodeAction& one : shell_.model(0).loads) sum += load_.dead * one.force;
+    return sum;
+  }
+
+ private:
+  NestedShell& shell_;
+  const Scene& scene_;
+  const LoadCase& load_;
+  const Watch& watch_;
+  std::vector<NodeAction> steady_, forces_;
+  double dead_now_ = 1;
+};
+
+/// The factor over the way of the joint that has gone furthest where stability is lost.
+void put_points(const std::string& name, const CriticalLoad& found, int joints,
+                std::vector<record::LoadPoint>& rows) {
+  const auto joints_at = [&](const TracedPoint& point) -> Eigen::Matrix3Xd {
+    return point.at.state.x.leftCols(joints);
+  };
+  const auto critical = std::ranges::find_if(found.points, [](const TracedPoint& point) {
+    return point.event != BranchEvent::none;
+  });
+  const Eigen::Matrix3Xd begin = joints_at(found.points.front());
+  const Eigen::Matrix3Xd moved =
+      joints_at(critical == found.points.end() ? found.points.back() : *critical) - begin;
+  Eigen::Index furthest = 0;
+  moved.colwise().norm().maxCoeff(&furthest);
+  const Eigen::Vector3d along = moved.col(furthest).normalized();
+  for (const TracedPoint& point : found.points)
+    rows.push_back({name, point.at.t, along.dot((joints_at(point) - begin).col(furthest)),
+                    point.negative_pivots, point.event});
+}
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return record::unknown;
+  std::ranges::sort(values);
+  const double at = share * double(values.size() - 1);
+  const auto low = std::size_t(at), high = std::min(low + 1, values.size() - 1);
+  return values[low] + (at - double(low)) * (values[high] - values[low]);
+}
+
+/// Of shells that are not perfect, over the perfect one's critical factor on the same mesh.
+Result<void> put_imperfections(Loading& loading, Simulation& simulation, int level, int count,
+                               double perfect, record::LoadRow& row, const Watch& watch) {
+  constexpr int soft_modes = 6;
+  NestedShell& shell = simulation.shell();
+  const Model& model = shell.model(level);
+  Linearisation& system = shell.system(level);
+  shell.motion(level).apply_loads(system, 0);
+  const Inertia inertia = system.at(shell.state().levels[std::size_t(level)], false);
+  Eigen::Matrix3Xd mass = Eigen::Matrix3Xd::Zero(3, model.columns());
+  mass.leftCols(model.nodes).setOnes();
+  TRY(soft, softest_modes(system, mass, soft_modes, inertia.negative_pivots, watch));
+  const Scene& scene = simulation.scene();
+  std::vector<double> factors;
+  for (int k = 0; k < count && !watch.cancelled(); ++k) {
+    const auto found = loading.imperfect(level, *soft, scene.imperfection.seed + k,
+                                         scene.load_imperfection_mm);
+    if (found && std::isfinite(found->factor)) factors.push_back(found->factor / perfect);
+  }
+  row.imperfections = int(factors.size());
+  row.knock_down_5 = quantile(factors, 0.05);
+  row.knock_down_50 = quantile(factors, 0.5);
+  row.knock_down_95 = quantile(factors, 0.95);
+  return {};
+}
+
+Result<void> put_case(Simulation& simulation, const LoadCase& load, int imperfections,
+                      LoadStudy& study, const Watch& watch) {
+  NestedShell& shell = simulation.shell();
+  Loading loading(simulation, load, watch);
+  record::LoadRow row;
+  row.load_case = load.name;
+  const Eigen::Vector3d sum = loading.sum();
+  row.load_x_N = sum.x(), row.load_y_N = sum.y(), row.load_z_N = sum.z();
+  const int last = shell.levels() - 1, first = std::max(0, last - 1);
+  const CriticalLoad fine = loading.on(last);
+  if (fine.points.empty())
+    return fail(Fault::no_equilibrium,
+                "case \"" + load.name + "\": the path of its loads could not be begun");
+  std::vector<Eigen::Matrix3Xd> factors;
+  const auto keep = [&](double factor) { factors.emplace_back(factor * Eigen::Vector3d::UnitX()); };
+  double coarse_factor = fine.factor;
+  if (first < last) {
+    const CriticalLoad coarse = loading.on(first);
+    coarse_factor = coarse.factor;
+    if (coarse.event == fine.event && std::isfinite(coarse.factor)) keep(coarse.factor);
+  }
+  row.event = fine.event;
+  row.linear_factor = fine.linear;
+  if (std::isfinite(fine.factor)) {
+    keep(fine.factor);
+    const CertifiedVectors sure =
+        certify_vectors(factors, shell.plan().extrapolate_forces && factors.size() > 1, false);
+    row.critical_factor = sure.value(0, 0);
+    row.error = sure.error;
+  }
+  if (imperfections > 0 && std::isfinite(coarse_factor))
+    TRY_DO(put_imperfections(loading, simulation, first, imperfections, coarse_factor, row, watch));
+  if (watch.cancelled()) return stopped();
+  put_points(load.name, fine, shell.finest().joints, study.points);
+  study.cases.push_back(row);
+  study.modes.emplace_back();
+  if (fine.mode.size() == 0) return {};
+  const Eigen::Matrix3Xd nodes = nodes_of(shell.finest(), shell.model(last), fine.mode)
+                                     .leftCols(shell.finest().rod_nodes());
+  study.modes.back() = nodes / max_column_norm(nodes);
+  return {};
+}
+
+}  // namespace
+
+Result<LoadStudy> load_study(const preset::Preset& preset, int imperfections, Watch& watch) {
+  TRY(scene, shared_scene_of(preset));
+  if ((*scene)->rung == RodModel::net)
+    return fail(Fault::bad_input, "a net that nothing is solved for carries nothing: [accuracy] "
+                                  "model must be another, or tolerance below 0.05");
+  if ((*scene)->load_cases.empty())
+    return fail(Fault::bad_input, "there is nothing to carry: [[loads.case]] must name a case");
+  preset::Preset once = preset;
+  once.movie.frames = 1;
+  record::MemorySink sink;
+  LoadStudy study;
+  TRY(path, simulate::follow(once, *scene, false, sink, watch, study.summary));
+  study.state = std::move(sink.trajectory());
+  study.state.frames = {record::Frame(study.state.frames.back())};
+  Simulation& simulation = path->simulation;
+  const Checkpoint formed = simulation.save();
+  const auto& cases = (*scene)->load_cases;
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    TRY_DO(put_case(simulation, cases[k], imperfections, study, watch));
+    simulation.restore(formed);
+    watch.report(0.5 + 0.5 * double(k + 1) / double(cases.size()));
+  }
+  return study;
+}
+
+}  // namespace gridshell::study

@@ -1,0 +1,93 @@
+// Bars between joints and bolts that keep an angle, against differences of their energy.
+#include <catch2/catch.hpp>
+#include <limits>
+#include <random>
+
+#include "tests/engine/elastic/bent_dome.h"
+#include "tests/engine/elastic/differences.h"
+#include "tests/results.h"
+
+using namespace gridshell;
+
+namespace {
+
+constexpr double rigid = std::numeric_limits<double>::infinity();
+
+State shaken(const Model& model, const State& rest, double by) {
+  std::mt19937 random(11);
+  std::normal_distribution<double> normal;
+  Eigen::Matrix3Xd x = rest.x;
+  for (double& value : x.reshaped()) value += by * normal(random);
+  return start_state(model, x);
+}
+
+/// A dome, its mesh and plain rods.
+struct Dome : BentDome {
+  RodMesh mesh;
+  ShellRods rods{circular_section(0.254, 83)};
+
+  explicit Dome(int edges)
+      : BentDome(bent_dome(52, 4, edges)),
+        mesh(mesh_rods(circular_footprint(52, 4, 20, Placement::half).value(), edges)) {}
+};
+
+Model with(const Dome& dome, const ShellRods& rods) {
+  return value_of(build_model(dome.mesh, rods));
+}
+
+}  // namespace
+
+TEST_CASE("a bar: a strut on both sides, a cable that is slack, comes on and pulls") {
+  const Dome dome(2);
+  const double length = (dome.state.x.col(0) - dome.state.x.col(5)).norm();
+  for (const bool cable : {false, true})
+    for (const double strain : {-1e-3, 4e-6, 2e-3}) {
+      CAPTURE(cable, strain);
+      ShellRods rods = dome.rods;
+      rods.braces = {{0, 5, length / (1 + strain), 500, cable}};
+      const Model model = with(dome, rods);
+      const Energies energies = energies_of(model, dome.state);
+      const double bar = energies[Term::stretch] -
+                         energies_of(with(dome, dome.rods), dome.state)[Term::stretch];
+      if (cable && strain < 0) CHECK(bar == 0);
+      if (strain > 1e-3) CHECK(bar == Approx(0.5 * 500 * length * strain * strain).epsilon(1e-2));
+      if (std::abs(strain) > 1e-4) check_derivatives(model, dome.state, {}, 1e-6, 1e-5, 1e-6);
+    }
+  // where it comes on a step of differences must be small beside that strain
+  const NodeBar cable{0, 1, 10, 500, true};
+  for (const double strain : {2e-6, 9e-6, 1.5e-5}) {
+    constexpr double h = 1e-9;
+    CHECK((cable.value(strain + h) - cable.value(strain - h)) / (2 * h * 10) ==
+          Approx(cable.force(strain)).epsilon(1e-6));
+    CHECK((cable.force(strain + h) - cable.force(strain - h)) / (2 * h) ==
+          Approx(cable.stiffness(strain)).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("bolts are free of stress in the shape they were tightened in, on its mesh exactly") {
+  const Dome dome(4);
+  const Model loose = with(dome, dome.rods);
+  for (const double stiffness : {25.0, rigid}) {
+    ShellRods rods = dome.rods;
+    rods.bolts = std::make_shared<const Bolts>(
+        tightened(dome.mesh, loose, dome.state.x, stiffness));
+    const Model model = with(dome, rods);
+    CHECK(energies_of(model, dome.state)[Term::shear] < 1e-20);
+    const State off = shaken(model, dome.state, 0.02);
+    CHECK(energies_of(model, off)[Term::shear] > 1e-8);
+    check_derivatives(model, off, {}, 1e-6, 1e-4, 1e-5);
+  }
+}
+
+TEST_CASE("bolts of one mesh hold the shape of another at second order") {
+  std::vector<double> left;
+  const Dome fine(16);
+  for (const int edges : {4, 8}) {
+    const Dome dome(edges);
+    ShellRods rods = dome.rods;
+    rods.bolts = std::make_shared<const Bolts>(
+        tightened(fine.mesh, with(fine, fine.rods), fine.state.x, 25));
+    left.push_back(std::sqrt(energies_of(with(dome, rods), dome.state)[Term::shear]));
+  }
+  CHECK(left[1] < 0.35 * left[0]);
+}

@@ -1,0 +1,168 @@
+// A formed shell made stiff and loaded: bolts and braces free of stress, loads and reactions in
+// balance, all of it taken away again.
+#include "engine/simulate/stiffening.h"
+
+#include <catch2/catch.hpp>
+#include <numeric>
+
+#include "engine/footprint/faces.h"
+#include "engine/simulate/steps.h"
+#include "tests/engine/simulate/run.h"
+#include "tests/small_shell.h"
+
+using namespace gridshell;
+using namespace gridshell::simulate;
+using preset::StepKind;
+
+namespace {
+
+preset::Preset loaded_shell() {
+  preset::Preset p = small_shell();
+  p.rod.density_kg_m3 = 6450;
+  p.loads.gravity_m_s2 = 9.81;
+  p.loads.snow_N_m2 = 0.5;
+  p.loads.wind_N_m2 = 0.3;
+  p.load_case = {{.name = "snow", .snow = 1},
+                 {.name = "half", .snow = 1, .snow_side = preset::SnowSide::x},
+                 {.name = "wind", .dead = 0.5, .wind = 1, .points = {{0, 0, 1e-4, 0, 0}}}};
+  return p;
+}
+
+preset::Step step(StepKind kind) {
+  preset::Step one;
+  one.kind = kind;
+  one.EA_N = 50;
+  return one;
+}
+
+/// The shell of a preset at the end of its actuation.
+Simulation formed(const preset::Preset& preset) {
+  const auto scene = shared_scene(preset);
+  Simulation simulation =
+      value_of(Simulation::open(scene, plan_levels(scene->tolerance)));
+  REQUIRE(value_of(simulation.begin_buckled(0.02, unwatched)).end == Outcome::reached);
+  REQUIRE(simulation.move_to(1, unwatched).end == Outcome::reached);
+  return simulation;
+}
+
+Report done(Simulation& simulation, const preset::Step& one) {
+  const Report report = value_of(apply_step(simulation, one, unwatched));
+  REQUIRE(report.end == Outcome::reached);
+  CHECK(report.certificate.stable());
+  return report;
+}
+
+Eigen::Vector3d sum_of(const std::vector<NodeAction>& actions) {
+  return std::accumulate(
+      actions.begin(), actions.end(), Eigen::Vector3d(0, 0, 0),
+      [](const Eigen::Vector3d& sum, const NodeAction& one) { return sum + one.force; });
+}
+
+/// Of all that is held, on the finest mesh.
+Eigen::Vector3d reactions(Simulation& simulation) {
+  NestedShell& shell = simulation.shell();
+  const int last = shell.levels() - 1;
+  const Model& model = shell.model(last);
+  const Assembly forces = shell.forces(last);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int node = 0; node < model.nodes; ++node)
+    if (model.pinned(node)) sum += forces.gradient.col(node);
+  return sum;
+}
+
+double stiffness_of_push(Simulation simulation) {
+  REQUIRE(simulation.push(0, {0, 0, -0.05}, Across::free, unwatched).end == Outcome::reached);
+  return -simulation.force(0).z() / 0.05;
+}
+
+}  // namespace
+
+TEST_CASE("load cases: what comes on is what the supports bear, to 1e-9 of it") {
+  Simulation simulation = formed(loaded_shell());
+  const Eigen::Matrix3Xd shape = simulation.nodes();
+  double plan = 0, half = 0;
+  for (const Face& face : faces_of(simulation.scene().footprint)) {
+    const double area = area_of(face, shape).z();
+    CHECK(area > 0);
+    plan += area;
+    double middle = 0;
+    for (const int corner : face.corners) middle += shape(0, corner);
+    if (middle >= 0) half += area;
+  }
+  const Eigen::Vector3d before = reactions(simulation);
+  const double weight = -sum_of(simulation.shell().model(simulation.shell().levels() - 1).loads).z();
+  CHECK(before.z() == Approx(weight).epsilon(1e-7));
+  for (const char* name : {"snow", "half", "wind"}) {
+    CAPTURE(name);
+    preset::Step load = step(StepKind::load);
+    load.load_case = name;
+    load.factor = 0.8;
+    done(simulation, load);
+    const std::string of = name;
+    const Eigen::Vector3d field = sum_of(simulation.field());
+    if (of == "snow") CHECK(field.z() == Approx(-0.8 * 0.5e-6 * plan).epsilon(1e-10));
+    if (of == "half") CHECK(field.z() == Approx(-0.8 * 0.5e-6 * half).epsilon(1e-3));
+    if (of == "wind") CHECK(field.x() > 0.8e-4);
+    const double dead = of == "wind" ? 1.4 : 1;
+    Eigen::Vector3d all = field;
+    all.z() -= dead * weight;
+    const Eigen::Vector3d left = reactions(simulation) + all;
+    CAPTURE(left.norm() / all.norm());
+    CHECK(left.norm() < 1e-9 * all.norm());
+    load.factor = 0;
+    done(simulation, load);
+    CHECK(simulation.cases.empty());
+    CHECK(sum_of(simulation.field()).norm() < 1e-15);
+    CHECK(max_column_norm(simulation.nodes() - shape) < 1e-3);
+  }
+}
+
+TEST_CASE("bolts and braces change nothing as they come in, hold afterwards, and go again") {
+  Simulation simulation = formed(loaded_shell());
+  const Eigen::Matrix3Xd shape = simulation.nodes();
+  const double loose = stiffness_of_push(formed(loaded_shell()));
+  const double near = 0.01 * simulation.scene().footprint.spacing;
+  const Checkpoint before = simulation.save();
+  done(simulation, step(StepKind::tighten));
+  CHECK(max_column_norm(simulation.nodes() - shape) < near);
+  const double bolted = simulation.energies()[Term::shear];
+  CHECK(bolted < 1e-3 * simulation.energies()[Term::bend]);
+  done(simulation, step(StepKind::brace));
+  CHECK(simulation.rods().braces.size() == 2 * simulation.scene().footprint.cells.size());
+  CHECK(max_column_norm(simulation.nodes() - shape) < near);
+  const Checkpoint stiff = simulation.save();
+  const Eigen::Matrix3Xd braced = simulation.nodes();
+  REQUIRE(simulation.push(0, {0, 0, -0.05}, Across::free, unwatched).end == Outcome::reached);
+  CHECK(-simulation.force(0).z() / 0.05 > 1.5 * loose);
+  simulation.restore(stiff);
+  CHECK(max_column_norm(simulation.nodes() - braced) == 0);
+  preset::Step out = step(StepKind::release);
+  out.what = preset::Released::braces;
+  done(simulation, out);
+  out.what = preset::Released::bolts;
+  done(simulation, out);
+  CHECK(!simulation.rods().bolts);
+  CHECK(max_column_norm(simulation.nodes() - shape) < 1e-3);
+  CHECK(refusal(apply_step(simulation, out, unwatched), Fault::bad_input) ==
+        "there are no bolts to take out");
+  simulation.restore(before);
+  CHECK(max_column_norm(simulation.nodes() - shape) == 0);
+}
+
+TEST_CASE("what is made stiff too early, or is not there, is named") {
+  const auto scene = shared_scene(loaded_shell());
+  Simulation flat = value_of(Simulation::open(scene, plan_levels(1e-2)));
+  flat.begin_flat();
+  CHECK(refusal(apply_step(flat, step(StepKind::tighten), unwatched), Fault::bad_input)
+            .find("must be formed") != std::string::npos);
+  preset::Preset p = loaded_shell();
+  p.step = {step(StepKind::brace)};
+  p.step[0].cells = {{40, 2}};
+  Watch watch;
+  CHECK(refusal(plan(p), Fault::bad_input) ==
+        "[[step]] 1 cells: the footprint has no cell [40, 2]");
+  p.step = {step(StepKind::release)};
+  p.step[0].what = preset::Released::braces;
+  CHECK(refusal(plan(p), Fault::bad_input) ==
+        "[[step]] 1 what: there are no braces to take out");
+}

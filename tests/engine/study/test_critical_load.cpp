@@ -1,0 +1,130 @@
+// Critical loads with known answers, by arc length and linearised.
+#include "engine/study/critical_load.h"
+
+#include <functional>
+
+#include "engine/elastic/along_rods.h"
+#include "engine/study/load_study.h"
+#include "tests/engine/solve/rod_cases.h"
+#include "tests/presets.h"
+#include "tests/small_shell.h"
+
+using namespace gridshell;
+using namespace gridshell::study;
+using record::BranchEvent;
+
+namespace {
+
+constexpr double L = 1000, EA = 1e4, rise = 2, gyration = rise / 3.5;
+constexpr double EI = EA * gyration * gyration, k = M_PI / L;
+
+CriticalLoad loaded(Model model, const State& begin) {
+  finish(model);
+  Linearisation system(model);
+  const PinnedMotion motion{begin.x, Eigen::Matrix3Xd::Zero(3, begin.x.cols()), PathLaw::even};
+  CriticalOptions options;
+  options.max_strain = 1e-2;
+  return critical_load(system, motion, begin, options, unwatched);
+}
+
+/// An arch free of stress as a half wave, under a half wave of load that is 1 at its limit point by
+/// the shallow theory [Fung, Kaplan 1952]: q = EI k^4 (a_0 - a) + EA k^4/4 (a_0^2 - a^2) a, whose
+/// top is at a^2 = (a_0^2 - 4 r^2)/3. Antisymmetric modes come first where a_0 > sqrt(22) r.
+CriticalLoad shallow_arch(int edges) {
+  const SingleRod single(edges, L, {EA, EI, EI, EI, {0, 1e-5}, 0}, RodEnd::pinned, RodEnd::pinned);
+  Model model = single.model();
+  const Eigen::Matrix3Xd line = single.line(1, rise);
+  for (ModelEdge& edge : model.edges)
+    edge.rest_length = (line.col(edge.to) - line.col(edge.from)).norm();
+  for (int node = 0; node <= edges; ++node) model.hold(node, 1);
+  for (int edge = 0; edge < edges; ++edge) model.hold_spin(edge);
+  finish(model);
+  const State rest = start_state(model, line);
+  for (auto& pair : std::get<std::vector<Pair<SectionBending>>>(model.pairs)) {
+    pair.law.bend.rest.setZero();
+    pair.law.bend.rest = pair.law.excess(pair_geometry(model, rest, pair));
+  }
+  const double a = std::sqrt((rise * rise - 4 * gyration * gyration) / 3), k4 = std::pow(k, 4);
+  const double q = EI * k4 * (rise - a) + EA * k4 / 4 * (rise * rise - a * a) * a;
+  for (int node = 1; node < edges; ++node)
+    model.loads.push_back({node, {0, 0, -q * L / edges * std::sin(M_PI * node / edges)}});
+  return loaded(std::move(model), rest);
+}
+
+/// Euler's column under its critical load times 1.
+CriticalLoad column(int edges) {
+  constexpr double stiff = 1e7;
+  const SingleRod single(edges, L, {stiff, EI, EI, EI, {0, 0}, 0}, RodEnd::pinned, RodEnd::free);
+  Model model = single.model();
+  for (const int row : {1, 2}) model.hold(edges, row);
+  for (int node = 0; node <= edges; ++node) model.hold(node, 1);
+  model.loads.push_back({edges, {-EI * k * k, 0, 0}});
+  finish(model);
+  return loaded(model, start_state(model, single.line()));
+}
+
+preset::Preset snowed_on() {
+  preset::Preset p = small_shell();
+  p.loads.snow_N_m2 = 1;
+  p.load_case = {{.name = "snow", .snow = 1}};
+  return p;
+}
+
+LoadStudy studied(const preset::Preset& preset, int imperfections = 0) {
+  Watch watch;
+  return value_of(load_study(preset, imperfections, watch));
+}
+
+}  // namespace
+
+TEST_CASE("a shallow sinusoidal arch turns back at its limit point") {
+  const CriticalLoad coarse = shallow_arch(32), fine = shallow_arch(64);
+  CHECK(fine.event == BranchEvent::turn);
+  CHECK((4 * fine.factor - coarse.factor) / 3 == Approx(1).epsilon(1e-3));
+  CHECK(std::abs(fine.factor - 1) < std::abs(coarse.factor - 1));
+  // it goes down, most in its middle
+  REQUIRE(fine.mode.size() > 0);
+  CHECK(std::abs(fine.mode(2, 32)) == Approx(1));
+  // and on beyond the limit point, not stable
+  CHECK(fine.points.back().negative_pivots == 1);
+  CHECK(fine.points.back().at.t < fine.factor);
+}
+
+TEST_CASE("Euler's column branches at its load, which the linearised problem knows too") {
+  const CriticalLoad coarse = column(16), fine = column(32);
+  CHECK(fine.event == BranchEvent::bifurcation);
+  CHECK((4 * fine.factor - coarse.factor) / 3 == Approx(1).epsilon(2e-4));
+  CHECK((4 * fine.linear - coarse.linear) / 3 == Approx(1).epsilon(2e-4));
+  REQUIRE(fine.mode.size() > 0);
+  CHECK(std::abs(fine.mode(2, 16)) == Approx(1).epsilon(1e-6));
+}
+
+TEST_CASE("what a shell carries lies within its error of finer meshes' answer", "[standard]") {
+  preset::Preset p = snowed_on();
+  p.accuracy.tolerance = 1e-5;
+  const LoadStudy fine = studied(p);
+  p.accuracy.tolerance = 1e-3;
+  const LoadStudy found = studied(p, 5);
+  REQUIRE(found.cases.size() == 1);
+  const record::LoadRow &row = found.cases[0], &exact = fine.cases[0];
+  CAPTURE(row.critical_factor, row.error, exact.critical_factor, word_of(row.event));
+  CHECK(row.event == exact.event);
+  CHECK(row.critical_factor > 0);
+  CHECK(std::abs(row.critical_factor - exact.critical_factor) <
+        2 * row.error + 1e-3 * exact.critical_factor);
+  CHECK(row.error < 0.1 * row.critical_factor);
+  CHECK(row.imperfections == 5);
+  CHECK(row.knock_down_5 <= row.knock_down_50);
+  CHECK(row.knock_down_50 < 1.1);
+  CHECK(found.modes[0].colwise().norm().maxCoeff() == Approx(1));
+  CHECK(found.points.front().factor == 0);
+  CHECK(found.points.front().way_mm == 0);
+}
+
+TEST_CASE("a shell that has no case to carry is refused by the key") {
+  preset::Preset p = snowed_on();
+  p.load_case.clear();
+  Watch watch;
+  CHECK(refusal(load_study(p, 0, watch), Fault::bad_input).find("[[loads.case]]") !=
+        std::string::npos);
+}
