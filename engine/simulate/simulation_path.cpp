@@ -186,15 +186,20 @@ Outcome Simulation::Walk::branch_ended(Outcome how, double next, const NestedSta
   const bool ahead = last == next && kind == Event::Kind::stability_lost;
   // nor is a limit that was asked for
   const bool asked = scene_.stops_at_contact || scene_.limits_strength();
+  bool on_finest = ahead;
   if (ahead || asked) {
-    if (ahead || shell_.advance(last, watch_).end != Outcome::reached)
-      bisect(next, good, [] { return true; });
+    on_finest = ahead || shell_.advance(last, watch_).end != Outcome::reached;
+    if (on_finest) bisect(next, good, [] { return true; });
     if (auto limit = asked ? of_.beyond(limits_) : std::nullopt)
       return end_before(std::move(*limit), now(), good);
     if (now() != good.t) note();
   }
   const NestedState end_of_branch = shell_.state();
-  events_.push_back({kind, shell_.followed().t, {}, {}});
+  const double t = shell_.followed().t;
+  const std::vector<int>& edges = shell_.plan().edges_per_segment;
+  events_.push_back({.kind = kind, .t = t, .error = {}, .to = {}});
+  events_.back().placed = on_finest ? Event::Place{edges.back(), t, located_to()}
+                                    : Event::Place{edges.front(), t};
   if (kind == Event::Kind::stability_lost && !scene_.imperfection.chooses()) {
     shell_.back_to(end_of_branch);
     shell_.allow_unstable(true);
@@ -262,6 +267,7 @@ double Simulation::Walk::located_to() const {
 
 Outcome Simulation::Walk::end_at(Event limit) {
   limit.t = now();
+  limit.placed = {shell_.plan().edges_per_segment.back(), limit.t};
   events_.push_back(std::move(limit));
   return outcome_of(events_.back().kind);
 }
