@@ -16,6 +16,10 @@
 #include "engine/geometry/chebyshev_net.h"
 #include "engine/preset/preset.h"
 
+namespace gridshell::simulate {
+class KeptWays;
+}
+
 namespace gridshell {
 
 /// Whether and how a snap is followed in time.
@@ -61,6 +65,9 @@ struct Scene {
   bool table = false;  ///< whether no rod passes the plane of the flat
   SnapDynamics snap;
   std::shared_ptr<Team> team;  ///< of whoever follows one path alone: who helps with large shells
+  /// And where the ways that were followed are kept, for a run that goes on from there
+  /// (simulate/kept_ways.h).
+  std::shared_ptr<simulate::KeptWays> kept;
 
   /// The rung of the mechanics, where there is one.
   RodModel solved_model() const {
