@@ -85,6 +85,7 @@ class Simulation::Walk {
  private:
   double now() const { return shell_.state().t; }
   void note();
+  void tell() const;
   void keep();
   bool goes_on();
   void keep_way(std::optional<Outcome> end);
@@ -150,10 +151,15 @@ void Simulation::Walk::note() {
   if (record_) record_->load_steps.push_back({shell_.point(), of_.certificate(), of_.contacts()});
 }
 
+/// Tells who watches where the path stands.
+void Simulation::Walk::tell() const {
+  if (&watch_ != &unwatched) watch_.stand_at(now(), shell_.plan().edges_per_segment.front());
+}
+
 /// Notes a load step from which the path goes on.
 void Simulation::Walk::keep() {
   note();
-  if (&watch_ != &unwatched) watch_.stand_at(now(), shell_.plan().edges_per_segment.front());
+  tell();
   if (record_ && of_.actuating_ && leaving_.wanted && scene_.imperfection.chooses())
     softening_.take(shell_, watch_);
 }
@@ -181,6 +187,7 @@ bool Simulation::Walk::goes_on() {
   });
   shell_.allow_unstable(leaving_.through_unstable || stays);
   shell_.back_to(way_.state);
+  tell();
   return true;
 }
 

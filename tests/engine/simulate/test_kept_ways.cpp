@@ -72,7 +72,7 @@ void check_same(const Run& a, const Run& b, double within_mm) {
 
 }  // namespace
 
-TEST_CASE("a run that is stopped on its path goes on from there, to the same states") {
+TEST_CASE("a run that is stopped on its path goes on from there, to the same states", "[standard]") {
   const TemporaryFolder folder;
   const Run whole = run_with({});
   const Run stopped = run_with(folder.path(), 0.3);
@@ -83,7 +83,8 @@ TEST_CASE("a run that is stopped on its path goes on from there, to the same sta
   check_same(whole, run_with(folder.path()), 1e-3 * 1e-3 * 126);
 }
 
-TEST_CASE("a path that was kept whole gives the same bits, and what is damaged is followed again") {
+TEST_CASE("a path that was kept whole gives the same bits, and what is damaged is followed again",
+          "[standard]") {
   const TemporaryFolder folder;
   const Run first = run_with(folder.path());
   const auto kept = files_in(folder.path());
