@@ -11,6 +11,7 @@
 #include "app/cli/preset_library.h"
 #include "engine/core/file_io.h"
 #include "engine/core/json.h"
+#include "engine/core/text.h"
 #include "engine/core/try.h"
 #include "engine/gridshell.h"
 #include "render/movie/state_charts.h"
@@ -30,6 +31,7 @@ struct ChartOptions {
   double limit_s = 0;          ///< of one run; 0: as the study has it
   int edges = 32;              ///< a segment of the finest mesh that methods are given
   int scenes = 600, seed = 1;  ///< of a study of trust
+  std::string sizes;           ///< of accuracy: rods a direction, "12,24,48"
 };
 
 /// Lines for the terminal once everything is written, and the summary of a study.
@@ -96,8 +98,42 @@ StudyOptions limited(const ChartOptions& options) {
 
 constexpr double wide_mm = 178, high = 105 / wide_mm, low = 80 / wide_mm;  // of a page
 
+/// "12,24,48" as numbers of rods. Errors: bad_input.
+Result<std::vector<int>> sizes_in(const std::string& text) {
+  std::vector<int> sizes;
+  for (const std::string_view word : words_in(text, ",")) {
+    const auto rods = parse_number<int>(word);
+    if (!rods || *rods < 4 || *rods > 400)
+      return fail(Fault::bad_input, "--sizes {}: '{}' is no number of rods from 4 to 400", text,
+                  word);
+    sizes.push_back(*rods);
+  }
+  return sizes;
+}
+
+/// accuracy.csv and .png, .svg, .pdf, a curve a size.
+Result<ChartReport> draw_sizes(const preset::Preset& preset, const ChartOptions& options,
+                               const fs::path& folder, Watch& watch) {
+  auto how = limited<study::AccuracyOptions>(options);
+  how.finest = options.edges;
+  TRY(sizes, sizes_in(options.sizes));
+  TRY(rows, study::sizes_study(preset, *sizes, how, watch));
+  TRY_DO(write_file(folder / "accuracy.csv", record::csv_table(*rows)));
+  const std::string title = render::plain(preset.title) + ": error over time, by rods a direction";
+  TRY_DO(
+      render::write_plot(folder / "accuracy", render::accuracy_plot(*rows, title, true), {wide_mm},
+                         high));
+  ChartReport findings;
+  for (const auto& row : *rows)
+    findings.text += fmt::format("{}: {} edges a segment, error {:.1e} in {:.3f} s ({})\n",
+                                 row.method, row.edges_per_segment, row.error, row.cpu_s,
+                                 word_of(row.outcome));
+  return findings;
+}
+
 Result<ChartReport> draw_accuracy(const preset::Preset& preset, const ChartOptions& options,
                                   const fs::path& folder, Watch& watch) {
+  if (!options.sizes.empty()) return draw_sizes(preset, options, folder, watch);
   auto how = limited<study::AccuracyOptions>(options);
   how.most_edges = options.edges;
   how.finest = 4 * options.edges;
@@ -300,6 +336,8 @@ void add_chart(CommandLine& program) {
       .option("--edges", options->edges,
               "edges a segment of the finest mesh that methods are given")
       .in_range(4, 32);
+  command.option("--sizes", options->sizes,
+                 "of accuracy: instead, the program itself at so many rods a direction, 12,24,48");
   command.option("--scenes", options->scenes, "of trust: how many, of ten kinds in turn")
       .in_range(1, 100000);
   command.option("--seed", options->seed, "of trust: other scenes").in_range(0, 1 << 30);

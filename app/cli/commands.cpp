@@ -122,12 +122,16 @@ void add_list(CommandLine& program) {
 /// Those that take a preset, what changes it, where to write and how to draw, and nothing else.
 void add_preset_command(CommandLine& program, const char* name, const char* meaning,
                         Result<int> (*act)(const Options&),
-                        const char* output = "folder to write, by default out/<preset>") {
+                        const char* output = "folder to write, by default out/<preset>",
+                        bool resumes = false) {
   const auto options = std::make_shared<Options>();
   CommandArguments command = program.add(name, meaning, [options, act] { return act(*options); });
   add_preset_options(command, *options);
   add_work_options(command, *options, output);
   add_picture_options(command, *options);
+  if (resumes)
+    command.flag("--resume", options->resume,
+                 "go on where a run of this preset to the same folder was ended");
 }
 
 template <Pictures pictures>
@@ -142,7 +146,8 @@ void add_commands(CommandLine& program) {
                      produce_with<Pictures::movie>);
   add_preset_command(program, "figure", "the stills of a preset", produce_with<Pictures::stills>);
   add_preset_command(program, "run", "the experiment alone, no pictures",
-                     produce_with<Pictures::none>);
+                     produce_with<Pictures::none>, "folder to write, by default out/<preset>",
+                     true);
   add_render(program);
   add_view(program);
   add_chart(program);

@@ -50,6 +50,16 @@ ProgressState standing(const std::vector<Phase>& phases, std::size_t current, do
   return at;
 }
 
+double PathPace::seconds_left(const Watch::Place& at, double now) {
+  constexpr double least_way = 0.02, least_s = 2;
+  // another leader, or the same on another way
+  if (at.edges != last_.edges || at.t < last_.t) begun_ = at, begun_at_ = now;
+  last_ = at;
+  const double way = at.t - begun_.t, elapsed = now - begun_at_;
+  if (!(way >= least_way && elapsed >= least_s)) return std::numeric_limits<double>::quiet_NaN();
+  return std::max(0.0, 1 - at.t) * elapsed / way;
+}
+
 std::string bar_text(const ProgressState& at, const std::string& label, int width) {
   const int full = std::clamp(int(at.fraction * width), 0, width);
   std::string bar(std::size_t(full), '=');
@@ -62,11 +72,13 @@ namespace {
 
 constexpr double place_every_s = 5, first_place_s = 1;  // of a path that is followed, on lines
 
-/// Where a path stands that is still followed.
-std::string place_text(const Watch& watch) {
+/// Where a path stands that is still followed, and for how long yet on these meshes.
+std::string place_text(const Watch& watch, PathPace& pace) {
   const Watch::Place place = watch.place();
   if (place.edges == 0 || watch.progress() >= 0.5) return "";
-  return fmt::format(": the path at {:.3f}, led by {} edges a segment", place.t, place.edges);
+  const double left = pace.seconds_left(place, seconds_now());
+  return fmt::format(": the path at {:.3f}, led by {} edges a segment, time left on them {}",
+                     place.t, place.edges, std::isnan(left) ? "unknown" : time_text(left));
 }
 
 }  // namespace
@@ -136,7 +148,7 @@ void Progress::show_now() {
   const auto current = watches_.size() - 1;
   const auto at =
       standing(phases_, current, watches_.back()->progress(), seconds_now() - phase_began_);
-  const std::string label = phases_[current].label + place_text(*watches_.back());
+  const std::string label = phases_[current].label + place_text(*watches_.back(), pace_);
   if (show_ == Show::bar) {
     std::fprintf(stderr, "\r%s\033[K", bar_text(at, label, 40).c_str());
     bar_open_ = true;
@@ -157,7 +169,10 @@ namespace {
 // what is whole in a folder that was not finished
 struct Left {
   std::size_t pictures = 0, runs = 0, frames = 0;  // frames: of runs cut short
+  bool path = false;                               // what was followed of one
 };
+
+constexpr const char* goes_on = "the same command with --resume goes on from there";
 
 Left left_in(const fs::path& folder) {
   Left left;
@@ -167,6 +182,7 @@ Left left_in(const fs::path& folder) {
        at.increment(error)) {
     left.pictures += at->path().extension() == ".png";
     left.runs += at->path().filename() == "summary.json";
+    left.path |= at->path().filename().string().starts_with("way_");
     if (at->is_directory(error)) left.frames += record::frames_in_journal(at->path());
   }
   return left;
@@ -187,6 +203,7 @@ void report_left_behind(const fs::path& final_folder) {
     std::string draws;
     if (!old && left.runs + left.frames > 0)
       draws = fmt::format("\n  {}    draws it", render::shell_line({"gridshell", "render", name}));
+    if (!old && left.path) draws += fmt::format("\n  {}", goes_on);
     std::fprintf(
         stderr, "'%s' is %s:%s\n  %s    removes it\n", name.c_str(),
         old ? "what is left of a run that was replaced" : "left of a run that was not finished",
@@ -202,17 +219,8 @@ Result<void> attempt(const Work& work, const fs::path& partial, Progress& progre
   }
 }
 
-}  // namespace
-
-std::string keep_finished_files(const fs::path& partial) {
-  remove_unfinished(partial);
-  const auto left = left_in(partial);
-  const auto name = near_name(partial);
-  if (left.pictures + left.runs + left.frames == 0) {
-    std::error_code error;
-    fs::remove_all(partial, error);
-    return "nothing was finished, so nothing is left behind";
-  }
+/// What of a folder is whole.
+std::string whole_files(const Left& left, const std::string& name) {
   const auto whole = count_text(left.runs, "run") + " and " + count_text(left.pictures, "picture");
   if (left.frames == 0) return fmt::format("{}, each whole, are in '{}'", whole, name);
   std::string others;
@@ -222,10 +230,28 @@ std::string keep_finished_files(const fs::path& partial) {
                      render::shell_line({"gridshell", "render", name}));
 }
 
+}  // namespace
+
+std::string keep_finished_files(const fs::path& partial) {
+  remove_unfinished(partial);
+  const auto left = left_in(partial);
+  const auto name = near_name(partial);
+  std::string text = left.pictures + left.runs + left.frames > 0 ? whole_files(left, name) : "";
+  if (left.path) {
+    text += text.empty() ? fmt::format("its path so far is in '{}'; ", name) : "\n";
+    return text + goes_on;
+  }
+  if (!text.empty()) return text;
+  std::error_code error;
+  fs::remove_all(partial, error);
+  return "nothing was finished, so nothing is left behind";
+}
+
 Result<void> deliver(const fs::path& final_folder, const std::vector<Phase>& phases, bool quiet,
-                     const Work& work) {
+                     const Work& work, const fs::path& left_there) {
   const InterruptGuard guarded;
-  TRY(staged, StagedFolder::create(final_folder));
+  TRY(staged, left_there.empty() ? StagedFolder::create(final_folder)
+                                 : StagedFolder::resume(final_folder, left_there));
   if (!quiet) report_left_behind(final_folder);
   const auto on_forced_exit = [&] {
     std::fprintf(stderr, "stopped\n%s\n", keep_finished_files(staged->path()).c_str());

@@ -38,6 +38,18 @@ struct ProgressState {
 ProgressState standing(const std::vector<Phase>& phases, std::size_t current, double fraction,
                        double elapsed);
 
+/// How fast a path is followed: from where its leading mesh began on its present way.
+class PathPace {
+ public:
+  /// Seconds that the way to its end, path parameter 1, takes yet; NaN while too little of it is
+  /// done to say, and on a way back.
+  double seconds_left(const Watch::Place& at, double now);
+
+ private:
+  Watch::Place begun_, last_;
+  double begun_at_ = 0;
+};
+
 /// "[======>     ]  52 %  rendering, 0:31 left"
 std::string bar_text(const ProgressState& standing, const std::string& label, int width);
 
@@ -75,6 +87,7 @@ class Progress {
   bool interrupted_ = false;
   int tenth_shown_ = 0;
   double place_shown_at_ = 0;  // seconds_now()
+  PathPace pace_;
   bool bar_open_ = false;
   std::thread thread_;
 };
@@ -85,10 +98,14 @@ class Progress {
 /// Writes into `partial`; begins every phase it was announced with.
 using Work = std::function<Result<void>(const std::filesystem::path& partial, Progress& progress)>;
 
-/// Runs `work` into a staged folder and gives it the name `final_folder`. On failure, what was
-/// finished stays under the partial name. Errors: those of `work`, with what is left.
+/// Runs `work` into a staged folder and gives it the name `final_folder`; `left`: in that of a run
+/// that was not finished. On failure, what was finished stays under the partial name. Errors: those
+/// of `work`, with what is left.
 Result<void> deliver(const std::filesystem::path& final_folder, const std::vector<Phase>& phases,
-                     bool quiet, const Work& work);
+                     bool quiet, const Work& work, const std::filesystem::path& left = {});
+
+/// In a partial folder: what of a run's path was followed, and the version that did.
+inline constexpr const char *ways_name = "ways", *version_name = "version";
 
 /// Cleans a folder that will not be finished: half-written files go, whole pictures and runs stay;
 /// without any the folder goes too. A sentence that says what is left.

@@ -24,6 +24,7 @@ struct Options {
   std::string size, quality, frames, width, dpi;
   bool print_config = false;
   bool pdf = false;
+  bool resume = false;
 };
 
 /// PRESET and everything that changes it: --set, --frames, --size, --quality, --print-config.

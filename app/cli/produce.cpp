@@ -10,6 +10,7 @@
 #include "app/cli/delivery.h"
 #include "app/cli/figures.h"
 #include "app/cli/preset_library.h"
+#include "app/cli/staged_folder.h"
 #include "engine/core/file_io.h"
 #include "engine/core/json.h"
 #include "engine/core/parallel.h"
@@ -83,10 +84,12 @@ std::string help_for(const preset::Preset& preset, record::Limit limit, double l
 }
 
 // one run, a path's or a search for states
-Result<record::Summary> computed(Run& run, int threads, record::Sink& sink, Watch& watch) {
+Result<record::Summary> computed(Run& run, int threads, const fs::path& ways, record::Sink& sink,
+                                 Watch& watch) {
   if (!run.preset.jitter.wanted()) {
     TRY(scene, scene_of(run.preset));
     scene->team = std::make_shared<Team>(threads);
+    if (!ways.empty()) scene->kept = std::make_shared<simulate::KeptWays>(ways);
     return simulate::run(run.preset, std::make_shared<const Scene>(std::move(*scene)),
                          run.pictures == Pictures::stills, sink, watch);
   }
@@ -96,12 +99,14 @@ Result<record::Summary> computed(Run& run, int threads, record::Sink& sink, Watc
 }
 
 // every frame is on the disk as soon as it is found, and all runs before a picture of one is drawn
-Result<void> simulate(Run& run, int threads, const fs::path& folder, Watch& watch) {
+Result<void> simulate(Run& run, int threads, const fs::path& folder, const fs::path& ways,
+                      Watch& watch) {
   TRY_DO(make_folder(folder));
+  record::remove_journals(folder);
   TRY_DO(write_file(folder / "preset.toml", preset::to_toml(run.preset)));
   const record::Kind kind = kind_of(run.pictures);
   record::FolderSink sink(folder, {run.preset.name, kind, run.preset.title});
-  auto summary = computed(run, threads, sink, watch);
+  auto summary = computed(run, threads, ways, sink, watch);
   if (!summary && summary.error().fault == Fault::no_equilibrium)
     summary.error().message += "\n" + help_for(run.preset, record::Limit::no_equilibrium, NAN);
   if (!summary) return tl::unexpected(summary.error());
@@ -136,9 +141,16 @@ Result<void> write_runs(std::vector<Run>& runs, const preset::Presets& presets,
     TRY(made, PictureMaker::create(options.context, base.style.font));
     maker.emplace(std::move(*made));
   }
+  const fs::path ways = maker ? fs::path() : partial / ways_name;
+  if (!maker) {
+    TRY_DO(make_folder(ways));
+    TRY_DO(write_file(ways / version_name, version()));
+  }
   for (Run& run : runs)
     TRY_DO(simulate(run, thread_count(options.threads), folder_of(partial, run.name),
-                    progress.next_phase()));
+                    maker ? ways : folder_of(ways, run.name), progress.next_phase()));
+  std::error_code ignored;
+  if (!maker) fs::remove_all(ways, ignored);
   if (maker) {
     TRY_DO(draw_all(runs, base.title, fs::path(base.name).filename(), maker->renderer(), partial,
                     progress));
@@ -232,6 +244,32 @@ std::string failure_of(const record::Summary& summary, bool allow_unstable) {
   return "";
 }
 
+namespace {
+
+/// The folder that an ended run of these presets left. Errors (bad_input): there is none that can
+/// be gone on with.
+Result<fs::path> unfinished_run(const fs::path& folder, const std::string& presets) {
+  std::string why = fmt::format("no run to '{}' was left unfinished", folder.string());
+  if (fs::exists(folder / "summary.json"))
+    why = fmt::format("'{}' is a finished run", folder.string());
+  for (const fs::path& left : left_behind(folder)) {
+    const auto made_by = read_file(left / ways_name / version_name, largest_text);
+    if (!made_by) continue;
+    const auto text = read_file(left / "preset.toml", largest_text);
+    if (!text || *text != presets)
+      why = fmt::format("'{}' is a run of another preset, or of this one with other keys",
+                        left.string());
+    else if (*made_by != version())
+      why = fmt::format("'{}' was begun by version {}, and this is {}", left.string(), *made_by,
+                        version());
+    else
+      return left;
+  }
+  return fail(Fault::bad_input, "--resume: {}: without it the run begins anew", why);
+}
+
+}  // namespace
+
 Result<int> produce(const Options& options, Pictures pictures) {
   TRY(presets, load(options));
   if (options.print_config) return print_config(*presets);
@@ -243,9 +281,17 @@ Result<int> produce(const Options& options, Pictures pictures) {
     return tl::unexpected(runs.error());
   }
   for (Phase& phase : drawing_phases(*runs)) phases.push_back(std::move(phase));
-  TRY_DO(deliver(folder, phases, options.quiet, [&](const fs::path& partial, Progress& progress) {
+  fs::path left;
+  if (options.resume) {
+    const bool cases = !runs->front().name.empty();
+    TRY(found, unfinished_run(folder, cases ? preset::to_toml(*presets)
+                                            : preset::to_toml(runs->front().preset)));
+    left = std::move(*found);
+  }
+  const auto work = [&](const fs::path& partial, Progress& progress) {
     return write_runs(*runs, *presets, options, partial, progress);
-  }));
+  };
+  TRY_DO(deliver(folder, phases, options.quiet, work, left));
   bool whole = true;
   for (const Run& run : *runs) {
     if (!options.quiet) print_result(run, folder);

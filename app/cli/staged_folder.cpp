@@ -143,6 +143,14 @@ Result<StagedFolder> StagedFolder::create(const fs::path& final_folder) {
   return StagedFolder(target, *partial, first_made, lock.descriptor);
 }
 
+Result<StagedFolder> StagedFolder::resume(const fs::path& final_folder, const fs::path& partial) {
+  const Lock lock = lock_of(partial);
+  if (lock.failure)
+    return fail(Fault::io, "cannot go on in '{}': {}", partial.string(), reason(lock.failure));
+  remove_unfinished(partial);
+  return StagedFolder(target_of(final_folder), partial, {}, lock.descriptor);
+}
+
 StagedFolder::StagedFolder(fs::path final_folder, fs::path partial, fs::path first_made, int lock)
     : final_(std::move(final_folder)),
       partial_(std::move(partial)),

@@ -32,6 +32,10 @@ class StagedFolder {
   /// cannot be written.
   static Result<StagedFolder> create(const std::filesystem::path& final_folder);
 
+  /// Takes up one of left_behind(). Errors: io where another program has taken it meanwhile.
+  static Result<StagedFolder> resume(const std::filesystem::path& final_folder,
+                                     const std::filesystem::path& partial);
+
   StagedFolder(StagedFolder&& other) noexcept;
   StagedFolder& operator=(StagedFolder&&) = delete;
   /// Without a commit or keep() the folder goes, and with it the parents made for it.

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "engine/core/file_io.h"
+#include "engine/core/packing.h"
 #include "engine/core/try.h"
 #include "engine/formats/hdf5_file.h"
-#include "engine/formats/packing.h"
 #include "engine/record/frame_columns.h"
 #include "engine/record/trajectory_hdf5.h"
 

@@ -17,6 +17,10 @@
 #include "engine/preset/preset.h"
 #include "engine/scene/load_case.h"
 
+namespace gridshell::simulate {
+class KeptWays;
+}
+
 namespace gridshell {
 
 /// Whether and how a snap is followed in time.
@@ -64,6 +68,9 @@ struct Scene {
   std::vector<LoadCase> load_cases;
   double load_imperfection_mm = 0;  ///< of shells that are not perfect
   std::shared_ptr<Team> team;  ///< of whoever follows one path alone: who helps with large shells
+  /// And where the ways that were followed are kept, for a run that goes on from there
+  /// (simulate/kept_ways.h).
+  std::shared_ptr<simulate::KeptWays> kept;
 
   /// The rung of the mechanics, where there is one.
   RodModel solved_model() const {

@@ -107,16 +107,25 @@ bool same_events(const std::vector<PathSegment>& coarse, const std::vector<PathS
   });
 }
 
-/// The places of events in both, extrapolated from those of two leaders, the finer of twice the
-/// edges.
+/// The places of events in both, extrapolated from the two meshes that placed them, an error of
+/// second order. What one and the same mesh placed in both (the finest of one path leads the other)
+/// stays where it is, its error not known.
 void extrapolate_events(std::vector<PathSegment>& coarse, std::vector<PathSegment>& fine) {
   for (std::size_t k = 0; k < coarse.size(); ++k) {
     auto &seen = coarse[k].report.events, &found = fine[k].report.events;
     for (std::size_t e = 0; e < seen.size(); ++e) {
-      const double step = found[e].t - seen[e].t;
+      Event &a = seen[e], &b = found[e];
+      const double times = double(b.placed.edges) / a.placed.edges;
+      if (times == 1) {
+        a.error = b.error = std::nullopt;
+        continue;
+      }
+      const double left = (b.t - a.t) / (times * times - 1);
       // of a limit the finest mesh decides, and the state that is kept is its own
-      if (!seen[e].is_limit()) seen[e].t = found[e].t = found[e].t + step / 3;
-      seen[e].error = found[e].error = std::abs(step) / 3 + found[e].error.value_or(0);
+      if (!a.is_limit()) a.t = b.t = b.t + left;
+      a.error = b.error =
+          std::abs(left) + a.placed.located + b.placed.located + b.error.value_or(0);
+      a.placed = b.placed;
     }
   }
 }
@@ -296,25 +305,34 @@ SharedPath led_by_finer(SharedPath path, const Follow& follow, const Watch& watc
 
 namespace {
 
-/// Where a mesh of the path ends a branch that its leader leaves at t; empty: not within reach.
-std::optional<double> end_of_branch_on(int level, EquilibriumPath& path, const PathSegment& segment,
-                                       double t, const Watch& watch) {
+constexpr double found_to = 5e-5;  // in the path parameter
+
+/// Where a mesh of the path ends a branch that its leader leaves; empty: not within reach.
+std::optional<Event::Place> place_on(int level, EquilibriumPath& path, const PathSegment& segment,
+                                     const Event& event, const Watch& watch) {
   constexpr double reach = 0.25;  // in the path parameter
   Simulation& simulation = path.simulation;
   NestedShell& shell = simulation.shell();
+  const int edges = shell.plan().edges_per_segment[std::size_t(level)];
+  if (event.placed.edges == edges) return event.placed;
   PathOptions options;
   options.spacing_mm = simulation.scene().footprint.spacing;
-  for (auto step = segment.load_steps.rbegin(); step != segment.load_steps.rend(); ++step) {
+  options.smallest_step = found_to;
+  const auto& steps = segment.load_steps;
+  // of the branch that ends there: where the next rest stands may lie before the place told
+  const auto end = std::ranges::find_if(
+      steps, [&](const LoadStep& step) { return event.to && step.point.t == *event.to; });
+  for (auto step = std::make_reverse_iterator(end); step != steps.rend(); ++step) {
     const double begin = step->point.t;
-    if (segment.sign() * (t - begin) < 0) continue;
-    if (std::abs(t - begin) > reach || watch.cancelled()) break;
+    if (segment.sign() * (event.t - begin) < 0) continue;
+    if (std::abs(event.t - begin) > reach || watch.cancelled()) break;
     if (simulation.sample(begin, *step, false, watch).end != Outcome::reached) continue;
     PathFollower path_there(shell.system(level), shell.motion(level), options);
     const State state = shell.state().levels[std::size_t(level)];
     if (path_there.start(begin, state, watch).end != Outcome::reached) continue;
-    const PathReport there = path_there.advance(t + segment.sign() * reach, watch);
+    const PathReport there = path_there.advance(event.t + segment.sign() * reach, watch);
     if (there.end == Outcome::reached) break;
-    return path_there.point().t;
+    return Event::Place{edges, path_there.point().t, found_to};
   }
   return std::nullopt;
 }
@@ -352,14 +370,18 @@ void locate_on_meshes(EquilibriumPath& path, const Follow& follow, const Watch& 
   }
   if (last == 0 || !path.single_motion) return;
   const Checkpoint end = path.simulation.save();
+  const int finest = path.simulation.shell().plan().edges_per_segment.back();
   for (PathSegment& segment : path.segments)
     for (Event& event : segment.report.events) {
-      if (event.error || event.is_limit()) continue;
-      const auto fine = end_of_branch_on(last, path, segment, event.t, watch);
-      const auto coarse = end_of_branch_on(last - 1, path, segment, event.t, watch);
-      if (!fine || !coarse) continue;
-      event.error = std::abs(*fine - *coarse) / 3;
-      event.t = *fine + (*fine - *coarse) / 3;
+      if (event.is_limit() || (event.error && event.placed.edges >= finest)) continue;
+      const auto fine = place_on(last, path, segment, event, watch);
+      const auto coarse = fine ? place_on(last - 1, path, segment, event, watch) : fine;
+      if (!coarse) continue;
+      // what coarser leaders said tells whether the order is seen yet
+      const double left = (fine->t - coarse->t) / 3, before = event.t;
+      event.t = fine->t + left;
+      event.error = std::abs(left) + fine->located + coarse->located +
+                    (event.error ? std::abs(event.t - before) : 0);
     }
   path.simulation.restore(end);
 }

@@ -50,9 +50,10 @@ SharedPath led_by_finer(SharedPath path, const Follow& follow, const Watch& watc
 /// Why a path is on finer meshes than its tolerance takes by more than tenfold; empty: it is not.
 std::string why_so_fine(const EquilibriumPath& path);
 
-/// Places of events that one leader alone tells, looked for on the finer meshes of the path too:
-/// extrapolated from the last two, with an error. One mesh alone is followed beside one of twice
-/// the edges. Of motions that are over they stay as they are.
+/// Places of events that one leader alone tells, or meshes coarser than the path's finest, looked
+/// for on the last two meshes of the path: extrapolated from these, with an error that counts by
+/// how much they move what leaders told. One mesh alone is followed beside one of twice the edges.
+/// Of motions that are over they stay as they are.
 void locate_on_meshes(EquilibriumPath& path, const Follow& follow, const Watch& watch);
 
 }  // namespace gridshell::simulate

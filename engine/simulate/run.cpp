@@ -15,6 +15,7 @@
 #include "engine/record/trajectory.h"
 #include "engine/scene/scene.h"
 #include "engine/simulate/actuation.h"
+#include "engine/simulate/expected_cost.h"
 #include "engine/simulate/first_state.h"
 #include "engine/simulate/frames.h"
 #include "engine/simulate/indentation.h"
@@ -198,33 +199,6 @@ record::Summary summary_of(const preset::Preset& preset, const Scene& scene,
   return s;
 }
 
-int dof_of(const Scene& scene, int edges_per_segment) {
-  if (scene.rung == RodModel::net) return 0;
-  const auto model =
-      build_model(mesh_rods(scene.footprint, edges_per_segment), scene.rods, scene.solved_model());
-  return model ? model->dof() : 0;
-}
-
-/// About how long a run takes on one core: bringing the coarsest mesh to rest, then two corrections
-/// a frame on each mesh. Measured on shells of 500 to 40 000 unknowns; good within a factor of
-/// three.
-double seconds_for(const Scene& scene, const preset::Preset& preset) {
-  constexpr double to_rest = 1.5e-5, a_frame = 4e-7, a_twist_frame = 1.5e-6;  // seconds an unknown
-  if (scene.rung == RodModel::net) return 0.01;
-  const bool twist = scene.rung == RodModel::twist;
-  double seconds = 0;
-  for (int edges : initial_levels(scene).edges_per_segment) {
-    const double dof = dof_of(scene, edges);
-    if (seconds == 0) seconds = to_rest * dof;
-    seconds += (twist ? a_twist_frame : a_frame) * dof * preset.movie.frames;
-  }
-  // a trial ends on a mesh of 4 edges a segment; measured on 8 to 20 rods
-  constexpr double a_trial = 2e-5;
-  const preset::SearchSettings& jitter = preset.jitter;
-  if (jitter.wanted()) seconds = a_trial * dof_of(scene, 4) * (jitter.trials + jitter.confined);
-  return seconds;
-}
-
 /// Steps name joints that are there, and let go of what a step before took.
 Result<void> check_steps(const std::vector<preset::Step>& steps, const Footprint& footprint) {
   std::set<std::vector<int>> held;
@@ -306,7 +280,7 @@ Result<Plan> plan(const preset::Preset& preset) {
   TRY_DO(check_motion(*scene));
   Plan plan;
   plan.model = word_of(scene->rung);
-  plan.memory_GB = memory_GB(scene->footprint, scene->rung, levels);
+  plan.memory_GB = expected_GB(memory_GB(scene->footprint, scene->rung, levels), preset);
   plan.model_reason = preset::model_reason(preset);
   plan.levels = levels.edges_per_segment;
   plan.edges_per_segment = plan.levels.back();
@@ -317,7 +291,7 @@ Result<Plan> plan(const preset::Preset& preset) {
   plan.dof = dof_of(*scene, plan.edges_per_segment);
   plan.expected_error_mm =
       (scene->rung == RodModel::net ? net_error : expected_error(levels)) * scene->length_scale_mm;
-  plan.expected_seconds = seconds_for(*scene, preset);
+  plan.expected_seconds = expected_seconds(*scene, preset);
   plan.left_out = left_out_of(*scene);
   plan.footprint = fmt::format("{} rods, {} joints, {} cells", plan.rods, plan.joints, plan.cells);
   // a ring has no legs

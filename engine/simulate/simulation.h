@@ -38,6 +38,11 @@ struct Event {
   bool leap = true;             ///< whether that lies apart; else on a branch that leaves there
   /// of a contact: of which parts, and where in space; of rods strained too far: by which limit
   std::string what = {};
+  /// What one mesh, of so many edges a segment, says of t, and to how much it was looked for there.
+  struct Place {
+    int edges = 0;
+    double t = 0, located = 0;
+  } placed = {};
 
   /// Whether the path ends there in the last state before.
   bool is_limit() const {

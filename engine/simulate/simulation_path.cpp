@@ -4,10 +4,12 @@
 #include <cmath>
 #include <optional>
 
+#include "engine/core/file_io.h"
 #include "engine/core/system_info.h"
 #include "engine/core/watch.h"
 #include "engine/simulate/branch_switch.h"
 #include "engine/simulate/frames.h"
+#include "engine/simulate/kept_ways.h"
 #include "engine/simulate/simulation.h"
 #include "engine/solve/nested_shell.h"
 #include "engine/solve/newton.h"
@@ -22,31 +24,33 @@ class StabilityStepControl {
   /// After a load step that was certified.
   void take(NestedShell& shell, const Watch& watch);
   /// Nothing is known of the path: it goes on from somewhere else.
-  void forget() { before_.reset(), now_.reset(); }
+  void forget() { known_.clear(); }
   /// The load step to take in the place of `step`, at least an eighth of it.
   double shortened(double step) const;
+  /// What it knows, for a way that goes on later.
+  const std::vector<simulate::Softness>& known() const { return known_; }
+  void know(std::vector<simulate::Softness> known) { known_ = std::move(known); }
 
  private:
-  struct Point {
-    double t, stiffness;
-  };
-  std::optional<Point> before_, now_;
+  std::vector<simulate::Softness> known_;  // at the last two load steps
 };
 
 void StabilityStepControl::take(NestedShell& shell, const Watch& watch) {
   constexpr double roughly = 0.02;  // the trend is enough
   const Eigen::VectorXd alike = Eigen::VectorXd::Ones(shell.model(0).nodes);
-  before_ = now_;
-  now_ = Point{shell.state().t,
-               lowest_eigenvalue(shell.system(0), shell.state().levels[0], alike, watch, roughly)};
+  if (known_.size() > 1) known_.erase(known_.begin());
+  known_.push_back(
+      {shell.state().t,
+       lowest_eigenvalue(shell.system(0), shell.state().levels[0], alike, watch, roughly)});
 }
 
 double StabilityStepControl::shortened(double step) const {
-  if (!before_ || !now_) return step;
-  const double fall = (before_->stiffness - now_->stiffness) / std::abs(now_->t - before_->t);
+  if (known_.size() < 2) return step;
+  const auto &before = known_[0], &now = known_[1];
+  const double fall = (before.stiffness - now.stiffness) / std::abs(now.t - before.t);
   // also where a stiffness is not known
   if (!(fall > 0)) return step;
-  const double to_zero = now_->stiffness / fall;
+  const double to_zero = now.stiffness / fall;
   return to_zero < 3 * step ? std::clamp(to_zero / 3, step / 8, step) : step;
 }
 
@@ -81,7 +85,10 @@ class Simulation::Walk {
  private:
   double now() const { return shell_.state().t; }
   void note();
+  void tell() const;
   void keep();
+  bool goes_on();
+  void keep_way(std::optional<Outcome> end);
   Outcome step();
   Outcome step_came(double next, const NestedState& good);
   Outcome branch_ended(Outcome how, double next, const NestedState& good);
@@ -105,6 +112,10 @@ class Simulation::Walk {
   StabilityStepControl softening_;
   int halvings_ = 0;
   std::vector<Event> events_;
+  // of a way that is kept, as it was after the last step
+  simulate::KeptWays* kept_ = record_ ? scene_.kept.get() : nullptr;
+  simulate::KeptWay way_;
+  Effort effort_before_;
 };
 
 Report Simulation::go(double t, const Watch& watch, const BifurcationPolicy& leaving,
@@ -115,9 +126,18 @@ Report Simulation::go(double t, const Watch& watch, const BifurcationPolicy& lea
 Report Simulation::Walk::all() {
   const CallBegin begin = of_.call_begin();
   shell_.allow_unstable(leaving_.through_unstable);
-  keep();
   Outcome end = Outcome::reached;
-  while (end == Outcome::reached && now() != to_) end = step();
+  if (goes_on()) {
+    end = way_.end.value_or(end);
+  } else {
+    keep();
+    keep_way({});
+  }
+  while (end == Outcome::reached && now() != to_) {
+    end = step();
+    if (end == Outcome::reached) keep_way({});
+  }
+  if (end != Outcome::cancelled) keep_way(end);
   shell_.allow_unstable(false);
   // the leader may stand ahead of what is certified
   if (end != Outcome::reached && !at_limit(end)) shell_.back_to(shell_.state());
@@ -131,12 +151,59 @@ void Simulation::Walk::note() {
   if (record_) record_->load_steps.push_back({shell_.point(), of_.certificate(), of_.contacts()});
 }
 
+/// Tells who watches where the path stands.
+void Simulation::Walk::tell() const {
+  if (&watch_ != &unwatched) watch_.stand_at(now(), shell_.plan().edges_per_segment.front());
+}
+
 /// Notes a load step from which the path goes on.
 void Simulation::Walk::keep() {
   note();
-  if (&watch_ != &unwatched) watch_.stand_at(now(), shell_.plan().edges_per_segment.front());
+  tell();
   if (record_ && of_.actuating_ && leaving_.wanted && scene_.imperfection.chooses())
     softening_.take(shell_, watch_);
+}
+
+// ---- what an earlier run kept of it ----
+
+/// Whether an earlier run followed this way, or the begin of it: the shell then stands where that
+/// one stood.
+bool Simulation::Walk::goes_on() {
+  if (!kept_) return false;
+  way_.begin = {Checksum::of({reinterpret_cast<const char*>(shell_.state().x.data()),
+                              sizeof(double) * std::size_t(shell_.state().x.size())}),
+                now(), to_, shell_.plan().edges_per_segment};
+  effort_before_ = of_.effort();
+  auto before = kept_->next(way_.begin);
+  if (!before) return false;
+  way_ = std::move(*before);
+  of_.charge(way_.effort);
+  *record_ = way_.record;
+  events_ = way_.events;
+  halvings_ = way_.halvings;
+  softening_.know(way_.softening);
+  const bool stays = std::ranges::any_of(events_, [](const Event& event) {
+    return event.kind == Event::Kind::stability_lost && !event.to;
+  });
+  shell_.allow_unstable(leaving_.through_unstable || stays);
+  shell_.back_to(way_.state);
+  tell();
+  return true;
+}
+
+/// Writes where the way stands, as often as that is worth it; what a step that is stopped did is
+/// none of it.
+void Simulation::Walk::keep_way(std::optional<Outcome> end) {
+  if (!kept_) return;
+  way_.end = end;
+  way_.state = shell_.state();
+  way_.events = events_;
+  way_.effort = of_.effort() - effort_before_;
+  way_.halvings = halvings_;
+  way_.softening = softening_.known();
+  if (!kept_->wants(end.has_value())) return;
+  way_.record = static_cast<const PathRecord&>(*record_);
+  kept_->keep(way_);
 }
 
 // ---- how it steps ----
@@ -186,15 +253,20 @@ Outcome Simulation::Walk::branch_ended(Outcome how, double next, const NestedSta
   const bool ahead = last == next && kind == Event::Kind::stability_lost;
   // nor is a limit that was asked for
   const bool asked = scene_.stops_at_contact || scene_.limits_strength();
+  bool on_finest = ahead;
   if (ahead || asked) {
-    if (ahead || shell_.advance(last, watch_).end != Outcome::reached)
-      bisect(next, good, [] { return true; });
+    on_finest = ahead || shell_.advance(last, watch_).end != Outcome::reached;
+    if (on_finest) bisect(next, good, [] { return true; });
     if (auto limit = asked ? of_.beyond(limits_) : std::nullopt)
       return end_before(std::move(*limit), now(), good);
     if (now() != good.t) note();
   }
   const NestedState end_of_branch = shell_.state();
-  events_.push_back({kind, shell_.followed().t, {}, {}});
+  const double t = shell_.followed().t;
+  const std::vector<int>& edges = shell_.plan().edges_per_segment;
+  events_.push_back({.kind = kind, .t = t, .error = {}, .to = {}});
+  events_.back().placed = on_finest ? Event::Place{edges.back(), t, located_to()}
+                                    : Event::Place{edges.front(), t};
   if (kind == Event::Kind::stability_lost && !scene_.imperfection.chooses()) {
     shell_.back_to(end_of_branch);
     shell_.allow_unstable(true);
@@ -262,6 +334,7 @@ double Simulation::Walk::located_to() const {
 
 Outcome Simulation::Walk::end_at(Event limit) {
   limit.t = now();
+  limit.placed = {shell_.plan().edges_per_segment.back(), limit.t};
   events_.push_back(std::move(limit));
   return outcome_of(events_.back().kind);
 }

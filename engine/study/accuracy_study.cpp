@@ -148,14 +148,24 @@ std::vector<AutoStanding> standings_of(const std::vector<AccuracyRow>& rows) {
   return standings;
 }
 
+/// A circle's longest leg, of d.
+double leg_of(const preset::Footprint& footprint) {
+  return footprint.radius_mm / footprint.spacing_mm - (footprint.rods - 1) / 2.0;
+}
+
+/// So many rods a direction, cut by the same rule.
+void set_rods(preset::Footprint& footprint, int rods) {
+  footprint.rods = rods;
+  footprint.placement = rods % 2 ? Placement::on_axis : Placement::half;
+}
+
 /// The same shape with rods `factor` times further apart.
 preset::Preset respaced(preset::Preset preset, double factor) {
   auto& footprint = preset.footprint;
   if (footprint.kind == preset::FootprintKind::circle) {
     preset.set_radii(preset.original_radius_mm(), preset.actuated_radius_mm());
-    const double leg = footprint.radius_mm / footprint.spacing_mm - (footprint.rods - 1) / 2.0;
-    footprint.rods = std::max(4, int(std::lround(footprint.rods / factor)));
-    footprint.placement = footprint.rods % 2 ? Placement::on_axis : Placement::half;
+    const double leg = leg_of(footprint);
+    set_rods(footprint, std::max(4, int(std::lround(footprint.rods / factor))));
     footprint.spacing_mm = footprint.radius_mm / ((footprint.rods - 1) / 2.0 + leg);
   } else {
     footprint.spacing_mm *= factor;
@@ -214,6 +224,37 @@ Result<AccuracyStudy> accuracy_study(const preset::Preset& preset, const Accurac
   if (options.scaling) result.scaling = scaling_of(preset, options, watch);
   if (watch.cancelled()) return stopped();
   return result;
+}
+
+Result<std::vector<AccuracyRow>> sizes_study(const preset::Preset& preset,
+                                             const std::vector<int>& sizes,
+                                             const AccuracyOptions& options, Watch& watch) {
+  constexpr double tolerances[] = {1e-2, 1e-3, 1e-4};
+  if (preset.footprint.kind != preset::FootprintKind::circle)
+    return fail(Fault::bad_input, "--sizes are of a circle: [footprint] kind is another");
+  keep_blas_on_one_thread();
+  std::vector<AccuracyRow> rows;
+  for (std::size_t k = 0; k < sizes.size(); ++k) {
+    preset::Preset sized = preset;
+    const double share = preset.actuated_radius_mm() / preset.original_radius_mm();
+    sized.footprint.radius_mm = preset.original_radius_mm();
+    const double d = preset.footprint.spacing_mm, leg = leg_of(sized.footprint);
+    set_rods(sized.footprint, sizes[k]);
+    const double radius = d * ((sizes[k] - 1) / 2.0 + leg);
+    sized.set_radii(radius, share * radius);
+    TRY(made, BenchmarkProblem::create(sized, options.finest, watch));
+    for (const double tolerance : tolerances) {
+      const Method method = auto_method(tolerance);
+      const Measured measured = measure(**made, method, tolerance, options, watch);
+      if (watch.cancelled()) return stopped();
+      AccuracyRow& row = rows.emplace_back(row_of<AccuracyRow>(method, measured));
+      row.method = fmt::format("{} rods", sizes[k]);
+      if (measured.result.claim == RunOutcome::right)
+        row.error = (*made)->error_of(measured.result.x);
+    }
+    watch.report(double(k + 1) / double(sizes.size()));
+  }
+  return rows;
 }
 
 }  // namespace gridshell::study

@@ -40,4 +40,11 @@ inline constexpr double auto_tolerances[] = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6};
 Result<AccuracyStudy> accuracy_study(const preset::Preset& preset, const AccuracyOptions& options,
                                      Watch& watch);
 
+/// `auto` at several tolerances on a circle of so many rods a direction, its spacing, longest leg
+/// and share of actuation kept: rows of the method "12 rods", in order of the sizes. Errors:
+/// bad_input for other footprints; those of BenchmarkProblem::create.
+Result<std::vector<record::AccuracyRow>> sizes_study(const preset::Preset& preset,
+                                                     const std::vector<int>& sizes,
+                                                     const AccuracyOptions& options, Watch& watch);
+
 }  // namespace gridshell::study

@@ -122,10 +122,10 @@ void add_auto(const std::vector<AccuracyRow>& rows, Plot& plot) {
 
 constexpr const char* error_label = "largest joint error over *R*_{o} or *ρ*";
 
-Plot accuracy_plot(const std::vector<AccuracyRow>& rows, const std::string& title) {
+Plot accuracy_plot(const std::vector<AccuracyRow>& rows, const std::string& title, bool of_sizes) {
   Plot plot =
       empty_plot(title, "processor time from the certified start to the end (s)", error_label);
-  plot.series.push_back(front_of(rows));
+  if (!of_sizes) plot.series.push_back(front_of(rows));
   const auto names = distinct(rows, &AccuracyRow::method, is_curve);
   add_methods(rows, names, true, plot);
   add_stopped(rows, names, plot);

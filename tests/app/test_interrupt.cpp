@@ -75,6 +75,42 @@ TEST_CASE("Ctrl-C before anything is finished leaves nothing", "[alone]") {
   CHECK(files_under(folder.path(), "").empty());
 }
 
+TEST_CASE("a run that is ended goes on from there, to the same state", "[standard]") {
+  const int number = GENERATE(SIGTERM, SIGKILL);
+  const TemporaryFolder folder;
+  const auto command = [](const char* output, const char* more) {
+    return fmt::format(
+        "run s1_actuation --set footprint.rods=36 --set footprint.radius_mm=366 --set "
+        "actuation.radius_mm=290 --set accuracy.tolerance=1e-3 --frames 2 --threads 1 -o {} {}",
+        output, more);
+  };
+  {
+    const Running running(command("ended", ""), folder.path());
+    REQUIRE(wait_until([&] { return !files_under(folder.path(), "way_0002").empty(); }));
+    const auto ended = running.interrupt(number);
+    if (number == SIGTERM)
+      CHECK_THAT(ended.err, Catch::EndsWith("the same command with --resume goes on from there\n"));
+  }
+  REQUIRE_FALSE(fs::exists(folder.path() / "ended"));
+  const auto other = gridshell_program(command("ended", "--resume --set limits.max_strain=0.002"),
+                                       folder.path());
+  CHECK(other.code == 2);
+  CHECK_THAT(other.err, Contains("of another preset, or of this one with other keys"));
+  const auto resumed = gridshell_program(command("ended", "--resume"), folder.path());
+  CHECK(resumed.code == 0);
+  CHECK(files_under(folder.path(), "way_0002").empty());
+  REQUIRE(gridshell_program(command("whole", ""), folder.path()).code == 0);
+  const Json a = parsed(text_of(folder.path() / "ended/summary.json")),
+             b = parsed(text_of(folder.path() / "whole/summary.json"));
+  CHECK(a["energy_bend_mJ"].get<double>() ==
+        Approx(b["energy_bend_mJ"].get<double>()).epsilon(1e-6));
+  CHECK(a["edges_per_segment"] == b["edges_per_segment"]);
+  CHECK(a["limit_reason"] == b["limit_reason"]);
+  const auto again = gridshell_program(command("ended", "--resume"), folder.path());
+  CHECK(again.code == 2);
+  CHECK_THAT(again.err, Contains("'ended' is a finished run"));
+}
+
 TEST_CASE("a killed movie leaves no half file, and the run before it stays", "[s1]") {
   const TemporaryFolder folder;
   const fs::path run = folder.path() / "out/s1_actuation";

@@ -1,12 +1,14 @@
 // How long quasi-static actuation takes, in units of F = one CHOLMOD simplicial numeric
 // factorisation (its own nested dissection) of the Fig. 1 shell at 4 edges a segment, 2736 degrees
-// of freedom. CPU time of this process, medians. `bench_solver sizes` adds the table over n,
-// `bench_solver rests` rests from rough states.
+// of freedom. CPU time of this process, medians. `bench_solver sizes` adds whole runs of 24 and 48
+// rods (and of 96 with `sizes 96`) in factorisations of the same shell, `bench_solver growth` the
+// table over n, `bench_solver rests` rests from rough states.
 #include <algorithm>
 #include <cmath>
 #include <functional>
 
 #include "engine/core/algorithms.h"
+#include "engine/simulate/run.h"
 #include "engine/solve/buckling.h"
 #include "engine/solve/multilevel_relaxation.h"
 #include "engine/solve/nested_shell.h"
@@ -140,7 +142,38 @@ void paper_shell(int runs, Figures& figures) {
   figures.tell("flat -> 0.75 in all, 1e-3, F", all / F, "goal 40");
 }
 
-void sizes(Figures& figures) {
+/// `gridshell run s1_actuation` at other sizes and tolerances, 240 frames, one thread, in units of
+/// f, one factorisation of that shell at 4 edges a segment.
+void sizes(Figures& figures, bool largest) {
+  std::setvbuf(figures.lines(), nullptr, _IOLBF, 0);
+  figures.say("\n{:>4} {:>10} {:>9} {:>9} {:>9} {:>6}  (240 frames; f: a factorisation)\n", "n",
+              "tolerance", "f, ms", "run, s", "run, f", "edges");
+  for (int n : largest ? std::vector{24, 48, 96} : std::vector{24, 48}) {
+    NestedShell shell = shell_of(circle(n), {{4}, false}, 1e-3);
+    const State state = begun(shell);
+    shell.system(0).at(state, false);
+    const auto factorisation = [&] { return median(9, [&] { shell.system(0).shifted(0); }); };
+    for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
+      preset::Preset preset;
+      preset.footprint.rods = n;
+      preset.set_radii(circle(n).radius, 0.75 * circle(n).radius);
+      preset.imperfection.size = 0;
+      preset.accuracy.tolerance = tolerance;
+      preset.movie.frames = 240;
+      Watch watch;
+      const double f = factorisation(), begin = cpu_now();
+      const auto run = simulate::run(preset, false, watch);
+      // the machine may have slowed down meanwhile
+      const double seconds = cpu_now() - begin, unit = 0.5 * (f + factorisation());
+      figures.say("{:4} {:10g} {:9.3f} {:9.2f} {:9.0f} {:6}{}\n", n, tolerance, 1e3 * unit, seconds,
+                  seconds / unit, run ? run->summary.edges_per_segment : 0,
+                  run ? "" : "  " + run.error().message);
+      figures.add(fmt::format("{} rods at {:g}, f", n, tolerance), seconds / unit);
+    }
+  }
+}
+
+void growth(Figures& figures) {
   std::setvbuf(figures.lines(), nullptr, _IOLBF, 0);
   figures.say("\n{:>4} {:>8} {:>10} {:>10} {:>10} {:>10} {:>10}  (seconds, 4 edges)\n", "n", "dof",
               "set-up", "assembly", "factor", "first", "path");
@@ -234,6 +267,8 @@ int main(int argc, char** argv) {
   Figures figures(argc, argv);
   paper_shell(7, figures);
   drag(figures);
-  if (std::count(figures.words().begin(), figures.words().end(), "sizes") > 0) sizes(figures);
-  if (std::count(figures.words().begin(), figures.words().end(), "rests") > 0) rests(figures);
+  const auto asked = [&](const char* word) { return std::ranges::count(figures.words(), word) > 0; };
+  if (asked("sizes")) sizes(figures, asked("96"));
+  if (asked("growth")) growth(figures);
+  if (asked("rests")) rests(figures);
 }

@@ -292,3 +292,25 @@ TEST_CASE("a lost branch is left to the side of the imperfection on every mesh",
     CHECK(std::abs(twist) > 0.3 * std::abs(twists[0]));
   }
 }
+
+TEST_CASE("the error of an event is of two meshes", "[standard]") {
+  // half a saddle: the finest mesh of one path and the leader of the other place its branch alike
+  preset::Preset p;
+  p.footprint.kind = preset::FootprintKind::net;
+  p.footprint.placement = Placement::on_axis;
+  p.ends.rings = preset::Rings::pinned;
+  p.net.kind = preset::NetKind::spool;
+  p.net.radius_mm = 120;
+  p.net.waist = 0.6;
+  p.net.length_mm = 180;
+  p.actuation.start = preset::Start::flat;
+  p.movie.frames = 2;
+  const std::string told = run(p).summary.limit_reason;
+  double progress = 0, error = 0;
+  REQUIRE(std::sscanf(told.c_str(), "the path branches at progress %lf \u00b1 %lf", &progress,
+                      &error) == 2);
+  // on meshes of 16 and 32 edges
+  constexpr double there = 0.2421, to = 0.0002;
+  CHECK(error < 0.002);
+  CHECK(std::abs(progress - there) <= error + to);
+}

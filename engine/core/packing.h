@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace gridshell::record {
+namespace gridshell {
 
 /// Values to bytes.
 class ByteWriter {
@@ -25,7 +25,7 @@ class ByteWriter {
     number(std::int64_t(values.rows()));
     number(std::int64_t(values.cols()));
     text_.append(reinterpret_cast<const char*>(values.data()),
-                 sizeof(double) * std::size_t(values.size()));
+                 sizeof(typename Matrix::Scalar) * std::size_t(values.size()));
   }
   void put(int value) { number(std::int32_t(value)); }
   void put(double value) { number(value); }
@@ -56,7 +56,7 @@ class ByteReader {
   template <class Matrix>
   void matrix(Matrix& values) {
     const auto rows = number<std::int64_t>(), cols = number<std::int64_t>();
-    const auto most = std::int64_t(left_.size() / sizeof(double));
+    const auto most = std::int64_t(left_.size() / sizeof(typename Matrix::Scalar));
     const auto fits = [&](std::int64_t extent, int wanted) {
       // an empty one may have rows or columns still
       return wanted >= 0 ? extent == wanted
@@ -64,7 +64,7 @@ class ByteReader {
     };
     good_ = good_ && fits(rows, Matrix::RowsAtCompileTime) &&
             fits(cols, Matrix::ColsAtCompileTime) && (cols == 0 || rows <= most / cols);
-    if (!good_ || !take(sizeof(double) * std::size_t(rows * cols))) return;
+    if (!good_ || !take(sizeof(typename Matrix::Scalar) * std::size_t(rows * cols))) return;
     values.resize(rows, cols);
     if (values.size() > 0) std::memcpy(values.data(), taken_.data(), taken_.size());
   }
@@ -84,4 +84,4 @@ class ByteReader {
   bool good_ = true;
 };
 
-}  // namespace gridshell::record
+}  // namespace gridshell

@@ -1,0 +1,90 @@
+#include "engine/simulate/expected_cost.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "engine/core/algorithms.h"
+#include "engine/core/system_info.h"
+#include "engine/simulate/equilibrium_path.h"
+#include "engine/simulate/mesh_choice.h"
+#include "engine/solve/buckling.h"
+
+namespace gridshell::simulate {
+namespace {
+
+/// Seconds of one assembly and of one factorisation on the leading mesh, the flat shell's; 0: the
+/// rung cannot take the rods.
+struct UnitCost {
+  double assembly = 0, factorisation = 0;
+};
+
+UnitCost unit_cost(const Scene& scene, int edges) {
+  constexpr int trials = 3;
+  // too large to try: as 96 and 192 rods take (engine/README.md)
+  constexpr double large = 1e5, of_large = 4e-9, power = 1.45, an_unknown = 4e-8;
+  const double unknowns = unknowns_of(scene.footprint, scene.rung, edges);
+  if (unknowns > large)
+    return {an_unknown * unknowns, of_large * std::pow(unknowns, power)};
+  MeshLevel level;
+  if (!level.build(scene.footprint, scene.rods, scene.solved_model(), scene.motion, edges))
+    return {};
+  const State flat = flat_state(level.model, level.mesh, level.motion, scene.flat);
+  std::vector<double> both, factorisation;
+  for (int k = 0; k < trials; ++k) {
+    const double begin = cpu_seconds_now();
+    level.system->at(flat, false);
+    const double assembled = cpu_seconds_now();
+    level.system->shifted(0);
+    both.push_back(assembled - begin);
+    factorisation.push_back(cpu_seconds_now() - assembled);
+  }
+  // the first plans the factorisation; whatever else runs only adds
+  const double factor = std::ranges::min(factorisation);
+  return {std::max(0.0, std::ranges::min(both) - factor), factor};
+}
+
+/// Factorisations a mesh for a path on it: measured, of a path without events, one that buckles out
+/// of the flat on branches that its symmetry chooses, and on those that the imperfection does.
+double factorisations_of(const Scene& scene) {
+  constexpr double from_net = 40, from_flat = 60, chosen = 200;
+  if (scene.from_net) return from_net;
+  return scene.imperfection.chooses() ? chosen : from_flat;
+}
+
+}  // namespace
+
+int dof_of(const Scene& scene, int edges_per_segment) {
+  if (scene.rung == RodModel::net) return 0;
+  const auto model =
+      build_model(mesh_rods(scene.footprint, edges_per_segment), scene.rods, scene.solved_model());
+  return model ? model->dof() : 0;
+}
+
+double expected_seconds(const Scene& scene, const preset::Preset& preset) {
+  if (scene.rung == RodModel::net) return 0.01;
+  // a trial ends on a mesh of 4 edges a segment; measured on 8 to 20 rods
+  constexpr double a_trial = 2e-5;
+  if (const preset::SearchSettings& jitter = preset.jitter; jitter.wanted())
+    return a_trial * dof_of(scene, 4) * (jitter.trials + jitter.confined);
+  // of a frame: corrections on the leading mesh; what is told of the finest takes as long as some
+  // assemblies there
+  constexpr double corrections = 2.6, tellings = 4.2;
+  const std::vector<int> edges = initial_levels(scene).edges_per_segment;
+  const UnitCost unit = unit_cost(scene, edges.front());
+  const double all = std::accumulate(edges.begin(), edges.end(), 0.0) / edges.front(),
+               finest = double(edges.back()) / edges.front();
+  const double frame =
+      tellings * finest * unit.assembly + corrections * (unit.assembly + unit.factorisation);
+  // what is chosen is confirmed by meshes of twice the edges
+  const double ways = (scene.from_net ? 1 : 3) + double(preset.step.size());
+  return frame * preset.movie.frames +
+         ways * factorisations_of(scene) * all * (unit.assembly + unit.factorisation);
+}
+
+double expected_GB(double meshes_GB, const preset::Preset& preset) {
+  constexpr double program = 0.03, a_frame = 1.7e-4;
+  return program + meshes_GB + a_frame * preset.movie.frames;
+}
+
+}  // namespace gridshell::simulate

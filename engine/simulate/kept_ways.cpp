@@ -1,0 +1,174 @@
+#include "engine/simulate/kept_ways.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <concepts>
+#include <cstring>
+#include <string>
+
+#include "engine/core/file_io.h"
+#include "engine/core/packing.h"
+#include "engine/core/system_info.h"
+
+namespace gridshell::simulate {
+namespace {
+
+// A value to bytes, or back: every struct names its members once, for both ways.
+
+template <class T, class Of>
+concept Is = std::same_as<std::remove_const_t<T>, Of>;
+
+struct Pack {
+  ByteWriter bytes;
+  bool good() const { return true; }
+  void number(const auto& value) { bytes.number(value); }
+  void matrix(const auto& values) { bytes.matrix(values); }
+  void text(const std::string& value) { bytes.text(value); }
+  std::size_t size_of(const auto& list) {
+    bytes.number(std::uint64_t(list.size()));
+    return list.size();
+  }
+};
+
+struct Unpack {
+  ByteReader bytes;
+  bool good() const { return bytes.good(); }
+  template <class T>
+  void number(T& value) {
+    value = bytes.number<T>();
+  }
+  void matrix(auto& values) { bytes.matrix(values); }
+  void text(std::string& value) { value = bytes.text(); }
+  std::size_t size_of(auto& list) {
+    list.clear();
+    return bytes.number<std::uint64_t>();
+  }
+};
+
+template <class T>
+concept Number = std::is_arithmetic_v<T> || std::is_enum_v<T>;
+
+void put(auto& in, Number auto& value) { in.number(value); }
+void put(auto& in, Is<std::string> auto& value) { in.text(value); }
+template <class M>
+  requires requires(M& m) { m.derived(); }
+void put(auto& in, M& values) {
+  in.matrix(values);
+}
+
+template <class In, class... T>
+void all(In& in, T&... values);
+
+void put(auto& in, Is<State> auto& s) { all(in, s.x, s.force, s.director, s.reference_twist); }
+void put(auto& in, Is<Inertia> auto& s) {
+  all(in, s.negative_pivots, s.usable, s.smallest_pivot, s.largest_pivot);
+}
+void put(auto& in, Is<LevelCorrection> auto& s) { all(in, s.t, s.x, s.force); }
+void put(auto& in, Is<NestedPathPoint> auto& s) { all(in, s.t, s.state, s.velocity, s.beyond); }
+void put(auto& in, Is<Certificate> auto& s) {
+  all(in, s.residual_N, s.negative_pivots, s.error_estimate_mm, s.largest_strain);
+}
+void put(auto& in, Is<record::Contact> auto& s) {
+  all(in, s.kind, s.first, s.second, s.gap_mm, s.at);
+}
+void put(auto& in, Is<record::Contacts> auto& s) {
+  all(in, s.places, s.rod_gap_mm, s.joint_gap_mm);
+}
+void put(auto& in, Is<LoadStep> auto& s) { all(in, s.point, s.certificate, s.contacts); }
+void put(auto& in, Is<TimedState> auto& s) { all(in, s.time, s.state); }
+void put(auto& in, Is<PathRecord::Snap> auto& s) { all(in, s.before, s.moments); }
+void put(auto& in, Is<PathRecord> auto& s) { all(in, s.load_steps, s.snaps); }
+void put(auto& in, Is<Event::Place> auto& s) { all(in, s.edges, s.t, s.located); }
+void put(auto& in, Is<Event> auto& s) {
+  all(in, s.kind, s.t, s.error, s.to, s.leap, s.what, s.placed);
+}
+void put(auto& in, Is<NestedState> auto& s) {
+  all(in, s.t, s.levels, s.x, s.error_estimate_mm, s.residual_N, s.inertia, s.largest_strain,
+      s.reactions, s.reaction_error_N, s.held_stiffness, s.stiffness_error_N_per_mm);
+}
+void put(auto& in, Is<WayBegin> auto& s) { all(in, s.state, s.from, s.to, s.edges); }
+void put(auto& in, Is<Effort> auto& s) { all(in, s.newton_iterations, s.factorizations); }
+void put(auto& in, Is<Softness> auto& s) { all(in, s.t, s.stiffness); }
+void put(auto& in, Is<KeptWay> auto& s) {
+  all(in, s.begin, s.end, s.state, s.record, s.events, s.effort, s.halvings, s.softening);
+}
+
+template <class T>
+void one(Unpack& in, std::vector<T>& values) {
+  // never more than there are bytes for
+  for (std::size_t left = in.size_of(values); left > 0 && in.good(); --left)
+    all(in, values.emplace_back());
+}
+template <class T>
+void one(Pack& in, const std::vector<T>& values) {
+  in.size_of(values);
+  for (const T& value : values) all(in, value);
+}
+template <class T>
+void one(Unpack& in, std::optional<T>& value) {
+  bool any = false;
+  in.number(any);
+  value.reset();
+  if (any) all(in, value.emplace());
+}
+template <class T>
+void one(Pack& in, const std::optional<T>& value) {
+  in.number(value.has_value());
+  if (value) all(in, *value);
+}
+template <class In, class T>
+void one(In& in, T& value) {
+  put(in, value);
+}
+
+template <class In, class... T>
+void all(In& in, T&... values) {
+  (one(in, values), ...);
+}
+
+}  // namespace
+
+KeptWays::KeptWays(std::filesystem::path folder, double worth_s)
+    : folder_(std::move(folder)),
+      worth_s_(worth_s),
+      wait_s_(worth_s),
+      written_at_(seconds_now()) {}
+
+std::filesystem::path KeptWays::file() const { return folder_ / fmt::format("way_{:04}", ways_); }
+
+std::optional<KeptWay> KeptWays::next(const WayBegin& begin) {
+  ++ways_;
+  has_file_ = false;
+  const auto bytes = read_file(file());
+  std::uint64_t sum = 0;
+  if (!bytes || bytes->size() < sizeof sum) return std::nullopt;
+  const std::string_view all_of_it = std::string_view(*bytes).substr(sizeof sum);
+  std::memcpy(&sum, bytes->data(), sizeof sum);
+  if (sum != Checksum::of(all_of_it)) return std::nullopt;
+  Unpack in{ByteReader(all_of_it)};
+  KeptWay way;
+  all(in, way);
+  if (!in.bytes.at_end() || way.begin != begin) return std::nullopt;
+  has_file_ = true;
+  return way;
+}
+
+bool KeptWays::wants(bool at_its_end) const {
+  return (at_its_end && has_file_) || seconds_now() - written_at_ >= wait_s_;
+}
+
+void KeptWays::keep(const KeptWay& way) {
+  Pack out;
+  all(out, way);
+  const std::uint64_t sum = Checksum::of(out.bytes.bytes());
+  std::string bytes(reinterpret_cast<const char*>(&sum), sizeof sum);
+  bytes += out.bytes.bytes();
+  const double begun = seconds_now();
+  if (make_folder(folder_)) (void)write_file(file(), bytes);
+  has_file_ = true;
+  written_at_ = seconds_now();
+  // large ones are written less often
+  wait_s_ = std::max(worth_s_, 20 * (written_at_ - begun));
+}
+
+}  // namespace gridshell::simulate

@@ -1,0 +1,111 @@
+// A run that is stopped goes on from what it kept of its path.
+#include "engine/simulate/kept_ways.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <thread>
+
+#include "engine/core/file_io.h"
+#include "engine/simulate/run.h"
+#include "tests/engine/simulate/run.h"
+#include "tests/temporary_folder.h"
+
+using namespace gridshell;
+using namespace gridshell::simulate;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Leaves at progress 0.02 for a branch with one mirror.
+preset::Preset imperfect() {
+  preset::Preset p = circle(12, 126, 94.5, 4);
+  p.accuracy.tolerance = 1e-3;
+  return p;
+}
+
+/// In order.
+std::vector<fs::path> files_in(const fs::path& folder) {
+  std::vector<fs::path> files(fs::directory_iterator(folder), {});
+  std::ranges::sort(files);
+  return files;
+}
+
+struct Run {
+  Result<record::Summary> summary;
+  record::Trajectory trajectory;
+};
+
+/// Every load step is kept; `stop_at`: the path parameter at which the run is stopped.
+Run run_with(const fs::path& folder, double stop_at = 2) {
+  const preset::Preset p = imperfect();
+  Scene scene = *shared_scene(p);
+  if (!folder.empty()) scene.kept = std::make_shared<KeptWays>(folder, 0);
+  Watch watch;
+  std::atomic<bool> over = false;
+  std::thread stopper([&] {
+    // on the second leader
+    while (!over && !(watch.place().edges == 8 && watch.place().t > stop_at))
+      std::this_thread::yield();
+    if (!over) watch.cancel();
+  });
+  record::MemorySink sink;
+  auto summary = run(p, std::make_shared<const Scene>(std::move(scene)), false, sink, watch);
+  over = true;
+  stopper.join();
+  return {std::move(summary), std::move(sink.trajectory())};
+}
+
+void check_same(const Run& a, const Run& b, double within_mm) {
+  REQUIRE(a.summary);
+  REQUIRE(b.summary);
+  const auto &some = a.trajectory.frames, &others = b.trajectory.frames;
+  REQUIRE(some.size() == others.size());
+  for (std::size_t k = 0; k < some.size(); ++k) {
+    CHECK(max_column_norm(some[k].nodes - others[k].nodes) <= within_mm);
+    CHECK(some[k].negative_pivots == others[k].negative_pivots);
+    CHECK(some[k].event == others[k].event);
+  }
+  CHECK(a.summary->limit_reason == b.summary->limit_reason);
+}
+
+}  // namespace
+
+TEST_CASE("a run that is stopped on its path goes on from there, to the same states", "[standard]") {
+  const TemporaryFolder folder;
+  const Run whole = run_with({});
+  const Run stopped = run_with(folder.path(), 0.3);
+  if (stopped.summary) return;  // it was over before anybody looked
+  const auto kept = files_in(folder.path());
+  REQUIRE(kept.size() >= 2);
+  // as near as corrections go
+  check_same(whole, run_with(folder.path()), 1e-3 * 1e-3 * 126);
+}
+
+TEST_CASE("a path that was kept whole gives the same bits, and what is damaged is followed again",
+          "[standard]") {
+  const TemporaryFolder folder;
+  const Run first = run_with(folder.path());
+  const auto kept = files_in(folder.path());
+  REQUIRE(kept.size() >= 4);
+  check_same(first, run_with(folder.path()), 0);
+  std::string bytes = read_file(kept[1]).value();
+  bytes[bytes.size() / 2] ^= 1;
+  REQUIRE(write_file(kept[1], bytes));
+  REQUIRE(write_file(kept[2], "way"));
+  check_same(first, run_with(folder.path()), 0);
+}
+
+TEST_CASE("a way that begins elsewhere is none of the run") {
+  const TemporaryFolder folder;
+  KeptWay way;
+  way.begin = {7, 0, 1, {4, 8}};
+  way.end = Outcome::reached;
+  KeptWays ways(folder.path(), 0);
+  CHECK_FALSE(ways.next(way.begin));
+  ways.keep(way);
+  CHECK(KeptWays(folder.path()).next(way.begin)->end == Outcome::reached);
+  CHECK_FALSE(KeptWays(folder.path()).next({8, 0, 1, {4, 8}}));
+  CHECK_FALSE(KeptWays(folder.path()).next({7, 0, 1, {4, 8, 16}}));
+}
