@@ -2,7 +2,13 @@
 // it does.
 #pragma once
 
+#include <vector>
+
 #include "app/cli/command_line.h"
+
+namespace gridshell::window {
+struct ExportFormat;
+}
 
 namespace gridshell::app {
 
@@ -14,6 +20,9 @@ void add_export(CommandLine& program);
 void add_modes(CommandLine& program);
 void add_scan(CommandLine& program);
 void add_compare(CommandLine& program);
+
+/// What `export` writes by a file's ending alone.
+std::vector<window::ExportFormat> usual_exports();
 
 /// All of them, in the order of the help.
 void add_commands(CommandLine& program);

@@ -63,7 +63,8 @@ Result<void> make_movie(const fs::path& preset, const fs::path& folder,
   return run_this_program({"movie", preset.string(), "-o", folder.string()}, watch, listener);
 }
 
-/// The program itself forms and exports it, in a folder of its own that goes again.
+/// The program itself forms and exports it, in a folder of its own that goes again, but that an
+/// .xdmf reads its numbers from: FILE_run beside it.
 Result<void> export_shell(const preset::Preset& preset, const fs::path& file,
                           const window::ProgressListener& listener, const Watch& watch) {
   std::string name = (fs::temp_directory_path() / "gridshell-XXXXXX").string();
@@ -72,7 +73,10 @@ Result<void> export_shell(const preset::Preset& preset, const fs::path& file,
   const auto run = [&](const std::vector<std::string>& arguments) {
     return run_this_program(arguments, watch, listener);
   };
-  const std::string shell = (aside / "shell.toml").string(), ran = (aside / "run").string();
+  const bool kept = file.extension() == ".xdmf";
+  const std::string shell = (aside / "shell.toml").string(),
+                    ran = kept ? (file.parent_path() / file.stem()).string() + "_run"
+                               : (aside / "run").string();
   const auto made = write_preset_with_tables(preset, shell)
                         .and_then([&] {
                           return run({"run", shell, "-o", ran});
@@ -100,6 +104,7 @@ window::Library library_of(const ViewOptions& options) {
   library.load = first_preset_of;
   library.make_movie = make_movie;
   library.export_shell = export_shell;
+  library.export_formats = usual_exports();
   library.load_run = load_run;
   // in a context of its own, which does not hold up the window's
   library.draw_picture = [context = options.context](const window::PictureRequest& order,

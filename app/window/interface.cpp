@@ -283,7 +283,7 @@ void Interface::lay_out() {
   status_line(panel, {0, top + height + strip, double(width_), status});
   if (viewer_.picking && !viewer_.help) picker_.draw(panel, {left, top, width_ - left, height});
   if (viewer_.file_request)
-    file_prompt(panel, render::Box{0, top, double(width_), height}.inset(60 * density_));
+    files_.draw(panel, render::Box{0, top, double(width_), height}.inset(60 * density_));
   if (viewer_.terms)
     terms_sheet(panel, render::Box{0, top, double(width_), height}.inset(60 * density_));
   if (viewer_.help)

@@ -79,6 +79,7 @@ class Interface {
   ShellPicture picture_;
   NumbersPanel numbers_;
   PresetPicker picker_;
+  FilePrompt files_;
   render::Target target_;
   std::deque<InputEvent> events_;
   std::map<std::string, render::Box> controls_;

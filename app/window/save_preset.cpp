@@ -151,7 +151,7 @@ const char* ending_of(FileUse use) {
 }
 
 /// Why no file of that name is written; empty: it is.
-std::string fault_of(FileUse use, const fs::path& file) {
+std::string fault_of(FileUse use, const fs::path& file, const std::vector<ExportFormat>& formats) {
   std::error_code error;
   // one new folder is made
   const fs::path folder = fs::absolute(file, error).parent_path();
@@ -162,11 +162,12 @@ std::string fault_of(FileUse use, const fs::path& file) {
     return ending == ending_of(use)
                ? ""
                : fmt::format("'{}': it is written as {}", ending, ending_of(use));
-  constexpr std::string_view formats[] = {".vtp",  ".pvd", ".obj", ".dxf", ".glb",
-                                          ".html", ".csv", ".svg", ".pdf"};
-  return std::ranges::find(formats, ending) != std::end(formats)
-             ? ""
-             : fmt::format("'{}' is no format: must be one of {}", ending, fmt::join(formats, " "));
+  std::string all;
+  for (const ExportFormat& format : formats) {
+    if (format.ending == ending) return "";
+    all += " " + format.ending;
+  }
+  return fmt::format("'{}' is no format: must be one of{}", ending, all);
 }
 
 }  // namespace
@@ -194,7 +195,9 @@ void ViewerState::take_file() {
   const bool reads = is_read(request.use);
   if (!reads && (file.filename().empty() || fs::is_directory(file, error)))
     return say("'" + request.path + "' is a folder: a file's name is to follow", true);
-  if (const std::string fault = reads ? "" : fault_of(request.use, file); !fault.empty())
+  if (const std::string fault = 
+          reads ? "" : fault_of(request.use, file, library.export_formats);
+      !fault.empty())
     return say(fault, true);
   if (!reads && fs::exists(file, error) && request.replaced != request.path) {
     file_request->replaced = request.path;

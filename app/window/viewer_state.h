@@ -66,6 +66,13 @@ struct FileRequest {
   std::string replaced = {};        ///< a file that is there and was confirmed to go
 };
 
+/// What a shell can be exported as.
+struct ExportFormat {
+  std::string ending;   ///< of the file: ".vtp"
+  std::string thing;    ///< shape, footprint or sheet
+  std::string read_by;  ///< "ParaView"
+};
+
 /// Where presets come from, what makes pictures and movies, and where all that is kept goes.
 struct Library {
   std::vector<PresetCard> cards;
@@ -84,6 +91,7 @@ struct Library {
   std::function<Result<void>(const preset::Preset& preset, const std::filesystem::path& file,
                              const ProgressListener&, const Watch&)>
       export_shell;
+  std::vector<ExportFormat> export_formats;
   /// What a run ended in.
   std::function<Result<OtherShell>(const std::filesystem::path& run)> load_run;
   std::filesystem::path save_to = "out";
