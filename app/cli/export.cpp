@@ -233,7 +233,8 @@ Result<std::string> text_of(const ExportOptions& options) {
   const std::string what = options.what.empty() ? usual_thing(extension) : options.what;
   for (const auto& [name, texts] : formats()) {
     if (name != what) continue;
-    if (const auto text = texts.find(extension); text != texts.end()) return text->second.text(options);
+    if (const auto text = texts.find(extension); text != texts.end())
+      return text->second.text(options);
     return fail(Fault::bad_input, "--to {}: a {} is written as {}", options.to.string(), what,
                 extensions_of(texts));
   }

@@ -79,12 +79,15 @@ const Action table[] = {
     {"open_file", "File", "Open a file or run…", ctrl_shift(Key::o),
      "a preset's file, or the folder of a run; either may also be dropped on the window",
      [](auto& v) { v.ask_file(FileUse::open); }},
-    {"compare", "File", "Compare with a run…", none,
-     "draws a run's last state over the shell and says how far their joints are apart",
+    {"compare", "File", "Compare with a run or scan…", none,
+     "draws a run's last state or a scan's joints over the shell and says how far they are apart",
      [](auto& v) { v.ask_file(FileUse::compare); }},
     {"compare_now", "File", "Compare with this state", none,
      "keeps the state in sight in green over what comes next, with how far the joints are apart",
      [](auto& v) { v.compare_with_this(); }},
+    {"compare_net", "File", "Compare with the net", none,
+     "lays the net that it was designed on over it, with how far the joints are apart",
+     [](auto& v) { v.compare_with_net(); }},
     {"compare_off", "File", "Compare no more", none, "takes the other shell away",
      [](auto& v) { v.compare({}); }},
     {"save_preset", "File", "Save preset", ctrl(Key::s),
@@ -154,6 +157,15 @@ const Action table[] = {
     toggle<&ViewerState::push_freely>("push_freely", "Shell", "Push freely", on(Key::f),
      "a joint goes with the mouse in every direction instead of along its normal"),
 
+    {"state_next", "Shell", "Next state", on(Key::page_down),
+     "to the next of the states that were found on this boundary",
+     [](auto& v) { v.recall(v.state_in_sight() + 1); }},
+    {"state_before", "Shell", "State before", on(Key::page_up), "to the one before it",
+     [](auto& v) { v.recall(v.state_in_sight() < 0 ? -1 : v.state_in_sight() - 1); }},
+    {"to_loss", "Shell", "Where stability is lost", on(Key::b),
+     "the boundary to the next place on its way so far where no shell stays, red on the slider",
+     [](auto& v) { v.go_to_loss(); }},
+
     {"design_start", "Shell", "Start the design", ctrl(Key::d),
      "moves what is ticked until the shell meets its surface, step by step, each one shown",
      [](auto& v) { v.start_design(); }},
@@ -221,6 +233,8 @@ const Action table[] = {
     toggle<&ViewerState::help>("help", "Help", "Keys and mouse", on(Key::f1), "this sheet"),
     toggle<&ViewerState::terms>("terms", "Help", "What is this?", none,
      "the words of the panels, a sentence each"),
+    {"manual", "Help", "Manual", none, "commands, keys of presets and of this window, in the browser",
+     [](auto& v) { v.show_manual(); }},
 };
 
 constexpr MouseAction mouse[] = {
@@ -242,6 +256,25 @@ constexpr MouseAction mouse[] = {
      Over::nothing},
 };
 // clang-format on
+
+constexpr std::pair<const char*, const char*> words_of_panels[] = {
+    {"rod", "an elastic wire of the net; u-rods and v-rods cross"},
+    {"joint", "where two rods are held together; they shear freely there"},
+    {"footprint", "the outline of the flat net, at rest"},
+    {"actuated boundary", "the curve onto which the rods' ends are moved, R_a of a circle"},
+    {"edge point", "the end of a rod, pinned to the boundary"},
+    {"leg", "the piece of a rod between its last joint and the boundary"},
+    {"cell", "four joints and the rods between them"},
+    {"K□",
+     "integrated Gauss curvature of a cell: 2π less its four angles; red domes, blue saddles"},
+    {"Δ/ρ", "distance from the net that the shell was designed on, over its radius"},
+    {"stable", "every small move raises the energy: no negative pivot of the Hessian"},
+    {"soft mode", "the move along which the energy rises least, or falls"},
+    {"snap", "the state was lost and the shell leapt to another one"},
+    {"residual", "the largest force on a node that nothing holds; of an equilibrium round-off"},
+    {"error ±", "how far the joints may be off, from what finer meshes change"},
+    {"edges per segment", "straight pieces between two joints that a mesh computes with"},
+    {"tolerance", "the error that is asked for, over R_o of a circle or ρ of a net"}};
 
 }  // namespace
 
@@ -266,6 +299,8 @@ const Action* action_of(const Shortcut& shortcut) {
   const auto found = std::ranges::find(table, shortcut, &Action::key);
   return found == std::end(table) ? nullptr : found;
 }
+
+std::span<const std::pair<const char*, const char*>> terms() { return words_of_panels; }
 
 std::span<const MouseAction> mouse_actions() { return mouse; }
 

@@ -66,7 +66,11 @@ Result<void> EditSession::do_step(preset::Step step, const Watch& watch) {
                      step.kind == preset::StepKind::release;
   if (leaps && session_->shell().levels() == 1)
     session_->remesh(simulate::initial_levels(*now_.scene), watch);
-  TRY(report, simulate::apply_step(*session_, step, watch));
+  const bool began_stable = session_->certificate().stable();
+  const double began_mm = pushed_mm(step);
+  simulate::StepPath way;
+  TRY(report, simulate::apply_step(*session_, step, watch, &way));
+  note_way(step, way, began_mm, began_stable, *report);
   add_step(std::move(step), *report);
   return note_events(*report);
 }

@@ -20,7 +20,7 @@ struct FileText {
 /// In the order of the enum.
 constexpr FileText file_texts[] = {
     {"Open", "Open", "a preset's file (.toml), or the folder of a run"},
-    {"Compare with a run", "Compare", "the folder of a run"},
+    {"Compare with a run or scan", "Compare", "the folder of a run, or of a scan"},
     {"Save preset as", "Save", "a preset; tables of its ends and rods come beside it"},
     {"Save picture as", "Save", "a PNG of the view"},
     {"Export", "Export", "a file whose ending is the format"}};
@@ -31,10 +31,10 @@ bool wanted(FileUse use, const fs::path& file) {
   return use == FileUse::export_shell;
 }
 
-/// A run's folder is picked, others are gone into.
+/// A run's folder is picked, and a scan's; others are gone into.
 bool is_run(const fs::path& folder) {
   std::error_code error;
-  return fs::exists(folder / "summary.json", error);
+  return fs::exists(folder / "summary.json", error) || fs::exists(folder / "scan.json", error);
 }
 
 /// Its size in print, and what that is in pixels.
@@ -62,7 +62,8 @@ void endings(const Panel& panel, FileRequest& request) {
     const std::string text = fmt::format("{}  {}", format.ending, format.read_by);
     const float wide =
         ImGui::CalcTextSize(text.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x + panel.px(8);
-    if (ImGui::GetItemRectMax().x + wide < right && &format != &panel.viewer.library.export_formats.front())
+    if (ImGui::GetItemRectMax().x + wide < right &&
+        &format != &panel.viewer.library.export_formats.front())
       ImGui::SameLine();
     const bool now = fs::path(request.path).extension() == format.ending;
     if (ImGui::RadioButton(text.c_str(), now))
@@ -81,7 +82,8 @@ void FilePrompt::look(FileUse use, const std::string& folder) {
   if (use == use_ && folder == folder_ && changed == changed_) return;
   use_ = use, folder_ = folder, changed_ = changed;
   entries_.clear();
-  for (fs::directory_iterator entry(at, error), end; !error && entry != end; entry.increment(error)) {
+  for (fs::directory_iterator entry(at, error), end; !error && entry != end;
+       entry.increment(error)) {
     const std::string name = entry->path().filename().string();
     std::error_code gone;
     const bool is_folder = entry->is_directory(gone);

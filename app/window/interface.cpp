@@ -75,6 +75,7 @@ Interface::Interface(const render::Gl& gl, render::Renderer& renderer, ViewerSta
       imgui_(ImGui::CreateContext()),
       viewer_(viewer),
       mouse_(viewer),
+      renderer_(renderer),
       picture_(gl_, renderer),
       picker_(gl_),
       target_(gl_, render::Target::Depth::none) {}
@@ -261,9 +262,12 @@ void Interface::view_panel(const Panel& panel, const render::Box& box) {
 }
 
 void Interface::lay_out() {
-  const Panel panel{viewer_, density_, controls_};
+  Panel panel{viewer_, density_, controls_};
+  for (const auto& [state, picture] : states_)
+    panel.states.push_back(texture_id(picture.texture()));
   const double left = std::round(272 * density_), right = std::round(272 * density_),
-               status = std::round(30 * density_), strip = std::round(32 * density_);
+               status = std::round(30 * density_),
+               strip = std::round((states_.empty() ? 32 : 56) * density_);
   controls_.clear();
   menu_bar(panel);
   const double top = ImGui::GetFrameHeight(), height = height_ - top - status - strip;
@@ -302,7 +306,27 @@ Result<void> Interface::draw_shell() {
   shown_ = shown;
   shell_anew_ = false;
   sharp_ = sharp;
-  return picture_.draw(viewer_, sharp ? Resolution::still : Resolution::moving);
+  return picture_.draw(viewer_.picture_request(), sharp ? Resolution::still : Resolution::moving);
+}
+
+/// Small pictures of the states that were found, each once, from where the camera looks then.
+Result<void> Interface::draw_states() {
+  const auto& found = viewer_.shell->found;
+  if (!found) return states_.clear(), Result<void>();
+  std::size_t same = 0;
+  while (same < std::min(states_.size(), found->size()) && states_[same].first == (*found)[same])
+    ++same;
+  states_.erase(states_.begin() + std::ptrdiff_t(same), states_.end());
+  for (std::size_t k = same; k < found->size(); ++k) {
+    const auto& state = (*found)[k];
+    PictureRequest small{state, viewer_.camera, {160, 100}, viewer_.show, {}};
+    small.show.other.reset();
+    small.show.mode_mm = 0;
+    fit(small.camera, small.view, state->frame.nodes);
+    states_.emplace_back(state, ShellPicture(gl_, renderer_));
+    TRY_DO(states_.back().second.draw(small, Resolution::still));
+  }
+  return {};
 }
 
 Result<void> Interface::compose(double seconds) {
@@ -313,6 +337,7 @@ Result<void> Interface::compose(double seconds) {
   shell_anew_ |= viewer_.tick(seconds);
   if (dark_ != viewer_.show.dark) choose_colours(dark_ = viewer_.show.dark, density_);
   feed();
+  TRY_DO(draw_states());
   ImGui::NewFrame();
   lay_out();
   ImGui::Render();

@@ -23,6 +23,7 @@ struct Panel {
   ViewerState& viewer;
   double density = 1;                            ///< pixels a point of text
   std::map<std::string, render::Box>& controls;  ///< where each control stands, by its name
+  std::vector<ImTextureID> states = {};          ///< a picture each of viewer.shell->found
 
   float px(double points) const { return float(points * density); }
   /// Notes where the last control is, and gives it a tooltip.
@@ -68,6 +69,7 @@ void plots_panel(const Panel& panel, const render::Box& box);
 void design_panel(const Panel& panel, const render::Box& box);
 void status_line(const Panel& panel, const render::Box& box);
 /// What was done, to go back to; and why the state's certificate is what it is.
+/// Beside it the states that were found, as small pictures.
 void timeline_panel(const Panel& panel, const render::Box& box);
 void why_popup(const Panel& panel);
 void help_sheet(const Panel& panel, const render::Box& box);
@@ -137,6 +139,13 @@ void coloured_text(ImU32 colour, const std::string& text);
 
 // A small plot within a panel.
 
+/// A place on the abscissa, or a piece of it.
+struct CurveMark {
+  float from, to;
+  bool unstable;  ///< no shell stays there; else something happened
+  std::string what;
+};
+
 /// One curve, or two over the same x.
 struct Curve {
   const char* y_label;
@@ -144,9 +153,11 @@ struct Curve {
   const char* without;  ///< said where there is nothing to plot
   std::vector<float> x, y;
   bool bars = false;
-  std::vector<std::size_t> jumps = {};  ///< points that no line leads to
-  std::vector<float> second = {};       ///< another one, paler
-  bool logarithmic = false;             ///< y, which is above 0
+  std::vector<std::size_t> jumps = {};     ///< points that no line leads to
+  std::vector<float> second = {};          ///< another one, paler
+  bool logarithmic = false;                ///< y, which is above 0
+  std::vector<std::size_t> unstable = {};  ///< points
+  std::vector<CurveMark> marks = {};
 };
 
 /// Draws it between two corners, pixels.

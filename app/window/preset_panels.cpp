@@ -195,7 +195,9 @@ void NumbersPanel::draw(const Panel& panel, const render::Box& box) {
     for (const preset::Table& table : preset::tables()) {
       const auto in_table = [&](const Row& row) { return row.field->table == table.name; };
       if (std::ranges::none_of(rows_, in_table)) continue;
-      const bool open = ImGui::CollapsingHeader(table.name.c_str(), ImGuiTreeNodeFlags_DefaultOpen);
+      // rods of the second family
+      const char* title = table.name == "rod_v" ? "rods along v" : table.name.c_str();
+      const bool open = ImGui::CollapsingHeader(title, ImGuiTreeNodeFlags_DefaultOpen);
       panel.named("table " + table.name, table.meaning);
       if (!open) continue;
       for (const Row& row : rows_)

@@ -195,8 +195,7 @@ void ViewerState::take_file() {
   const bool reads = is_read(request.use);
   if (!reads && (file.filename().empty() || fs::is_directory(file, error)))
     return say("'" + request.path + "' is a folder: a file's name is to follow", true);
-  if (const std::string fault = 
-          reads ? "" : fault_of(request.use, file, library.export_formats);
+  if (const std::string fault = reads ? "" : fault_of(request.use, file, library.export_formats);
       !fault.empty())
     return say(fault, true);
   if (!reads && fs::exists(file, error) && request.replaced != request.path) {
@@ -257,6 +256,14 @@ void ViewerState::compare_with_this() {
       OtherShell{"before", layout.joints, layout.rods, shell->frame.nodes}));
 }
 
+void ViewerState::compare_with_net() {
+  const record::Layout* layout = shell->layout.get();
+  if (!layout || layout->net_nodes.cols() == 0)
+    return say("this shell was not designed on a net", true);
+  compare(std::make_shared<const OtherShell>(
+      OtherShell{"net", layout->joints, layout->rods, layout->net_nodes}));
+}
+
 void ViewerState::compare(std::shared_ptr<const OtherShell> other) {
   show.other = std::move(other);
   // it may be what the colours show
@@ -308,11 +315,11 @@ void ViewerState::save_movie() {
 }
 
 void ViewerState::report_finished_tasks() {
-  for (BackgroundTask* work : {&picture_task, &movie_task, &export_task}) {
+  for (BackgroundTask* work : {&picture_task, &movie_task, &export_task, &manual_task}) {
     const auto end = work->take_end();
     if (!end) continue;
     if (end->made)
-      say("saved " + end->target.string());
+      say((work == &manual_task ? "shown in the browser: " : "saved ") + end->target.string());
     else if (end->made.error().fault == Fault::cancelled)
       say("stopped: " + end->last_words);
     else
@@ -338,6 +345,13 @@ void ViewerState::save_plot(const PlottedCurve& curve) {
       });
   if (!written) return say(written.error().message, true);
   say("saved " + stem.string() + ".pdf, .svg, .png and .csv");
+}
+
+void ViewerState::show_manual() {
+  if (manual_task.under_way()) return;
+  manual_task.begin([show = library.show_manual](const ProgressListener&,
+                                                 const Watch& watch) { return show(watch); },
+                    "the manual");
 }
 
 void ViewerState::copy_camera() {

@@ -92,8 +92,10 @@ struct Library {
                              const ProgressListener&, const Watch&)>
       export_shell;
   std::vector<ExportFormat> export_formats;
-  /// What a run ended in.
+  /// What a run ended in, or the joints of a scan.
   std::function<Result<OtherShell>(const std::filesystem::path& run)> load_run;
+  /// Shows the manual in a browser. Errors: io where there is none, saying where the manual is.
+  std::function<Result<void>(const Watch& watch)> show_manual;
   std::filesystem::path save_to = "out";
 };
 
@@ -109,7 +111,7 @@ struct PlotPoint {
          force_N = 0, total_K = 0, residual_N = 0, error_mm = 0;
   int joint = -1;  ///< that is held and was taken last; none
   int steps = 0;   ///< that were done
-  bool refined = true;
+  bool refined = true, stable = true;
 };
 
 /// What can be plotted over what; named as columns of frames.csv.
@@ -197,7 +199,7 @@ class ViewerState {
   bool playing = false;
   double play_head = 1, play_speed = 0.25;  ///< of the path a second
   PictureFormat picture;
-  BackgroundTask picture_task, movie_task, export_task;
+  BackgroundTask picture_task, movie_task, export_task, manual_task;
   std::optional<FileRequest> file_request;
   std::vector<std::string> recent;  ///< what was opened, the last first
   std::string copied;               ///< text for the clipboard
@@ -219,8 +221,15 @@ class ViewerState {
   /// The boundary to a progress; of a preset with a push, the push to a share of its depth.
   void go(double part, bool passing);
   void play(bool on);
-  /// Back or on to where so many steps can be undone.
+  /// Back or on to where so many steps can be undone; to where it stands already with an event: to
+  /// before that.
   void go_to_step(int step);
+  /// To one of the states that were found, which follow one another round.
+  void recall(int state);
+  /// Which of them is in sight; none: -1.
+  int state_in_sight() const;
+  /// The boundary to where no shell stays, on the way that led here: the next such place.
+  void go_to_loss();
   /// Stops what the engine is at; of a design the last step stays.
   void stop();
   /// Designs the shell by what was chosen, coloured by its deviation.
@@ -249,6 +258,8 @@ class ViewerState {
   /// A run's last state beside the shell, the state in sight, or (null) none again.
   void compare_with(const std::filesystem::path& run);
   void compare_with_this();
+  /// The net that it was designed on.
+  void compare_with_net();
   void compare(std::shared_ptr<const OtherShell> other);
   /// How far the joints are from those of the same name in the other shell: "largest 3.2 mm at
   /// (0, 1), mean 1.1 mm".
@@ -262,6 +273,8 @@ class ViewerState {
   void save_plot(const PlottedCurve& curve);
   /// The camera as keys of [movie].
   void copy_camera();
+  /// The manual's page in a browser.
+  void show_manual();
 
   /// Once a frame: takes the latest sight, plays, looks at the preset's file. Whether anything is
   /// to be drawn anew.
