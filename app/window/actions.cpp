@@ -57,6 +57,25 @@ constexpr Action range(const char* name, const char* label, Shortcut key, const 
           [](const ViewerState& viewer) { return viewer.range_of == of; }};
 }
 
+/// What a drag of so many pixels to the right and down does to the view.
+template <int right, int down>
+constexpr Action turn(const char* name, const char* label, Key key, const char* help) {
+  return {name,  "View",
+          label, {key, false, false},
+          help,  [](ViewerState& viewer) {
+            orbit(viewer.camera, right, down); }};
+}
+template <int right, int down>
+constexpr Action shift_view(const char* name, const char* label, Key key, const char* help) {
+  return {name,  "View",
+          label, {key, true, false},
+          help,  [](ViewerState& viewer) {
+            pan(viewer.camera, viewer.view, right, down); }};
+}
+void zoom_by(ViewerState& viewer, double steps) {
+  zoom(viewer.camera, viewer.view, steps, viewer.view.width / 2, viewer.view.height / 2);
+}
+
 template <const render::ViewDirection& from>
 constexpr Action look(const char* name, const char* label, Shortcut key, const char* help) {
   return {name, "View", label, key, help, [](ViewerState& viewer) { viewer.look(from); }};
@@ -107,6 +126,8 @@ const Action table[] = {
     {"save_movie", "File", "Save movie", ctrl(Key::m),
      "makes a movie of what was done, step by step, while the shell stays in hand",
      [](auto& v) { v.save_movie(); }},
+    {"save_plots", "File", "Save plots", none,
+     "each plot that shows anything as PDF, SVG, PNG and CSV", [](auto& v) { v.save_plots(); }},
     {"stop_movie", "File", "Stop the movie", none,
      "ends the making of the movie; the frames made so far stay",
      [](auto& v) { v.movie_task.stop(); }},
@@ -184,6 +205,18 @@ const Action table[] = {
     look<render::view_front>("view_front", "Front", on(Key::n1), "along y"),
     look<render::view_side>("view_side", "Side", on(Key::n3), "against x"),
     look<render::view_corner>("view_iso", "Corner", on(Key::n9), "the three axes alike"),
+    {"closer", "View", "Closer", on(Key::plus), "as a turn of the wheel",
+     [](auto& v) { zoom_by(v, 1); }},
+    {"further", "View", "Further", on(Key::minus), "as a turn of the wheel back",
+     [](auto& v) { zoom_by(v, -1); }},
+    turn<40, 0>("turn_left", "Turn left", Key::n4, "turns the view as a drag to the right"),
+    turn<-40, 0>("turn_right", "Turn right", Key::n6, "turns the view as a drag to the left"),
+    turn<0, 40>("turn_up", "Turn up", Key::n8, "more from above"),
+    turn<0, -40>("turn_down", "Turn down", Key::n2, "more from below"),
+    shift_view<-40, 0>("move_left", "Move left", Key::left, "moves the picture"),
+    shift_view<40, 0>("move_right", "Move right", Key::right, "moves the picture"),
+    shift_view<0, -40>("move_up", "Move up", Key::up, "moves the picture"),
+    shift_view<0, 40>("move_down", "Move down", Key::down, "moves the picture"),
     {"orthographic", "View", "Parallel projection", on(Key::n5), "without perspective",
      [](auto& v) { v.camera.field_of_view_deg = v.camera.field_of_view_deg > 0 ? 0 : 20; },
      [](auto& v) { return v.camera.field_of_view_deg == 0; }},
@@ -204,8 +237,9 @@ const Action table[] = {
      "every number of the preset"),
     toggle<&ViewerState::design_panel>("design", "View", "Design", on(Key::i),
      "what may change so that the shell meets its surface, and how far it has come"),
-    toggle<&ViewerState::plots>("plots", "View", "Plots", on(Key::p),
-     "curves of what was done so far"),
+    {"plots", "View", "Plots", on(Key::p), "curves of what was done so far",
+     [](auto& v) { (v.small_window ? v.plots_when_small : v.plots) ^= true; },
+     [](auto& v) { return v.small_window ? v.plots_when_small : v.plots; }},
 
     colour<ColourBy::none>("colour_none", "Nothing", none, "rods and joints alone"),
     colour<ColourBy::K>("colour_K", "K□", on(Key::k), "cells by their integrated Gauss curvature"),

@@ -85,7 +85,7 @@ void EditSession::add_step(preset::Step step, const Report& report) {
         step.to_mm = xyz_of(session_->nodes().col(*joint));
   }
   if (step.kind == preset::StepKind::move) step.edge_points = rows_of(session_->boundary.dragged);
-  const bool eventful = !report.events.empty();
+  const bool eventful = !report.events.empty() || !view_.event.empty();
   const bool same = this_drag_ != 0 && this_drag_ == steps_drag_ && !now_.steps.empty() &&
                     !eventful && !last_eventful_ && goes_on(*now_.steps.back(), step);
   if (same) now_.steps.pop_back();

@@ -40,9 +40,8 @@ struct Column {
   bool any() const { return numbers + design + plots > 0; }
 };
 
-/// The design has a plot of its own; beside it the others are there where they have room. In a
-/// small window the shell has the room of the plots.
-Column column_of(const ViewerState& viewer, double height, bool small, double density) {
+/// The design has a plot of its own; beside it the others are there where they have room.
+Column column_of(const ViewerState& viewer, double height, double density) {
   const double least = 300 * density;
   Column column;
   double rest = height;
@@ -51,7 +50,7 @@ Column column_of(const ViewerState& viewer, double height, bool small, double de
     rest -= column.design;
   }
   const bool plots =
-      viewer.plots && !small && (!viewer.design_panel || rest >= (viewer.numbers ? 2 : 1) * least);
+      viewer.plots && (!viewer.design_panel || rest >= (viewer.numbers ? 2 : 1) * least);
   if (viewer.numbers) column.numbers = plots ? rest - std::round(0.5 * rest) : rest;
   if (plots) column.plots = rest - column.numbers;
   if (!viewer.numbers && !plots && viewer.design_panel) column.design = height;
@@ -271,25 +270,39 @@ void Interface::lay_out() {
   controls_.clear();
   menu_bar(panel);
   const double top = ImGui::GetFrameHeight(), height = height_ - top - status - strip;
-  const bool small = width_ - left - right < least_view * density_;
-  const Column column = column_of(viewer_, height, small, density_);
-  shell_panel(panel, {0, top, left, height});
-  view_panel(panel, {left, top, width_ - left - (column.any() ? right : 0), height});
-  double from = top;
-  const auto next = [&](double part) {
-    from += part;
-    return render::Box{width_ - right, from - part, right, part};
-  };
-  if (column.numbers > 0) numbers_.draw(panel, next(column.numbers));
-  if (column.design > 0) design_panel(panel, next(column.design));
-  if (column.plots > 0) plots_panel(panel, next(column.plots));
+  viewer_.small_window = width_ - left - right < least_view * density_;
+  const render::Box first{0, top, left, height};
+  if (viewer_.small_window) {
+    // one column, for what was asked for last
+    if (viewer_.plots_when_small)
+      plots_panel(panel, first);
+    else if (viewer_.design_panel)
+      design_panel(panel, first);
+    else if (viewer_.numbers)
+      numbers_.draw(panel, first);
+    else
+      shell_panel(panel, first);
+    view_panel(panel, {left, top, width_ - left, height});
+  } else {
+    const Column column = column_of(viewer_, height, density_);
+    shell_panel(panel, first);
+    view_panel(panel, {left, top, width_ - left - (column.any() ? right : 0), height});
+    double from = top;
+    const auto next = [&](double part) {
+      from += part;
+      return render::Box{width_ - right, from - part, right, part};
+    };
+    if (column.numbers > 0) numbers_.draw(panel, next(column.numbers));
+    if (column.design > 0) design_panel(panel, next(column.design));
+    if (column.plots > 0) plots_panel(panel, next(column.plots));
+  }
   timeline_panel(panel, {0, top + height, double(width_), strip});
   status_line(panel, {0, top + height + strip, double(width_), status});
   if (viewer_.picking && !viewer_.help) picker_.draw(panel, {left, top, width_ - left, height});
+  const double around = (viewer_.small_window ? 10 : 60) * density_;
   if (viewer_.file_request)
-    files_.draw(panel, render::Box{0, top, double(width_), height}.inset(60 * density_));
-  if (viewer_.terms)
-    terms_sheet(panel, render::Box{0, top, double(width_), height}.inset(60 * density_));
+    files_.draw(panel, render::Box{0, top, double(width_), height}.inset(around));
+  if (viewer_.terms) terms_sheet(panel, render::Box{0, top, double(width_), height}.inset(around));
   if (viewer_.help)
     help_sheet(panel, render::Box{0, top, double(width_), height}.inset(20 * density_));
 }

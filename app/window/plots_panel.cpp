@@ -254,7 +254,14 @@ Curve bins_of(const ShellView& shell) {
   return curve;
 }
 
-/// What a right click on a plot opens: other quantities, and the plot as files.
+PlottedCurve plotted(const Curve& curve) {
+  return {curve.x_label,
+          curve.y_label,
+          {curve.x.begin(), curve.x.end()},
+          {curve.y.begin(), curve.y.end()}};
+}
+
+/// What a click on a plot opens: other quantities, and the plot as files.
 void plot_menu(const Panel& panel, PlotAxes& axes, const Curve& curve, const std::string& name) {
   if (!ImGui::BeginPopupContextItem(name.c_str())) return;
   const auto choose_quantity = [](const char* label, int& chosen) {
@@ -266,15 +273,17 @@ void plot_menu(const Panel& panel, PlotAxes& axes, const Curve& curve, const std
   choose_quantity("Show", axes.y);
   choose_quantity("Over", axes.x);
   if (ImGui::MenuItem("Save as PDF, SVG, PNG and CSV", nullptr, false, !curve.x.empty()))
-    panel.viewer.save_plot({curve.x_label,
-                            curve.y_label,
-                            {curve.x.begin(), curve.x.end()},
-                            {curve.y.begin(), curve.y.end()}});
+    panel.viewer.save_plot(plotted(curve));
   panel.named(name + " save", "");
   ImGui::EndPopup();
 }
 
 }  // namespace
+
+void ViewerState::save_plots() {
+  for (const PlotAxes& axes : plot_axes)
+    if (const Curve curve = curve_of(*this, axes); !curve.x.empty()) save_plot(plotted(curve));
+}
 
 void plots_panel(const Panel& panel, const render::Box& box) {
   begin_fixed("plots", box);
@@ -294,7 +303,8 @@ void plots_panel(const Panel& panel, const render::Box& box) {
     draw_curve(panel, corner, end, curve);
     const std::string name = fmt::format("plot {}", k + 1);
     ImGui::SetCursorScreenPos(corner);
-    ImGui::InvisibleButton(name.c_str(), {end.x - corner.x, end.y - corner.y});
+    if (ImGui::InvisibleButton(name.c_str(), {end.x - corner.x, end.y - corner.y}))
+      ImGui::OpenPopup(name.c_str());
     panel.controls[name] = {corner.x, corner.y, end.x - corner.x, end.y - corner.y};
     plot_menu(panel, viewer.plot_axes[k], curve, name);
   }

@@ -325,6 +325,25 @@ void picked_rod(const Panel& panel, const PointOnRod& at) {
   ImGui::Text("bending %.3g mJ/m", shell.bending_mJ_m[nodes[k]]);
 }
 
+/// How far the joint that was clicked is pushed inwards, to drag or to type.
+void push_depth(const Panel& panel, int joint) {
+  ViewerState& viewer = panel.viewer;
+  const ShellView& shell = *viewer.shell;
+  Eigen::Vector3d along = shell.normals.col(joint), from = shell.frame.nodes.col(joint);
+  for (const HeldJoint& held : shell.held) {
+    if (held.joint != joint || held.along.isZero(0)) continue;
+    along = held.along;
+    from -= held.moved_mm;
+  }
+  float depth = -float((shell.frame.nodes.col(joint) - from).dot(along));
+  if (std::abs(depth) < 5e-4f) depth = 0;
+  const float most = float(0.5 * shell.layout->length_scale_mm);
+  if (slider(panel, "push_depth", depth, -most, most, "pushed in %.2f mm",
+             "pushes it along its normal and holds it, inwards above 0; Ctrl+click to type"))
+    viewer.post(Push{joint, from - four_digits(depth) * along, along}, true);
+  if (ImGui::IsItemDeactivated()) viewer.end_drag();
+}
+
 void picked(const Panel& panel) {
   const ViewerState& viewer = panel.viewer;
   const ShellView& shell = *viewer.shell;
@@ -333,6 +352,7 @@ void picked(const Panel& panel) {
     const record::Joint& joint = layout.joints[std::size_t(viewer.picked_joint)];
     const Eigen::Vector3d at = shell.frame.nodes.col(viewer.picked_joint);
     heading(panel, fmt::format("Joint ({}, {})", joint.i, joint.j).c_str());
+    push_depth(panel, viewer.picked_joint);
     ImGui::Text("x %.2f  y %.2f  z %.2f mm", at.x(), at.y(), at.z());
     ImGui::Text("axial force %.3g N", shell.axial_N[viewer.picked_joint]);
     ImGui::Text("bending %.3g mJ/m", shell.bending_mJ_m[viewer.picked_joint]);
@@ -357,7 +377,8 @@ void shell_panel(const Panel& panel, const render::Box& box) {
   // all four in one row, where a scroll bar leaves room for it
   const float gap = 0.5f * ImGui::GetStyle().ItemSpacing.x;
   panel.button("pick_preset");
-  const float right = ImGui::GetWindowPos().x + ImGui::GetContentRegionMax().x;
+  const float right = ImGui::GetWindowPos().x + ImGui::GetContentRegionMax().x +
+                      0.5f * ImGui::GetStyle().WindowPadding.x;
   for (const char* action : {"undo", "redo", "numbers"}) {
     const float wide =
         ImGui::CalcTextSize(find_action(action)->label).x + 2 * ImGui::GetStyle().FramePadding.x;

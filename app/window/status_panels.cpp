@@ -45,7 +45,9 @@ int ViewerState::state_in_sight() const {
   if (!shell->found) return -1;
   const auto& all = *shell->found;
   const auto at = std::ranges::find_if(all, [&](const auto& one) {
-    return one->frame.nodes.cols() == shell->frame.nodes.cols() &&
+    return std::abs(one->frame.energies.total() - shell->frame.energies.total()) <
+               1e-4 * one->frame.energies.total() &&
+           one->frame.nodes.cols() == shell->frame.nodes.cols() &&
            (one->frame.nodes - shell->frame.nodes).cwiseAbs().maxCoeff() <
                1e-4 * shell->layout->length_scale_mm;
   });

@@ -179,7 +179,9 @@ class ViewerState {
   RangeOf range_of = RangeOf::run;          ///< of the colours
   bool numbers = false, plots = true, help = false, terms = false, picking = true,
        design_panel = false;
-  bool find_number = false;  ///< the search over the numbers is to be typed into
+  bool small_window = false;      ///< one column has room beside the view
+  bool plots_when_small = false;  ///< and it shows the plots
+  bool find_number = false;       ///< the search over the numbers is to be typed into
   DesignOptions design;
   std::vector<PlotPoint> plot_points;
   std::vector<TimelineEntry> timeline;  ///< by the number of steps that can be undone
@@ -271,6 +273,8 @@ class ViewerState {
   void save_movie();
   /// A plot as PDF, SVG, PNG and a table.
   void save_plot(const PlottedCurve& curve);
+  /// All that have anything to show.
+  void save_plots();
   /// The camera as keys of [movie].
   void copy_camera();
   /// The manual's page in a browser.

@@ -23,7 +23,7 @@ std::vector<WayMark> marks_of(const PathRecord& way, const std::vector<Event>& e
                               const std::function<double(double)>& place) {
   std::vector<WayMark> marks;
   const auto add = [&](double from, double to, bool unstable, std::string what) {
-    const auto [low, high] = std::minmax(place(from), place(to));
+    const auto [low, high] = std::minmax({place(from), place(to)});
     marks.push_back({low, high, joint, unstable, std::move(what)});
   };
   const auto& steps = way.load_steps;
@@ -59,29 +59,35 @@ void add_marks(std::vector<WayMark>& marks, const std::vector<WayMark>& more) {
   }
 }
 
+namespace {
+
+std::string text_of_event(const Event& event) {
+  switch (event.kind) {
+    case Event::Kind::stability_lost:
+      return !event.to    ? "stability lost"
+             : event.leap ? "stability lost: snapped to another state"
+                          : "the path branches";
+    case Event::Kind::turned_back:
+      return event.to ? "the path turned back: snapped to another state" : "path turned back";
+    case Event::Kind::locked:
+      return "the rods are at their length";
+    case Event::Kind::overbent:
+      return "a rod is strained as far as [limits] " + event.what + " allows";
+    case Event::Kind::contact:
+      return "beyond, there touch " + event.what;
+  }
+  return "";
+}
+
+}  // namespace
+
 std::string text_of_events(const std::vector<Event>& events) {
-  std::string message;
+  std::string message, last;
   for (const Event& event : events) {
-    if (!message.empty()) message += "; ";
-    switch (event.kind) {
-      case Event::Kind::stability_lost:
-        message += !event.to    ? "stability lost"
-                   : event.leap ? "stability lost: snapped to another state"
-                                : "the path branches";
-        break;
-      case Event::Kind::turned_back:
-        message += event.to ? "the path turned back: snapped to another state" : "path turned back";
-        break;
-      case Event::Kind::locked:
-        message += "the rods are at their length";
-        break;
-      case Event::Kind::overbent:
-        message += "a rod is strained as far as [limits] " + event.what + " allows";
-        break;
-      case Event::Kind::contact:
-        message += "beyond, there touch " + event.what;
-        break;
-    }
+    const std::string text = text_of_event(event);
+    if (text == last) continue;
+    message += (message.empty() ? "" : "; ") + text;
+    last = text;
   }
   return message;
 }

@@ -222,7 +222,8 @@ TEST_CASE("a monkey at mouse and keys breaks nothing, and all it did can be undo
       "do view_iso",  "do undo",         "do redo",           "do soft_mode",    "do colour_energy",
       "do range_run", "do push_freely",  "do dark",           "do orthographic", "wheel 1",
       "wheel -1",     "do copy_camera",  "do save_preset",    "do jitter",       "do pick_preset",
-      "do design",    "do design_start", "do design_put_back"};
+      "do design",    "do design_start", "do design_put_back", "do to_loss",     "do state_next",
+      "do turn_up",   "do move_left",    "do compare_now",     "do save_plots"};
   std::string input;
   bool down = false;
   for (unsigned k = 0; k < number("GRIDSHELL_TRIALS", 80); ++k) {
@@ -322,9 +323,8 @@ TEST_CASE("a click on a step with an event that is in sight shows the state befo
   const json before = played(folder, lose + click);
   CHECK((before["negative_pivots"] == 0 && before["redo_steps"] == 1));
   // and the key goes to where it is lost from anywhere
-  const json found = played(folder, lose + click + "down B\nup B\n");
-  CHECK(found["negative_pivots"].get<int>() == 0);
-  CHECK_THAT(found["message"].get<std::string>(), Contains("every state is stable"));
+  const json found = played(folder, "down B\nup B\n");
+  CHECK(found["negative_pivots"].get<int>() > 0);
 }
 
 TEST_CASE("the manual is shown in a browser, and where there is none it is said where it lies") {
@@ -345,6 +345,17 @@ TEST_CASE("the manual is shown in a browser, and where there is none it is said 
                            "<b>radius_mm</b> (mm)"})
     CHECK_THAT(page, Contains(part));
   CHECK_THAT(shown("exit 3"), Contains("no browser can be opened: the manual is /"));
+}
+
+TEST_CASE("a joint that was clicked is pushed to a depth that is typed") {
+  const TemporaryFolder folder;
+  const json pushed =
+      played(folder,
+             "mouse @joint:0,0 0 0\npress left\nrelease left\nmouse @push_depth 0.5 0.5\n"
+             "down Ctrl\npress left\nrelease left\nup Ctrl\ndown Ctrl\ndown A\nup A\nup Ctrl\n"
+             "type 4\ndown Enter\nup Enter\n");
+  CHECK(pushed["held"] == 1);
+  CHECK(pushed["depth_mm"].get<double>() == Approx(4).epsilon(1e-6));
 }
 
 TEST_CASE("every panel has room in a small window", "[standard]") {

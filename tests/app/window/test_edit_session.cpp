@@ -263,7 +263,8 @@ TEST_CASE(
   CHECK(shell.bending_mJ() == Approx(energy));
 }
 
-TEST_CASE("a way past states that are not stable marks them, and says so though its end is stable") {
+TEST_CASE(
+    "a way past states that are not stable marks them, and says so though its end is stable") {
   // near the flat the symmetric branch is not stable
   EditedShell shell;
   const auto unstable = [&] {
@@ -294,7 +295,8 @@ TEST_CASE("a state that was met beside another one is come back to, as one step"
   CHECK_FALSE(shell.view().found);
   CHECK(shell.attempt(Recall{0}).find("no other state") == 0);
   const ShellView first = shell.view();
-  for (int seed = 1; seed < 12 && !shell.view().found; ++seed) shell.act(Jitter{seed}), shell.refine();
+  for (int seed = 1; seed < 12 && !shell.view().found; ++seed)
+    shell.act(Jitter{seed}), shell.refine();
   REQUIRE(shell.view().found);
   REQUIRE(shell.view().found->size() == 2);
   const double other_mJ = shell.bending_mJ();

@@ -23,7 +23,8 @@ PathRecord way_of(const std::vector<std::pair<double, int>>& steps) {
 
 }  // namespace
 
-TEST_CASE("a stretch that is not stable reaches half way to the stable load steps, or to its event") {
+TEST_CASE(
+    "a stretch that is not stable reaches half way to the stable load steps, or to its event") {
   const PathRecord way = way_of({{0.2, 0}, {0.4, 1}, {0.6, 2}, {0.8, 0}});
   const auto marks = marks_of(way, {}, -1, progress_at);
   REQUIRE(marks.size() == 1);
