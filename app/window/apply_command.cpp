@@ -70,9 +70,11 @@ Result<void> EditSession::do_step(preset::Step step, const Watch& watch) {
   const double began_mm = pushed_mm(step);
   simulate::StepPath way;
   TRY(report, simulate::apply_step(*session_, step, watch, &way));
-  note_way(step, way, began_mm, began_stable, *report);
+  const std::string event_at = note_way(step, way, began_mm, began_stable, *report);
   add_step(std::move(step), *report);
-  return note_events(*report);
+  const auto done = note_events(*report);
+  if (!event_at.empty()) view_.event = view_.message += " at " + event_at;
+  return done;
 }
 
 /// Notes a step as far as it came.

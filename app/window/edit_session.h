@@ -119,8 +119,8 @@ class EditSession {
     bool same_as(const RestState& other) const;
   };
   void note_state();
-  void note_way(const preset::Step& step, const simulate::StepPath& way, double began_mm,
-                bool began_stable, Report& report);
+  std::string note_way(const preset::Step& step, const simulate::StepPath& way, double began_mm,
+                       bool began_stable, Report& report);
   double pushed_mm(const preset::Step& step) const;
   std::string place_text(const WayMark& mark) const;
 

@@ -29,9 +29,9 @@ std::string EditSession::place_text(const WayMark& mark) const {
          " mm";
 }
 
-/// Marks a way, and says of one that is stable again where it was not.
-void EditSession::note_way(const preset::Step& step, const simulate::StepPath& way, double began_mm,
-                           bool began_stable, Report& report) {
+/// Marks a way, and says of one that is stable again where it was not; where its first event is.
+std::string EditSession::note_way(const preset::Step& step, const simulate::StepPath& way,
+                                  double began_mm, bool began_stable, Report& report) {
   // a way that begins where no shell stays does not lose its stability there
   if (!began_stable)
     std::erase_if(report.events, [](const Event& event) {
@@ -44,7 +44,7 @@ void EditSession::note_way(const preset::Step& step, const simulate::StepPath& w
   // what is known of a branch does not hold of another one
   if (leapt || !(moves || pushes))
     std::erase_if(now_.marks, [](const WayMark& mark) { return mark.unstable; });
-  if (way.load_steps.empty()) return;
+  if (way.load_steps.empty()) return "";
   const auto joint = simulate::joint_of(step, now_.scene->footprint);
   const double grew_mm = pushed_mm(step) - began_mm,
                end = std::max(1e-12, way.load_steps.back().point.t);
@@ -53,10 +53,11 @@ void EditSession::note_way(const preset::Step& step, const simulate::StepPath& w
   };
   const auto marks = marks_of(way, report.events, pushes && joint ? *joint : -1, place);
   add_marks(now_.marks, marks);
-  if (!report.certificate.stable() || leapt) return;
   for (const WayMark& mark : marks)
-    if (mark.unstable && mark.to > mark.from)
+    if (mark.unstable && mark.to > mark.from && report.certificate.stable() && !leapt)
       view_.message = view_.event = "stable again; not stable on the way at " + place_text(mark);
+  const auto event = std::ranges::find(marks, false, &WayMark::unstable);
+  return event == marks.end() ? "" : place_text(*event);
 }
 
 // States that were found.

@@ -285,7 +285,7 @@ void terms_sheet(const Panel& panel, const render::Box& box) {
 
 void help_sheet(const Panel& panel, const render::Box& box) {
   begin_sheet("help", box, "Keys and mouse", "(F1 or Esc closes)");
-  if (ImGui::BeginTable("sheet", 2)) {
+  if (ImGui::BeginTable("sheet", panel.viewer.small_window ? 1 : 2)) {
     ImGui::TableNextColumn();
     keys(panel, "File Edit Shell");
     ImGui::TableNextColumn();

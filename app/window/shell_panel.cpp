@@ -241,17 +241,13 @@ const char* choose_action(const Panel& panel, const char* id, const std::string&
   return now->help;
 }
 
-void colour_range(const Panel& panel) {
-  if (panel.viewer.show.colour_by == ColourBy::none) return;
-  panel.named("range", choose_action(panel, "##range", "range_"));
-}
-
 void colours(const Panel& panel) {
   ViewerState& viewer = panel.viewer;
   heading(panel, "Colour");
   choose_action(panel, "##colour", "colour_");
   panel.named("colour", meaning_of(viewer.show.colour_by));
-  colour_range(panel);
+  if (viewer.show.colour_by != ColourBy::none)
+    panel.named("range", choose_action(panel, "##range", "range_"));
 }
 
 /// Sizes to choose from; 0: twice the view.
@@ -389,12 +385,12 @@ void shell_panel(const Panel& panel, const render::Box& box) {
     path(panel);
     boundary(panel);
     held(panel);
+    picked(panel);
     stability(panel);
     contacts(panel);
     accuracy(panel);
     colours(panel);
     keep(panel);
-    picked(panel);
   }
   ImGui::End();
 }

@@ -91,15 +91,20 @@ void Overlay::mark_under() {
     ring(layout.edge_points[std::size_t(edge)], 7);
 }
 
-/// A text on a ground of its own beside a point; to its left where the legend stands.
+/// A text on a ground of its own beside a point; to its left where the legend stands, and in lines
+/// where the view is narrow.
 void Overlay::label(const std::string& text, ImVec2 at) {
-  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-  const float beside = panel_.px(12), room = panel_.px(3);
-  const bool left = at.x + beside + size.x > float(view_.right()) - panel_.px(110);
-  const ImVec2 low{left ? at.x - beside - size.x : at.x + beside, at.y - 1.4f * size.y};
+  const float beside = panel_.px(12), room = panel_.px(3),
+              legend = float(view_.right()) - panel_.px(110);
+  const float most = std::max(panel_.px(120), legend - float(view_.x) - 2 * beside);
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, most);
+  float left = at.x + beside;
+  if (left + size.x > legend) left = std::max(float(view_.x) + beside, at.x - beside - size.x);
+  const ImVec2 low{left, at.y - 1.4f * ImGui::GetTextLineHeight()};
   list_.AddRectFilled({low.x - room, low.y - room}, {low.x + size.x + room, low.y + size.y + room},
                       ImGui::GetColorU32(ImGuiCol_PopupBg, 0.85f), room);
-  list_.AddText(low, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
+  list_.AddText(ImGui::GetFont(), ImGui::GetFontSize(), low, ImGui::GetColorU32(ImGuiCol_Text),
+                text.c_str(), nullptr, most);
 }
 
 /// Force and way beside each joint that is held.

@@ -217,13 +217,35 @@ TEST_CASE("a monkey at mouse and keys breaks nothing, and all it did can be undo
   };
   std::mt19937 random{number("GRIDSHELL_SEED", 7)};
   const auto draw = [&](unsigned below) { return unsigned(random()) % below; };
-  const char* deeds[] = {
-      "do step_back", "do gravity",      "do rest",           "do release",      "do numbers",
-      "do view_iso",  "do undo",         "do redo",           "do soft_mode",    "do colour_energy",
-      "do range_run", "do push_freely",  "do dark",           "do orthographic", "wheel 1",
-      "wheel -1",     "do copy_camera",  "do save_preset",    "do jitter",       "do pick_preset",
-      "do design",    "do design_start", "do design_put_back", "do to_loss",     "do state_next",
-      "do turn_up",   "do move_left",    "do compare_now",     "do save_plots"};
+  const char* deeds[] = {"do step_back",
+                         "do gravity",
+                         "do rest",
+                         "do release",
+                         "do numbers",
+                         "do view_iso",
+                         "do undo",
+                         "do redo",
+                         "do soft_mode",
+                         "do colour_energy",
+                         "do range_run",
+                         "do push_freely",
+                         "do dark",
+                         "do orthographic",
+                         "wheel 1",
+                         "wheel -1",
+                         "do copy_camera",
+                         "do save_preset",
+                         "do jitter",
+                         "do pick_preset",
+                         "do design",
+                         "do design_start",
+                         "do design_put_back",
+                         "do to_loss",
+                         "do state_next",
+                         "do turn_up",
+                         "do move_left",
+                         "do compare_now",
+                         "do save_plots"};
   std::string input;
   bool down = false;
   for (unsigned k = 0; k < number("GRIDSHELL_TRIALS", 80); ++k) {
