@@ -24,7 +24,7 @@ radius_mm = 66.0
 radius_mm = 54.0
 """
 KEYS = ("j g h r space Left Right Home 1 2 3 n i d c s o p Tab ctrl+z ctrl+y ctrl+s ctrl+p ctrl+d "
-        "ctrl+c Escape F1 Return plus minus").split()
+        "ctrl+c Escape F1 Return plus minus b w Prior Next 4 8 ctrl+Left ctrl+f ctrl+e").split()
 EVERY_S, LONGEST_S, MOST_MB = 0.05, 5, 600
 
 

@@ -2,7 +2,13 @@
 // it does.
 #pragma once
 
+#include <vector>
+
 #include "app/cli/command_line.h"
+
+namespace gridshell::window {
+struct ExportFormat;
+}
 
 namespace gridshell::app {
 
@@ -15,6 +21,9 @@ void add_load(CommandLine& program);
 void add_modes(CommandLine& program);
 void add_scan(CommandLine& program);
 void add_compare(CommandLine& program);
+
+/// What `export` writes by a file's ending alone.
+std::vector<window::ExportFormat> usual_exports();
 
 /// All of them, in the order of the help.
 void add_commands(CommandLine& program);

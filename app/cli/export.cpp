@@ -10,6 +10,7 @@
 #include "app/cli/options.h"
 #include "app/cli/preset_library.h"
 #include "app/cli/staged_folder.h"
+#include "app/window/viewer_state.h"
 #include "engine/core/file_io.h"
 #include "engine/core/text.h"
 #include "engine/core/try.h"
@@ -153,8 +154,15 @@ TextOf of_flat(auto text) {
   });
 }
 
+/// What a file holds, and what reads it.
+struct Format {
+  TextOf text;
+  const char* read_by;
+};
+using FormatsByEnding = std::map<std::string, Format>;
+
 /// What can be exported, by its name and by the extension of the file.
-const std::vector<std::pair<std::string, std::map<std::string, TextOf>>>& formats() {
+const std::vector<std::pair<std::string, FormatsByEnding>>& formats() {
   using exports::FabricationPlan;
   const auto drawn = [](auto to) {
     return of_flat(
@@ -164,35 +172,49 @@ const std::vector<std::pair<std::string, std::map<std::string, TextOf>>>& format
     return of_plan(
         [to](const FabricationPlan& plan) { return exports::plate_drawing(plan).map(to); });
   };
-  static const std::vector<std::pair<std::string, std::map<std::string, TextOf>>> all{
+  constexpr const char *tables = "spreadsheets", *cutter = "laser cutter", *print = "workshop";
+  static const std::vector<std::pair<std::string, FormatsByEnding>> all{
       {"shape",
-       {{".csv", of_shape(exports::to_csv)},
-        {".dxf", of_shape([](const exports::Shape& shape) {
-           return exports::to_dxf(exports::rods_in_space(shape));
-         })},
-        {".glb", of_run([](const Source& source, const ExportOptions& options) {
-           return exports::to_glb(source.run.trajectory, source.title(), options.seconds);
-         })},
-        {".html", of_run([](const Source& source, const ExportOptions&) {
-           return exports::to_page(source.run.trajectory, source.title());
-         })},
-        {".obj", of_shape(exports::to_obj)},
-        {".pvd", of_run(write_series)},
-        {".vtp", of_shape(exports::to_vtp)},
-        {".xdmf", of_run(xdmf_of)}}},
-      {"tubes", {{".obj", of_shape(exports::to_obj_tubes)}}},
+       {{".csv", {of_shape(exports::to_csv), tables}},
+        {".dxf",
+         {of_shape([](const exports::Shape& shape) {
+            return exports::to_dxf(exports::rods_in_space(shape));
+          }),
+          "Rhino, AutoCAD"}},
+        {".glb",
+         {of_run([](const Source& source, const ExportOptions& options) {
+            return exports::to_glb(source.run.trajectory, source.title(), options.seconds);
+          }),
+          "Blender, slides"}},
+        {".html",
+         {of_run([](const Source& source, const ExportOptions&) {
+            return exports::to_page(source.run.trajectory, source.title());
+          }),
+          "any browser"}},
+        {".obj", {of_shape(exports::to_obj), "Blender, Rhino"}},
+        {".pvd", {of_run(write_series), "ParaView, all frames"}},
+        {".vtp", {of_shape(exports::to_vtp), "ParaView"}},
+        {".xdmf", {of_run(xdmf_of), "ParaView, all frames"}}}},
+      {"tubes", {{".obj", {of_shape(exports::to_obj_tubes), "Blender, Rhino"}}}},
       {"cutlist",
-       {{".csv", of_plan(exports::cut_list_csv)}, {".pdf", of_plan(render::cut_list_pdf)}}},
-      {"footprint", {{".dxf", drawn(exports::to_dxf)}, {".svg", drawn(exports::to_svg)}}},
+       {{".csv", {of_plan(exports::cut_list_csv), tables}},
+        {".pdf", {of_plan(render::cut_list_pdf), print}}}},
+      {"footprint",
+       {{".dxf", {drawn(exports::to_dxf), cutter}}, {".svg", {drawn(exports::to_svg), cutter}}}},
       {"plate",
-       {{".csv", of_plan(exports::pins_csv)},
-        {".dxf", plate(exports::to_dxf)},
-        {".svg", plate(exports::to_svg)}}},
-      {"sheet", {{".pdf", of_flat(render::assembly_sheet_pdf)}}}};
+       {{".csv", {of_plan(exports::pins_csv), tables}},
+        {".dxf", {plate(exports::to_dxf), cutter}},
+        {".svg", {plate(exports::to_svg), cutter}}}},
+      {"sheet", {{".pdf", {of_flat(render::assembly_sheet_pdf), print}}}}};
   return all;
 }
 
-std::string extensions_of(const std::map<std::string, TextOf>& texts) {
+/// What an extension is for where --what does not say.
+std::string usual_thing(const std::string& extension) {
+  return extension == ".svg" ? "footprint" : extension == ".pdf" ? "sheet" : "shape";
+}
+
+std::string extensions_of(const FormatsByEnding& texts) {
   std::string list;
   for (const auto& [extension, text] : texts) list += (list.empty() ? "" : " ") + extension;
   return list;
@@ -208,14 +230,11 @@ std::string exported_formats() {
 
 Result<std::string> text_of(const ExportOptions& options) {
   const std::string extension = options.to.extension().string();
-  // what an extension is for where --what does not say
-  const std::string what = !options.what.empty() ? options.what
-                           : extension == ".svg" ? "footprint"
-                           : extension == ".pdf" ? "sheet"
-                                                 : "shape";
+  const std::string what = options.what.empty() ? usual_thing(extension) : options.what;
   for (const auto& [name, texts] : formats()) {
     if (name != what) continue;
-    if (const auto text = texts.find(extension); text != texts.end()) return text->second(options);
+    if (const auto text = texts.find(extension); text != texts.end())
+      return text->second.text(options);
     return fail(Fault::bad_input, "--to {}: a {} is written as {}", options.to.string(), what,
                 extensions_of(texts));
   }
@@ -246,6 +265,14 @@ Result<int> export_file(const ExportOptions& options) {
 }
 
 }  // namespace
+
+std::vector<window::ExportFormat> usual_exports() {
+  std::vector<window::ExportFormat> usual;
+  for (const auto& [what, by_ending] : formats())
+    for (const auto& [ending, format] : by_ending)
+      if (what == usual_thing(ending)) usual.push_back({ending, what, format.read_by});
+  return usual;
+}
 
 // `gridshell export RUN --to FILE`: for other programs and for the workshop.
 

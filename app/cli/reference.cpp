@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <sstream>
 
 #include "app/cli/commands.h"
 #include "app/cli/preset_library.h"
+#include "app/window/actions.h"
 #include "engine/core/json.h"
 #include "engine/core/system_info.h"
 #include "engine/core/try.h"
@@ -136,7 +138,69 @@ std::string keys_section() {
   return text;
 }
 
+/// Keys, mouse and words of the window, from the tables that it goes by.
+std::string window_section() {
+  std::string text = ".SH THE WINDOW\n.SS \"Actions\"\n";
+  for (const window::Action& action : window::actions()) {
+    const std::string key = name_of(action.key);
+    text += entry(
+        bold(action.label) + (key.empty() ? "" : " " + italic(key)),
+        fmt::format("{} (menu {}; in a recording: do {})", action.help, action.menu, action.name));
+  }
+  text += ".SS \"Mouse\"\n";
+  for (const window::MouseAction& action : window::mouse_actions())
+    text += entry(bold(action.how), action.help);
+  text += ".SS \"Words\"\n";
+  for (const auto& [term, meaning] : window::terms()) text += entry(bold(term), meaning);
+  return text;
+}
+
+/// A line of roff as man_page() writes it, in HTML.
+std::string html_of(const std::string& roff) {
+  std::string html;
+  const char* open = "";
+  for (std::size_t k = 0; k < roff.size(); ++k) {
+    const char c = roff[k], next = k + 1 < roff.size() ? roff[k + 1] : ' ';
+    if (c == '\\' && next == 'f' && k + 2 < roff.size()) {
+      html += *open ? fmt::format("</{}>", open) : "";
+      open = roff[k + 2] == 'B' ? "b" : roff[k + 2] == 'I' ? "i" : "";
+      html += *open ? fmt::format("<{}>", open) : "";
+      k += 2;
+    } else if (c == '\\') {
+      html += next == 'e' ? "\\" : next == '-' ? "-" : "";
+      ++k;
+    } else {
+      html += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
+    }
+  }
+  return html;
+}
+
 }  // namespace
+
+Result<std::string> manual_html() {
+  TRY(page, man_page());
+  std::string html =
+      "<!DOCTYPE html><meta charset=utf-8><title>gridshell</title><style>body{max-width:50em;"
+      "margin:2em auto;padding:0 1em;font:16px/1.5 sans-serif}dt{margin-top:.6em}h3{margin-top:2em}"
+      "</style><h1>gridshell</h1>\n";
+  std::istringstream lines(*page);
+  bool tag = false;
+  for (std::string line; std::getline(lines, line);) {
+    const bool begins = line.starts_with(".SH ") || line.starts_with(".SS ");
+    std::string words = html_of(begins ? line.substr(4) : line);
+    if (begins) std::erase(words, '"');
+    if (begins)
+      html += line[2] == 'H' ? fmt::format("<h2>{}</h2>\n", words)
+                             : fmt::format("<h3>{}</h3>\n", words);
+    else if (line == ".nf" || line == ".fi")
+      html += line == ".nf" ? "<pre>" : "</pre>\n";
+    else if (!line.starts_with('.'))
+      html += tag ? fmt::format("<dt>{}</dt>\n", words) : fmt::format("<dd>{}</dd>\n", words);
+    tag = line == ".TP";
+  }
+  return html;
+}
 
 Result<std::string> man_page() {
   TRY(presets, presets_section());
@@ -145,7 +209,7 @@ Result<std::string> man_page() {
       "gridshells: formed, measured and shown\n.SH SYNOPSIS\n{} {} [{}]\n.SH COMMANDS\n",
       version(), bold("gridshell"), italic("COMMAND"), italic("OPTIONS"));
   for (const CommandEntry& command : command_table()) text += section_of(command);
-  text += *presets + keys_section();
+  text += *presets + window_section() + keys_section();
   text += ".SH EXIT STATUS\n";
   for (const auto& [code, meaning] : {std::pair("0", "done"),
                                       {"1", "the run failed: no equilibrium, unstable, disk full"},

@@ -17,6 +17,8 @@ Result<std::string> listing_json();
 /// gridshell(1) in roff: commands with their options, presets, all keys. Errors: a preset that came
 /// with the program does not read.
 Result<std::string> man_page();
+/// The same as a page for a browser, which needs no network.
+Result<std::string> manual_html();
 
 // Completion of command lines in bash.
 

@@ -1,12 +1,15 @@
 // `gridshell view [PRESET|RUN]`: the desktop window; or the same interface without a display,
 // played from a recording.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <map>
 #include <memory>
+#include <sstream>
 #include <thread>
 #include <tuple>
 
@@ -17,6 +20,7 @@
 #include "app/cli/options.h"
 #include "app/cli/pictures.h"
 #include "app/cli/preset_library.h"
+#include "app/cli/reference.h"
 #include "app/window/imgui_painter.h"
 #include "app/window/interface.h"
 #include "app/window/viewer_state.h"
@@ -63,7 +67,8 @@ Result<void> make_movie(const fs::path& preset, const fs::path& folder,
   return run_this_program({"movie", preset.string(), "-o", folder.string()}, watch, listener);
 }
 
-/// The program itself forms and exports it, in a folder of its own that goes again.
+/// The program itself forms and exports it, in a folder of its own that goes again, but that an
+/// .xdmf reads its numbers from: FILE_run beside it.
 Result<void> export_shell(const preset::Preset& preset, const fs::path& file,
                           const window::ProgressListener& listener, const Watch& watch) {
   std::string name = (fs::temp_directory_path() / "gridshell-XXXXXX").string();
@@ -72,7 +77,10 @@ Result<void> export_shell(const preset::Preset& preset, const fs::path& file,
   const auto run = [&](const std::vector<std::string>& arguments) {
     return run_this_program(arguments, watch, listener);
   };
-  const std::string shell = (aside / "shell.toml").string(), ran = (aside / "run").string();
+  const bool kept = file.extension() == ".xdmf";
+  const std::string shell = (aside / "shell.toml").string(),
+                    ran = kept ? (file.parent_path() / file.stem()).string() + "_run"
+                               : (aside / "run").string();
   const auto made = write_preset_with_tables(preset, shell)
                         .and_then([&] {
                           return run({"run", shell, "-o", ran});
@@ -85,11 +93,51 @@ Result<void> export_shell(const preset::Preset& preset, const fs::path& file,
   return made;
 }
 
+/// The joints of a scan.csv, those that are missing left out; a line from each to its neighbours.
+Result<window::OtherShell> load_scan(const fs::path& file) {
+  TRY(text, read_file(file));
+  window::OtherShell scan{file.parent_path().filename().string(), {}, {}, {}};
+  std::vector<Eigen::Vector3d> places;
+  std::map<std::pair<int, int>, int> nodes;
+  std::istringstream lines(*text);
+  for (std::string line; std::getline(lines, line);) {
+    record::Joint joint;
+    double x = 0, y = 0, z = 0;
+    if (std::sscanf(line.c_str(), "%d,%d,%lf,%lf,%lf", &joint.i, &joint.j, &x, &y, &z) != 5)
+      continue;
+    joint.node = int(places.size());
+    nodes[{joint.i, joint.j}] = joint.node;
+    scan.joints.push_back(joint);
+    places.emplace_back(x, y, z);
+  }
+  if (places.empty()) return fail(Fault::bad_input, "'{}' has no joints", file.string());
+  for (const auto& [at, node] : nodes)
+    for (const auto& beside : {std::pair(at.first + 1, at.second), {at.first, at.second + 1}})
+      if (const auto other = nodes.find(beside); other != nodes.end())
+        scan.rods.push_back({node, other->second});
+  scan.nodes.resize(3, Eigen::Index(places.size()));
+  for (std::size_t k = 0; k < places.size(); ++k) scan.nodes.col(Eigen::Index(k)) = places[k];
+  return scan;
+}
+
 Result<window::OtherShell> load_run(const fs::path& folder) {
+  std::error_code error;
+  if (fs::exists(folder / "scan.csv", error)) return load_scan(folder / "scan.csv");
   TRY(runs, read_runs(folder, {}, false));
   const record::Trajectory& trajectory = runs->front().trajectory;
   return window::OtherShell{folder.filename().string(), trajectory.layout.joints,
                             trajectory.layout.rods, trajectory.frames.back().nodes};
+}
+
+/// As a page of its own in the folder of temporary files.
+Result<void> show_manual(const Watch& watch) {
+  TRY(page, manual_html());
+  const fs::path file =
+      fs::temp_directory_path() / fmt::format("gridshell-manual-{}.html", ::getuid());
+  TRY_DO(write_file(file, *page));
+  if (const auto shown = render::run_subprocess({"xdg-open", file.string()}, watch); !shown)
+    return fail(Fault::io, "no browser can be opened: the manual is {}", file.string());
+  return {};
 }
 
 window::Library library_of(const ViewOptions& options) {
@@ -100,7 +148,9 @@ window::Library library_of(const ViewOptions& options) {
   library.load = first_preset_of;
   library.make_movie = make_movie;
   library.export_shell = export_shell;
+  library.export_formats = usual_exports();
   library.load_run = load_run;
+  library.show_manual = show_manual;
   // in a context of its own, which does not hold up the window's
   library.draw_picture = [context = options.context](const window::PictureRequest& order,
                                                      const fs::path& file) -> Result<void> {

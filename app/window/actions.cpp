@@ -57,6 +57,25 @@ constexpr Action range(const char* name, const char* label, Shortcut key, const 
           [](const ViewerState& viewer) { return viewer.range_of == of; }};
 }
 
+/// What a drag of so many pixels to the right and down does to the view.
+template <int right, int down>
+constexpr Action turn(const char* name, const char* label, Key key, const char* help) {
+  return {name,  "View",
+          label, {key, false, false},
+          help,  [](ViewerState& viewer) {
+            orbit(viewer.camera, right, down); }};
+}
+template <int right, int down>
+constexpr Action shift_view(const char* name, const char* label, Key key, const char* help) {
+  return {name,  "View",
+          label, {key, true, false},
+          help,  [](ViewerState& viewer) {
+            pan(viewer.camera, viewer.view, right, down); }};
+}
+void zoom_by(ViewerState& viewer, double steps) {
+  zoom(viewer.camera, viewer.view, steps, viewer.view.width / 2, viewer.view.height / 2);
+}
+
 template <const render::ViewDirection& from>
 constexpr Action look(const char* name, const char* label, Shortcut key, const char* help) {
   return {name, "View", label, key, help, [](ViewerState& viewer) { viewer.look(from); }};
@@ -79,12 +98,15 @@ const Action table[] = {
     {"open_file", "File", "Open a file or run…", ctrl_shift(Key::o),
      "a preset's file, or the folder of a run; either may also be dropped on the window",
      [](auto& v) { v.ask_file(FileUse::open); }},
-    {"compare", "File", "Compare with a run…", none,
-     "draws a run's last state over the shell and says how far their joints are apart",
+    {"compare", "File", "Compare with a run or scan…", none,
+     "draws a run's last state or a scan's joints over the shell and says how far they are apart",
      [](auto& v) { v.ask_file(FileUse::compare); }},
     {"compare_now", "File", "Compare with this state", none,
      "keeps the state in sight in green over what comes next, with how far the joints are apart",
      [](auto& v) { v.compare_with_this(); }},
+    {"compare_net", "File", "Compare with the net", none,
+     "lays the net that it was designed on over it, with how far the joints are apart",
+     [](auto& v) { v.compare_with_net(); }},
     {"compare_off", "File", "Compare no more", none, "takes the other shell away",
      [](auto& v) { v.compare({}); }},
     {"save_preset", "File", "Save preset", ctrl(Key::s),
@@ -104,6 +126,8 @@ const Action table[] = {
     {"save_movie", "File", "Save movie", ctrl(Key::m),
      "makes a movie of what was done, step by step, while the shell stays in hand",
      [](auto& v) { v.save_movie(); }},
+    {"save_plots", "File", "Save plots", none,
+     "each plot that shows anything as PDF, SVG, PNG and CSV", [](auto& v) { v.save_plots(); }},
     {"stop_movie", "File", "Stop the movie", none,
      "ends the making of the movie; the frames made so far stay",
      [](auto& v) { v.movie_task.stop(); }},
@@ -154,6 +178,15 @@ const Action table[] = {
     toggle<&ViewerState::push_freely>("push_freely", "Shell", "Push freely", on(Key::f),
      "a joint goes with the mouse in every direction instead of along its normal"),
 
+    {"state_next", "Shell", "Next state", on(Key::page_down),
+     "to the next of the states that were found on this boundary",
+     [](auto& v) { v.recall(v.state_in_sight() + 1); }},
+    {"state_before", "Shell", "State before", on(Key::page_up), "to the one before it",
+     [](auto& v) { v.recall(v.state_in_sight() < 0 ? -1 : v.state_in_sight() - 1); }},
+    {"to_loss", "Shell", "Where stability is lost", on(Key::b),
+     "the boundary to the next place on its way so far where no shell stays, red on the slider",
+     [](auto& v) { v.go_to_loss(); }},
+
     {"design_start", "Shell", "Start the design", ctrl(Key::d),
      "moves what is ticked until the shell meets its surface, step by step, each one shown",
      [](auto& v) { v.start_design(); }},
@@ -172,6 +205,18 @@ const Action table[] = {
     look<render::view_front>("view_front", "Front", on(Key::n1), "along y"),
     look<render::view_side>("view_side", "Side", on(Key::n3), "against x"),
     look<render::view_corner>("view_iso", "Corner", on(Key::n9), "the three axes alike"),
+    {"closer", "View", "Closer", on(Key::plus), "as a turn of the wheel",
+     [](auto& v) { zoom_by(v, 1); }},
+    {"further", "View", "Further", on(Key::minus), "as a turn of the wheel back",
+     [](auto& v) { zoom_by(v, -1); }},
+    turn<40, 0>("turn_left", "Turn left", Key::n4, "turns the view as a drag to the right"),
+    turn<-40, 0>("turn_right", "Turn right", Key::n6, "turns the view as a drag to the left"),
+    turn<0, 40>("turn_up", "Turn up", Key::n8, "more from above"),
+    turn<0, -40>("turn_down", "Turn down", Key::n2, "more from below"),
+    shift_view<-40, 0>("move_left", "Move left", Key::left, "moves the picture"),
+    shift_view<40, 0>("move_right", "Move right", Key::right, "moves the picture"),
+    shift_view<0, -40>("move_up", "Move up", Key::up, "moves the picture"),
+    shift_view<0, 40>("move_down", "Move down", Key::down, "moves the picture"),
     {"orthographic", "View", "Parallel projection", on(Key::n5), "without perspective",
      [](auto& v) { v.camera.field_of_view_deg = v.camera.field_of_view_deg > 0 ? 0 : 20; },
      [](auto& v) { return v.camera.field_of_view_deg == 0; }},
@@ -192,8 +237,9 @@ const Action table[] = {
      "every number of the preset"),
     toggle<&ViewerState::design_panel>("design", "View", "Design", on(Key::i),
      "what may change so that the shell meets its surface, and how far it has come"),
-    toggle<&ViewerState::plots>("plots", "View", "Plots", on(Key::p),
-     "curves of what was done so far"),
+    {"plots", "View", "Plots", on(Key::p), "curves of what was done so far",
+     [](auto& v) { (v.small_window ? v.plots_when_small : v.plots) ^= true; },
+     [](auto& v) { return v.small_window ? v.plots_when_small : v.plots; }},
 
     colour<ColourBy::none>("colour_none", "Nothing", none, "rods and joints alone"),
     colour<ColourBy::K>("colour_K", "K□", on(Key::k), "cells by their integrated Gauss curvature"),
@@ -221,6 +267,8 @@ const Action table[] = {
     toggle<&ViewerState::help>("help", "Help", "Keys and mouse", on(Key::f1), "this sheet"),
     toggle<&ViewerState::terms>("terms", "Help", "What is this?", none,
      "the words of the panels, a sentence each"),
+    {"manual", "Help", "Manual", none, "commands, keys of presets and of this window, in the browser",
+     [](auto& v) { v.show_manual(); }},
 };
 
 constexpr MouseAction mouse[] = {
@@ -242,6 +290,25 @@ constexpr MouseAction mouse[] = {
      Over::nothing},
 };
 // clang-format on
+
+constexpr std::pair<const char*, const char*> words_of_panels[] = {
+    {"rod", "an elastic wire of the net; u-rods and v-rods cross"},
+    {"joint", "where two rods are held together; they shear freely there"},
+    {"footprint", "the outline of the flat net, at rest"},
+    {"actuated boundary", "the curve onto which the rods' ends are moved, R_a of a circle"},
+    {"edge point", "the end of a rod, pinned to the boundary"},
+    {"leg", "the piece of a rod between its last joint and the boundary"},
+    {"cell", "four joints and the rods between them"},
+    {"K□",
+     "integrated Gauss curvature of a cell: 2π less its four angles; red domes, blue saddles"},
+    {"Δ/ρ", "distance from the net that the shell was designed on, over its radius"},
+    {"stable", "every small move raises the energy: no negative pivot of the Hessian"},
+    {"soft mode", "the move along which the energy rises least, or falls"},
+    {"snap", "the state was lost and the shell leapt to another one"},
+    {"residual", "the largest force on a node that nothing holds; of an equilibrium round-off"},
+    {"error ±", "how far the joints may be off, from what finer meshes change"},
+    {"edges per segment", "straight pieces between two joints that a mesh computes with"},
+    {"tolerance", "the error that is asked for, over R_o of a circle or ρ of a net"}};
 
 }  // namespace
 
@@ -266,6 +333,8 @@ const Action* action_of(const Shortcut& shortcut) {
   const auto found = std::ranges::find(table, shortcut, &Action::key);
   return found == std::end(table) ? nullptr : found;
 }
+
+std::span<const std::pair<const char*, const char*>> terms() { return words_of_panels; }
 
 std::span<const MouseAction> mouse_actions() { return mouse; }
 

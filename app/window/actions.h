@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "app/window/input_event.h"
 #include "app/window/viewer_state.h"
@@ -51,6 +52,9 @@ struct MouseAction {
   Over over;
   bool shift = false;
 };
+
+/// The words of the panels, a sentence each.
+std::span<const std::pair<const char*, const char*>> terms();
 
 std::span<const MouseAction> mouse_actions();
 /// What a press does there.

@@ -66,9 +66,15 @@ Result<void> EditSession::do_step(preset::Step step, const Watch& watch) {
                      step.kind == preset::StepKind::release;
   if (leaps && session_->shell().levels() == 1)
     session_->remesh(simulate::initial_levels(*now_.scene), watch);
-  TRY(report, simulate::apply_step(*session_, step, watch));
+  const bool began_stable = session_->certificate().stable();
+  const double began_mm = pushed_mm(step);
+  simulate::StepPath way;
+  TRY(report, simulate::apply_step(*session_, step, watch, &way));
+  const std::string event_at = note_way(step, way, began_mm, began_stable, *report);
   add_step(std::move(step), *report);
-  return note_events(*report);
+  const auto done = note_events(*report);
+  if (!event_at.empty()) view_.event = view_.message += " at " + event_at;
+  return done;
 }
 
 /// Notes a step as far as it came.
@@ -81,7 +87,7 @@ void EditSession::add_step(preset::Step step, const Report& report) {
         step.to_mm = xyz_of(session_->nodes().col(*joint));
   }
   if (step.kind == preset::StepKind::move) step.edge_points = rows_of(session_->boundary.dragged);
-  const bool eventful = !report.events.empty();
+  const bool eventful = !report.events.empty() || !view_.event.empty();
   const bool same = this_drag_ != 0 && this_drag_ == steps_drag_ && !now_.steps.empty() &&
                     !eventful && !last_eventful_ && goes_on(*now_.steps.back(), step);
   if (same) now_.steps.pop_back();

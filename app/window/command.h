@@ -73,11 +73,15 @@ struct Design {
 struct AcceptDesign {};
 /// The shell before the design, to the bit.
 struct DiscardDesign {};
+/// One of the states that were found, to the bit.
+struct Recall {
+  int state = 0;
+};
 /// Nothing but the finer meshes that follow a drag.
 struct RefineAfterDrag {};
 
 using Edit = std::variant<Open, Change, Move, Push, Release, DragEdge, ResetEdgePoint, Rest, Jitter,
-                          Undo, Redo, Design, AcceptDesign, DiscardDesign, RefineAfterDrag>;
+                          Undo, Redo, Design, AcceptDesign, DiscardDesign, Recall, RefineAfterDrag>;
 
 /// Whether it is one of some kinds.
 template <class... Kinds>

@@ -57,34 +57,6 @@ bool same_nodes(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) {
   return a.cols() == b.cols() && a == b;
 }
 
-/// "the path lost its stability; came to rest in another state" of what a step came past.
-std::string text_of_events(const std::vector<Event>& events) {
-  std::string message;
-  for (const Event& event : events) {
-    if (!message.empty()) message += "; ";
-    switch (event.kind) {
-      case Event::Kind::stability_lost:
-        message += !event.to    ? "stability lost"
-                   : event.leap ? "stability lost: snapped to another state"
-                                : "the path branches";
-        break;
-      case Event::Kind::turned_back:
-        message += event.to ? "the path turned back: snapped to another state" : "path turned back";
-        break;
-      case Event::Kind::locked:
-        message += "the rods are at their length";
-        break;
-      case Event::Kind::overbent:
-        message += "a rod is strained as far as [limits] " + event.what + " allows";
-        break;
-      case Event::Kind::contact:
-        message += "beyond, there touch " + event.what;
-        break;
-    }
-  }
-  return message;
-}
-
 }  // namespace
 
 LevelPlan coarse_plan(const Scene& scene) {
@@ -98,15 +70,16 @@ void EditSession::execute(const Command& command, const Watch& watch) {
   const bool travels = is_any<Undo, Redo, AcceptDesign, DiscardDesign>(command.edit);
   if (!settles) {
     view_.error.clear();
-    view_.message.clear();
     view_.event.clear();
+    // nor is it cleared by what the drag does next
+    if (command.drag == 0 || command.drag != this_drag_) view_.message.clear();
   }
   this_drag_ = command.drag;
   const bool remembered = !travels && !settles && remember(command);
   if (!settles && !is_any<Undo, Redo, DiscardDesign>(command.edit)) accept_design();
   if (session_ && command.passing && session_->shell().levels() > 1) coarsen(watch);
   const bool moves =
-      is_any<Move, Push, Release, DragEdge, ResetEdgePoint, Rest, Jitter>(command.edit);
+      is_any<Move, Push, Release, DragEdge, ResetEdgePoint, Rest, Jitter, Recall>(command.edit);
   const Result<void> done =
       moves && !session_
           ? fail(Fault::bad_input, "there is no shell yet")
@@ -153,6 +126,7 @@ void EditSession::refine(const Watch& watch) {
   update_view();
   if (untouched) view_.first = now_.first = std::make_shared<const record::Frame>(view_.frame);
   view_.seconds = seconds_now() - begin;
+  if (now_.refined) note_state();
 }
 
 void EditSession::coarsen(const Watch& watch) {
@@ -249,11 +223,12 @@ Result<void> EditSession::act(const Redo&, const Watch&) {
 
 /// Notes what a step came past; an end before its end is the error.
 Result<void> EditSession::note_events(const Report& report) {
-  view_.message = text_of_events(report.events);
+  const std::string text = text_of_events(report.events);
+  if (!text.empty()) view_.message = text;
   for (const Event& event : report.events) now_.snapped = now_.snapped || event.to.has_value();
   if (!report.events.empty() && report.events.back().to && report.certificate.stable())
     view_.message += ", at rest in another state";
-  view_.event = view_.message;
+  if (!text.empty()) view_.event = view_.message;
   if (report.end == Outcome::cancelled) return stopped();
   if (report.end == Outcome::reached) return {};
   return fail(Fault::no_equilibrium, words_of(report.end).what);
@@ -265,8 +240,13 @@ Result<void> EditSession::form(const preset::Preset& preset, const Watch& watch)
   if (scene->rung == RodModel::net)
     return fail(Fault::bad_input, "the rung 'net' is geometry alone: there is nothing to push");
   TRY(course, simulate::follow_actuation(scene, coarse_plan(*scene), false, 1, watch));
+  std::vector<WayMark> marks;
+  for (const simulate::PathSegment& segment : course->segments)
+    add_marks(marks, marks_of(segment, segment.report.events, -1, progress_at));
+  const bool snapped = course->has_events();
   set_shell(preset, scene, std::move(course->simulation));
-  now_.snapped = course->has_events();
+  now_.marks = std::move(marks);
+  now_.snapped = snapped;
   now_.first.reset();
   view_.message = view_.event = course->limit_reason;
   for (const preset::Step& step : preset.step) {
@@ -301,6 +281,9 @@ Result<void> EditSession::set_preset_push() {
 }
 
 Result<void> EditSession::act(const Open& command, const Watch& watch) {
+  found_.clear();
+  at_rest_.reset();
+  view_.found.reset();
   return form(command.preset, watch);
 }
 

@@ -106,7 +106,23 @@ class EditSession {
   Result<void> act(const Design& command, const Watch& watch);
   Result<void> act(const AcceptDesign&, const Watch&);
   Result<void> act(const DiscardDesign&, const Watch&);
+  Result<void> act(const Recall& command, const Watch&);
   Result<void> act(const RefineAfterDrag&, const Watch&) { return {}; }
+
+  /// A state at rest that nothing holds, to come back to.
+  struct RestState {
+    EditState state;
+    Checkpoint checkpoint;
+    std::shared_ptr<const ShellView> seen;
+
+    bool beside(const RestState& other) const;
+    bool same_as(const RestState& other) const;
+  };
+  void note_state();
+  std::string note_way(const preset::Step& step, const simulate::StepPath& way, double began_mm,
+                       bool began_stable, Report& report);
+  double pushed_mm(const preset::Step& step) const;
+  std::string place_text(const WayMark& mark) const;
 
   Result<void> form(const preset::Preset& preset, const Watch& watch);
   Result<void> rebuild_shell(const preset::Preset& preset, const Watch& watch);
@@ -125,7 +141,6 @@ class EditSession {
   void coarsen(const Watch& watch);
   bool remember(const Command& command);
   Result<void> travel(std::deque<UndoStep>& from, std::deque<UndoStep>& to, const char* none);
-  UndoStep undo_step() const;
   void keep_within_memory(std::deque<UndoStep>& steps);
   void clear_scratch();
   bool save_to_scratch(UndoStep& step);
@@ -151,6 +166,8 @@ class EditSession {
   bool only_coarse_mesh_ = false;         // finer meshes do not have this state
   int nodes_shown_ = 0;                   // of the layout in the view
   std::vector<MeshSymmetry> symmetries_;  // that a state of this shell may have
+  std::vector<RestState> found_;          // states of one boundary that were met
+  std::optional<RestState> at_rest_;      // the last one
   std::function<void(const ShellView&)> listener_;
   ShellView view_;
 };

@@ -20,19 +20,10 @@ struct FileText {
 /// In the order of the enum.
 constexpr FileText file_texts[] = {
     {"Open", "Open", "a preset's file (.toml), or the folder of a run"},
-    {"Compare with a run", "Compare", "the folder of a run"},
+    {"Compare with a run or scan", "Compare", "the folder of a run, or of a scan"},
     {"Save preset as", "Save", "a preset; tables of its ends and rods come beside it"},
     {"Save picture as", "Save", "a PNG of the view"},
-    {"Export", "Export",
-     ".vtp .pvd (ParaView), .obj .dxf (Rhino, Blender), .glb .html (any browser), .csv;\nof the "
-     "flat "
-     "footprint .svg, of the workshop .pdf"}};
-
-/// What of a folder can be picked: folders, and files that the use is for.
-struct Entry {
-  std::string name;
-  bool folder = false;
-};
+    {"Export", "Export", "a file whose ending is the format"}};
 
 bool wanted(FileUse use, const fs::path& file) {
   if (use == FileUse::open || use == FileUse::save_preset) return file.extension() == ".toml";
@@ -40,47 +31,10 @@ bool wanted(FileUse use, const fs::path& file) {
   return use == FileUse::export_shell;
 }
 
-std::vector<Entry> entries_of(FileUse use, const fs::path& folder) {
-  std::vector<Entry> entries;
-  std::error_code error;
-  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
-    const std::string name = at->path().filename().string();
-    const bool is_folder = at->is_directory(error);
-    if (!name.starts_with('.') && (is_folder || wanted(use, at->path())))
-      entries.push_back({name, is_folder});
-  }
-  std::ranges::sort(entries, [](const Entry& a, const Entry& b) {
-    return std::pair(!a.folder, a.name) < std::pair(!b.folder, b.name);
-  });
-  return entries;
-}
-
-/// A run's folder is picked, others are gone into.
+/// A run's folder is picked, and a scan's; others are gone into.
 bool is_run(const fs::path& folder) {
   std::error_code error;
-  return fs::exists(folder / "summary.json", error);
-}
-
-void list(const Panel& panel, FileRequest& request) {
-  const fs::path path = request.path;
-  std::error_code error;
-  if (path.has_parent_path() && fs::is_directory(path.parent_path(), error))
-    request.folder = path.parent_path().string();
-  const fs::path folder = request.folder.empty() ? fs::path(".") : fs::path(request.folder);
-  if (ImGui::Selectable("../##up"))
-    request.path = (fs::absolute(folder).lexically_normal().parent_path() / "").string();
-  panel.named("file ..", "the folder above");
-  for (const Entry& entry : entries_of(request.use, folder)) {
-    const fs::path there = folder / entry.name;
-    const bool run = entry.folder && is_read(request.use) && is_run(there);
-    const std::string label = fmt::format("{}{}", entry.name,
-                                          run            ? "   (run)"
-                                          : entry.folder ? "/"
-                                                         : "");
-    if (ImGui::Selectable(label.c_str(), path == there))
-      request.path = entry.folder && !run ? (there / "").string() : there.string();
-    panel.named("file " + entry.name, "");
-  }
+  return fs::exists(folder / "summary.json", error) || fs::exists(folder / "scan.json", error);
 }
 
 /// Its size in print, and what that is in pixels.
@@ -101,9 +55,66 @@ void picture_size(const Panel& panel, FileRequest& request, const PictureSize& v
   ImGui::TextDisabled("%.0f x %.0f pixels", pixels, pixels * view.height / view.width);
 }
 
+/// The endings to choose from, which the path then has.
+void endings(const Panel& panel, FileRequest& request) {
+  const float right = ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x;
+  for (const ExportFormat& format : panel.viewer.library.export_formats) {
+    const std::string text = fmt::format("{}  {}", format.ending, format.read_by);
+    const float wide =
+        ImGui::CalcTextSize(text.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x + panel.px(8);
+    if (ImGui::GetItemRectMax().x + wide < right &&
+        &format != &panel.viewer.library.export_formats.front())
+      ImGui::SameLine();
+    const bool now = fs::path(request.path).extension() == format.ending;
+    if (ImGui::RadioButton(text.c_str(), now))
+      request.path = fs::path(request.path).replace_extension(format.ending).string();
+    panel.named("ending " + format.ending, fmt::format("the {}", format.thing));
+  }
+}
+
 }  // namespace
 
-void file_prompt(const Panel& panel, const render::Box& box) {
+/// Looks into the folder where another one is shown, or where something came or went.
+void FilePrompt::look(FileUse use, const std::string& folder) {
+  std::error_code error;
+  const fs::path at = folder.empty() ? "." : folder;
+  const auto changed = fs::last_write_time(at, error);
+  if (use == use_ && folder == folder_ && changed == changed_) return;
+  use_ = use, folder_ = folder, changed_ = changed;
+  entries_.clear();
+  for (fs::directory_iterator entry(at, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    std::error_code gone;
+    const bool is_folder = entry->is_directory(gone);
+    if (!name.starts_with('.') && (is_folder || wanted(use, entry->path())))
+      entries_.push_back({name, is_folder, is_folder && is_read(use) && is_run(entry->path())});
+  }
+  std::ranges::sort(entries_, [](const Entry& a, const Entry& b) {
+    return std::pair(!a.folder, a.name) < std::pair(!b.folder, b.name);
+  });
+}
+
+void FilePrompt::list(const Panel& panel, FileRequest& request) {
+  const fs::path path = request.path;
+  std::error_code error;
+  if (path.has_parent_path() && fs::is_directory(path.parent_path(), error))
+    request.folder = path.parent_path().string();
+  const fs::path folder = request.folder.empty() ? fs::path(".") : fs::path(request.folder);
+  look(request.use, request.folder);
+  if (ImGui::Selectable("../##up"))
+    request.path = (fs::absolute(folder).lexically_normal().parent_path() / "").string();
+  panel.named("file ..", "the folder above");
+  for (const Entry& entry : entries_) {
+    const fs::path there = folder / entry.name;
+    const std::string label = entry.name + (entry.run ? "   (run)" : entry.folder ? "/" : "");
+    if (ImGui::Selectable(label.c_str(), path == there))
+      request.path = entry.folder && !entry.run ? (there / "").string() : there.string();
+    panel.named("file " + entry.name, "");
+  }
+}
+
+void FilePrompt::draw(const Panel& panel, const render::Box& box) {
   ViewerState& viewer = panel.viewer;
   FileRequest request = *viewer.file_request;
   const FileText& text = file_texts[std::size_t(request.use)];
@@ -115,6 +126,7 @@ void file_prompt(const Panel& panel, const render::Box& box) {
   panel.named("file_path", "path of the file; Enter takes it");
   ImGui::TextDisabled("%s", text.hint);
   if (request.use == FileUse::save_picture) picture_size(panel, request, viewer.view);
+  if (request.use == FileUse::export_shell) endings(panel, request);
   const float foot = 2.6f * ImGui::GetFrameHeightWithSpacing();
   if (ImGui::BeginChild("entries", {0, -foot}, true)) list(panel, request);
   ImGui::EndChild();

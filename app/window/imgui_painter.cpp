@@ -114,13 +114,13 @@ Result<render::Image> draw_shell(render::Renderer& renderer, const PictureReques
 
 }  // namespace
 
-Result<void> ShellPicture::draw(const ViewerState& viewer, Resolution sharpness) {
+Result<void> ShellPicture::draw(const PictureRequest& shown, Resolution sharpness) {
   const bool moving = sharpness == Resolution::moving;
   const double scale = moving ? 0.5 : 1;
-  const int width = std::max(16, int(scale * viewer.view.width)),
-            height = std::max(16, int(scale * viewer.view.height));
+  const int width = std::max(16, int(scale * shown.view.width)),
+            height = std::max(16, int(scale * shown.view.height));
   const render::DrawQuality quality{.supersample = 1, .shadow = !moving, .jittered_passes = 1};
-  TRY(image, draw_shell(*renderer_, viewer.picture_request(), quality, width, height,
+  TRY(image, draw_shell(*renderer_, shown, quality, width, height,
                         moving ? 0.75 * least_px : least_px * std::max(1.0, height / 720.0)));
   fill_texture(*gl_, texture_.id(), width, height, image->rgba.data());
   return {};
@@ -141,7 +141,8 @@ Result<render::Image> picture_of(const PictureRequest& asked, render::Renderer& 
       values_of(*request.shell, request.show).size() == 0)
     return image;
   const double font = std::max(9.0, height / 45.0);
-  const render::ColourBar bar{label_of(*request.shell, request.show), request.show.scale};
+  render::ColourBar bar{label_of(*request.shell, request.show), request.show.scale};
+  bar.ends = true;
   render::draw_over(*image, [&](render::Canvas& canvas) {
     const double room = render::colour_bar_width(canvas, bar, font);
     draw_colour_bar(canvas, {width - room - 1.5 * font, 1.5 * font, room, 0.4 * height}, bar, font);

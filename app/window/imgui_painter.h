@@ -48,9 +48,9 @@ class ShellPicture {
   ShellPicture(const render::Gl& gl, render::Renderer& renderer)
       : gl_(&gl), renderer_(&renderer), texture_(gl) {}
 
-  /// Draws what the viewer shows, in its view's size, at half the resolution while it moves.
-  /// Errors: those of the renderer.
-  Result<void> draw(const ViewerState& viewer, Resolution sharpness);
+  /// Draws it in the view's size, at half the resolution while it moves. Errors: those of the
+  /// renderer.
+  Result<void> draw(const PictureRequest& shown, Resolution sharpness);
   GLuint texture() const { return texture_.id(); }
 
  private:

@@ -40,9 +40,8 @@ struct Column {
   bool any() const { return numbers + design + plots > 0; }
 };
 
-/// The design has a plot of its own; beside it the others are there where they have room. In a
-/// small window the shell has the room of the plots.
-Column column_of(const ViewerState& viewer, double height, bool small, double density) {
+/// The design has a plot of its own; beside it the others are there where they have room.
+Column column_of(const ViewerState& viewer, double height, double density) {
   const double least = 300 * density;
   Column column;
   double rest = height;
@@ -51,7 +50,7 @@ Column column_of(const ViewerState& viewer, double height, bool small, double de
     rest -= column.design;
   }
   const bool plots =
-      viewer.plots && !small && (!viewer.design_panel || rest >= (viewer.numbers ? 2 : 1) * least);
+      viewer.plots && (!viewer.design_panel || rest >= (viewer.numbers ? 2 : 1) * least);
   if (viewer.numbers) column.numbers = plots ? rest - std::round(0.5 * rest) : rest;
   if (plots) column.plots = rest - column.numbers;
   if (!viewer.numbers && !plots && viewer.design_panel) column.design = height;
@@ -75,6 +74,7 @@ Interface::Interface(const render::Gl& gl, render::Renderer& renderer, ViewerSta
       imgui_(ImGui::CreateContext()),
       viewer_(viewer),
       mouse_(viewer),
+      renderer_(renderer),
       picture_(gl_, renderer),
       picker_(gl_),
       target_(gl_, render::Target::Depth::none) {}
@@ -261,31 +261,48 @@ void Interface::view_panel(const Panel& panel, const render::Box& box) {
 }
 
 void Interface::lay_out() {
-  const Panel panel{viewer_, density_, controls_};
+  Panel panel{viewer_, density_, controls_};
+  for (const auto& [state, picture] : states_)
+    panel.states.push_back(texture_id(picture.texture()));
   const double left = std::round(272 * density_), right = std::round(272 * density_),
-               status = std::round(30 * density_), strip = std::round(32 * density_);
+               status = std::round(30 * density_),
+               strip = std::round((states_.empty() ? 32 : 56) * density_);
   controls_.clear();
   menu_bar(panel);
   const double top = ImGui::GetFrameHeight(), height = height_ - top - status - strip;
-  const bool small = width_ - left - right < least_view * density_;
-  const Column column = column_of(viewer_, height, small, density_);
-  shell_panel(panel, {0, top, left, height});
-  view_panel(panel, {left, top, width_ - left - (column.any() ? right : 0), height});
-  double from = top;
-  const auto next = [&](double part) {
-    from += part;
-    return render::Box{width_ - right, from - part, right, part};
-  };
-  if (column.numbers > 0) numbers_.draw(panel, next(column.numbers));
-  if (column.design > 0) design_panel(panel, next(column.design));
-  if (column.plots > 0) plots_panel(panel, next(column.plots));
+  viewer_.small_window = width_ - left - right < least_view * density_;
+  const render::Box first{0, top, left, height};
+  if (viewer_.small_window) {
+    // one column, for what was asked for last
+    if (viewer_.plots_when_small)
+      plots_panel(panel, first);
+    else if (viewer_.design_panel)
+      design_panel(panel, first);
+    else if (viewer_.numbers)
+      numbers_.draw(panel, first);
+    else
+      shell_panel(panel, first);
+    view_panel(panel, {left, top, width_ - left, height});
+  } else {
+    const Column column = column_of(viewer_, height, density_);
+    shell_panel(panel, first);
+    view_panel(panel, {left, top, width_ - left - (column.any() ? right : 0), height});
+    double from = top;
+    const auto next = [&](double part) {
+      from += part;
+      return render::Box{width_ - right, from - part, right, part};
+    };
+    if (column.numbers > 0) numbers_.draw(panel, next(column.numbers));
+    if (column.design > 0) design_panel(panel, next(column.design));
+    if (column.plots > 0) plots_panel(panel, next(column.plots));
+  }
   timeline_panel(panel, {0, top + height, double(width_), strip});
   status_line(panel, {0, top + height + strip, double(width_), status});
   if (viewer_.picking && !viewer_.help) picker_.draw(panel, {left, top, width_ - left, height});
+  const double around = (viewer_.small_window ? 10 : 60) * density_;
   if (viewer_.file_request)
-    file_prompt(panel, render::Box{0, top, double(width_), height}.inset(60 * density_));
-  if (viewer_.terms)
-    terms_sheet(panel, render::Box{0, top, double(width_), height}.inset(60 * density_));
+    files_.draw(panel, render::Box{0, top, double(width_), height}.inset(around));
+  if (viewer_.terms) terms_sheet(panel, render::Box{0, top, double(width_), height}.inset(around));
   if (viewer_.help)
     help_sheet(panel, render::Box{0, top, double(width_), height}.inset(20 * density_));
 }
@@ -302,7 +319,27 @@ Result<void> Interface::draw_shell() {
   shown_ = shown;
   shell_anew_ = false;
   sharp_ = sharp;
-  return picture_.draw(viewer_, sharp ? Resolution::still : Resolution::moving);
+  return picture_.draw(viewer_.picture_request(), sharp ? Resolution::still : Resolution::moving);
+}
+
+/// Small pictures of the states that were found, each once, from where the camera looks then.
+Result<void> Interface::draw_states() {
+  const auto& found = viewer_.shell->found;
+  if (!found) return states_.clear(), Result<void>();
+  std::size_t same = 0;
+  while (same < std::min(states_.size(), found->size()) && states_[same].first == (*found)[same])
+    ++same;
+  states_.erase(states_.begin() + std::ptrdiff_t(same), states_.end());
+  for (std::size_t k = same; k < found->size(); ++k) {
+    const auto& state = (*found)[k];
+    PictureRequest small{state, viewer_.camera, {160, 100}, viewer_.show, {}};
+    small.show.other.reset();
+    small.show.mode_mm = 0;
+    fit(small.camera, small.view, state->frame.nodes);
+    states_.emplace_back(state, ShellPicture(gl_, renderer_));
+    TRY_DO(states_.back().second.draw(small, Resolution::still));
+  }
+  return {};
 }
 
 Result<void> Interface::compose(double seconds) {
@@ -313,6 +350,7 @@ Result<void> Interface::compose(double seconds) {
   shell_anew_ |= viewer_.tick(seconds);
   if (dark_ != viewer_.show.dark) choose_colours(dark_ = viewer_.show.dark, density_);
   feed();
+  TRY_DO(draw_states());
   ImGui::NewFrame();
   lay_out();
   ImGui::Render();

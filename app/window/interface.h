@@ -69,6 +69,7 @@ class Interface {
   void lay_out();
   void view_panel(const Panel& panel, const render::Box& box);
   Result<void> draw_shell();
+  Result<void> draw_states();
   Result<void> compose(double seconds);
 
   render::Gl gl_;  // others point to it
@@ -76,9 +77,13 @@ class Interface {
   std::optional<InterfacePainter> painter_;
   ViewerState& viewer_;
   Picker mouse_;
+  render::Renderer& renderer_;
   ShellPicture picture_;
+  // of the states that were found
+  std::vector<std::pair<std::shared_ptr<const ShellView>, ShellPicture>> states_;
   NumbersPanel numbers_;
   PresetPicker picker_;
+  FilePrompt files_;
   render::Target target_;
   std::deque<InputEvent> events_;
   std::map<std::string, render::Box> controls_;

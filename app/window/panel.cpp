@@ -254,25 +254,6 @@ bool begin_table(const Panel& panel, const char* name, double left) {
   return true;
 }
 
-constexpr std::pair<const char*, const char*> terms[] = {
-    {"rod", "an elastic wire of the net; u-rods and v-rods cross"},
-    {"joint", "where two rods are held together; they shear freely there"},
-    {"footprint", "the outline of the flat net, at rest"},
-    {"actuated boundary", "the curve onto which the rods' ends are moved, R_a of a circle"},
-    {"edge point", "the end of a rod, pinned to the boundary"},
-    {"leg", "the piece of a rod between its last joint and the boundary"},
-    {"cell", "four joints and the rods between them"},
-    {"K□",
-     "integrated Gauss curvature of a cell: 2π less its four angles; red domes, blue saddles"},
-    {"Δ/ρ", "distance from the net that the shell was designed on, over its radius"},
-    {"stable", "every small move raises the energy: no negative pivot of the Hessian"},
-    {"soft mode", "the move along which the energy rises least, or falls"},
-    {"snap", "the state was lost and the shell leapt to another one"},
-    {"residual", "the largest force on a node that nothing holds; of an equilibrium round-off"},
-    {"error ±", "how far the joints may be off, from what finer meshes change"},
-    {"edges per segment", "straight pieces between two joints that a mesh computes with"},
-    {"tolerance", "the error that is asked for, over R_o of a circle or ρ of a net"}};
-
 /// The keys of some menus.
 void keys(const Panel& panel, const std::string& menus) {
   if (!begin_table(panel, menus.c_str(), 104)) return;
@@ -296,7 +277,7 @@ void begin_sheet(const char* name, const render::Box& box, const char* title, co
 void terms_sheet(const Panel& panel, const render::Box& box) {
   begin_sheet("terms", box, "What is this?", "(Esc closes)");
   if (begin_table(panel, "terms", 150)) {
-    for (const auto& [term, meaning] : terms) row(term, meaning);
+    for (const auto& [term, meaning] : terms()) row(term, meaning);
     ImGui::EndTable();
   }
   ImGui::End();
@@ -304,7 +285,7 @@ void terms_sheet(const Panel& panel, const render::Box& box) {
 
 void help_sheet(const Panel& panel, const render::Box& box) {
   begin_sheet("help", box, "Keys and mouse", "(F1 or Esc closes)");
-  if (ImGui::BeginTable("sheet", 2)) {
+  if (ImGui::BeginTable("sheet", panel.viewer.small_window ? 1 : 2)) {
     ImGui::TableNextColumn();
     keys(panel, "File Edit Shell");
     ImGui::TableNextColumn();

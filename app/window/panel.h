@@ -2,6 +2,7 @@
 #pragma once
 
 #include <imgui.h>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -22,6 +23,7 @@ struct Panel {
   ViewerState& viewer;
   double density = 1;                            ///< pixels a point of text
   std::map<std::string, render::Box>& controls;  ///< where each control stands, by its name
+  std::vector<ImTextureID> states = {};          ///< a picture each of viewer.shell->found
 
   float px(double points) const { return float(points * density); }
   /// Notes where the last control is, and gives it a tooltip.
@@ -67,13 +69,12 @@ void plots_panel(const Panel& panel, const render::Box& box);
 void design_panel(const Panel& panel, const render::Box& box);
 void status_line(const Panel& panel, const render::Box& box);
 /// What was done, to go back to; and why the state's certificate is what it is.
+/// Beside it the states that were found, as small pictures.
 void timeline_panel(const Panel& panel, const render::Box& box);
 void why_popup(const Panel& panel);
 void help_sheet(const Panel& panel, const render::Box& box);
 void terms_sheet(const Panel& panel, const render::Box& box);
 void colour_legend(const Panel& panel, const render::Box& view);
-/// Asks for the file of viewer.file_request.
-void file_prompt(const Panel& panel, const render::Box& box);
 /// Over the picture of the shell: what is picked, measured and under the mouse, forces, scale bar,
 /// axes.
 void view_overlay(const Panel& panel, const render::Box& view);
@@ -89,25 +90,35 @@ bool contains_words(std::string text, std::string sought);
 /// A line of text to type into, of at most 1 kB; true once it is entered.
 bool text_input(const char* id, std::string& text, const char* hint = "");
 
-/// Every number of the preset, from the field table; remembers what is being changed.
+/// Every number of the preset, from the field table; remembers what is being changed, and what it
+/// says of each as long as none changes.
 class NumbersPanel {
  public:
   void draw(const Panel& panel, const render::Box& box);
 
  private:
+  /// A number with its texts.
+  struct Row {
+    const preset::Field* field;
+    std::string name, label, text, standard, help;
+  };
+
   bool is_shown(const preset::Field& field);
-  void edit(const Panel& panel, const preset::Field& field);
+  void edit(const Panel& panel, const Row& row);
   void change(const Panel& panel, bool passing);
   void look(const ViewerState& viewer);
   void find_idle();
+  void list_rows();
 
   std::shared_ptr<const ShellView> seen_;  // that the numbers are of
   preset::Preset edited_;
+  std::vector<Row> rows_;       // those that are shown, as long as listed_
   std::set<std::string> idle_;  // keys that count for nothing in it
   std::string active_;          // the key under the mouse
   std::string sought_;          // what is looked for
   bool typed_ = false;          // digits that are not meant yet
   bool all_ = false;            // those that count for nothing are shown, too
+  bool listed_ = false;
 };
 
 // Fonts, colours and distances of the interface.
@@ -128,6 +139,13 @@ void coloured_text(ImU32 colour, const std::string& text);
 
 // A small plot within a panel.
 
+/// A place on the abscissa, or a piece of it.
+struct CurveMark {
+  float from, to;
+  bool unstable;  ///< no shell stays there; else something happened
+  std::string what;
+};
+
 /// One curve, or two over the same x.
 struct Curve {
   const char* y_label;
@@ -135,13 +153,36 @@ struct Curve {
   const char* without;  ///< said where there is nothing to plot
   std::vector<float> x, y;
   bool bars = false;
-  std::vector<std::size_t> jumps = {};  ///< points that no line leads to
-  std::vector<float> second = {};       ///< another one, paler
-  bool logarithmic = false;             ///< y, which is above 0
+  std::vector<std::size_t> jumps = {};     ///< points that no line leads to
+  std::vector<float> second = {};          ///< another one, paler
+  bool logarithmic = false;                ///< y, which is above 0
+  std::vector<std::size_t> unstable = {};  ///< points
+  std::vector<CurveMark> marks = {};
 };
 
 /// Draws it between two corners, pixels.
 void draw_curve(const Panel& panel, ImVec2 low, ImVec2 high, const Curve& curve);
+
+/// Asks for the file of viewer.file_request; remembers what lies in the folder that is shown.
+class FilePrompt {
+ public:
+  void draw(const Panel& panel, const render::Box& box);
+
+ private:
+  /// What of a folder can be picked: folders, and files that the use is for.
+  struct Entry {
+    std::string name;
+    bool folder = false, run = false;
+  };
+
+  void look(FileUse use, const std::string& folder);
+  void list(const Panel& panel, FileRequest& request);
+
+  std::vector<Entry> entries_;
+  FileUse use_ = FileUse::open;
+  std::string folder_;
+  std::optional<std::filesystem::file_time_type> changed_;
+};
 
 // All presets to choose from, as pictures.
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/window/panel.h"
@@ -60,6 +61,7 @@ class PlotBox {
             {from_.x + x.at(curve.x[k]) * (to_.x - from_.x), height_of(y, shown(values[k]))});
       return points;
     };
+    draw_marks(curve, x);
     ticks_y(y, curve.logarithmic);
     ticks_x(x);
     if (curve.bars)
@@ -67,6 +69,9 @@ class PlotBox {
     else
       draw_line(points_of(curve.y), curve.jumps, ink());
     if (!curve.second.empty()) draw_line(points_of(curve.second), curve.jumps, pale());
+    const auto points = points_of(curve.y);
+    for (const std::size_t k : curve.unstable)
+      list_.AddCircleFilled(points[k], panel_.px(2.5), text_colours(panel_.viewer.show.dark).error);
     tell_nearest(curve, points_of(curve.y));
   }
 
@@ -103,6 +108,20 @@ class PlotBox {
       from = end;
     }
     list_.AddCircleFilled(points.back(), panel_.px(3), colour);
+  }
+  /// Where no shell stays, as bands, and what happened, as lines.
+  void draw_marks(const Curve& curve, const Span& x) {
+    const TextColours& colours = text_colours(panel_.viewer.show.dark);
+    const auto at = [&](float value) {
+      return from_.x + std::clamp(x.at(value), 0.f, 1.f) * (to_.x - from_.x);
+    };
+    for (const CurveMark& mark : curve.marks) {
+      if (mark.to < x.low || mark.from > x.high) continue;
+      const float low = at(mark.from), high = std::max(at(mark.to), low + panel_.px(1.5));
+      const ImU32 colour = mark.unstable ? colours.error : colours.warning;
+      list_.AddRectFilled({low, from_.y}, {high, to_.y},
+                          mark.unstable ? (colour & 0xffffff) | 0x38000000 : colour);
+    }
   }
   /// Labels at round values, the lines of a grid through them.
   void ticks_y(const Span& y, bool logarithmic) {
@@ -144,6 +163,9 @@ class PlotBox {
     std::string told =
         fmt::format("{} {:.5g}\n{} {:.5g}", curve.x_label, curve.x[k], curve.y_label, curve.y[k]);
     if (!curve.second.empty()) told += fmt::format(", {:.5g}", curve.second[k]);
+    const float over = curve.x[k];
+    for (const CurveMark& mark : curve.marks)
+      if (mark.from <= over && over <= mark.to) told += "\n" + mark.what;
     ImGui::SetTooltip("%s", told.c_str());
   }
 
@@ -185,6 +207,21 @@ std::span<const PlotPoint> last_points(const ViewerState& viewer) {
   return all.subspan(since);
 }
 
+/// Those of the ways, where the curve runs over what they are told in.
+void put_marks(const ShellView& shell, const Quantity& over, Curve& curve) {
+  const std::string_view name = over.name;
+  const int pushed = shell.held.empty() ? -1 : shell.held.back().joint;
+  for (const WayMark& mark : shell.marks) {
+    double from = mark.from, to = mark.to;
+    if (mark.joint < 0 && name == "boundary_radius_mm")
+      from = shell.radius_at(mark.to), to = shell.radius_at(mark.from);
+    else if (mark.joint < 0 ? name != "progress" : name != "depth_mm" || mark.joint != pushed)
+      continue;
+    if (from > to) std::swap(from, to);
+    curve.marks.push_back({float(from), float(to), mark.unstable, mark.what});
+  }
+}
+
 Curve curve_of(const ViewerState& viewer, const PlotAxes& axes) {
   const std::span<const PlotPoint> points = last_points(viewer);
   const int x = axes.x >= 0 ? axes.x : abscissa_of(viewer, points);
@@ -198,9 +235,11 @@ Curve curve_of(const ViewerState& viewer, const PlotAxes& axes) {
     const bool put = k > 0 && points[k].joint < 0 &&
                      std::abs(points[k].progress - points[k - 1].progress) > jump;
     if (put || (k > 0 && points[k].refined != points[k - 1].refined)) curve.jumps.push_back(k);
+    if (!points[k].stable) curve.unstable.push_back(curve.x.size());
     curve.x.push_back(float(points[k].*over.value));
     curve.y.push_back(float(points[k].*shown.value));
   }
+  put_marks(*viewer.shell, over, curve);
   return curve;
 }
 
@@ -215,7 +254,14 @@ Curve bins_of(const ShellView& shell) {
   return curve;
 }
 
-/// What a right click on a plot opens: other quantities, and the plot as files.
+PlottedCurve plotted(const Curve& curve) {
+  return {curve.x_label,
+          curve.y_label,
+          {curve.x.begin(), curve.x.end()},
+          {curve.y.begin(), curve.y.end()}};
+}
+
+/// What a click on a plot opens: other quantities, and the plot as files.
 void plot_menu(const Panel& panel, PlotAxes& axes, const Curve& curve, const std::string& name) {
   if (!ImGui::BeginPopupContextItem(name.c_str())) return;
   const auto choose_quantity = [](const char* label, int& chosen) {
@@ -227,15 +273,17 @@ void plot_menu(const Panel& panel, PlotAxes& axes, const Curve& curve, const std
   choose_quantity("Show", axes.y);
   choose_quantity("Over", axes.x);
   if (ImGui::MenuItem("Save as PDF, SVG, PNG and CSV", nullptr, false, !curve.x.empty()))
-    panel.viewer.save_plot({curve.x_label,
-                            curve.y_label,
-                            {curve.x.begin(), curve.x.end()},
-                            {curve.y.begin(), curve.y.end()}});
+    panel.viewer.save_plot(plotted(curve));
   panel.named(name + " save", "");
   ImGui::EndPopup();
 }
 
 }  // namespace
+
+void ViewerState::save_plots() {
+  for (const PlotAxes& axes : plot_axes)
+    if (const Curve curve = curve_of(*this, axes); !curve.x.empty()) save_plot(plotted(curve));
+}
 
 void plots_panel(const Panel& panel, const render::Box& box) {
   begin_fixed("plots", box);
@@ -255,131 +303,12 @@ void plots_panel(const Panel& panel, const render::Box& box) {
     draw_curve(panel, corner, end, curve);
     const std::string name = fmt::format("plot {}", k + 1);
     ImGui::SetCursorScreenPos(corner);
-    ImGui::InvisibleButton(name.c_str(), {end.x - corner.x, end.y - corner.y});
+    if (ImGui::InvisibleButton(name.c_str(), {end.x - corner.x, end.y - corner.y}))
+      ImGui::OpenPopup(name.c_str());
     panel.controls[name] = {corner.x, corner.y, end.x - corner.x, end.y - corner.y};
     plot_menu(panel, viewer.plot_axes[k], curve, name);
   }
   ImGui::End();
-}
-
-// What the colours of the view mean, over its right edge.
-
-namespace {
-
-/// Texts that end at given places, over a pale ground as large as they are.
-class Ground {
- public:
-  Ground(const Panel& panel, ImDrawList& list, ImVec2 corner)
-      : list_(list), low_(corner), high_(corner), margin_(panel.px(6)) {
-    list_.ChannelsSplit(2);
-    list_.ChannelsSetCurrent(1);
-  }
-  ~Ground() {
-    list_.ChannelsSetCurrent(0);
-    list_.AddRectFilled({low_.x - margin_, low_.y - margin_},
-                        {high_.x + margin_, high_.y + margin_},
-                        ImGui::GetColorU32(ImGuiCol_WindowBg, 0.75f), margin_);
-    list_.ChannelsMerge();
-  }
-  Ground(const Ground&) = delete;
-  Ground& operator=(const Ground&) = delete;
-
-  void text(const std::string& words, float right, float top) {
-    const ImVec2 size = ImGui::CalcTextSize(words.c_str());
-    list_.AddText({right - size.x, top}, ImGui::GetColorU32(ImGuiCol_Text), words.c_str());
-    low_.x = std::min(low_.x, right - size.x);
-    reach(top + size.y);
-  }
-  void widen(float left) { low_.x = std::min(low_.x, left); }
-  void reach(float bottom) { high_.y = std::max(high_.y, bottom); }
-
- private:
-  ImDrawList& list_;
-  ImVec2 low_, high_;
-  float margin_;
-};
-
-void bar(const render::ColourScale& scale, ImVec2 low, ImVec2 high) {
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  constexpr int steps = 64;
-  const float height = high.y - low.y;
-  for (int k = 0; k < steps; ++k) {
-    const render::Colour c = scale(scale.high - (scale.high - scale.low) * (k + 0.5) / steps);
-    const auto byte = [](float v) { return int(std::lround(255 * v)); };
-    list.AddRectFilled({low.x, low.y + height * float(k) / steps},
-                       {high.x, low.y + height * float(k + 1) / steps},
-                       IM_COL32(byte(c.r), byte(c.g), byte(c.b), 255));
-  }
-  list.AddRect(low, high, ImGui::GetColorU32(ImGuiCol_TextDisabled));
-}
-
-}  // namespace
-
-/// An end of the colours' range beside the bar, where it can be dragged or typed; its width.
-float range_end(const Panel& panel, const char* name, float left, float top) {
-  ViewerState& viewer = panel.viewer;
-  const bool is_high = std::string(name) == "range_high";
-  float low = float(viewer.show.scale.low), high = float(viewer.show.scale.high);
-  float& end = is_high ? high : low;
-  const float width = ImGui::CalcTextSize(fmt::format("{:.4g}", end).c_str()).x + panel.px(8);
-  ImGui::SetCursorScreenPos({left - panel.px(1) - width, top});
-  ImGui::SetNextItemWidth(width);
-  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {panel.px(4), 0});
-  ImGui::PushStyleColor(ImGuiCol_FrameBg, 0);
-  ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 0);
-  const float step = 0.005f * std::max(1e-6f, high - low);
-  if (ImGui::DragFloat((std::string("##") + name).c_str(), &end, step, 0, 0, "%.4g"))
-    viewer.set_range(double(low), double(high));
-  ImGui::PopStyleVar(2);
-  ImGui::PopStyleColor();
-  panel.named(name, is_high ? "the high end of the colours; Ctrl+click to type"
-                            : "the low end of the colours; Ctrl+click to type");
-  return width;
-}
-
-void colour_legend(const Panel& panel, const render::Box& view) {
-  ViewerState& viewer = panel.viewer;
-  if (!viewer.shell->any() || viewer.show.colour_by == ColourBy::none) return;
-  const float line = ImGui::GetTextLineHeight(), width = panel.px(14);
-  // in a low view the bar leaves room for the notes below it
-  const float height = std::min(panel.px(170), std::max(2 * line, float(view.height) - 8 * line));
-  const float right = float(view.right()) - panel.px(14), top = float(view.y) + panel.px(14);
-  Ground ground(panel, *ImGui::GetWindowDrawList(), {right, top});
-  ground.text(label_of(*viewer.shell, viewer.show), right, top);
-  const Eigen::VectorXd values = values_of(*viewer.shell, viewer.show);
-  if (values.size() == 0) return ground.text("not known for this shell", right, top + 1.3f * line);
-  const render::ColourScale& scale = viewer.show.scale;
-  const float low = top + 1.6f * line, left = right - width;
-  bar(scale, {left, low}, {right, low + height});
-  ground.reach(low + height);
-  const float apart = 1.2f * line / height;  // of the range, between two texts
-  for (const render::Tick& tick : render::linear_ticks(scale.low, scale.high, 4)) {
-    const auto down = float((scale.high - tick.value) / (scale.high - scale.low));
-    if (tick.major && down > apart && down < 1 - apart)
-      ground.text(fmt::format("{:.6g}", tick.value), left - panel.px(5),
-                  low + height * down - 0.5f * line);
-  }
-  ground.widen(left - panel.px(5) - range_end(panel, "range_high", left, low - 0.5f * line));
-  range_end(panel, "range_low", left, low + height - 0.5f * line);
-  // the end colours stand for all that lies beyond them
-  const double slack = 1e-9 * (scale.high - scale.low);
-  float note = low + height + 0.8f * line;
-  if (values.maxCoeff() > scale.high + slack) {
-    ground.text(fmt::format("up to {:.3g}", values.maxCoeff()), right, note);
-    note += 1.2f * line;
-  }
-  if (values.minCoeff() < scale.low - slack) {
-    ground.text(fmt::format("down to {:.3g}", values.minCoeff()), right, note);
-    note += 1.2f * line;
-  }
-  const bool fixed = viewer.range_of == RangeOf::hand;
-  const char* word = fixed ? "fixed" : "fix";
-  const float wide = ImGui::CalcTextSize(word).x + 2 * ImGui::GetStyle().FramePadding.x;
-  ImGui::SetCursorScreenPos({right - wide, note});
-  if (ImGui::SmallButton(word)) find_action(fixed ? "range_run" : "range_hand")->act(viewer);
-  panel.named("range_fixed", fixed ? "lets the range widen with what is seen again"
-                                   : "keeps the colours' range as it is now");
-  ground.reach(note + line);
 }
 
 }  // namespace gridshell::window

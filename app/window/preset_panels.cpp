@@ -99,24 +99,23 @@ void NumbersPanel::change(const Panel& panel, bool passing) {
   find_idle();
 }
 
-void NumbersPanel::edit(const Panel& panel, const Field& field) {
+void NumbersPanel::edit(const Panel& panel, const Row& row) {
   static const preset::Preset defaults;
-  const std::string name = name_of(field), id = "##" + name, label = label_of(field);
-  const std::string standard = value_text(field, defaults);
-  const bool changed_before = value_text(field, edited_) != standard;
+  const Field& field = *row.field;
+  const std::string id = "##" + row.name;
+  const bool changed_before = row.text != row.standard;
   const float back = panel.px(26);
   ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(label.c_str());
-  ImGui::SameLine(std::max(panel.px(118), ImGui::CalcTextSize(label.c_str()).x + panel.px(16)));
+  ImGui::TextUnformatted(row.label.c_str());
+  ImGui::SameLine(std::max(panel.px(118), ImGui::CalcTextSize(row.label.c_str()).x + panel.px(16)));
   ImGui::SetNextItemWidth(-back);
   // a default is pale
   if (!changed_before)
     ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetColorU32(ImGuiCol_TextDisabled));
   const bool changed = std::visit(Control{panel.viewer, field, id.c_str()}, field.in(edited_, -1));
   if (!changed_before) ImGui::PopStyleColor();
-  panel.named(field.table + "." + field.key,
-              fmt::format("{} = {}: {}", name, value_text(field, edited_), help_of(field)));
-  if (ImGui::IsItemActive()) active_ = name;
+  panel.named(field.table + "." + field.key, row.help);
+  if (ImGui::IsItemActive()) active_ = row.name;
   // a number is meant when its last digit stands
   const bool meant = is_typed_into() ? false : changed || (typed_ && ImGui::IsItemDeactivated());
   if (changed && is_typed_into()) typed_ = true;
@@ -125,19 +124,34 @@ void NumbersPanel::edit(const Panel& panel, const Field& field) {
     change(panel, ImGui::IsItemActive());
   }
   if (ImGui::IsItemDeactivated()) {
-    if (active_ == name) panel.viewer.end_drag();
+    if (active_ == row.name) panel.viewer.end_drag();
     active_.clear();
   }
   if (!changed_before) return;
   ImGui::SameLine(ImGui::GetContentRegionMax().x - back + panel.px(4));
-  if (ImGui::SmallButton(("↺##" + name).c_str())) {
+  if (ImGui::SmallButton(("↺##" + row.name).c_str())) {
     take_value(field, edited_, defaults);
     change(panel, false);
   }
-  panel.named("default_" + field.table + "." + field.key, "back to the default, " + standard);
+  panel.named("default_" + field.table + "." + field.key, "back to the default, " + row.standard);
+}
+
+/// A change may take a number away or bring one.
+void NumbersPanel::list_rows() {
+  static const preset::Preset defaults;
+  if (std::exchange(listed_, true)) return;
+  rows_.clear();
+  for (const Field& field : preset::field_table()) {
+    if (std::ranges::find(shown_tables, field.table) == std::end(shown_tables) || !is_shown(field))
+      continue;
+    const std::string name = name_of(field), text = value_text(field, edited_);
+    rows_.push_back({&field, name, label_of(field), text, value_text(field, defaults),
+                     fmt::format("{} = {}: {}", name, text, help_of(field))});
+  }
 }
 
 void NumbersPanel::find_idle() {
+  listed_ = false;
   idle_.clear();
   for (const auto& key : preset::unused_keys(edited_))
     if (key.item < 0) idle_.insert(key.table + "." + key.key);
@@ -170,23 +184,24 @@ void NumbersPanel::draw(const Panel& panel, const render::Box& box) {
     look(panel.viewer);
     ImGui::SetNextItemWidth(panel.px(160));
     if (std::exchange(panel.viewer.find_number, false)) ImGui::SetKeyboardFocusHere();
+    const std::string sought = sought_;
     text_input("##sought", sought_, "search (Ctrl+F)");
     panel.named("search numbers", "words of a name, a table or what it means");
     ImGui::SameLine();
-    ImGui::Checkbox("all", &all_);
+    const bool other = ImGui::Checkbox("all", &all_);
     panel.named("all numbers", "also those that this scene does not use");
-    // an edit may take a number away or bring one
+    if (other || sought != sought_) listed_ = false;
+    list_rows();
     for (const preset::Table& table : preset::tables()) {
-      if (std::ranges::find(shown_tables, table.name) == std::end(shown_tables)) continue;
-      const auto shown = [&](const Field& field) {
-        return field.table == table.name && is_shown(field);
-      };
-      if (std::ranges::none_of(preset::field_table(), shown)) continue;
-      const bool open = ImGui::CollapsingHeader(table.name.c_str(), ImGuiTreeNodeFlags_DefaultOpen);
+      const auto in_table = [&](const Row& row) { return row.field->table == table.name; };
+      if (std::ranges::none_of(rows_, in_table)) continue;
+      // rods of the second family
+      const char* title = table.name == "rod_v" ? "rods along v" : table.name.c_str();
+      const bool open = ImGui::CollapsingHeader(title, ImGuiTreeNodeFlags_DefaultOpen);
       panel.named("table " + table.name, table.meaning);
       if (!open) continue;
-      for (const Field& field : preset::field_table())
-        if (shown(field)) edit(panel, field);
+      for (const Row& row : rows_)
+        if (in_table(row)) edit(panel, row);
     }
   }
   ImGui::End();

@@ -50,7 +50,7 @@ render::WindowListener listener_to(const std::function<void(const InputEvent&)>&
 
 Result<void> run_desktop(ViewerState& viewer, const std::function<void(const InputEvent&)>& seen,
                          const std::function<bool()>& stopped) {
-  auto window = render::Window::open({.least_width = 720, .least_height = 480});
+  auto window = render::Window::open({.least_width = 640, .least_height = 400});
   if (!window)
     return fail(Fault::io, "no window can be opened (" + window.error().message +
                                "): 'gridshell movie' and 'gridshell figure' draw without one, and "
@@ -98,10 +98,11 @@ Result<void> rest(Interface& interface, ViewerState& viewer) {
     viewer.picture_task.wait();
     viewer.movie_task.wait();
     viewer.export_task.wait();
+    viewer.manual_task.wait();
     if (auto drawn = interface.frame_aside(frame_s); !drawn) return drawn;
     const bool rests = viewer.engine.idle() && viewer.engine.shell() == viewer.shell &&
                        !viewer.playing && viewer.picture_task.idle() && viewer.movie_task.idle() &&
-                       viewer.export_task.idle();
+                       viewer.export_task.idle() && viewer.manual_task.idle();
     if (rests && !interface.events_wait()) return {};
   }
   return {};

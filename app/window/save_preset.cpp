@@ -151,7 +151,7 @@ const char* ending_of(FileUse use) {
 }
 
 /// Why no file of that name is written; empty: it is.
-std::string fault_of(FileUse use, const fs::path& file) {
+std::string fault_of(FileUse use, const fs::path& file, const std::vector<ExportFormat>& formats) {
   std::error_code error;
   // one new folder is made
   const fs::path folder = fs::absolute(file, error).parent_path();
@@ -162,11 +162,12 @@ std::string fault_of(FileUse use, const fs::path& file) {
     return ending == ending_of(use)
                ? ""
                : fmt::format("'{}': it is written as {}", ending, ending_of(use));
-  constexpr std::string_view formats[] = {".vtp",  ".pvd", ".obj", ".dxf", ".glb",
-                                          ".html", ".csv", ".svg", ".pdf"};
-  return std::ranges::find(formats, ending) != std::end(formats)
-             ? ""
-             : fmt::format("'{}' is no format: must be one of {}", ending, fmt::join(formats, " "));
+  std::string all;
+  for (const ExportFormat& format : formats) {
+    if (format.ending == ending) return "";
+    all += " " + format.ending;
+  }
+  return fmt::format("'{}' is no format: must be one of{}", ending, all);
 }
 
 }  // namespace
@@ -194,7 +195,8 @@ void ViewerState::take_file() {
   const bool reads = is_read(request.use);
   if (!reads && (file.filename().empty() || fs::is_directory(file, error)))
     return say("'" + request.path + "' is a folder: a file's name is to follow", true);
-  if (const std::string fault = reads ? "" : fault_of(request.use, file); !fault.empty())
+  if (const std::string fault = reads ? "" : fault_of(request.use, file, library.export_formats);
+      !fault.empty())
     return say(fault, true);
   if (!reads && fs::exists(file, error) && request.replaced != request.path) {
     file_request->replaced = request.path;
@@ -254,6 +256,14 @@ void ViewerState::compare_with_this() {
       OtherShell{"before", layout.joints, layout.rods, shell->frame.nodes}));
 }
 
+void ViewerState::compare_with_net() {
+  const record::Layout* layout = shell->layout.get();
+  if (!layout || layout->net_nodes.cols() == 0)
+    return say("this shell was not designed on a net", true);
+  compare(std::make_shared<const OtherShell>(
+      OtherShell{"net", layout->joints, layout->rods, layout->net_nodes}));
+}
+
 void ViewerState::compare(std::shared_ptr<const OtherShell> other) {
   show.other = std::move(other);
   // it may be what the colours show
@@ -305,11 +315,11 @@ void ViewerState::save_movie() {
 }
 
 void ViewerState::report_finished_tasks() {
-  for (BackgroundTask* work : {&picture_task, &movie_task, &export_task}) {
+  for (BackgroundTask* work : {&picture_task, &movie_task, &export_task, &manual_task}) {
     const auto end = work->take_end();
     if (!end) continue;
     if (end->made)
-      say("saved " + end->target.string());
+      say((work == &manual_task ? "shown in the browser: " : "saved ") + end->target.string());
     else if (end->made.error().fault == Fault::cancelled)
       say("stopped: " + end->last_words);
     else
@@ -335,6 +345,13 @@ void ViewerState::save_plot(const PlottedCurve& curve) {
       });
   if (!written) return say(written.error().message, true);
   say("saved " + stem.string() + ".pdf, .svg, .png and .csv");
+}
+
+void ViewerState::show_manual() {
+  if (manual_task.under_way()) return;
+  manual_task.begin([show = library.show_manual](const ProgressListener&,
+                                                 const Watch& watch) { return show(watch); },
+                    "the manual");
 }
 
 void ViewerState::copy_camera() {

@@ -34,6 +34,38 @@ bool slider(const Panel& panel, const char* name, float& value, float low, float
   return true;
 }
 
+/// On the slider that was drawn last, where no shell stays (red) and what happened (amber);
+/// `share_of` takes a progress to a share of the slider.
+template <class ShareOf>
+void mark_slider(const Panel& panel, const ShareOf& share_of) {
+  const TextColours& colours = text_colours(panel.viewer.show.dark);
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  const float margin = 2 + 0.5f * ImGui::GetStyle().GrabMinSize, room = high.x - low.x - 2 * margin;
+  const auto at = [&](double progress) {
+    return low.x + margin + float(std::clamp(share_of(progress), 0.0, 1.0)) * room;
+  };
+  for (const WayMark& mark : panel.viewer.shell->marks) {
+    if (mark.joint >= 0) continue;
+    const float a = at(mark.from), b = at(mark.to), half = panel.px(1);
+    ImGui::GetWindowDrawList()->AddRectFilled({std::min(a, b) - half, high.y - panel.px(4)},
+                                              {std::max(a, b) + half, high.y},
+                                              mark.unstable ? colours.error : colours.warning);
+  }
+}
+
+/// What the marks are, a line each.
+std::string text_of_marks(const ShellView& shell) {
+  std::string text;
+  const bool circle = shell.preset.footprint.kind == preset::FootprintKind::circle;
+  for (const WayMark& mark : shell.marks)
+    if (mark.joint < 0)
+      text += fmt::format("\n{}: {}{}", mark.what, circle ? "R_a = " : "progress ",
+                          text_of_place(
+                              mark, [&](double at) { return circle ? shell.radius_at(at) : at; })) +
+              (circle ? " mm" : "");
+  return text;
+}
+
 /// Without the digits that a float adds.
 double four_digits(float value) { return std::round(1e4 * double(value)) / 1e4; }
 
@@ -63,8 +95,11 @@ void path(const Panel& panel) {
   float part = float(viewer.part());
   if (std::abs(part) < 5e-4f) part = 0;  // round-off
   if (slider(panel, "path", part, 0, std::max(1.f, part), push ? "push %.3f" : "progress %.3f",
-             push ? "share of the preset's depth" : "share of the boundary's way"))
+             push ? "share of the preset's depth"
+                  : "share of the boundary's way" + text_of_marks(*viewer.shell)))
     viewer.playing = false, viewer.go(part, true);
+  const double whole = std::max(1.0, viewer.part());
+  if (!push) mark_slider(panel, [&](double at) { return at / whole; });
   if (ImGui::IsItemDeactivated()) viewer.end_drag();
 }
 
@@ -81,8 +116,11 @@ void boundary(const Panel& panel) {
              "R_a = %.2f mm",
              fmt::format("radius of the actuated boundary, from {:.1f} to {:.1f} mm; Ctrl+click to "
                          "type",
-                         0.6 * from, from + shell.least_progress * way)))
+                         0.6 * from, from + shell.least_progress * way) +
+                 text_of_marks(shell)))
     viewer.playing = false, viewer.post(Move{(four_digits(radius) - from) / way}, true);
+  const double low = 0.6 * from, high = from + shell.least_progress * way;
+  mark_slider(panel, [&](double at) { return (shell.radius_at(at) - low) / (high - low); });
   if (ImGui::IsItemDeactivated()) viewer.end_drag();
 }
 
@@ -203,17 +241,13 @@ const char* choose_action(const Panel& panel, const char* id, const std::string&
   return now->help;
 }
 
-void colour_range(const Panel& panel) {
-  if (panel.viewer.show.colour_by == ColourBy::none) return;
-  panel.named("range", choose_action(panel, "##range", "range_"));
-}
-
 void colours(const Panel& panel) {
   ViewerState& viewer = panel.viewer;
   heading(panel, "Colour");
   choose_action(panel, "##colour", "colour_");
   panel.named("colour", meaning_of(viewer.show.colour_by));
-  colour_range(panel);
+  if (viewer.show.colour_by != ColourBy::none)
+    panel.named("range", choose_action(panel, "##range", "range_"));
 }
 
 /// Sizes to choose from; 0: twice the view.
@@ -287,6 +321,25 @@ void picked_rod(const Panel& panel, const PointOnRod& at) {
   ImGui::Text("bending %.3g mJ/m", shell.bending_mJ_m[nodes[k]]);
 }
 
+/// How far the joint that was clicked is pushed inwards, to drag or to type.
+void push_depth(const Panel& panel, int joint) {
+  ViewerState& viewer = panel.viewer;
+  const ShellView& shell = *viewer.shell;
+  Eigen::Vector3d along = shell.normals.col(joint), from = shell.frame.nodes.col(joint);
+  for (const HeldJoint& held : shell.held) {
+    if (held.joint != joint || held.along.isZero(0)) continue;
+    along = held.along;
+    from -= held.moved_mm;
+  }
+  float depth = -float((shell.frame.nodes.col(joint) - from).dot(along));
+  if (std::abs(depth) < 5e-4f) depth = 0;
+  const float most = float(0.5 * shell.layout->length_scale_mm);
+  if (slider(panel, "push_depth", depth, -most, most, "pushed in %.2f mm",
+             "pushes it along its normal and holds it, inwards above 0; Ctrl+click to type"))
+    viewer.post(Push{joint, from - four_digits(depth) * along, along}, true);
+  if (ImGui::IsItemDeactivated()) viewer.end_drag();
+}
+
 void picked(const Panel& panel) {
   const ViewerState& viewer = panel.viewer;
   const ShellView& shell = *viewer.shell;
@@ -295,6 +348,7 @@ void picked(const Panel& panel) {
     const record::Joint& joint = layout.joints[std::size_t(viewer.picked_joint)];
     const Eigen::Vector3d at = shell.frame.nodes.col(viewer.picked_joint);
     heading(panel, fmt::format("Joint ({}, {})", joint.i, joint.j).c_str());
+    push_depth(panel, viewer.picked_joint);
     ImGui::Text("x %.2f  y %.2f  z %.2f mm", at.x(), at.y(), at.z());
     ImGui::Text("axial force %.3g N", shell.axial_N[viewer.picked_joint]);
     ImGui::Text("bending %.3g mJ/m", shell.bending_mJ_m[viewer.picked_joint]);
@@ -316,23 +370,27 @@ void shell_panel(const Panel& panel, const render::Box& box) {
   begin_fixed("shell", box);
   ImGui::TextWrapped("%s", viewer.shell->any() ? viewer.shell->preset.title.c_str()
                                                : "No shell yet: pick a preset.");
-  // all four in one row
+  // all four in one row, where a scroll bar leaves room for it
   const float gap = 0.5f * ImGui::GetStyle().ItemSpacing.x;
   panel.button("pick_preset");
+  const float right = ImGui::GetWindowPos().x + ImGui::GetContentRegionMax().x +
+                      0.5f * ImGui::GetStyle().WindowPadding.x;
   for (const char* action : {"undo", "redo", "numbers"}) {
-    ImGui::SameLine(0, gap);
+    const float wide =
+        ImGui::CalcTextSize(find_action(action)->label).x + 2 * ImGui::GetStyle().FramePadding.x;
+    if (ImGui::GetItemRectMax().x + gap + wide <= right) ImGui::SameLine(0, gap);
     panel.button(action);
   }
   if (viewer.shell->any()) {
     path(panel);
     boundary(panel);
     held(panel);
+    picked(panel);
     stability(panel);
     contacts(panel);
     accuracy(panel);
     colours(panel);
     keep(panel);
-    picked(panel);
   }
   ImGui::End();
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/window/command.h"
+#include "app/window/way_marks.h"
 #include "engine/gridshell.h"
 
 namespace gridshell::window {
@@ -58,6 +59,7 @@ struct ViewedState {
   PresetPush push;
   std::shared_ptr<const record::Frame> first;  ///< where the shell began; null before
   StepHistory steps;                           ///< that the user did since it was formed
+  std::vector<WayMark> marks;                  ///< of the ways that led here
   bool refined = false;            ///< to the preset's tolerance; else coarse, as in a drag
   bool rods_changed_late = false;  ///< keys of its rods were changed after steps
   bool snapped = false;            ///< it came to rest elsewhere on its way
@@ -88,12 +90,19 @@ struct ShellView : ViewedState {
   std::string message;         ///< what was done, or happened on the way; empty: nothing
   std::string event;           ///< what happened to the branch on the way; empty: nothing
   std::string error;           ///< why the last command was not met; empty: it was
+  /// States at rest on one boundary, where more than one was met; null: none.
+  std::shared_ptr<const std::vector<std::shared_ptr<const ShellView>>> found;
   int undo_steps = 0, redo_steps = 0;
   int equilibria = 0;  ///< found so far
   double seconds = 0;  ///< the last one took
 
   bool any() const { return layout != nullptr; }
   bool stable() const { return certificate.stable(); }
+  /// Of a circle's boundary.
+  double radius_at(double at) const {
+    const double begin = preset.original_radius_mm();
+    return begin + at * (radius_end_mm - begin);
+  }
   bool designing() const { return design && design->under_way; }
 };
 

@@ -36,8 +36,41 @@ std::string text_of_step(const ShellView& shell) {
 
 void ViewerState::go_to_step(int step) {
   const int now = shell->undo_steps, all = now + shell->redo_steps;
+  if (step == now && step > 0 && !timeline[std::size_t(step)].event.empty()) --step;
   for (int k = std::clamp(step, 0, all); k < now; ++k) send_command(Undo{});
   for (int k = now; k < std::clamp(step, 0, all); ++k) send_command(Redo{});
+}
+
+int ViewerState::state_in_sight() const {
+  if (!shell->found) return -1;
+  const auto& all = *shell->found;
+  const auto at = std::ranges::find_if(all, [&](const auto& one) {
+    return std::abs(one->frame.energies.total() - shell->frame.energies.total()) <
+               1e-4 * one->frame.energies.total() &&
+           one->frame.nodes.cols() == shell->frame.nodes.cols() &&
+           (one->frame.nodes - shell->frame.nodes).cwiseAbs().maxCoeff() <
+               1e-4 * shell->layout->length_scale_mm;
+  });
+  return at == all.end() ? -1 : int(at - all.begin());
+}
+
+void ViewerState::recall(int state) {
+  if (!shell->found)
+    return say("one state alone of this shell was met yet: Jitter looks for more", true);
+  const int count = int(shell->found->size());
+  send_command(Recall{(state % count + count) % count});
+}
+
+void ViewerState::go_to_loss() {
+  std::vector<double> places;
+  for (const WayMark& mark : shell->marks)
+    if (mark.joint < 0 && mark.unstable) places.push_back(0.5 * (mark.from + mark.to));
+  if (places.empty()) return say("on the boundary's way so far every state is stable", true);
+  std::ranges::sort(places);
+  const auto next =
+      std::ranges::find_if(places, [&](double at) { return at > shell->progress + 1e-6; });
+  play(false);
+  post(Move{next == places.end() ? places.front() : *next}, false);
 }
 
 void ViewerState::note_step() {
@@ -57,35 +90,95 @@ void ViewerState::note_step() {
   timeline.resize(std::size_t(shell->undo_steps + shell->redo_steps) + 1);
 }
 
-void timeline_panel(const Panel& panel, const render::Box& box) {
+namespace {
+
+/// The states that were found as pictures at the right end of the strip; the room that is left.
+double state_pictures(const Panel& panel, const render::Box& box) {
   ViewerState& viewer = panel.viewer;
-  const ShellView& shell = *viewer.shell;
-  begin_fixed("timeline", box, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+  if (panel.states.empty()) return box.width;
+  const float high = float(box.height) - panel.px(6), wide = 1.6f * high, gap = panel.px(4);
+  const int count = int(panel.states.size()), now = viewer.state_in_sight();
+  // those next to the one in sight, where not all have room
+  const int most = std::max(1, int(0.5f * float(box.width) / (wide + gap)));
+  const int first = std::clamp(now - most / 2, 0, std::max(0, count - most));
+  const int shown = std::min(most, count - first);
+  float x = float(box.right()) - panel.px(10) - float(shown) * (wide + gap);
+  const double left = double(x) - box.x;
+  for (int k = first; k < first + shown; ++k, x += wide + gap) {
+    const ImVec2 low{x, float(box.y) + panel.px(3)}, corner{x + wide, low.y + high};
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddImage(panel.states[std::size_t(k)], low, corner);
+    list.AddRect(low, corner, ImGui::GetColorU32(k == now ? ImGuiCol_PlotLines : ImGuiCol_Border),
+                 0, 0, panel.px(k == now ? 2 : 1));
+    ImGui::SetCursorScreenPos(low);
+    ImGui::PushID(k);
+    const ShellView& state = *(*viewer.shell->found)[std::size_t(k)];
+    if (ImGui::InvisibleButton("state", {wide, high})) viewer.recall(k);
+    if (ImGui::BeginPopupContextItem("beside")) {
+      if (ImGui::MenuItem("Compare with this state"))
+        viewer.compare(std::make_shared<const OtherShell>(
+            OtherShell{fmt::format("state {}", k + 1), state.layout->joints, state.layout->rods,
+                       state.frame.nodes}));
+      panel.named(fmt::format("state {} compare", k + 1), "");
+      ImGui::EndPopup();
+    }
+    ImGui::PopID();
+    panel.named(fmt::format("state {}", k + 1),
+                fmt::format("state {}: {}{}{:.5g} mJ, {:.4g} mm high; a click goes there, a right "
+                            "click compares with it",
+                            k + 1, state.symmetry, state.symmetry.empty() ? "" : ", ",
+                            state.frame.energies.total(), state.frame.height_mm));
+  }
+  return left;
+}
+
+void step_point(const Panel& panel, int k, ImVec2 at) {
+  const ViewerState& viewer = panel.viewer;
+  const TimelineEntry& entry = viewer.timeline[std::size_t(k)];
   const TextColours& colours = text_colours(viewer.show.dark);
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const int count = int(viewer.timeline.size()), now = shell.undo_steps;
+  const int now = viewer.shell->undo_steps;
+  const ImU32 colour = !entry.stable          ? colours.error
+                       : !entry.event.empty() ? colours.warning
+                                              : ImGui::GetColorU32(ImGuiCol_PlotLines);
+  const float radius = panel.px(entry.event.empty() ? 4 : 6);
+  // what was undone is hollow
+  if (k > now)
+    list.AddCircle(at, radius, colour, 0, panel.px(1.4));
+  else
+    list.AddCircleFilled(at, radius, colour);
+  if (k == now)
+    list.AddCircle(at, panel.px(9), ImGui::GetColorU32(ImGuiCol_Text), 0, panel.px(1.4));
+}
+
+}  // namespace
+
+void timeline_panel(const Panel& panel, const render::Box& box) {
+  ViewerState& viewer = panel.viewer;
+  begin_fixed("timeline", box, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const float wide = float(state_pictures(panel, box));
+  const int count = int(viewer.timeline.size());
   const float left = float(box.x) + panel.px(16), y = float(box.y + 0.5 * box.height);
-  const float step = std::min(panel.px(46), (float(box.width) - panel.px(32)) / float(count));
-  list.AddLine({left, y}, {left + step * float(count - 1), y}, colours.muted, panel.px(1.4));
+  const float step = std::min(panel.px(46), (wide - panel.px(32)) / float(std::max(1, count)));
+  list.AddLine({left, y}, {left + step * float(count - 1), y}, text_colours(viewer.show.dark).muted,
+               panel.px(1.4));
   for (int k = 0; k < count; ++k) {
     const TimelineEntry& entry = viewer.timeline[std::size_t(k)];
     const ImVec2 at{left + step * float(k), y};
-    const ImU32 colour = !entry.stable          ? colours.error
-                         : !entry.event.empty() ? colours.warning
-                                                : ImGui::GetColorU32(ImGuiCol_PlotLines);
-    const float radius = panel.px(entry.event.empty() ? 4 : 6);
-    // what was undone is hollow
-    if (k > now)
-      list.AddCircle(at, radius, colour, 0, panel.px(1.4));
-    else
-      list.AddCircleFilled(at, radius, colour);
-    if (k == now)
-      list.AddCircle(at, panel.px(9), ImGui::GetColorU32(ImGuiCol_Text), 0, panel.px(1.4));
+    step_point(panel, k, at);
     const float half = 0.5f * std::min(step, panel.px(20));
     ImGui::SetCursorScreenPos({at.x - half, float(box.y) + panel.px(2)});
     ImGui::PushID(k);
-    if (ImGui::InvisibleButton("step", {2 * half, float(box.height) - panel.px(4)}))
+    if (ImGui::InvisibleButton("step", {2 * half, float(box.height) - panel.px(4)}) &&
+        viewer.engine.idle())
       viewer.go_to_step(k);
+    // pressed and drawn along the strip it goes along
+    const int under = int(std::lround((ImGui::GetIO().MousePos.x - left) / step));
+    const int there = std::clamp(under, 0, count - 1);
+    if (ImGui::IsItemActive() && there != k && there != viewer.shell->undo_steps &&
+        viewer.engine.idle())
+      viewer.go_to_step(there);
     ImGui::PopID();
     panel.named(fmt::format("step {}", k),
                 fmt::format("{}{}{}{}", entry.text, entry.event.empty() ? "" : "; ", entry.event,
@@ -143,11 +236,13 @@ std::string meshes_of(const std::vector<int>& meshes) {
   return text + " edges per segment";
 }
 
-std::string certificate_of(const ShellView& shell, bool timed) {
+/// In a narrow window the error alone.
+std::string certificate_of(const ShellView& shell, bool timed, bool narrow) {
   const Certificate& c = shell.certificate;
   const std::string error = std::isfinite(c.error_estimate_mm)
                                 ? fmt::format("error ± {:.2g} mm", c.error_estimate_mm)
                                 : "error not known";
+  if (narrow) return error;
   const std::string took = timed ? fmt::format("   {:.0f} ms", 1000 * shell.seconds) : "";
   return fmt::format("{} ({})   residual {:.0e} N{}", error, meshes_of(shell.meshes), c.residual_N,
                      took);
@@ -191,16 +286,19 @@ void status_line(const Panel& panel, const render::Box& box) {
     if (ImGui::IsItemClicked()) ImGui::OpenPopup("why");
     panel.named("stability", "whether the state is stable; a click says why");
     why_popup(panel);
-    if (!shell.symmetry.empty()) {
+    const bool narrow = box.width < 900 * panel.density;
+    if (!shell.symmetry.empty() && !narrow) {
       ImGui::SameLine(0, panel.px(14));
       ImGui::TextUnformatted(shell.symmetry.c_str());
       panel.named("symmetry", "symmetries of the square that leave this shape as it is");
     }
     ImGui::SameLine(0, panel.px(14));
-    ImGui::TextUnformatted(certificate_of(shell, viewer.timed).c_str());
-    panel.named("certificate",
-                "estimated error of the joints, from the meshes named; largest force that nothing "
-                "holds; time of the last equilibrium");
+    ImGui::TextUnformatted(certificate_of(shell, viewer.timed, narrow).c_str());
+    panel.named(
+        "certificate",
+        certificate_of(shell, viewer.timed, false) +
+            ": estimated error of the joints, from the meshes named; largest force that nothing "
+            "holds; time of the last equilibrium");
     ImGui::SameLine(0, panel.px(18));
   }
   const double busy = viewer.engine.busy_seconds();

@@ -91,15 +91,20 @@ void Overlay::mark_under() {
     ring(layout.edge_points[std::size_t(edge)], 7);
 }
 
-/// A text on a ground of its own beside a point; to its left where the legend stands.
+/// A text on a ground of its own beside a point; to its left where the legend stands, and in lines
+/// where the view is narrow.
 void Overlay::label(const std::string& text, ImVec2 at) {
-  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-  const float beside = panel_.px(12), room = panel_.px(3);
-  const bool left = at.x + beside + size.x > float(view_.right()) - panel_.px(110);
-  const ImVec2 low{left ? at.x - beside - size.x : at.x + beside, at.y - 1.4f * size.y};
+  const float beside = panel_.px(12), room = panel_.px(3),
+              legend = float(view_.right()) - panel_.px(110);
+  const float most = std::max(panel_.px(120), legend - float(view_.x) - 2 * beside);
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, most);
+  float left = at.x + beside;
+  if (left + size.x > legend) left = std::max(float(view_.x) + beside, at.x - beside - size.x);
+  const ImVec2 low{left, at.y - 1.4f * ImGui::GetTextLineHeight()};
   list_.AddRectFilled({low.x - room, low.y - room}, {low.x + size.x + room, low.y + size.y + room},
                       ImGui::GetColorU32(ImGuiCol_PopupBg, 0.85f), room);
-  list_.AddText(low, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
+  list_.AddText(ImGui::GetFont(), ImGui::GetFontSize(), low, ImGui::GetColorU32(ImGuiCol_Text),
+                text.c_str(), nullptr, most);
 }
 
 /// Force and way beside each joint that is held.
@@ -192,6 +197,126 @@ void view_overlay(const Panel& panel, const render::Box& view) {
   overlay.tell_other();
   overlay.draw_scale();
   overlay.draw_axes();
+}
+
+// What the colours of the view mean, over its right edge.
+
+namespace {
+
+/// Texts that end at given places, over a pale ground as large as they are.
+class Ground {
+ public:
+  Ground(const Panel& panel, ImDrawList& list, ImVec2 corner)
+      : list_(list), low_(corner), high_(corner), margin_(panel.px(6)) {
+    list_.ChannelsSplit(2);
+    list_.ChannelsSetCurrent(1);
+  }
+  ~Ground() {
+    list_.ChannelsSetCurrent(0);
+    list_.AddRectFilled({low_.x - margin_, low_.y - margin_},
+                        {high_.x + margin_, high_.y + margin_},
+                        ImGui::GetColorU32(ImGuiCol_WindowBg, 0.75f), margin_);
+    list_.ChannelsMerge();
+  }
+  Ground(const Ground&) = delete;
+  Ground& operator=(const Ground&) = delete;
+
+  void text(const std::string& words, float right, float top) {
+    const ImVec2 size = ImGui::CalcTextSize(words.c_str());
+    list_.AddText({right - size.x, top}, ImGui::GetColorU32(ImGuiCol_Text), words.c_str());
+    low_.x = std::min(low_.x, right - size.x);
+    reach(top + size.y);
+  }
+  void widen(float left) { low_.x = std::min(low_.x, left); }
+  void reach(float bottom) { high_.y = std::max(high_.y, bottom); }
+
+ private:
+  ImDrawList& list_;
+  ImVec2 low_, high_;
+  float margin_;
+};
+
+void bar(const render::ColourScale& scale, ImVec2 low, ImVec2 high) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  constexpr int steps = 64;
+  const float height = high.y - low.y;
+  for (int k = 0; k < steps; ++k) {
+    const render::Colour c = scale(scale.high - (scale.high - scale.low) * (k + 0.5) / steps);
+    const auto byte = [](float v) { return int(std::lround(255 * v)); };
+    list.AddRectFilled({low.x, low.y + height * float(k) / steps},
+                       {high.x, low.y + height * float(k + 1) / steps},
+                       IM_COL32(byte(c.r), byte(c.g), byte(c.b), 255));
+  }
+  list.AddRect(low, high, ImGui::GetColorU32(ImGuiCol_TextDisabled));
+}
+
+}  // namespace
+
+/// An end of the colours' range beside the bar, where it can be dragged or typed; its width.
+float range_end(const Panel& panel, const char* name, float left, float top) {
+  ViewerState& viewer = panel.viewer;
+  const bool is_high = std::string(name) == "range_high";
+  float low = float(viewer.show.scale.low), high = float(viewer.show.scale.high);
+  float& end = is_high ? high : low;
+  const float width = ImGui::CalcTextSize(fmt::format("{:.4g}", end).c_str()).x + panel.px(8);
+  ImGui::SetCursorScreenPos({left - panel.px(1) - width, top});
+  ImGui::SetNextItemWidth(width);
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {panel.px(4), 0});
+  ImGui::PushStyleColor(ImGuiCol_FrameBg, 0);
+  ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 0);
+  const float step = 0.005f * std::max(1e-6f, high - low);
+  if (ImGui::DragFloat((std::string("##") + name).c_str(), &end, step, 0, 0, "%.4g"))
+    viewer.set_range(double(low), double(high));
+  ImGui::PopStyleVar(2);
+  ImGui::PopStyleColor();
+  panel.named(name, is_high ? "the high end of the colours; Ctrl+click to type"
+                            : "the low end of the colours; Ctrl+click to type");
+  return width;
+}
+
+void colour_legend(const Panel& panel, const render::Box& view) {
+  ViewerState& viewer = panel.viewer;
+  if (!viewer.shell->any() || viewer.show.colour_by == ColourBy::none) return;
+  const float line = ImGui::GetTextLineHeight(), width = panel.px(14);
+  // in a low view the bar leaves room for the notes below it
+  const float height = std::min(panel.px(170), std::max(2 * line, float(view.height) - 8 * line));
+  const float right = float(view.right()) - panel.px(14), top = float(view.y) + panel.px(14);
+  Ground ground(panel, *ImGui::GetWindowDrawList(), {right, top});
+  ground.text(label_of(*viewer.shell, viewer.show), right, top);
+  const Eigen::VectorXd values = values_of(*viewer.shell, viewer.show);
+  if (values.size() == 0) return ground.text("not known for this shell", right, top + 1.3f * line);
+  const render::ColourScale& scale = viewer.show.scale;
+  const float low = top + 1.6f * line, left = right - width;
+  bar(scale, {left, low}, {right, low + height});
+  ground.reach(low + height);
+  const float apart = 1.2f * line / height;  // of the range, between two texts
+  for (const render::Tick& tick : render::linear_ticks(scale.low, scale.high, 4)) {
+    const auto down = float((scale.high - tick.value) / (scale.high - scale.low));
+    if (tick.major && down > apart && down < 1 - apart)
+      ground.text(fmt::format("{:.6g}", tick.value), left - panel.px(5),
+                  low + height * down - 0.5f * line);
+  }
+  ground.widen(left - panel.px(5) - range_end(panel, "range_high", left, low - 0.5f * line));
+  range_end(panel, "range_low", left, low + height - 0.5f * line);
+  // the end colours stand for all that lies beyond them
+  const double slack = 1e-9 * (scale.high - scale.low);
+  float note = low + height + 0.8f * line;
+  if (values.maxCoeff() > scale.high + slack) {
+    ground.text(fmt::format("up to {:.3g}", values.maxCoeff()), right, note);
+    note += 1.2f * line;
+  }
+  if (values.minCoeff() < scale.low - slack) {
+    ground.text(fmt::format("down to {:.3g}", values.minCoeff()), right, note);
+    note += 1.2f * line;
+  }
+  const bool fixed = viewer.range_of == RangeOf::hand;
+  const char* word = fixed ? "fixed" : "fix";
+  const float wide = ImGui::CalcTextSize(word).x + 2 * ImGui::GetStyle().FramePadding.x;
+  ImGui::SetCursorScreenPos({right - wide, note});
+  if (ImGui::SmallButton(word)) find_action(fixed ? "range_run" : "range_hand")->act(viewer);
+  panel.named("range_fixed", fixed ? "lets the range widen with what is seen again"
+                                   : "keeps the colours' range as it is now");
+  ground.reach(note + line);
 }
 
 }  // namespace gridshell::window

@@ -230,7 +230,8 @@ void ViewerState::add_plot_point() {
                 .residual_N = shell->certificate.residual_N,
                 .error_mm = shell->certificate.error_estimate_mm,
                 .steps = int(shell->steps.size()),
-                .refined = shell->refined};
+                .refined = shell->refined,
+                .stable = shell->stable()};
   if (!shell->held.empty()) {
     const HeldJoint& held = shell->held.back();
     now.joint = held.joint;

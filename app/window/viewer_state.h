@@ -66,6 +66,13 @@ struct FileRequest {
   std::string replaced = {};        ///< a file that is there and was confirmed to go
 };
 
+/// What a shell can be exported as.
+struct ExportFormat {
+  std::string ending;   ///< of the file: ".vtp"
+  std::string thing;    ///< shape, footprint or sheet
+  std::string read_by;  ///< "ParaView"
+};
+
 /// Where presets come from, what makes pictures and movies, and where all that is kept goes.
 struct Library {
   std::vector<PresetCard> cards;
@@ -84,8 +91,11 @@ struct Library {
   std::function<Result<void>(const preset::Preset& preset, const std::filesystem::path& file,
                              const ProgressListener&, const Watch&)>
       export_shell;
-  /// What a run ended in.
+  std::vector<ExportFormat> export_formats;
+  /// What a run ended in, or the joints of a scan.
   std::function<Result<OtherShell>(const std::filesystem::path& run)> load_run;
+  /// Shows the manual in a browser. Errors: io where there is none, saying where the manual is.
+  std::function<Result<void>(const Watch& watch)> show_manual;
   std::filesystem::path save_to = "out";
 };
 
@@ -101,7 +111,7 @@ struct PlotPoint {
          force_N = 0, total_K = 0, residual_N = 0, error_mm = 0;
   int joint = -1;  ///< that is held and was taken last; none
   int steps = 0;   ///< that were done
-  bool refined = true;
+  bool refined = true, stable = true;
 };
 
 /// What can be plotted over what; named as columns of frames.csv.
@@ -169,7 +179,9 @@ class ViewerState {
   RangeOf range_of = RangeOf::run;          ///< of the colours
   bool numbers = false, plots = true, help = false, terms = false, picking = true,
        design_panel = false;
-  bool find_number = false;  ///< the search over the numbers is to be typed into
+  bool small_window = false;      ///< one column has room beside the view
+  bool plots_when_small = false;  ///< and it shows the plots
+  bool find_number = false;       ///< the search over the numbers is to be typed into
   DesignOptions design;
   std::vector<PlotPoint> plot_points;
   std::vector<TimelineEntry> timeline;  ///< by the number of steps that can be undone
@@ -189,7 +201,7 @@ class ViewerState {
   bool playing = false;
   double play_head = 1, play_speed = 0.25;  ///< of the path a second
   PictureFormat picture;
-  BackgroundTask picture_task, movie_task, export_task;
+  BackgroundTask picture_task, movie_task, export_task, manual_task;
   std::optional<FileRequest> file_request;
   std::vector<std::string> recent;  ///< what was opened, the last first
   std::string copied;               ///< text for the clipboard
@@ -211,8 +223,15 @@ class ViewerState {
   /// The boundary to a progress; of a preset with a push, the push to a share of its depth.
   void go(double part, bool passing);
   void play(bool on);
-  /// Back or on to where so many steps can be undone.
+  /// Back or on to where so many steps can be undone; to where it stands already with an event: to
+  /// before that.
   void go_to_step(int step);
+  /// To one of the states that were found, which follow one another round.
+  void recall(int state);
+  /// Which of them is in sight; none: -1.
+  int state_in_sight() const;
+  /// The boundary to where no shell stays, on the way that led here: the next such place.
+  void go_to_loss();
   /// Stops what the engine is at; of a design the last step stays.
   void stop();
   /// Designs the shell by what was chosen, coloured by its deviation.
@@ -241,6 +260,8 @@ class ViewerState {
   /// A run's last state beside the shell, the state in sight, or (null) none again.
   void compare_with(const std::filesystem::path& run);
   void compare_with_this();
+  /// The net that it was designed on.
+  void compare_with_net();
   void compare(std::shared_ptr<const OtherShell> other);
   /// How far the joints are from those of the same name in the other shell: "largest 3.2 mm at
   /// (0, 1), mean 1.1 mm".
@@ -252,8 +273,12 @@ class ViewerState {
   void save_movie();
   /// A plot as PDF, SVG, PNG and a table.
   void save_plot(const PlottedCurve& curve);
+  /// All that have anything to show.
+  void save_plots();
   /// The camera as keys of [movie].
   void copy_camera();
+  /// The manual's page in a browser.
+  void show_manual();
 
   /// Once a frame: takes the latest sight, plays, looks at the preset's file. Whether anything is
   /// to be drawn anew.

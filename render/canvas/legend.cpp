@@ -19,14 +19,29 @@ double words_column(const ColourBar& bar, double font_size) {
 
 constexpr int fewest_ticks = 2, most_ticks = 6;
 
-std::vector<Tick> bar_ticks(const ColourScale& scale, double height, double font_size) {
+std::vector<Tick> bar_ticks(const ColourBar& bar, double height, double font_size) {
+  const ColourScale& scale = bar.scale;
   const int count = std::clamp(int(height / (2.2 * font_size)), fewest_ticks, most_ticks);
-  return linear_ticks(scale.low, scale.high, count);
+  std::vector<Tick> ticks = linear_ticks(scale.low, scale.high, count);
+  if (!bar.ends) return ticks;
+  // ticks whose words would run into those of an end make room for it
+  const double room = 1.3 * font_size / height * (scale.high - scale.low);
+  for (const double end : {scale.low, scale.high}) {
+    std::erase_if(ticks, [&](const Tick& tick) { return std::abs(tick.value - end) < room; });
+    std::string label = fmt::format("{:.3g}", end);
+    // a minus sign as wide as those of other ticks
+    if (label.starts_with('-')) label.replace(0, 1, "−");
+    ticks.push_back({end, label, true});
+  }
+  return ticks;
 }
 
 // of all ticks that bars of this scale may have: taller ones have more, with more digits
-double widest_label(const Canvas& canvas, const ColourScale& scale, const TextStyle& style) {
+double widest_label(const Canvas& canvas, const ColourBar& bar, const TextStyle& style) {
+  const ColourScale& scale = bar.scale;
   double width = 0;
+  for (const double end : {scale.low, scale.high})
+    if (bar.ends) width = std::max(width, canvas.measure(fmt::format("{:.3g}", end), style).width);
   for (int count = fewest_ticks; count <= most_ticks; ++count)
     for (const Tick& tick : linear_ticks(scale.low, scale.high, count))
       if (tick.major) width = std::max(width, canvas.measure(tick.label, style).width);
@@ -60,7 +75,7 @@ void draw_words(Canvas& canvas, const Box& box, const ColourBar& bar, double fon
 
 double colour_bar_width(const Canvas& canvas, const ColourBar& bar, double font_size) {
   const TextStyle style{.size = font_size};
-  const double ticks = widest_label(canvas, bar.scale, style);
+  const double ticks = widest_label(canvas, bar, style);
   const double with_ticks =
       bar_thickness(font_size) + tick_length(font_size) + 0.25 * font_size + ticks;
   const double words = words_column(bar, font_size);
@@ -104,7 +119,7 @@ void draw_colour_bar(Canvas& canvas, const Box& box, const ColourBar& bar, doubl
   canvas.polyline(rim, {ink, font_size / 14}, true);
 
   draw_words(canvas, {box.x, body.y, box.width, body.height}, bar, font_size);
-  for (const Tick& tick : bar_ticks(bar.scale, body.height, font_size)) {
+  for (const Tick& tick : bar_ticks(bar, body.height, font_size)) {
     if (!tick.major) continue;
     const double t = (tick.value - bar.scale.low) / (bar.scale.high - bar.scale.low);
     const double y = body.bottom() - t * body.height, x = body.right();

@@ -17,6 +17,7 @@ struct ColourBar {
   bool beyond_low = false,
        beyond_high = false;  ///< values beyond the scale occur: pointed ends say so
   std::string words = {};    ///< what the sign stands for, upright along the bar; empty: it says it
+  bool ends = false;         ///< the scale's ends have ticks too, round or not
 };
 
 /// The width that a vertical bar with its labels takes at this font size.

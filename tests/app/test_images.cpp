@@ -87,6 +87,14 @@ TEST_CASE("every picture is the same in either context", "[full][shared]") {
   }
 }
 
+TEST_CASE("every panel of the window looks as kept at twice the density", "[full]") {
+  const TemporaryFolder folder;
+  const std::string draw = "'" + (images / "draw.sh").string() + "' '" + GRIDSHELL_PROGRAM + "' '" +
+                           folder.path().string() + "' window_double";
+  REQUIRE(std::system(draw.c_str()) == 0);
+  check_kept("window_double", folder.path() / "window_double");
+}
+
 TEST_CASE("another rasteriser's width, another processor, a finer tolerance look the same",
           "[full]") {
   // not LP_NATIVE_VECTOR_WIDTH=128: with AVX beside it Mesa 22 frees memory twice; sse2 has it

@@ -217,12 +217,35 @@ TEST_CASE("a monkey at mouse and keys breaks nothing, and all it did can be undo
   };
   std::mt19937 random{number("GRIDSHELL_SEED", 7)};
   const auto draw = [&](unsigned below) { return unsigned(random()) % below; };
-  const char* deeds[] = {
-      "do step_back", "do gravity",      "do rest",           "do release",      "do numbers",
-      "do view_iso",  "do undo",         "do redo",           "do soft_mode",    "do colour_energy",
-      "do range_run", "do push_freely",  "do dark",           "do orthographic", "wheel 1",
-      "wheel -1",     "do copy_camera",  "do save_preset",    "do jitter",       "do pick_preset",
-      "do design",    "do design_start", "do design_put_back"};
+  const char* deeds[] = {"do step_back",
+                         "do gravity",
+                         "do rest",
+                         "do release",
+                         "do numbers",
+                         "do view_iso",
+                         "do undo",
+                         "do redo",
+                         "do soft_mode",
+                         "do colour_energy",
+                         "do range_run",
+                         "do push_freely",
+                         "do dark",
+                         "do orthographic",
+                         "wheel 1",
+                         "wheel -1",
+                         "do copy_camera",
+                         "do save_preset",
+                         "do jitter",
+                         "do pick_preset",
+                         "do design",
+                         "do design_start",
+                         "do design_put_back",
+                         "do to_loss",
+                         "do state_next",
+                         "do turn_up",
+                         "do move_left",
+                         "do compare_now",
+                         "do save_plots"};
   std::string input;
   bool down = false;
   for (unsigned k = 0; k < number("GRIDSHELL_TRIALS", 80); ++k) {
@@ -267,12 +290,23 @@ std::string entered(const std::string& path) {
 TEST_CASE("a shell is saved under a name, exported, and compared with a run", "[standard]") {
   const TemporaryFolder folder;
   REQUIRE(write_file(folder.path() / "small.toml", shell));
+  fs::create_directory(folder.path() / "scanned");
   good("run small.toml -o ran", folder.path());
   const std::string push = "mouse @joint:0,0 0 0\npress left\nmouse @joint:0,0 0 8\nrelease left\n";
   const json told = played(folder, push + "do save_as\n" + entered("deep/mine") + "do export\n" +
                                        entered("deep/mine.obj") + "do compare\n" + entered("ran"));
   const std::string said = told["message"];
   CHECK(said.find("compared with ran: largest distance") == 0);
+  const json xdmf = played(folder, "do export\n" + entered("deep/all.xdmf"));
+  CHECK_THAT(text_of(folder.path() / "deep/all.xdmf"), Contains("all_run/trajectory.h5:/nodes"));
+  CHECK(fs::exists(folder.path() / "deep/all_run/trajectory.h5"));
+  CHECK_THAT(played(folder, "do export\n" + entered("deep/all.xyz"))["message"].get<std::string>(),
+             Contains("must be one of .csv .dxf .glb .html .obj .pvd .vtp .xdmf .svg .pdf"));
+  // a scan's joints, as `scan` writes them
+  REQUIRE(write_file(folder.path() / "scanned/scan.csv",
+                     "i,j,x_mm,y_mm,z_mm,distance_mm,distance_radii\n0,0,0,0,99,,\n1,0,,,,,\n"));
+  CHECK_THAT(played(folder, "do compare\n" + entered("scanned"))["message"].get<std::string>(),
+             Contains("compared with scanned: largest distance") && Contains("joint (0, 0)"));
   CHECK(said.find("at joint (0, 0)") != std::string::npos);
   // both are of the shell as it was pushed
   CHECK(text_of(folder.path() / "deep/mine.obj").find("\nv ") != std::string::npos);
@@ -300,6 +334,56 @@ TEST_CASE("a step of the strip along the bottom is gone back to, and on to") {
   CHECK((back["undo_steps"] == 0 && back["redo_steps"] == 2 && back["held"] == 0));
   const json on = played(folder, steps + "mouse @step_0" + click + "mouse @step_1" + click);
   CHECK((on["undo_steps"] == 1 && on["redo_steps"] == 1 && on["held"] == 1));
+}
+
+TEST_CASE("a click on a step with an event that is in sight shows the state before it") {
+  const TemporaryFolder folder;
+  const std::string lose = "mouse @R_a 0.5 0.5\npress left\nmouse @R_a 0.97 0.5\nrelease left\n",
+                    click = "mouse @step_1 0.5 0.5\npress left\nrelease left\n";
+  const json lost = played(folder, lose);
+  CHECK(lost["negative_pivots"].get<int>() > 0);
+  const json before = played(folder, lose + click);
+  CHECK((before["negative_pivots"] == 0 && before["redo_steps"] == 1));
+  // and the key goes to where it is lost from anywhere
+  const json found = played(folder, "down B\nup B\n");
+  CHECK(found["negative_pivots"].get<int>() > 0);
+}
+
+TEST_CASE("the manual is shown in a browser, and where there is none it is said where it lies") {
+  const TemporaryFolder folder;
+  const auto shown = [&](const std::string& script) {
+    REQUIRE(write_file(folder.path() / "bin/xdg-open", "#!/bin/sh\n" + script + "\n"));
+    fs::permissions(folder.path() / "bin/xdg-open", fs::perms::owner_all);
+    const std::string path = std::getenv("PATH");
+    setenv("PATH", ((folder.path() / "bin").string() + ":" + path).c_str(), 1);
+    const json told = played(folder, "do manual\n");
+    setenv("PATH", path.c_str(), 1);
+    return told["message"].get<std::string>();
+  };
+  fs::create_directory(folder.path() / "bin");
+  CHECK_THAT(shown("cp \"$1\" page.html"), Contains("shown in the browser"));
+  const std::string page = text_of(folder.path() / "page.html");
+  for (const char* part : {"<h2>THE WINDOW</h2>", "<h3>gridshell movie", "<b>Undo everything</b>",
+                           "<b>radius_mm</b> (mm)"})
+    CHECK_THAT(page, Contains(part));
+  CHECK_THAT(shown("exit 3"), Contains("no browser can be opened: the manual is /"));
+}
+
+TEST_CASE("a joint that was clicked is pushed to a depth that is typed") {
+  const TemporaryFolder folder;
+  const json pushed =
+      played(folder,
+             "mouse @joint:0,0 0 0\npress left\nrelease left\nmouse @push_depth 0.5 0.5\n"
+             "down Ctrl\npress left\nrelease left\nup Ctrl\ndown Ctrl\ndown A\nup A\nup Ctrl\n"
+             "type 4\ndown Enter\nup Enter\n");
+  CHECK(pushed["held"] == 1);
+  CHECK(pushed["depth_mm"].get<double>() == Approx(4).epsilon(1e-6));
+}
+
+TEST_CASE("every panel has room in a small window", "[standard]") {
+  const TemporaryFolder folder;
+  played(folder, "size 640 400 1\ndo numbers\ndo jitter\n", {"--shot", "small.png"});
+  CHECK(gridshell::render::read_png(folder.path() / "small.png")->height == 400);
 }
 
 TEST_CASE("a number is found by a word and goes back to its default") {

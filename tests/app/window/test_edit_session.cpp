@@ -263,6 +263,56 @@ TEST_CASE(
   CHECK(shell.bending_mJ() == Approx(energy));
 }
 
+TEST_CASE(
+    "a way past states that are not stable marks them, and says so though its end is stable") {
+  // near the flat the symmetric branch is not stable
+  EditedShell shell;
+  const auto unstable = [&] {
+    std::vector<WayMark> marks = shell.view().marks;
+    std::erase_if(marks, [](const WayMark& mark) { return !mark.unstable; });
+    return marks;
+  };
+  shell.act(Move{0.03});
+  REQUIRE_FALSE(shell.view().stable());
+  CHECK(shell.view().event.find("stability lost") == 0);
+  REQUIRE(unstable().size() == 1);
+  const WayMark there = unstable().front();
+  CHECK((there.joint == -1 && there.from == Approx(0.03) && there.to < 0.9));
+  // further on along states that are not stable nothing is lost
+  shell.act(Move{0.02});
+  CHECK(shell.view().event.empty());
+  shell.act(Move{1});
+  CHECK(shell.view().stable());
+  CHECK(shell.view().event.find("stable again; not stable on the way at R_a = ") == 0);
+  REQUIRE(unstable().size() == 1);
+  CHECK(unstable().front().from == Approx(0.02));
+  shell.act(Undo{});
+  CHECK_FALSE(shell.view().stable());
+}
+
+TEST_CASE("a state that was met beside another one is come back to, as one step") {
+  EditedShell shell;
+  CHECK_FALSE(shell.view().found);
+  CHECK(shell.attempt(Recall{0}).find("no other state") == 0);
+  const ShellView first = shell.view();
+  for (int seed = 1; seed < 12 && !shell.view().found; ++seed)
+    shell.act(Jitter{seed}), shell.refine();
+  REQUIRE(shell.view().found);
+  REQUIRE(shell.view().found->size() == 2);
+  const double other_mJ = shell.bending_mJ();
+  const int undo_steps = shell.view().undo_steps;
+  shell.act(Recall{0});
+  shell.refine();
+  CHECK(difference(shell, first) < 1e-6);
+  CHECK(shell.view().undo_steps == undo_steps + 1);
+  shell.act(Recall{1});
+  shell.refine();
+  CHECK(shell.bending_mJ() == Approx(other_mJ).epsilon(1e-9));
+  CHECK(shell.view().found->size() == 2);
+  shell.act(Undo{});
+  CHECK(shell.bending_mJ() == Approx(first.frame.energies[Term::bend]).epsilon(1e-9));
+}
+
 TEST_CASE("a command that cannot be met leaves the last good shell and says why") {
   EditedShell shell;
   const ShellView before = shell.view();
@@ -278,7 +328,7 @@ TEST_CASE("a command that cannot be met leaves the last good shell and says why"
 TEST_CASE("without a shell there is nothing to do") {
   EditSession session;
   for (const Edit& edit : std::vector<Edit>{Move{0.5}, Push{}, Release{}, DragEdge{}, Rest{},
-                                            Jitter{}, Undo{}, Redo{}}) {
+                                            Jitter{}, Recall{}, Undo{}, Redo{}}) {
     session.execute({edit}, unwatched);
     CHECK(session.shell().error != "");
     CHECK_FALSE(session.shell().any());

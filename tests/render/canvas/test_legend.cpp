@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -39,13 +40,24 @@ TEST_CASE("a colour bar stays in its box and shows its scale from end to end") {
   }
 }
 
+TEST_CASE("the ends of a scale that are not round have ticks where it is asked for") {
+  ColourBar bar{"*F* (N)", {diverging, -0.83, 0.83}};
+  bar.ends = true;
+  draw_picture(200, 300, 1, white, [&](Canvas& c) {
+    draw_colour_bar(c, {10, 10, 100, 250}, bar, 14);
+    for (const std::string text : {"0.83", "−0.83", "0.5", "0.0"})
+      CHECK(std::ranges::count(c.texts(), text) == 1);
+  });
+}
+
 TEST_CASE("sign, ticks and words of a colour bar stay apart, on any scale and at any height") {
   for (const double end : {0.0006, 0.02, 0.5, 0.8, 1.0, 2.0, 12.0, 250.0})
     for (const double low : {-end, 0.0})
       for (const double font : {7.1, 16.4})
         for (const double lines : {9.0, 12.0, 18.0, 24.0}) {
+          const bool ends = end != 0.5;
           const ColourBar bar{
-              "*K*_{□} (rad)", {diverging, low, end}, true, true, "Gauss curvature"};
+              "*K*_{□} (rad)", {diverging, low, end}, true, true, "Gauss curvature", ends};
           INFO(low << " to " << end << ", font " << font << ", " << lines << " lines");
           draw_picture(20 * font, lines * font + 20, 1, white, [&](Canvas& c) {
             const Box box{10, 10, colour_bar_width(c, bar, font), lines * font};

@@ -1,0 +1,117 @@
+// What is known of a shell from the ways that it came: marks on them, and states to come back to.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "app/window/command.h"
+#include "app/window/edit_session.h"
+#include "engine/gridshell.h"
+
+namespace gridshell::window {
+
+/// How far the joint that a step pushes is from where it was taken.
+double EditSession::pushed_mm(const preset::Step& step) const {
+  if (step.kind != preset::StepKind::push) return 0;
+  const auto joint = simulate::joint_of(step, now_.scene->footprint);
+  const auto from = joint ? session_->grip_origins.find(*joint) : session_->grip_origins.end();
+  if (from == session_->grip_origins.end()) return 0;
+  return (session_->nodes().col(*joint) - from->second).norm();
+}
+
+/// "R_a = 124.2 to 122.9 mm", "2.1 mm".
+std::string EditSession::place_text(const WayMark& mark) const {
+  if (mark.joint >= 0) return text_of_place(mark, [](double mm) { return mm; }) + " mm";
+  if (now_.preset.footprint.kind != preset::FootprintKind::circle)
+    return "progress " + text_of_place(mark, [](double at) { return at; });
+  return "R_a = " + text_of_place(mark, [&](double at) { return now_.scene->radius_at(at); }) +
+         " mm";
+}
+
+/// Marks a way, and says of one that is stable again where it was not; where its first event is.
+std::string EditSession::note_way(const preset::Step& step, const simulate::StepPath& way,
+                                  double began_mm, bool began_stable, Report& report) {
+  // a way that begins where no shell stays does not lose its stability there
+  if (!began_stable)
+    std::erase_if(report.events, [](const Event& event) {
+      return event.kind == Event::Kind::stability_lost && !event.to;
+    });
+  const bool leapt =
+      std::ranges::any_of(report.events, [](const Event& e) { return e.to && e.leap; });
+  const bool moves = step.kind == preset::StepKind::move,
+             pushes = step.kind == preset::StepKind::push;
+  // what is known of a branch does not hold of another one
+  if (leapt || !(moves || pushes))
+    std::erase_if(now_.marks, [](const WayMark& mark) { return mark.unstable; });
+  if (way.load_steps.empty()) return "";
+  const auto joint = simulate::joint_of(step, now_.scene->footprint);
+  const double grew_mm = pushed_mm(step) - began_mm,
+               end = std::max(1e-12, way.load_steps.back().point.t);
+  const auto place = [&](double t) {
+    return moves ? progress_at(t) : began_mm + grew_mm * t / end;
+  };
+  const auto marks = marks_of(way, report.events, pushes && joint ? *joint : -1, place);
+  add_marks(now_.marks, marks);
+  for (const WayMark& mark : marks)
+    if (mark.unstable && mark.to > mark.from && report.certificate.stable() && !leapt)
+      view_.message = view_.event = "stable again; not stable on the way at " + place_text(mark);
+  const auto event = std::ranges::find(marks, false, &WayMark::unstable);
+  return event == marks.end() ? "" : place_text(*event);
+}
+
+// States that were found.
+
+namespace {
+
+constexpr std::size_t most_states = 24;
+
+bool nearly(double a, double b, double within) {
+  return std::abs(a - b) <= within * std::max({std::abs(a), std::abs(b), 1e-12});
+}
+
+}  // namespace
+
+/// Of the same shell on the same boundary.
+bool EditSession::RestState::beside(const RestState& other) const {
+  return state.scene == other.state.scene && nearly(seen->progress, other.seen->progress, 1e-9) &&
+         kind_of_change(state.preset, other.state.preset) <= ChangeKind::accuracy;
+}
+
+/// Or its mirror image.
+bool EditSession::RestState::same_as(const RestState& other) const {
+  return beside(other) &&
+         nearly(seen->frame.energies.total(), other.seen->frame.energies.total(), 1e-4) &&
+         nearly(seen->frame.height_mm, other.seen->frame.height_mm, 1e-3);
+}
+
+/// Keeps a state at rest that another one of the same boundary was met before.
+void EditSession::note_state() {
+  if (!view_.stable() || !session_->holds().empty() || only_coarse_mesh_ || now_.design ||
+      !session_->boundary.dragged.isZero(0))
+    return;
+  RestState here{now_, session_->save(), std::make_shared<const ShellView>(view_)};
+  const auto is_here = [&](const RestState& one) { return one.same_as(here); };
+  std::optional<RestState> before = std::exchange(at_rest_, here);
+  if (std::ranges::any_of(found_, is_here) || found_.size() >= most_states) return;
+  const bool among =
+      std::ranges::any_of(found_, [&](const RestState& one) { return one.beside(here); });
+  const bool leapt = before && before->beside(here) && !before->same_as(here);
+  if (!among && !leapt) return;
+  if (!among) found_.push_back(std::move(*before));
+  found_.push_back(std::move(here));
+  std::vector<std::shared_ptr<const ShellView>> seen;
+  for (const RestState& one : found_) seen.push_back(one.seen);
+  view_.found = std::make_shared<const decltype(seen)>(std::move(seen));
+}
+
+Result<void> EditSession::act(const Recall& command, const Watch&) {
+  if (command.state < 0 || command.state >= int(found_.size()))
+    return fail(Fault::bad_input, "no other state of this shell was met yet");
+  const RestState& state = found_[std::size_t(command.state)];
+  return restore({state.state, state.checkpoint}).map([&] {
+    view_.message = fmt::format("state {}", command.state + 1);
+  });
+}
+
+}  // namespace gridshell::window

@@ -1,0 +1,36 @@
+// What is known of the ways that a shell came: where no shell stays, and where something happened.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "engine/gridshell.h"
+
+namespace gridshell::window {
+
+/// A piece of a way of the boundary, places its progress; or of the push of a joint, places how far
+/// it was pushed since it was taken, mm.
+struct WayMark {
+  double from = 0, to = 0;  ///< from <= to
+  int joint = -1;           ///< that is pushed; -1: the boundary moves
+  bool unstable = false;    ///< no state between is stable; else something happened at `from`
+  std::string what = {};
+};
+
+/// The marks of a way by the pivots of its load steps and by its events; `place` takes the path
+/// parameter to the place. Between a load step that is stable and one that is not, stability ends
+/// where an event says so, else half way.
+std::vector<WayMark> marks_of(const PathRecord& way, const std::vector<Event>& events, int joint,
+                              const std::function<double(double)>& place);
+
+/// Adds them; stretches that meet or overlap are one.
+void add_marks(std::vector<WayMark>& marks, const std::vector<WayMark>& more);
+
+/// "the path lost its stability; came to rest in another state" of what a step came past.
+std::string text_of_events(const std::vector<Event>& events);
+
+/// "124.2 to 122.9" of a stretch, one number of a place, by what `shown` makes of places.
+std::string text_of_place(const WayMark& mark, const std::function<double(double)>& shown);
+
+}  // namespace gridshell::window
