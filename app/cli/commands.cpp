@@ -159,6 +159,7 @@ void add_commands(CommandLine& program) {
   add_export(program);
   add_load(program);
   add_modes(program);
+  add_report(program);
   add_scan(program);
   // the command line of a movie can be checked as it stands
   add_preset_command(program, "check", "validate a preset and say what would run", check);

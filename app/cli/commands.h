@@ -19,6 +19,7 @@ void add_sweep(CommandLine& program);
 void add_export(CommandLine& program);
 void add_load(CommandLine& program);
 void add_modes(CommandLine& program);
+void add_report(CommandLine& program);
 void add_scan(CommandLine& program);
 void add_compare(CommandLine& program);
 

@@ -241,23 +241,9 @@ Result<std::string> text_of(const ExportOptions& options) {
   return fail(Fault::bad_input, "--what {}: must be one of\n{}", what, exported_formats());
 }
 
-/// A file in a run's folder would be taken for one of the run, or keep it from being replaced.
-Result<void> check_place(const fs::path& to) {
-  std::error_code error;
-  if (fs::exists(to, error) && !fs::is_regular_file(to, error))
-    return fail(Fault::bad_input, "'{}' is no file that could be written", to.string());
-  for (fs::path folder = fs::absolute(to, error).parent_path(); folder != folder.root_path();
-       folder = folder.parent_path())
-    if (fs::exists(folder / manifest_name, error))
-      return fail(Fault::bad_input,
-                  "'{}' would lie in the run folder '{}'; choose a place beside it", to.string(),
-                  folder.string());
-  return {};
-}
-
 /// Writes the file, whole or not at all, and says so.
 Result<int> export_file(const ExportOptions& options) {
-  TRY_DO(check_place(options.to));
+  TRY_DO(check_beside_runs(options.to));
   TRY(text, text_of(options));
   TRY_DO(write_with_folder(options.to, *text));
   fmt::print("{}: {} bytes\n", options.to.string(), text->size());

@@ -115,6 +115,19 @@ int exchange(const fs::path& a, const fs::path& b, const fs::path& aside) {
 
 std::string refusal_to_write(const fs::path& folder) { return refusal(target_of(folder)); }
 
+Result<void> check_beside_runs(const fs::path& to) {
+  std::error_code error;
+  if (fs::exists(to, error) && !fs::is_regular_file(to, error))
+    return fail(Fault::bad_input, "'{}' is no file that could be written", to.string());
+  for (fs::path folder = fs::absolute(to, error).parent_path(); folder != folder.root_path();
+       folder = folder.parent_path())
+    if (fs::exists(folder / manifest_name, error))
+      return fail(Fault::bad_input,
+                  "'{}' would lie in the run folder '{}'; choose a place beside it", to.string(),
+                  folder.string());
+  return {};
+}
+
 Result<StagedFolder> StagedFolder::create(const fs::path& final_folder) {
   const auto refuse = [&](const std::string& because) {
     return fail(Fault::bad_input, "cannot write the folder '{}': {}", final_folder.string(),

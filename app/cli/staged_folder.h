@@ -21,6 +21,10 @@ Result<void> write_manifest(const std::filesystem::path& folder);
 /// journal is the proof, and the names that a run gives its files decide.
 std::string why_not_a_run(const std::filesystem::path& folder);
 
+/// Whether a file may be written there: in a run's folder it would be taken for one of the run, or
+/// keep it from being replaced. Errors: bad_input.
+Result<void> check_beside_runs(const std::filesystem::path& to);
+
 // A run's folder in the making: written beside its final name and swapped in only once it is whole,
 // so that a run that is stopped, killed or out of disk leaves what stood there before.
 

@@ -288,17 +288,19 @@ std::string draw_svg(double width, double height, const std::string& title, cons
   return svg;
 }
 
-std::string draw_pdf(double width, double height, const std::string& title, const DrawOn& draw) {
+std::string draw_pdf(double width, double height, const std::string& title,
+                     const std::vector<DrawOn>& pages) {
   std::string pdf;
   Surface surface(cairo_pdf_surface_create_for_stream(append, &pdf, width, height));
   cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_TITLE, title.c_str());
   // no clock in the bytes
   cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE,
                                  "2018-01-01T00:00:00Z");
-  {
+  for (const DrawOn& draw : pages) {
     Cairo cairo(cairo_create(surface.get()));
     Canvas canvas(cairo.get(), width, height);
     draw(canvas);
+    cairo_show_page(cairo.get());
   }
   cairo_surface_finish(surface.get());
   return pdf;
@@ -315,7 +317,7 @@ Result<void> write_figure(const std::filesystem::path& stem, double width_pt, do
   const Image image = draw_picture(width, height, print.dpi / 72, {1, 1, 1, 1}, enlarged);
   return write_png(image, file(".png"), print.dpi)
       .and_then([&] { return write_file(file(".svg"), draw_svg(width, height, name, enlarged)); })
-      .and_then([&] { return write_file(file(".pdf"), draw_pdf(width, height, name, enlarged)); });
+      .and_then([&] { return write_file(file(".pdf"), draw_pdf(width, height, name, {enlarged})); });
 }
 
 }  // namespace gridshell::render

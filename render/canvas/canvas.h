@@ -175,8 +175,10 @@ Image draw_picture(double width, double height, double pixels_per_unit, Colour b
 /// `title` and all texts stand in its <title> and <desc> for search and screen readers.
 std::string draw_svg(double width, double height, const std::string& title, const DrawOn& draw);
 
-/// A PDF of width x height points with its fonts in it; the same drawing gives the same bytes.
-std::string draw_pdf(double width, double height, const std::string& title, const DrawOn& draw);
+/// A PDF of pages of width x height points with its fonts in it; the same drawings give the same
+/// bytes.
+std::string draw_pdf(double width, double height, const std::string& title,
+                     const std::vector<DrawOn>& pages);
 
 /// How a figure is printed.
 struct Print {

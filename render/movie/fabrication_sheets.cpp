@@ -15,7 +15,6 @@ using exports::FabricationPlan;
 using exports::Pin;
 
 constexpr double a4_width = 595.28, a4_height = 841.89, margin = 42;  // points
-constexpr double line_height = 13;
 const Colour blue{0.1f, 0.3f, 0.65f, 1}, red{0.7f, 0.1f, 0.1f, 1};
 
 /// Over the page, smaller where it would not fit.
@@ -102,44 +101,28 @@ std::vector<std::string> steps(const FabricationPlan& work) {
 
 }  // namespace
 
+void add_cut_list(Sheets& sheets, const FabricationPlan& work) {
+  sheets.text(fmt::format("{} rods, {:.2f} m in all; marks in mm from the begin of each rod. Red: a "
+                          "leg below {:g} mm.",
+                          work.rods.size(), 1e-3 * work.total_length_mm(),
+                          exports::shortest_leg_mm));
+  std::vector<TableRow> rows;
+  for (const CutRod& rod : work.rods)
+    rows.push_back(
+        {{rod.name, fmt::format("{:.1f}", rod.length_mm), marks_of(rod)}, rod.hard_to_build()});
+  sheets.table({{"rod", 40, AlignX::left}, {"length (mm)", 60}, {"joints (mm)", 0, AlignX::left}},
+               rows);
+}
+
 std::string cut_list_pdf(const FabricationPlan& work) {
-  constexpr double name_x = margin, length_x = margin + 84, marks_x = margin + 100;
-  const TextStyle text{8, ink}, head{8, ink, true}, head_right{8, ink, true, AlignX::right};
-  const auto draw = [&](Canvas& canvas, double& y) {
-    draw_title(canvas, work.title + ": cut list", 13);
-    y = margin + 20;
-    canvas.text(fmt::format("{} rods, {:.1f} mm in all; marks in mm from the begin of each rod. "
-                            "Red: a leg below {:g} mm.",
-                            work.rods.size(), work.total_length_mm(), exports::shortest_leg_mm),
-                {margin, y}, text);
-    y += 1.6 * line_height;
-    canvas.text("rod", {name_x, y}, head);
-    canvas.text("length (mm)", {length_x, y}, head_right);
-    canvas.text("joints (mm)", {marks_x, y}, head);
-    y += 4;
-    canvas.line({margin, y}, {a4_width - margin, y}, {ink, 0.6});
-    for (const CutRod& rod : work.rods) {
-      y += line_height;
-      const Colour colour = rod.hard_to_build() ? red : ink;
-      canvas.text(rod.name, {name_x, y}, {8, colour});
-      canvas.text(fmt::format("{:.1f}", rod.length_mm), {length_x, y},
-                  {8, colour, false, AlignX::right});
-      const auto lines = canvas.wrapped(marks_of(rod), a4_width - margin - marks_x, text);
-      for (std::size_t k = 0; k < lines.size(); ++k) {
-        if (k > 0) y += line_height;
-        canvas.text(lines[k], {marks_x, y}, text);
-      }
-    }
-  };
-  // drawn once to see how long it is
-  double end = 0;
-  draw_picture(a4_width, a4_height, 0.1, {}, [&](Canvas& canvas) { draw(canvas, end); });
-  return draw_pdf(a4_width, std::max(a4_height, end + margin), work.title + ": cut list",
-                  [&](Canvas& canvas) { draw(canvas, end); });
+  Sheets sheets(work.title + ": cut list");
+  sheets.heading(work.title + ": cut list", 13);
+  add_cut_list(sheets, work);
+  return sheets.pdf();
 }
 
 std::string assembly_sheet_pdf(const FabricationPlan& work) {
-  return draw_pdf(a4_width, a4_height, work.title + ": assembly", [&](Canvas& canvas) {
+  const DrawOn draw = [&](Canvas& canvas) {
     const double wide = a4_width - 2 * margin, half = (wide - 16) / 2;
     const TextStyle text{9, ink};
     draw_title(canvas, work.title + ": assembly", 14);
@@ -170,7 +153,8 @@ std::string assembly_sheet_pdf(const FabricationPlan& work) {
                     "these joints untied, or move the boundary.",
                     exports::shortest_leg_mm, hard),
         0);
-  });
+  };
+  return draw_pdf(a4_width, a4_height, work.title + ": assembly", {draw});
 }
 
 }  // namespace gridshell::render

@@ -4,10 +4,13 @@
 #include <string>
 
 #include "engine/record/fabrication.h"
+#include "render/canvas/sheets.h"
 
 namespace gridshell::render {
 
-/// The cut list as a PDF as wide as A4, longer where there are many rods.
+/// Every rod with its length and marks.
+void add_cut_list(Sheets& sheets, const exports::FabricationPlan& work);
+/// The same as a PDF.
 std::string cut_list_pdf(const exports::FabricationPlan& work);
 
 /// One page of A4: the footprint and the plate in small, what is needed, the steps, and the legs

@@ -318,6 +318,23 @@ TEST_CASE("chart accuracy writes tables and pictures and says how auto stands", 
   bench.good("chart stability small.toml --limit 0.01 --quiet");
 }
 
+TEST_CASE("report puts a run into one PDF, with what it carries and how it sways", "[standard]") {
+  const Bench bench(small +
+                    "[rod]\ndensity_kg_m3 = 6450.0\nstrength_MPa = 900.0\n"
+                    "[loads]\nsnow_N_m2 = 0.5\n[[loads.case]]\nname = \"snow\"\nsnow = 1.0\n");
+  bench.good("run small.toml");
+  CHECK_THAT(bench.good("report out/small/ --count 2").out, Contains("out/small_report.pdf"));
+  const std::string pdf = text_of(bench.at / "out/small_report.pdf");
+  CHECK_THAT(pdf, Catch::StartsWith("%PDF"));
+  CHECK(pdf.size() > 20000);
+  // what is not known is said in it, and is no failure
+  bench.good("run small.toml --set rod.density_kg_m3=0 -o out/light");
+  bench.good("report out/light --to light.pdf");
+  check_refused("report out/small --to out/small/report.pdf", bench.at, Contains("beside it"));
+  check_refused("report out/small --to report.txt", bench.at, Contains("must end in .pdf"));
+  check_refused("report out/none", bench.at, Contains("out/none"));
+}
+
 TEST_CASE("modes writes a table, shapes and a picture a mode", "[standard]") {
   const Bench bench(small + "[rod]\ndensity_kg_m3 = 6450.0\n");
   const auto said = bench.good("modes small.toml --count 3");

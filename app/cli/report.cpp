@@ -1,0 +1,275 @@
+// `gridshell report RUN`: what an engineer asks of a formed shell, as one PDF.
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "app/cli/commands.h"
+#include "app/cli/console.h"
+#include "app/cli/delivery.h"
+#include "app/cli/finished_run.h"
+#include "app/cli/paper_page.h"
+#include "app/cli/produce.h"
+#include "app/cli/staged_folder.h"
+#include "engine/core/try.h"
+#include "engine/gridshell.h"
+#include "render/movie/fabrication_sheets.h"
+#include "render/movie/state_charts.h"
+#include "render/movie/stills.h"
+
+namespace gridshell::app {
+namespace fs = std::filesystem;
+namespace {
+
+using render::AlignX;
+using render::Sheets;
+using render::TableRow;
+
+struct ReportOptions {
+  std::string input;
+  fs::path to;
+  std::string context = "auto";
+  int modes = 6, imperfections = 0;
+  bool quiet = false, unsealed = false;
+};
+
+std::string number(double value, int digits = 4) {
+  return std::isfinite(value) ? fmt::format("{:.{}g}", value, digits) : "not known";
+}
+
+std::string with_unit(double value, const char* unit) {
+  return std::isfinite(value) ? fmt::format("{:.4g} {}", value, unit) : "not known";
+}
+
+/// The last state, its rods in the colours of a quantity.
+Result<render::Image> picture_of(const Run& run, preset::ColourBy colours,
+                                 render::Renderer& renderer) {
+  preset::Preset preset = run.preset;
+  preset.movie.colour_by = colours;
+  preset.movie.bins = false;
+  preset.style.range.clear();
+  constexpr double width_mm = 180, height_mm = 90, dpi = 200;
+  const render::MovieStyle style =
+      at_size(render::still_style(style_of(preset, Pictures::stills)), width_mm, height_mm, dpi);
+  record::Trajectory last{run.trajectory.layout, {}};
+  last.frames = {record::Frame(run.trajectory.frames.back())};
+  TRY_DO(render::check_showable(last, style));
+  const render::Stage stage(last.layout, render::summarise_run(last), style, std::nullopt);
+  const record::Frame& frame = last.frames.front();
+  TRY(picture, stage.draw_views(renderer, {frame, 0}));
+  render::draw_over(*picture, [&](render::Canvas& canvas) {
+    render::draw_still_labels(canvas, stage, {frame, 0}, render::frame_state_caption(frame));
+  });
+  return std::move(*picture);
+}
+
+void add_geometry(Sheets& sheets, const Run& run, const exports::FabricationPlan& plan) {
+  const record::Summary& summary = run.summary;
+  const auto& boundary = plan.actuated_boundary;
+  const Eigen::Vector3d span = boundary.rowwise().maxCoeff() - boundary.rowwise().minCoeff();
+  sheets.values(
+      {{"rods", fmt::format("{}, {:.4g} m in all", summary.rods, 1e-3 * plan.total_length_mm())},
+       {"joints", fmt::format("{}, {:.4g} mm apart", summary.joints, plan.spacing_mm)},
+       {"plan of the boundary", fmt::format("{:.4g} × {:.4g} mm", span.x(), span.y())},
+       {"highest joint above it", with_unit(summary.height_mm, "mm")},
+       {"model", fmt::format("{}, {} edges a segment", summary.model, summary.edges_per_segment)},
+       {"error of positions", with_unit(summary.error_estimate_mm, "mm")},
+       {"state", !summary.solved  ? "the net itself, no equilibrium"
+                 : summary.stable ? "in stable equilibrium"
+                                  : "not stable"},
+       {"force left over", with_unit(summary.residual_N, "N")}});
+  if (!summary.limit_reason.empty()) sheets.text("On its way: " + summary.limit_reason + ".");
+  if (!summary.doubt.empty()) sheets.text("In doubt: " + summary.doubt + ".");
+  for (const std::string& step : summary.steps) sheets.text(step);
+}
+
+void add_stresses(Sheets& sheets, const record::Summary& summary) {
+  sheets.heading("Stresses");
+  sheets.values({{"largest stress of a fibre", with_unit(summary.largest_stress_MPa, "MPa")},
+                 {"over the rods' strength", number(summary.utilisation)},
+                 {"where", summary.stress_at},
+                 {"largest strain by bending", number(summary.largest_bending_strain)}});
+  if (!std::isfinite(summary.utilisation))
+    sheets.text("The rods' strength is not known: [rod] strength_MPa or yield_strain says it.");
+}
+
+/// What holds the shell, one support a line, the strongest first.
+void add_reactions(Sheets& sheets, const record::Layout& layout, const record::Frame& frame) {
+  sheets.heading("Reactions");
+  if (frame.reactions_N.cols() == 0) return sheets.text("They are not known of this state.");
+  std::vector<Eigen::Index> order;
+  for (Eigen::Index k = 0; k < frame.reactions_N.cols(); ++k)
+    if (!frame.reactions_N.col(k).isZero(0)) order.push_back(k);
+  std::ranges::stable_sort(order, std::greater<>(),
+                           [&](Eigen::Index k) { return frame.reactions_N.col(k).norm(); });
+  std::vector<TableRow> rows;
+  const auto add = [&](const std::string& place, const Eigen::Vector3d& force) {
+    rows.push_back({{place, number(force.x()), number(force.y()), number(force.z()),
+                     number(force.norm()), ""}});
+  };
+  add("sum", frame.reactions_N.rowwise().sum());
+  for (const Eigen::Index k : order) {
+    const Eigen::Vector3d at = frame.nodes.col(layout.supports[std::size_t(k)]);
+    add(fmt::format("{:.1f}, {:.1f}, {:.1f}", at.x(), at.y(), at.z()), frame.reactions_N.col(k));
+  }
+  sheets.text(fmt::format("Forces of the supports on the shell, at their places in mm; each is known "
+                          "to {}.",
+                          with_unit(frame.force_error_N, "N")));
+  sheets.table({{"place", 130, AlignX::left},
+                {"*x* (N)", 60},
+                {"*y* (N)", 60},
+                {"*z* (N)", 60},
+                {"size (N)", 60},
+                {"", 0}},
+               rows);
+}
+
+Result<void> add_loads(Sheets& sheets, const preset::Preset& preset, const ReportOptions& options,
+                       Watch& watch) {
+  sheets.heading("What it carries");
+  if (preset.load_case.empty()) {
+    sheets.text("No load case is named: [[loads.case]] says what comes on.");
+    return {};
+  }
+  TRY(found, study::load_study(preset, options.imperfections, watch));
+  std::vector<TableRow> rows;
+  for (const record::LoadRow& row : found->cases) {
+    const bool lost = std::isfinite(row.critical_factor);
+    rows.push_back(
+        {{row.load_case, number(row.load_x_N), number(row.load_y_N), number(row.load_z_N),
+          lost ? record::with_error(row.critical_factor, row.error, "") : "–",
+          std::isfinite(row.linear_factor) ? number(row.linear_factor) : "–",
+          !lost ? "stability is not lost on the way followed"
+                : (row.event == record::BranchEvent::turn ? "limit point" : "bifurcation") +
+                      (row.imperfections > 0
+                           ? fmt::format("; {} shells off shape: {:.3g} of it ({:.3g} to {:.3g})",
+                                         row.imperfections, row.knock_down_50, row.knock_down_5,
+                                         row.knock_down_95)
+                           : std::string())},
+         lost && row.critical_factor < 1});
+  }
+  sheets.text("Each case comes on to the state above, its factor growing by arc length until "
+              "stability is lost. Beside it the factor that the linearised problem would give. Red: "
+              "lost below the whole load.");
+  sheets.table({{"case", 80, AlignX::left},
+                {"sum *x* (N)", 52},
+                {"sum *y* (N)", 52},
+                {"sum *z* (N)", 52},
+                {"factor", 80},
+                {"linear", 44},
+                {"lost by", 0, AlignX::left}},
+               rows);
+  sheets.plot(render::load_plot(found->points, ""));
+  return {};
+}
+
+Result<void> add_vibrations(Sheets& sheets, const preset::Preset& preset,
+                            const ReportOptions& options, Watch& watch) {
+  sheets.heading("How it sways");
+  const auto found = study::vibrations_of(preset, options.modes, watch);
+  if (!found && found.error().fault == Fault::bad_input) {
+    sheets.text("Not found: " + found.error().message + ".");
+    return {};
+  }
+  if (!found) return tl::unexpected(found.error());
+  std::vector<TableRow> rows;
+  for (const record::ModeRow& mode : found->modes)
+    rows.push_back({{fmt::format("{}", mode.mode),
+                     mode.frequency_Hz >= 0 ? record::with_error(mode.frequency_Hz, mode.error_Hz, "")
+                                            : "none: the state is not stable",
+                     ""},
+                    mode.frequency_Hz < 0});
+  sheets.table({{"mode", 40}, {"frequency (Hz)", 120}, {"", 0}}, rows);
+  return {};
+}
+
+Result<void> add_run(Sheets& sheets, const Run& run, const ReportOptions& options,
+                     render::Renderer& renderer, Progress& progress) {
+  const preset::Preset& preset = run.preset;
+  if (run.trajectory.frames.empty())
+    return fail(Fault::bad_input, "'{}' has no frame", options.input);
+  TRY(plan, simulate::fabrication_plan_of(preset));
+  sheets.heading(preset::title_or_name(preset), 15);
+  if (!preset.description.empty()) sheets.text(preset.description);
+  Watch& drawing = progress.next_phase();
+  TRY(shape, picture_of(run, preset.movie.colour_by, renderer));
+  sheets.picture(*shape);
+  sheets.heading("Geometry");
+  add_geometry(sheets, run, *plan);
+  sheets.next_sheet();
+  const record::Frame& last = run.trajectory.frames.back();
+  add_stresses(sheets, run.summary);
+  if (last.stress_MPa.size() > 0) {
+    const bool strength = std::isfinite(run.summary.utilisation);
+    TRY(stresses, picture_of(run,
+                             strength ? preset::ColourBy::utilisation : preset::ColourBy::stress,
+                             renderer));
+    sheets.picture(*stresses);
+  }
+  drawing.report(1);
+  add_reactions(sheets, run.trajectory.layout, last);
+  sheets.next_sheet();
+  TRY_DO(add_loads(sheets, preset, options, progress.next_phase()));
+  TRY_DO(add_vibrations(sheets, preset, options, progress.next_phase()));
+  sheets.next_sheet();
+  sheets.heading("Cut list");
+  render::add_cut_list(sheets, exports::rounded(std::move(*plan), preset.figure.cut_step_mm));
+  if (const auto& fault = run.trajectory.frames.fault()) return tl::unexpected(*fault);
+  return {};
+}
+
+/// What following loads and finding modes takes, each.
+double study_seconds(const preset::Preset& preset) {
+  const auto plan = plan_of(preset);
+  return plan && std::isfinite(plan->expected_seconds) ? plan->expected_seconds : 1;
+}
+
+Result<int> report(ReportOptions options) {
+  const fs::path run_folder = fs::path(options.input).lexically_normal();
+  if (options.to.empty())
+    options.to = (run_folder.has_filename() ? run_folder : run_folder.parent_path()).string() +
+                 "_report.pdf";
+  if (options.to.extension() != ".pdf")
+    return fail(Fault::bad_input, "--to {}: must end in .pdf", options.to.string());
+  TRY_DO(check_beside_runs(options.to));
+  TRY(runs, read_runs(options.input, {}, options.unsealed));
+  TRY(maker, PictureMaker::create(options.context, runs->front().preset.style.font));
+  std::vector<Phase> phases;
+  for (const Run& run : *runs) {
+    const double seconds = study_seconds(run.preset);
+    phases.insert(phases.end(), {drawing("drawing", 2),
+                                 {"following loads", 4 * seconds},
+                                 {"finding modes", seconds}});
+  }
+  Sheets sheets(preset::title_or_name(runs->front().preset));
+  {
+    Progress progress(phases, Progress::show_for(options.quiet), [] {});
+    for (std::size_t k = 0; k < runs->size(); ++k) {
+      if (k > 0) sheets.next_sheet();
+      TRY_DO(add_run(sheets, (*runs)[k], options, maker->renderer(), progress));
+    }
+  }
+  TRY_DO(write_with_folder(options.to, sheets.pdf()));
+  if (!options.quiet) fmt::print("{}\n", options.to.string());
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_report(CommandLine& program) {
+  const auto options = std::make_shared<ReportOptions>();
+  CommandArguments command =
+      program.add("report", "geometry, stresses, reactions, loads, frequencies, cut list as a PDF",
+                  [options] { return report(*options); });
+  command.option("RUN", options->input, "folder of a run").required();
+  command.option("--to", options->to, "the file, by default RUN_report.pdf");
+  command.option("--count", options->modes, "how many frequencies").in_range(1, 200);
+  command
+      .option("--imperfections", options->imperfections,
+              "shells more a case whose shape is off by loads.imperfection")
+      .in_range(0, 1000);
+  add_unsealed(command, options->unsealed);
+}
+
+}  // namespace gridshell::app
