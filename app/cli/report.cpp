@@ -10,7 +10,7 @@
 #include "app/cli/delivery.h"
 #include "app/cli/finished_run.h"
 #include "app/cli/paper_page.h"
-#include "app/cli/produce.h"
+#include "app/cli/preset_library.h"
 #include "app/cli/staged_folder.h"
 #include "engine/core/try.h"
 #include "engine/gridshell.h"
