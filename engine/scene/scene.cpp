@@ -82,14 +82,6 @@ Result<std::vector<preset::Rod>> rods_of(const preset::Preset& preset, const Foo
   std::vector<preset::Rod> rods;
   for (const FootprintRod& one : footprint.rods) rods.push_back(rod_of(preset, one));
   std::vector<bool> named(rods.size(), false);
-||||||| 45e9587
-/// The diameters of `[rod] table`, of all rods.
-Result<std::vector<double>> diameters_of(const preset::Preset& preset, const Footprint& footprint) {
-  std::vector<double> diameters;
-  for (const FootprintRod& one : footprint.rods)
-    diameters.push_back(one.diameter_mm > 0 ? one.diameter_mm
-                                            : rod_of(preset, one.family).diameter_mm);
-  std::vector<bool> named(diameters.size(), false);
   for (const auto& row : preset.rod_table) {
     const Family family = row[0] == 0 ? Family::u : Family::v;
     const auto wrong = [&](const std::string& what) {
