@@ -18,6 +18,7 @@ struct TraceOptions {
   double from = 0, to = 1;  ///< of the path parameter: it ends at either
   double max_strain = 1e-3;
   int most_steps = 300;
+  double located = 1e-3;        ///< of a step: to which a bifurcation is bisected
   int after_turn = most_steps;  ///< beyond its first limit point
 };
 

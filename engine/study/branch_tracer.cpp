@@ -12,7 +12,6 @@ namespace {
 using record::BranchEvent;
 
 constexpr int most_pivots = 6;    // with more of them below zero a branch is given up
-constexpr double located = 1e-3;  // of a step: to which an event is located
 
 TracedPoint traced(const ArcPoint& at, BranchEvent event = BranchEvent::none) {
   return {at.point, at.inertia.negative_pivots, event};
@@ -88,7 +87,7 @@ class Tracer {
     double left = length_between(before, path_);
     for (int k = 0; k < most && low.at().inertia.negative_pivots != last; ++k) {
       const int here = low.at().inertia.negative_pivots;
-      const double smallest = located * left;
+      const double smallest = options_.located * left;
       double done = 0;
       ArcFollower high = path_;
       for (double step = left / 2; step > smallest && !watch_.cancelled(); step /= 2) {

@@ -135,7 +135,10 @@ double linear_critical_factor(Linearisation& system, const PinnedMotion& motion,
 CriticalLoad critical_load(Linearisation& system, const PinnedMotion& motion, const State& begin,
                            const CriticalOptions& options, const Watch& watch) {
   CriticalLoad found;
-  found.linear = linear_critical_factor(system, motion, begin, watch);
+  // a cable that comes on changes the stiffness at once, not with the factor
+  const bool cables = std::ranges::any_of(system.model().bars,
+                                          [](const ModelBar& bar) { return bar.law.cable; });
+  if (!cables) found.linear = linear_critical_factor(system, motion, begin, watch);
   motion.apply_loads(system, 0);
   if (!system.at(begin, false).usable) {
     found.event = BranchEvent::lost;
@@ -146,7 +149,9 @@ CriticalLoad critical_load(Linearisation& system, const PinnedMotion& motion, co
   TraceOptions how;
   how.arc.parameter_mm = rate;
   how.arc.step_mm = std::sqrt(2.0) * rate * ahead / options.steps_to_linear;
-  how.arc.largest_mm = 2.5 * how.arc.step_mm;
+  if (cables && options.largest_mm > 0) how.arc.step_mm = 1e-2 * options.largest_mm;
+  how.arc.largest_mm = std::max(4 * how.arc.step_mm, options.largest_mm);
+  how.located = 1e-5;
   how.arc.smallest_mm = 1e-4 * how.arc.step_mm;
   how.arc.tolerance_mm = options.tolerance_mm;
   how.from = -ahead;

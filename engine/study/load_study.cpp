@@ -34,6 +34,7 @@ class Loading {
   CriticalLoad on(int level, const State& begin) {
     CriticalOptions options;
     options.max_strain = std::max(scene_.max_strain, 1e-2);
+    options.largest_mm = 5e-4 * scene_.length_scale_mm;
     options.tolerance_mm = 1e-8 * scene_.length_scale_mm;
     return critical_load(shell_.system(level), shell_.motion(level), begin, options, watch_);
   }

@@ -18,20 +18,22 @@ namespace {
 
 preset::Preset loaded_shell() {
   preset::Preset p = small_shell();
+  p.rod.diameter_mm = 2.5;  // what rests on it is far above round-off
+  p.limits.max_strain = 0.05;
   p.rod.density_kg_m3 = 6450;
   p.loads.gravity_m_s2 = 9.81;
-  p.loads.snow_N_m2 = 0.5;
-  p.loads.wind_N_m2 = 0.3;
+  p.loads.snow_N_m2 = 4000;
+  p.loads.wind_N_m2 = 2400;
   p.load_case = {{.name = "snow", .snow = 1},
                  {.name = "half", .snow = 1, .snow_side = preset::SnowSide::x},
-                 {.name = "wind", .dead = 0.5, .wind = 1, .points = {{0, 0, 1e-4, 0, 0}}}};
+                 {.name = "wind", .dead = 0.5, .wind = 1, .points = {{0, 0, 0.8, 0, 0}}}};
   return p;
 }
 
 preset::Step step(StepKind kind) {
   preset::Step one;
   one.kind = kind;
-  one.EA_N = 50;
+  one.EA_N = 5000;
   return one;
 }
 
@@ -82,12 +84,12 @@ TEST_CASE("load cases: what comes on is what the supports bear, to 1e-9 of it") 
   const Eigen::Matrix3Xd shape = simulation.nodes();
   double plan = 0, half = 0;
   for (const Face& face : faces_of(simulation.scene().footprint)) {
-    const double area = area_of(face, shape).z();
-    CHECK(area > 0);
+    const double area = std::max(area_of(face, shape).z(), 0.0);  // none lies on overhangs
     plan += area;
-    double middle = 0;
-    for (const int corner : face.corners) middle += shape(0, corner);
-    if (middle >= 0) half += area;
+    const double middle =
+        shape.row(0).head(Eigen::Index(simulation.scene().footprint.joints.size())).mean();
+    for (const int corner : face.corners)
+      if (shape(0, corner) > middle) half += area / double(face.corners.size());
   }
   const Eigen::Vector3d before = reactions(simulation);
   const double weight = -sum_of(simulation.shell().model(simulation.shell().levels() - 1).loads).z();
@@ -100,9 +102,9 @@ TEST_CASE("load cases: what comes on is what the supports bear, to 1e-9 of it") 
     done(simulation, load);
     const std::string of = name;
     const Eigen::Vector3d field = sum_of(simulation.field());
-    if (of == "snow") CHECK(field.z() == Approx(-0.8 * 0.5e-6 * plan).epsilon(1e-10));
-    if (of == "half") CHECK(field.z() == Approx(-0.8 * 0.5e-6 * half).epsilon(1e-3));
-    if (of == "wind") CHECK(field.x() > 0.8e-4);
+    if (of == "snow") CHECK(field.z() == Approx(-0.8 * 4e-3 * plan).epsilon(1e-10));
+    if (of == "half") CHECK(field.z() == Approx(-0.8 * 4e-3 * half).epsilon(1e-3));
+    if (of == "wind") CHECK(field.x() > 0.8 * 0.8);
     const double dead = of == "wind" ? 1.4 : 1;
     Eigen::Vector3d all = field;
     all.z() -= dead * weight;
