@@ -31,23 +31,14 @@ struct LoadOptions {
   int imperfections = 0;
 };
 
-/// "4.13 ± 0.03"
-std::string with_error_text(const record::LoadRow& row) {
-  std::string text = record::with_error(row.critical_factor, row.error, "");
-  // what stands in the place of a unit
-  if (const auto gap = text.find(" ("); gap != std::string::npos && gap > 0 && text[gap - 1] == ' ')
-    text.erase(gap - 1, 1);
-  while (text.ends_with(' ')) text.pop_back();
-  return text;
-}
-
 /// "full snow: limit point at 3.42 ± 0.02 (linear 5.1), knock-down 0.84 (0.71 to 0.93)"
 std::string text_of(const record::LoadRow& row) {
   std::string text = row.load_case + ": ";
   if (std::isfinite(row.critical_factor))
-    text += fmt::format("{} at a factor of {}",
-                        row.event == BranchEvent::turn ? "limit point" : "bifurcation",
-                        with_error_text(row));
+    text += fmt::format(
+        "{} at a factor of {:.4g}{}",
+        row.event == BranchEvent::turn ? "limit point" : "bifurcation", row.critical_factor,
+        std::isfinite(row.error) ? fmt::format(" ± {:.1g}", row.error) : " (error not known)");
   else
     text += row.event == BranchEvent::locking ? "rods at their length before stability is lost"
                                               : "stability is not lost on the way followed";

@@ -41,6 +41,9 @@ std::vector<TracedPoint> trace(Linearisation& system, const PinnedMotion& motion
                                const TraceOptions& options, const MeetsBranch& met,
                                const Watch& watch);
 
+/// Columns with a part along any mode: what an iteration on a subspace begins with.
+Eigen::MatrixXd generic_vectors(Eigen::Index rows, Eigen::Index count);
+
 /// The modes whose stiffness changes its sign at a bifurcation: unit vectors, by inverse iteration
 /// on a subspace [Bathe 1996].
 std::vector<Eigen::Matrix3Xd> crossing_modes(Linearisation& system, const PinnedMotion& motion,

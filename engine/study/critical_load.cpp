@@ -99,10 +99,7 @@ double linear_critical_factor(Linearisation& system, const PinnedMotion& motion,
   const BlockHessian slope = stiffness_slope(system, begin, system.outside, growth, velocity);
   const BlockHessian& stiffness = system.assembly().hessian;
   const Eigen::Index columns = model.columns(), count = std::min(vectors, model.dof());
-  Eigen::MatrixXd basis(3 * columns, count), geometric = basis, elastic = basis;
-  for (Eigen::Index k = 0; k < count; ++k)
-    for (Eigen::Index row = 0; row < basis.rows(); ++row)
-      basis(row, k) = std::sin(1 + double(row) * (1.3 + 0.61 * double(k)));
+  Eigen::MatrixXd basis = generic_vectors(3 * columns, count), geometric = basis, elastic = basis;
   Eigen::Matrix3Xd column, product;
   const auto times = [&](const BlockHessian& matrix, Eigen::Index k, double sign) {
     column = basis.col(k).reshaped(3, columns);
@@ -136,8 +133,8 @@ CriticalLoad critical_load(Linearisation& system, const PinnedMotion& motion, co
                            const CriticalOptions& options, const Watch& watch) {
   CriticalLoad found;
   // a cable that comes on changes the stiffness at once, not with the factor
-  const bool cables = std::ranges::any_of(system.model().bars,
-                                          [](const ModelBar& bar) { return bar.law.cable; });
+  const bool cables =
+      std::ranges::any_of(system.model().bars, [](const ModelBar& bar) { return bar.law.cable; });
   if (!cables) found.linear = linear_critical_factor(system, motion, begin, watch);
   motion.apply_loads(system, 0);
   if (!system.at(begin, false).usable) {

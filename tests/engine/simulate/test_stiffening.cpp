@@ -40,8 +40,7 @@ preset::Step step(StepKind kind) {
 /// The shell of a preset at the end of its actuation.
 Simulation formed(const preset::Preset& preset) {
   const auto scene = shared_scene(preset);
-  Simulation simulation =
-      value_of(Simulation::open(scene, plan_levels(scene->tolerance)));
+  Simulation simulation = value_of(Simulation::open(scene, plan_levels(scene->tolerance)));
   REQUIRE(value_of(simulation.begin_buckled(0.02, unwatched)).end == Outcome::reached);
   REQUIRE(simulation.move_to(1, unwatched).end == Outcome::reached);
   return simulation;
@@ -92,7 +91,8 @@ TEST_CASE("load cases: what comes on is what the supports bear, to 1e-9 of it") 
       if (shape(0, corner) > middle) half += area / double(face.corners.size());
   }
   const Eigen::Vector3d before = reactions(simulation);
-  const double weight = -sum_of(simulation.shell().model(simulation.shell().levels() - 1).loads).z();
+  const double weight =
+      -sum_of(simulation.shell().model(simulation.shell().levels() - 1).loads).z();
   CHECK(before.z() == Approx(weight).epsilon(1e-7));
   for (const char* name : {"snow", "half", "wind"}) {
     CAPTURE(name);
@@ -165,6 +165,5 @@ TEST_CASE("what is made stiff too early, or is not there, is named") {
         "[[step]] 1 cells: the footprint has no cell [40, 2]");
   p.step = {step(StepKind::release)};
   p.step[0].what = preset::Released::braces;
-  CHECK(refusal(plan(p), Fault::bad_input) ==
-        "[[step]] 1 what: there are no braces to take out");
+  CHECK(refusal(plan(p), Fault::bad_input) == "[[step]] 1 what: there are no braces to take out");
 }
