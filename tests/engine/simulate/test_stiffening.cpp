@@ -24,8 +24,8 @@ preset::Preset loaded_shell() {
   p.loads.gravity_m_s2 = 9.81;
   p.loads.snow_N_m2 = 4000;
   p.loads.wind_N_m2 = 2400;
-  p.load_case = {{.name = "snow", .snow = 1},
-                 {.name = "half", .snow = 1, .snow_side = preset::SnowSide::x},
+  p.load_case = {{.name = "snow", .snow = 1, .points = {}},
+                 {.name = "half", .snow = 1, .snow_side = preset::SnowSide::x, .points = {}},
                  {.name = "wind", .dead = 0.5, .wind = 1, .points = {{0, 0, 0.8, 0, 0}}}};
   return p;
 }

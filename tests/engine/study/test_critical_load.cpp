@@ -85,7 +85,7 @@ CriticalLoad buckled_arch(int edges) {
 preset::Preset snowed_on() {
   preset::Preset p = small_shell();
   p.loads.snow_N_m2 = 1;
-  p.load_case = {{.name = "snow", .snow = 1}};
+  p.load_case = {{.name = "snow", .snow = 1, .points = {}}};
   return p;
 }
 
