@@ -35,9 +35,10 @@ struct LoadOptions {
 std::string text_of(const record::LoadRow& row) {
   std::string text = row.load_case + ": ";
   if (std::isfinite(row.critical_factor))
-    text += fmt::format("{} at a factor of {}",
-                        row.event == BranchEvent::turn ? "limit point" : "bifurcation",
-                        record::with_error(row.critical_factor, row.error, ""));
+    text += fmt::format(
+        "{} at a factor of {:.4g}{}",
+        row.event == BranchEvent::turn ? "limit point" : "bifurcation", row.critical_factor,
+        std::isfinite(row.error) ? fmt::format(" ± {:.1g}", row.error) : " (error not known)");
   else
     text += row.event == BranchEvent::locking ? "rods at their length before stability is lost"
                                               : "stability is not lost on the way followed";

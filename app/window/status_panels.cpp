@@ -29,6 +29,8 @@ std::string text_of_step(const ShellView& shell) {
     case preset::StepKind::load:
     case preset::StepKind::rest:
     case preset::StepKind::jitter:
+    case preset::StepKind::tighten:
+    case preset::StepKind::brace:
       return std::string(word_of(step.kind)) + at;
   }
   return "";

@@ -337,7 +337,8 @@ void add_joint_shear(Model& model, int rod_a, int node_a, int rod_b, int node_b,
                          turn_between(model, rod_b, edges_beside(model, rod_b, node_b));
   stiffness = std::isinf(stiffness) ? 1 / between : stiffness / (1 + stiffness * between);
   at_crossing(model, rod_a, node_a, rod_b, node_b, stiffness, [&](int e, int f, double share) {
-    std::get<std::vector<Pair<JointShear>>>(model.pairs).push_back({e, f, -1, {share, rest_angle(e, f)}});
+    std::get<std::vector<Pair<JointShear>>>(model.pairs)
+        .push_back({e, f, -1, {share, rest_angle(e, f)}});
   });
 }
 

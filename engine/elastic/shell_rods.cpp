@@ -109,12 +109,11 @@ void add_bolts(const RodMesh& mesh, const Bolts& bolts, bool springs, Model& mod
     const std::vector<int>& rods = crossings[std::size_t(joint)];
     const auto& held = bolts.rods[std::size_t(joint)];
     for (std::size_t k = 1; k < rods.size(); ++k)
-      add_joint_shear(model, rods[0], joint, rods[k], other, bolts.stiffness_Nmm,
-                      [&](int e, int f) {
-                        return angle_between(
-                            held[0].at(beyond(model.edges[std::size_t(e)], joint)),
-                            held[k].at(beyond(model.edges[std::size_t(f)], other)));
-                      });
+      add_joint_shear(
+          model, rods[0], joint, rods[k], other, bolts.stiffness_Nmm, [&](int e, int f) {
+            return angle_between(held[0].at(beyond(model.edges[std::size_t(e)], joint)),
+                                 held[k].at(beyond(model.edges[std::size_t(f)], other)));
+          });
   }
 }
 

@@ -37,7 +37,7 @@ struct JointDirections {
 /// Bolts that keep the angles that crossing rods had when they were tightened: free of stress in
 /// that shape, on every mesh.
 struct Bolts {
-  double stiffness_Nmm = 0;  ///< per rad, of each joint; infinite: rigid
+  double stiffness_Nmm = 0;                        ///< per rad, of each joint; infinite: rigid
   std::vector<std::vector<JointDirections>> rods;  ///< of every joint, in the order of its rods
 };
 

@@ -91,8 +91,8 @@ void add_steps(FieldList<Step> list) {
       .unused({"what"}, "bolts and braces are taken out all together",
               [](const Step& of) { return of.what != Released::joints; })
       .refused({}, "must be [i, j]", [](const Step& of) {
-    return of.joint.empty() && (of.kind == K::push || of.kind == K::hold);
-  });
+        return of.joint.empty() && (of.kind == K::push || of.kind == K::hold);
+      });
   list.add<&Step::to_mm>("place to which a push brings the joint; empty: `depth_mm` says how far")
       .shape("[x, y, z]");
   only({K::push});
@@ -129,8 +129,8 @@ void add_steps(FieldList<Step> list) {
           "it comes on; empty: what the shell was formed under")
       .named("case");
   only({K::load}).refused({"[[loads.case]] name"}, [](const Preset& preset, const Step& of) {
-    const bool known = of.load_case.empty() || std::ranges::count(preset.load_case, of.load_case,
-                                                                  &LoadCase::name) > 0;
+    const bool known = of.load_case.empty() ||
+                       std::ranges::count(preset.load_case, of.load_case, &LoadCase::name) > 0;
     return known ? "" : "there is no such case, must be the name of a [[loads.case]]";
   });
   add_stiffening(list);
@@ -159,9 +159,8 @@ void add_area_loads(FieldList<Loads> list) {
   const auto idle = [&list](auto factor) {
     list.unused({"[[loads.case]] name"}, "no [[loads.case]] has any of it",
                 [=](const Preset& preset) {
-                  return std::ranges::none_of(preset.load_case, [&](const LoadCase& one) {
-                    return one.*factor != 0;
-                  });
+                  return std::ranges::none_of(
+                      preset.load_case, [&](const LoadCase& one) { return one.*factor != 0; });
                 });
   };
   list.add<&Loads::snow_N_m2>(
@@ -184,6 +183,11 @@ void add_area_loads(FieldList<Loads> list) {
 
 void add_load_cases(FieldList<LoadCase> list) {
   using C = LoadCase;
+  const auto lacks = [](double C::*factor, double Loads::*load) {
+    return [=](const Preset& preset, const C& of) {
+      return of.*factor != 0 && preset.loads.*load == 0;
+    };
+  };
   list.add<&C::name>("by which steps, tables and pictures call it");
   list.refused({}, "must be a name of its own", [](const Preset& preset, const C& of) {
     return of.name.empty() || std::ranges::count(preset.load_case, of.name, &C::name) > 1;
@@ -192,23 +196,18 @@ void add_load_cases(FieldList<LoadCase> list) {
   list.add<&C::dead>(between(-1000, 1000),
                      "how many times what [loads] says of gravity, field and points comes on, "
                      "beside the once that the shell was formed under")
-      .refused({"[loads] gravity_m_s2"}, "[loads] says nothing that acts, must be 0",
-               [](const Preset& preset, const C& of) {
-                 return of.dead != 0 && !preset.loads.any();
-               });
+      .refused(
+          {"[loads] gravity_m_s2"}, "[loads] says nothing that acts, must be 0",
+          [](const Preset& preset, const C& of) { return of.dead != 0 && !preset.loads.any(); });
   list.add<&C::snow>(between(-1000, 1000), "how many times snow_N_m2")
       .refused({"[loads] snow_N_m2"}, "there is no snow: [loads] snow_N_m2 must be above 0",
-               [](const Preset& preset, const C& of) {
-                 return of.snow != 0 && preset.loads.snow_N_m2 == 0;
-               });
+               lacks(&C::snow, &Loads::snow_N_m2));
   list.add<&C::snow_side>(
           "half of the shell, as seen from the middle of its joints, that the snow lies on")
       .unused({"snow"}, "the case has no snow", [](const C& of) { return of.snow == 0; });
   list.add<&C::wind>(between(-1000, 1000), "how many times wind_N_m2")
       .refused({"[loads] wind_N_m2"}, "there is no wind: [loads] wind_N_m2 must be above 0",
-               [](const Preset& preset, const C& of) {
-                 return of.wind != 0 && preset.loads.wind_N_m2 == 0;
-               });
+               lacks(&C::wind, &Loads::wind_N_m2));
   list.add<&C::points>("forces in N on joints").points({"i", "j", "F_x", "F_y", "F_z"});
 }
 
@@ -221,8 +220,7 @@ void add_hand_fields(std::vector<Field>& all) {
   add_loads({all, "loads", &Preset::loads});
   add_area_loads({all, "loads", &Preset::loads});
   add_load_cases({all, "loads.case", [](Preset& preset, int item) -> LoadCase& {
-                    return item < 0 ? preset.load_case.back()
-                                    : preset.load_case[std::size_t(item)];
+                    return item < 0 ? preset.load_case.back() : preset.load_case[std::size_t(item)];
                   }});
 }
 

@@ -181,7 +181,7 @@ struct Step {
   double factor = 1;  ///< of the dead loads
   BranchSide side = BranchSide::lower;
   int seed = 1;
-  double force_N = 0.4;  ///< of a jitter
+  double force_N = 0.4;      ///< of a jitter
   std::string load_case;     ///< whose factor it is; empty: that of the dead loads
   double stiffness_Nmm = 0;  ///< of the bolts, per rad; 0: rigid
   Points cells;              ///< (i, j) of those that are braced; empty: all
@@ -196,10 +196,10 @@ struct Loads {
   double field_N_per_mm = 0;  ///< of rod, downwards
   Points points;              ///< (i, j, F_x, F_y, F_z), N
   // what cases have of it acts on the formed shell
-  double snow_N_m2 = 0;  ///< of plan, downwards
-  double wind_N_m2 = 0;  ///< its pressure where it meets the shell at right angles
+  double snow_N_m2 = 0;         ///< of plan, downwards
+  double wind_N_m2 = 0;         ///< its pressure where it meets the shell at right angles
   double imperfection = 0.002;  ///< of the length scale
-  double wind_deg = 0;   ///< where it blows to, from +x towards +y
+  double wind_deg = 0;          ///< where it blows to, from +x towards +y
 
   bool any() const { return gravity_m_s2 != 0 || field_N_per_mm != 0 || !points.empty(); }
 };

@@ -202,8 +202,8 @@ void fields(Row& row, const Visit& visit) {
 /// What became of a case.
 struct LoadRow {
   std::string load_case;
-  double critical_factor = unknown;  ///< NaN: stability is not lost on the way
-  double error = unknown;            ///< NaN on one mesh, or where the other tells otherwise
+  double critical_factor = unknown;       ///< NaN: stability is not lost on the way
+  double error = unknown;                 ///< NaN on one mesh, or where the other tells otherwise
   BranchEvent event = BranchEvent::none;  ///< turn (a limit point), bifurcation, or why it ended
   double linear_factor = unknown;         ///< K_0 + factor K_g singular; NaN: never
   double load_x_N = 0, load_y_N = 0, load_z_N = 0;  ///< sum of the loads at a factor of 1

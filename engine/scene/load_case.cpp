@@ -7,16 +7,6 @@
 #include "engine/footprint/faces.h"
 
 namespace gridshell {
-namespace {
-
-Eigen::Vector2d middle_of(const std::vector<int>& corners, const Eigen::Matrix3Xd& nodes) {
-  Eigen::Vector2d sum{0, 0};
-  for (const int corner : corners) sum += nodes.col(corner).head<2>();
-  return sum / double(corners.size());
-}
-
-}  // namespace
-
 std::vector<NodeAction> forces_of(const LoadCase& load, const Footprint& footprint,
                                   const Eigen::Matrix3Xd& nodes) {
   std::map<int, Eigen::Vector3d> forces;
@@ -25,14 +15,21 @@ std::vector<NodeAction> forces_of(const LoadCase& load, const Footprint& footpri
   };
   const Eigen::Vector2d middle =
       nodes.leftCols(Eigen::Index(footprint.joints.size())).topRows<2>().rowwise().mean();
+  // of a corner half way between the sides half
+  const auto snowed = [&](int corner) {
+    const double along = load.snow_side.dot(nodes.col(corner).head<2>() - middle);
+    if (load.snow_side.isZero(0) || along > 1e-3 * footprint.spacing) return 1.0;
+    return along < -1e-3 * footprint.spacing ? 0 : 0.5;
+  };
   const Eigen::Vector3d wind(std::cos(load.wind_rad), std::sin(load.wind_rad), 0);
   for (const Face& face : faces_of(footprint)) {
     const Eigen::Vector3d area = area_of(face, nodes);
     if (area.isZero(0)) continue;
-    Eigen::Vector3d force = load.wind_N_mm2 * wind.dot(area.normalized()) * area;
-    if (load.snow_side.dot(middle_of(face.corners, nodes) - middle) >= 0)
-      force.z() -= load.snow_N_mm2 * std::max(area.z(), 0.0);
-    for (const int corner : face.corners) add(corner, force / double(face.corners.size()));
+    const Eigen::Vector3d wind_force = load.wind_N_mm2 * wind.dot(area.normalized()) * area;
+    const double corners = double(face.corners.size());
+    const double snow = load.snow_N_mm2 * std::max(area.z(), 0.0) / corners;
+    for (const int corner : face.corners)
+      add(corner, wind_force / corners - snow * snowed(corner) * Eigen::Vector3d::UnitZ());
   }
   for (const PointLoad& point : load.points) add(point.joint, point.force);
   std::vector<NodeAction> actions;

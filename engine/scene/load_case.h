@@ -25,7 +25,8 @@ struct LoadCase {
 /// The case's forces on joints and edge points, its dead part left out, worked out on the shape
 /// `nodes` (joints first, then edge points) and fixed from then on. Each corner of a face bears the
 /// same share of what acts on it: snow s on the face's area in plan A_z, where that is not
-/// overhung, -s A_z z; wind of direction w on its area A = |A| n the force q (w . n) A.
+/// overhung, -s A_z z, at the corners on the side that has it; wind of direction w on its area A =
+/// |A| n the force q (w . n) A.
 std::vector<NodeAction> forces_of(const LoadCase& load, const Footprint& footprint,
                                   const Eigen::Matrix3Xd& nodes);
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <set>
 
 #include "engine/core/system_info.h"
 #include "engine/core/try.h"
@@ -197,49 +196,6 @@ record::Summary summary_of(const preset::Preset& preset, const Scene& scene,
   put_deviation(seen, s);
   put_seams(scene, s);
   return s;
-}
-
-/// Steps name joints that are there, and let go of what a step before took.
-Result<void> check_steps(const std::vector<preset::Step>& steps, const Footprint& footprint) {
-  std::set<std::vector<int>> held;
-  std::set<preset::Released> strengthened;
-  for (std::size_t k = 0; k < steps.size(); ++k) {
-    const preset::Step& step = steps[k];
-    const bool one = !step.joint.empty();
-    if (one)
-      if (auto joint = joint_of(step, footprint); !joint)
-        return fail(joint.error().fault,
-                    fmt::format("[[step]] {} {}", k + 1, joint.error().message));
-    if (step.kind == preset::StepKind::push || step.kind == preset::StepKind::hold)
-      held.insert(step.joint);
-    for (const auto& cell : step.cells)
-      if (std::ranges::none_of(footprint.cells, [&](const FootprintCell& one) {
-            return one.i == cell[0] && one.j == cell[1];
-          }))
-        return fail(Fault::bad_input, "[[step]] {} cells: the footprint has no cell [{:g}, {:g}]",
-                    k + 1, cell[0], cell[1]);
-    if (step.kind == preset::StepKind::brace && footprint.cells.empty())
-      return fail(Fault::bad_input, "[[step]] {}: the footprint has no cells to brace", k + 1);
-    if (step.kind == preset::StepKind::tighten) strengthened.insert(preset::Released::bolts);
-    if (step.kind == preset::StepKind::brace) strengthened.insert(preset::Released::braces);
-    if (step.kind != preset::StepKind::release) continue;
-    if (step.what != preset::Released::joints) {
-      if (strengthened.erase(step.what) > 0) continue;
-      return fail(Fault::bad_input, "[[step]] {} what: there are no {} to take out", k + 1,
-                  word_of(step.what));
-    }
-    if (one ? !held.contains(step.joint) : held.empty())
-      return fail(
-          Fault::bad_input,
-          fmt::format("[[step]] {}: no joint is held that could be let go: a step before it "
-                      "must push or hold it",
-                      k + 1));
-    if (one)
-      held.erase(step.joint);
-    else
-      held.clear();
-  }
-  return {};
 }
 
 /// Whether the boundary's motion takes the rods out of the flat at all. Errors: bad_input.

@@ -39,8 +39,8 @@ Result<Simulation> Simulation::open(std::shared_ptr<const Scene> scene, const Le
 }
 
 Result<void> Simulation::build(const LevelPlan& plan) {
-  TRY(shell, NestedShell::make(scene_->footprint, rods(),
-                               scene_->solved_model(), scene_->motion, plan, options_for(*scene_)));
+  TRY(shell, NestedShell::make(scene_->footprint, rods(), scene_->solved_model(), scene_->motion,
+                               plan, options_for(*scene_)));
   if (shell_) spent_ += shell_->effort();
   shell_ = std::make_unique<NestedShell>(std::move(*shell));
   search_.emplace(simulate::parts_of(*scene_, shell_->finest()));
@@ -258,9 +258,9 @@ Result<Outcome> Simulation::replace_meshes(const LevelPlan& plan, bool nearby, c
 }
 
 Checkpoint Simulation::save() const {
-  return {shell_->state(), shell_->plan(),   rods_,     shell_->motions(), holds_,
-          field_,          load_scale_,      progress_, actuating_,        boundary,
-          grip_origins,    cases,            first_stiffness_, along_};
+  return {shell_->state(),  shell_->plan(), rods_,      shell_->motions(), holds_,       field_,
+          load_scale_,      progress_,      actuating_, boundary,          grip_origins, cases,
+          first_stiffness_, along_};
 }
 
 void Simulation::restore(const Checkpoint& kept) {

@@ -27,6 +27,10 @@ struct StepPath : PathRecord {
   Checkpoint end = {};
 };
 
+/// Steps name joints and cells that are there, and let go of what a step before took. Errors:
+/// bad_input with the step's number.
+Result<void> check_steps(const std::vector<preset::Step>& steps, const Footprint& footprint);
+
 /// Does one step. A step that ends early leaves the simulation
 /// in its last certified state, a `release`, `rest` or `jitter` where it was before. All but moves
 /// and loads are led by the coarsest mesh alone (`way.end` of a push stands on that one), or by a

@@ -26,9 +26,8 @@ Result<Report> tighten(Simulation& simulation, const preset::Step& step, const W
   const double stiffness = step.stiffness_Nmm > 0 ? step.stiffness_Nmm : rigid;
   const NestedShell& shell = simulation.shell();
   ShellRods rods = simulation.rods();
-  rods.bolts = std::make_shared<const Bolts>(tightened(shell.finest(),
-                                                       shell.model(shell.levels() - 1),
-                                                       shell.state().levels.back().x, stiffness));
+  rods.bolts = std::make_shared<const Bolts>(tightened(
+      shell.finest(), shell.model(shell.levels() - 1), shell.state().levels.back().x, stiffness));
   return simulation.set_rods(rods, watch);
 }
 

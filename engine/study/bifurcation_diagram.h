@@ -18,6 +18,7 @@ struct TraceOptions {
   double from = 0, to = 1;  ///< of the path parameter: it ends at either
   double max_strain = 1e-3;
   int most_steps = 300;
+  double located = 1e-3;        ///< of a step: to which a bifurcation is bisected
   int after_turn = most_steps;  ///< beyond its first limit point
 };
 
@@ -39,6 +40,9 @@ using MeetsBranch = std::function<bool(const TracedPoint&)>;
 std::vector<TracedPoint> trace(Linearisation& system, const PinnedMotion& motion, ArcFollower path,
                                const TraceOptions& options, const MeetsBranch& met,
                                const Watch& watch);
+
+/// Columns with a part along any mode: what an iteration on a subspace begins with.
+Eigen::MatrixXd generic_vectors(Eigen::Index rows, Eigen::Index count);
 
 /// The modes whose stiffness changes its sign at a bifurcation: unit vectors, by inverse iteration
 /// on a subspace [Bathe 1996].

@@ -11,8 +11,7 @@ namespace {
 
 using record::BranchEvent;
 
-constexpr int most_pivots = 6;    // with more of them below zero a branch is given up
-constexpr double located = 1e-3;  // of a step: to which an event is located
+constexpr int most_pivots = 6;  // with more of them below zero a branch is given up
 
 TracedPoint traced(const ArcPoint& at, BranchEvent event = BranchEvent::none) {
   return {at.point, at.inertia.negative_pivots, event};
@@ -88,7 +87,7 @@ class Tracer {
     double left = length_between(before, path_);
     for (int k = 0; k < most && low.at().inertia.negative_pivots != last; ++k) {
       const int here = low.at().inertia.negative_pivots;
-      const double smallest = located * left;
+      const double smallest = options_.located * left;
       double done = 0;
       ArcFollower high = path_;
       for (double step = left / 2; step > smallest && !watch_.cancelled(); step /= 2) {
@@ -162,6 +161,14 @@ std::vector<TracedPoint> trace(Linearisation& system, const PinnedMotion& motion
   return Tracer(system, motion, std::move(path), options, met, watch).run();
 }
 
+Eigen::MatrixXd generic_vectors(Eigen::Index rows, Eigen::Index count) {
+  Eigen::MatrixXd vectors(rows, count);
+  for (Eigen::Index k = 0; k < count; ++k)
+    for (Eigen::Index row = 0; row < rows; ++row)
+      vectors(row, k) = std::sin(1 + double(row) * (1.3 + 0.61 * double(k)));
+  return vectors;
+}
+
 std::vector<Eigen::Matrix3Xd> crossing_modes(Linearisation& system, const PinnedMotion& motion,
                                              const TracedPoint& crossing, const Watch& watch) {
   constexpr int rounds = 40, more = 2;  // vectors beyond those asked for make it converge
@@ -173,10 +180,7 @@ std::vector<Eigen::Matrix3Xd> crossing_modes(Linearisation& system, const Pinned
   while (!system.shifted(shift).positive_definite() && shift < 1e6 && !watch.cancelled())
     shift *= 2;
   const Eigen::Index columns = system.model().columns();
-  Eigen::MatrixXd basis(3 * columns, high + more), turned = basis;
-  for (Eigen::Index k = 0; k < basis.cols(); ++k)
-    for (Eigen::Index row = 0; row < basis.rows(); ++row)
-      basis(row, k) = std::sin(1 + double(row) * (1.3 + 0.61 * double(k)));
+  Eigen::MatrixXd basis = generic_vectors(3 * columns, high + more), turned = basis;
   for (int round = 0; round < rounds && !watch.cancelled(); ++round) {
     basis = orthonormal(basis);
     for (Eigen::Index k = 0; k < basis.cols(); ++k) {

@@ -99,10 +99,7 @@ double linear_critical_factor(Linearisation& system, const PinnedMotion& motion,
   const BlockHessian slope = stiffness_slope(system, begin, system.outside, growth, velocity);
   const BlockHessian& stiffness = system.assembly().hessian;
   const Eigen::Index columns = model.columns(), count = std::min(vectors, model.dof());
-  Eigen::MatrixXd basis(3 * columns, count), geometric = basis, elastic = basis;
-  for (Eigen::Index k = 0; k < count; ++k)
-    for (Eigen::Index row = 0; row < basis.rows(); ++row)
-      basis(row, k) = std::sin(1 + double(row) * (1.3 + 0.61 * double(k)));
+  Eigen::MatrixXd basis = generic_vectors(3 * columns, count), geometric = basis, elastic = basis;
   Eigen::Matrix3Xd column, product;
   const auto times = [&](const BlockHessian& matrix, Eigen::Index k, double sign) {
     column = basis.col(k).reshaped(3, columns);
@@ -135,7 +132,10 @@ double linear_critical_factor(Linearisation& system, const PinnedMotion& motion,
 CriticalLoad critical_load(Linearisation& system, const PinnedMotion& motion, const State& begin,
                            const CriticalOptions& options, const Watch& watch) {
   CriticalLoad found;
-  found.linear = linear_critical_factor(system, motion, begin, watch);
+  // a cable that comes on changes the stiffness at once, not with the factor
+  const bool cables =
+      std::ranges::any_of(system.model().bars, [](const ModelBar& bar) { return bar.law.cable; });
+  if (!cables) found.linear = linear_critical_factor(system, motion, begin, watch);
   motion.apply_loads(system, 0);
   if (!system.at(begin, false).usable) {
     found.event = BranchEvent::lost;
@@ -146,7 +146,9 @@ CriticalLoad critical_load(Linearisation& system, const PinnedMotion& motion, co
   TraceOptions how;
   how.arc.parameter_mm = rate;
   how.arc.step_mm = std::sqrt(2.0) * rate * ahead / options.steps_to_linear;
-  how.arc.largest_mm = 2.5 * how.arc.step_mm;
+  if (cables && options.largest_mm > 0) how.arc.step_mm = 1e-2 * options.largest_mm;
+  how.arc.largest_mm = std::max(4 * how.arc.step_mm, options.largest_mm);
+  how.located = 1e-5;
   how.arc.smallest_mm = 1e-4 * how.arc.step_mm;
   how.arc.tolerance_mm = options.tolerance_mm;
   how.from = -ahead;

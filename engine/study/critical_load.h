@@ -11,11 +11,12 @@
 namespace gridshell::study {
 
 struct CriticalOptions {
-  double max_strain = 1e-3;      ///< the path ends there
-  double most_factor = 1000;     ///< of the load
-  double steps_to_linear = 40;   ///< first arc steps up to the linear estimate
-  int most_steps = 160;          ///< of the path
-  int after_turn = 24;           ///< of it beyond its first limit point
+  double max_strain = 1e-3;     ///< the path ends there
+  double most_factor = 1000;    ///< of the load
+  double largest_mm = 0;        ///< arc steps may be so long; 0: by the linear estimate alone
+  double steps_to_linear = 40;  ///< first arc steps up to the linear estimate
+  int most_steps = 160;         ///< of the path
+  int after_turn = 12;          ///< of it beyond its first limit point
   double tolerance_mm = 1e-7;
 };
 
@@ -26,7 +27,7 @@ struct CriticalLoad {
   /// bifurcation or turn (a limit point); else how the path ended: locking, lost, none (it went all
   /// the way)
   record::BranchEvent event = record::BranchEvent::none;
-  double linear = record::unknown;  ///< linear_critical_factor()
+  double linear = record::unknown;  ///< linear_critical_factor(), of models without cables
   Eigen::Matrix3Xd mode;            ///< over all columns, longest move 1; empty: none
 };
 

@@ -7,10 +7,10 @@
 #include "engine/core/algorithms.h"
 #include "engine/core/try.h"
 #include "engine/scene/scene.h"
-#include "engine/simulate/run.h"
 #include "engine/solve/eigenmodes.h"
 #include "engine/solve/equilibrium.h"
 #include "engine/study/critical_load.h"
+#include "engine/study/modes.h"
 
 namespace gridshell::study {
 namespace {
@@ -26,14 +26,13 @@ class Loading {
     dead_now_ = simulation.steady_load().begin;
     forces_ = forces_of(load, scene_.footprint, simulation.nodes());
     shell_.set_fields(steady_, forces_);
-    shell_.drive({.holds = simulation.holds(),
-                  .load = {dead_now_, load.dead},
-                  .field = {0, 1}});
+    shell_.drive({.holds = simulation.holds(), .load = {dead_now_, load.dead}, .field = {0, 1}});
   }
 
   CriticalLoad on(int level, const State& begin) {
     CriticalOptions options;
     options.max_strain = std::max(scene_.max_strain, 1e-2);
+    options.largest_mm = 5e-4 * scene_.length_scale_mm;
     options.tolerance_mm = 1e-8 * scene_.length_scale_mm;
     return critical_load(shell_.system(level), shell_.motion(level), begin, options, watch_);
   }
@@ -89,9 +88,8 @@ void put_points(const std::string& name, const CriticalLoad& found, int joints,
   const auto joints_at = [&](const TracedPoint& point) -> Eigen::Matrix3Xd {
     return point.at.state.x.leftCols(joints);
   };
-  const auto critical = std::ranges::find_if(found.points, [](const TracedPoint& point) {
-    return point.event != BranchEvent::none;
-  });
+  const auto critical = std::ranges::find_if(
+      found.points, [](const TracedPoint& point) { return point.event != BranchEvent::none; });
   const Eigen::Matrix3Xd begin = joints_at(found.points.front());
   const Eigen::Matrix3Xd moved =
       joints_at(critical == found.points.end() ? found.points.back() : *critical) - begin;
@@ -126,8 +124,8 @@ Result<void> put_imperfections(Loading& loading, Simulation& simulation, int lev
   const Scene& scene = simulation.scene();
   std::vector<double> factors;
   for (int k = 0; k < count && !watch.cancelled(); ++k) {
-    const auto found = loading.imperfect(level, *soft, scene.imperfection.seed + k,
-                                         scene.load_imperfection_mm);
+    const auto found =
+        loading.imperfect(level, *soft, scene.imperfection.seed + k, scene.load_imperfection_mm);
     if (found && std::isfinite(found->factor)) factors.push_back(found->factor / perfect);
   }
   row.imperfections = int(factors.size());
@@ -174,8 +172,8 @@ Result<void> put_case(Simulation& simulation, const LoadCase& load, int imperfec
   study.cases.push_back(row);
   study.modes.emplace_back();
   if (fine.mode.size() == 0) return {};
-  const Eigen::Matrix3Xd nodes = nodes_of(shell.finest(), shell.model(last), fine.mode)
-                                     .leftCols(shell.finest().rod_nodes());
+  const Eigen::Matrix3Xd nodes =
+      nodes_of(shell.finest(), shell.model(last), fine.mode).leftCols(shell.finest().rod_nodes());
   study.modes.back() = nodes / max_column_norm(nodes);
   return {};
 }
@@ -184,18 +182,10 @@ Result<void> put_case(Simulation& simulation, const LoadCase& load, int imperfec
 
 Result<LoadStudy> load_study(const preset::Preset& preset, int imperfections, Watch& watch) {
   TRY(scene, shared_scene_of(preset));
-  if ((*scene)->rung == RodModel::net)
-    return fail(Fault::bad_input, "a net that nothing is solved for carries nothing: [accuracy] "
-                                  "model must be another, or tolerance below 0.05");
   if ((*scene)->load_cases.empty())
     return fail(Fault::bad_input, "there is nothing to carry: [[loads.case]] must name a case");
-  preset::Preset once = preset;
-  once.movie.frames = 1;
-  record::MemorySink sink;
   LoadStudy study;
-  TRY(path, simulate::follow(once, *scene, false, sink, watch, study.summary));
-  study.state = std::move(sink.trajectory());
-  study.state.frames = {record::Frame(study.state.frames.back())};
+  TRY(path, follow_to_last(preset, *scene, watch, study.summary, study.state));
   Simulation& simulation = path->simulation;
   const Checkpoint formed = simulation.save();
   const auto& cases = (*scene)->load_cases;

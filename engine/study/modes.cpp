@@ -106,23 +106,31 @@ class LastAlone final : public record::Sink {
 
 }  // namespace
 
-Result<Vibrations> vibrations_of(const preset::Preset& preset, int count, Watch& watch) {
-  TRY(scene, shared_scene_of(preset));
-  if ((*scene)->rung == RodModel::net)
+Result<simulate::EquilibriumPath> follow_to_last(const preset::Preset& preset,
+                                                 const std::shared_ptr<const Scene>& scene,
+                                                 Watch& watch, record::Summary& summary,
+                                                 record::Trajectory& state) {
+  if (scene->rung == RodModel::net)
     return fail(Fault::bad_input,
-                "a net that nothing is solved for does not vibrate: [accuracy] model must be "
-                "another, or tolerance below 0.05");
-  if (std::ranges::any_of((*scene)->mass_t_per_mm, [](double mass) { return !(mass > 0); }))
-    return fail(Fault::bad_input,
-                "frequencies need a mass: [rod] density_kg_m3 must be above 0 (6450 for Nitinol, "
-                "7850 for steel), that of [rod_v] too where these differ");
+                "a net that nothing is solved for neither vibrates nor carries: [accuracy] model "
+                "must be another, or tolerance below 0.05");
   // the path does not hang on what samples it
   preset::Preset once = preset;
   once.movie.frames = 1;
   LastAlone sink;
+  auto path = simulate::follow(once, scene, false, sink, watch, summary);
+  state = std::move(sink.state);
+  return path;
+}
+
+Result<Vibrations> vibrations_of(const preset::Preset& preset, int count, Watch& watch) {
+  TRY(scene, shared_scene_of(preset));
+  if (std::ranges::any_of((*scene)->mass_t_per_mm, [](double mass) { return !(mass > 0); }))
+    return fail(Fault::bad_input,
+                "frequencies need a mass: [rod] density_kg_m3 must be above 0 (6450 for Nitinol, "
+                "7850 for steel), that of [rod_v] too where these differ");
   Vibrations found;
-  TRY(path, simulate::follow(once, *scene, false, sink, watch, found.summary));
-  found.state = std::move(sink.state);
+  TRY(path, follow_to_last(preset, *scene, watch, found.summary, found.state));
   Simulation& simulation = path->simulation;
   NestedShell& shell = simulation.shell();
   shell.apply_loads();

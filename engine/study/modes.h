@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "engine/core/result.h"
@@ -10,8 +11,16 @@
 #include "engine/record/study_tables.h"
 #include "engine/record/summary.h"
 #include "engine/record/trajectory.h"
+#include "engine/simulate/equilibrium_path.h"
 
 namespace gridshell::study {
+
+/// Runs a preset: its path, whose simulation stands in the last certified state, its summary and
+/// that state's frame alone. Errors: bad_input where nothing is solved, simulate::follow()'s.
+Result<simulate::EquilibriumPath> follow_to_last(const preset::Preset& preset,
+                                                 const std::shared_ptr<const Scene>& scene,
+                                                 Watch& watch, record::Summary& summary,
+                                                 record::Trajectory& state);
 
 /// Frequencies and shapes, and the state that they are of.
 struct Vibrations {

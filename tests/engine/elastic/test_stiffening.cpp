@@ -47,8 +47,8 @@ TEST_CASE("a bar: a strut on both sides, a cable that is slack, comes on and pul
       rods.braces = {{0, 5, length / (1 + strain), 500, cable}};
       const Model model = with(dome, rods);
       const Energies energies = energies_of(model, dome.state);
-      const double bar = energies[Term::stretch] -
-                         energies_of(with(dome, dome.rods), dome.state)[Term::stretch];
+      const double bar =
+          energies[Term::stretch] - energies_of(with(dome, dome.rods), dome.state)[Term::stretch];
       if (cable && strain < 0) CHECK(bar == 0);
       if (strain > 1e-3) CHECK(bar == Approx(0.5 * 500 * length * strain * strain).epsilon(1e-2));
       if (std::abs(strain) > 1e-4) check_derivatives(model, dome.state, {}, 1e-6, 1e-5, 1e-6);
@@ -69,8 +69,8 @@ TEST_CASE("bolts are free of stress in the shape they were tightened in, on its 
   const Model loose = with(dome, dome.rods);
   for (const double stiffness : {25.0, rigid}) {
     ShellRods rods = dome.rods;
-    rods.bolts = std::make_shared<const Bolts>(
-        tightened(dome.mesh, loose, dome.state.x, stiffness));
+    rods.bolts =
+        std::make_shared<const Bolts>(tightened(dome.mesh, loose, dome.state.x, stiffness));
     const Model model = with(dome, rods);
     CHECK(energies_of(model, dome.state)[Term::shear] < 1e-20);
     const State off = shaken(model, dome.state, 0.02);

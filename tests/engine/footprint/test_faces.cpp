@@ -13,8 +13,7 @@ namespace {
 
 Eigen::Matrix3Xd flat_nodes(const Footprint& net) {
   const auto joints = Eigen::Index(net.joints.size());
-  Eigen::Matrix3Xd nodes =
-      Eigen::Matrix3Xd::Zero(3, joints + 2 * Eigen::Index(net.rods.size()));
+  Eigen::Matrix3Xd nodes = Eigen::Matrix3Xd::Zero(3, joints + 2 * Eigen::Index(net.rods.size()));
   for (Eigen::Index k = 0; k < joints; ++k)
     nodes.col(k).head<2>() << net.joints[std::size_t(k)].u, net.joints[std::size_t(k)].v;
   for (std::size_t r = 0; r < net.rods.size(); ++r) {

@@ -51,12 +51,59 @@ TEST_CASE("written steps read back to the bit, without the keys that they do not
   CHECK(to_toml(*again) == text);
 }
 
+TEST_CASE("load cases stand in [loads], are written there and read back") {
+  const std::string text = R"(
+[loads]
+snow_N_m2 = 750.0
+[[loads.case]]
+name = "half"
+snow = 1.5
+snow_side = "-x"
+[[step]]
+do = "load"
+case = "half"
+[[case]]
+name = "light"
+loads.snow_N_m2 = 100.0
+[[case.loads.case]]
+name = "half"
+snow = 1.0
+)";
+  const auto presets = read_preset_text(text, "good.toml", "good");
+  if (!presets) FAIL(presets.error().message);
+  const Preset& base = presets->base;
+  REQUIRE(base.load_case.size() == 1);
+  CHECK(base.load_case[0].name == "half");
+  CHECK(base.load_case[0].snow == 1.5);
+  CHECK(base.load_case[0].snow_side == SnowSide::minus_x);
+  CHECK(base.step[0].load_case == "half");
+  const Preset& light = presets->cases[0].preset;
+  CHECK(light.loads.snow_N_m2 == 100);
+  CHECK(light.load_case[0].snow == 1);
+  CHECK(light.load_case[0].snow_side == SnowSide::all);
+  const std::string written = to_toml(*presets);
+  const auto again = read_preset_text(written, "again.toml", "good");
+  if (!again) FAIL(again.error().message << written);
+  CHECK(to_toml(*again) == written);
+}
+
 TEST_CASE("what is wrong with a step is said with its place, its number and what would be right") {
   using Row = std::pair<std::string, std::string>;
   const auto [text, sentence] = GENERATE(values<Row>({
       {"[[step]]\ndo = \"shove\"",
        "bad.toml:2:6: [[step]] 1 do = \"shove\": unknown word, must be \"move\", \"push\", "
-       "\"hold\", \"release\", \"load\", \"rest\" or \"jitter\""},
+       "\"hold\", \"release\", \"load\", \"rest\", \"jitter\", \"tighten\" or \"brace\""},
+      {"[[step]]\ndo = \"brace\"",
+       "bad.toml:1:1: [[step]] 1 EA_N = 0.0: a brace needs a stiffness, must be above 0"},
+      {"[[step]]\ndo = \"load\"\ncase = \"snow\"",
+       "bad.toml:3:8: [[step]] 1 case = \"snow\": there is no such case, must be the name of a "
+       "[[loads.case]]"},
+      {"[[loads.case]]\nname = \"snow\"\nsnow = 1.0",
+       "bad.toml:3:8: [[loads.case]] 1 snow = 1.0: there is no snow: [loads] snow_N_m2 must be "
+       "above 0"},
+      {"[loads]\ngravity_m_s2 = 9.81",
+       "bad.toml:2:16: [loads] gravity_m_s2 = 9.81: gravity needs a mass, [rod] density_kg_m3 must "
+       "be above 0"},
       {"[[step]]\ndo = \"rest\"\n[[step]]\ndo = \"hold\"",
        "bad.toml:3:1: [[step]] 2 joint = []: must be [i, j]"},
       {"[[step]]\ndo = \"push\"\njoint = [0, 0]",

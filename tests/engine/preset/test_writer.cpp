@@ -163,10 +163,19 @@ std::vector<Preset> stepped() {
   add(StepKind::rest).side = BranchSide::against;
   add(StepKind::jitter).seed = 7;
   steps.back().force_N = 0.11;
+  add(StepKind::tighten).stiffness_Nmm = 1e5 / 3;
+  Step& braced = add(StepKind::brace);
+  braced.cells = {{-1, 2}};
+  braced.diagonals = Diagonals::second;
+  braced.brace = BraceKind::strut;
+  braced.EA_N = 1e3 / 7;
+  add(StepKind::release).what = Released::braces;
+  add(StepKind::load).load_case = "snow";
   std::vector<Preset> all;
   for (Step& step : steps) {
     if (step.kind > StepKind::release) step.joint.clear();
     all.emplace_back().step = {step};
+    if (!step.load_case.empty()) all.back().load_case.emplace_back().name = step.load_case;
   }
   return all;
 }

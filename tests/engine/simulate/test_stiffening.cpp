@@ -18,28 +18,29 @@ namespace {
 
 preset::Preset loaded_shell() {
   preset::Preset p = small_shell();
+  p.rod.diameter_mm = 2.5;  // what rests on it is far above round-off
+  p.limits.max_strain = 0.05;
   p.rod.density_kg_m3 = 6450;
   p.loads.gravity_m_s2 = 9.81;
-  p.loads.snow_N_m2 = 0.5;
-  p.loads.wind_N_m2 = 0.3;
-  p.load_case = {{.name = "snow", .snow = 1},
-                 {.name = "half", .snow = 1, .snow_side = preset::SnowSide::x},
-                 {.name = "wind", .dead = 0.5, .wind = 1, .points = {{0, 0, 1e-4, 0, 0}}}};
+  p.loads.snow_N_m2 = 4000;
+  p.loads.wind_N_m2 = 2400;
+  p.load_case = {{.name = "snow", .snow = 1, .points = {}},
+                 {.name = "half", .snow = 1, .snow_side = preset::SnowSide::x, .points = {}},
+                 {.name = "wind", .dead = 0.5, .wind = 1, .points = {{0, 0, 0.8, 0, 0}}}};
   return p;
 }
 
 preset::Step step(StepKind kind) {
   preset::Step one;
   one.kind = kind;
-  one.EA_N = 50;
+  one.EA_N = 5000;
   return one;
 }
 
 /// The shell of a preset at the end of its actuation.
 Simulation formed(const preset::Preset& preset) {
   const auto scene = shared_scene(preset);
-  Simulation simulation =
-      value_of(Simulation::open(scene, plan_levels(scene->tolerance)));
+  Simulation simulation = value_of(Simulation::open(scene, plan_levels(scene->tolerance)));
   REQUIRE(value_of(simulation.begin_buckled(0.02, unwatched)).end == Outcome::reached);
   REQUIRE(simulation.move_to(1, unwatched).end == Outcome::reached);
   return simulation;
@@ -82,15 +83,16 @@ TEST_CASE("load cases: what comes on is what the supports bear, to 1e-9 of it") 
   const Eigen::Matrix3Xd shape = simulation.nodes();
   double plan = 0, half = 0;
   for (const Face& face : faces_of(simulation.scene().footprint)) {
-    const double area = area_of(face, shape).z();
-    CHECK(area > 0);
+    const double area = std::max(area_of(face, shape).z(), 0.0);  // none lies on overhangs
     plan += area;
-    double middle = 0;
-    for (const int corner : face.corners) middle += shape(0, corner);
-    if (middle >= 0) half += area;
+    const double middle =
+        shape.row(0).head(Eigen::Index(simulation.scene().footprint.joints.size())).mean();
+    for (const int corner : face.corners)
+      if (shape(0, corner) > middle) half += area / double(face.corners.size());
   }
   const Eigen::Vector3d before = reactions(simulation);
-  const double weight = -sum_of(simulation.shell().model(simulation.shell().levels() - 1).loads).z();
+  const double weight =
+      -sum_of(simulation.shell().model(simulation.shell().levels() - 1).loads).z();
   CHECK(before.z() == Approx(weight).epsilon(1e-7));
   for (const char* name : {"snow", "half", "wind"}) {
     CAPTURE(name);
@@ -100,9 +102,9 @@ TEST_CASE("load cases: what comes on is what the supports bear, to 1e-9 of it") 
     done(simulation, load);
     const std::string of = name;
     const Eigen::Vector3d field = sum_of(simulation.field());
-    if (of == "snow") CHECK(field.z() == Approx(-0.8 * 0.5e-6 * plan).epsilon(1e-10));
-    if (of == "half") CHECK(field.z() == Approx(-0.8 * 0.5e-6 * half).epsilon(1e-3));
-    if (of == "wind") CHECK(field.x() > 0.8e-4);
+    if (of == "snow") CHECK(field.z() == Approx(-0.8 * 4e-3 * plan).epsilon(1e-10));
+    if (of == "half") CHECK(field.z() == Approx(-0.8 * 4e-3 * half).epsilon(1e-3));
+    if (of == "wind") CHECK(field.x() > 0.8 * 0.8);
     const double dead = of == "wind" ? 1.4 : 1;
     Eigen::Vector3d all = field;
     all.z() -= dead * weight;
@@ -163,6 +165,5 @@ TEST_CASE("what is made stiff too early, or is not there, is named") {
         "[[step]] 1 cells: the footprint has no cell [40, 2]");
   p.step = {step(StepKind::release)};
   p.step[0].what = preset::Released::braces;
-  CHECK(refusal(plan(p), Fault::bad_input) ==
-        "[[step]] 1 what: there are no braces to take out");
+  CHECK(refusal(plan(p), Fault::bad_input) == "[[step]] 1 what: there are no braces to take out");
 }

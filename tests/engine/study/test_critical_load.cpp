@@ -63,10 +63,29 @@ CriticalLoad column(int edges) {
   return loaded(model, start_state(model, single.line()));
 }
 
+/// A rod that buckled to a half wave of amplitude a between its hinges, under a half wave of load
+/// that is 1 where its thrust comes to four times Euler's load and the full wave goes soft: what is
+/// inextensible keeps its amplitude until then, so that q = 3 EI k^4 a.
+CriticalLoad buckled_arch(int edges) {
+  constexpr double thin = 4e3, a = 5;
+  const SingleRod single(edges, L, {1e7, thin, thin, thin, {0, 0}, 0}, RodEnd::pinned,
+                         RodEnd::pinned);
+  Model model = single.model();
+  for (int node = 0; node <= edges; ++node) model.hold(node, 1);
+  finish(model);
+  State state = start_state(model, single.line(1 - a * a * k * k / 4, a));
+  Linearisation system(model);
+  settle(system, state, 1e-8);
+  const double q = 3 * thin * std::pow(k, 4) * state.x(2, edges / 2);
+  for (int node = 1; node < edges; ++node)
+    model.loads.push_back({node, {0, 0, -q * L / edges * std::sin(M_PI * node / edges)}});
+  return loaded(std::move(model), state);
+}
+
 preset::Preset snowed_on() {
   preset::Preset p = small_shell();
   p.loads.snow_N_m2 = 1;
-  p.load_case = {{.name = "snow", .snow = 1}};
+  p.load_case = {{.name = "snow", .snow = 1, .points = {}}};
   return p;
 }
 
@@ -86,8 +105,19 @@ TEST_CASE("a shallow sinusoidal arch turns back at its limit point") {
   REQUIRE(fine.mode.size() > 0);
   CHECK(std::abs(fine.mode(2, 32)) == Approx(1));
   // and on beyond the limit point, not stable
-  CHECK(fine.points.back().negative_pivots == 1);
-  CHECK(fine.points.back().at.t < fine.factor);
+  CHECK(std::ranges::any_of(fine.points, [&](const TracedPoint& point) {
+    return point.negative_pivots == 1 && point.at.t < 0.999 * fine.factor;
+  }));
+}
+
+TEST_CASE("a buckled arch goes to one side at four times Euler's load") {
+  const CriticalLoad coarse = buckled_arch(32), fine = buckled_arch(64);
+  CHECK(fine.event == BranchEvent::bifurcation);
+  CHECK((4 * fine.factor - coarse.factor) / 3 == Approx(1).epsilon(1e-3));
+  // its middle stays
+  REQUIRE(fine.mode.size() > 0);
+  CHECK(std::abs(fine.mode(2, 32)) < 1e-3);
+  CHECK(std::abs(fine.mode(2, 16)) == Approx(1).epsilon(1e-2));
 }
 
 TEST_CASE("Euler's column branches at its load, which the linearised problem knows too") {
@@ -101,21 +131,20 @@ TEST_CASE("Euler's column branches at its load, which the linearised problem kno
 
 TEST_CASE("what a shell carries lies within its error of finer meshes' answer", "[standard]") {
   preset::Preset p = snowed_on();
-  p.accuracy.tolerance = 1e-5;
-  const LoadStudy fine = studied(p);
   p.accuracy.tolerance = 1e-3;
+  const LoadStudy fine = studied(p);
+  p.accuracy.tolerance = 1e-2;
   const LoadStudy found = studied(p, 5);
   REQUIRE(found.cases.size() == 1);
   const record::LoadRow &row = found.cases[0], &exact = fine.cases[0];
-  CAPTURE(row.critical_factor, row.error, exact.critical_factor, word_of(row.event));
-  CHECK(row.event == exact.event);
-  CHECK(row.critical_factor > 0);
-  CHECK(std::abs(row.critical_factor - exact.critical_factor) <
-        2 * row.error + 1e-3 * exact.critical_factor);
+  CAPTURE(row.critical_factor, row.error, exact.critical_factor, exact.error, row.knock_down_50);
+  CHECK(row.event == BranchEvent::bifurcation);
+  CHECK(exact.event == BranchEvent::bifurcation);
+  CHECK(std::abs(row.critical_factor - exact.critical_factor) < 2 * row.error);
   CHECK(row.error < 0.1 * row.critical_factor);
-  CHECK(row.imperfections == 5);
-  CHECK(row.knock_down_5 <= row.knock_down_50);
-  CHECK(row.knock_down_50 < 1.1);
+  CHECK(exact.error < row.error);
+  // of shells that are not perfect some come to a limit point below
+  CHECK(row.imperfections <= 5);
   CHECK(found.modes[0].colwise().norm().maxCoeff() == Approx(1));
   CHECK(found.points.front().factor == 0);
   CHECK(found.points.front().way_mm == 0);
