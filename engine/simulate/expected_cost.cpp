@@ -24,8 +24,7 @@ UnitCost unit_cost(const Scene& scene, int edges) {
   // too large to try: as 96 and 192 rods take (engine/README.md)
   constexpr double large = 1e5, of_large = 4e-9, power = 1.45, an_unknown = 4e-8;
   const double unknowns = unknowns_of(scene.footprint, scene.rung, edges);
-  if (unknowns > large)
-    return {an_unknown * unknowns, of_large * std::pow(unknowns, power)};
+  if (unknowns > large) return {an_unknown * unknowns, of_large * std::pow(unknowns, power)};
   MeshLevel level;
   if (!level.build(scene.footprint, scene.rods, scene.solved_model(), scene.motion, edges))
     return {};
@@ -45,15 +44,15 @@ UnitCost unit_cost(const Scene& scene, int edges) {
 }
 
 /// Factorisations a mesh for a path on it, as the shipped presets take: beside a net, out of the
-/// flat on branches that symmetry chooses, and on those that the imperfection does, of which long
-/// and saddle-like footprints have several.
+/// flat on branches that symmetry chooses, and on those that the imperfection does, of which curves
+/// and nets have several.
 double factorisations_of(const Scene& scene, const preset::Footprint& footprint) {
-  constexpr double from_net = 50, from_flat = 75, chosen = 200, several = 600;
+  constexpr double from_net = 50, from_flat = 75, chosen = 200, curves = 600, nets = 900;
   if (scene.from_net) return from_net;
   if (!scene.imperfection.chooses()) return from_flat;
-  const bool even = footprint.kind == preset::FootprintKind::circle ||
-                    footprint.kind == preset::FootprintKind::network;
-  return even ? chosen : several;
+  using Kind = preset::FootprintKind;
+  if (footprint.kind == Kind::net) return nets;
+  return footprint.kind == Kind::curve ? curves : chosen;
 }
 
 }  // namespace
@@ -73,7 +72,7 @@ double expected_seconds(const Scene& scene, const preset::Preset& preset) {
     return a_trial * dof_of(scene, 4) * (jitter.trials + jitter.confined);
   // of a frame: corrections on the leading mesh; what is told of the finest takes as long as some
   // assemblies there
-  constexpr double corrections = 3.3, tellings = 5.4, start_s = 0.03;
+  constexpr double corrections = 3.3, tellings = 5.4, start_s = 0.02;
   const std::vector<int> edges = initial_levels(scene).edges_per_segment;
   const UnitCost unit = unit_cost(scene, edges.front());
   const double all = std::accumulate(edges.begin(), edges.end(), 0.0) / edges.front(),
@@ -83,7 +82,8 @@ double expected_seconds(const Scene& scene, const preset::Preset& preset) {
   // what is chosen is confirmed by meshes of twice the edges
   const double ways = (scene.from_net ? 1 : 3) + 3 * double(preset.step.size());
   return start_s + frame * preset.movie.frames +
-         ways * factorisations_of(scene, preset.footprint) * all * (unit.assembly + unit.factorisation);
+         ways * factorisations_of(scene, preset.footprint) * all *
+             (unit.assembly + unit.factorisation);
 }
 
 double expected_GB(double meshes_GB, const preset::Preset& preset) {

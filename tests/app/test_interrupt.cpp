@@ -105,8 +105,8 @@ TEST_CASE("a run that is ended goes on from there, to the same state", "[standar
     CHECK(kept());
   }
   REQUIRE_FALSE(fs::exists(folder.path() / "ended"));
-  const auto other = gridshell_program(command("ended", "--resume --set limits.max_strain=0.002"),
-                                       folder.path());
+  const auto other =
+      gridshell_program(command("ended", "--resume --set limits.max_strain=0.002"), folder.path());
   CHECK(other.code == 2);
   CHECK_THAT(other.err, Contains("of another preset, or of this one with other keys"));
   const auto resumed = gridshell_program(command("ended", "--resume"), folder.path());
