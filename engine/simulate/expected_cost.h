@@ -11,7 +11,8 @@ namespace gridshell::simulate {
 int dof_of(const Scene& scene, int edges_per_segment);
 
 /// Seconds of one core. Shells on which nothing happens take 0.7 to 1.5 times that, those with
-/// snaps, whose meshes are only chosen on the way, up to some ten times it.
+/// Seconds of one core on the meshes that the run begins with; shells with snaps, whose meshes are
+/// only chosen on the way, take up to some four times that, snaps followed in time more.
 double expected_seconds(const Scene& scene, const preset::Preset& preset);
 
 /// Gigabytes of the whole program, its meshes taking `meshes_GB`.
