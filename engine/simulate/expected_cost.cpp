@@ -1,4 +1,5 @@
-#include "engine/simulate/expected_cost.h"
+// What a run takes, said before it runs: from the meshes that its tolerance begins with and the
+// time that one factorisation takes on this machine.
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +7,6 @@
 
 #include "engine/core/algorithms.h"
 #include "engine/core/system_info.h"
-#include "engine/simulate/equilibrium_path.h"
 #include "engine/simulate/mesh_choice.h"
 #include "engine/solve/buckling.h"
 
