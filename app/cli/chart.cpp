@@ -120,14 +120,13 @@ Result<ChartReport> draw_sizes(const preset::Preset& preset, const ChartOptions&
   TRY(rows, study::sizes_study(preset, *sizes, how, watch));
   TRY_DO(write_file(folder / "accuracy.csv", record::csv_table(*rows)));
   const std::string title = render::plain(preset.title) + ": error over time, by rods a direction";
-  TRY_DO(
-      render::write_plot(folder / "accuracy", render::accuracy_plot(*rows, title, true), {wide_mm},
-                         high));
+  TRY_DO(render::write_plot(folder / "accuracy", render::accuracy_plot(*rows, title, true),
+                            {wide_mm}, high));
   ChartReport findings;
   for (const auto& row : *rows)
-    findings.text += fmt::format("{}: {} edges a segment, error {:.1e} in {:.3f} s ({})\n",
-                                 row.method, row.edges_per_segment, row.error, row.cpu_s,
-                                 word_of(row.outcome));
+    findings.text +=
+        fmt::format("{}: {} edges a segment, error {:.1e} in {:.3f} s ({})\n", row.method,
+                    row.edges_per_segment, row.error, row.cpu_s, word_of(row.outcome));
   return findings;
 }
 

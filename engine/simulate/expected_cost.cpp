@@ -1,4 +1,5 @@
-#include "engine/simulate/expected_cost.h"
+// What a run takes, said before it runs: from the meshes that its tolerance begins with and the
+// time that one factorisation takes on this machine.
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +7,6 @@
 
 #include "engine/core/algorithms.h"
 #include "engine/core/system_info.h"
-#include "engine/simulate/equilibrium_path.h"
 #include "engine/simulate/mesh_choice.h"
 #include "engine/solve/buckling.h"
 
@@ -24,8 +24,7 @@ UnitCost unit_cost(const Scene& scene, int edges) {
   // too large to try: as 96 and 192 rods take (engine/README.md)
   constexpr double large = 1e5, of_large = 4e-9, power = 1.45, an_unknown = 4e-8;
   const double unknowns = unknowns_of(scene.footprint, scene.rung, edges);
-  if (unknowns > large)
-    return {an_unknown * unknowns, of_large * std::pow(unknowns, power)};
+  if (unknowns > large) return {an_unknown * unknowns, of_large * std::pow(unknowns, power)};
   MeshLevel level;
   if (!level.build(scene.footprint, scene.rods, scene.solved_model(), scene.motion, edges))
     return {};
@@ -44,12 +43,16 @@ UnitCost unit_cost(const Scene& scene, int edges) {
   return {std::max(0.0, std::ranges::min(both) - factor), factor};
 }
 
-/// Factorisations a mesh for a path on it: measured, of a path without events, one that buckles out
-/// of the flat on branches that its symmetry chooses, and on those that the imperfection does.
-double factorisations_of(const Scene& scene) {
-  constexpr double from_net = 40, from_flat = 60, chosen = 200;
+/// Factorisations a mesh for a path on it, as the shipped presets take: beside a net, out of the
+/// flat on branches that symmetry chooses, and on those that the imperfection does, of which curves
+/// and nets have several.
+double factorisations_of(const Scene& scene, const preset::Footprint& footprint) {
+  constexpr double from_net = 50, from_flat = 75, chosen = 200, curves = 600, nets = 900;
   if (scene.from_net) return from_net;
-  return scene.imperfection.chooses() ? chosen : from_flat;
+  if (!scene.imperfection.chooses()) return from_flat;
+  using Kind = preset::FootprintKind;
+  if (footprint.kind == Kind::net) return nets;
+  return footprint.kind == Kind::curve ? curves : chosen;
 }
 
 }  // namespace
@@ -64,12 +67,12 @@ int dof_of(const Scene& scene, int edges_per_segment) {
 double expected_seconds(const Scene& scene, const preset::Preset& preset) {
   if (scene.rung == RodModel::net) return 0.01;
   // a trial ends on a mesh of 4 edges a segment; measured on 8 to 20 rods
-  constexpr double a_trial = 2e-5;
+  constexpr double a_trial = 2.3e-5;
   if (const preset::SearchSettings& jitter = preset.jitter; jitter.wanted())
     return a_trial * dof_of(scene, 4) * (jitter.trials + jitter.confined);
   // of a frame: corrections on the leading mesh; what is told of the finest takes as long as some
   // assemblies there
-  constexpr double corrections = 2.6, tellings = 4.2;
+  constexpr double corrections = 3.3, tellings = 5.4, start_s = 0.02;
   const std::vector<int> edges = initial_levels(scene).edges_per_segment;
   const UnitCost unit = unit_cost(scene, edges.front());
   const double all = std::accumulate(edges.begin(), edges.end(), 0.0) / edges.front(),
@@ -77,14 +80,15 @@ double expected_seconds(const Scene& scene, const preset::Preset& preset) {
   const double frame =
       tellings * finest * unit.assembly + corrections * (unit.assembly + unit.factorisation);
   // what is chosen is confirmed by meshes of twice the edges
-  const double ways = (scene.from_net ? 1 : 3) + double(preset.step.size());
-  return frame * preset.movie.frames +
-         ways * factorisations_of(scene) * all * (unit.assembly + unit.factorisation);
+  const double ways = (scene.from_net ? 1 : 3) + 3 * double(preset.step.size());
+  return start_s + frame * preset.movie.frames +
+         ways * factorisations_of(scene, preset.footprint) * all *
+             (unit.assembly + unit.factorisation);
 }
 
 double expected_GB(double meshes_GB, const preset::Preset& preset) {
   constexpr double program = 0.03, a_frame = 1.7e-4;
-  return program + meshes_GB + a_frame * preset.movie.frames;
+  return program + meshes_GB + (preset.jitter.wanted() ? 0 : a_frame * preset.movie.frames);
 }
 
 }  // namespace gridshell::simulate

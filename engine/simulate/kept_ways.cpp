@@ -51,10 +51,8 @@ concept Number = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 void put(auto& in, Number auto& value) { in.number(value); }
 void put(auto& in, Is<std::string> auto& value) { in.text(value); }
 template <class M>
-  requires requires(M& m) { m.derived(); }
-void put(auto& in, M& values) {
-  in.matrix(values);
-}
+requires requires(M& m) { m.derived(); }
+void put(auto& in, M& values) { in.matrix(values); }
 
 template <class In, class... T>
 void all(In& in, T&... values);
@@ -129,10 +127,7 @@ void all(In& in, T&... values) {
 }  // namespace
 
 KeptWays::KeptWays(std::filesystem::path folder, double worth_s)
-    : folder_(std::move(folder)),
-      worth_s_(worth_s),
-      wait_s_(worth_s),
-      written_at_(seconds_now()) {}
+    : folder_(std::move(folder)), worth_s_(worth_s), wait_s_(worth_s), written_at_(seconds_now()) {}
 
 std::filesystem::path KeptWays::file() const { return folder_ / fmt::format("way_{:04}", ways_); }
 

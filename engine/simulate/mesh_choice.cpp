@@ -317,7 +317,8 @@ std::optional<Event::Place> place_on(int level, EquilibriumPath& path, const Pat
   if (event.placed.edges == edges) return event.placed;
   PathOptions options;
   options.spacing_mm = simulation.scene().footprint.spacing;
-  options.smallest_step = found_to;
+  // the last step that was too long may be nearly twice the smallest
+  options.smallest_step = found_to / 2;
   const auto& steps = segment.load_steps;
   // of the branch that ends there: where the next rest stands may lie before the place told
   const auto end = std::ranges::find_if(

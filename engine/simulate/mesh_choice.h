@@ -1,4 +1,4 @@
-// What the meshes of a run take of the machine's memory, worked out before any is built.
+// What the meshes of a run take of the machine's memory and time, worked out before any is built.
 #pragma once
 
 #include "engine/core/result.h"
@@ -21,10 +21,20 @@ Result<void> fits_memory(const Scene& scene, const LevelPlan& plan);
 
 }  // namespace gridshell
 
+namespace gridshell::simulate {
+
+/// Unknowns of the mesh of so many edges a segment; 0 where nothing is solved.
+int dof_of(const Scene& scene, int edges_per_segment);
+
+/// Seconds of one core on the meshes that the run begins with; shells with snaps, whose meshes are
+/// only chosen on the way, take up to some four times that, snaps followed in time more.
+double expected_seconds(const Scene& scene, const preset::Preset& preset);
+
+/// Gigabytes of the whole program, its meshes taking `meshes_GB`.
+double expected_GB(double meshes_GB, const preset::Preset& preset);
+
 // What happens on a path belongs to the shell, not to the mesh that led: it is looked for on a
 // finer leader too.
-
-namespace gridshell::simulate {
 
 /// Whether two paths on different meshes tell the same: the same segments with the same events,
 /// which lie near each other, to the same end. Otherwise a sentence says what they differ in.

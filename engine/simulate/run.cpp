@@ -14,7 +14,6 @@
 #include "engine/record/trajectory.h"
 #include "engine/scene/scene.h"
 #include "engine/simulate/actuation.h"
-#include "engine/simulate/expected_cost.h"
 #include "engine/simulate/first_state.h"
 #include "engine/simulate/frames.h"
 #include "engine/simulate/indentation.h"
@@ -226,7 +225,9 @@ std::vector<std::string> left_out_of(const Scene& scene) {
 }  // namespace
 
 Result<Plan> plan(const preset::Preset& preset) {
+  const double begun = cpu_seconds_now();
   TRY(scene, scene_of(preset));
+  const double seconds_scene = cpu_seconds_now() - begun;
   const LevelPlan levels = initial_levels(*scene);
   TRY_DO(fits_memory(*scene, levels));
   // what the run would only find out later
@@ -247,7 +248,7 @@ Result<Plan> plan(const preset::Preset& preset) {
   plan.dof = dof_of(*scene, plan.edges_per_segment);
   plan.expected_error_mm =
       (scene->rung == RodModel::net ? net_error : expected_error(levels)) * scene->length_scale_mm;
-  plan.expected_seconds = expected_seconds(*scene, preset);
+  plan.expected_seconds = seconds_scene + expected_seconds(*scene, preset);
   plan.left_out = left_out_of(*scene);
   plan.footprint = fmt::format("{} rods, {} joints, {} cells", plan.rods, plan.joints, plan.cells);
   // a ring has no legs

@@ -32,7 +32,7 @@ struct Plan {
   int rods = 0, joints = 0, cells = 0, dof = 0;
   double expected_error_mm = record::unknown;
   double expected_seconds = record::unknown;
-  double memory_GB = record::unknown;  ///< that its meshes take, at most
+  double memory_GB = record::unknown;  ///< of the whole program
   std::vector<std::string> seams;      ///< of building blocks, a sentence each
   std::vector<std::string> left_out;   ///< by the model, that is seen here: a sentence each
   std::string footprint;               ///< "12 + 12 rods, longest leg 0.80 d, corner leg -0.15 d"

@@ -39,9 +39,8 @@ void StabilityStepControl::take(NestedShell& shell, const Watch& watch) {
   constexpr double roughly = 0.02;  // the trend is enough
   const Eigen::VectorXd alike = Eigen::VectorXd::Ones(shell.model(0).nodes);
   if (known_.size() > 1) known_.erase(known_.begin());
-  known_.push_back(
-      {shell.state().t,
-       lowest_eigenvalue(shell.system(0), shell.state().levels[0], alike, watch, roughly)});
+  known_.push_back({shell.state().t, lowest_eigenvalue(shell.system(0), shell.state().levels[0],
+                                                       alike, watch, roughly)});
 }
 
 double StabilityStepControl::shortened(double step) const {
@@ -265,8 +264,8 @@ Outcome Simulation::Walk::branch_ended(Outcome how, double next, const NestedSta
   const double t = shell_.followed().t;
   const std::vector<int>& edges = shell_.plan().edges_per_segment;
   events_.push_back({.kind = kind, .t = t, .error = {}, .to = {}});
-  events_.back().placed = on_finest ? Event::Place{edges.back(), t, located_to()}
-                                    : Event::Place{edges.front(), t};
+  events_.back().placed =
+      on_finest ? Event::Place{edges.back(), t, located_to()} : Event::Place{edges.front(), t};
   if (kind == Event::Kind::stability_lost && !scene_.imperfection.chooses()) {
     shell_.back_to(end_of_branch);
     shell_.allow_unstable(true);

@@ -16,8 +16,8 @@ inline constexpr const char* auto_prefix = "auto ";
 /// Largest joint error over the length scale against processor time, log-log, one curve a method
 /// with bars from its fastest to its slowest run, the Pareto front beneath, what `auto` picks
 /// marked. A method that was stopped stands hollow at the time limit, at the error of the `bend`
-/// row of its mesh; what failed is in failures_of(). Rows `of_sizes` are those of one method at several
-/// sizes, without a front.
+/// row of its mesh; what failed is in failures_of(). Rows `of_sizes` are those of one method at
+/// several sizes, without a front.
 Plot accuracy_plot(const std::vector<record::AccuracyRow>& rows, const std::string& title,
                    bool of_sizes = false);
 

@@ -299,6 +299,19 @@ TEST_CASE("usage errors exit with 2, help with 0") {
   CHECK(folder.entries().empty());
 }
 
+TEST_CASE("chart accuracy of sizes draws a curve a number of rods") {
+  const Bench bench(small);
+  const auto said = bench.good("chart accuracy small.toml --sizes 5,6 --edges 16 -o sizes");
+  CHECK_THAT(said.out, Contains("5 rods: ") && Contains("6 rods: "));
+  const auto table = text_of(bench.at / "sizes/accuracy.csv");
+  CHECK(std::ranges::count(table, '\n') == 7);
+  CHECK_THAT(table, Contains("\n5 rods,") && Contains("\n6 rods,"));
+  CHECK(fs::exists(bench.at / "sizes/accuracy.png"));
+  CHECK_THAT(bench.run("chart accuracy small.toml --sizes 5,many").err,
+             Contains("'many' is no number of rods"));
+  CHECK(bench.run("chart accuracy net_barrel --sizes 8").code == 2);
+}
+
 TEST_CASE("chart accuracy writes tables and pictures and says how auto stands", "[standard]") {
   const Bench bench(small);
   const auto said = bench.good("chart accuracy small.toml --limit 0.05 --edges 4");

@@ -116,6 +116,17 @@ TEST_CASE("the time left follows how fast the work turns out") {
   CHECK(std::isnan(app::standing(phases, 1, 0.5, 0.1).seconds_left));
 }
 
+TEST_CASE("the time left on a path follows its leader's pace, and is not known at first") {
+  app::PathPace pace;
+  CHECK(std::isnan(pace.seconds_left({0.1, 4}, 10)));
+  CHECK(std::isnan(pace.seconds_left({0.11, 4}, 20)));
+  CHECK(pace.seconds_left({0.6, 4}, 20) == Approx(8));
+  // on a finer leader, and on another way of it
+  CHECK(std::isnan(pace.seconds_left({0.2, 8}, 30)));
+  CHECK(pace.seconds_left({0.4, 8}, 40) == Approx(30));
+  CHECK(std::isnan(pace.seconds_left({0.1, 8}, 50)));
+}
+
 TEST_CASE("the bar shows share, work and time left") {
   CHECK(app::bar_text({0.5, 125}, "drawing", 10) == "[=====>    ]  50 %  drawing, 2:05 left");
   CHECK(app::bar_text({0, NAN}, "simulating", 4) == "[>   ]   0 %  simulating");

@@ -267,7 +267,9 @@ int main(int argc, char** argv) {
   Figures figures(argc, argv);
   paper_shell(7, figures);
   drag(figures);
-  const auto asked = [&](const char* word) { return std::ranges::count(figures.words(), word) > 0; };
+  const auto asked = [&](const char* word) {
+    return std::ranges::count(figures.words(), word) > 0;
+  };
   if (asked("sizes")) sizes(figures, asked("96"));
   if (asked("growth")) growth(figures);
   if (asked("rests")) rests(figures);

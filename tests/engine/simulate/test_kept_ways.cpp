@@ -72,7 +72,8 @@ void check_same(const Run& a, const Run& b, double within_mm) {
 
 }  // namespace
 
-TEST_CASE("a run that is stopped on its path goes on from there, to the same states", "[standard]") {
+TEST_CASE("a run that is stopped on its path goes on from there, to the same states",
+          "[standard]") {
   const TemporaryFolder folder;
   const Run whole = run_with({});
   const Run stopped = run_with(folder.path(), 0.3);
