@@ -39,7 +39,7 @@
 #include "engine/simulate/fabrication_plan.h"  // IWYU pragma: export
 #include "engine/simulate/frames.h"            // IWYU pragma: export
 #include "engine/simulate/indentation.h"       // IWYU pragma: export
-#include "engine/simulate/kept_ways.h"         // IWYU pragma: export
+#include "engine/simulate/kept_segments.h"     // IWYU pragma: export
 #include "engine/simulate/run.h"               // IWYU pragma: export
 #include "engine/simulate/simulation.h"        // IWYU pragma: export
 #include "engine/simulate/steps.h"             // IWYU pragma: export

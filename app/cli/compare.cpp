@@ -87,8 +87,7 @@ Result<void> update_baselines(const fs::path& before, const std::vector<render::
   for (const auto& [name, count] : changed)
     names.push_back(count == 1 ? name : fmt::format("{} {}", name, count));
   const std::time_t now = std::time(nullptr);
-  text += fmt::format("- {:%Y-%m-%d}: {} ({})\n", fmt::gmtime(now), why,
-                      fmt::join(names, ", "));
+  text += fmt::format("- {:%Y-%m-%d}: {} ({})\n", fmt::gmtime(now), why, fmt::join(names, ", "));
   return write_file(before / "WHY.md", text);
 }
 

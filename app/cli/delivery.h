@@ -105,7 +105,7 @@ Result<void> deliver(const std::filesystem::path& final_folder, const std::vecto
                      bool quiet, const Work& work, const std::filesystem::path& left = {});
 
 /// In a partial folder: what of a run's path was followed, and the version that did.
-inline constexpr const char *ways_name = "ways", *version_name = "version";
+inline constexpr const char *segments_name = "segments", *version_name = "version";
 
 /// Cleans a folder that will not be finished: half-written files go, whole pictures and runs stay;
 /// without any the folder goes too. A sentence that says what is left.

@@ -84,12 +84,12 @@ std::string help_for(const preset::Preset& preset, record::Limit limit, double l
 }
 
 // one run, a path's or a search for states
-Result<record::Summary> computed(Run& run, int threads, const fs::path& ways, record::Sink& sink,
-                                 Watch& watch) {
+Result<record::Summary> computed(Run& run, int threads, const fs::path& segments,
+                                 record::Sink& sink, Watch& watch) {
   if (!run.preset.jitter.wanted()) {
     TRY(scene, scene_of(run.preset));
     scene->team = std::make_shared<Team>(threads);
-    if (!ways.empty()) scene->kept = std::make_shared<simulate::KeptWays>(ways);
+    if (!segments.empty()) scene->kept = std::make_shared<simulate::KeptSegments>(segments);
     return simulate::run(run.preset, std::make_shared<const Scene>(std::move(*scene)),
                          run.pictures == Pictures::stills, sink, watch);
   }
@@ -99,14 +99,14 @@ Result<record::Summary> computed(Run& run, int threads, const fs::path& ways, re
 }
 
 // every frame is on the disk as soon as it is found, and all runs before a picture of one is drawn
-Result<void> simulate(Run& run, int threads, const fs::path& folder, const fs::path& ways,
+Result<void> simulate(Run& run, int threads, const fs::path& folder, const fs::path& segments,
                       Watch& watch) {
   TRY_DO(make_folder(folder));
   record::remove_journals(folder);
   TRY_DO(write_file(folder / "preset.toml", preset::to_toml(run.preset)));
   const record::Kind kind = kind_of(run.pictures);
   record::FolderSink sink(folder, {run.preset.name, kind, run.preset.title});
-  auto summary = computed(run, threads, ways, sink, watch);
+  auto summary = computed(run, threads, segments, sink, watch);
   if (!summary && summary.error().fault == Fault::no_equilibrium)
     summary.error().message += "\n" + help_for(run.preset, record::Limit::no_equilibrium, NAN);
   if (!summary) return tl::unexpected(summary.error());
@@ -141,16 +141,16 @@ Result<void> write_runs(std::vector<Run>& runs, const preset::Presets& presets,
     TRY(made, PictureMaker::create(options.context, base.style.font));
     maker.emplace(std::move(*made));
   }
-  const fs::path ways = maker ? fs::path() : partial / ways_name;
+  const fs::path segments = maker ? fs::path() : partial / segments_name;
   if (!maker) {
-    TRY_DO(make_folder(ways));
-    TRY_DO(write_file(ways / version_name, version()));
+    TRY_DO(make_folder(segments));
+    TRY_DO(write_file(segments / version_name, version()));
   }
   for (Run& run : runs)
     TRY_DO(simulate(run, thread_count(options.threads), folder_of(partial, run.name),
-                    maker ? ways : folder_of(ways, run.name), progress.next_phase()));
+                    maker ? segments : folder_of(segments, run.name), progress.next_phase()));
   std::error_code ignored;
-  if (!maker) fs::remove_all(ways, ignored);
+  if (!maker) fs::remove_all(segments, ignored);
   if (maker) {
     TRY_DO(draw_all(runs, base.title, fs::path(base.name).filename(), maker->renderer(), partial,
                     progress));
@@ -253,7 +253,7 @@ Result<fs::path> unfinished_run(const fs::path& folder, const std::string& prese
   if (fs::exists(folder / "summary.json"))
     why = fmt::format("'{}' is a finished run", folder.string());
   for (const fs::path& left : left_behind(folder)) {
-    const auto made_by = read_file(left / ways_name / version_name, largest_text);
+    const auto made_by = read_file(left / segments_name / version_name, largest_text);
     if (!made_by) continue;
     const auto text = read_file(left / "preset.toml", largest_text);
     if (!text || *text != presets)

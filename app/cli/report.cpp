@@ -113,9 +113,10 @@ void add_reactions(Sheets& sheets, const record::Layout& layout, const record::F
     const Eigen::Vector3d at = frame.nodes.col(layout.supports[std::size_t(k)]);
     add(fmt::format("{:.1f}, {:.1f}, {:.1f}", at.x(), at.y(), at.z()), frame.reactions_N.col(k));
   }
-  sheets.text(fmt::format("Forces of the supports on the shell, at their places in mm; each is known "
-                          "to {}.",
-                          with_unit(frame.force_error_N, "N")));
+  sheets.text(
+      fmt::format("Forces of the supports on the shell, at their places in mm; each is known "
+                  "to {}.",
+                  with_unit(frame.force_error_N, "N")));
   sheets.table({{"place", 130, AlignX::left},
                 {"*x* (N)", 60},
                 {"*y* (N)", 60},
@@ -149,9 +150,10 @@ Result<void> add_loads(Sheets& sheets, const preset::Preset& preset, const Repor
                            : std::string())},
          lost && row.critical_factor < 1});
   }
-  sheets.text("Each case comes on to the state above, its factor growing by arc length until "
-              "stability is lost. Beside it the factor that the linearised problem would give. Red: "
-              "lost below the whole load.");
+  sheets.text(
+      "Each case comes on to the state above, its factor growing by arc length until "
+      "stability is lost. Beside it the factor that the linearised problem would give. Red: "
+      "lost below the whole load.");
   sheets.table({{"case", 80, AlignX::left},
                 {"sum *x* (N)", 52},
                 {"sum *y* (N)", 52},
@@ -175,11 +177,12 @@ Result<void> add_vibrations(Sheets& sheets, const preset::Preset& preset,
   if (!found) return tl::unexpected(found.error());
   std::vector<TableRow> rows;
   for (const record::ModeRow& mode : found->modes)
-    rows.push_back({{fmt::format("{}", mode.mode),
-                     mode.frequency_Hz >= 0 ? record::with_error(mode.frequency_Hz, mode.error_Hz, "")
-                                            : "none: the state is not stable",
-                     ""},
-                    mode.frequency_Hz < 0});
+    rows.push_back(
+        {{fmt::format("{}", mode.mode),
+          mode.frequency_Hz >= 0 ? record::with_error(mode.frequency_Hz, mode.error_Hz, "")
+                                 : "none: the state is not stable",
+          ""},
+         mode.frequency_Hz < 0});
   sheets.table({{"mode", 40}, {"frequency (Hz)", 120}, {"", 0}}, rows);
   return {};
 }
@@ -202,9 +205,9 @@ Result<void> add_run(Sheets& sheets, const Run& run, const ReportOptions& option
   add_stresses(sheets, run.summary);
   if (last.stress_MPa.size() > 0) {
     const bool strength = std::isfinite(run.summary.utilisation);
-    TRY(stresses, picture_of(run,
-                             strength ? preset::ColourBy::utilisation : preset::ColourBy::stress,
-                             renderer));
+    TRY(stresses,
+        picture_of(run, strength ? preset::ColourBy::utilisation : preset::ColourBy::stress,
+                   renderer));
     sheets.picture(*stresses);
   }
   drawing.report(1);
@@ -238,9 +241,9 @@ Result<int> report(ReportOptions options) {
   std::vector<Phase> phases;
   for (const Run& run : *runs) {
     const double seconds = study_seconds(run.preset);
-    phases.insert(phases.end(), {drawing("drawing", 2),
-                                 {"following loads", 4 * seconds},
-                                 {"finding modes", seconds}});
+    phases.insert(
+        phases.end(),
+        {drawing("drawing", 2), {"following loads", 4 * seconds}, {"finding modes", seconds}});
   }
   Sheets sheets(preset::title_or_name(runs->front().preset));
   {

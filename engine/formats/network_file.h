@@ -25,9 +25,9 @@ inline constexpr double softest_spring = 1e-6, stiffest_spring = 1e6;
 /// Reads a file as its name's ending says:
 ///   .json  {"points_mm": [[x, y], ...], "rods": [[0, 1, ...], ...], "supports": [...]}; a rod is a
 ///          list of numbers of points (from 0) or of places [x, y], or {"points": list,
-///          "diameter_mm": d} with any more keys of [rod]; a support {"point": number or place, "to_mm": [x, y, z]}, where
-///          "to_mm" may be "free" (of an end that nothing holds) or left out (as the preset says),
-///          and "spring_N_per_mm": k or [kx, ky, kz] puts it on a spring;
+///          "diameter_mm": d} with any more keys of [rod]; a support {"point": number or place,
+///          "to_mm": [x, y, z]}, where "to_mm" may be "free" (of an end that nothing holds) or left
+///          out (as the preset says), and "spring_N_per_mm": k or [kx, ky, kz] puts it on a spring;
 ///          "joints": [[a, b, ...], ...] lists points that are one joint though they lie apart
 ///   .obj   "v x y z" and polylines "l a b c ..."
 ///   .dxf   LINE, LWPOLYLINE and POLYLINE, where there is a layer "rods" of that one alone

@@ -185,8 +185,9 @@ class Reader {
           own.emplace_back(key.substr(0, longest_key),
                            inner.is_boolean() ? double(inner.get<bool>()) : inner.get<double>());
         } else {
-          return wrong("must be {\"points\": list, \"diameter_mm\": number above 0} and may have "
-                       "other keys of [rod], each a number, true or false");
+          return wrong(
+              "must be {\"points\": list, \"diameter_mm\": number above 0} and may have "
+              "other keys of [rod], each a number, true or false");
         }
       }
     }

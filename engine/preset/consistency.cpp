@@ -26,8 +26,7 @@ std::string put_own(const RodValue& own, Preset& preset) {
                        own.key, did_you_mean(own.key, keys_of("rod")));
   bool* flag = field->as<bool>(preset);
   const bool fits = flag ? own.value == 0 || own.value == 1 : field->range.holds(own.value);
-  if (!fits)
-    return fmt::format("{} = {:g}, must be {}", own.key, own.value, allowed(*field));
+  if (!fits) return fmt::format("{} = {:g}, must be {}", own.key, own.value, allowed(*field));
   if (flag)
     *flag = own.value == 1;
   else

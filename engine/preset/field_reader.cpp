@@ -79,7 +79,8 @@ std::string read_part(const toml::node& value, int& number) {
 }
 std::string read_part(const toml::node& value, RodValue& of) {
   const auto* row = value.as_array();
-  if (!row || row->size() != 3 || !row->at(1).is_string()) return "must hold rows [rod, key, value]";
+  if (!row || row->size() != 3 || !row->at(1).is_string())
+    return "must hold rows [rod, key, value]";
   of.key = row->at(1).as_string()->get();
   const auto wrong = read_part(row->at(0), of.rod);
   return wrong.empty() ? read_part(row->at(2), of.value) : wrong;

@@ -18,7 +18,7 @@
 #include "engine/scene/load_case.h"
 
 namespace gridshell::simulate {
-class KeptWays;
+class KeptSegments;
 }
 
 namespace gridshell {
@@ -69,8 +69,8 @@ struct Scene {
   double load_imperfection_mm = 0;  ///< of shells that are not perfect
   std::shared_ptr<Team> team;  ///< of whoever follows one path alone: who helps with large shells
   /// And where the ways that were followed are kept, for a run that goes on from there
-  /// (simulate/kept_ways.h).
-  std::shared_ptr<simulate::KeptWays> kept;
+  /// (simulate/kept_segments.h).
+  std::shared_ptr<simulate::KeptSegments> kept;
 
   /// The rung of the mechanics, where there is one.
   RodModel solved_model() const {

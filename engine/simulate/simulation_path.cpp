@@ -9,7 +9,7 @@
 #include "engine/core/watch.h"
 #include "engine/simulate/branch_switch.h"
 #include "engine/simulate/frames.h"
-#include "engine/simulate/kept_ways.h"
+#include "engine/simulate/kept_segments.h"
 #include "engine/simulate/simulation.h"
 #include "engine/solve/nested_shell.h"
 #include "engine/solve/newton.h"
@@ -72,7 +72,7 @@ double Simulation::load_step() const {
   return scene_->load_step * (reach > 0 ? push_step * scene_->length_scale_mm / reach : 0.1);
 }
 
-/// One way along the path: how it steps, what it leaves, what ends it.
+/// One segment of the path: how it steps, what it leaves, what ends it.
 class Simulation::Walk {
  public:
   Walk(Simulation& of, double to, const BifurcationPolicy& leaving, PathRecord* record,
@@ -87,7 +87,7 @@ class Simulation::Walk {
   void tell() const;
   void keep();
   bool goes_on();
-  void keep_way(std::optional<Outcome> end);
+  void keep_segment(std::optional<Outcome> end);
   Outcome step();
   Outcome step_came(double next, const NestedState& good);
   Outcome branch_ended(Outcome how, double next, const NestedState& good);
@@ -111,9 +111,9 @@ class Simulation::Walk {
   StabilityStepControl softening_;
   int halvings_ = 0;
   std::vector<Event> events_;
-  // of a way that is kept, as it was after the last step
-  simulate::KeptWays* kept_ = record_ ? scene_.kept.get() : nullptr;
-  simulate::KeptWay way_;
+  // of a segment that is kept, as it was after the last step
+  simulate::KeptSegments* kept_ = record_ ? scene_.kept.get() : nullptr;
+  simulate::KeptSegment segment_;
   Effort effort_before_;
 };
 
@@ -127,16 +127,16 @@ Report Simulation::Walk::all() {
   shell_.allow_unstable(leaving_.through_unstable);
   Outcome end = Outcome::reached;
   if (goes_on()) {
-    end = way_.end.value_or(end);
+    end = segment_.end.value_or(end);
   } else {
     keep();
-    keep_way({});
+    keep_segment({});
   }
   while (end == Outcome::reached && now() != to_) {
     end = step();
-    if (end == Outcome::reached) keep_way({});
+    if (end == Outcome::reached) keep_segment({});
   }
-  if (end != Outcome::cancelled) keep_way(end);
+  if (end != Outcome::cancelled) keep_segment(end);
   shell_.allow_unstable(false);
   // the leader may stand ahead of what is certified
   if (end != Outcome::reached && !at_limit(end)) shell_.back_to(shell_.state());
@@ -165,44 +165,44 @@ void Simulation::Walk::keep() {
 
 // ---- what an earlier run kept of it ----
 
-/// Whether an earlier run followed this way, or the begin of it: the shell then stands where that
-/// one stood.
+/// Whether an earlier run followed this segment, or the begin of it: the shell then stands where
+/// that one stood.
 bool Simulation::Walk::goes_on() {
   if (!kept_) return false;
-  way_.begin = {Checksum::of({reinterpret_cast<const char*>(shell_.state().x.data()),
-                              sizeof(double) * std::size_t(shell_.state().x.size())}),
-                now(), to_, shell_.plan().edges_per_segment};
+  segment_.begin = {Checksum::of({reinterpret_cast<const char*>(shell_.state().x.data()),
+                                  sizeof(double) * std::size_t(shell_.state().x.size())}),
+                    now(), to_, shell_.plan().edges_per_segment};
   effort_before_ = of_.effort();
-  auto before = kept_->next(way_.begin);
+  auto before = kept_->next(segment_.begin);
   if (!before) return false;
-  way_ = std::move(*before);
-  of_.charge(way_.effort);
-  *record_ = way_.record;
-  events_ = way_.events;
-  halvings_ = way_.halvings;
-  softening_.know(way_.softening);
+  segment_ = std::move(*before);
+  of_.charge(segment_.effort);
+  *record_ = segment_.record;
+  events_ = segment_.events;
+  halvings_ = segment_.halvings;
+  softening_.know(segment_.softening);
   const bool stays = std::ranges::any_of(events_, [](const Event& event) {
     return event.kind == Event::Kind::stability_lost && !event.to;
   });
   shell_.allow_unstable(leaving_.through_unstable || stays);
-  shell_.back_to(way_.state);
+  shell_.back_to(segment_.state);
   tell();
   return true;
 }
 
-/// Writes where the way stands, as often as that is worth it; what a step that is stopped did is
-/// none of it.
-void Simulation::Walk::keep_way(std::optional<Outcome> end) {
+/// Writes where the segment stands, as often as that is worth it; what a step that is stopped did
+/// is none of it.
+void Simulation::Walk::keep_segment(std::optional<Outcome> end) {
   if (!kept_) return;
-  way_.end = end;
-  way_.state = shell_.state();
-  way_.events = events_;
-  way_.effort = of_.effort() - effort_before_;
-  way_.halvings = halvings_;
-  way_.softening = softening_.known();
+  segment_.end = end;
+  segment_.state = shell_.state();
+  segment_.events = events_;
+  segment_.effort = of_.effort() - effort_before_;
+  segment_.halvings = halvings_;
+  segment_.softening = softening_.known();
   if (!kept_->wants(end.has_value())) return;
-  way_.record = static_cast<const PathRecord&>(*record_);
-  kept_->keep(way_);
+  segment_.record = static_cast<const PathRecord&>(*record_);
+  kept_->keep(segment_);
 }
 
 // ---- how it steps ----

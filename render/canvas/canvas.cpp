@@ -317,7 +317,8 @@ Result<void> write_figure(const std::filesystem::path& stem, double width_pt, do
   const Image image = draw_picture(width, height, print.dpi / 72, {1, 1, 1, 1}, enlarged);
   return write_png(image, file(".png"), print.dpi)
       .and_then([&] { return write_file(file(".svg"), draw_svg(width, height, name, enlarged)); })
-      .and_then([&] { return write_file(file(".pdf"), draw_pdf(width, height, name, {enlarged})); });
+      .and_then(
+          [&] { return write_file(file(".pdf"), draw_pdf(width, height, name, {enlarged})); });
 }
 
 }  // namespace gridshell::render

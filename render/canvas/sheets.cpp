@@ -17,9 +17,7 @@ const TextStyle usual{.size = 8.5};
 /// How text is broken, before there is a sheet to draw it on.
 std::vector<std::string> lines_of(const std::string& text, double width, const TextStyle& style) {
   std::vector<std::string> lines;
-  draw_picture(8, 8, 1, white, [&](Canvas& canvas) {
-    lines = canvas.wrapped(text, width, style);
-  });
+  draw_picture(8, 8, 1, white, [&](Canvas& canvas) { lines = canvas.wrapped(text, width, style); });
   return lines;
 }
 
@@ -80,9 +78,8 @@ void Sheets::table(const std::vector<TableColumn>& columns, const std::vector<Ta
     std::vector<std::vector<std::string>> cells;
     std::size_t lines = 1;
     for (std::size_t k = 0; k < row.cells.size(); ++k) {
-      cells.push_back(columns[k].width > 0
-                          ? std::vector<std::string>{row.cells[k]}
-                          : lines_of(row.cells[k], places[k].second, usual));
+      cells.push_back(columns[k].width > 0 ? std::vector<std::string>{row.cells[k]}
+                                           : lines_of(row.cells[k], places[k].second, usual));
       lines = std::max(lines, cells.back().size());
     }
     add({line * double(lines),

@@ -102,10 +102,10 @@ std::vector<std::string> steps(const FabricationPlan& work) {
 }  // namespace
 
 void add_cut_list(Sheets& sheets, const FabricationPlan& work) {
-  sheets.text(fmt::format("{} rods, {:.2f} m in all; marks in mm from the begin of each rod. Red: a "
-                          "leg below {:g} mm.",
-                          work.rods.size(), 1e-3 * work.total_length_mm(),
-                          exports::shortest_leg_mm));
+  sheets.text(
+      fmt::format("{} rods, {:.2f} m in all; marks in mm from the begin of each rod. Red: a "
+                  "leg below {:g} mm.",
+                  work.rods.size(), 1e-3 * work.total_length_mm(), exports::shortest_leg_mm));
   std::vector<TableRow> rows;
   for (const CutRod& rod : work.rods)
     rows.push_back(

@@ -109,9 +109,8 @@ TEST_CASE("the circle of Fig. 1 as a network comes to the circle's states", "[st
 }
 
 TEST_CASE("the shipped networks come to certified rest", "[standard]") {
-  for (const char* name :
-       {"network_triaxial", "network_cut", "network_ring", "network_kagome", "network_rosette",
-        "network_space"}) {
+  for (const char* name : {"network_triaxial", "network_cut", "network_ring", "network_kagome",
+                           "network_rosette", "network_space"}) {
     const auto outcome = run_stills(shipped(name));
     CAPTURE(name, outcome.summary.limit_reason);
     // a branch that is left on the way is told, and the rest is one of its own

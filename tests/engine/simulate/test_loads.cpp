@@ -282,7 +282,8 @@ TEST_CASE("beams of a grillage have sections of their own") {
   file.points = {{-100, 0, 0}, {100, 0, 0}, {0, -100, 0}, {0, 100, 0}, {0, 0, 0}};
   file.rods = {{0, 4, 1}, {2, 4, 3}};
   // a lath on its flat side beside a round rod
-  file.own = {{0, "shear_GPa", 4}, {0, "thickness_mm", 0.5}, {0, "width_mm", 3}, {0, "young_GPa", 10}};
+  file.own = {
+      {0, "shear_GPa", 4}, {0, "thickness_mm", 0.5}, {0, "width_mm", 3}, {0, "young_GPa", 10}};
   preset::Preset p = network(file);
   p.ends.kind = preset::EndKind::clamped;
   p.rod.shear_GPa = 31;

@@ -1,5 +1,5 @@
 // A run that is stopped goes on from what it kept of its path.
-#include "engine/simulate/kept_ways.h"
+#include "engine/simulate/kept_segments.h"
 
 #include <catch2/catch.hpp>
 
@@ -41,7 +41,7 @@ struct Run {
 Run run_with(const fs::path& folder, double stop_at = 2) {
   const preset::Preset p = imperfect();
   Scene scene = *shared_scene(p);
-  if (!folder.empty()) scene.kept = std::make_shared<KeptWays>(folder, 0);
+  if (!folder.empty()) scene.kept = std::make_shared<KeptSegments>(folder, 0);
   Watch watch;
   std::atomic<bool> over = false;
   std::thread stopper([&] {
@@ -94,19 +94,19 @@ TEST_CASE("a path that was kept whole gives the same bits, and what is damaged i
   std::string bytes = read_file(kept[1]).value();
   bytes[bytes.size() / 2] ^= 1;
   REQUIRE(write_file(kept[1], bytes));
-  REQUIRE(write_file(kept[2], "way"));
+  REQUIRE(write_file(kept[2], "segment"));
   check_same(first, run_with(folder.path()), 0);
 }
 
-TEST_CASE("a way that begins elsewhere is none of the run") {
+TEST_CASE("a segment that begins elsewhere is none of the run") {
   const TemporaryFolder folder;
-  KeptWay way;
-  way.begin = {7, 0, 1, {4, 8}};
-  way.end = Outcome::reached;
-  KeptWays ways(folder.path(), 0);
-  CHECK_FALSE(ways.next(way.begin));
-  ways.keep(way);
-  CHECK(KeptWays(folder.path()).next(way.begin)->end == Outcome::reached);
-  CHECK_FALSE(KeptWays(folder.path()).next({8, 0, 1, {4, 8}}));
-  CHECK_FALSE(KeptWays(folder.path()).next({7, 0, 1, {4, 8, 16}}));
+  KeptSegment segment;
+  segment.begin = {7, 0, 1, {4, 8}};
+  segment.end = Outcome::reached;
+  KeptSegments segments(folder.path(), 0);
+  CHECK_FALSE(segments.next(segment.begin));
+  segments.keep(segment);
+  CHECK(KeptSegments(folder.path()).next(segment.begin)->end == Outcome::reached);
+  CHECK_FALSE(KeptSegments(folder.path()).next({8, 0, 1, {4, 8}}));
+  CHECK_FALSE(KeptSegments(folder.path()).next({7, 0, 1, {4, 8, 16}}));
 }

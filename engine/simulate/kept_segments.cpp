@@ -1,4 +1,4 @@
-#include "engine/simulate/kept_ways.h"
+#include "engine/simulate/kept_segments.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace gridshell::simulate {
 namespace {
 
-// A value to bytes, or back: every struct names its members once, for both ways.
+// A value to bytes, or back: every struct names its members once, in both directions.
 
 template <class T, class Of>
 concept Is = std::same_as<std::remove_const_t<T>, Of>;
@@ -84,10 +84,10 @@ void put(auto& in, Is<NestedState> auto& s) {
   all(in, s.t, s.levels, s.x, s.error_estimate_mm, s.residual_N, s.inertia, s.largest_strain,
       s.reactions, s.reaction_error_N, s.held_stiffness, s.stiffness_error_N_per_mm);
 }
-void put(auto& in, Is<WayBegin> auto& s) { all(in, s.state, s.from, s.to, s.edges); }
+void put(auto& in, Is<SegmentBegin> auto& s) { all(in, s.state, s.from, s.to, s.edges); }
 void put(auto& in, Is<Effort> auto& s) { all(in, s.newton_iterations, s.factorizations); }
 void put(auto& in, Is<Softness> auto& s) { all(in, s.t, s.stiffness); }
-void put(auto& in, Is<KeptWay> auto& s) {
+void put(auto& in, Is<KeptSegment> auto& s) {
   all(in, s.begin, s.end, s.state, s.record, s.events, s.effort, s.halvings, s.softening);
 }
 
@@ -126,13 +126,15 @@ void all(In& in, T&... values) {
 
 }  // namespace
 
-KeptWays::KeptWays(std::filesystem::path folder, double worth_s)
+KeptSegments::KeptSegments(std::filesystem::path folder, double worth_s)
     : folder_(std::move(folder)), worth_s_(worth_s), wait_s_(worth_s), written_at_(seconds_now()) {}
 
-std::filesystem::path KeptWays::file() const { return folder_ / fmt::format("way_{:04}", ways_); }
+std::filesystem::path KeptSegments::file() const {
+  return folder_ / fmt::format("segment_{:04}", segments_);
+}
 
-std::optional<KeptWay> KeptWays::next(const WayBegin& begin) {
-  ++ways_;
+std::optional<KeptSegment> KeptSegments::next(const SegmentBegin& begin) {
+  ++segments_;
   has_file_ = false;
   const auto bytes = read_file(file());
   std::uint64_t sum = 0;
@@ -141,20 +143,20 @@ std::optional<KeptWay> KeptWays::next(const WayBegin& begin) {
   std::memcpy(&sum, bytes->data(), sizeof sum);
   if (sum != Checksum::of(all_of_it)) return std::nullopt;
   Unpack in{ByteReader(all_of_it)};
-  KeptWay way;
-  all(in, way);
-  if (!in.bytes.at_end() || way.begin != begin) return std::nullopt;
+  KeptSegment segment;
+  all(in, segment);
+  if (!in.bytes.at_end() || segment.begin != begin) return std::nullopt;
   has_file_ = true;
-  return way;
+  return segment;
 }
 
-bool KeptWays::wants(bool at_its_end) const {
+bool KeptSegments::wants(bool at_its_end) const {
   return (at_its_end && has_file_) || seconds_now() - written_at_ >= wait_s_;
 }
 
-void KeptWays::keep(const KeptWay& way) {
+void KeptSegments::keep(const KeptSegment& segment) {
   Pack out;
-  all(out, way);
+  all(out, segment);
   const std::uint64_t sum = Checksum::of(out.bytes.bytes());
   std::string bytes(reinterpret_cast<const char*>(&sum), sizeof sum);
   bytes += out.bytes.bytes();
