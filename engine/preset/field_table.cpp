@@ -27,6 +27,7 @@ std::string unit_of(const std::string& key) {
                                                                   {"_m_s2", "m/s^2"},
                                                                   {"_Nmm", "N mm/rad"},
                                                                   {"_GPa", "GPa"},
+                                                                  {"_MPa", "MPa"},
                                                                   {"_GB", "GB"},
                                                                   {"_deg", "deg"},
                                                                   {"_mm", "mm"},
