@@ -264,9 +264,9 @@ void movie_standing(const Panel& panel) {
                       3 * ImGui::GetStyle().FramePadding.x + panel.px(18);
   ImGui::SameLine(ImGui::GetContentRegionMax().x - width);
   const ImVec2 low = ImGui::GetCursorScreenPos();
-  ImGui::GetWindowDrawList()->AddRectFilled(
-      {low.x - panel.px(8), low.y}, {low.x + width, low.y + ImGui::GetFrameHeight()},
-      ImGui::GetColorU32(ImGuiCol_WindowBg));
+  ImGui::GetWindowDrawList()->AddRectFilled({low.x - panel.px(8), low.y},
+                                            {low.x + width, low.y + ImGui::GetFrameHeight()},
+                                            ImGui::GetColorU32(ImGuiCol_WindowBg));
   ImGui::TextUnformatted(line.c_str());
   ImGui::SameLine(0, panel.px(10));
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {panel.px(6), 0});
