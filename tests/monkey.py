@@ -3,10 +3,11 @@
 
 usage: tests/monkey.py PROGRAM [SECONDS=600] [SEED=1]
 
-PROGRAM is best one of the `debug` preset (address and undefined-behaviour sanitizers). Prints the
-events sent, the program's peak memory, the longest time in which the window recorded no event, and
-how it ended. Exit code 1: it crashed, hung for 5 s or took more than 600 MB; 77: Xvfb or xdotool is
-missing. The recording of what was done stays in the folder that is named last, for `view --play`.
+PROGRAM is best one of the `debug` preset (address and undefined-behaviour sanitizers) or of `threads`
+(with TSAN_OPTIONS=suppressions=.../tests/threads.supp). Prints the events sent, the program's peak
+memory, the longest time in which the window recorded no event, and how it ended. Exit code 1: it
+crashed, hung for 5 s or took more than 600 MB; 77: Xvfb or xdotool is missing. The recording of what
+was done stays in the folder that is named last, for `view --play`.
 """
 import os
 import random

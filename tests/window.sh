@@ -51,7 +51,7 @@ key Home 1
 key space 6        # plays to the end
 drag 254 138 150 138 257 138   # scrubs back and to the end again
 drag 105 183 120 183 130 183   # R_a
-drag 640 270 640 280 640 290   # into the shell: a joint, or the view turns
+drag 658 277 658 287 658 297   # a joint
 key ctrl+z 1
 key ctrl+p 3
 key ctrl+s 1

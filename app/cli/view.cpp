@@ -28,6 +28,7 @@
 #include "engine/core/json.h"
 #include "engine/core/try.h"
 #include "render/gl/image.h"
+#include "render/movie/encode.h"
 #include "render/movie/subprocess.h"
 
 namespace gridshell::app {
@@ -135,7 +136,8 @@ Result<void> show_manual(const Watch& watch) {
   const fs::path file =
       fs::temp_directory_path() / fmt::format("gridshell-manual-{}.html", ::getuid());
   TRY_DO(write_file(file, *page));
-  if (const auto shown = render::run_subprocess({"xdg-open", file.string()}, watch); !shown)
+  const fs::path browser = render::find_program("xdg-open");
+  if (browser.empty() || !render::run_subprocess({browser.string(), file.string()}, watch))
     return fail(Fault::io, "no browser can be opened: the manual is {}", file.string());
   return {};
 }

@@ -7,6 +7,7 @@
 #include "render/canvas/canvas.h"
 #include "render/canvas/legend.h"
 
+#include "engine/core/system_info.h"
 #include "engine/core/try.h"
 
 namespace gridshell::window {
@@ -116,6 +117,7 @@ Result<render::Image> draw_shell(render::Renderer& renderer, const PictureReques
 
 Result<void> ShellPicture::draw(const PictureRequest& shown, Resolution sharpness) {
   const bool moving = sharpness == Resolution::moving;
+  const double begin = seconds_now();
   const double scale = moving ? 0.5 : 1;
   const int width = std::max(16, int(scale * shown.view.width)),
             height = std::max(16, int(scale * shown.view.height));
@@ -123,6 +125,7 @@ Result<void> ShellPicture::draw(const PictureRequest& shown, Resolution sharpnes
   TRY(image, draw_shell(*renderer_, shown, quality, width, height,
                         moving ? 0.75 * least_px : least_px * std::max(1.0, height / 720.0)));
   fill_texture(*gl_, texture_.id(), width, height, image->rgba.data());
+  if (!moving) still_took_s_ = seconds_now() - begin;
   return {};
 }
 

@@ -52,10 +52,13 @@ class ShellPicture {
   /// renderer.
   Result<void> draw(const PictureRequest& shown, Resolution sharpness);
   GLuint texture() const { return texture_.id(); }
+  /// What the last one at full resolution took; 0: none yet.
+  double still_took_s() const { return still_took_s_; }
 
  private:
   const render::Gl* gl_;
   render::Renderer* renderer_;
+  double still_took_s_ = 0;
   render::Texture texture_;
 };
 

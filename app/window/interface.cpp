@@ -17,8 +17,8 @@ namespace gridshell::window {
 namespace {
 
 constexpr double least_view = 400;  // px of a view beside plots
-// of stillness the view is drawn at full resolution: later while an equilibrium is on its way
-constexpr double sharp_after_s = 0.15, sharp_while_busy_s = 0.6;
+// stillness before full resolution; what that may take while an equilibrium is on its way
+constexpr double sharp_after_s = 0.15, sharp_while_busy_s = 0.6, longest_while_busy_s = 0.05;
 
 /// What the interface library does with keys of its own.
 void map_keys(ImGuiIO& io) {
@@ -313,8 +313,9 @@ Result<void> Interface::draw_shell() {
   const ShownShell shown{viewer_.camera, viewer_.view, viewer_.show};
   const bool anew = shell_anew_ || shown != shown_;
   if (anew) still_seconds_ = 0;
-  const double wait_s = viewer_.engine.idle() ? sharp_after_s : sharp_while_busy_s;
-  const bool sharp = !anew && still_seconds_ >= wait_s;
+  const bool idle = viewer_.engine.idle();
+  const bool sharp = !anew && still_seconds_ >= (idle ? sharp_after_s : sharp_while_busy_s) &&
+                     (idle || picture_.still_took_s() < longest_while_busy_s);
   if (!anew && (!sharp || sharp_)) return {};
   shown_ = shown;
   shell_anew_ = false;
@@ -326,9 +327,8 @@ Result<void> Interface::draw_shell() {
 Result<void> Interface::draw_states() {
   const auto& found = viewer_.shell->found;
   if (!found) return states_.clear(), Result<void>();
-  std::size_t same = 0;
-  while (same < std::min(states_.size(), found->size()) && states_[same].first == (*found)[same])
-    ++same;
+  std::size_t same = 0, most = std::min(states_.size(), found->size());
+  while (same < most && states_[same].first == (*found)[same]) ++same;
   states_.erase(states_.begin() + std::ptrdiff_t(same), states_.end());
   for (std::size_t k = same; k < found->size(); ++k) {
     const auto& state = (*found)[k];

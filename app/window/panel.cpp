@@ -80,6 +80,8 @@ std::string help_of(const preset::Field& field) {
 }
 
 std::string label_of(const preset::Field& field) {
+  if (field.key == "young_GPa") return "Young's modulus";
+  if (field.key == "shear_GPa") return "shear modulus";
   std::size_t end = field.key.size();
   for (std::size_t at = 0; at < field.key.size(); ++at)
     if (!field.unit.empty() && field.key[at] == '_' &&

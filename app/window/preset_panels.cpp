@@ -53,7 +53,8 @@ struct Control {
       viewer.say(fmt::format("{} must be {}", name_of(field), allowed(field)), true);
       return false;
     }
-    *value = double(shown);
+    // the digits that are seen, without those that a float adds
+    *value = std::stod(fmt::format("{:.7g}", shown));
     return true;
   }
   bool operator()(int* value) const {

@@ -178,8 +178,10 @@ void ViewerState::ask_file(FileUse use) {
   FileRequest request;
   request.use = use;
   const char* ending = ending_of(use);
+  std::error_code error;
+  const bool any = fs::is_directory(library.save_to, error);
   request.path = *ending ? path_to_save({ending}).string() + ending
-                         : (fs::path(library.save_to) / "").string();
+                         : (any ? library.save_to / "" : fs::path("./")).string();
   request.folder = fs::path(request.path).parent_path().string();
   file_request = request;
 }

@@ -66,7 +66,7 @@ std::string text_of_marks(const ShellView& shell) {
   return text;
 }
 
-/// Without the digits that a float adds.
+/// Without what a float adds.
 double four_digits(float value) { return std::round(1e4 * double(value)) / 1e4; }
 
 void speed(const Panel& panel, float gap) {
@@ -326,11 +326,8 @@ void push_depth(const Panel& panel, int joint) {
   ViewerState& viewer = panel.viewer;
   const ShellView& shell = *viewer.shell;
   Eigen::Vector3d along = shell.normals.col(joint), from = shell.frame.nodes.col(joint);
-  for (const HeldJoint& held : shell.held) {
-    if (held.joint != joint || held.along.isZero(0)) continue;
-    along = held.along;
-    from -= held.moved_mm;
-  }
+  for (const HeldJoint& held : shell.held)
+    if (held.joint == joint && !held.along.isZero(0)) along = held.along, from -= held.moved_mm;
   float depth = -float((shell.frame.nodes.col(joint) - from).dot(along));
   if (std::abs(depth) < 5e-4f) depth = 0;
   const float most = float(0.5 * shell.layout->length_scale_mm);
@@ -346,7 +343,10 @@ void picked(const Panel& panel) {
   const record::Layout& layout = *shell.layout;
   if (viewer.picked_joint >= 0 && viewer.picked_joint < int(layout.joints.size())) {
     const record::Joint& joint = layout.joints[std::size_t(viewer.picked_joint)];
-    const Eigen::Vector3d at = shell.frame.nodes.col(viewer.picked_joint);
+    // round-off is no -0.00
+    const Eigen::Vector3d at = shell.frame.nodes.col(viewer.picked_joint).unaryExpr([](double x) {
+      return std::abs(x) < 5e-3 ? 0.0 : x;
+    });
     heading(panel, fmt::format("Joint ({}, {})", joint.i, joint.j).c_str());
     push_depth(panel, viewer.picked_joint);
     ImGui::Text("x %.2f  y %.2f  z %.2f mm", at.x(), at.y(), at.z());

@@ -163,8 +163,8 @@ void timeline_panel(const Panel& panel, const render::Box& box) {
   const int count = int(viewer.timeline.size());
   const float left = float(box.x) + panel.px(16), y = float(box.y + 0.5 * box.height);
   const float step = std::min(panel.px(46), (wide - panel.px(32)) / float(std::max(1, count)));
-  list.AddLine({left, y}, {left + step * float(count - 1), y}, text_colours(viewer.show.dark).muted,
-               panel.px(1.4));
+  list.AddLine({left, y}, {left + step * float(std::max(0, count - 1)), y},
+               text_colours(viewer.show.dark).muted, panel.px(1.4));
   for (int k = 0; k < count; ++k) {
     const TimelineEntry& entry = viewer.timeline[std::size_t(k)];
     const ImVec2 at{left + step * float(k), y};
@@ -257,7 +257,7 @@ std::string standing_of(const DesignProgress& course) {
                      course.iterations, percent * now.max_mm, percent * now.mean_mm);
 }
 
-/// How far the movie is that is made beside the window.
+/// How far the movie is that is made beside the window, over what was said.
 void movie_standing(const Panel& panel) {
   const std::string said = panel.viewer.movie_task.standing();
   const std::string line = "movie " + (said.empty() ? "0 %" : said);
@@ -265,6 +265,10 @@ void movie_standing(const Panel& panel) {
   const float width = ImGui::CalcTextSize(line.c_str()).x + ImGui::CalcTextSize(stop).x +
                       3 * ImGui::GetStyle().FramePadding.x + panel.px(18);
   ImGui::SameLine(ImGui::GetContentRegionMax().x - width);
+  const ImVec2 low = ImGui::GetCursorScreenPos();
+  ImGui::GetWindowDrawList()->AddRectFilled({low.x - panel.px(8), low.y},
+                                            {low.x + width, low.y + ImGui::GetFrameHeight()},
+                                            ImGui::GetColorU32(ImGuiCol_WindowBg));
   ImGui::TextUnformatted(line.c_str());
   ImGui::SameLine(0, panel.px(10));
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {panel.px(6), 0});

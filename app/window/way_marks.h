@@ -1,4 +1,6 @@
 // What is known of the ways that a shell came: where no shell stays, and where something happened.
+// A branch may lose its stability and have it again before a step of the hand ends; the pivots of
+// the load steps in between tell.
 #pragma once
 
 #include <functional>
@@ -9,8 +11,9 @@
 
 namespace gridshell::window {
 
-/// A piece of a way of the boundary, places its progress; or of the push of a joint, places how far
-/// it was pushed since it was taken, mm.
+/// A piece of a way, or one place on it. Of the boundary's way places are its progress, 0 at the
+/// original and 1 at the actuated boundary; of the push of a joint how far it is from where it was
+/// taken, mm.
 struct WayMark {
   double from = 0, to = 0;  ///< from <= to
   int joint = -1;           ///< that is pushed; -1: the boundary moves
@@ -24,7 +27,8 @@ struct WayMark {
 std::vector<WayMark> marks_of(const PathRecord& way, const std::vector<Event>& events, int joint,
                               const std::function<double(double)>& place);
 
-/// Adds them; stretches that meet or overlap are one.
+/// Adds them. Stretches of the same kind and joint that meet or overlap are one, which reaches from
+/// the first begin to the last end: ways there and back are marked once.
 void add_marks(std::vector<WayMark>& marks, const std::vector<WayMark>& more);
 
 /// "the path lost its stability; came to rest in another state" of what a step came past.

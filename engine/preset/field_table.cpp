@@ -28,6 +28,7 @@ std::string unit_of(const std::string& key) {
                                                                   {"_N_m2", "N/m^2"},
                                                                   {"_Nmm", "N mm/rad"},
                                                                   {"_GPa", "GPa"},
+                                                                  {"_MPa", "MPa"},
                                                                   {"_GB", "GB"},
                                                                   {"_deg", "deg"},
                                                                   {"_mm", "mm"},

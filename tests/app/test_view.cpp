@@ -338,14 +338,16 @@ TEST_CASE("a step of the strip along the bottom is gone back to, and on to") {
 
 TEST_CASE("a click on a step with an event that is in sight shows the state before it") {
   const TemporaryFolder folder;
-  const std::string lose = "mouse @R_a 0.5 0.5\npress left\nmouse @R_a 0.97 0.5\nrelease left\n",
-                    click = "mouse @step_1 0.5 0.5\npress left\nrelease left\n";
+  const std::string
+      lose =
+          "open s1_actuation\nmouse @R_a 0.5 0.5\npress left\nmouse @R_a 0.958 0.5\nrelease left\n",
+      click = "mouse @step_1 0.5 0.5\npress left\nrelease left\n";
   const json lost = played(folder, lose);
   CHECK(lost["negative_pivots"].get<int>() > 0);
   const json before = played(folder, lose + click);
   CHECK((before["negative_pivots"] == 0 && before["redo_steps"] == 1));
   // and the key goes to where it is lost from anywhere
-  const json found = played(folder, "down B\nup B\n");
+  const json found = played(folder, "open s1_actuation\ndown B\nup B\n");
   CHECK(found["negative_pivots"].get<int>() > 0);
 }
 
@@ -373,7 +375,7 @@ TEST_CASE("a joint that was clicked is pushed to a depth that is typed") {
   const TemporaryFolder folder;
   const json pushed =
       played(folder,
-             "mouse @joint:0,0 0 0\npress left\nrelease left\nmouse @push_depth 0.5 0.5\n"
+             "mouse @joint:0,0 0 0\npress left\nrelease left\nwait 0.1\nmouse @push_depth 0.5 0.5\n"
              "down Ctrl\npress left\nrelease left\nup Ctrl\ndown Ctrl\ndown A\nup A\nup Ctrl\n"
              "type 4\ndown Enter\nup Enter\n");
   CHECK(pushed["held"] == 1);
