@@ -68,7 +68,7 @@ Result<void> EditSession::do_step(preset::Step step, const Watch& watch) {
                      step.kind == preset::StepKind::release;
   if (leaps && session_->shell().levels() == 1)
     session_->remesh(simulate::initial_levels(*now_.scene), watch);
-  const bool began_stable = session_->certificate().stable();
+  const bool began_stable = view_.stable();
   const double began_mm = pushed_mm(step);
   simulate::StepPath way;
   // where one equilibrium takes long already, what lies between is not looked at
