@@ -240,7 +240,7 @@ Result<void> EditSession::form(const preset::Preset& preset, const Watch& watch)
   if (scene->rung == RodModel::net)
     return fail(Fault::bad_input, "the rung 'net' is geometry alone: there is nothing to push");
   TRY(course, simulate::follow_actuation(scene, coarse_plan(*scene), false, 1, watch));
-  std::vector<WayMark> marks;
+  std::vector<PathMark> marks;
   for (const simulate::PathSegment& segment : course->segments)
     add_marks(marks, marks_of(segment, segment.report.events, -1, progress_at));
   const bool snapped = course->has_events();

@@ -122,7 +122,7 @@ class EditSession {
   std::string note_way(const preset::Step& step, const simulate::StepPath& way, double began_mm,
                        bool began_stable, Report& report);
   double pushed_mm(const preset::Step& step) const;
-  std::string place_text(const WayMark& mark) const;
+  std::string place_text(const PathMark& mark) const;
 
   Result<void> form(const preset::Preset& preset, const Watch& watch);
   Result<void> rebuild_shell(const preset::Preset& preset, const Watch& watch);

@@ -21,7 +21,7 @@ double EditSession::pushed_mm(const preset::Step& step) const {
 }
 
 /// "R_a = 124.2 to 122.9 mm", "2.1 mm".
-std::string EditSession::place_text(const WayMark& mark) const {
+std::string EditSession::place_text(const PathMark& mark) const {
   if (mark.joint >= 0) return text_of_place(mark, [](double mm) { return mm; }) + " mm";
   if (now_.preset.footprint.kind != preset::FootprintKind::circle)
     return "progress " + text_of_place(mark, [](double at) { return at; });
@@ -43,7 +43,7 @@ std::string EditSession::note_way(const preset::Step& step, const simulate::Step
              pushes = step.kind == preset::StepKind::push;
   // what is known of a branch does not hold of another one
   if (leapt || !(moves || pushes))
-    std::erase_if(now_.marks, [](const WayMark& mark) { return mark.unstable; });
+    std::erase_if(now_.marks, [](const PathMark& mark) { return mark.unstable; });
   if (way.load_steps.empty()) return "";
   const auto joint = simulate::joint_of(step, now_.scene->footprint);
   const double grew_mm = pushed_mm(step) - began_mm,
@@ -53,10 +53,10 @@ std::string EditSession::note_way(const preset::Step& step, const simulate::Step
   };
   const auto marks = marks_of(way, report.events, pushes && joint ? *joint : -1, place);
   add_marks(now_.marks, marks);
-  for (const WayMark& mark : marks)
+  for (const PathMark& mark : marks)
     if (mark.unstable && mark.to > mark.from && report.certificate.stable() && !leapt)
       view_.message = view_.event = "stable again; not stable on the way at " + place_text(mark);
-  const auto event = std::ranges::find(marks, false, &WayMark::unstable);
+  const auto event = std::ranges::find(marks, false, &PathMark::unstable);
   return event == marks.end() ? "" : place_text(*event);
 }
 

@@ -211,7 +211,7 @@ std::span<const PlotPoint> last_points(const ViewerState& viewer) {
 void put_marks(const ShellView& shell, const Quantity& over, Curve& curve) {
   const std::string_view name = over.name;
   const int pushed = shell.held.empty() ? -1 : shell.held.back().joint;
-  for (const WayMark& mark : shell.marks) {
+  for (const PathMark& mark : shell.marks) {
     double from = mark.from, to = mark.to;
     if (mark.joint < 0 && name == "boundary_radius_mm")
       from = shell.radius_at(mark.to), to = shell.radius_at(mark.from);

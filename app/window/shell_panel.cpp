@@ -44,7 +44,7 @@ void mark_slider(const Panel& panel, const ShareOf& share_of) {
   const auto at = [&](double progress) {
     return low.x + margin + float(std::clamp(share_of(progress), 0.0, 1.0)) * room;
   };
-  for (const WayMark& mark : panel.viewer.shell->marks) {
+  for (const PathMark& mark : panel.viewer.shell->marks) {
     if (mark.joint >= 0) continue;
     const float a = at(mark.from), b = at(mark.to), half = panel.px(1);
     ImGui::GetWindowDrawList()->AddRectFilled({std::min(a, b) - half, high.y - panel.px(4)},
@@ -57,7 +57,7 @@ void mark_slider(const Panel& panel, const ShareOf& share_of) {
 std::string text_of_marks(const ShellView& shell) {
   std::string text;
   const bool circle = shell.preset.footprint.kind == preset::FootprintKind::circle;
-  for (const WayMark& mark : shell.marks)
+  for (const PathMark& mark : shell.marks)
     if (mark.joint < 0)
       text += fmt::format("\n{}: {}{}", mark.what, circle ? "R_a = " : "progress ",
                           text_of_place(

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "app/window/command.h"
-#include "app/window/way_marks.h"
+#include "app/window/path_marks.h"
 #include "engine/gridshell.h"
 
 namespace gridshell::window {
@@ -59,7 +59,7 @@ struct ViewedState {
   PresetPush push;
   std::shared_ptr<const record::Frame> first;  ///< where the shell began; null before
   StepHistory steps;                           ///< that the user did since it was formed
-  std::vector<WayMark> marks;                  ///< of the ways that led here
+  std::vector<PathMark> marks;                 ///< of the ways that led here
   bool refined = false;            ///< to the preset's tolerance; else coarse, as in a drag
   bool rods_changed_late = false;  ///< keys of its rods were changed after steps
   bool snapped = false;            ///< it came to rest elsewhere on its way

@@ -65,7 +65,7 @@ void ViewerState::recall(int state) {
 
 void ViewerState::go_to_loss() {
   std::vector<double> places;
-  for (const WayMark& mark : shell->marks)
+  for (const PathMark& mark : shell->marks)
     if (mark.joint < 0 && mark.unstable) places.push_back(0.5 * (mark.from + mark.to));
   if (places.empty()) return say("on the boundary's way so far every state is stable", true);
   std::ranges::sort(places);

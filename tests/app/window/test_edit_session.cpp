@@ -272,15 +272,15 @@ TEST_CASE(
   preset.actuation.radius_mm = 94.5;
   EditedShell shell(preset);
   const auto unstable = [&] {
-    std::vector<WayMark> marks = shell.view().marks;
-    std::erase_if(marks, [](const WayMark& mark) { return !mark.unstable; });
+    std::vector<PathMark> marks = shell.view().marks;
+    std::erase_if(marks, [](const PathMark& mark) { return !mark.unstable; });
     return marks;
   };
   shell.act(Move{0.03});
   REQUIRE_FALSE(shell.view().stable());
   CHECK(shell.view().event.find("stability lost") == 0);
   REQUIRE(unstable().size() == 1);
-  const WayMark there = unstable().front();
+  const PathMark there = unstable().front();
   CHECK((there.joint == -1 && there.from <= 0.03 && there.to > 0.03 && there.to < 0.9));
   // further on along states that are not stable nothing is lost
   shell.act(Move{0.031});

@@ -1,7 +1,7 @@
 // What a way is marked by: stretches that are not stable, and events.
 #include <catch2/catch.hpp>
 
-#include "app/window/way_marks.h"
+#include "app/window/path_marks.h"
 #include "engine/solve/equilibrium_path.h"
 
 using namespace gridshell;
@@ -40,7 +40,7 @@ TEST_CASE(
 }
 
 TEST_CASE("stretches of several ways that meet are one, those apart or of other joints are not") {
-  std::vector<WayMark> marks{{0.1, 0.2, -1, true, "not stable"}};
+  std::vector<PathMark> marks{{0.1, 0.2, -1, true, "not stable"}};
   add_marks(marks, {{0.2, 0.4, -1, true, "not stable"},
                     {0.6, 0.7, -1, true, "not stable"},
                     {0.3, 0.5, 7, true, "not stable"}});

@@ -1,4 +1,4 @@
-#include "app/window/way_marks.h"
+#include "app/window/path_marks.h"
 
 #include <fmt/format.h>
 
@@ -19,14 +19,14 @@ constexpr double touching = 1e-9;
 
 }  // namespace
 
-std::vector<WayMark> marks_of(const PathRecord& way, const std::vector<Event>& events, int joint,
-                              const std::function<double(double)>& place) {
-  std::vector<WayMark> marks;
+std::vector<PathMark> marks_of(const PathRecord& path, const std::vector<Event>& events, int joint,
+                               const std::function<double(double)>& place) {
+  std::vector<PathMark> marks;
   const auto add = [&](double from, double to, bool unstable, std::string what) {
     const auto [low, high] = std::minmax({place(from), place(to)});
     marks.push_back({low, high, joint, unstable, std::move(what)});
   };
-  const auto& steps = way.load_steps;
+  const auto& steps = path.load_steps;
   for (std::size_t k = 0; k < steps.size(); ++k) {
     if (steps[k].certificate.stable()) continue;
     const double t = steps[k].point.t;
@@ -38,7 +38,7 @@ std::vector<WayMark> marks_of(const PathRecord& way, const std::vector<Event>& e
       to = edge_between(t, steps[k + 1].point.t, events);
     add(from, to, true, "not stable");
   }
-  std::vector<WayMark> joined;
+  std::vector<PathMark> joined;
   add_marks(joined, marks);
   marks = std::move(joined);
   if (steps.empty()) return marks;
@@ -46,9 +46,9 @@ std::vector<WayMark> marks_of(const PathRecord& way, const std::vector<Event>& e
   return marks;
 }
 
-void add_marks(std::vector<WayMark>& marks, const std::vector<WayMark>& more) {
-  for (WayMark mark : more) {
-    std::erase_if(marks, [&](const WayMark& other) {
+void add_marks(std::vector<PathMark>& marks, const std::vector<PathMark>& more) {
+  for (PathMark mark : more) {
+    std::erase_if(marks, [&](const PathMark& other) {
       if (other.unstable != mark.unstable || other.joint != mark.joint) return false;
       if (mark.from > other.to + touching || other.from > mark.to + touching) return false;
       mark.from = std::min(mark.from, other.from);
@@ -92,7 +92,7 @@ std::string text_of_events(const std::vector<Event>& events) {
   return message;
 }
 
-std::string text_of_place(const WayMark& mark, const std::function<double(double)>& shown) {
+std::string text_of_place(const PathMark& mark, const std::function<double(double)>& shown) {
   const double a = shown(mark.from), b = shown(mark.to);
   return mark.unstable ? fmt::format("{:.5g} to {:.5g}", std::max(a, b), std::min(a, b))
                        : fmt::format("{:.5g}", a);
