@@ -34,12 +34,22 @@ struct ReportOptions {
   bool quiet = false, unsealed = false;
 };
 
-std::string number(double value, int digits = 4) {
-  return std::isfinite(value) ? fmt::format("{:.{}g}", value, digits) : "not known";
+/// Four digits, of thousands all before the point.
+std::string number(double value) {
+  if (!std::isfinite(value)) return "not known";
+  return std::abs(value) >= 1000 && std::abs(value) < 1e9 ? fmt::format("{:.0f}", value)
+                                                          : fmt::format("{:.4g}", value);
 }
 
 std::string with_unit(double value, const char* unit) {
-  return std::isfinite(value) ? fmt::format("{:.4g} {}", value, unit) : "not known";
+  return std::isfinite(value) ? number(value) + " " + unit : "not known";
+}
+
+/// A force, what is round-off beside others left out.
+std::vector<std::string> numbers(const Eigen::Vector3d& force, double beside) {
+  std::vector<std::string> texts;
+  for (const double one : force) texts.push_back(number(std::abs(one) < 1e-9 * beside ? 0 : one));
+  return texts;
 }
 
 /// The last state, its rods in the colours of a quantity.
@@ -50,8 +60,14 @@ Result<render::Image> picture_of(const Run& run, preset::ColourBy colours,
   preset.movie.bins = false;
   preset.style.range.clear();
   constexpr double width_mm = 180, height_mm = 90, dpi = 200;
-  const render::MovieStyle style =
+  // a bar that can be seen beside the shell
+  const double length = run.trajectory.layout.length_scale_mm;
+  if (preset.figure.scale_bar_mm < 0.05 * length)
+    preset.figure.scale_bar_mm = render::nice_ceiling(0.2 * length);
+  render::MovieStyle style =
       at_size(render::still_style(style_of(preset, Pictures::stills)), width_mm, height_mm, dpi);
+  style.print = {width_mm, dpi};
+  style.title.clear();
   record::Trajectory last{run.trajectory.layout, {}};
   last.frames = {record::Frame(run.trajectory.frames.back())};
   TRY_DO(render::check_showable(last, style));
@@ -70,8 +86,8 @@ void add_geometry(Sheets& sheets, const Run& run, const exports::FabricationPlan
   const Eigen::Vector3d span = boundary.rowwise().maxCoeff() - boundary.rowwise().minCoeff();
   sheets.values(
       {{"rods", fmt::format("{}, {:.4g} m in all", summary.rods, 1e-3 * plan.total_length_mm())},
-       {"joints", fmt::format("{}, {:.4g} mm apart", summary.joints, plan.spacing_mm)},
-       {"plan of the boundary", fmt::format("{:.4g} × {:.4g} mm", span.x(), span.y())},
+       {"joints", fmt::format("{}, {} mm apart", summary.joints, number(plan.spacing_mm))},
+       {"plan of the boundary", number(span.x()) + " × " + with_unit(span.y(), "mm")},
        {"highest joint above it", with_unit(summary.height_mm, "mm")},
        {"model", fmt::format("{}, {} edges a segment", summary.model, summary.edges_per_segment)},
        {"error of positions", with_unit(summary.error_estimate_mm, "mm")},
@@ -88,8 +104,8 @@ void add_stresses(Sheets& sheets, const record::Summary& summary) {
   sheets.heading("Stresses");
   sheets.values({{"largest stress of a fibre", with_unit(summary.largest_stress_MPa, "MPa")},
                  {"over the rods' strength", number(summary.utilisation)},
-                 {"where", summary.stress_at},
                  {"largest strain by bending", number(summary.largest_bending_strain)}});
+  if (!summary.stress_at.empty()) sheets.text("It is largest in " + summary.stress_at + ".");
   if (!std::isfinite(summary.utilisation))
     sheets.text("The rods' strength is not known: [rod] strength_MPa or yield_strain says it.");
 }
@@ -104,9 +120,10 @@ void add_reactions(Sheets& sheets, const record::Layout& layout, const record::F
   std::ranges::stable_sort(order, std::greater<>(),
                            [&](Eigen::Index k) { return frame.reactions_N.col(k).norm(); });
   std::vector<TableRow> rows;
+  const double largest = frame.reactions_N.colwise().norm().maxCoeff();
   const auto add = [&](const std::string& place, const Eigen::Vector3d& force) {
-    rows.push_back({{place, number(force.x()), number(force.y()), number(force.z()),
-                     number(force.norm()), ""}});
+    const auto parts = numbers(force, largest);
+    rows.push_back({{place, parts[0], parts[1], parts[2], number(force.norm()), ""}});
   };
   add("sum", frame.reactions_N.rowwise().sum());
   for (const Eigen::Index k : order) {
@@ -137,8 +154,10 @@ Result<void> add_loads(Sheets& sheets, const preset::Preset& preset, const Repor
   std::vector<TableRow> rows;
   for (const record::LoadRow& row : found->cases) {
     const bool lost = std::isfinite(row.critical_factor);
+    const Eigen::Vector3d sum(row.load_x_N, row.load_y_N, row.load_z_N);
+    const auto parts = numbers(sum, sum.norm());
     rows.push_back(
-        {{row.load_case, number(row.load_x_N), number(row.load_y_N), number(row.load_z_N),
+        {{row.load_case, parts[0], parts[1], parts[2],
           lost ? record::with_error(row.critical_factor, row.error, "") : "–",
           std::isfinite(row.linear_factor) ? number(row.linear_factor) : "–",
           !lost ? "stability is not lost on the way followed"
@@ -158,7 +177,7 @@ Result<void> add_loads(Sheets& sheets, const preset::Preset& preset, const Repor
                 {"sum *x* (N)", 52},
                 {"sum *y* (N)", 52},
                 {"sum *z* (N)", 52},
-                {"factor", 80},
+                {"factor", 116},
                 {"linear", 44},
                 {"lost by", 0, AlignX::left}},
                rows);

@@ -31,9 +31,9 @@ const ExternalLoads outside{.load = 0.7};
 /// Two rods that share a node, one of them clamped, with axes and a shape at rest, sheared at the
 /// joint; a third hung on by a spring; loads and ground.
 Model sample_model() {
-  const ModelRod a{{0, 1, 2, 3, 4}, {0, 4, 9, 13, 18}, strip, RodEnd::clamped, RodEnd::pinned};
-  const ModelRod b{{5, 6, 2, 7, 8}, {0, 5, 9, 14, 18}, wire, RodEnd::tangent, RodEnd::free};
-  const ModelRod c{{9, 10, 11}, {0, 5, 10}, wire, RodEnd::free, RodEnd::pinned};
+  const ModelRod a{{0, 1, 2, 3, 4}, {0, 4, 9, 13, 18}, strip, {}, RodEnd::clamped, RodEnd::pinned};
+  const ModelRod b{{5, 6, 2, 7, 8}, {0, 5, 9, 14, 18}, wire, {}, RodEnd::tangent, RodEnd::free};
+  const ModelRod c{{9, 10, 11}, {0, 5, 10}, wire, {}, RodEnd::free, RodEnd::pinned};
   Model model = build_model(12, {a, b, c}, RodModel::twist).value();
   model.springs.push_back({{3, 9, {40, 40, 40}}});
   model.springs.push_back({{10, 8, {3, 0, 5}, Term::support}});
@@ -110,7 +110,7 @@ TEST_CASE("assembly: a rigid motion costs nothing, forces and moments balance") 
     moment += Eigen::Vector3d(dome.state.x.col(k)).cross(assembly.gradient.col(k).eval());
   CHECK(moment.norm() <= 1e-9 * assembly.gradient.norm() * 50);
 
-  const ModelRod rod{{0, 1, 2, 3}, {0, 4, 9, 13}, strip, RodEnd::free, RodEnd::free};
+  const ModelRod rod{{0, 1, 2, 3}, {0, 4, 9, 13}, strip, {}, RodEnd::free, RodEnd::free};
   const Model model = build_model(4, {rod}, RodModel::twist).value();
   Eigen::Matrix3Xd x = Eigen::Matrix3Xd::Random(3, 4);
   x.row(0) += Eigen::RowVector4d(0, 4, 9, 13);

@@ -46,7 +46,7 @@ double beam(int edges, RodEnd begin, double stiffness) {
 /// column at which it sways, over EI/L^2.
 double portal(int edges) {
   const int corner = edges, other = 2 * edges, last = 3 * edges;
-  std::vector<ModelRod> rods(3, {{}, {}, wire, RodEnd::free, RodEnd::free, {0, 1, 0}});
+  std::vector<ModelRod> rods(3, {{}, {}, wire, {}, RodEnd::free, RodEnd::free, {0, 1, 0}});
   rods.front().begin = rods.back().end = RodEnd::pinned;
   Eigen::Matrix3Xd x(3, last + 1);
   for (int node = 0; node <= last; ++node) {
@@ -83,7 +83,7 @@ double lateral(int edges) {
 /// The load all around, of fixed direction, at which a ring turns oval in its plane, over EI/R^3.
 double ring(int edges) {
   constexpr double R = 40;
-  ModelRod rod{{}, {}, wire, RodEnd::free, RodEnd::free};
+  ModelRod rod{{}, {}, wire, {}, RodEnd::free, RodEnd::free};
   const double around = 2 * M_PI * R, radius = around / edges / (2 * std::sin(M_PI / edges));
   Eigen::Matrix3Xd x(3, edges);
   for (int k = 0; k <= edges; ++k) {
@@ -192,6 +192,7 @@ double arch(int edges) {
   ModelRod rod{{},
                {},
                {EA, EI, EI, GJ, {0, -1 / R}, 0},
+               {},
                RodEnd::clamped,
                RodEnd::pinned,
                {-std::sin(half), 0, std::cos(half)}};

@@ -101,7 +101,7 @@ double greenhill(int edges) {
 double michell(int edges, double ratio) {
   RodMaterial material = wire;
   material.GJ = ratio * EI;
-  ModelRod rod{{}, {}, material, RodEnd::free, RodEnd::free};
+  ModelRod rod{{}, {}, material, {}, RodEnd::free, RodEnd::free};
   const double around = 2 * M_PI * 40;
   Eigen::Matrix3Xd x(3, edges);
   for (int k = 0; k <= edges; ++k) {
@@ -266,7 +266,7 @@ TEST_CASE("joint shear: two rigid crossing rods turn by moment over stiffness") 
   // stiff rods, one held, the other turned about the joint by a couple at its ends
   const RodMaterial stiff{1e6, 1e7, 1e7, 1e7, {0, 0}, 0};
   ModelRod a{{0, 1, 2}, {0, 10, 20}, stiff};
-  ModelRod b{{3, 1, 4}, {0, 10, 20}, stiff, RodEnd::free, RodEnd::free};
+  ModelRod b{{3, 1, 4}, {0, 10, 20}, stiff, {}, RodEnd::free, RodEnd::free};
   Model model = build_model(5, {a, b}, RodModel::twist).value();
   const double stiffness = 40, couple = 2;  // N mm/rad, N mm
   add_joint_shear(model, 0, 1, 1, 1, stiffness, M_PI / 2);
