@@ -174,7 +174,7 @@ TEST_CASE("a figure is written as PNG, SVG and PDF, whose words stay words") {
 
   // the same bytes again, as large as asked for
   CHECK(draw_pdf(144, 72, "energy", {draw}) == draw_pdf(144, 72, "energy", {draw}));
-  CHECK(draw_pdf(144, 72, "energy", draw).starts_with("%PDF"));
+  CHECK(draw_pdf(144, 72, "energy", {draw}).starts_with("%PDF"));
   REQUIRE(write_figure(folder.path() / "wide", 144, 72, "", draw, {85, 300}));
   const auto wide = read_png(folder.path() / "wide.png");
   REQUIRE(wide);
