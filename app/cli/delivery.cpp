@@ -182,7 +182,7 @@ Left left_in(const fs::path& folder) {
        at.increment(error)) {
     left.pictures += at->path().extension() == ".png";
     left.runs += at->path().filename() == "summary.json";
-    left.path |= at->path().filename().string().starts_with("way_");
+    left.path |= at->path().filename().string().starts_with("segment_");
     if (at->is_directory(error)) left.frames += record::frames_in_journal(at->path());
   }
   return left;

@@ -63,12 +63,10 @@ void add_rods(FieldList<Rod> rods, const std::string& table) {
             "whether a network's rods are cut as they are drawn in the flat, so that their lines "
             "are their shapes at rest, or are straight at rest")
         .needs_twist("rods cut as drawn keep their curves", &Rod::as_drawn)
-        .refused({"[footprint] kind"},
-                 "the rods of a grid are straight as drawn, must be false, or [footprint] kind = "
-                 "\"network\"",
-                 [](const Preset& preset, const Rod& rod) {
-                   return rod.as_drawn && preset.footprint.kind != FootprintKind::network;
-                 });
+        .unused({"[footprint] kind"}, "the rods of a grid are straight as they are drawn",
+                [](const Preset& preset) {
+                  return preset.footprint.kind != FootprintKind::network;
+                });
 }
 
 /// Whether a net ends in two rings.

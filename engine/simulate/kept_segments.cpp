@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <concepts>
 #include <cstring>
+#include <fstream>
 #include <string>
 
 #include "engine/core/file_io.h"
@@ -18,16 +19,28 @@ namespace {
 template <class T, class Of>
 concept Is = std::same_as<std::remove_const_t<T>, Of>;
 
+/// Straight into a file, as a path may be large; in ByteWriter's form.
 struct Pack {
-  ByteWriter bytes;
-  bool good() const { return true; }
-  void number(const auto& value) { bytes.number(value); }
-  void matrix(const auto& values) { bytes.matrix(values); }
-  void text(const std::string& value) { bytes.text(value); }
-  std::size_t size_of(const auto& list) {
-    bytes.number(std::uint64_t(list.size()));
-    return list.size();
+  std::ofstream file;
+  Checksum sum = {};
+
+  void raw(const void* data, std::size_t size) {
+    const auto* bytes = static_cast<const char*>(data);
+    sum.add({bytes, size});
+    file.write(bytes, std::streamsize(size));
   }
+  void number(const auto& value) { raw(&value, sizeof value); }
+  template <class Matrix>
+  void matrix(const Matrix& values) {
+    number(std::int64_t(values.rows()));
+    number(std::int64_t(values.cols()));
+    raw(values.data(), sizeof(typename Matrix::Scalar) * std::size_t(values.size()));
+  }
+  void text(const std::string& value) {
+    size_of(value);
+    raw(value.data(), value.size());
+  }
+  void size_of(const auto& list) { number(std::uint64_t(list.size())); }
 };
 
 struct Unpack {
@@ -139,8 +152,9 @@ std::optional<KeptSegment> KeptSegments::next(const SegmentBegin& begin) {
   const auto bytes = read_file(file());
   std::uint64_t sum = 0;
   if (!bytes || bytes->size() < sizeof sum) return std::nullopt;
-  const std::string_view all_of_it = std::string_view(*bytes).substr(sizeof sum);
-  std::memcpy(&sum, bytes->data(), sizeof sum);
+  const std::size_t size = bytes->size() - sizeof sum;
+  const std::string_view all_of_it = std::string_view(*bytes).substr(0, size);
+  std::memcpy(&sum, bytes->data() + size, sizeof sum);
   if (sum != Checksum::of(all_of_it)) return std::nullopt;
   Unpack in{ByteReader(all_of_it)};
   KeptSegment segment;
@@ -155,13 +169,16 @@ bool KeptSegments::wants(bool at_its_end) const {
 }
 
 void KeptSegments::keep(const KeptSegment& segment) {
-  Pack out;
-  all(out, segment);
-  const std::uint64_t sum = Checksum::of(out.bytes.bytes());
-  std::string bytes(reinterpret_cast<const char*>(&sum), sizeof sum);
-  bytes += out.bytes.bytes();
   const double begun = seconds_now();
-  if (make_folder(folder_)) (void)write_file(file(), bytes);
+  if (make_folder(folder_)) {
+    AtomicFile whole(file());
+    Pack out{std::ofstream(whole.temporary(), std::ios::binary)};
+    all(out, segment);
+    const std::uint64_t sum = out.sum.value();
+    out.number(sum);
+    out.file.close();
+    if (out.file) (void)whole.commit();
+  }
   has_file_ = true;
   written_at_ = seconds_now();
   // large ones are written less often

@@ -201,8 +201,10 @@ void Simulation::Walk::keep_segment(std::optional<Outcome> end) {
   segment_.halvings = halvings_;
   segment_.softening = softening_.known();
   if (!kept_->wants(end.has_value())) return;
-  segment_.record = static_cast<const PathRecord&>(*record_);
+  // lent, as it may be large
+  std::swap<PathRecord>(segment_.record, *record_);
   kept_->keep(segment_);
+  std::swap<PathRecord>(segment_.record, *record_);
 }
 
 // ---- how it steps ----

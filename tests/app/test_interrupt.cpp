@@ -78,7 +78,7 @@ TEST_CASE("Ctrl-C before anything is finished leaves nothing", "[alone]") {
   CHECK(files_under(folder.path(), "").empty());
 }
 
-TEST_CASE("a run that is ended goes on from there, to the same state", "[standard]") {
+TEST_CASE("a run that is ended goes on from there, to the same state", "[full]") {
   const TemporaryFolder folder;
   const auto command = [](const char* output, const char* more) -> Arguments {
     const std::string line = fmt::format(
@@ -89,7 +89,7 @@ TEST_CASE("a run that is ended goes on from there, to the same state", "[standar
   };
   const auto kept = [&] {
     return std::ranges::any_of(files_under(folder.path(), ""), [](const fs::path& file) {
-      return file.filename().string().starts_with("way_");
+      return file.filename().string().starts_with("segment_");
     });
   };
   {

@@ -217,6 +217,8 @@ std::vector<Preset> samples() {
   }
   Preset network;
   network.footprint.kind = FootprintKind::network;
+  network.rod.as_drawn = true;
+  network.rod.shear_GPa = 30;
   network.footprint.file = {{{0, 0, 0}, {1e2 / 3, 0, 0}, {0, 20, 0}},
                             {{0, 1, 2}},
                             {0.25},
