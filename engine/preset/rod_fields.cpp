@@ -63,10 +63,9 @@ void add_rods(FieldList<Rod> rods, const std::string& table) {
             "whether a network's rods are cut as they are drawn in the flat, so that their lines "
             "are their shapes at rest, or are straight at rest")
         .needs_twist("rods cut as drawn keep their curves", &Rod::as_drawn)
-        .unused({"[footprint] kind"}, "the rods of a grid are straight as they are drawn",
-                [](const Preset& preset) {
-                  return preset.footprint.kind != FootprintKind::network;
-                });
+        .unused(
+            {"[footprint] kind"}, "the rods of a grid are straight as they are drawn",
+            [](const Preset& preset) { return preset.footprint.kind != FootprintKind::network; });
 }
 
 /// Whether a net ends in two rings.
