@@ -2,15 +2,15 @@
 # tests/images/draw.sh PROGRAM FOLDER [NAME...]: makes what list.txt says of each NAME anew, a whole run with
 # its pictures in FOLDER/NAME and what the program says of it in FOLDER/NAME.txt. The name `window` stands for
 # what the window shows at the end of each visit that is recorded in visits: FOLDER/window/VISIT.png; the name
-# `window_double` for a visit to each panel at 2560 x 1440 and twice the density, which is not among the names
-# without any. Without names all of them, with $OPTIONS for the program. To keep the pictures:
+# `window_double` for a visit to each panel at 2560 x 1440 and twice the density. Without names all of them,
+# with $OPTIONS for the program. To keep the pictures:
 #   PROGRAM compare tests/images FOLDER --update --why "..."
 set -e
 program=$1 folder=$2 here=$(dirname "$0")
 shift 2
 mkdir -p "$folder"
 # shellcheck disable=SC2046
-[ $# -gt 0 ] || set -- $(sed -n 's/^\([a-z][^:]*\):.*/\1/p' "$here/list.txt") window
+[ $# -gt 0 ] || set -- $(sed -n 's/^\([a-z][^:]*\):.*/\1/p' "$here/list.txt") window window_double
 for name in "$@"; do
   rm -rf "${folder:?}/$name" "$folder/$name.txt"
   if [ "$name" = window_double ]; then
