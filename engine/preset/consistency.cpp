@@ -60,7 +60,11 @@ void look_at_own_rods(const Preset& preset, RuleKind kind, std::vector<KeyFault>
       for (const Rule& rule : field.rules) {
         if (field.table != "rod" || rule.kind != kind) continue;
         if (const auto what = rule.fault(one, -1); !what.empty())
-          found.push_back({"rod", field.key, -1, {}, fmt::format("of rods[{}], {}", number, what)});
+          found.push_back({"footprint",
+                           "file",
+                           -1,
+                           {},
+                           fmt::format("rods[{}] {}: {}", number, field.key, what)});
       }
   }
 }

@@ -56,9 +56,11 @@ bool overridden_above(const PresetBuilder& draft, const std::vector<std::string>
 
 /// "[rod] diameter_mm = 20.0: neighbouring rods would touch, ..."
 std::string fault_text(const Preset& preset, const KeyFault& fault, const std::string& more = "") {
-  const Field& field = *find_field(fault.table, fault.key);
-  return fmt::format("{} = {}: {}{}", fault.label(), value_text(field, preset, fault.item), more,
-                     fault.what);
+  // a network or a table may be of thousands of points
+  constexpr std::size_t longest = 60;
+  auto value = value_text(*find_field(fault.table, fault.key), preset, fault.item);
+  if (value.size() > longest) value.replace(longest - 3, std::string::npos, "...");
+  return fmt::format("{} = {}: {}{}", fault.label(), value, more, fault.what);
 }
 
 // a refused value left its default behind, with which nothing that the user wrote is at odds
