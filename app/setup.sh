@@ -2,7 +2,7 @@
 # take, and how to get the missing ones. Expects to run in the folder of the sources.
 
 packages="
-  g++ cmake make pkg-config
+  g++ cmake make ninja-build pkg-config
   libeigen3-dev libspectra-dev libsuitesparse-dev libopenblas-serial-dev libmuparser-dev
   libexpected-dev libfmt-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libhdf5-dev
   libpango1.0-dev libcairo2-dev libpng-dev libdeflate-dev fonts-dejavu-core
@@ -38,8 +38,11 @@ install_missing_packages() {
       apt-get install -q -y --no-install-recommends $missing >&2
 }
 
-# build TARGET: a Release in build/, with all cores; what the tools say goes to stderr
+# build TARGET: a Release in build/, with all cores; what the tools say goes to stderr. Ninja, where it
+# is, keeps them all busy; a folder that was begun with make goes on with it.
 build() {
-  cmake -S . -B build -DCMAKE_BUILD_TYPE=Release >&2 &&
+  generator=""
+  [ -e build/CMakeCache.txt ] || ! command -v ninja >/dev/null || generator="-GNinja"
+  cmake -S . -B build $generator -DCMAKE_BUILD_TYPE=Release >&2 &&
     cmake --build build -j "$(nproc)" --target "$1" >&2
 }
