@@ -185,7 +185,7 @@ void check_apart_on_the_whole_path(RodModel model) {
 
 }  // namespace
 
-TEST_CASE("a barrier keeps rods apart on the whole path", "[standard]") {
+TEST_CASE("a barrier keeps rods apart on the whole path", "[full]") {
   check_apart_on_the_whole_path(RodModel::bend);
 }
 
