@@ -312,7 +312,7 @@ TEST_CASE("chart accuracy of sizes draws a curve a number of rods") {
   CHECK(bench.run("chart accuracy net_barrel --sizes 8").code == 2);
 }
 
-TEST_CASE("chart accuracy writes tables and pictures and says how auto stands", "[standard]") {
+TEST_CASE("chart accuracy writes tables and pictures and says how auto stands", "[full]") {
   const Bench bench(small);
   const auto said = bench.good("chart accuracy small.toml --limit 0.05 --edges 4");
   CHECK_THAT(said.out, Contains("auto at 1e-06: error"));
