@@ -24,8 +24,6 @@ namespace {
 using record::BranchEvent;
 using study::LoadStudy;
 
-constexpr double drawn_amplitude = 0.12;  // of the length scale: the largest move in a picture
-
 struct LoadOptions {
   Options common;
   int imperfections = 0;
@@ -57,19 +55,6 @@ std::string json_text(const LoadStudy& found) {
   return gridshell::text_of(json);
 }
 
-/// The shell moved by its mode, which is no state.
-record::Frame moved(const LoadStudy& found, std::size_t k) {
-  const record::Frame& rest = found.state.frames.back();
-  record::Frame frame;
-  frame.index = int(k);
-  frame.actuation = rest.actuation;
-  frame.depth_mm = drawn_amplitude * found.state.layout.length_scale_mm;
-  frame.nodes = rest.nodes + frame.depth_mm * found.modes[k];
-  frame.cell_K = rest.cell_K;
-  frame.negative_pivots = -1;
-  return frame;
-}
-
 Result<void> draw(preset::Preset preset, const LoadStudy& found, const LoadOptions& options,
                   const fs::path& folder, Progress& progress) {
   const fs::path stem = folder / fs::path(preset.name).filename();
@@ -77,23 +62,21 @@ Result<void> draw(preset::Preset preset, const LoadStudy& found, const LoadOptio
                             render::load_plot(found.points, preset::title_or_name(preset)),
                             {.width_mm = 120}));
   TRY(maker, PictureMaker::create(options.common.context, preset.style.font));
-  const render::ColourBar bar{.label = "|*u*| / max |*u*|",
-                              .scale = {render::sequential, 0, 1, 0.2},
-                              .words = "displacement over the largest"};
   preset.movie.colour_by = preset::ColourBy::displacement;
   preset.movie.turn_deg = 0;
   record::Trajectory moves{found.state.layout, {}};
   std::vector<std::string> captions;
   for (std::size_t k = 0; k < found.cases.size(); ++k) {
     if (found.modes[k].size() == 0) continue;
-    moves.frames.push_back(moved(found, k));
+    moves.frames.push_back(moved_by(found.state, found.modes[k], 1, int(k)));
     captions.push_back(
         fmt::format("{}: {:.4g}", found.cases[k].load_case, found.cases[k].critical_factor));
   }
   Watch& watch = progress.next_phase();
   if (captions.empty()) return {};
-  TRY_DO(render::write_stills(moves, style_of(preset, Pictures::stills), bar, maker->renderer(),
-                              stem, watch, captions, &found.state.frames.back()));
+  TRY_DO(render::write_stills(moves, style_of(preset, Pictures::stills), bar_of_moves,
+                              maker->renderer(), stem, watch, captions,
+                              &found.state.frames.back()));
   return {};
 }
 

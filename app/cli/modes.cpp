@@ -21,7 +21,6 @@ namespace {
 
 using study::Vibrations;
 
-constexpr double drawn_amplitude = 0.12;  // of the length scale: the largest move in a picture
 constexpr int frames_of_cycle = 24;
 
 struct ModesOptions {
@@ -54,23 +53,6 @@ std::string shapes_csv(const Vibrations& found) {
   return std::move(csv).text();
 }
 
-/// The shell moved by so much of a mode; no state, so it knows nothing but its shape.
-record::Frame moved(const Vibrations& found, std::size_t mode, double part, int index) {
-  const record::Frame& rest = found.state.frames.back();
-  record::Frame frame;
-  frame.index = index;
-  frame.actuation = rest.actuation;
-  frame.depth_mm = drawn_amplitude * found.state.layout.length_scale_mm;
-  frame.nodes = rest.nodes + part * frame.depth_mm * found.shapes[mode];
-  frame.cell_K = rest.cell_K;
-  frame.negative_pivots = -1;
-  return frame;
-}
-
-const render::ColourBar bar_of_moves{.label = "|*u*| / max |*u*|",
-                                     .scale = {render::sequential, 0, 1, 0.2},
-                                     .words = "displacement over the largest"};
-
 /// One vibration, from rest to rest.
 Result<void> draw_movie(const preset::Preset& preset, const Vibrations& found, std::size_t k,
                         render::Renderer& renderer, const fs::path& folder, Watch& watch) {
@@ -80,7 +62,8 @@ Result<void> draw_movie(const preset::Preset& preset, const Vibrations& found, s
   run.preset.movie.captions = false;
   run.trajectory.layout = found.state.layout;
   for (int n = 0; n < frames_of_cycle; ++n)
-    run.trajectory.frames.push_back(moved(found, k, std::sin(2 * M_PI * n / frames_of_cycle), n));
+    run.trajectory.frames.push_back(
+        moved_by(found.state, found.shapes[k], std::sin(2 * M_PI * n / frames_of_cycle), n));
   return draw_run(run, bar_of_moves, renderer,
                   folder / fmt::format("mode_{:02}", found.modes[k].mode), watch);
 }
@@ -93,7 +76,7 @@ Result<void> draw(preset::Preset preset, const Vibrations& found, const ModesOpt
   record::Trajectory moves{found.state.layout, {}};
   std::vector<std::string> captions;
   for (std::size_t k = 0; k < found.modes.size(); ++k) {
-    moves.frames.push_back(moved(found, k, 1, int(k)));
+    moves.frames.push_back(moved_by(found.state, found.shapes[k], 1, int(k)));
     captions.push_back(caption_of(found.modes[k]));
   }
   const auto style = style_of(preset, Pictures::stills);

@@ -125,6 +125,24 @@ Result<void> draw_run(const Run& run, const SharedColourBar& bar, render::Render
   return {};
 }
 
+record::Frame moved_by(const record::Trajectory& state, const Eigen::Matrix3Xd& shape, double part,
+                       int index) {
+  constexpr double drawn_amplitude = 0.12;  // of the length scale
+  const record::Frame& rest = state.frames.back();
+  record::Frame frame;
+  frame.index = index;
+  frame.actuation = rest.actuation;
+  frame.depth_mm = drawn_amplitude * state.layout.length_scale_mm;
+  frame.nodes = rest.nodes + part * frame.depth_mm * shape;
+  frame.cell_K = rest.cell_K;
+  frame.negative_pivots = -1;
+  return frame;
+}
+
+const render::ColourBar bar_of_moves{.label = "|*u*| / max |*u*|",
+                                     .scale = {render::sequential, 0, 1, 0.2},
+                                     .words = "displacement over the largest"};
+
 Result<void> make_movie(const fs::path& folder, const preset::Preset& preset,
                         render::MovieStyle style, int frames, Watch& watch,
                         const DrawFrames& draw) {

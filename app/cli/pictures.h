@@ -75,6 +75,16 @@ class PictureMaker {
 Result<void> draw_run(const Run& run, const SharedColourBar& bar, render::Renderer& renderer,
                       const std::filesystem::path& folder, Watch& watch);
 
+// A shell that moves as a mode says, which is no state.
+
+/// The one of `state`'s last frame, moved by `part` of a shape whose largest move is 1: 0.12 of the
+/// length scale. It knows nothing but its shape.
+record::Frame moved_by(const record::Trajectory& state, const Eigen::Matrix3Xd& shape, double part,
+                       int index);
+
+/// How its moves are coloured.
+extern const render::ColourBar bar_of_moves;
+
 /// Writes the frames of a movie, and shows each to whoever wants to see it.
 using DrawFrames = std::function<Result<render::MovieReport>(const render::FrameCallback& seen)>;
 

@@ -181,8 +181,8 @@ void KeptSegments::keep(const KeptSegment& segment) {
   }
   has_file_ = true;
   written_at_ = seconds_now();
-  // large ones are written less often
-  wait_s_ = std::max(worth_s_, 20 * (written_at_ - begun));
+  // large ones are written less often, but where all are asked for
+  if (worth_s_ > 0) wait_s_ = std::max(worth_s_, 20 * (written_at_ - begun));
 }
 
 }  // namespace gridshell::simulate

@@ -42,7 +42,7 @@ struct KeptSegment {
 /// that is damaged, or whose segment begins elsewhere, is as good as none.
 class KeptSegments {
  public:
-  /// What takes less than `worth_s` to follow is not worth a file.
+  /// What takes less than `worth_s` to follow is not worth a file; 0: everything is, at any cost.
   explicit KeptSegments(std::filesystem::path folder, double worth_s = 2);
 
   /// The next segment of the run, if something of it is kept.

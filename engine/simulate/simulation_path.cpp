@@ -177,7 +177,7 @@ bool Simulation::Walk::goes_on() {
   if (!before) return false;
   segment_ = std::move(*before);
   of_.charge(segment_.effort);
-  *record_ = segment_.record;
+  static_cast<PathRecord&>(*record_) = std::move(segment_.record);
   events_ = segment_.events;
   halvings_ = segment_.halvings;
   softening_.know(segment_.softening);
@@ -193,14 +193,13 @@ bool Simulation::Walk::goes_on() {
 /// Writes where the segment stands, as often as that is worth it; what a step that is stopped did
 /// is none of it.
 void Simulation::Walk::keep_segment(std::optional<Outcome> end) {
-  if (!kept_) return;
+  if (!kept_ || !kept_->wants(end.has_value())) return;
   segment_.end = end;
   segment_.state = shell_.state();
   segment_.events = events_;
   segment_.effort = of_.effort() - effort_before_;
   segment_.halvings = halvings_;
   segment_.softening = softening_.known();
-  if (!kept_->wants(end.has_value())) return;
   // lent, as it may be large
   std::swap<PathRecord>(segment_.record, *record_);
   kept_->keep(segment_);
