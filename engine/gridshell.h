@@ -13,7 +13,6 @@
 #include "engine/preset/consistency.h"         // IWYU pragma: export
 #include "engine/preset/field_table.h"         // IWYU pragma: export
 #include "engine/preset/preset.h"              // IWYU pragma: export
-#include "engine/preset/preset_access.h"       // IWYU pragma: export
 #include "engine/preset/preset_file.h"         // IWYU pragma: export
 #include "engine/preset/sweep_grid.h"          // IWYU pragma: export
 #include "engine/record/fabrication.h"         // IWYU pragma: export

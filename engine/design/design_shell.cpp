@@ -28,6 +28,11 @@ double& stiffness_of(Model& model, int bend) {
 
 }  // namespace
 
+DesignShell::DesignShell(const Scene& scene, RodMesh mesh)
+    : scene_(scene), mesh_(std::move(mesh)) {}
+
+Eigen::Matrix3Xd DesignShell::joints() const { return state_.x.leftCols(mesh_.joints); }
+
 Result<std::unique_ptr<DesignShell>> DesignShell::make(const Scene& scene, int edges_per_segment,
                                                        const RodMesh& mesh, const Model& model,
                                                        const State& state, const Watch& watch) {

@@ -60,7 +60,7 @@ class DesignShell {
   const Model& model() const { return model_; }
   const State& state() const { return state_; }
   const ShellEnds& ends() const { return ends_; }
-  Eigen::Matrix3Xd joints() const { return state_.x.leftCols(mesh_.joints); }
+  Eigen::Matrix3Xd joints() const;
   /// Axial force of every leg at its edge point, N.
   Eigen::VectorXd leg_forces() const;
   const Energies& energies() const { return system_->assembly().energies; }
@@ -69,7 +69,7 @@ class DesignShell {
   const Assembly& forces() const { return system_->assembly(); }
 
  private:
-  DesignShell(const Scene& scene, RodMesh mesh) : scene_(scene), mesh_(std::move(mesh)) {}
+  DesignShell(const Scene& scene, RodMesh mesh);
   void find_legs();
   void set_legs(const ShellEnds& ends);
   void set_diameters(const ShellEnds& ends);

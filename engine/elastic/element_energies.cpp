@@ -59,6 +59,14 @@ Eigen::Matrix3d normal_projector(const Eigen::Vector3d& t) {
 
 }  // namespace
 
+double NodeSpring::value(const Eigen::Vector3d& gap) const {
+  return 0.5 * stiffness.dot(gap.cwiseAbs2());
+}
+
+Eigen::Vector3d NodeSpring::gradient(const Eigen::Vector3d& gap) const {
+  return stiffness.cwiseProduct(gap);
+}
+
 CurvatureBinormal curvature_binormal(const Eigen::Vector3d& t, const Eigen::Vector3d& s) {
   const double chi = 1 + t.dot(s);
   return {t, s, 2 / chi * t.cross(s), chi};

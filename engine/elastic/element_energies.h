@@ -30,8 +30,8 @@ struct NodeSpring {
   Eigen::Vector3d stiffness{0, 0, 0};  ///< k along x, y, z, N/mm
   Term term = Term::joint;
 
-  double value(const Eigen::Vector3d& gap) const { return 0.5 * stiffness.dot(gap.cwiseAbs2()); }
-  Eigen::Vector3d gradient(const Eigen::Vector3d& gap) const { return stiffness.cwiseProduct(gap); }
+  double value(const Eigen::Vector3d& gap) const;
+  Eigen::Vector3d gradient(const Eigen::Vector3d& gap) const;
 };
 
 /// A straight bar between nodes a and b that may be slack: E = EA l F(e), e = |x_b - x_a|/l - 1. Of

@@ -307,6 +307,20 @@ void place_pair(Model& model, Pair<Law>& pair) {
 
 }  // namespace
 
+double length_between(const Model& model, int e, int f) {
+  const auto length = [&](int edge) {
+    const ModelEdge& one = model.edges[std::size_t(edge)];
+    return one.EA > 0 ? one.rest_length : 0;
+  };
+  return 0.5 * (length(e) + length(f));
+}
+
+void add_joint_shear(Model& model, int rod_a, int node_a, int rod_b, int node_b, double stiffness,
+                     double rest_angle) {
+  add_joint_shear(model, rod_a, node_a, rod_b, node_b, stiffness,
+                  [rest_angle](int, int) { return rest_angle; });
+}
+
 int Model::dof() const {
   int count = 0;
   for (unsigned char bits : held) count += 3 - std::popcount(bits);

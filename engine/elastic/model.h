@@ -206,13 +206,7 @@ struct Model {
 };
 
 /// What bends between two edges, mm: the mean of their rest lengths; a ghost has none.
-inline double length_between(const Model& model, int e, int f) {
-  const auto length = [&](int edge) {
-    const ModelEdge& one = model.edges[std::size_t(edge)];
-    return one.EA > 0 ? one.rest_length : 0;
-  };
-  return 0.5 * (length(e) + length(f));
-}
+double length_between(const Model& model, int e, int f);
 
 /// Puts rods together; nodes that rods share are shared joints. `crossings` marks more nodes at
 /// which rods hold on to one another (spring joints). On the twist rung the spin of a rod that
@@ -243,11 +237,8 @@ std::vector<int> edges_beside(const Model& model, int rod, int node);
 void add_joint_shear(Model& model, int rod_a, int node_a, int rod_b, int node_b, double stiffness,
                      const std::function<double(int e, int f)>& rest_angle);
 /// The same with one angle of all four.
-inline void add_joint_shear(Model& model, int rod_a, int node_a, int rod_b, int node_b,
-                            double stiffness, double rest_angle) {
-  add_joint_shear(model, rod_a, node_a, rod_b, node_b, stiffness,
-                  [rest_angle](int, int) { return rest_angle; });
-}
+void add_joint_shear(Model& model, int rod_a, int node_a, int rod_b, int node_b, double stiffness,
+                     double rest_angle);
 
 /// Adds the resistance to spin `stiffness` (N mm/rad) of both rods where they cross: their first
 /// directors stay near the joint's normal, from the direction of `a` to that of `b`.

@@ -31,7 +31,7 @@ struct FibreReach {
 
   /// Largest strain by the curvatures about m1 and m2, 1/mm.
   double strain(const Eigen::Vector2d& curvature) const {
-    if (round) return about_1 * curvature.norm();
+    if (round) return about_1 * std::hypot(curvature[0], curvature[1]);
     return about_1 * std::abs(curvature[0]) + about_2 * std::abs(curvature[1]);
   }
   /// The same of a section whose spin is free: about the axis that strains it most.
@@ -52,7 +52,9 @@ struct RodMaterial {
   bool as_drawn = false;  ///< at rest it turns as its line in the flat does, besides `curvature`
 
   /// Bends alike in every direction, straight at rest: the spin of its section changes nothing.
-  bool round_and_straight() const { return EI1 == EI2 && curvature.isZero(0) && !as_drawn; }
+  bool round_and_straight() const {
+    return EI1 == EI2 && curvature[0] == 0 && curvature[1] == 0 && !as_drawn;
+  }
 };
 
 /// A round rod that is straight at rest. Of its radius r: EI/EA = r^2/4.

@@ -152,6 +152,9 @@ void lay_flat(const RodMesh& mesh, Model& model) {
 
 }  // namespace
 
+ShellRods::ShellRods(const RodMaterial& material) : materials{material} {}
+ShellRods::ShellRods(const RodSection& section) : materials{round_material(section, 0)} {}
+
 Eigen::VectorXd lumped(const RodMesh& mesh, const std::vector<double>& per_mm) {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(mesh.nodes());
   for (std::size_t r = 0; r < mesh.rods.size(); ++r) {

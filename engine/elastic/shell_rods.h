@@ -60,8 +60,8 @@ struct ShellRods {
   std::vector<Brace> braces;
 
   ShellRods() = default;
-  ShellRods(const RodMaterial& material) : materials{material} {}  // NOLINT: rods all alike
-  ShellRods(const RodSection& section) : materials{round_material(section, 0)} {}  // NOLINT
+  ShellRods(const RodMaterial& material);  // NOLINT: rods all alike
+  ShellRods(const RodSection& section);    // NOLINT
 
   const RodMaterial& material(std::size_t rod) const {
     return materials.size() == 1 ? materials.front() : materials[rod];

@@ -79,6 +79,16 @@ std::size_t piece_at(const std::vector<Eigen::Vector4d>& path, double position) 
 
 }  // namespace
 
+std::vector<Interval> Disk::intervals(Family, double c) const {
+  if (std::abs(c) >= radius_) return {};
+  const double half = std::sqrt((radius_ - c) * (radius_ + c));
+  return {{-half, half}};
+}
+
+Eigen::Matrix2Xd Disk::boundary(int points) const {
+  return ring_about_origin(points, [this](const Eigen::Vector2d&) { return radius_; });
+}
+
 FootprintRod FootprintRod::of_grid(Family family, int index, double line, const Interval& span) {
   FootprintRod rod;
   rod.family = family;

@@ -61,14 +61,8 @@ Eigen::Matrix2Xd ring_about_origin(int points, Radius radius_at) {
 class Disk final : public Domain {
  public:
   explicit Disk(double radius_mm) : radius_(radius_mm) {}
-  std::vector<Interval> intervals(Family, double c) const override {
-    if (std::abs(c) >= radius_) return {};
-    const double half = std::sqrt((radius_ - c) * (radius_ + c));
-    return {{-half, half}};
-  }
-  Eigen::Matrix2Xd boundary(int points) const override {
-    return ring_about_origin(points, [this](const Eigen::Vector2d&) { return radius_; });
-  }
+  std::vector<Interval> intervals(Family, double c) const override;
+  Eigen::Matrix2Xd boundary(int points) const override;
   double reach() const override { return radius_; }
 
  private:

@@ -1,9 +1,6 @@
 // CSV text (RFC 4180), numbers as the shortest that read back bit for bit.
 #pragma once
 
-#include <fmt/format.h>
-
-#include <cmath>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -19,21 +16,9 @@ class CsvWriter {
  public:
   void cell(const char* text) { cell(std::string(text)); }
   /// A bool is 0 or 1.
-  void cell(int value) { start() += fmt::format("{}", value); }
-  void cell(double value) {
-    std::string& text = start();
-    if (!std::isnan(value)) text += fmt::format("{}", value);
-  }
-  void cell(std::string_view value) {
-    std::string& text = start();
-    if (value.find_first_of(",\"\r\n") == std::string::npos) {
-      text += value;
-      return;
-    }
-    text += '"';
-    for (const char c : value) text.append(c == '"' ? 2 : 1, c);
-    text += '"';
-  }
+  void cell(int value);
+  void cell(double value);
+  void cell(std::string_view value);
   /// What has a text of its own.
   template <class Name>
   requires requires(const Name& name) { name.text(); }
@@ -64,36 +49,13 @@ class CsvWriter {
   std::string text() && { return std::move(text_); }
 
  private:
-  std::string& start() {
-    if (!first_) text_ += ',';
-    first_ = false;
-    return text_;
-  }
+  std::string& start();
   std::string text_;
   bool first_ = true;
 };
 
 /// The cells of a text of RFC 4180, a row a line.
-inline std::vector<std::vector<std::string>> csv_cells(std::string_view text) {
-  std::vector<std::vector<std::string>> rows;
-  bool quoted = false, line_begins = true;
-  for (std::size_t k = 0; k < text.size(); ++k) {
-    const char c = text[k];
-    if (std::exchange(line_begins, false)) rows.emplace_back(1);
-    std::string& cell = rows.back().back();
-    if (quoted && c == '"' && k + 1 < text.size() && text[k + 1] == '"')
-      cell += text[++k];
-    else if (c == '"')
-      quoted = !quoted;
-    else if (!quoted && c == ',')
-      rows.back().emplace_back();
-    else if (!quoted && c == '\n')
-      line_begins = true;
-    else if (quoted || c != '\r')
-      cell += c;
-  }
-  return rows;
-}
+std::vector<std::vector<std::string>> csv_cells(std::string_view text);
 
 /// The text of a table whose columns `fields` names; an unknown number is an empty cell.
 template <class Row>

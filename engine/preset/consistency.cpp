@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "engine/core/text.h"
-#include "engine/preset/preset_access.h"
+#include "engine/preset/preset.h"
 
 namespace gridshell::preset {
 

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <type_traits>
 
-#include "engine/preset/preset_access.h"
+#include "engine/preset/preset.h"
 #include "engine/preset/toml_reader.h"
 
 namespace gridshell::preset {

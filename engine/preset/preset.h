@@ -371,4 +371,31 @@ struct Preset {
   }
 };
 
+// What a preset is called where people read it.
+
+/// Its title, or where it has none its name.
+const std::string& title_or_name(const Preset& preset);
+
+// The tables of a preset that stand once an item, [[block]], [[join]], [[step]] and
+// [[loads.case]], all at once.
+
+/// Calls visit(name, member) for each of them, in the order of the file; `member` is that of
+/// Preset.
+template <class Visit>
+void each_list(const Visit& visit) {
+  visit("block", &Preset::block);
+  visit("join", &Preset::join);
+  visit("step", &Preset::step);
+  visit("loads.case", &Preset::load_case);
+}
+
+/// One item more with its defaults, at the end of that list.
+void add_item(Preset& preset, const std::string& table);
+
+/// A preset with one item of each: what an item is before a key of it is read.
+Preset default_items();
+
+/// How many items that list has; empty: the table is none of these.
+std::optional<int> items_of(const Preset& preset, const std::string& table);
+
 }  // namespace gridshell::preset

@@ -7,7 +7,7 @@
 
 #include "engine/preset/consistency.h"
 #include "engine/preset/field_table.h"
-#include "engine/preset/preset_access.h"
+#include "engine/preset/preset.h"
 
 namespace gridshell::preset {
 

@@ -11,18 +11,11 @@
 #include "engine/core/file_io.h"
 #include "engine/preset/consistency.h"
 #include "engine/preset/field_table.h"
-#include "engine/preset/preset_access.h"
+#include "engine/preset/preset.h"
 #include "engine/preset/sweep_grid.h"
 #include "engine/preset/toml_reader.h"
 
 namespace gridshell::preset {
-
-Preset::Preset() = default;
-Preset::~Preset() = default;
-Preset::Preset(const Preset&) = default;
-Preset::Preset(Preset&&) noexcept = default;
-Preset& Preset::operator=(const Preset&) = default;
-Preset& Preset::operator=(Preset&&) noexcept = default;
 
 namespace {
 

@@ -10,7 +10,7 @@
 
 #include "engine/core/text.h"
 #include "engine/preset/field_table.h"
-#include "engine/preset/preset_access.h"
+#include "engine/preset/preset.h"
 
 namespace gridshell::preset {
 namespace {

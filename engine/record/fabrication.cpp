@@ -39,6 +39,24 @@ double to_step(double value, double step) {
 
 }  // namespace
 
+Eigen::Vector2d FabricationPlan::middle() const {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (const Eigen::Vector2d& joint : joints) sum += joint;
+  return sum / double(joints.size());
+}
+
+Eigen::Vector2d FabricationPlan::label_position(const CutRod& rod, double away) const {
+  const Eigen::Vector2d along = (rod.end - rod.begin).normalized(), left(-along.y(), along.x());
+  return left.dot(rod.begin - middle()) >= 0 ? Eigen::Vector2d(rod.begin - away * along)
+                                             : Eigen::Vector2d(rod.end + away * along);
+}
+
+double FabricationPlan::total_length_mm() const {
+  double sum = 0;
+  for (const CutRod& rod : rods) sum += rod.length_mm;
+  return sum;
+}
+
 FabricationPlan rounded(FabricationPlan plan, double step_mm) {
   if (!(step_mm > 0)) return plan;
   const auto round = [&](double value) { return to_step(value, step_mm); };

@@ -53,24 +53,12 @@ struct FabricationPlan {
   std::vector<Pin> pins;
   bool in_space = false;  ///< it has no flat footprint: rods and joints are seen from above
 
-  Eigen::Vector2d middle() const {
-    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-    for (const Eigen::Vector2d& joint : joints) sum += joint;
-    return sum / double(joints.size());
-  }
+  Eigen::Vector2d middle() const;
   /// Where a rod's name stands in the flat, `away` beyond one of its ends: at the begin of those
   /// left of the middle, seen along the rod, at the end of the others, so that the names of the two
   /// families lie in quarters of their own.
-  Eigen::Vector2d label_position(const CutRod& rod, double away) const {
-    const Eigen::Vector2d along = (rod.end - rod.begin).normalized(), left(-along.y(), along.x());
-    return left.dot(rod.begin - middle()) >= 0 ? Eigen::Vector2d(rod.begin - away * along)
-                                               : Eigen::Vector2d(rod.end + away * along);
-  }
-  double total_length_mm() const {
-    double sum = 0;
-    for (const CutRod& rod : rods) sum += rod.length_mm;
-    return sum;
-  }
+  Eigen::Vector2d label_position(const CutRod& rod, double away) const;
+  double total_length_mm() const;
 };
 
 /// Lengths and marks as multiples of a step (0: as they are): marks lie at rounded distances from a

@@ -89,11 +89,6 @@ void visit_matrices(FrameType& frame, const Visit& visit) {
 }
 
 /// The frame's numbers, words and bins alone: what may stay in memory of any number of frames.
-inline Frame without_nodes(const Frame& frame) {
-  Frame head = frame;
-  visit_matrices(head, []<class Matrix>(Matrix& values) { values = Matrix(); });
-  head.K_bins = frame.K_bins;
-  return head;
-}
+Frame without_nodes(const Frame& frame);
 
 }  // namespace gridshell::record

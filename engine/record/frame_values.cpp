@@ -36,6 +36,10 @@ class NodeMeans {
 
 }  // namespace
 
+double curvature_between(const Eigen::Vector3d& te, const Eigen::Vector3d& tf, double length) {
+  return 2 * te.cross(tf).norm() / (1 + te.dot(tf)) / length;
+}
+
 std::string with_error(double value, double error, const char* unit) {
   if (!std::isfinite(error)) return fmt::format("{:.4g} {} (error not known)", value, unit);
   if (error == 0) return fmt::format("{:.9g} {}", value, unit);

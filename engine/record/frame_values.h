@@ -4,7 +4,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <string>
 #include <vector>
 
@@ -17,10 +16,7 @@ namespace gridshell::record {
 std::string with_error(double value, double error, const char* unit);
 
 /// Curvature at the node between two edges, |kb|/l, from their unit tangents and their mean length.
-inline double curvature_between(const Eigen::Vector3d& te, const Eigen::Vector3d& tf,
-                                double length) {
-  return 2 * te.cross(tf).norm() / (1 + te.dot(tf)) / length;
-}
+double curvature_between(const Eigen::Vector3d& te, const Eigen::Vector3d& tf, double length);
 
 /// Curvature at each of a rod's points, 1/mm: |2 t x t'| / (1 + t.t') over the mean of the two
 /// edges' lengths, t and t' their unit tangents [Bergou 2008, eq. 1]; 0 at the ends.

@@ -26,6 +26,10 @@ void put_other(const Eigen::Vector3d& along, const Eigen::Vector2d& flat, int jo
 
 }  // namespace
 
+Eigen::Vector3d JointTangents::normal(Eigen::Index joint) const {
+  return u.col(joint).cross(v.col(joint)).normalized();
+}
+
 JointTangents joint_tangents(const Footprint& footprint, const RodMesh& mesh,
                              const Eigen::Matrix3Xd& x) {
   JointTangents tangents{Eigen::Matrix3Xd::Zero(3, mesh.joints),

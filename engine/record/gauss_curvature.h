@@ -18,9 +18,7 @@ struct JointTangents {
   Eigen::Matrix3Xd u, v;
 
   /// t_u x t_v, a unit vector.
-  Eigen::Vector3d normal(Eigen::Index joint) const {
-    return u.col(joint).cross(v.col(joint)).normalized();
-  }
+  Eigen::Vector3d normal(Eigen::Index joint) const;
 };
 
 JointTangents joint_tangents(const Footprint& footprint, const RodMesh& mesh,

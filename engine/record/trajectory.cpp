@@ -21,6 +21,32 @@ std::size_t bytes_of(const Frame& frame) {
 
 }  // namespace
 
+Frame without_nodes(const Frame& frame) {
+  Frame head = frame;
+  visit_matrices(head, []<class Matrix>(Matrix& values) { values = Matrix(); });
+  head.K_bins = frame.K_bins;
+  return head;
+}
+
+FrameList::FrameList(std::initializer_list<Frame> frames) : frames_(frames) {}
+FrameList::FrameList(std::vector<Frame> frames) : frames_(std::move(frames)) {}
+
+void FrameList::push_back(Frame frame) { edit().push_back(std::move(frame)); }
+
+Result<void> MemorySink::begin(Layout layout) {
+  trajectory_ = {std::move(layout), {}};
+  return {};
+}
+
+Result<void> MemorySink::take(Frame frame) {
+  auto& frames = trajectory_.frames.edit();
+  const auto after =
+      std::upper_bound(frames.begin(), frames.end(), frame.index,
+                       [](int index, const Frame& other) { return index < other.index; });
+  frames.insert(after, std::move(frame));
+  return {};
+}
+
 FrameList::FrameList(std::shared_ptr<const FrameSource> source) : source_(std::move(source)) {}
 
 const Frame& FrameList::operator[](std::size_t k) const {

@@ -53,8 +53,8 @@ class FrameList {
   };
 
   FrameList() = default;
-  FrameList(std::initializer_list<Frame> frames) : frames_(frames) {}
-  FrameList(std::vector<Frame> frames) : frames_(std::move(frames)) {}
+  FrameList(std::initializer_list<Frame> frames);
+  FrameList(std::vector<Frame> frames);
   explicit FrameList(std::shared_ptr<const FrameSource> source);
 
   std::size_t size() const { return source_ ? source_->size() : frames_.size(); }
@@ -70,7 +70,7 @@ class FrameList {
 
   /// All of them to change, which brings those of a source into memory.
   std::vector<Frame>& edit();
-  void push_back(Frame frame) { edit().push_back(std::move(frame)); }
+  void push_back(Frame frame);
 
  private:
   struct Kept {
@@ -229,18 +229,8 @@ class Sink {
 /// Keeps all frames, in the order of their index.
 class MemorySink final : public Sink {
  public:
-  Result<void> begin(Layout layout) override {
-    trajectory_ = {std::move(layout), {}};
-    return {};
-  }
-  Result<void> take(Frame frame) override {
-    auto& frames = trajectory_.frames.edit();
-    const auto after =
-        std::upper_bound(frames.begin(), frames.end(), frame.index,
-                         [](int index, const Frame& other) { return index < other.index; });
-    frames.insert(after, std::move(frame));
-    return {};
-  }
+  Result<void> begin(Layout layout) override;
+  Result<void> take(Frame frame) override;
   Trajectory& trajectory() { return trajectory_; }
 
  private:

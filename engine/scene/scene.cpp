@@ -287,6 +287,10 @@ Result<void> check_in_space(const preset::Preset& preset, const Scene& scene) {
 
 }  // namespace
 
+Eigen::RowVectorXd Scene::joint_masses() const {
+  return Eigen::RowVectorXd::Constant(Eigen::Index(footprint.joints.size()), joint_mass_t);
+}
+
 int joint_at(const Footprint& footprint, int i, int j) {
   const auto found = std::ranges::find_if(
       footprint.joints, [&](const FootprintJoint& joint) { return joint.i == i && joint.j == j; });

@@ -79,9 +79,7 @@ struct Scene {
   /// Whether rods bear so much and no more.
   bool limits_strength() const { return max_bending_strain > 0 || max_utilisation > 0; }
   /// Of the joints, which are the first nodes of every mesh, t.
-  Eigen::RowVectorXd joint_masses() const {
-    return Eigen::RowVectorXd::Constant(Eigen::Index(footprint.joints.size()), joint_mass_t);
-  }
+  Eigen::RowVectorXd joint_masses() const;
   double radius_at(double progress) const {
     return radius_begin_mm + progress * (radius_end_mm - radius_begin_mm);
   }

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "engine/core/try.h"
-#include "engine/preset/preset_access.h"
+#include "engine/preset/preset.h"
 #include "engine/scene/scene.h"
 #include "engine/simulate/frames.h"
 

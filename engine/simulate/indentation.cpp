@@ -39,6 +39,8 @@ int best_joint(const Footprint& footprint, const Eigen::VectorXd& score) {
 
 }  // namespace
 
+double HeldShell::depth_mm() const { return push.displacement.norm(); }
+
 Result<void> not_on_boundary(const Footprint& footprint, int joint) {
   if (std::ranges::find(footprint.held_joints, joint) == footprint.held_joints.end() ||
       footprint.is_sprung(joint))

@@ -36,7 +36,7 @@ struct HeldShell : EquilibriumPath {
   PushOf push;
   Eigen::Matrix3Xd before;  ///< joints of the unloaded shell, 3 x n
 
-  double depth_mm() const { return push.displacement.norm(); }
+  double depth_mm() const;
 };
 
 /// Actuates on the meshes of `plan` and takes hold. Errors: bad_input as push_of(), no_equilibrium

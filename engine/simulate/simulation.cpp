@@ -31,6 +31,12 @@ PathOptions options_for(const Scene& scene) {
 
 }  // namespace
 
+Simulation::Simulation(std::shared_ptr<const Scene> scene) : scene_(std::move(scene)) {}
+
+record::Contacts Simulation::contacts() const { return search_->in(nodes()); }
+
+std::optional<Event> Simulation::beyond_limits() const { return beyond(limits()); }
+
 Result<Simulation> Simulation::open(std::shared_ptr<const Scene> scene, const LevelPlan& plan) {
   Simulation simulation(std::move(scene));
   simulation.set_progress(0);

@@ -234,11 +234,11 @@ class Simulation {
   /// Whether the rods have come to their length.
   bool locked() const;
   /// What of the scene's limits the state is beyond: an event that is_limit(), or nothing.
-  std::optional<Event> beyond_limits() const { return beyond(limits()); }
+  std::optional<Event> beyond_limits() const;
   /// Largest strain of a fibre by bending, on the finest mesh.
   double bending_strain() const;
   /// What touches in nodes(), the shape that is shown.
-  record::Contacts contacts() const { return search_->in(nodes()); }
+  record::Contacts contacts() const;
 
   BoundaryPosition boundary;
   /// Where the joints that are held were when they were taken hold of, mm.
@@ -247,7 +247,7 @@ class Simulation {
   std::vector<CaseOnShell> cases;
 
  private:
-  Simulation(std::shared_ptr<const Scene> scene) : scene_(std::move(scene)) {}
+  Simulation(std::shared_ptr<const Scene> scene);
   Result<void> build(const LevelPlan& plan);
   struct CallBegin {
     Effort effort;

@@ -47,6 +47,11 @@ constexpr double held_mass = 1e6;      // of what is prescribed, over the shell'
 
 }  // namespace
 
+MovingState MovingState::at_rest(State state) {
+  Eigen::Matrix3Xd still = Eigen::Matrix3Xd::Zero(3, state.x.cols());
+  return {std::move(state), std::move(still), 0};
+}
+
 DampedMotion::DampedMotion(const Model& model, Eigen::Matrix3Xd mass,
                            const DynamicsOptions& options, const ExternalLoads& outside,
                            std::vector<Constraint> holds)

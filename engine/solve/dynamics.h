@@ -27,10 +27,7 @@ struct MovingState {
   Eigen::Matrix3Xd velocity;  ///< of every column, mm/s
   double time = 0;            ///< s
 
-  static MovingState at_rest(State state) {
-    Eigen::Matrix3Xd still = Eigen::Matrix3Xd::Zero(3, state.x.cols());
-    return {std::move(state), std::move(still), 0};
-  }
+  static MovingState at_rest(State state);
 };
 
 struct DynamicsOptions {

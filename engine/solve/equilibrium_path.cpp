@@ -244,6 +244,20 @@ constexpr int most_corrections = 8;
 
 }  // namespace
 
+PathFollower::PathFollower(Linearisation& system, const PinnedMotion& motion,
+                           const PathOptions& options)
+    : system_(system), motion_(motion), options_(options) {}
+
+void PathFollower::resume(const PathPoint& point) {
+  motion_.apply_loads(system_, point.t);
+  now_ = point;
+  has_before_ = false;
+}
+
+ArcFollower::ArcFollower(Linearisation& system, const PinnedMotion& motion,
+                         const ArcOptions& options)
+    : system_(&system), motion_(motion), options_(options), step_mm_(options.step_mm) {}
+
 double ArcFollower::product(const State& a, double at, const State& b, double bt) const {
   return (a.x.array() * b.x.array()).sum() / double(a.x.cols()) +
          options_.parameter_mm * options_.parameter_mm * at * bt;

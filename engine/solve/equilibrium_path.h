@@ -111,8 +111,7 @@ struct PathReport {
 /// move predicted, no pivot is negative and no edge folds, so they lie on one stable branch.
 class PathFollower {
  public:
-  PathFollower(Linearisation& system, const PinnedMotion& motion, const PathOptions& options)
-      : system_(system), motion_(motion), options_(options) {}
+  PathFollower(Linearisation& system, const PinnedMotion& motion, const PathOptions& options);
 
   /// Takes an equilibrium at t and works out its tangent. The state is first corrected to
   /// tolerance.
@@ -123,11 +122,7 @@ class PathFollower {
 
   /// Goes on from a point that was followed before, with the step that served there, under the
   /// loads of that point.
-  void resume(const PathPoint& point) {
-    motion_.apply_loads(system_, point.t);
-    now_ = point;
-    has_before_ = false;
-  }
+  void resume(const PathPoint& point);
 
   /// Predicted state at t from the current point (Hermite between the last two, else Taylor).
   State predict(double t) const;
@@ -174,8 +169,7 @@ struct ArcPoint {
 /// elimination on the Hessian at held parameter.
 class ArcFollower {
  public:
-  ArcFollower(Linearisation& system, const PinnedMotion& motion, const ArcOptions& options)
-      : system_(&system), motion_(motion), options_(options), step_mm_(options.step_mm) {}
+  ArcFollower(Linearisation& system, const PinnedMotion& motion, const ArcOptions& options);
 
   /// Takes an equilibrium at t; the path goes on with t growing (direction 1) or falling (-1).
   /// Outcomes as newton().

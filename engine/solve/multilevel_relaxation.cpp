@@ -39,6 +39,9 @@ std::vector<MeshSymmetry> members(const std::vector<MeshSymmetry>& all,
 
 }  // namespace
 
+MultilevelRelaxation::MultilevelRelaxation(const FlatFrame& flat, double spacing_mm)
+    : flat_(flat), spacing_mm_(spacing_mm) {}
+
 Result<MultilevelRelaxation> MultilevelRelaxation::make(const Footprint& footprint,
                                                         const ShellRods& rods, RodModel rung,
                                                         const BoundaryMotion& motion,

@@ -53,8 +53,7 @@ class MultilevelRelaxation {
     std::unique_ptr<StateTransfer> from_coarser;
     std::vector<MeshSymmetry> symmetries;
   };
-  MultilevelRelaxation(const FlatFrame& flat, double spacing_mm)
-      : flat_(flat), spacing_mm_(spacing_mm) {}
+  MultilevelRelaxation(const FlatFrame& flat, double spacing_mm);
   State begin_of(const Level& level, double t, const Eigen::Matrix3Xd& nodes,
                  const State& coarser) const;
   bool step_to_equilibrium(Level& level, State& state, const Watch& watch) const;

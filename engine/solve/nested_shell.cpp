@@ -5,6 +5,13 @@
 #include "engine/core/try.h"
 
 namespace gridshell {
+
+LevelCorrection operator-(const LevelCorrection& a, const LevelCorrection& b) {
+  return {a.t, a.x - b.x, a.force - b.force};
+}
+
+NestedShell::NestedShell(const LevelPlan& plan, const PathOptions& options)
+    : plan_(plan), options_(options) {}
 Result<NestedShell> NestedShell::make(const Footprint& footprint, const ShellRods& rods,
                                       RodModel rung, const BoundaryMotion& motion,
                                       const LevelPlan& plan, const PathOptions& options) {

@@ -52,9 +52,7 @@ struct LevelCorrection {
   Eigen::Matrix3Xf x = {};     ///< of the nodes
   Eigen::VectorXf force = {};  ///< of the edges
 
-  friend LevelCorrection operator-(const LevelCorrection& a, const LevelCorrection& b) {
-    return {a.t, a.x - b.x, a.force - b.force};
-  }
+  friend LevelCorrection operator-(const LevelCorrection& a, const LevelCorrection& b);
 };
 
 /// A point of the path of the coarsest mesh, and for each finer mesh by how much what it adds
@@ -158,7 +156,7 @@ class NestedShell {
     LevelCorrection added;
     NewtonReport report;
   };
-  NestedShell(const LevelPlan& plan, const PathOptions& options) : plan_(plan), options_(options) {}
+  NestedShell(const LevelPlan& plan, const PathOptions& options);
   // of equilibria of a finer level beside the coarser one's state: the first found, which tells
   // where a branch loses its stability, or one that is stable
   enum class Prefer { first, stable };

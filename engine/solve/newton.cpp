@@ -20,6 +20,10 @@ double force_of_strain(const ModelEdge& edge, const Eigen::Matrix3Xd& x) {
 
 }  // namespace
 
+double product(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) {
+  return a.cwiseProduct(b).sum();
+}
+
 Eigen::Vector3d Constraint::part(const Eigen::Vector3d& v) const {
   return directions * (directions.transpose() * v);
 }

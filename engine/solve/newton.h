@@ -148,9 +148,7 @@ class Linearisation {
 /// Largest move of a column.
 double max_column_norm(const Eigen::Matrix3Xd& dx);
 /// Sum of the products of their entries.
-inline double product(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) {
-  return a.cwiseProduct(b).sum();
-}
+double product(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b);
 
 // How far a stable state is from losing its stability.
 

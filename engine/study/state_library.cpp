@@ -27,6 +27,9 @@ constexpr double shaken = 0.55, measured = 0.8, followed = 0.9;
 
 }  // namespace
 
+StateCatalogue::StateCatalogue(std::vector<MeshSymmetry> symmetries, double tolerance_mm)
+    : symmetries_(std::move(symmetries)), tolerance_mm_(tolerance_mm) {}
+
 std::optional<std::size_t> StateCatalogue::find(const Eigen::Matrix3Xd& joints,
                                                 double energy_mJ) const {
   for (std::size_t k = 0; k < entries_.size(); ++k) {

@@ -19,8 +19,7 @@ namespace gridshell::study {
 class StateCatalogue {
  public:
   /// `tolerance_mm`: joints of one and the same state lie nearer than that.
-  StateCatalogue(std::vector<MeshSymmetry> symmetries, double tolerance_mm)
-      : symmetries_(std::move(symmetries)), tolerance_mm_(tolerance_mm) {}
+  StateCatalogue(std::vector<MeshSymmetry> symmetries, double tolerance_mm);
 
   /// The one that `joints` (3 x n, mm; energy in mJ) are an image of, if any.
   std::optional<std::size_t> find(const Eigen::Matrix3Xd& joints, double energy_mJ) const;

@@ -58,6 +58,10 @@ std::vector<double> levels_of(const preset::SearchSettings& jitter) {
 
 }  // namespace
 
+Eigen::Matrix3Xd StateSearcher::joints_of(const State& state) const {
+  return state.x.leftCols(cascade_.finest().joints);
+}
+
 Result<std::vector<StartForm>> forms_to_shake(const std::shared_ptr<const Scene>& scene,
                                               const preset::SearchSettings& jitter,
                                               const Watch& watch) {

@@ -54,9 +54,7 @@ class StateSearcher {
   const std::vector<SymmetryGroup>& groups() const { return groups_; }
   const std::vector<MeshSymmetry>& symmetries() const { return symmetries_; }
   /// Positions of the joints and energy (mJ) of a state on that mesh.
-  Eigen::Matrix3Xd joints_of(const State& state) const {
-    return state.x.leftCols(cascade_.finest().joints);
-  }
+  Eigen::Matrix3Xd joints_of(const State& state) const;
   double energy_of(const State& state) { return cascade_.system().energy_at(state); }
   MultilevelRelaxation& cascade() { return cascade_; }
   const MultilevelRelaxation& cascade() const { return cascade_; }

@@ -335,6 +335,8 @@ void enclose(Scene& scene) {
 
 }  // namespace
 
+double Scene::radius() const { return 0.5 * (high - low).norm(); }
+
 Result<Scene> make_scene(const Drawing& drawing, const Camera& camera, double mm_per_sample) {
   if (const std::string fault = mismatch(drawing); !fault.empty())
     return fail(Fault::bad_input, "the drawing " + fault);

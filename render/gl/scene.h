@@ -28,7 +28,7 @@ struct Scene {
                   high = Eigen::Vector3d::Zero();  ///< box around all
 
   Eigen::Vector3d centre() const { return 0.5 * (low + high); }
-  double radius() const { return 0.5 * (high - low).norm(); }
+  double radius() const;
 };
 
 /// `mm_per_sample` is the size of a sample in the plane through the camera's target: nothing is

@@ -15,6 +15,11 @@ constexpr double gap_mm = 2.5;  // between joint and arrow
 
 }  // namespace
 
+Eigen::Matrix3Xd boundary_at(const record::Layout& layout, double actuation) {
+  return layout.original_boundary +
+         actuation * (layout.actuated_boundary - layout.original_boundary);
+}
+
 bool load_acts(const record::LoadedJoint& load, const record::Layout& layout,
                const record::Frame& frame) {
   if (!load.at_times || frame.reactions_N.cols() != Eigen::Index(layout.supports.size()))

@@ -68,8 +68,13 @@ void check_apart(const Words& words, const Box& panel) {
 
 }  // namespace
 
-TEST_CASE("in every preset's frames and stills no text leaves the picture or meets another",
-          "[standard]") {
+namespace {
+
+using Sizes = std::vector<std::pair<int, int>>;
+
+/// The words of every preset's frames and stills, in its own size and others.
+void check_words_of_all(const Sizes& sizes, const std::vector<double>& zooms,
+                        const std::vector<int>& frames) {
   for (const auto& embedded : app::embedded_presets()) {
     const auto presets = app::load_preset(embedded.name, {});
     REQUIRE(presets);
@@ -77,14 +82,15 @@ TEST_CASE("in every preset's frames and stills no text leaves the picture or mee
       const record::Trajectory run = eventful(one.preset.indentation.wanted());
       for (const auto pictures : {app::Pictures::movie, app::Pictures::stills}) {
         MovieStyle style = app::style_of(one.preset, pictures);
-        for (const auto& [width, height] :
-             {std::pair{style.width(), style.height()}, {320, 240}, {720, 1280}, {1920, 500}})
-          for (const double zoom : {1.0, 3.0}) {
+        Sizes all = sizes;
+        all.emplace_back(style.width(), style.height());
+        for (const auto& [width, height] : all)
+          for (const double zoom : zooms) {
             style.size = {width, height};
             style.zoom = zoom;
             const Stage stage(run, style);
             INFO(embedded.name << " " << one.name << " " << width << " x " << height);
-            for (int at : {0, 2, 4, 8}) {
+            for (const int at : frames) {
               const auto words = words_of(width, height, [&](Canvas& canvas) {
                 stage.draw_overlay(canvas, {run.frames[std::size_t(at)], at});
               });
@@ -96,6 +102,17 @@ TEST_CASE("in every preset's frames and stills no text leaves the picture or mee
       }
     }
   }
+}
+
+}  // namespace
+
+TEST_CASE("in every preset's frames and stills no text leaves the picture or meets another",
+          "[standard]") {
+  check_words_of_all({{320, 240}}, {1}, {2, 8});
+}
+
+TEST_CASE("the same in tall and wide pictures and in close-ups", "[full]") {
+  check_words_of_all({{320, 240}, {720, 1280}, {1920, 500}}, {1, 3}, {0, 2, 4, 8});
 }
 
 TEST_CASE("a narrow still has its whole title, in two lines where one is too short") {

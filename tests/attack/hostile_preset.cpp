@@ -10,7 +10,7 @@
 
 #include "engine/core/file_io.h"
 #include "engine/preset/field_table.h"
-#include "engine/preset/preset_access.h"
+#include "engine/preset/preset.h"
 
 namespace fs = std::filesystem;
 using gridshell::preset::Field;

@@ -30,7 +30,7 @@ TEST_CASE("hostile presets are answered", "[standard][presets]") {
   const auto& at = folder.path();
   REQUIRE(mkfifo((at / "fifo").c_str(), 0600) == 0);
   std::map<int, int> checked, ran;
-  for (int trial = 0; trial < trials(20); ++trial) {
+  for (int trial = 0; trial < trials(12); ++trial) {
     Draw draw(trial);
     const auto preset = hostile_preset(draw);
     INFO("trial " << trial);

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/core/file_io.h"
-#include "engine/preset/preset_access.h"
+#include "engine/preset/preset.h"
 #include "engine/preset/preset_file.h"
 #include "tests/temporary_folder.h"
 
