@@ -200,7 +200,7 @@ Result<EquilibriumPath> run_actuation(std::shared_ptr<const Scene> scene,
       [&](const LevelPlan& plan, const Watch& w) {
         return follow_actuation(scene, plan, inner, progress.back(), w);
       },
-      watch);
+      watch, true);
   if (!path) return path;
   set_limit(*path, at_progress);
   locate_contacts(*path, at_progress, watch);

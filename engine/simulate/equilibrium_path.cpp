@@ -64,6 +64,15 @@ bool EquilibriumPath::has_events() const {
          std::any_of(earlier.begin(), earlier.end(), any);
 }
 
+bool goes_on_between(const PathSegment& segment, const LoadStep& a, const LoadStep& b) {
+  const double way = segment.sign(), from = way * a.point.t, to = way * b.point.t;
+  if (!(from < to) || !a.certificate.stable() || !b.certificate.stable()) return false;
+  return std::ranges::none_of(segment.report.events, [&](const Event& event) {
+    const auto [begin, end] = std::minmax({way * event.t, way * event.to.value_or(event.t)});
+    return begin < to && end > from;
+  });
+}
+
 bool within_snap(const PathSegment& segment, double t) {
   const double after = load_step_after(segment, t).point.t;
   return segment.sign() * (after - t) > 0 &&
@@ -91,8 +100,20 @@ LevelPlan initial_levels(const Scene& scene) {
   return plan;
 }
 
+namespace {
+
+/// Whether a path ended where its leader alone loses the branch.
+bool lost_by_leader(const EquilibriumPath& path) {
+  const LevelPlan& plan = path.simulation.shell().plan();
+  const Report& last = path.segments.back().report;
+  return plan.finest_decides && last.end != Outcome::reached && !last.events.empty() &&
+         !last.events.back().is_limit() && !last.events.back().to;
+}
+
+}  // namespace
+
 Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follow,
-                                         const Watch& watch) {
+                                         const Watch& watch, bool one_motion) {
   LevelPlan plan = initial_levels(scene);
   const double allowed = scene.tolerance * scene.length_scale_mm;
   const bool asked = scene.edges_per_segment > 0;
@@ -100,6 +121,7 @@ Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follo
     if (path) locate_on_meshes(**path, follow, watch);
     return path;
   };
+  plan.finest_decides = one_motion && !asked && !scene.leader_asked;
   Effort spent;
   double setup = 0;
   for (;;) {
@@ -109,6 +131,15 @@ Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follo
     (*path)->asked = plan;
     (*path)->seconds_setup += setup;
     (*path)->simulation.charge(spent);
+    if (lost_by_leader(**path)) {
+      auto settled = settled_by_finer(scene, *path, follow, watch);
+      if (!settled || *settled) return located(settled, watch);
+      // else the leader's way is followed to its end, and confirmed
+      plan.finest_decides = false;
+      spent = (*path)->simulation.effort();
+      setup = (*path)->seconds_setup;
+      continue;
+    }
     const double worst = worst_estimate_mm(**path);
     if (asked) return located(led_by_finer(std::move(*path), follow, watch), watch);
     if (!(worst > allowed))
@@ -176,8 +207,10 @@ CertifiedSample certify_sample(EquilibriumPath& path, const PathSample& sample,
   // a branch was left in between: it may be a state of the next one
   report = from(after, false);
   if (done(report)) return {report, after.point.t};
-  // or, where the next one does not come back so far, the rest to which the shell went
-  if (report.end == Outcome::unstable || report.end == Outcome::lost)
+  // or, where the next one does not come back so far, the rest to which the shell went; a branch
+  // that goes on between the two is not left for a rest
+  if ((report.end == Outcome::unstable || report.end == Outcome::lost) &&
+      !goes_on_between(segment, before, after))
     report = path.simulation.certify_rest_at(t, before, watch);
   if (done(report)) return {report, after.point.t};
   // or any equilibrium, which says what it is

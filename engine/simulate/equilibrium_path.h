@@ -68,6 +68,9 @@ double worst_estimate_mm(const EquilibriumPath& path);
 /// before it.
 const LoadStep& load_step_before(const PathSegment& segment, double t);
 
+/// Whether nothing happens to the branch between two load steps that follow one another, both stable.
+bool goes_on_between(const PathSegment& segment, const LoadStep& a, const LoadStep& b);
+
 /// From where the simulation stands on: follows the path to `to` and keeps the way as a segment.
 /// What begins beyond a limit goes nowhere, but back.
 PathSegment& follow_segment(EquilibriumPath& path, double to, const BifurcationPolicy& leaving,
@@ -83,14 +86,16 @@ LevelPlan initial_levels(const Scene& scene);
 /// The path on the coarsest plan whose estimate meets the scene's tolerance. Its choices and events
 /// are confirmed (mesh_choice.h) where the tolerance chooses the meshes. Errors: those of `follow`;
 /// no_equilibrium where the finest meshes do not meet it; bad_input where they do not fit the
-/// memory.
+/// memory. `one_motion`: `follow` follows one motion alone, which may end where a leader loses what
+/// finer meshes do not (LevelPlan::finest_decides).
 Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follow,
-                                         const Watch& watch);
+                                         const Watch& watch, bool one_motion = false);
 
 /// The same of an EquilibriumPath or what is made from one: follow(plan, watch) gives a Result of
 /// it.
 template <class FollowPath>
-auto converged_path(const Scene& scene, const FollowPath& follow, const Watch& watch) {
+auto converged_path(const Scene& scene, const FollowPath& follow, const Watch& watch,
+                    bool one_motion = false) {
   using Found = std::invoke_result_t<FollowPath, const LevelPlan&, const Watch&>;
   using Path = typename Found::value_type;
   const auto shared = [](Path&& path) -> SharedPath {
@@ -99,7 +104,7 @@ auto converged_path(const Scene& scene, const FollowPath& follow, const Watch& w
   return converged_shared_path(
              scene,
              [&](const LevelPlan& plan, const Watch& w) { return follow(plan, w).map(shared); },
-             watch)
+             watch, one_motion)
       .map([](const SharedPath& path) { return std::move(static_cast<Path&>(*path)); });
 }
 

@@ -15,15 +15,8 @@ constexpr double misfit_of_knots = 1e-5;  // of the largest axial force (nested_
 constexpr std::size_t most_knots = 6;
 constexpr int parts = 4;  // of the way between two load steps, where theirs do not suffice
 
-/// Whether nothing happens to the branch between two load steps that follow one another.
 bool smooth(const PathSegment& segment, std::size_t k) {
-  const LoadStep &a = segment.load_steps[k], &b = segment.load_steps[k + 1];
-  const double way = segment.sign(), from = way * a.point.t, to = way * b.point.t;
-  if (!(from < to) || !a.certificate.stable() || !b.certificate.stable()) return false;
-  return std::ranges::none_of(segment.report.events, [&](const Event& event) {
-    const auto [begin, end] = std::minmax({way * event.t, way * event.to.value_or(event.t)});
-    return begin < to && end > from;
-  });
+  return goes_on_between(segment, segment.load_steps[k], segment.load_steps[k + 1]);
 }
 
 /// The cubic through two states and their tangents; angles, which count from a state's own frames,

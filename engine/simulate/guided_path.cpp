@@ -7,7 +7,7 @@
 namespace gridshell::simulate {
 namespace {
 
-constexpr int most_restarts = 4;  // of a way that the coarse leader loses alone
+constexpr int most_restarts = 4;  // of a way that the coarse leader enters late
 constexpr double same_limit_t = 0.02;
 
 double joints_apart(const Simulation& simulation, const Eigen::Matrix3Xd& a,
@@ -112,18 +112,11 @@ std::optional<PathSegment> GuidedSegment::followed() {
                        {.wanted = false, .through_unstable = through_unstable(*step)}, &segment);
     const bool all = last + 1 == steps.size();
     if (all && at_its_limit(way, segment)) return segment;
-    if (way.end == Outcome::reached) {
-      if (!beside(last)) break;
-      segment.report.certificate = way.certificate;
-      if (all) return segment;
-      next = last + 1;
-      continue;
-    }
-    // the leader alone loses the branch: on where the guide stands next
-    if (at_limit(way.end) || ++restarts > most_restarts) break;
-    next = *step;
-    while (next <= last && guide_.sign() * (steps[next].point.t - way.t) <= 0) ++next;
-    if (next > last) break;
+    // what the leader loses in between would have frames on another branch
+    if (way.end != Outcome::reached || !beside(last)) break;
+    segment.report.certificate = way.certificate;
+    if (all) return segment;
+    next = last + 1;
   }
   return std::nullopt;
 }

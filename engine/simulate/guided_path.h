@@ -7,9 +7,9 @@ namespace gridshell::simulate {
 
 /// Follows `path` anew on its own meshes along an actuation that finer meshes confirmed: each
 /// branch from where `guide` begins it, brought to these meshes, and from where the guide goes on
-/// beyond a leap or past what a coarse leader alone loses. Events are the guide's. False: somewhere
-/// these meshes have no such branch, or their estimates do not keep within `allowed_mm`; the path
-/// is then of no use. It is not asked of paths in several motions, with joints held, or with snaps
+/// beyond a leap. Events are the guide's. False: somewhere these meshes have no such branch, or
+/// lose it on its way, or their estimates do not keep within `allowed_mm`; the path is then of no
+/// use. It is not asked of paths in several motions, with joints held, or with snaps
 /// in time.
 bool follow_guide(EquilibriumPath& path, const EquilibriumPath& guide, double allowed_mm,
                   const Watch& watch);

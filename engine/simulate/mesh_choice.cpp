@@ -214,6 +214,25 @@ std::optional<std::string> mesh_disagreement(const EquilibriumPath& coarse,
   return std::nullopt;
 }
 
+Result<SharedPath> settled_by_finer(const Scene& scene, SharedPath path, const Follow& follow,
+                                    const Watch& watch) {
+  const auto plan = with_finer_leader(path->asked);
+  if (!plan || !fits_memory(scene, *plan)) return SharedPath();
+  auto fine = follow(*plan, watch);
+  if (watch.cancelled()) return stopped();
+  if (!fine) return SharedPath();
+  (*fine)->asked = *plan;
+  const double worst = worst_estimate_mm(**fine);
+  if (begin_alike(*path, **fine) && uneventful(**fine) &&
+      worst <= scene.tolerance * scene.length_scale_mm) {
+    (*fine)->simulation.charge(path->simulation.effort());
+    (*fine)->seconds_setup += path->seconds_setup;
+    return fine;
+  }
+  path->simulation.charge((*fine)->simulation.effort());
+  return SharedPath();
+}
+
 Result<SharedPath> confirm_on_finer_meshes(const Scene& scene, SharedPath path,
                                            const Follow& follow, const Watch& watch) {
   // the first buckling is a choice too, which the coarsest mesh made

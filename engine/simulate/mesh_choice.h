@@ -41,6 +41,12 @@ double expected_GB(double meshes_GB, const preset::Preset& preset);
 std::optional<std::string> mesh_disagreement(const EquilibriumPath& coarse,
                                              const EquilibriumPath& fine);
 
+/// Of a path that ended where its leader alone loses the branch, the one with leading meshes of
+/// twice the edges, where it begins alike, meets nothing on its whole way, stable on its finest
+/// mesh, and is within the tolerance; else nothing. Errors: cancelled.
+Result<SharedPath> settled_by_finer(const Scene& scene, SharedPath path, const Follow& follow,
+                                    const Watch& watch);
+
 /// A path that began in a buckled state out of the flat, or on which something happened, followed
 /// once more with leading meshes of twice the edges.
 /// Where both tell the same, the events' places are extrapolated (the error falls fourfold), with

@@ -97,6 +97,7 @@ class Simulation::Walk {
   double parameter_scale(double t) const;
   void bisect(double bad, const NestedState& good, const std::function<bool()>& accepted);
   bool leave(Event& event);
+  bool finest_goes_on();
 
   Simulation& of_;
   NestedShell& shell_ = *of_.shell_;
@@ -267,6 +268,7 @@ Outcome Simulation::Walk::branch_ended(Outcome how, double next, const NestedSta
   events_.push_back({.kind = kind, .t = t, .error = {}, .to = {}});
   events_.back().placed =
       on_finest ? Event::Place{edges.back(), t, located_to()} : Event::Place{edges.front(), t};
+  if (shell_.plan().finest_decides && !on_finest && finest_goes_on()) return how;
   if (kind == Event::Kind::stability_lost && !scene_.imperfection.chooses()) {
     shell_.back_to(end_of_branch);
     shell_.allow_unstable(true);
@@ -282,6 +284,28 @@ Outcome Simulation::Walk::branch_ended(Outcome how, double next, const NestedSta
   softening_.forget();
   keep();
   return Outcome::reached;
+}
+
+/// Whether the finest mesh, led by itself, comes clearly past the place where the leader lost the
+/// branch.
+bool Simulation::Walk::finest_goes_on() {
+  constexpr double clearly = 0.05;  // in the path parameter
+  const int finest = shell_.levels() - 1;
+  if (finest == 0) return false;
+  const NestedState here = shell_.state();
+  const PathPoint lost = shell_.followed();
+  const double past = lost.t + (to_ > lost.t ? clearly : -clearly);
+  PathOptions options;
+  options.spacing_mm = scene_.footprint.spacing;
+  PathFollower path(shell_.system(finest), shell_.motion(finest), options);
+  const bool goes_on =
+      path.start(here.t, here.levels[std::size_t(finest)], watch_).end == Outcome::reached &&
+      path.advance(to_ > lost.t ? std::min(past, to_) : std::max(past, to_), watch_).end ==
+          Outcome::reached;
+  // the path stands where it was lost
+  shell_.back_to(here);
+  shell_.place(lost.t, lost.state);
+  return goes_on;
 }
 
 /// By how much the path parameter changes while the boundary moves by the length scale, or, where

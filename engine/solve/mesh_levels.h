@@ -33,6 +33,8 @@ struct LevelPlan {
   bool extrapolate = false;  ///< over the last two (needs three, the third for the estimate)
   /// And so forces and energies, of two meshes too: what they leave is far below the estimate then.
   bool extrapolate_forces = extrapolate;
+  /// A path ends where its leader loses a branch on which the finest mesh goes on.
+  bool finest_decides = false;
 };
 
 /// The cheapest plan worth trying for a tolerance of the largest joint error, relative to the
