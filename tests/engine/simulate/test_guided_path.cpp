@@ -2,8 +2,11 @@
 #include "engine/simulate/guided_path.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <memory>
 
 #include "engine/simulate/actuation.h"
+#include "engine/simulate/mesh_choice.h"
 #include "tests/engine/simulate/run.h"
 
 using namespace gridshell;
@@ -87,4 +90,42 @@ TEST_CASE("where a coarse mesh has no such branch its path is refused") {
   EquilibriumPath path = actuated(p, coarse);
   REQUIRE(path.has_events());
   CHECK_FALSE(follow_guide(path, guide, 10, unwatched));
+}
+
+TEST_CASE("where its leader alone loses the branch a path ends, and a finer leader decides") {
+  const preset::Preset p = circle(8, 77.9, 63.0, 3);
+  LevelPlan plan = coarse;
+  plan.finest_decides = true;
+  const auto ended = std::make_shared<EquilibriumPath>(actuated(p, plan));
+  const Report& lost = ended->segments.back().report;
+  REQUIRE(lost.end != Outcome::reached);
+  REQUIRE(lost.events.size() == 1);
+  CHECK_FALSE(lost.events.back().to);
+  const auto scene = shared_scene(p);
+  const Follow follow = [&](const LevelPlan& on, const Watch& watch) {
+    return follow_actuation(scene, on, false, 1, watch).map([](EquilibriumPath&& path) {
+      return std::make_shared<EquilibriumPath>(std::move(path));
+    });
+  };
+  const auto settled = settled_by_finer(*scene, ended, follow, unwatched);
+  REQUIRE(settled);
+  REQUIRE(*settled);
+  CHECK(uneventful(**settled));
+  CHECK((*settled)->asked.edges_per_segment.front() == 8);
+  check_same_end(**settled, actuated(p, fine));
+}
+
+TEST_CASE("48 rods rise evenly from frame to frame, on one branch", "[full]") {
+  preset::Preset p = circle(48, 486, 364.5, 120);
+  p.accuracy.tolerance = 1e-2;
+  const auto outcome = run(p);
+  const auto& frames = outcome.trajectory.frames;
+  REQUIRE(frames.size() == 120);
+  for (std::size_t k = 20; k + 1 < frames.size(); ++k) {
+    const double rise = frames[k + 1].height_mm - frames[k].height_mm,
+                 before = frames[k].height_mm - frames[k - 1].height_mm;
+    INFO("frame " << k << ": " << before << ", " << rise);
+    CHECK(rise > 0);
+    CHECK(std::abs(rise - before) < 0.25 * before);
+  }
 }
