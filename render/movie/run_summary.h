@@ -41,6 +41,13 @@ bool load_acts(const record::LoadedJoint& load, const record::Layout& layout,
 /// long as a quarter of the length scale.
 std::vector<LoadArrow> load_arrows(const record::Layout& layout, const record::Frame& frame);
 
+/// Of the loads of Frame::loads_N, as long as they are large: the largest of a run, `largest_N`,
+/// longest_force() mm. They stand outside the shell as those above do; what is less than a
+/// hundredth is left out.
+std::vector<LoadArrow> force_arrows(const record::Layout& layout, const record::Frame& frame,
+                                    double largest_N);
+inline double longest_force(const record::Layout& layout) { return 0.15 * layout.length_scale_mm; }
+
 // What the pictures of a run have to know of all its frames before the first is drawn: ranges,
 // bounds and events. Frames are looked at once, one at a time; the first is kept, and of some
 // others some points.
@@ -101,6 +108,7 @@ class RunSummary {
   record::Frame first;         ///< what later frames are compared with
   double depth_mm = 0;         ///< of a push, at its deepest; 0 without one
   double lowest_z_mm = 0;      ///< of all that is drawn
+  double largest_load_N = 0;   ///< of Frame::loads_N
   Interval bins_rad;           ///< mean K of the bins, with their standard deviations
   double largest_move_mm = 0;  ///< of a joint, from where it was in the first frame
   std::vector<Mark> marks;     ///< in order

@@ -92,7 +92,8 @@ Box Framing::union_of_views(const Eigen::Matrix3Xd& points) const {
 namespace {
 
 constexpr Colour load_ink{0.05f, 0.05f, 0.06f, 1}, mark_ink{0.98f, 0.76f, 0.10f, 1},
-    original_ink{0.66f, 0.67f, 0.7f, 1};
+    original_ink{0.66f, 0.67f, 0.7f, 1}, force_ink{0.02f, 0.42f, 0.30f, 1},
+    brace_ink{0.30f, 0.36f, 0.50f, 1};
 
 // a square around everything that moves or bounds
 TopExtent top_extent(const Eigen::Matrix3Xd& points) {
@@ -202,7 +203,8 @@ Stage::Stage(const record::Layout& layout, RunSummary survey, const MovieStyle& 
       survey_(std::move(survey)),
       style_(style),
       bar_(shared ? shared : colour_bar_of({&survey_}, style)),
-      layout_(lay_out_frame(style, bar_ && style.legends ? &*bar_ : nullptr)),
+      layout_(lay_out_frame(style, bar_ && style.legends ? &*bar_ : nullptr,
+                            style.look.loads && survey_.largest_load_N > 0)),
       panels_(panels_of(layout_, style)),
       framings_(framings_of(panels_, layout_.view, survey_.bounds(), style)),
       top_(top_extent(survey_.bounds())),
@@ -239,6 +241,26 @@ std::vector<Colour> Stage::node_colours(const record::Frame& frame) const {
   return colours;
 }
 
+std::optional<ArrowKey> Stage::arrow_key() const {
+  const double largest_N = survey_.largest_load_N;
+  if (!style_.look.loads || !(largest_N > 0)) return {};
+  const double shown_N = nice_ceiling(0.6 * largest_N);
+  return ArrowKey{longest_force(run_) * shown_N / largest_N, force_text(shown_N), force_ink};
+}
+
+void Stage::put_braces(const record::Frame& frame, double thin_mm, Drawing& drawing) const {
+  GhostRods braces{frame.nodes, {}, std::max(0.6 * run_.rod_diameter_mm, thin_mm), brace_ink};
+  for (Eigen::Index k = 0; k < frame.brace_force_N.size(); ++k) {
+    if (std::isnan(frame.brace_force_N[k])) continue;
+    const auto& joints = run_.cells[std::size_t(k / 2)].joints;
+    const auto node = [&](Eigen::Index corner) {
+      return run_.joints[std::size_t(joints[std::size_t(corner)])].node;
+    };
+    braces.rods.push_back({node(k % 2), node(k % 2 + 2)});
+  }
+  if (!braces.rods.empty()) drawing.ghosts.push_back(std::move(braces));
+}
+
 Drawing Stage::drawing(const record::Frame& frame) const {
   const Appearance& look = style_.look;
   const double thin = least_pixels(style_) / pixels_per_mm();
@@ -268,6 +290,11 @@ Drawing Stage::drawing(const record::Frame& frame) const {
     drawing.arrows.push_back({arrow.from, arrow.to, std::max(1.6, 2.0 * thin), load_ink});
     drawing.marks.push_back({frame.nodes.col(arrow.node), std::max(5.0, 6 * thin), mark_ink});
   }
+  if (look.loads)
+    for (const LoadArrow& arrow : force_arrows(run_, frame, survey_.largest_load_N))
+      drawing.arrows.push_back(
+          {arrow.from, arrow.to, std::max(0.03 * longest_force(run_), 1.2 * thin), force_ink});
+  if (look.braces) put_braces(frame, thin, drawing);
   put_contacts(run_, frame, thin, drawing);
   drawing.ground_z_mm = ground_z_mm_;
   drawing.ground = look.floor && style_.views.empty() && look.background.a > 0;
@@ -365,6 +392,8 @@ void Stage::draw_overlay(Canvas& canvas, const ShownFrame& shown) const {
   if (!layout_.scale_bar.empty())
     draw_scale_bar(canvas, layout_.scale_bar, style_.scale_bar_mm, pixels_per_mm(),
                    0.95 * layout_.font_size);
+  if (const auto key = arrow_key(); key && !layout_.arrow_key.empty())
+    draw_arrow_key(canvas, layout_.arrow_key, *key, pixels_per_mm(), 0.95 * layout_.font_size);
 }
 
 void Stage::finish(Image& picture, const ShownFrame& shown) const {

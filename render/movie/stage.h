@@ -78,6 +78,8 @@ class Stage {
   const RunSummary& survey() const { return survey_; }
   /// over all frames; none when nothing is coloured
   const std::optional<ColourBar>& colour_bar() const { return bar_; }
+  /// of the arrows of loads; none when there are none
+  std::optional<ArrowKey> arrow_key() const;
   double pixels_per_mm() const { return framings_.front().pixels_per_mm(); }
   /// what the shell covers over all frames, in pixels
   const Box& shell_box() const { return framings_.front().seen(); }
@@ -100,6 +102,7 @@ class Stage {
   std::vector<Colour> colours_of(const record::Frame& frame, float alpha) const;
   std::vector<Colour> cell_colours(const record::Frame& frame, float alpha) const;
   std::vector<Colour> node_colours(const record::Frame& frame) const;
+  void put_braces(const record::Frame& frame, double thin_mm, Drawing& drawing) const;
   void draw_captions(Canvas& canvas, const ShownFrame& shown) const;
   double moment(int at) const { return frames() > 1 ? double(at) / (frames() - 1) : 0; }
 

@@ -293,6 +293,31 @@ std::optional<double> deviation_onset(const std::vector<double>& x, const std::v
   return std::nullopt;
 }
 
+Plot law_plot(const std::vector<record::PowerLaw>& laws, const SweepView& view) {
+  Plot plot;
+  plot.title = plain(view.title);
+  plot.x.label = "power law";
+  plot.y.label = label_of(view.figure);
+  plot.x.logarithmic = plot.y.logarithmic = true;
+  for (std::size_t k = 0; k < laws.size(); ++k) {
+    const record::PowerLaw& one = laws[k];
+    Series marks =
+        mark_series(plain(one.keys.front().case_name), series_colour(k), series_marker(k));
+    marks.x = one.law;
+    marks.y = one.found;
+    const auto [low, high] = std::ranges::minmax(one.law);
+    plot.add(std::move(marks));
+    for (const record::LawRow& key : one.keys) {
+      Series row = line_series(fmt::format("power {} ± {} of {}", fixed(key.exponent, 2),
+                                           fixed(key.error, 2), label_of(key.key)),
+                               series_colour(k), 1);
+      row.x = row.y = {low, high};
+      plot.add(std::move(row));
+    }
+  }
+  return plot;
+}
+
 Plot sweep_plot(const SweepTable& table, const SweepView& view) {
   const SweepScale scale = scale_of(table, 0);
   const auto cases = cases_of(table);
