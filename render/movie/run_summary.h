@@ -1,6 +1,7 @@
 // The boundary on its way.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -46,7 +47,10 @@ std::vector<LoadArrow> load_arrows(const record::Layout& layout, const record::F
 /// hundredth is left out.
 std::vector<LoadArrow> force_arrows(const record::Layout& layout, const record::Frame& frame,
                                     double largest_N);
-inline double longest_force(const record::Layout& layout) { return 0.15 * layout.length_scale_mm; }
+inline double longest_force(const record::Layout& layout) {
+  return std::clamp(1.2 * layout.spacing_mm, 0.1 * layout.length_scale_mm,
+                    0.2 * layout.length_scale_mm);
+}
 
 // What the pictures of a run have to know of all its frames before the first is drawn: ranges,
 // bounds and events. Frames are looked at once, one at a time; the first is kept, and of some

@@ -92,7 +92,7 @@ Box Framing::union_of_views(const Eigen::Matrix3Xd& points) const {
 namespace {
 
 constexpr Colour load_ink{0.05f, 0.05f, 0.06f, 1}, mark_ink{0.98f, 0.76f, 0.10f, 1},
-    original_ink{0.66f, 0.67f, 0.7f, 1}, force_ink{0.02f, 0.42f, 0.30f, 1},
+    original_ink{0.66f, 0.67f, 0.7f, 1}, force_ink{0.0f, 0.56f, 0.30f, 1},
     brace_ink{0.30f, 0.36f, 0.50f, 1};
 
 // a square around everything that moves or bounds
@@ -293,7 +293,7 @@ Drawing Stage::drawing(const record::Frame& frame) const {
   if (look.loads)
     for (const LoadArrow& arrow : force_arrows(run_, frame, survey_.largest_load_N))
       drawing.arrows.push_back(
-          {arrow.from, arrow.to, std::max(0.03 * longest_force(run_), 1.2 * thin), force_ink});
+          {arrow.from, arrow.to, std::max(0.02 * longest_force(run_), 1.5 * thin), force_ink});
   if (look.braces) put_braces(frame, thin, drawing);
   put_contacts(run_, frame, thin, drawing);
   drawing.ground_z_mm = ground_z_mm_;

@@ -19,9 +19,9 @@ namespace {
 /// Panels side by side, as many as are wide enough to print.
 int columns_of(const MovieStyle& style, int panels) {
   constexpr int most = 3;
-  constexpr double least_mm = 40;
+  constexpr double bar_mm = 15, least_mm = 45;
   const double width_mm = style.print.width_mm;
-  const int fit = width_mm > 0 ? std::max(1, int(width_mm / least_mm)) : most;
+  const int fit = width_mm > 0 ? std::max(1, int((width_mm - bar_mm) / least_mm)) : most;
   return std::min({panels, most, fit});
 }
 

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "engine/core/text.h"
+#include "engine/record/frame_values.h"
 #include "render/canvas/canvas.h"
 #include "render/canvas/text.h"
 
@@ -296,7 +297,7 @@ std::optional<double> deviation_onset(const std::vector<double>& x, const std::v
 Plot law_plot(const std::vector<record::PowerLaw>& laws, const SweepView& view) {
   Plot plot;
   plot.title = plain(view.title);
-  plot.x.label = "power law";
+  plot.x.label = "what its power law says";
   plot.y.label = label_of(view.figure);
   plot.x.logarithmic = plot.y.logarithmic = true;
   for (std::size_t k = 0; k < laws.size(); ++k) {
@@ -308,8 +309,9 @@ Plot law_plot(const std::vector<record::PowerLaw>& laws, const SweepView& view) 
     const auto [low, high] = std::ranges::minmax(one.law);
     plot.add(std::move(marks));
     for (const record::LawRow& key : one.keys) {
-      Series row = line_series(fmt::format("power {} ± {} of {}", fixed(key.exponent, 2),
-                                           fixed(key.error, 2), label_of(key.key)),
+      std::string power = record::with_error(key.exponent, key.error, "");
+      if (power.starts_with('-')) power.replace(0, 1, "−");
+      Series row = line_series(fmt::format("power {} of {}", power, label_of(key.key)),
                                series_colour(k), 1);
       row.x = row.y = {low, high};
       plot.add(std::move(row));
