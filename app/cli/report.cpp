@@ -178,12 +178,12 @@ Result<void> add_loads(Sheets& sheets, study::FormedShell& shell, const ReportOp
       "stability is lost. Beside it the factor that the linearised problem would give. Red: "
       "lost, or a fibre at its strength, below the whole load.");
   sheets.table({{"case", 80, AlignX::left},
-                {"sum *x* (N)", 52},
-                {"sum *y* (N)", 52},
-                {"sum *z* (N)", 52},
-                {"factor", 84},
-                {"linear", 44},
-                {"at its strength", 84},
+                {"sum *x* (N)", 48},
+                {"sum *y* (N)", 48},
+                {"sum *z* (N)", 48},
+                {"factor", 76},
+                {"linear", 40},
+                {"at its strength", 76},
                 {"lost by", 0, AlignX::left}},
                rows);
   sheets.plot(render::load_plot(found->points, ""));
