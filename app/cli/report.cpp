@@ -242,6 +242,8 @@ Result<void> add_run(Sheets& sheets, const Run& run, const ReportOptions& option
     TRY(shell, study::form_shell(preset, studies));
     TRY_DO(add_loads(sheets, *shell, options, studies));
     TRY_DO(add_vibrations(sheets, *shell, options, studies));
+  } else {
+    sheets.text("Nothing was solved: what the net carries and how it sways is not known.");
   }
   sheets.next_sheet();
   sheets.heading("Cut list");

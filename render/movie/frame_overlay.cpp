@@ -161,6 +161,21 @@ void put_contacts(const record::Layout& layout, const record::Frame& frame, doub
     drawing.marks.push_back({contact.at, std::max(4.0, 5 * thin_mm), contact_ink});
 }
 
+void put_braces(const record::Layout& layout, const record::Frame& frame, double thin_mm,
+                Drawing& drawing) {
+  constexpr Colour brace_ink{0.30f, 0.36f, 0.50f, 1};
+  GhostRods braces{frame.nodes, {}, std::max(0.6 * layout.rod_diameter_mm, thin_mm), brace_ink};
+  for (Eigen::Index k = 0; k < frame.brace_force_N.size(); ++k) {
+    if (std::isnan(frame.brace_force_N[k])) continue;
+    const auto& joints = layout.cells[std::size_t(k / 2)].joints;
+    const auto node = [&](Eigen::Index corner) {
+      return layout.joints[std::size_t(joints[std::size_t(corner)])].node;
+    };
+    braces.rods.push_back({node(k % 2), node(k % 2 + 2)});
+  }
+  if (!braces.rods.empty()) drawing.ghosts.push_back(std::move(braces));
+}
+
 std::string force_text(double N) {
   return N >= 1000 ? fmt::format("{:.4g} kN", 1e-3 * N) : fmt::format("{:.4g} N", N);
 }

@@ -59,6 +59,10 @@ std::string equilibrium_caption(const record::Frame& frame);
 void put_contacts(const record::Layout& layout, const record::Frame& frame, double thin_mm,
                   Drawing& drawing);
 
+/// The frame's braces as bars.
+void put_braces(const record::Layout& layout, const record::Frame& frame, double thin_mm,
+                Drawing& drawing);
+
 /// "loads 71.98 kN, reactions 71.98 kN": sizes of the sums of those that are known.
 std::string load_caption(const record::Frame& frame);
 /// "950 N", "4.249 kN"

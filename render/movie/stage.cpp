@@ -92,8 +92,7 @@ Box Framing::union_of_views(const Eigen::Matrix3Xd& points) const {
 namespace {
 
 constexpr Colour load_ink{0.05f, 0.05f, 0.06f, 1}, mark_ink{0.98f, 0.76f, 0.10f, 1},
-    original_ink{0.66f, 0.67f, 0.7f, 1}, force_ink{0.0f, 0.56f, 0.30f, 1},
-    brace_ink{0.30f, 0.36f, 0.50f, 1};
+    original_ink{0.66f, 0.67f, 0.7f, 1}, force_ink{0.0f, 0.56f, 0.30f, 1};
 
 // a square around everything that moves or bounds
 TopExtent top_extent(const Eigen::Matrix3Xd& points) {
@@ -248,19 +247,6 @@ std::optional<ArrowKey> Stage::arrow_key() const {
   return ArrowKey{longest_force(run_) * shown_N / largest_N, force_text(shown_N), force_ink};
 }
 
-void Stage::put_braces(const record::Frame& frame, double thin_mm, Drawing& drawing) const {
-  GhostRods braces{frame.nodes, {}, std::max(0.6 * run_.rod_diameter_mm, thin_mm), brace_ink};
-  for (Eigen::Index k = 0; k < frame.brace_force_N.size(); ++k) {
-    if (std::isnan(frame.brace_force_N[k])) continue;
-    const auto& joints = run_.cells[std::size_t(k / 2)].joints;
-    const auto node = [&](Eigen::Index corner) {
-      return run_.joints[std::size_t(joints[std::size_t(corner)])].node;
-    };
-    braces.rods.push_back({node(k % 2), node(k % 2 + 2)});
-  }
-  if (!braces.rods.empty()) drawing.ghosts.push_back(std::move(braces));
-}
-
 Drawing Stage::drawing(const record::Frame& frame) const {
   const Appearance& look = style_.look;
   const double thin = least_pixels(style_) / pixels_per_mm();
@@ -294,7 +280,7 @@ Drawing Stage::drawing(const record::Frame& frame) const {
     for (const LoadArrow& arrow : force_arrows(run_, frame, survey_.largest_load_N))
       drawing.arrows.push_back(
           {arrow.from, arrow.to, std::max(0.02 * longest_force(run_), 1.5 * thin), force_ink});
-  if (look.braces) put_braces(frame, thin, drawing);
+  if (look.braces) put_braces(run_, frame, thin, drawing);
   put_contacts(run_, frame, thin, drawing);
   drawing.ground_z_mm = ground_z_mm_;
   drawing.ground = look.floor && style_.views.empty() && look.background.a > 0;

@@ -102,7 +102,6 @@ class Stage {
   std::vector<Colour> colours_of(const record::Frame& frame, float alpha) const;
   std::vector<Colour> cell_colours(const record::Frame& frame, float alpha) const;
   std::vector<Colour> node_colours(const record::Frame& frame) const;
-  void put_braces(const record::Frame& frame, double thin_mm, Drawing& drawing) const;
   void draw_captions(Canvas& canvas, const ShownFrame& shown) const;
   double moment(int at) const { return frames() > 1 ? double(at) / (frames() - 1) : 0; }
 

@@ -311,8 +311,8 @@ Plot law_plot(const std::vector<record::PowerLaw>& laws, const SweepView& view) 
     for (const record::LawRow& key : one.keys) {
       std::string power = record::with_error(key.exponent, key.error, "");
       if (power.starts_with('-')) power.replace(0, 1, "−");
-      Series row = line_series(fmt::format("power {} of {}", power, label_of(key.key)),
-                               series_colour(k), 1);
+      Series row =
+          line_series(fmt::format("power {} of {}", power, label_of(key.key)), series_colour(k), 1);
       row.x = row.y = {low, high};
       plot.add(std::move(row));
     }

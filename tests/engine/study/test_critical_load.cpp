@@ -173,7 +173,8 @@ TEST_CASE("a portal frame sways and a ring turns oval where their closed forms s
     constexpr double x = 1.3495525;
     CAPTURE(row.critical_factor, row.error, row.linear_factor);
     CHECK(row.event == BranchEvent::bifurcation);
-    // a rigid bolt beside which a rod goes on is stiff over an edge of it, which shrinks as that does
+    // a rigid bolt beside which a rod goes on is stiff over an edge of it, which shrinks as that
+    // does
     CHECK(row.critical_factor == Approx(x * x).epsilon(2e-3));
     CHECK(row.linear_factor == Approx(x * x).epsilon(2e-3));
   }

@@ -187,8 +187,8 @@ TEST_CASE("loads are arrows as long as they are large, braces are bars, and a ke
   CHECK(length(drawing.arrows[0]) == Approx(3 * length(drawing.arrows[1])));
   REQUIRE(drawing.ghosts.size() == 1);
   const auto& joints = run.layout.cells[1].joints;
-  CHECK(drawing.ghosts[0].rods == std::vector<std::vector<int>>{
-                                      {run.layout.joints[std::size_t(joints[0])].node,
+  CHECK(drawing.ghosts[0].rods ==
+        std::vector<std::vector<int>>{{run.layout.joints[std::size_t(joints[0])].node,
                                        run.layout.joints[std::size_t(joints[2])].node}});
   REQUIRE(stage.arrow_key());
   CHECK(stage.arrow_key()->name == "1 N");
