@@ -2,6 +2,7 @@
 
 #include <map>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "engine/record/frame.h"
@@ -74,22 +75,22 @@ Eigen::Matrix3Xd loads_on(const RodMesh& mesh, const Model& model, const Externa
   const std::vector<int> supports = supports_of(mesh);
   std::vector<int> place(std::size_t(mesh.nodes()), -1);
   for (std::size_t k = 0; k < supports.size(); ++k) place[std::size_t(supports[k])] = int(k);
-  Eigen::Matrix3Xd loads(3, Eigen::Index(supports.size()));
-  for (std::size_t k = 0; k < supports.size(); ++k)
-    loads.col(Eigen::Index(k)) = acting.col(supports[k]);
+  Eigen::Matrix3Xd loads = acting(Eigen::all, supports);
+  // between two supports as a beam does
+  const auto hand_on = [&](std::size_t r, std::size_t from, std::size_t to) {
+    const auto& s = mesh.position[r];
+    for (std::size_t k = from + 1; k < to; ++k) {
+      const double share = (s[k] - s[from]) / (s[to] - s[from]);
+      const Eigen::Vector3d force = acting.col(mesh.rods[r][k]);
+      loads.col(place[std::size_t(mesh.rods[r][from])]) += (1 - share) * force;
+      loads.col(place[std::size_t(mesh.rods[r][to])]) += share * force;
+    }
+  };
   for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
-    const std::vector<int>& nodes = mesh.rods[r];
-    const std::vector<double>& at = mesh.position[r];
-    int before = -1;
-    for (int k = 0; k < int(nodes.size()); ++k) {
-      if (place[std::size_t(nodes[std::size_t(k)])] < 0) continue;
-      // as a beam on two supports hands it on
-      for (int n = before + 1; before >= 0 && n < k; ++n) {
-        const auto from = std::size_t(before), to = std::size_t(k), here = std::size_t(n);
-        const double share = (at[here] - at[from]) / (at[to] - at[from]);
-        loads.col(place[std::size_t(nodes[from])]) += (1 - share) * acting.col(nodes[here]);
-        loads.col(place[std::size_t(nodes[to])]) += share * acting.col(nodes[here]);
-      }
+    std::optional<std::size_t> before;
+    for (std::size_t k = 0; k < mesh.rods[r].size(); ++k) {
+      if (place[std::size_t(mesh.rods[r][k])] < 0) continue;
+      if (before) hand_on(r, *before, k);
       before = k;
     }
   }
