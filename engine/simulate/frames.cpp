@@ -214,10 +214,12 @@ void put_forces(const Simulation& simulation, record::Frame& frame) {
   const NestedShell& shell = simulation.shell();
   const int last = shell.levels() - 1;
   std::vector<Eigen::Matrix3Xd> reactions, energies;
+  std::vector<Energies> by_term;
   for (int k = shell.first_of_last_three(); k <= last; ++k) {
     const Assembly at = shell.forces(k);
     reactions.push_back(reactions_of(shell.mesh(k), shell.model(k), at, simulation.holds()));
     energies.push_back(columns_of(at.energies));
+    by_term.push_back(at.energies);
     if (k == last)
       put_rods(simulation.scene(), shell.mesh(k), shell.model(k), shell.state().levels.back(), at,
                frame);
@@ -230,7 +232,9 @@ void put_forces(const Simulation& simulation, record::Frame& frame) {
   frame.loads_N = loads_on(shell.finest(), shell.model(last), shell.outside(last));
   frame.brace_force_N =
       brace_forces(simulation.scene().footprint, shell.model(last), shell.state().levels.back().x);
-  frame.energies = simulation.energies();
+  frame.energies = by_term.back();
+  if (extrapolate && by_term.size() > 1)
+    frame.energies = extrapolated(by_term.back(), by_term[by_term.size() - 2]);
   frame.energy_error_mJ = certify_vectors(energies, extrapolate, pressing).error;
 }
 
