@@ -177,13 +177,13 @@ Result<void> add_loads(Sheets& sheets, study::FormedShell& shell, const ReportOp
       "Each case comes on to the state above, its factor growing by arc length until "
       "stability is lost. Beside it the factor that the linearised problem would give. Red: "
       "lost, or a fibre at its strength, below the whole load.");
-  sheets.table({{"case", 80, AlignX::left},
-                {"sum *x* (N)", 48},
-                {"sum *y* (N)", 48},
-                {"sum *z* (N)", 48},
-                {"factor", 76},
+  sheets.table({{"case", 62, AlignX::left},
+                {"sum *x* (N)", 44},
+                {"sum *y* (N)", 44},
+                {"sum *z* (N)", 44},
+                {"factor", 70},
                 {"linear", 40},
-                {"at its strength", 76},
+                {"at its strength", 72},
                 {"lost by", 0, AlignX::left}},
                rows);
   sheets.plot(render::load_plot(found->points, ""));
