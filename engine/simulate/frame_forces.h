@@ -4,8 +4,6 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "engine/elastic/assembly.h"
-#include "engine/elastic/model.h"
 #include "engine/footprint/footprint.h"
 #include "engine/footprint/mesh.h"
 #include "engine/solve/newton.h"
