@@ -120,6 +120,14 @@ if(GRIDSHELL_PICTURES)
     PROPERTIES LABELS full TIMEOUT 600 SKIP_RETURN_CODE 77)
 endif()
 
+# Shells against CalculiX where it is installed.
+if(GRIDSHELL_PICTURES)
+  add_test(NAME "CalculiX forms the same shells, which go as far and sway as fast"
+    COMMAND python3 ${PROJECT_SOURCE_DIR}/tests/calculix.py $<TARGET_FILE:gridshell>)
+  set_tests_properties("CalculiX forms the same shells, which go as far and sway as fast"
+    PROPERTIES LABELS full TIMEOUT 900 SKIP_RETURN_CODE 77)
+endif()
+
 # How the source stands: format, clang-tidy on what changed, warnings as errors, nothing that stands
 # twice (tests/style.sh).
 foreach(check format tidy clang warnings equal)

@@ -49,6 +49,7 @@ void print_plan(const preset::Preset& preset, const simulate::Plan& plan) {
                preset.jitter.trials, word_of(preset.jitter.mode), preset.jitter.confined);
   fmt::print("  memory          about {:.1g} GB\n", plan.memory_GB);
   fmt::print("  expected error  {}\n", or_unknown(plan.expected_error_mm, "mm"));
+  if (!plan.bending.empty()) fmt::print("  bending         {}\n", plan.bending);
   for (const auto& sentence : plan.left_out) fmt::print("  left out        {}\n", sentence);
   fmt::print("  expected time   {} to simulate, {} to draw the movie, {} the figure\n",
              or_unknown(plan.expected_seconds, "s"),

@@ -135,6 +135,7 @@ record::Frame moved_by(const record::Trajectory& state, const Eigen::Matrix3Xd& 
   frame.depth_mm = drawn_amplitude * state.layout.length_scale_mm;
   frame.nodes = rest.nodes + part * frame.depth_mm * shape;
   frame.cell_K = rest.cell_K;
+  frame.brace_force_N = rest.brace_force_N;
   frame.negative_pivots = -1;
   return frame;
 }

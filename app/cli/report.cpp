@@ -125,6 +125,7 @@ void add_reactions(Sheets& sheets, const record::Layout& layout, const record::F
     const auto parts = numbers(force, largest);
     rows.push_back({{place, parts[0], parts[1], parts[2], number(force.norm()), ""}});
   };
+  add("sum of loads", frame.loads_N.rowwise().sum());
   add("sum", frame.reactions_N.rowwise().sum());
   for (const Eigen::Index k : order) {
     const Eigen::Vector3d at = frame.nodes.col(layout.supports[std::size_t(k)]);
@@ -143,14 +144,14 @@ void add_reactions(Sheets& sheets, const record::Layout& layout, const record::F
                rows);
 }
 
-Result<void> add_loads(Sheets& sheets, const preset::Preset& preset, const ReportOptions& options,
+Result<void> add_loads(Sheets& sheets, study::FormedShell& shell, const ReportOptions& options,
                        Watch& watch) {
   sheets.heading("What it carries");
-  if (preset.load_case.empty()) {
+  if (shell.path.simulation.scene().load_cases.empty()) {
     sheets.text("No load case is named: [[loads.case]] says what comes on.");
     return {};
   }
-  TRY(found, study::load_study(preset, options.imperfections, watch));
+  TRY(found, study::load_study(shell, options.imperfections, watch));
   std::vector<TableRow> rows;
   for (const record::LoadRow& row : found->cases) {
     const bool lost = std::isfinite(row.critical_factor);
@@ -160,6 +161,9 @@ Result<void> add_loads(Sheets& sheets, const preset::Preset& preset, const Repor
         {{row.load_case, parts[0], parts[1], parts[2],
           lost ? record::with_error(row.critical_factor, row.error, "") : "–",
           std::isfinite(row.linear_factor) ? number(row.linear_factor) : "–",
+          std::isfinite(row.strength_factor)
+              ? record::with_error(row.strength_factor, row.strength_error, "")
+              : "–",
           !lost ? "stability is not lost on the way followed"
                 : (row.event == record::BranchEvent::turn ? "limit point" : "bifurcation") +
                       (row.imperfections > 0
@@ -167,28 +171,29 @@ Result<void> add_loads(Sheets& sheets, const preset::Preset& preset, const Repor
                                          row.imperfections, row.knock_down_50, row.knock_down_5,
                                          row.knock_down_95)
                            : std::string())},
-         lost && row.critical_factor < 1});
+         row.critical_factor < 1 || row.strength_factor < 1});
   }
   sheets.text(
       "Each case comes on to the state above, its factor growing by arc length until "
       "stability is lost. Beside it the factor that the linearised problem would give. Red: "
-      "lost below the whole load.");
-  sheets.table({{"case", 80, AlignX::left},
-                {"sum *x* (N)", 52},
-                {"sum *y* (N)", 52},
-                {"sum *z* (N)", 52},
-                {"factor", 116},
-                {"linear", 44},
+      "lost, or a fibre at its strength, below the whole load.");
+  sheets.table({{"case", 62, AlignX::left},
+                {"sum *x* (N)", 44},
+                {"sum *y* (N)", 44},
+                {"sum *z* (N)", 44},
+                {"factor", 70},
+                {"linear", 40},
+                {"at its strength", 72},
                 {"lost by", 0, AlignX::left}},
                rows);
   sheets.plot(render::load_plot(found->points, ""));
   return {};
 }
 
-Result<void> add_vibrations(Sheets& sheets, const preset::Preset& preset,
-                            const ReportOptions& options, Watch& watch) {
+Result<void> add_vibrations(Sheets& sheets, study::FormedShell& shell, const ReportOptions& options,
+                            Watch& watch) {
   sheets.heading("How it sways");
-  const auto found = study::vibrations_of(preset, options.modes, watch);
+  const auto found = study::vibrations_of(shell, options.modes, watch);
   if (!found && found.error().fault == Fault::bad_input) {
     sheets.text("Not found: " + found.error().message + ".");
     return {};
@@ -232,8 +237,14 @@ Result<void> add_run(Sheets& sheets, const Run& run, const ReportOptions& option
   drawing.report(1);
   add_reactions(sheets, run.trajectory.layout, last);
   sheets.next_sheet();
-  TRY_DO(add_loads(sheets, preset, options, progress.next_phase()));
-  TRY_DO(add_vibrations(sheets, preset, options, progress.next_phase()));
+  Watch& studies = progress.next_phase();
+  if (run.summary.solved) {
+    TRY(shell, study::form_shell(preset, studies));
+    TRY_DO(add_loads(sheets, *shell, options, studies));
+    TRY_DO(add_vibrations(sheets, *shell, options, studies));
+  } else {
+    sheets.text("Nothing was solved: what the net carries and how it sways is not known.");
+  }
   sheets.next_sheet();
   sheets.heading("Cut list");
   render::add_cut_list(sheets, exports::rounded(std::move(*plan), preset.figure.cut_step_mm));
@@ -260,9 +271,8 @@ Result<int> report(ReportOptions options) {
   std::vector<Phase> phases;
   for (const Run& run : *runs) {
     const double seconds = study_seconds(run.preset);
-    phases.insert(
-        phases.end(),
-        {drawing("drawing", 2), {"following loads", 4 * seconds}, {"finding modes", seconds}});
+    phases.insert(phases.end(),
+                  {drawing("drawing", 2), {"following loads, finding modes", 5 * seconds}});
   }
   Sheets sheets(preset::title_or_name(runs->front().preset));
   {

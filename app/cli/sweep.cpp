@@ -95,7 +95,7 @@ void remove_other_pictures(const SweepJob& work, const std::vector<std::string>&
   std::error_code error;
   for (const auto& name : drawable(work.presets, work.grid)) {
     if (std::ranges::find(drawn, name) != drawn.end()) continue;
-    for (const char* kind : {".png", ".svg", ".pdf"})
+    for (const char* kind : {".png", ".svg", ".pdf", "_law.png", "_law.svg", "_law.pdf"})
       fs::remove(work.folder / (name + kind), error);
   }
 }
@@ -130,6 +130,34 @@ Result<void> draw(const SweepJob& work, const record::SweepTable& table) {
       TRY_DO(render::write_plot(stem, render::sweep_plot(table, view), print, chart_height));
   }
   return {};
+}
+
+/// The power laws of the figures that are drawn, as laws.csv, a picture and lines of text.
+Result<std::string> tell_laws(const SweepJob& work, const record::SweepTable& table) {
+  constexpr double holds = 0.1;  // within which a law is one
+  std::string text;
+  std::vector<record::LawRow> rows;
+  for (const auto& name : plots_of(work.grid)) {
+    std::vector<record::PowerLaw> laws;
+    for (const auto& run : runs_of(work.presets))
+      if (auto law = record::power_law(table, run.name, name); law && law->scatter < holds)
+        laws.push_back(std::move(*law));
+    for (const record::PowerLaw& law : laws) {
+      text += fmt::format("\n  {}{}{}", law.keys.front().case_name,
+                          law.keys.front().case_name.empty() ? "" : ", ", name);
+      for (const record::LawRow& key : law.keys) {
+        text += fmt::format(", {}^({:.3f} ± {:.3f})", key.key, key.exponent, key.error);
+        rows.push_back(key);
+      }
+      text += fmt::format(" within {:.1g}", law.scatter);
+    }
+    if (laws.empty()) continue;
+    TRY_DO(render::write_plot(work.folder / (name + "_law"),
+                              render::law_plot(laws, {name, "", 0, work.presets.base.title}),
+                              {.width_mm = chart_width_mm}, chart_height));
+  }
+  if (!rows.empty()) TRY_DO(write_file(work.folder / "laws.csv", record::csv_table(rows)));
+  return text;
 }
 
 /// "20 points: 18 done (2 ended early: locking; 1 not stable), 2 no_equilibrium"
@@ -185,6 +213,11 @@ Result<std::string> finish(const SweepJob& work, const record::SweepLog& log) {
   TRY_DO(write_file(work.folder / "preset.toml", preset::to_toml(work.presets)));
   // a part of the points makes no picture
   if (!work.shard && table.axes.size() <= 2) TRY_DO(draw(work, table));
+  std::string laws;
+  if (!work.shard) {
+    TRY(told_of_them, tell_laws(work, table));
+    laws = std::move(*told_of_them);
+  }
   TRY_DO(write_manifest(work.folder));
   const bool any = std::ranges::any_of(
       table.rows, [](const auto& row) { return row.result.outcome == record::PointOutcome::done; });
@@ -193,7 +226,7 @@ Result<std::string> finish(const SweepJob& work, const record::SweepLog& log) {
                 table.rows.front().result.reason);
   const auto plots = plots_of(work.grid);
   const bool diagram = !work.shard && std::ranges::find(plots, classes) != plots.end();
-  return told(table) + (diagram ? regions_text(work, table) : "");
+  return told(table) + laws + (diagram ? regions_text(work, table) : "");
 }
 
 void report_damage(const SweepJob& work, const record::SweepLog& log) {

@@ -147,6 +147,10 @@ void add_state(py::module_& module) {
            "Largest stress of a fibre at the same points, MPa.");
   add_view(type, "reactions_N", &record::Frame::reactions_N,
            "What holds each of layout.supports, supports x 3, N.");
+  add_view(type, "loads_N", &record::Frame::loads_N,
+           "What loads the shell, handed on to layout.supports, supports x 3, N; 0 x 3: nothing.");
+  add_view(type, "brace_force_N", &record::Frame::brace_force_N,
+           "Axial, along both diagonals of each cell, N; nan: no brace; empty: none at all.");
   for (const Number& number : numbers)
     type.def_property_readonly(
         number.name, [=](const State& of) { return of.frame.*number.member; }, number.doc);

@@ -175,6 +175,15 @@ void add_area_loads(FieldList<Loads> list) {
   idle(&LoadCase::wind);
   list.add<&Loads::wind_deg>(between(-360, 360), "where the wind blows to, from +x towards +y");
   idle(&LoadCase::wind);
+  list.add<&Loads::edge_N_m>(
+      at_least(0),
+      "of cases: on every metre of the edge, the sides of faces that no other face shares, of the "
+      "shape that it comes on");
+  idle(&LoadCase::edge);
+  list.add<&Loads::edge_direction>(
+      "of that: \"down\"; \"normal\": against the shell's normal there; \"inward\": in the shell's "
+      "surface, across the edge");
+  idle(&LoadCase::edge);
   list.add<&Loads::imperfection>(
       above(0),
       "largest move by the shapes that `gridshell load --imperfections N` mixes of the softest "
@@ -208,6 +217,10 @@ void add_load_cases(FieldList<LoadCase> list) {
   list.add<&C::wind>(between(-1000, 1000), "how many times wind_N_m2")
       .refused({"[loads] wind_N_m2"}, "there is no wind: [loads] wind_N_m2 must be above 0",
                lacks(&C::wind, &Loads::wind_N_m2));
+  list.add<&C::edge>(between(-1000, 1000), "how many times edge_N_m")
+      .refused({"[loads] edge_N_m"},
+               "there is no load on the edge: [loads] edge_N_m must be above 0",
+               lacks(&C::edge, &Loads::edge_N_m));
   list.add<&C::points>("forces in N on joints").points({"i", "j", "F_x", "F_y", "F_z"});
 }
 

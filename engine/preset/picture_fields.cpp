@@ -109,6 +109,11 @@ void add_style(FieldList<Style> list) {
   list.add<&S::rings>("whether the boundary is shown");
   list.add<&S::floor>("whether there is a floor");
   list.add<&S::shadow>("whether shadows are cast");
+  list.add<&S::loads>(
+      "whether what loads the shell is shown as arrows, all to one scale, each at its joint; a "
+      "push "
+      "has its own");
+  list.add<&S::braces>("whether braces are shown");
   list.add<&S::far_fade>(between(0, 1), "by how much the far side pales into the background");
   list.add<&S::letters>("whether the panels of a figure bear letters");
   list.add<&S::font>("family of all text, in all cases; empty: DejaVu Sans, which has every sign");

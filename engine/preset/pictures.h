@@ -68,7 +68,8 @@ struct Style {
   std::vector<double> range;  ///< (low, high) of the colours; empty: of all cases together
   Visibility cells = Visibility::automatic, joints = Visibility::automatic,
              rings = Visibility::automatic, floor = Visibility::automatic,
-             shadow = Visibility::automatic;
+             shadow = Visibility::automatic, loads = Visibility::automatic,
+             braces = Visibility::automatic;
   double far_fade = 0.25;  ///< by how much the far side pales
   bool letters = true;     ///< of the panels of a figure
   std::string font;        ///< family of all text; empty: the usual one

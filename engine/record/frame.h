@@ -59,6 +59,12 @@ struct Frame {
   Eigen::VectorXd bending_mJ_per_m;  ///< bending energy over length, at the same points
   Eigen::VectorXd stress_MPa;        ///< E (|N|/EA + strain by bending), at the same points
   Eigen::Matrix3Xd reactions_N;      ///< on each of Layout::supports; 0 where nothing holds it
+  /// What acts from outside, handed on to Layout::supports: the sum is that of all loads. Empty:
+  /// nothing acts.
+  Eigen::Matrix3Xd loads_N;
+  /// Axial forces of braces, of the finest mesh: along each cell's two diagonals, from joint (i, j)
+  /// and from (i + 1, j); NaN: there is none. Empty: nothing is braced.
+  Eigen::VectorXd brace_force_N;
   /// K of the cells by their centroid's x/L, L the half-span of the actuated boundary, in bins of
   /// equal width from -1 to 1, one a row: mean (rad), standard deviation (rad), number of cells
   Eigen::MatrixX3d K_bins;
@@ -86,6 +92,8 @@ void visit_matrices(FrameType& frame, const Visit& visit) {
   visit(frame.reactions_N);
   visit(frame.bending_mJ_per_m);
   visit(frame.stress_MPa);
+  visit(frame.loads_N);
+  visit(frame.brace_force_N);
 }
 
 /// The frame's numbers, words and bins alone: what may stay in memory of any number of frames.

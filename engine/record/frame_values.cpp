@@ -41,12 +41,12 @@ double curvature_between(const Eigen::Vector3d& te, const Eigen::Vector3d& tf, d
 }
 
 std::string with_error(double value, double error, const char* unit) {
-  if (!std::isfinite(error)) return fmt::format("{:.4g} {} (error not known)", value, unit);
-  if (error == 0) return fmt::format("{:.9g} {}", value, unit);
+  const std::string end = *unit ? fmt::format(" {}", unit) : "";
+  if (!std::isfinite(error)) return fmt::format("{:.4g}{} (error not known)", value, end);
+  if (error == 0) return fmt::format("{:.9g}{}", value, end);
   const int digits = int(std::clamp(-std::floor(std::log10(error)), 0.0, 12.0));
-  return fmt::format("{:.{}f} ± {} {}", value, digits,
-                     error < 10 ? fmt::format("{:.1g}", error) : fmt::format("{:.0f}", error),
-                     unit);
+  return fmt::format("{:.{}f} ± {}{}", value, digits,
+                     error < 10 ? fmt::format("{:.1g}", error) : fmt::format("{:.0f}", error), end);
 }
 
 std::vector<double> curvature_per_mm(const Eigen::Matrix3Xd& points) {

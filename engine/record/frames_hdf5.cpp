@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -81,6 +82,13 @@ void each_rod_field(const Visit& visit) {
         "on each of /layout/supports; with the loads they balance to residual_N; off by "
         "/frames/force_error_N at most",
         &Frame::reactions_N);
+  visit("/loads_N", "N", supports, "handed on to each of /layout/supports", &Frame::loads_N);
+  const SizeOf diagonals = [](const Layout& layout) {
+    return 2 * Eigen::Index(layout.cells.size());
+  };
+  visit("/brace_force_N", "N", diagonals,
+        "along both diagonals of each cell, from joint (i, j) and from (i + 1, j)",
+        &Frame::brace_force_N);
 }
 
 template <class Values>
@@ -192,12 +200,16 @@ void write_frames(hdf5::Writer& file, const Layout& layout, const FrameList& fra
                        "those of the finest mesh"
                      : "of the finest mesh");
   file.dataset("/cell_K", H5T_NATIVE_DOUBLE, {count, hsize_t(layout.cells.size())}, nullptr, "rad");
-  // its end knows all that a run knows
-  const Frame last = frames.empty() ? Frame() : frames.back();
+  // loads and braces may be gone again at the end
+  std::set<std::string> known;
+  for (const Frame& frame : frames)
+    each_rod_field([&](const char* name, const char*, SizeOf, const char*, auto field) {
+      if ((frame.*field).size() > 0) known.insert(name);
+    });
   const auto each_known_field = [&](const auto& visit) {
     each_rod_field(
         [&](const char* name, const char* unit, SizeOf size, const char* meaning, auto field) {
-          if ((last.*field).size() > 0) visit(name, unit, size(layout), meaning, field);
+          if (known.contains(name)) visit(name, unit, size(layout), meaning, field);
         });
   };
   each_known_field([&]<class Values>(const char* name, const char* unit, Eigen::Index size,

@@ -192,20 +192,24 @@ struct LoadPoint {
   double way_mm = 0;  ///< of the joint that goes furthest, along the way it goes
   int negative_pivots = 0;
   BranchEvent event = BranchEvent::none;
+  double utilisation = unknown;  ///< largest stress over the rods' strength
 };
 template <RecordOf<LoadPoint> Row, class Visit>
 void fields(Row& row, const Visit& visit) {
   visit_each(visit, "case", row.load_case, "factor", row.factor, "way_mm", row.way_mm,
-             "negative_pivots", row.negative_pivots, "event", row.event);
+             "negative_pivots", row.negative_pivots, "event", row.event, "utilisation",
+             row.utilisation);
 }
 
 /// What became of a case.
 struct LoadRow {
   std::string load_case;
   double critical_factor = unknown;       ///< NaN: stability is not lost on the way
-  double error = unknown;                 ///< NaN on one mesh, or where the other tells otherwise
+  double error = unknown;                 ///< NaN on one mesh, or where the other tells of none
   BranchEvent event = BranchEvent::none;  ///< turn (a limit point), bifurcation, or why it ended
   double linear_factor = unknown;         ///< K_0 + factor K_g singular; NaN: never
+  double strength_factor = unknown;  ///< where a fibre comes to its rod's strength; NaN: nowhere
+  double strength_error = unknown;
   double load_x_N = 0, load_y_N = 0, load_z_N = 0;  ///< sum of the loads at a factor of 1
   int imperfections = 0;  ///< shells that were not perfect and lost their stability too
   /// quantiles of their critical factors over the perfect shell's
@@ -214,10 +218,11 @@ struct LoadRow {
 template <RecordOf<LoadRow> Row, class Visit>
 void fields(Row& row, const Visit& visit) {
   visit_each(visit, "case", row.load_case, "critical_factor", row.critical_factor, "error",
-             row.error, "event", row.event, "linear_factor", row.linear_factor, "load_x_N",
-             row.load_x_N, "load_y_N", row.load_y_N, "load_z_N", row.load_z_N, "imperfections",
-             row.imperfections, "knock_down_5", row.knock_down_5, "knock_down_50",
-             row.knock_down_50, "knock_down_95", row.knock_down_95);
+             row.error, "event", row.event, "linear_factor", row.linear_factor, "strength_factor",
+             row.strength_factor, "strength_error", row.strength_error, "load_x_N", row.load_x_N,
+             "load_y_N", row.load_y_N, "load_z_N", row.load_z_N, "imperfections", row.imperfections,
+             "knock_down_5", row.knock_down_5, "knock_down_50", row.knock_down_50, "knock_down_95",
+             row.knock_down_95);
 }
 
 }  // namespace gridshell::record

@@ -6,10 +6,13 @@
 #include <unistd.h>
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <optional>
+#include <set>
 #include <system_error>
 #include <utility>
 
+#include "engine/core/dense.h"
 #include "engine/core/file_io.h"
 #include "engine/core/json.h"
 #include "engine/core/text.h"
@@ -315,6 +318,52 @@ Result<void> SweepLog::put(const std::string& line) {
 
 tl::unexpected<Error> SweepLog::refuse(Fault fault, const std::string& why) const {
   return fail(fault, "cannot write '{}': {}", file_.string(), why);
+}
+
+std::optional<PowerLaw> power_law(const SweepTable& table, const std::string& case_name,
+                                  const std::string& figure) {
+  constexpr std::size_t fewest_values = 3;
+  const auto keys = Eigen::Index(table.axes.size());
+  std::vector<std::set<double>> values(table.axes.size());
+  std::vector<Eigen::VectorXd> rows;
+  std::vector<double> logs;
+  for (const SweepTable::Row& row : table.rows) {
+    const Figure* known = row.result.figure(figure);
+    if (row.keys.case_name != case_name || !known) continue;
+    const double found = number_of(*known);
+    if (!(found > 0)) return std::nullopt;
+    // the factor's column is the last
+    Eigen::VectorXd one = Eigen::VectorXd::Ones(keys + 1);
+    for (std::size_t k = 0; k < table.axes.size(); ++k) {
+      const auto value = parse_number<double>(row.keys.values[k]);
+      if (!value || !(*value > 0)) return std::nullopt;
+      values[k].insert(*value);
+      one[Eigen::Index(k)] = std::log(*value);
+    }
+    rows.push_back(std::move(one));
+    logs.push_back(std::log(found));
+  }
+  for (const auto& of_key : values)
+    if (of_key.size() < fewest_values) return std::nullopt;
+  const auto free = Eigen::Index(rows.size()) - keys - 1;
+  if (keys == 0 || free < 1) return std::nullopt;
+  Eigen::MatrixXd A(Eigen::Index(rows.size()), keys + 1);
+  for (std::size_t k = 0; k < rows.size(); ++k) A.row(Eigen::Index(k)) = rows[k].transpose();
+  const Eigen::VectorXd b =
+      Eigen::Map<const Eigen::VectorXd>(logs.data(), Eigen::Index(logs.size()));
+  const Eigen::VectorXd x = least_squares(A, b), left = b - A * x;
+  const Eigen::MatrixXd spread = inverse(A.transpose() * A);
+  PowerLaw law;
+  law.factor = std::exp(x[keys]);
+  law.scatter = std::sqrt(left.squaredNorm() / double(rows.size()));
+  for (Eigen::Index k = 0; k < keys; ++k)
+    law.keys.push_back({case_name, figure, table.axes[std::size_t(k)], x[k],
+                        std::sqrt(spread(k, k) * left.squaredNorm() / double(free))});
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    law.law.push_back(std::exp(A.row(Eigen::Index(k)).dot(x)));
+    law.found.push_back(std::exp(logs[k]));
+  }
+  return law;
 }
 
 }  // namespace gridshell::record

@@ -6,14 +6,17 @@
 #include <functional>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "engine/core/enum_words.h"
+#include "engine/core/fields.h"
 #include "engine/core/file_io.h"
 #include "engine/core/result.h"
+#include "engine/record/frame.h"
 
 namespace gridshell::record {
 
@@ -66,6 +69,34 @@ std::string sweep_csv(const SweepTable& table);
 /// What such a text says; values are without the quotes of TOML. Errors (bad_input): it is none,
 /// naming the line.
 Result<SweepTable> read_sweep_csv(std::string_view text);
+
+// How a figure grows with the keys that were swept, as a power law: a line of laws.csv a key.
+
+/// One key's part in the law of a figure.
+struct LawRow {
+  std::string case_name, figure, key;
+  double exponent = unknown;
+  double error = unknown;  ///< standard error, of what the law leaves
+};
+template <RecordOf<LawRow> Row, class Visit>
+void fields(Row& row, const Visit& visit) {
+  visit_each(visit, "case", row.case_name, "figure", row.figure, "key", row.key, "exponent",
+             row.exponent, "error", row.error);
+}
+
+/// figure = factor * product of key^exponent, by least squares of the logarithms.
+struct PowerLaw {
+  std::vector<LawRow> keys;
+  double factor = 0;
+  double scatter = 0;  ///< root mean square of the logarithms' residuals
+  /// What the law says beside each figure, point by point.
+  std::vector<double> law, found;
+};
+
+/// Of the points of one case that came to a state. Nothing where a key has fewer than three values,
+/// or keys or figures are not all numbers above 0.
+std::optional<PowerLaw> power_law(const SweepTable& table, const std::string& case_name,
+                                  const std::string& figure);
 
 // The log of a sweep, `sweep.jsonl`: a line that names the sweep, then a line a finished point,
 // each JSON with a checksum, only ever appended to. Whoever writes holds its lock.

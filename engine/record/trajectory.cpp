@@ -208,7 +208,10 @@ Result<void> check_frame(const Layout& layout, const Frame& frame, std::size_t k
   TRY_DO(fits("curvature_per_mm", frame.curvature_per_mm.size(), points_of_rods(layout)));
   TRY_DO(fits("bending_mJ_per_m", frame.bending_mJ_per_m.size(), points_of_rods(layout)));
   TRY_DO(fits("stress_MPa", frame.stress_MPa.size(), points_of_rods(layout)));
-  return fits("reactions_N", frame.reactions_N.cols(), Eigen::Index(layout.supports.size()));
+  TRY_DO(fits("brace_force_N", frame.brace_force_N.size(), 2 * cells));
+  const auto supports = Eigen::Index(layout.supports.size());
+  TRY_DO(fits("loads_N", frame.loads_N.cols(), supports));
+  return fits("reactions_N", frame.reactions_N.cols(), supports);
 }
 
 Result<void> check_consistency(const Trajectory& trajectory) {

@@ -10,6 +10,8 @@
 //   /bending_mJ_per_m frames x points    bending energy over length, at the same points
 //   /stress_MPa       frames x points    largest stress of a fibre, at the same points
 //   /reactions_N      frames x supports x 3   on joints, edge points and far ends of tails
+//   /loads_N          frames x supports x 3   handed on to the same places
+//   /brace_force_N    frames x 2 x cells  axial, along both diagonals of each cell
 //   /frames/<name>  frames              the columns of frames.csv, and `actuation`
 //   /layout         spacing_mm, rod_diameter_mm, length_scale_mm (attributes); edge_points (nodes),
 //                   original_boundary, actuated_boundary (points x 3, mm); families (of each rod,

@@ -8,6 +8,7 @@
 
 #include "engine/elastic/shell_rods.h"
 #include "engine/footprint/footprint.h"
+#include "engine/preset/preset.h"
 
 namespace gridshell {
 
@@ -19,6 +20,8 @@ struct LoadCase {
   double wind_N_mm2 = 0;            ///< pressure q
   double wind_rad = 0;              ///< where it blows to, from +x towards +y
   Eigen::Vector2d snow_side{0, 0};  ///< the half that has snow; zero: all
+  double edge_N_mm = 0;
+  preset::EdgeDirection edge_direction = preset::EdgeDirection::down;
   std::vector<PointLoad> points;
 };
 
@@ -26,7 +29,8 @@ struct LoadCase {
 /// `nodes` (joints first, then edge points) and fixed from then on. Each corner of a face bears the
 /// same share of what acts on it: snow s on the face's area in plan A_z, where that is not
 /// overhung, -s A_z z, at the corners on the side that has it; wind of direction w on its area A =
-/// |A| n the force q (w . n) A.
+/// |A| n the force q (w . n) A. Of each side a to b that no other face shares, anticlockwise about
+/// n, both ends bear half of its length times the load on the edge: along -z, -n or n x (b - a).
 std::vector<NodeAction> forces_of(const LoadCase& load, const Footprint& footprint,
                                   const Eigen::Matrix3Xd& nodes);
 

@@ -134,7 +134,8 @@ Result<void> put_rods(const preset::Preset& preset, Scene& scene) {
     TRY(forces, points_of(one.points, key, footprint));
     scene.load_cases.push_back({one.name, one.dead, 1e-6 * one.snow * loads.snow_N_m2,
                                 1e-6 * one.wind * loads.wind_N_m2, loads.wind_deg * M_PI / 180,
-                                side_of(one.snow_side), std::move(*forces)});
+                                side_of(one.snow_side), 1e-3 * one.edge * loads.edge_N_m,
+                                loads.edge_direction, std::move(*forces)});
   }
   const bool springs = preset.joints.kind == preset::JointKind::spring;
   scene.rods.joints = {springs ? preset.joints.stiffness_N_per_mm : 0, preset.joints.shear_Nmm,

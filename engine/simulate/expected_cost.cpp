@@ -1,12 +1,17 @@
-// What a run takes, said before it runs: from the meshes that its tolerance begins with and the
-// time that one factorisation takes on this machine.
+// What a run takes and how much it bends its rods, said before it runs: from the meshes that its
+// tolerance begins with and the time that one factorisation takes on this machine.
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "engine/core/algorithms.h"
 #include "engine/core/system_info.h"
+#include "engine/core/try.h"
+#include "engine/simulate/frames.h"
 #include "engine/simulate/mesh_choice.h"
 #include "engine/solve/buckling.h"
 
@@ -89,6 +94,84 @@ double expected_seconds(const Scene& scene, const preset::Preset& preset) {
 double expected_GB(double meshes_GB, const preset::Preset& preset) {
   constexpr double program = 0.03, a_frame = 1.7e-4;
   return program + meshes_GB + (preset.jitter.wanted() ? 0 : a_frame * preset.movie.frames);
+}
+
+namespace {
+
+/// Largest curvature of an elastica of this length whose hinges are `chord` apart: its modulus m by
+/// 2 E(m)/K(m) - 1 = chord/length, then 4 sqrt(m) K(m)/length.
+double elastica_curvature(double length, double chord) {
+  double low = 0, high = 0.999999;  // of the modulus' root
+  for (int round = 0; round < 60; ++round) {
+    const double k = 0.5 * (low + high);
+    (2 * std::comp_ellint_2(k) / std::comp_ellint_1(k) - 1 > chord / length ? low : high) = k;
+  }
+  return 4 * low * std::comp_ellint_1(low) / length;
+}
+
+/// Strain of a rod's fibres on the net, by the circles through three points next to each other.
+Result<double> strain_on_net(const Scene& scene, std::size_t r) {
+  constexpr int parts = 64;
+  const FootprintRod& rod = scene.footprint.rods[r];
+  const FibreReach& fibres = scene.rods.material(r).fibres;
+  const double h = (rod.span.end - rod.span.begin) / parts;
+  double most = 0;
+  std::optional<NetPoint> before[2];
+  for (int k = 0; k <= parts; ++k) {
+    const Eigen::Vector2d at = rod.at(rod.span.begin + k * h);
+    TRY(here, scene.net->at(at.x(), at.y()));
+    if (before[0] && before[1]) {
+      const Eigen::Vector3d curvature =
+          (here->position - 2 * before[1]->position + before[0]->position) / (h * h);
+      const double upright = curvature.dot(before[1]->normal()),
+                   sideways = std::sqrt(std::max(0.0, curvature.squaredNorm() - upright * upright));
+      most = std::max(most, fibres.strain(Eigen::Vector2d(sideways, upright)));
+    }
+    before[0] = before[1];
+    before[1] = *here;
+  }
+  return most;
+}
+
+/// The same of a rod by itself between its held ends, bent the way that is softest.
+double strain_by_ends(const Scene& scene, std::size_t r) {
+  const FootprintRod& rod = scene.footprint.rods[r];
+  const auto held = [](RodEnd end) { return is_held(end) && end != RodEnd::sprung; };
+  if (rod.closed() || !held(rod.begin) || !held(rod.end)) return 0;
+  const auto ends = scene.motion.end.middleCols<2>(2 * Eigen::Index(r));
+  const double chord = (ends.col(1) - ends.col(0)).norm(), length = (rod.span.end - rod.span.begin);
+  if (!(chord < length)) return 0;
+  const FibreReach& fibres = scene.rods.material(r).fibres;
+  return std::min(fibres.about_1, fibres.about_2) * elastica_curvature(length, chord);
+}
+
+}  // namespace
+
+std::string expected_bending(const Scene& scene) {
+  double most = 0, used = 0;
+  std::size_t where = 0;
+  for (std::size_t r = 0; r < scene.footprint.rods.size(); ++r) {
+    const RodMaterial& material = scene.rods.material(r);
+    if (!material.curvature.isZero(0) || material.as_drawn) return "";
+    double strain = 0;
+    if (scene.net) {
+      const auto on_net = strain_on_net(scene, r);
+      if (!on_net) return "";
+      strain = *on_net;
+    } else {
+      strain = strain_by_ends(scene, r);
+    }
+    const double young = material.EA / area_of(material.fibres);
+    if (!scene.strength_MPa.empty()) used = std::max(used, young * strain / scene.strength_MPa[r]);
+    if (strain > most) where = r;
+    most = std::max(most, strain);
+  }
+  if (most == 0) return "";
+  std::string text =
+      fmt::format("strain up to {:.2g} of {}, {}", most, name_of(scene.footprint.rods[where]),
+                  scene.net ? "as the net is curved" : "as an elastica between its ends");
+  if (used > 0) text += fmt::format(": {:.2g} of the rods' strength", used);
+  return text;
 }
 
 }  // namespace gridshell::simulate

@@ -19,7 +19,7 @@ Result<State> buckled_state(NestedShell& shell, const Scene& scene, const ShellR
                             const Watch& watch);
 
 /// Whether a path begins at the rest of what is drawn: of a network in space, and in the flat where
-/// loads bend the rods and no boundary shortens them.
+/// loads bend the rods, now or by cases to come, and no boundary shortens them.
 bool begins_as_drawn(const Scene& scene, const RodMesh& mesh, const PinnedMotion& motion);
 
 /// The rest that what is drawn comes to, its supports where they are drawn; found on the same mesh.

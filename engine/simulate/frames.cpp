@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 
 #include "engine/core/try.h"
 #include "engine/preset/consistency.h"
 #include "engine/record/frame_values.h"
 #include "engine/record/gauss_curvature.h"
 #include "engine/scene/rod_ends.h"
+#include "engine/simulate/frame_forces.h"
 
 namespace gridshell::simulate {
 namespace {
@@ -43,24 +43,6 @@ Eigen::MatrixX3d bins_of(const Scene& scene, const Eigen::Matrix3Xd& x, const Ei
   Eigen::MatrixX3d rows(bins.mean.size(), 3);
   rows << bins.mean, bins.deviation, bins.cells.cast<double>();
   return rows;
-}
-
-/// The edge point of an end, or where it is joined that joint.
-int end_node(const RodMesh& mesh, int k) {
-  const std::vector<int>& rod = mesh.rods[std::size_t(k / 2)];
-  if (mesh.end_of(k) != RodEnd::joined) return mesh.joints + k;
-  return k % 2 == 0 ? rod.front() : rod.back();
-}
-
-/// What may be held: joints, edge points, far ends of tails.
-std::vector<int> supports_of(const RodMesh& mesh) {
-  std::vector<int> nodes(std::size_t(mesh.joints));
-  std::iota(nodes.begin(), nodes.end(), 0);
-  for (int k = 0; k < mesh.edge_points; ++k)
-    if (mesh.end_of(k) != RodEnd::joined) nodes.push_back(mesh.joints + k);
-  for (int node : mesh.far_ends)
-    if (node >= 0) nodes.push_back(node);
-  return nodes;
 }
 
 /// Where on a rod a point lies: "u+3, 45.00 mm from its begin, at joint [0, 1]".
@@ -136,12 +118,6 @@ std::string place_of(const Footprint& footprint, const RodMesh& mesh, std::size_
   return place_on_rod(footprint, mesh, r, point);
 }
 
-/// Of a section by how far it reaches, mm^2.
-double area_of(const FibreReach& fibres) {
-  return fibres.round ? M_PI * fibres.about_1 * fibres.about_1
-                      : 4 * fibres.about_1 * fibres.about_2;
-}
-
 /// Stress of a fibre at every point, E (|N|/EA + strain by bending), and the largest; N of the
 /// stronger edge there.
 void put_stress(const Scene& scene, const RodMesh& mesh, const Model& model,
@@ -214,34 +190,6 @@ void put_rods(const Scene& scene, const RodMesh& mesh, const Model& model, const
   put_strains(scene, mesh, model, bending.strain(), frame);
 }
 
-/// What holds the supports: all of the force on a pinned node, with what turns its end; of a joint
-/// what its hold prescribes; the force of its spring where it is on one.
-Eigen::Matrix3Xd reactions_of(const RodMesh& mesh, const Model& model, const Assembly& at,
-                              const std::vector<Constraint>& holds) {
-  const std::vector<int> supports = supports_of(mesh);
-  std::vector<Eigen::Vector3d> on(std::size_t(mesh.rod_nodes()), Eigen::Vector3d::Zero());
-  for (const int node : supports)
-    if (model.pinned(node)) on[std::size_t(node)] = at.gradient.col(node);
-  // a ghost is held by what holds its end
-  for (const Model::Rod& rod : model.rods) {
-    for (const int edge : {rod.ghost_begin, rod.ghost_end}) {
-      if (edge < 0) continue;
-      const ModelEdge& ghost = model.edges[std::size_t(edge)];
-      const bool begins = edge == rod.ghost_begin;
-      const int end = begins ? ghost.to : ghost.from, beyond = begins ? ghost.from : ghost.to;
-      if (end < mesh.rod_nodes()) on[std::size_t(end)] += at.gradient.col(beyond);
-    }
-  }
-  for (const Constraint& hold : holds)
-    on[std::size_t(hold.node)] = hold.part(at.gradient.col(hold.node));
-  for (const MeshSpring& spring : mesh.springs)
-    on[std::size_t(spring.node)] += at.gradient.col(spring.support);
-  Eigen::Matrix3Xd reactions(3, long(supports.size()));
-  for (std::size_t k = 0; k < supports.size(); ++k)
-    reactions.col(long(k)) = on[std::size_t(supports[k])];
-  return reactions;
-}
-
 void put_contacts(const record::Contacts& found, record::Frame& frame) {
   frame.contacts = int(found.places.size());
   frame.rod_gap_mm = found.rod_gap_mm;
@@ -266,10 +214,12 @@ void put_forces(const Simulation& simulation, record::Frame& frame) {
   const NestedShell& shell = simulation.shell();
   const int last = shell.levels() - 1;
   std::vector<Eigen::Matrix3Xd> reactions, energies;
+  std::vector<Energies> by_term;
   for (int k = shell.first_of_last_three(); k <= last; ++k) {
     const Assembly at = shell.forces(k);
     reactions.push_back(reactions_of(shell.mesh(k), shell.model(k), at, simulation.holds()));
     energies.push_back(columns_of(at.energies));
+    by_term.push_back(at.energies);
     if (k == last)
       put_rods(simulation.scene(), shell.mesh(k), shell.model(k), shell.state().levels.back(), at,
                frame);
@@ -277,12 +227,15 @@ void put_forces(const Simulation& simulation, record::Frame& frame) {
   const bool extrapolate = shell.plan().extrapolate_forces;
   const bool pressing = energies.back()(0, long(Term::contact)) > 0;
   CertifiedVectors force = certify_vectors(reactions, extrapolate, pressing);
-  const CertifiedVectors energy = certify_vectors(energies, extrapolate, pressing);
   put_reactions(std::move(force.value), frame);
   frame.force_error_N = force.error;
-  for (const TermName& term : energy_terms)
-    frame.energies[term.term] = energy.value(0, long(term.term));
-  frame.energy_error_mJ = energy.error;
+  frame.loads_N = loads_on(shell.finest(), shell.model(last), shell.outside(last));
+  frame.brace_force_N =
+      brace_forces(simulation.scene().footprint, shell.model(last), shell.state().levels.back().x);
+  frame.energies = by_term.back();
+  if (extrapolate && by_term.size() > 1)
+    frame.energies = extrapolated(by_term.back(), by_term[by_term.size() - 2]);
+  frame.energy_error_mJ = certify_vectors(energies, extrapolate, pressing).error;
 }
 
 /// Adds the blocks on their own nets and the rods across their seams to a layout.
@@ -363,9 +316,6 @@ Result<record::Layout> layout_of(const Scene& scene, const RodMesh& mesh) {
   for (int k = 0; k < mesh.edge_points; ++k) layout.edge_points.push_back(end_node(mesh, k));
   layout.original_boundary = scene.original_boundary;
   layout.actuated_boundary = scene.actuated_boundary;
-  for (const PointLoad& load : scene.rods.points)
-    if (load.force.norm() > 0)
-      layout.loaded_joints.push_back({load.joint, load.force.normalized()});
   if (scene.net) {
     const Eigen::Matrix2Xd flat = mesh.flat.leftCols(mesh.rod_nodes());
     TRY(net, places_on_net(scene, mesh));
@@ -417,7 +367,13 @@ record::Frame leading_frame(const Simulation& simulation, const State& state,
   frame.cell_K = cell_curvature(footprint, joint_tangents(footprint, mesh, nodes));
   frame.energies = forces.energies;
   frame.reactions_N = reactions_of(mesh, model, forces, simulation.holds());
+  frame.loads_N = loads_on(mesh, model, simulation.shell().outside(0));
   return frame;
+}
+
+double area_of(const FibreReach& fibres) {
+  return fibres.round ? M_PI * fibres.about_1 * fibres.about_1
+                      : 4 * fibres.about_1 * fibres.about_2;
 }
 
 bool strains_by_curvature(const Model& model) {
@@ -446,9 +402,14 @@ void complete_shape(const Simulation& simulation, const record::Contacts& contac
 double utilisation_of(const Simulation& simulation) {
   const NestedShell& shell = simulation.shell();
   const int last = shell.levels() - 1;
+  return utilisation_of(simulation.scene(), shell.finest(), shell.model(last),
+                        shell.state().levels.back(), shell.forces(last));
+}
+
+double utilisation_of(const Scene& scene, const RodMesh& mesh, const Model& model,
+                      const State& state, const Assembly& forces) {
   record::Frame frame;
-  put_rods(simulation.scene(), shell.finest(), shell.model(last), shell.state().levels.back(),
-           shell.forces(last), frame);
+  put_rods(scene, mesh, model, state, forces, frame);
   return frame.utilisation;
 }
 

@@ -43,6 +43,12 @@ record::Frame leading_frame(const Simulation& simulation, const State& state,
 /// The largest stress of a fibre over its rod's strength, on the finest mesh; NaN where that is not
 /// known.
 double utilisation_of(const Simulation& simulation);
+/// The same of an equilibrium on one mesh, with the forces there.
+double utilisation_of(const Scene& scene, const RodMesh& mesh, const Model& model,
+                      const State& state, const Assembly& forces);
+
+/// Of a section by how far it reaches, mm^2.
+double area_of(const FibreReach& fibres);
 
 /// Whether all that bends is strained as it is curved (FibreReach).
 bool strains_by_curvature(const Model& model);

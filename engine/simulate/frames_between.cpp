@@ -233,6 +233,7 @@ record::Frame FramesBetween::composed(record::Frame frame, double t, double shar
   frame.reactions_N += sum(weights.all, &Frame::reactions_N);
   frame.energies += sum(weights.all, &Frame::energies);
   frame.axial_force_N = sum(weights.all, &Frame::axial_force_N);
+  frame.brace_force_N = sum(weights.all, &Frame::brace_force_N);
   frame.bending_mJ_per_m = sum(weights.all, &Frame::bending_mJ_per_m).cwiseMax(0);
   frame.curvature_per_mm = sum(weights.all, &Frame::curvature_per_mm).cwiseMax(0);
   frame.stiffness_N_per_mm = sum(weights.all, &Frame::stiffness_N_per_mm);

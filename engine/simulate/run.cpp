@@ -249,6 +249,7 @@ Result<Plan> plan(const preset::Preset& preset) {
   plan.expected_error_mm =
       (scene->rung == RodModel::net ? net_error : expected_error(levels)) * scene->length_scale_mm;
   plan.expected_seconds = seconds_scene + expected_seconds(*scene, preset);
+  plan.bending = expected_bending(*scene);
   plan.left_out = left_out_of(*scene);
   plan.footprint = fmt::format("{} rods, {} joints, {} cells", plan.rods, plan.joints, plan.cells);
   // a ring has no legs

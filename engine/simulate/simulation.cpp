@@ -103,7 +103,7 @@ Energies Simulation::energies() const {
   const int last = shell_->levels() - 1;
   const Energies fine = shell_->energies(last);
   if (!shell_->plan().extrapolate_forces || last == 0) return fine;
-  return (4 * fine - shell_->energies(last - 1)) / 3;
+  return extrapolated(fine, shell_->energies(last - 1));
 }
 
 bool Simulation::locked() const {

@@ -129,6 +129,10 @@ class NestedShell {
   int first_of_last_three() const { return std::max(0, levels() - 3); }
   const Model& model(int level) const { return levels_[std::size_t(level)]->model; }
   Linearisation& system(int level) { return *levels_[std::size_t(level)]->system; }
+  /// What acts on a level from outside.
+  const ExternalLoads& outside(int level) const {
+    return levels_[std::size_t(level)]->system->outside;
+  }
   const PinnedMotion& motion(int level) const { return levels_[std::size_t(level)]->motion; }
   std::vector<PinnedMotion> motions() const;  ///< one a level
   /// Puts the loads of the current state on all levels.

@@ -7,6 +7,8 @@
 #include "engine/core/algorithms.h"
 #include "engine/core/try.h"
 #include "engine/scene/scene.h"
+#include "engine/simulate/frame_forces.h"
+#include "engine/simulate/frames.h"
 #include "engine/solve/eigenmodes.h"
 #include "engine/solve/equilibrium.h"
 #include "engine/study/critical_load.h"
@@ -38,6 +40,41 @@ class Loading {
   }
   CriticalLoad on(int level) { return on(level, shell_.state().levels[std::size_t(level)]); }
 
+  /// Of every point of a path the largest stress over the rods' strength; empty: that is not known.
+  std::vector<double> utilisations(int level, const CriticalLoad& found) {
+    std::vector<double> used;
+    if (scene_.strength_MPa.empty()) return used;
+    for (const TracedPoint& point : found.points)
+      used.push_back(utilisation(level, point.at.t, point.at.state));
+    return used;
+  }
+
+  /// The first factor at which a fibre comes to its rod's strength, NaN: nowhere on the path.
+  double strength_factor(int level, const CriticalLoad& found, const std::vector<double>& used) {
+    const auto beyond = std::ranges::find_if(used, [](double share) { return share >= 1; });
+    if (beyond == used.end()) return record::unknown;
+    const auto k = std::size_t(beyond - used.begin());
+    if (k == 0) return found.points[0].at.t;
+    const TracedPoint &from = found.points[k - 1], &to = found.points[k];
+    double low = from.at.t, high = to.at.t, below = used[k - 1] - 1, above = used[k] - 1;
+    const auto crossing = [&] { return low - below / (above - below) * (high - low); };
+    // beside a limit point a factor has two states
+    if (to.negative_pivots > 0 || !(high > low)) return crossing();
+    constexpr int rounds = 6;
+    State state = from.at.state;
+    for (int round = 0; round < rounds && above > 1e-9 && below < -1e-9; ++round) {
+      const double t = crossing();
+      shell_.motion(level).apply_loads(shell_.system(level), t);
+      NewtonOptions options;
+      options.tolerance_mm = 1e-8 * scene_.length_scale_mm;
+      if (newton(shell_.system(level), state, options, watch_).outcome != Outcome::reached) break;
+      const double share = utilisation(level, t, state) - 1;
+      (share < 0 ? low : high) = t;
+      (share < 0 ? below : above) = share;
+    }
+    return crossing();
+  }
+
   /// Of the shell with its shape off by so much.
   Result<CriticalLoad> imperfect(int level, const Eigenmodes& soft, int seed, double size_mm) {
     std::mt19937 random{std::uint32_t(seed)};
@@ -65,15 +102,21 @@ class Loading {
     return found;
   }
 
-  /// The sum of all that comes on with a factor of one, N.
-  Eigen::Vector3d sum() const {
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (const NodeAction& one : forces_) sum += one.force;
-    for (const NodeAction& one : shell_.model(0).loads) sum += load_.dead * one.force;
-    return sum;
+  /// All that comes on with a factor of one, on the layout's supports, N.
+  Eigen::Matrix3Xd loads() const {
+    return simulate::loads_on(shell_.finest(), shell_.model(shell_.levels() - 1),
+                              {load_.dead, &forces_, nullptr, 0});
   }
 
  private:
+  double utilisation(int level, double t, const State& state) {
+    Linearisation& system = shell_.system(level);
+    shell_.motion(level).apply_loads(system, t);
+    system.gradient_at(state);
+    return simulate::utilisation_of(scene_, shell_.mesh(level), shell_.model(level), state,
+                                    system.assembly());
+  }
+
   NestedShell& shell_;
   const Scene& scene_;
   const LoadCase& load_;
@@ -83,8 +126,8 @@ class Loading {
 };
 
 /// The factor over the way of the joint that has gone furthest where stability is lost.
-void put_points(const std::string& name, const CriticalLoad& found, int joints,
-                std::vector<record::LoadPoint>& rows) {
+void put_points(const std::string& name, const CriticalLoad& found, const std::vector<double>& used,
+                int joints, std::vector<record::LoadPoint>& rows) {
   const auto joints_at = [&](const TracedPoint& point) -> Eigen::Matrix3Xd {
     return point.at.state.x.leftCols(joints);
   };
@@ -96,9 +139,11 @@ void put_points(const std::string& name, const CriticalLoad& found, int joints,
   Eigen::Index furthest = 0;
   moved.colwise().norm().maxCoeff(&furthest);
   const Eigen::Vector3d along = moved.col(furthest).normalized();
-  for (const TracedPoint& point : found.points)
+  for (std::size_t k = 0; k < found.points.size(); ++k) {
+    const TracedPoint& point = found.points[k];
     rows.push_back({name, point.at.t, along.dot((joints_at(point) - begin).col(furthest)),
-                    point.negative_pivots, point.event});
+                    point.negative_pivots, point.event, used.empty() ? record::unknown : used[k]});
+  }
 }
 
 double quantile(std::vector<double> values, double share) {
@@ -135,60 +180,82 @@ Result<void> put_imperfections(Loading& loading, Simulation& simulation, int lev
   return {};
 }
 
+/// A factor that meshes tell, coarse to fine, NaN: not on their path; extrapolated where they tell
+/// of the same event, else the finest's, the whole difference its error.
+CertifiedVectors certified(const std::vector<double>& factors, bool extrapolate, bool same) {
+  std::vector<Eigen::Matrix3Xd> known;
+  for (const double factor : factors)
+    if (std::isfinite(factor)) known.emplace_back(factor * Eigen::Vector3d::UnitX());
+  if (!std::isfinite(factors.back()))
+    return {Eigen::Vector3d::Constant(record::unknown), record::unknown};
+  return certify_vectors(known, extrapolate && same && known.size() > 1, !same);
+}
+
 Result<void> put_case(Simulation& simulation, const LoadCase& load, int imperfections,
                       LoadStudy& study, const Watch& watch) {
   NestedShell& shell = simulation.shell();
   Loading loading(simulation, load, watch);
   record::LoadRow row;
   row.load_case = load.name;
-  const Eigen::Vector3d sum = loading.sum();
+  study.loads.push_back(loading.loads());
+  const Eigen::Vector3d sum = study.loads.back().rowwise().sum();
   row.load_x_N = sum.x(), row.load_y_N = sum.y(), row.load_z_N = sum.z();
   const int last = shell.levels() - 1, first = std::max(0, last - 1);
-  const CriticalLoad fine = loading.on(last);
-  if (fine.points.empty())
-    return fail(Fault::no_equilibrium,
-                "case \"" + load.name + "\": the path of its loads could not be begun");
-  std::vector<Eigen::Matrix3Xd> factors;
-  const auto keep = [&](double factor) { factors.emplace_back(factor * Eigen::Vector3d::UnitX()); };
-  double coarse_factor = fine.factor;
-  if (first < last) {
-    const CriticalLoad coarse = loading.on(first);
-    coarse_factor = coarse.factor;
-    if (coarse.event == fine.event && std::isfinite(coarse.factor)) keep(coarse.factor);
+  std::vector<double> critical, strength, used;
+  std::vector<BranchEvent> events;
+  CriticalLoad found;
+  for (int level = first; level <= last; ++level) {
+    found = loading.on(level);
+    if (found.points.empty())
+      return fail(Fault::no_equilibrium,
+                  "case \"" + load.name + "\": the path of its loads could not be begun");
+    critical.push_back(found.factor);
+    events.push_back(found.event);
+    used = loading.utilisations(level, found);
+    strength.push_back(loading.strength_factor(level, found, used));
   }
-  row.event = fine.event;
-  row.linear_factor = fine.linear;
-  if (std::isfinite(fine.factor)) {
-    keep(fine.factor);
-    const CertifiedVectors sure =
-        certify_vectors(factors, shell.plan().extrapolate_forces && factors.size() > 1, false);
-    row.critical_factor = sure.value(0, 0);
-    row.error = sure.error;
-  }
-  if (imperfections > 0 && std::isfinite(coarse_factor))
-    TRY_DO(put_imperfections(loading, simulation, first, imperfections, coarse_factor, row, watch));
+  row.event = found.event;
+  row.linear_factor = found.linear;
+  const bool extrapolate = shell.plan().extrapolate_forces;
+  const CertifiedVectors lost = certified(critical, extrapolate, events.front() == events.back()),
+                         torn = certified(strength, extrapolate, true);
+  row.critical_factor = lost.value(0, 0), row.error = lost.error;
+  row.strength_factor = torn.value(0, 0), row.strength_error = torn.error;
+  if (imperfections > 0 && std::isfinite(critical.front()))
+    TRY_DO(
+        put_imperfections(loading, simulation, first, imperfections, critical.front(), row, watch));
   if (watch.cancelled()) return stopped();
-  put_points(load.name, fine, shell.finest().joints, study.points);
+  put_points(load.name, found, used, shell.finest().joints, study.points);
   study.cases.push_back(row);
   study.modes.emplace_back();
-  if (fine.mode.size() == 0) return {};
+  if (found.mode.size() == 0) return {};
   const Eigen::Matrix3Xd nodes =
-      nodes_of(shell.finest(), shell.model(last), fine.mode).leftCols(shell.finest().rod_nodes());
+      nodes_of(shell.finest(), shell.model(last), found.mode).leftCols(shell.finest().rod_nodes());
   study.modes.back() = nodes / max_column_norm(nodes);
   return {};
+}
+
+Result<void> check_cases(std::size_t cases) {
+  if (cases > 0) return {};
+  return fail(Fault::bad_input, "there is nothing to carry: [[loads.case]] must name a case");
 }
 
 }  // namespace
 
 Result<LoadStudy> load_study(const preset::Preset& preset, int imperfections, Watch& watch) {
-  TRY(scene, shared_scene_of(preset));
-  if ((*scene)->load_cases.empty())
-    return fail(Fault::bad_input, "there is nothing to carry: [[loads.case]] must name a case");
+  TRY_DO(check_cases(preset.load_case.size()));
+  TRY(shell, form_shell(preset, watch));
+  return load_study(*shell, imperfections, watch);
+}
+
+Result<LoadStudy> load_study(FormedShell& shell, int imperfections, Watch& watch) {
+  Simulation& simulation = shell.path.simulation;
+  const auto& cases = simulation.scene().load_cases;
+  TRY_DO(check_cases(cases.size()));
   LoadStudy study;
-  TRY(path, follow_to_last(preset, *scene, watch, study.summary, study.state));
-  Simulation& simulation = path->simulation;
+  study.state = shell.state;
+  study.summary = shell.summary;
   const Checkpoint formed = simulation.save();
-  const auto& cases = (*scene)->load_cases;
   for (std::size_t k = 0; k < cases.size(); ++k) {
     TRY_DO(put_case(simulation, cases[k], imperfections, study, watch));
     simulation.restore(formed);

@@ -104,12 +104,15 @@ class LastAlone final : public record::Sink {
   record::Trajectory state;
 };
 
-}  // namespace
+Result<void> check_masses(const Scene& scene) {
+  if (std::ranges::none_of(scene.mass_t_per_mm, [](double mass) { return !(mass > 0); })) return {};
+  return fail(Fault::bad_input,
+              "frequencies need a mass: [rod] density_kg_m3 must be above 0 (6450 for Nitinol, "
+              "7850 for steel), that of [rod_v] too where these differ");
+}
 
-Result<simulate::EquilibriumPath> follow_to_last(const preset::Preset& preset,
-                                                 const std::shared_ptr<const Scene>& scene,
-                                                 Watch& watch, record::Summary& summary,
-                                                 record::Trajectory& state) {
+Result<FormedShell> form(const preset::Preset& preset, const std::shared_ptr<const Scene>& scene,
+                         Watch& watch) {
   if (scene->rung == RodModel::net)
     return fail(Fault::bad_input,
                 "a net that nothing is solved for neither vibrates nor carries: [accuracy] model "
@@ -118,20 +121,31 @@ Result<simulate::EquilibriumPath> follow_to_last(const preset::Preset& preset,
   preset::Preset once = preset;
   once.movie.frames = 1;
   LastAlone sink;
-  auto path = simulate::follow(once, scene, false, sink, watch, summary);
-  state = std::move(sink.state);
-  return path;
+  record::Summary summary;
+  TRY(path, simulate::follow(once, scene, false, sink, watch, summary));
+  return FormedShell{std::move(*path), std::move(sink.state), std::move(summary)};
+}
+
+}  // namespace
+
+Result<FormedShell> form_shell(const preset::Preset& preset, Watch& watch) {
+  TRY(scene, shared_scene_of(preset));
+  return form(preset, *scene, watch);
 }
 
 Result<Vibrations> vibrations_of(const preset::Preset& preset, int count, Watch& watch) {
   TRY(scene, shared_scene_of(preset));
-  if (std::ranges::any_of((*scene)->mass_t_per_mm, [](double mass) { return !(mass > 0); }))
-    return fail(Fault::bad_input,
-                "frequencies need a mass: [rod] density_kg_m3 must be above 0 (6450 for Nitinol, "
-                "7850 for steel), that of [rod_v] too where these differ");
+  TRY_DO(check_masses(**scene));
+  TRY(shell, form(preset, *scene, watch));
+  return vibrations_of(*shell, count, watch);
+}
+
+Result<Vibrations> vibrations_of(FormedShell& formed, int count, const Watch& watch) {
+  Simulation& simulation = formed.path.simulation;
+  TRY_DO(check_masses(simulation.scene()));
   Vibrations found;
-  TRY(path, follow_to_last(preset, *scene, watch, found.summary, found.state));
-  Simulation& simulation = path->simulation;
+  found.state = formed.state;
+  found.summary = formed.summary;
   NestedShell& shell = simulation.shell();
   shell.apply_loads();
   std::vector<MeshModes> meshes;

@@ -15,12 +15,15 @@
 
 namespace gridshell::study {
 
-/// Runs a preset: its path, whose simulation stands in the last certified state, its summary and
-/// that state's frame alone. Errors: bad_input where nothing is solved, simulate::follow()'s.
-Result<simulate::EquilibriumPath> follow_to_last(const preset::Preset& preset,
-                                                 const std::shared_ptr<const Scene>& scene,
-                                                 Watch& watch, record::Summary& summary,
-                                                 record::Trajectory& state);
+/// A shell at the end of its preset's path.
+struct FormedShell {
+  simulate::EquilibriumPath path;  ///< its simulation stands in the last certified state
+  record::Trajectory state;        ///< of that state the frame alone
+  record::Summary summary;
+};
+
+/// Runs a preset. Errors: bad_input where nothing is solved, simulate::follow()'s.
+Result<FormedShell> form_shell(const preset::Preset& preset, Watch& watch);
 
 /// Frequencies and shapes, and the state that they are of.
 struct Vibrations {
@@ -37,5 +40,7 @@ struct Vibrations {
 /// paired by their shapes, are extrapolated and estimated as forces are. Errors: bad_input, of rods
 /// without density and of what nothing is solved for; no_equilibrium; cancelled.
 Result<Vibrations> vibrations_of(const preset::Preset& preset, int count, Watch& watch);
+/// The same of a shell that is formed, which stands as before afterwards.
+Result<Vibrations> vibrations_of(FormedShell& shell, int count, const Watch& watch);
 
 }  // namespace gridshell::study

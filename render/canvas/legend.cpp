@@ -129,20 +129,52 @@ void draw_colour_bar(Canvas& canvas, const Box& box, const ColourBar& bar, doubl
   }
 }
 
-bool draw_scale_bar(Canvas& canvas, const Box& box, double length_mm, double units_per_mm,
-                    double font_size) {
-  const double length = length_mm * units_per_mm, thickness = 0.22 * font_size;
-  const std::string label =
-      (length_mm == std::round(length_mm) ? fixed(length_mm, 0) : scientific(length_mm, 2)) + " mm";
+namespace {
+
+/// What is `length` long in the middle of the box's foot, its label above; false: no room.
+bool draw_length(Canvas& canvas, const Box& box, double length, const std::string& label,
+                 double font_size, const std::function<void(const Box&)>& draw) {
+  const double thickness = 0.22 * font_size;
   const TextStyle style{.size = font_size, .align_x = AlignX::centre, .align_y = AlignY::bottom};
   const Box text = canvas.measure(label, style);
   if (!(length > 0) || std::max(length, text.width) > box.width ||
       text.height + 2 * thickness > box.height)
     return false;
   const double x = box.middle().x, y = box.bottom() - thickness;
-  canvas.rectangle({x - length / 2, y, length, thickness}, ink);
+  draw({x - length / 2, y, length, thickness});
   canvas.text(label, {x, y - thickness}, style);
   return true;
+}
+
+}  // namespace
+
+bool draw_scale_bar(Canvas& canvas, const Box& box, double length_mm, double units_per_mm,
+                    double font_size) {
+  const std::string label =
+      (length_mm == std::round(length_mm) ? fixed(length_mm, 0) : scientific(length_mm, 2)) + " mm";
+  return draw_length(canvas, box, length_mm * units_per_mm, label, font_size,
+                     [&](const Box& bar) { canvas.rectangle(bar, ink); });
+}
+
+bool draw_arrow_key(Canvas& canvas, const Box& box, const ArrowKey& key, double units_per_mm,
+                    double font_size) {
+  return draw_length(
+      canvas, box, key.length_mm * units_per_mm, key.name, font_size, [&](const Box& at) {
+        const double y = at.middle().y;
+        draw_arrow(canvas, {at.x, y}, {at.right(), y}, {key.colour, 0.16 * font_size});
+      });
+}
+
+void draw_arrow(Canvas& canvas, Point from, Point to, const Stroke& shaft) {
+  const double length = std::hypot(to.x - from.x, to.y - from.y);
+  if (length < 1e-9) return;
+  const double head = std::min(4.5 * shaft.width, 0.6 * length), half = 1.4 * shaft.width;
+  const double x = (to.x - from.x) / length, y = (to.y - from.y) / length;
+  const Point neck{to.x - head * x, to.y - head * y};
+  canvas.line(from, neck, shaft);
+  canvas.polygon(
+      {{neck.x - half * y, neck.y + half * x}, to, {neck.x + half * y, neck.y - half * x}},
+      shaft.colour);
 }
 
 void draw_colour_keys(Canvas& canvas, const Box& box, const std::vector<ColourKey>& keys,

@@ -32,6 +32,18 @@ void draw_colour_bar(Canvas& canvas, const Box& box, const ColourBar& bar, doubl
 bool draw_scale_bar(Canvas& canvas, const Box& box, double length_mm, double units_per_mm,
                     double font_size);
 
+/// An arrow and what its length stands for, drawn as a scale bar is.
+struct ArrowKey {
+  double length_mm = 0;
+  std::string name;  ///< "500 N"
+  Colour colour;
+};
+bool draw_arrow_key(Canvas& canvas, const Box& box, const ArrowKey& key, double units_per_mm,
+                    double font_size);
+
+/// An arrow in the plane: a shaft and a solid head.
+void draw_arrow(Canvas& canvas, Point from, Point to, const Stroke& shaft);
+
 /// A colour and what it stands for.
 struct ColourKey {
   Colour colour;

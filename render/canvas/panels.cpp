@@ -50,7 +50,7 @@ Grid make_grid(const PanelFigure& figure) {
   grid.caption = lines > 0 ? std::round((0.5 + 1.2 * double(lines)) * grid.em) : 0;
   grid.head = figure.title.empty() ? 0 : std::round(1.7 * grid.em);
   grid.keys = figure.keys.empty() ? 0 : std::round(1.7 * grid.em);
-  grid.foot = figure.scale_bar_mm > 0 ? std::round(1.9 * grid.em) : 0;
+  grid.foot = figure.scale_bar_mm > 0 || figure.arrow ? std::round(1.9 * grid.em) : 0;
   if (figure.colour_bar)
     grid.bar = grid.gap + std::ceil(colour_bar_width(*figure.colour_bar, grid.em));
   return grid;
@@ -83,7 +83,10 @@ void draw(Canvas& canvas, const PanelFigure& figure, const Grid& grid, bool line
   draw_colour_keys(canvas, {left, bottom - grid.foot - grid.keys, last.right() - left, grid.keys},
                    figure.keys, em);
   if (grid.foot > 0) {
-    const Box row{left, bottom - grid.foot, last.right() - left, grid.foot};
+    Box row{left, bottom - grid.foot, last.right() - left, grid.foot};
+    if (figure.arrow && figure.scale_bar_mm > 0) row.width /= 2;
+    if (figure.arrow) draw_arrow_key(canvas, row, *figure.arrow, figure.pixels_per_mm, em);
+    if (figure.arrow) row.x += row.width;
     draw_scale_bar(canvas, row, figure.scale_bar_mm, figure.pixels_per_mm, em);
   }
   if (figure.colour_bar) {

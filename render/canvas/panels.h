@@ -25,8 +25,9 @@ struct PanelFigure {
   std::string title;  ///< plain text above all; empty: none
   std::vector<Panel> panels;
   int columns = 3;
-  double scale_bar_mm = 0;   ///< 0: none
-  double pixels_per_mm = 0;  ///< of the panels' pictures
+  double scale_bar_mm = 0;             ///< 0: none
+  double pixels_per_mm = 0;            ///< of the panels' pictures
+  std::optional<ArrowKey> arrow = {};  ///< beside the scale bar
   std::optional<ColourBar> colour_bar;
   std::vector<ColourKey> keys = {};  ///< in a row below all panels
   Print print{178, 0};  ///< text is 8.5 pt at that width; with a dpi the figure is that wide

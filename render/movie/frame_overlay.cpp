@@ -1,5 +1,6 @@
 #include "render/movie/frame_overlay.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -45,7 +46,7 @@ TextStyle title_style(const MovieStyle& style, double font_size) {
   return {.size = (style.captions ? 1.15 : 1) * font_size, .bold = true};
 }
 
-FrameLayout lay_out_frame(const MovieStyle& style, const ColourBar* bar) {
+FrameLayout lay_out_frame(const MovieStyle& style, const ColourBar* bar, bool loads) {
   FrameLayout layout;
   const double w = style.width(), h = style.height();
   // readable down to small pictures, and no wider than a tall one allows
@@ -109,10 +110,15 @@ FrameLayout lay_out_frame(const MovieStyle& style, const ColourBar* bar) {
     layout.heading = {x, x, right - 2 * x, (1 + lines) * line};
   }
   const bool scale_bar = style.scale_bar_mm > 0 && rest.height > 6 * line;
-  Box foot = cut_bottom(rest, captions ? 2.8 * line : (scale_bar ? 1.7 * line : 0));
+  const bool key = loads && rest.height > 6 * line;
+  Box foot = cut_bottom(rest, captions ? 2.8 * line : (scale_bar || key ? 1.7 * line : 0));
   if (scale_bar) {
     Box place = cut_right(foot, 0.4 * foot.width);
     layout.scale_bar = cut_bottom(place, 1.7 * line);
+  }
+  if (key) {
+    Box place = cut_right(foot, 0.3 * foot.width);
+    layout.arrow_key = cut_bottom(place, 1.7 * line);
   }
   if (captions) {
     layout.timeline = cut_bottom(foot, 0.8 * line);
@@ -153,6 +159,32 @@ void put_contacts(const record::Layout& layout, const record::Frame& frame, doub
   if (frame.contacts <= 0) return;
   for (const record::Contact& contact : record::ContactSearch(layout).in(frame.nodes).places)
     drawing.marks.push_back({contact.at, std::max(4.0, 5 * thin_mm), contact_ink});
+}
+
+void put_braces(const record::Layout& layout, const record::Frame& frame, double thin_mm,
+                Drawing& drawing) {
+  constexpr Colour brace_ink{0.30f, 0.36f, 0.50f, 1};
+  GhostRods braces{frame.nodes, {}, std::max(0.6 * layout.rod_diameter_mm, thin_mm), brace_ink};
+  for (Eigen::Index k = 0; k < frame.brace_force_N.size(); ++k) {
+    if (std::isnan(frame.brace_force_N[k])) continue;
+    const auto& joints = layout.cells[std::size_t(k / 2)].joints;
+    const auto node = [&](Eigen::Index corner) {
+      return layout.joints[std::size_t(joints[std::size_t(corner)])].node;
+    };
+    braces.rods.push_back({node(k % 2), node(k % 2 + 2)});
+  }
+  if (!braces.rods.empty()) drawing.ghosts.push_back(std::move(braces));
+}
+
+std::string force_text(double N) {
+  return N >= 1000 ? fmt::format("{:.4g} kN", 1e-3 * N) : fmt::format("{:.4g} N", N);
+}
+
+std::string load_caption(const record::Frame& frame) {
+  if (frame.loads_N.cols() == 0) return "";
+  const auto sum = [](const Eigen::Matrix3Xd& of) { return force_text(of.rowwise().sum().norm()); };
+  const std::string loads = "loads " + sum(frame.loads_N);
+  return frame.reactions_N.cols() == 0 ? loads : loads + ", reactions " + sum(frame.reactions_N);
 }
 
 std::string contact_caption(const record::Frame& frame) {

@@ -23,13 +23,13 @@ struct FrameLayout {
   Box title, state;               ///< upper left; the title in the lines below
   Box heading;                    ///< of a still: its title's lines and its caption
   Box event, progress, timeline;  ///< lower left, a line each
-  Box colour_bar, inset, scale_bar, plot;
+  Box colour_bar, inset, scale_bar, arrow_key, plot;
   Box view;                              ///< what is left for the shell
   std::vector<std::string> title_lines;  ///< of the title, or of a still's heading
 
   std::vector<Box> parts() const {
-    return {title,      state, heading,   event, progress, timeline,
-            colour_bar, inset, scale_bar, plot,  view};
+    return {title,      state, heading,   event,     progress, timeline,
+            colour_bar, inset, scale_bar, arrow_key, plot,     view};
   }
 };
 
@@ -40,7 +40,7 @@ inline constexpr double still_margin = 0.9;
 TextStyle title_style(const MovieStyle& style, double font_size);
 
 /// A wide picture has inset and colour bar in a column on the right, a tall one in a strip below.
-FrameLayout lay_out_frame(const MovieStyle& style, const ColourBar* bar);
+FrameLayout lay_out_frame(const MovieStyle& style, const ColourBar* bar, bool loads = false);
 
 // The words of a frame, which speak of that frame alone.
 
@@ -58,6 +58,15 @@ std::string equilibrium_caption(const record::Frame& frame);
 /// A mark where parts of the frame touch; `thin_mm`: the least width of what is to be seen.
 void put_contacts(const record::Layout& layout, const record::Frame& frame, double thin_mm,
                   Drawing& drawing);
+
+/// The frame's braces as bars.
+void put_braces(const record::Layout& layout, const record::Frame& frame, double thin_mm,
+                Drawing& drawing);
+
+/// "loads 71.98 kN, reactions 71.98 kN": sizes of the sums of those that are known.
+std::string load_caption(const record::Frame& frame);
+/// "950 N", "4.249 kN"
+std::string force_text(double N);
 
 /// "3 contacts"; empty: none, or not looked for.
 std::string contact_caption(const record::Frame& frame);

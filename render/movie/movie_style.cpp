@@ -65,6 +65,8 @@ Appearance appearance_of(const preset::Style& style) {
   choose(look.rings, style.rings);
   choose(look.floor, style.floor);
   choose(look.shadow, style.shadow);
+  choose(look.loads, style.loads);
+  choose(look.braces, style.braces);
   if (style.joints == preset::Visibility::off) look.joint_mm = 0;
   if (style.joints == preset::Visibility::on && look.joint_mm == 0)
     look.joint_mm = Appearance{}.joint_mm;

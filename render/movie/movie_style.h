@@ -24,7 +24,7 @@ struct Appearance {
       background{1, 1, 1, 1};  ///< a background of alpha 0 stays out of the picture
   ColourMap map = nullptr;     ///< null: by the values
   std::vector<double> range;   ///< (low, high) of the colours; empty: by the values
-  bool cells = true, rings = true, floor = true, shadow = true;
+  bool cells = true, rings = true, floor = true, shadow = true, loads = true, braces = true;
   double sheen = 1;        ///< of rods and joints; 0: ink
   double far_fade = 0.25;  ///< of the far side, into the background
   bool letters = true;     ///< of the panels of a figure

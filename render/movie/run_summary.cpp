@@ -13,6 +13,18 @@ namespace {
 
 constexpr double gap_mm = 2.5;  // between joint and arrow
 
+/// As long as `way`, outside the shell.
+LoadArrow arrow_at(const record::Layout& layout, const record::Frame& frame, int node,
+                   const Eigen::Vector3d& way, double gap) {
+  const Eigen::Vector3d middle = layout.actuated_boundary.rowwise().mean(),
+                        at = frame.nodes.col(node);
+  const Eigen::Vector3d along = way.normalized();
+  // clearly so: in a flat shell round-off must not choose
+  const bool away = along.dot(at - middle) > 0.02 * layout.length_scale_mm;
+  const Eigen::Vector3d near = at + (away ? gap : -gap) * along;
+  return away ? LoadArrow{node, near, near + way} : LoadArrow{node, near - way, near};
+}
+
 }  // namespace
 
 Eigen::Matrix3Xd boundary_at(const record::Layout& layout, double actuation) {
@@ -34,16 +46,24 @@ std::vector<LoadArrow> load_arrows(const record::Layout& layout, const record::F
   std::vector<LoadArrow> arrows;
   if (layout.loaded_joints.empty() || layout.actuated_boundary.cols() == 0) return arrows;
   const double length = 0.25 * layout.length_scale_mm;
-  const Eigen::Vector3d middle = layout.actuated_boundary.rowwise().mean();
   for (const record::LoadedJoint& load : layout.loaded_joints) {
     const int node = layout.joints.at(std::size_t(load.joint)).node;
-    if (node >= frame.nodes.cols() || !load_acts(load, layout, frame)) continue;
-    const Eigen::Vector3d at = frame.nodes.col(node);
-    // clearly so: in a flat shell round-off must not choose
-    const bool away = load.direction.dot(at - middle) > 0.02 * layout.length_scale_mm;
-    const Eigen::Vector3d near = at + (away ? gap_mm : -gap_mm) * load.direction;
-    const Eigen::Vector3d far = near + (away ? length : -length) * load.direction;
-    arrows.push_back(away ? LoadArrow{node, near, far} : LoadArrow{node, far, near});
+    if (node < frame.nodes.cols() && load_acts(load, layout, frame))
+      arrows.push_back(arrow_at(layout, frame, node, length * load.direction, gap_mm));
+  }
+  return arrows;
+}
+
+std::vector<LoadArrow> force_arrows(const record::Layout& layout, const record::Frame& frame,
+                                    double largest_N) {
+  std::vector<LoadArrow> arrows;
+  if (!(largest_N > 0) || layout.actuated_boundary.cols() == 0) return arrows;
+  const auto known = std::min<Eigen::Index>(frame.loads_N.cols(), long(layout.supports.size()));
+  for (Eigen::Index k = 0; k < known; ++k) {
+    const Eigen::Vector3d force = frame.loads_N.col(k) / largest_N;
+    const int node = layout.supports[std::size_t(k)];
+    if (force.norm() > 0.01 && node < frame.nodes.cols())
+      arrows.push_back(arrow_at(layout, frame, node, longest_force(layout) * force, 0));
   }
   return arrows;
 }
@@ -86,7 +106,7 @@ std::vector<RodSample> rod_points(const record::Layout& layout) {
 
 // what stands for a frame: joints, points of the rods, and the arrows of loads
 Eigen::Matrix3Xd points_of(const record::Layout& layout, const std::vector<RodSample>& rods,
-                           const record::Frame& frame) {
+                           const record::Frame& frame, double largest_N) {
   std::vector<Eigen::Vector3d> points;
   const auto add = [&](const Eigen::Vector3d& point) {
     if (point.allFinite()) points.push_back(point);
@@ -95,6 +115,8 @@ Eigen::Matrix3Xd points_of(const record::Layout& layout, const std::vector<RodSa
     if (std::max(at.from, at.to) < frame.nodes.cols())
       add((1 - at.part) * frame.nodes.col(at.from) + at.part * frame.nodes.col(at.to));
   for (const LoadArrow& arrow : load_arrows(layout, frame)) add(arrow.from), add(arrow.to);
+  for (const LoadArrow& arrow : force_arrows(layout, frame, largest_N))
+    add(arrow.from), add(arrow.to);
   Eigen::Matrix3Xd all(3, points.size());
   for (std::size_t k = 0; k < points.size(); ++k) all.col(long(k)) = points[k];
   return all;
@@ -156,6 +178,8 @@ RunSummary::RunSummary(const record::Layout& layout)
 
 void RunSummary::take(const record::Frame& frame) {
   if (frames == 0) first = frame;
+  if (frame.loads_N.cols() > 0)
+    largest_load_N = std::max(largest_load_N, frame.loads_N.colwise().norm().maxCoeff());
   sample_points(frame);
   lowest_z_mm = std::min(lowest_z_mm, lowest(frame.nodes));
   if (frame.depth_mm > depth_mm) depth_mm = frame.depth_mm;
@@ -184,7 +208,7 @@ void RunSummary::take(const record::Frame& frame) {
 }
 
 void RunSummary::sample_points(const record::Frame& frame) {
-  last_ = points_of(*layout_, rod_points_, frame);
+  last_ = points_of(*layout_, rod_points_, frame, largest_load_N);
   if (frames % sample_stride_ != 0) return;
   sampled_points_.push_back(last_);
   constexpr std::size_t most_frames = 32;

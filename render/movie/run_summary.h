@@ -1,6 +1,7 @@
 // The boundary on its way.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -37,6 +38,16 @@ bool load_acts(const record::LoadedJoint& load, const record::Layout& layout,
 /// Of the loads that act. A push has its tip at the joint; a pull away from the shell its tail. As
 /// long as a quarter of the length scale.
 std::vector<LoadArrow> load_arrows(const record::Layout& layout, const record::Frame& frame);
+
+/// Of the loads of Frame::loads_N, as long as they are large: the largest of a run, `largest_N`,
+/// longest_force() mm. They stand outside the shell as those above do; what is less than a
+/// hundredth is left out.
+std::vector<LoadArrow> force_arrows(const record::Layout& layout, const record::Frame& frame,
+                                    double largest_N);
+inline double longest_force(const record::Layout& layout) {
+  return std::clamp(1.2 * layout.spacing_mm, 0.1 * layout.length_scale_mm,
+                    0.2 * layout.length_scale_mm);
+}
 
 // What the pictures of a run have to know of all its frames before the first is drawn: ranges,
 // bounds and events. Frames are looked at once, one at a time; the first is kept, and of some
@@ -98,6 +109,7 @@ class RunSummary {
   record::Frame first;         ///< what later frames are compared with
   double depth_mm = 0;         ///< of a push, at its deepest; 0 without one
   double lowest_z_mm = 0;      ///< of all that is drawn
+  double largest_load_N = 0;   ///< of Frame::loads_N
   Interval bins_rad;           ///< mean K of the bins, with their standard deviations
   double largest_move_mm = 0;  ///< of a joint, from where it was in the first frame
   std::vector<Mark> marks;     ///< in order

@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include "render/canvas/legend.h"
 #include "render/gl/renderer.h"
 
 namespace gridshell::render {
@@ -154,19 +155,9 @@ class Lines {
     for (const PointMark& mark : drawing_.marks)
       canvas_.circle(eye_(mark.at).at, 0.5 * width(mark.diameter_mm), mark.colour,
                      {{0, 0, 0, 1}, 0.15 * width(mark.diameter_mm)});
-    for (const Arrow& arrow : drawing_.arrows) {
-      const Point from = eye_(arrow.from).at, to = eye_(arrow.to).at;
-      const double length = std::hypot(to.x - from.x, to.y - from.y),
-                   shaft = width(arrow.diameter_mm);
-      if (length < 1e-9) continue;
-      const double head = std::min(4.5 * shaft, 0.6 * length), half = 1.4 * shaft;
-      const double x = (to.x - from.x) / length, y = (to.y - from.y) / length;
-      const Point neck{to.x - head * x, to.y - head * y};
-      canvas_.line(from, neck, {arrow.colour, shaft});
-      canvas_.polygon(
-          {{neck.x - half * y, neck.y + half * x}, to, {neck.x + half * y, neck.y - half * x}},
-          arrow.colour);
-    }
+    for (const Arrow& arrow : drawing_.arrows)
+      draw_arrow(canvas_, eye_(arrow.from).at, eye_(arrow.to).at,
+                 {arrow.colour, width(arrow.diameter_mm)});
   }
 
   Canvas& canvas_;

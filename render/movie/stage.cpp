@@ -92,7 +92,7 @@ Box Framing::union_of_views(const Eigen::Matrix3Xd& points) const {
 namespace {
 
 constexpr Colour load_ink{0.05f, 0.05f, 0.06f, 1}, mark_ink{0.98f, 0.76f, 0.10f, 1},
-    original_ink{0.66f, 0.67f, 0.7f, 1};
+    original_ink{0.66f, 0.67f, 0.7f, 1}, force_ink{0.0f, 0.56f, 0.30f, 1};
 
 // a square around everything that moves or bounds
 TopExtent top_extent(const Eigen::Matrix3Xd& points) {
@@ -202,7 +202,8 @@ Stage::Stage(const record::Layout& layout, RunSummary survey, const MovieStyle& 
       survey_(std::move(survey)),
       style_(style),
       bar_(shared ? shared : colour_bar_of({&survey_}, style)),
-      layout_(lay_out_frame(style, bar_ && style.legends ? &*bar_ : nullptr)),
+      layout_(lay_out_frame(style, bar_ && style.legends ? &*bar_ : nullptr,
+                            style.look.loads && survey_.largest_load_N > 0)),
       panels_(panels_of(layout_, style)),
       framings_(framings_of(panels_, layout_.view, survey_.bounds(), style)),
       top_(top_extent(survey_.bounds())),
@@ -239,6 +240,13 @@ std::vector<Colour> Stage::node_colours(const record::Frame& frame) const {
   return colours;
 }
 
+std::optional<ArrowKey> Stage::arrow_key() const {
+  const double largest_N = survey_.largest_load_N;
+  if (!style_.look.loads || !(largest_N > 0)) return {};
+  const double shown_N = nice_ceiling(0.6 * largest_N);
+  return ArrowKey{longest_force(run_) * shown_N / largest_N, force_text(shown_N), force_ink};
+}
+
 Drawing Stage::drawing(const record::Frame& frame) const {
   const Appearance& look = style_.look;
   const double thin = least_pixels(style_) / pixels_per_mm();
@@ -268,6 +276,11 @@ Drawing Stage::drawing(const record::Frame& frame) const {
     drawing.arrows.push_back({arrow.from, arrow.to, std::max(1.6, 2.0 * thin), load_ink});
     drawing.marks.push_back({frame.nodes.col(arrow.node), std::max(5.0, 6 * thin), mark_ink});
   }
+  if (look.loads)
+    for (const LoadArrow& arrow : force_arrows(run_, frame, survey_.largest_load_N))
+      drawing.arrows.push_back(
+          {arrow.from, arrow.to, std::max(0.02 * longest_force(run_), 1.5 * thin), force_ink});
+  if (look.braces) put_braces(run_, frame, thin, drawing);
   put_contacts(run_, frame, thin, drawing);
   drawing.ground_z_mm = ground_z_mm_;
   drawing.ground = look.floor && style_.views.empty() && look.background.a > 0;
@@ -365,6 +378,8 @@ void Stage::draw_overlay(Canvas& canvas, const ShownFrame& shown) const {
   if (!layout_.scale_bar.empty())
     draw_scale_bar(canvas, layout_.scale_bar, style_.scale_bar_mm, pixels_per_mm(),
                    0.95 * layout_.font_size);
+  if (const auto key = arrow_key(); key && !layout_.arrow_key.empty())
+    draw_arrow_key(canvas, layout_.arrow_key, *key, pixels_per_mm(), 0.95 * layout_.font_size);
 }
 
 void Stage::finish(Image& picture, const ShownFrame& shown) const {

@@ -78,6 +78,8 @@ class Stage {
   const RunSummary& survey() const { return survey_; }
   /// over all frames; none when nothing is coloured
   const std::optional<ColourBar>& colour_bar() const { return bar_; }
+  /// of the arrows of loads; none when there are none
+  std::optional<ArrowKey> arrow_key() const;
   double pixels_per_mm() const { return framings_.front().pixels_per_mm(); }
   /// what the shell covers over all frames, in pixels
   const Box& shell_box() const { return framings_.front().seen(); }

@@ -16,7 +16,14 @@
 namespace gridshell::render {
 namespace {
 
-constexpr int largest_columns = 3;
+/// Panels side by side, as many as are wide enough to print.
+int columns_of(const MovieStyle& style, int panels) {
+  constexpr int most = 3;
+  constexpr double bar_mm = 15, least_mm = 45;
+  const double width_mm = style.print.width_mm;
+  const int fit = width_mm > 0 ? std::max(1, int((width_mm - bar_mm) / least_mm)) : most;
+  return std::min({panels, most, fit});
+}
 
 // side by side, panels need no more ground than the shell takes
 Image around(const Image& picture, const Box& shell) {
@@ -31,9 +38,11 @@ Image around(const Image& picture, const Box& shell) {
 }
 
 /// A panel has no room for a legend: the marks in it are told beside its caption.
-std::string with_contacts(const std::string& caption, const record::Frame& frame) {
-  const std::string contacts = contact_caption(frame);
-  return contacts.empty() ? caption : caption + ", " + contacts;
+std::string with_marks(const std::string& caption, const record::Frame& frame,
+                       const Appearance& look) {
+  const std::string contacts = contact_caption(frame),
+                    loads = look.loads ? load_caption(frame) : "";
+  return caption + (contacts.empty() ? "" : ", " + contacts) + (loads.empty() ? "" : "\n" + loads);
 }
 
 }  // namespace
@@ -61,10 +70,15 @@ void draw_still_labels(Canvas& canvas, const Stage& stage, const ShownFrame& sho
   const TextStyle text{.size = layout.font_size, .align_y = AlignY::top};
   const TextStyle fitted = canvas.fitted(caption, room.width, text);
   const Box said = canvas.text(caption, {room.x, room.bottom() - line}, fitted);
+  // a row each, contacts as the marks that they are in the picture
+  const double size = fitted.size;
+  double y = said.bottom() + size;
+  if (const auto loads = load_caption(shown.frame); !loads.empty() && stage.style().look.loads) {
+    canvas.text(loads, {room.x, y}, {.size = size, .align_y = AlignY::middle});
+    y += 1.3 * size;
+  }
   const std::string contacts = contact_caption(shown.frame);
   if (contacts.empty()) return;
-  // a row of its own, as the mark that it is in the picture
-  const double size = fitted.size, y = said.bottom() + size;
   canvas.marker(Marker::circle, {room.x + 0.5 * size, y}, 0.8 * size, contact_ink, {{}, 0});
   canvas.text(contacts, {room.x + 1.4 * size, y},
               {.size = size, .colour = contact_ink, .align_y = AlignY::middle});
@@ -90,10 +104,11 @@ Result<std::vector<std::filesystem::path>> write_stills(
   RunSummary survey = summarise_run(run);
   if (origin) survey.first = *origin;
   const Stage stage(run.layout, std::move(survey), style, bar);
-  PanelFigure figure = empty_figure(style, std::min(stage.frames(), largest_columns));
+  PanelFigure figure = empty_figure(style, columns_of(style, stage.frames()));
   figure.scale_bar_mm = style.scale_bar_mm;
   figure.pixels_per_mm = stage.pixels_per_mm();
   figure.colour_bar = stage.colour_bar();
+  figure.arrow = stage.arrow_key();
   const double dpi = style.print.width_mm > 0 ? style.print.dpi : 0;
   std::vector<std::filesystem::path> files;
   for (int k = 0; k < stage.frames(); ++k) {
@@ -106,7 +121,7 @@ Result<std::vector<std::filesystem::path>> write_stills(
     TRY(picture, stage.draw_views(renderer, {frame, k}));
     figure.panels.push_back({around(*picture, stage.shell_box()),
                              stage.frames() > 1 ? panel_letter(style, std::size_t(k)) : "",
-                             with_contacts(caption, frame)});
+                             with_marks(caption, frame, style.look)});
     draw_over(*picture, [&](Canvas& canvas) {
       draw_still_labels(canvas, stage, {frame, k}, caption);
     });

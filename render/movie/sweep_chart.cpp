@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "engine/core/text.h"
+#include "engine/record/frame_values.h"
 #include "render/canvas/canvas.h"
 #include "render/canvas/text.h"
 
@@ -291,6 +292,32 @@ std::optional<double> deviation_onset(const std::vector<double>& x, const std::v
     return log ? from * std::pow(to / from, part) : from + part * (to - from);
   }
   return std::nullopt;
+}
+
+Plot law_plot(const std::vector<record::PowerLaw>& laws, const SweepView& view) {
+  Plot plot;
+  plot.title = plain(view.title);
+  plot.x.label = "what its power law says";
+  plot.y.label = label_of(view.figure);
+  plot.x.logarithmic = plot.y.logarithmic = true;
+  for (std::size_t k = 0; k < laws.size(); ++k) {
+    const record::PowerLaw& one = laws[k];
+    Series marks =
+        mark_series(plain(one.keys.front().case_name), series_colour(k), series_marker(k));
+    marks.x = one.law;
+    marks.y = one.found;
+    const auto [low, high] = std::ranges::minmax(one.law);
+    plot.add(std::move(marks));
+    for (const record::LawRow& key : one.keys) {
+      std::string power = record::with_error(key.exponent, key.error, "");
+      if (power.starts_with('-')) power.replace(0, 1, "−");
+      Series row =
+          line_series(fmt::format("power {} of {}", power, label_of(key.key)), series_colour(k), 1);
+      row.x = row.y = {low, high};
+      plot.add(std::move(row));
+    }
+  }
+  return plot;
 }
 
 Plot sweep_plot(const SweepTable& table, const SweepView& view) {

@@ -62,6 +62,9 @@ std::optional<double> deviation_onset(const std::vector<double>& x, const std::v
 /// more than a factor of 20.
 Plot sweep_plot(const record::SweepTable& table, const SweepView& view);
 
+/// The figure over what its power law says, a mark a point, the law itself as a line.
+Plot law_plot(const std::vector<record::PowerLaw>& laws, const SweepView& view);
+
 /// The figure over two keys as a map, `<stem>.png`, `.svg`, `.pdf`: a panel a case, each cell the
 /// mean over the seeds; crossed where there is no state, dotted where a limit was met.
 Result<void> write_sweep_map(const std::filesystem::path& stem, const record::SweepTable& table,

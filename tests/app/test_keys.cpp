@@ -84,7 +84,8 @@ bool same(const render::MovieStyle& a, const render::MovieStyle& b) {
   };
   const auto look = [](const render::Appearance& l) {
     return std::tuple(l.rod_mm, l.joint_mm, l.ring_mm, l.rod, l.joint, l.ring, l.background, l.map,
-                      l.range, l.cells, l.rings, l.floor, l.shadow, l.sheen, l.far_fade, l.letters);
+                      l.range, l.cells, l.rings, l.floor, l.shadow, l.loads, l.braces, l.sheen,
+                      l.far_fade, l.letters);
   };
   // what counts with bins alone is not written without them
   return movie(a) == movie(b) && a.bins_range == b.bins_range && beside(a) == beside(b) &&
@@ -143,9 +144,9 @@ TEST_CASE("every member of a preset has a key") {
 TEST_CASE("every key of joints, ends and loads takes a cap off the net, which knows none of them") {
   // the first counts for spring joints alone, the second for surfaces with rings, the next two for
   // scans, then one with gravity and in motion, the others for load cases
-  const std::set<std::string> harmless{"stiffness_N_per_mm", "rings",    "diameter_mm",
-                                       "height_mm",          "mass_g",   "snow_N_m2",
-                                       "wind_N_m2",          "wind_deg", "imperfection"};
+  const std::set<std::string> harmless{
+      "stiffness_N_per_mm", "rings",    "diameter_mm", "height_mm",      "mass_g",      "snow_N_m2",
+      "wind_N_m2",          "wind_deg", "edge_N_m",    "edge_direction", "imperfection"};
   Preset cap;
   cap.footprint.kind = FootprintKind::net;
   cap.accuracy.tolerance = 0.05;

@@ -101,6 +101,9 @@ TEST_CASE("what is wrong with a step is said with its place, its number and what
       {"[[loads.case]]\nname = \"snow\"\nsnow = 1.0",
        "bad.toml:3:8: [[loads.case]] 1 snow = 1.0: there is no snow: [loads] snow_N_m2 must be "
        "above 0"},
+      {"[[loads.case]]\nname = \"rim\"\nedge = 1.0",
+       "bad.toml:3:8: [[loads.case]] 1 edge = 1.0: there is no load on the edge: [loads] edge_N_m "
+       "must be above 0"},
       {"[loads]\ngravity_m_s2 = 9.81",
        "bad.toml:2:16: [loads] gravity_m_s2 = 9.81: gravity needs a mass, [rod] density_kg_m3 must "
        "be above 0"},

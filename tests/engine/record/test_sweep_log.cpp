@@ -1,6 +1,7 @@
 #include "engine/record/sweep_results.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <fstream>
 
 #include "engine/core/file_io.h"
@@ -150,4 +151,29 @@ TEST_CASE("a sweep as a table") {
         "point,rod.diameter_mm,outcome,height_mm,stable,limit,force_N,reason\n"
         "0,0.5,done,0,true,none,,\n"
         "1,30.0,refused,,,,,\"too thick, by far\"\n");
+}
+
+TEST_CASE("a power law of a table is found with its exponents, where all is above 0") {
+  SweepTable table;
+  table.axes = {"a", "b"};
+  for (const double a : {1.0, 2.0, 4.0})
+    for (const double b : {1.0, 3.0, 9.0}) {
+      PointResult result;
+      // off by a tenth, by turns
+      const double off = table.rows.size() % 2 ? 1.1 : 1 / 1.1;
+      result.figures = {{"exact", 5 * a * a / std::sqrt(b)}, {"rough", off * a}, {"low", -a}};
+      table.rows.push_back({{"", {std::to_string(a), std::to_string(b)}, 0}, result});
+    }
+  const auto exact = power_law(table, "", "exact");
+  REQUIRE(exact);
+  CHECK(exact->factor == Approx(5));
+  CHECK(exact->keys[0].exponent == Approx(2));
+  CHECK(exact->keys[1].exponent == Approx(-0.5));
+  CHECK(exact->keys[1].error < 1e-12);
+  const auto rough = power_law(table, "", "rough");
+  REQUIRE(rough);
+  CHECK(std::abs(rough->keys[0].exponent - 1) < 2 * rough->keys[0].error);
+  CHECK(rough->scatter == Approx(std::log(1.1)).epsilon(0.1));
+  CHECK(!power_law(table, "", "low"));
+  CHECK(!power_law(table, "other", "exact"));
 }

@@ -2,10 +2,13 @@
 // balance, all of it taken away again.
 #include "engine/simulate/stiffening.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <numeric>
 
 #include "engine/footprint/faces.h"
+#include "engine/simulate/frames.h"
 #include "engine/simulate/steps.h"
 #include "tests/engine/simulate/run.h"
 #include "tests/small_shell.h"
@@ -26,7 +29,9 @@ preset::Preset loaded_shell() {
   p.loads.wind_N_m2 = 2400;
   p.load_case = {{.name = "snow", .snow = 1, .points = {}},
                  {.name = "half", .snow = 1, .snow_side = preset::SnowSide::x, .points = {}},
-                 {.name = "wind", .dead = 0.5, .wind = 1, .points = {{0, 0, 0.8, 0, 0}}}};
+                 {.name = "wind", .dead = 0.5, .wind = 1, .points = {{0, 0, 0.8, 0, 0}}},
+                 {.name = "edge", .edge = 1, .points = {}}};
+  p.loads.edge_N_m = 50;
   return p;
 }
 
@@ -94,7 +99,16 @@ TEST_CASE("load cases: what comes on is what the supports bear, to 1e-9 of it") 
   const double weight =
       -sum_of(simulation.shell().model(simulation.shell().levels() - 1).loads).z();
   CHECK(before.z() == Approx(weight).epsilon(1e-7));
-  for (const char* name : {"snow", "half", "wind"}) {
+  // a circle's boundary from one edge point to the next
+  const Eigen::Index joints = Eigen::Index(simulation.scene().footprint.joints.size());
+  std::vector<Eigen::Vector3d> ring;
+  for (Eigen::Index k = joints; k < joints + simulation.scene().motion.end.cols(); ++k)
+    ring.push_back(shape.col(k));
+  std::ranges::sort(ring, {}, [](const auto& at) { return std::atan2(at.y(), at.x()); });
+  double around = 0;
+  for (std::size_t k = 0; k < ring.size(); ++k)
+    around += (ring[(k + 1) % ring.size()] - ring[k]).norm();
+  for (const char* name : {"snow", "half", "wind", "edge"}) {
     CAPTURE(name);
     preset::Step load = step(StepKind::load);
     load.load_case = name;
@@ -105,12 +119,17 @@ TEST_CASE("load cases: what comes on is what the supports bear, to 1e-9 of it") 
     if (of == "snow") CHECK(field.z() == Approx(-0.8 * 4e-3 * plan).epsilon(1e-10));
     if (of == "half") CHECK(field.z() == Approx(-0.8 * 4e-3 * half).epsilon(1e-3));
     if (of == "wind") CHECK(field.x() > 0.8 * 0.8);
+    if (of == "edge") CHECK(field.z() == Approx(-0.8 * 0.05 * around).epsilon(1e-10));
     const double dead = of == "wind" ? 1.4 : 1;
     Eigen::Vector3d all = field;
     all.z() -= dead * weight;
     const Eigen::Vector3d left = reactions(simulation) + all;
     CAPTURE(left.norm() / all.norm());
     CHECK(left.norm() < 1e-9 * all.norm());
+    // as frames tell it, extrapolated
+    const record::Frame frame = frame_of(simulation);
+    CHECK((frame.loads_N.rowwise().sum() - all).norm() < 1e-9 * all.norm());
+    CHECK((frame.loads_N + frame.reactions_N).rowwise().sum().norm() < 1e-9 * all.norm());
     load.factor = 0;
     done(simulation, load);
     CHECK(simulation.cases.empty());
@@ -128,9 +147,13 @@ TEST_CASE("bolts and braces change nothing as they come in, hold afterwards, and
   done(simulation, step(StepKind::tighten));
   CHECK(max_column_norm(simulation.nodes() - shape) < near);
   const double bolted = simulation.energies()[Term::shear];
+  CHECK(bolted >= 0);
   CHECK(bolted < 1e-3 * simulation.energies()[Term::bend]);
   done(simulation, step(StepKind::brace));
   CHECK(simulation.rods().braces.size() == 2 * simulation.scene().footprint.cells.size());
+  const Eigen::VectorXd in_braces = frame_of(simulation).brace_force_N;
+  CHECK(std::size_t(in_braces.size()) == simulation.rods().braces.size());
+  CHECK(in_braces.allFinite());
   CHECK(max_column_norm(simulation.nodes() - shape) < near);
   const Checkpoint stiff = simulation.save();
   const Eigen::Matrix3Xd braced = simulation.nodes();

@@ -150,6 +150,94 @@ TEST_CASE("what a shell carries lies within its error of finer meshes' answer", 
   CHECK(found.points.front().way_mm == 0);
 }
 
+TEST_CASE("a portal frame sways and a ring turns oval where their closed forms say") {
+  preset::Preset p;
+  p.footprint.kind = preset::FootprintKind::network;
+  p.limits.max_strain = 0.05;
+  preset::NetworkData file;
+  SECTION("of three rods that are bolted at the corners, hinged at its feet: x tan x = 6") {
+    constexpr double side = 100, round_EI = 83e3 * M_PI * 0.254 * 0.254 * 0.254 * 0.254 / 64;
+    // columns end on the beam, which goes on a little; corners stay in the plane
+    file.points = {{0, 0, 0},    {0, side, 0},  {side, side, 0},
+                   {side, 0, 0}, {-5, side, 0}, {side + 5, side, 0}};
+    file.rods = {{0, 1}, {4, 1, 2, 5}, {3, 2}};
+    file.supports = {{0}, {3}, {1}, {2}};
+    file.springs = {{1, 0, 0, 1000}, {2, 0, 0, 1000}};
+    file.free = {4, 5};
+    p.footprint.file = file;
+    p.accuracy.edges_per_segment = 64;
+    p.step.emplace_back().kind = preset::StepKind::tighten;
+    const double unit = round_EI / (side * side);
+    p.load_case = {{.name = "columns", .points = {{1, 0, 0, -unit, 0}, {2, 0, 0, -unit, 0}}}};
+    const record::LoadRow row = studied(p).cases.at(0);
+    constexpr double x = 1.3495525;
+    CAPTURE(row.critical_factor, row.error, row.linear_factor);
+    CHECK(row.event == BranchEvent::bifurcation);
+    // a rigid bolt beside which a rod goes on is stiff over an edge of it, which shrinks as that
+    // does
+    CHECK(row.critical_factor == Approx(x * x).epsilon(2e-3));
+    CHECK(row.linear_factor == Approx(x * x).epsilon(2e-3));
+  }
+  SECTION("cut round, under a load of fixed direction all around: 4 EI/R^3") {
+    // pressure that turns with the ring has 3, loads that stay as they are 4 [Boresi 1955]
+    constexpr int corners = 160;
+    constexpr double R = 40, flat_EI = 83e3 * 4 * 1 / 12.0;
+    // a lath on edge, so that it stays in its plane
+    p.rod.width_mm = 1;
+    p.rod.thickness_mm = 4;
+    p.rod.shear_GPa = 31;
+    for (int k = 0; k < corners; ++k) {
+      const double angle = 2 * M_PI * k / corners;
+      file.points.push_back({R * std::cos(angle), R * std::sin(angle), 0});
+    }
+    file.rods.emplace_back();
+    for (int k = 0; k <= corners; ++k) file.rods[0].push_back(k % corners);
+    constexpr double stiff = 1e4;
+    for (const int quarter : {0, 1, 2, 3}) {
+      const int point = quarter * corners / 4;
+      file.supports.push_back({double(point)});
+      file.springs.push_back(
+          {double(point), quarter % 2 ? stiff : 0, quarter % 2 ? 0 : stiff, stiff});
+    }
+    p.footprint.file = file;
+    p.rod.as_drawn = true;
+    p.accuracy.edges_per_segment = 2;
+    p.loads.edge_N_m = 1e3 * flat_EI / (R * R * R);
+    p.loads.edge_direction = preset::EdgeDirection::inward;
+    p.load_case = {{.name = "around", .edge = 1, .points = {}}};
+    const LoadStudy found = studied(p);
+    const record::LoadRow& row = found.cases.at(0);
+    CAPTURE(row.critical_factor, row.error, row.linear_factor);
+    CHECK(row.event == BranchEvent::bifurcation);
+    CHECK(row.critical_factor == Approx(4).epsilon(1e-3));
+    CHECK(found.loads[0].rowwise().sum().norm() < 1e-9 * found.loads[0].colwise().norm().sum());
+  }
+}
+
+TEST_CASE("a beam comes to its strength where M c/I says") {
+  constexpr double span = 200, diameter = 0.254, strength = 2;
+  preset::NetworkData file;
+  file.points = {
+      {-span / 2, 0, 0}, {span / 2, 0, 0}, {0, -span / 2, 0}, {0, span / 2, 0}, {0, 0, 0}};
+  file.rods = {{0, 4, 1}, {2, 4, 3}};
+  file.supports = {{0}, {1}, {2}, {3}};
+  file.springs = {{0, 0, 1000, 1000}, {1, 0, 1000, 1000}, {2, 1000, 0, 1000}, {3, 1000, 0, 1000}};
+  preset::Preset p;
+  p.footprint.kind = preset::FootprintKind::network;
+  p.footprint.file = file;
+  p.rod.strength_MPa = strength;
+  p.accuracy.edges_per_segment = 16;
+  // each beam bears a half of the force
+  const double unit = strength * M_PI * std::pow(diameter, 3) / 32 / (span / 8);
+  p.load_case = {{.name = "force", .points = {{4, 0, 0, 0, -unit}}}};
+  const LoadStudy found = studied(p);
+  const record::LoadRow& row = found.cases.at(0);
+  CAPTURE(row.strength_factor, row.strength_error);
+  CHECK(row.strength_factor == Approx(1).epsilon(2e-3));
+  CHECK(row.strength_error < 1e-2);
+  CHECK(found.points.front().utilisation < 1e-6);
+}
+
 TEST_CASE("a shell that has no case to carry is refused by the key") {
   preset::Preset p = snowed_on();
   p.load_case.clear();

@@ -169,6 +169,39 @@ TEST_CASE("a pushed joint wears a mark and an arrow that points at it, a pulled 
   CHECK(pull.arrows[0].to.z() > at.z() + 20);
 }
 
+TEST_CASE("loads are arrows as long as they are large, braces are bars, and a key says how large") {
+  record::Trajectory run = synthetic::dome(3, 2);
+  run.layout.supports = {run.layout.joints[0].node, run.layout.joints[3].node};
+  record::Frame& frame = run.frames.edit()[2];
+  frame.loads_N = Eigen::Matrix3Xd::Zero(3, 2);
+  frame.loads_N.row(2) << -1.5, -0.5;
+  frame.brace_force_N =
+      Eigen::VectorXd::Constant(2 * Eigen::Index(run.layout.cells.size()), record::unknown);
+  frame.brace_force_N[2] = 0;  // slack
+  MovieStyle style;
+  const Stage stage(run, style);
+  const Drawing drawing = stage.drawing(run.frames[2]);
+  REQUIRE(drawing.arrows.size() == 2);
+  const auto length = [](const Arrow& arrow) { return (arrow.to - arrow.from).norm(); };
+  CHECK(length(drawing.arrows[0]) == Approx(longest_force(run.layout)));
+  CHECK(length(drawing.arrows[0]) == Approx(3 * length(drawing.arrows[1])));
+  REQUIRE(drawing.ghosts.size() == 1);
+  const auto& joints = run.layout.cells[1].joints;
+  CHECK(drawing.ghosts[0].rods ==
+        std::vector<std::vector<int>>{{run.layout.joints[std::size_t(joints[0])].node,
+                                       run.layout.joints[std::size_t(joints[2])].node}});
+  REQUIRE(stage.arrow_key());
+  CHECK(stage.arrow_key()->name == "1 N");
+  CHECK(stage.arrow_key()->length_mm == Approx(longest_force(run.layout) / 1.5));
+  CHECK(load_caption(run.frames[2]) == "loads 2 N");
+  CHECK_FALSE(stage.layout().arrow_key.empty());
+  style.look.loads = style.look.braces = false;
+  const Stage bare(run, style);
+  CHECK(bare.drawing(run.frames[2]).arrows.empty());
+  CHECK(bare.drawing(run.frames[2]).ghosts.empty());
+  CHECK_FALSE(bare.arrow_key());
+}
+
 TEST_CASE("a push of a step wears its arrow in the frames that it holds alone") {
   record::Trajectory run = synthetic::dome(3, 2);
   const int node = run.layout.joints[3].node;
@@ -467,13 +500,13 @@ TEST_CASE("parts of a frame lie inside it and never overlap, at any size and asp
       {720, 1280}, {500, 500}, {800, 700}, {3840, 240},  {320, 2160},  {1000, 100},
       {100, 1000}, {64, 48},   {16, 16},   {1150, 1000}, {1149, 1000}};
   for (const auto& [width, height] : sizes)
-    for (int options = 0; options < 16; ++options) {
+    for (int options = 0; options < 32; ++options) {
       MovieStyle style;
       style.size = {width, height};
       style.captions = options & 1;
       style.inset = options & 2;
       style.scale_bar_mm = options & 4 ? 20 : 0;
-      const FrameLayout layout = lay_out_frame(style, options & 8 ? &bar : nullptr);
+      const FrameLayout layout = lay_out_frame(style, options & 8 ? &bar : nullptr, options & 16);
       INFO(width << " x " << height << " options " << options);
       const std::vector<Box> parts = layout.parts();
       for (std::size_t a = 0; a < parts.size(); ++a) {
