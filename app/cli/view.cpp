@@ -160,6 +160,11 @@ window::Library library_of(const ViewOptions& options) {
     TRY(image, window::picture_of(order, maker->renderer()));
     return render::write_png(*image, file, order.kept.dpi);
   };
+  library.draw_still =
+      [context = options.context](const window::PictureRequest& shown) -> Result<render::Image> {
+    TRY(maker, PictureMaker::create(context));
+    return window::view_picture(shown, window::Resolution::still, maker->renderer());
+  };
   library.write_preset = write_preset_with_tables;
   library.save_to = options.output;
   return library;
@@ -298,6 +303,8 @@ Result<int> view(ViewOptions options) {
   share_processors();
   window::ViewerState viewer(library_of(options));
   viewer.timed = !off_screen;
+  // what is played is drawn in turn
+  if (off_screen && options.bench == 0) viewer.library.draw_still = nullptr;
   TRY_DO(size_picture(options, viewer.picture));
   restore(options, viewer);
   if (!options.input.empty()) {

@@ -115,18 +115,28 @@ Result<render::Image> draw_shell(render::Renderer& renderer, const PictureReques
 
 }  // namespace
 
-Result<void> ShellPicture::draw(const PictureRequest& shown, Resolution sharpness) {
+Result<render::Image> view_picture(const PictureRequest& shown, Resolution sharpness,
+                                   render::Renderer& renderer) {
   const bool moving = sharpness == Resolution::moving;
-  const double begin = seconds_now();
   const double scale = moving ? 0.5 : 1;
   const int width = std::max(16, int(scale * shown.view.width)),
             height = std::max(16, int(scale * shown.view.height));
-  const render::DrawQuality quality{.supersample = 1, .shadow = !moving, .jittered_passes = 1};
-  TRY(image, draw_shell(*renderer_, shown, quality, width, height,
-                        moving ? 0.75 * least_px : least_px * std::max(1.0, height / 720.0)));
-  fill_texture(*gl_, texture_.id(), width, height, image->rgba.data());
-  if (!moving) still_took_s_ = seconds_now() - begin;
+  const render::DrawQuality quality{
+      .supersample = 1, .shadow = !moving, .jittered_passes = 1, .coarse = moving};
+  return draw_shell(renderer, shown, quality, width, height,
+                    moving ? 0.75 * least_px : least_px * std::max(1.0, height / 720.0));
+}
+
+Result<void> ShellPicture::draw(const PictureRequest& shown, Resolution sharpness) {
+  const double begin = seconds_now();
+  TRY(image, view_picture(shown, sharpness, *renderer_));
+  show(*image);
+  took_s_[std::size_t(sharpness)] = seconds_now() - begin;
   return {};
+}
+
+void ShellPicture::show(const render::Image& image) {
+  fill_texture(*gl_, texture_.id(), image.width, image.height, image.rgba.data());
 }
 
 Result<render::Image> picture_of(const PictureRequest& asked, render::Renderer& renderer) {

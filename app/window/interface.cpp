@@ -4,6 +4,7 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -19,6 +20,8 @@ namespace {
 constexpr double least_view = 400;  // px of a view beside plots
 // stillness before full resolution; what that may take while an equilibrium is on its way
 constexpr double sharp_after_s = 0.15, sharp_while_busy_s = 0.6, longest_while_busy_s = 0.05;
+// a moving picture that takes longer has stills that would hold up the pointer
+constexpr double longest_moving_s = 0.01;
 
 /// What the interface library does with keys of its own.
 void map_keys(ImGuiIO& io) {
@@ -101,6 +104,7 @@ Result<void> Interface::resize(int width, int height, double density) {
   height_ = height;
   density_ = density;
   shell_anew_ = true;
+  draw_anew();
   if (!denser) return {};
   if (auto loaded = load_fonts(density); !loaded) return loaded;
   painter_->take_fonts(*ImGui::GetIO().Fonts);
@@ -315,12 +319,33 @@ Result<void> Interface::draw_shell() {
   if (anew) still_seconds_ = 0;
   const bool idle = viewer_.engine.idle();
   const bool sharp = !anew && still_seconds_ >= (idle ? sharp_after_s : sharp_while_busy_s) &&
-                     (idle || picture_.still_took_s() < longest_while_busy_s);
+                     (idle || picture_.took_s(Resolution::still) < longest_while_busy_s);
   if (!anew && (!sharp || sharp_)) return {};
+  if (sharp && take_still(viewer_.picture_request())) return {};
   shown_ = shown;
   shell_anew_ = false;
   sharp_ = sharp;
+  ++pictures_;
   return picture_.draw(viewer_.picture_request(), sharp ? Resolution::still : Resolution::moving);
+}
+
+/// Whether the still is drawn on another thread; it is shown once it is there.
+bool Interface::take_still(const PictureRequest& shown) {
+  const auto& draw = viewer_.library.draw_still;
+  if (!draw || picture_.took_s(Resolution::moving) < longest_moving_s) return false;
+  if (still_.valid()) {
+    if (still_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return true;
+    const Result<render::Image> image = still_.get();
+    if (!image) return false;
+    if (still_of_ == pictures_) {
+      picture_.show(*image);
+      ++pictures_;
+      return sharp_ = true;
+    }
+  }
+  still_of_ = pictures_;
+  still_ = std::async(std::launch::async, [draw, shown] { return draw(shown); });
+  return true;
 }
 
 /// Small pictures of the states that were found, each once, from where the camera looks then.
@@ -337,12 +362,34 @@ Result<void> Interface::draw_states() {
     small.show.mode_mm = 0;
     fit(small.camera, small.view, state->frame.nodes);
     states_.emplace_back(state, ShellPicture(gl_, renderer_));
+    ++pictures_;
     TRY_DO(states_.back().second.draw(small, Resolution::still));
   }
   return {};
 }
 
-Result<void> Interface::compose(double seconds) {
+/// Whether a frame made from these lists would look other than the last one.
+bool Interface::is_new() {
+  std::vector<char> now;
+  const auto put = [&now](const auto& list) {
+    const char* begin = reinterpret_cast<const char*>(list.Data);
+    now.insert(now.end(), begin, begin + list.size_in_bytes());
+  };
+  const ImDrawData& data = *ImGui::GetDrawData();
+  for (int n = 0; n < data.CmdListsCount; ++n) {
+    const ImDrawList& list = *data.CmdLists[n];
+    put(list.VtxBuffer), put(list.IdxBuffer);
+    put(list.CmdBuffer);
+  }
+  const char* count = reinterpret_cast<const char*>(&pictures_);
+  now.insert(now.end(), count, count + sizeof pictures_);
+  const bool same = now == drawn_;
+  drawn_ = std::move(now);
+  return !same;
+}
+
+/// Everything up to the drawing of the lists; whether that would show anything new.
+Result<bool> Interface::compose(double seconds) {
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = {float(width_), float(height_)};
   io.DeltaTime = float(std::clamp(seconds, 1e-4, 0.5));
@@ -356,7 +403,8 @@ Result<void> Interface::compose(double seconds) {
   ImGui::Render();
   io.MouseWheel = 0;
   if (!viewer_.copied.empty()) ImGui::SetClipboardText(std::exchange(viewer_.copied, "").c_str());
-  return draw_shell();
+  TRY_DO(draw_shell());
+  return is_new();
 }
 
 bool Interface::busy() const {
@@ -370,21 +418,29 @@ render::Cursor Interface::cursor() const {
   return viewer_.edge_under >= 0 ? render::Cursor::hand : render::Cursor::arrow;
 }
 
-Result<void> Interface::frame(double seconds) {
-  if (auto made = compose(seconds); !made) return made;
-  gl_.BindFramebuffer(GL_FRAMEBUFFER, 0);
-  gl_.ClearColor(0.5f, 0.5f, 0.5f, 1);
+void Interface::paint(bool upwards) {
+  const ImVec4& below = ImGui::GetStyle().Colors[ImGuiCol_WindowBg];
+  gl_.ClearColor(below.x, below.y, below.z, 1);
+  gl_.Disable(GL_FRAMEBUFFER_SRGB);
   gl_.Clear(GL_COLOR_BUFFER_BIT);
-  painter_->draw(*ImGui::GetDrawData(), true);
-  return {};
+  painter_->draw(*ImGui::GetDrawData(), upwards);
+}
+
+Result<bool> Interface::frame(double seconds) {
+  TRY(anew, compose(seconds));
+  if (!*anew) return false;
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, 0);
+  paint(true);
+  return true;
 }
 
 Result<void> Interface::frame_aside(double seconds) {
-  if (auto made = compose(seconds); !made) return made;
+  TRY(anew, compose(seconds));
+  if (!*anew) return {};
   if (auto bound = target_.bind(width_, height_, GL_RGBA8); !bound) return bound;
-  gl_.ClearColor(0.5f, 0.5f, 0.5f, 1);
-  gl_.Clear(GL_COLOR_BUFFER_BIT);
-  painter_->draw(*ImGui::GetDrawData(), false);
+  paint(false);
+  // as a window waits for what it shows
+  gl_.Finish();
   return {};
 }
 

@@ -59,7 +59,11 @@ void begin_fixed(const char* name, const render::Box& box, ImGuiWindowFlags more
   ImGui::Begin(name, nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
-                   (layer == Layer::fixed ? ImGuiWindowFlags_NoBringToFrontOnFocus : 0) | more);
+                   // the frame begins in the colour of panels
+                   (layer == Layer::fixed ? ImGuiWindowFlags_NoBringToFrontOnFocus |
+                                                ImGuiWindowFlags_NoBackground
+                                          : 0) |
+                   more);
 }
 
 bool is_typed_into() { return ImGui::IsItemActive() && ImGui::GetIO().WantTextInput; }

@@ -79,6 +79,8 @@ struct Library {
   std::function<Result<preset::Preset>(const std::string& name)> load;
   std::function<Result<void>(const PictureRequest& request, const std::filesystem::path& file)>
       draw_picture;
+  /// The view at full resolution on any thread, for shells that take long; none: in the window's.
+  std::function<Result<render::Image>(const PictureRequest& request)> draw_still;
   /// A preset as a file, its tables in files beside it, whose names begin as its own.
   std::function<Result<void>(const preset::Preset& preset, const std::filesystem::path& file)>
       write_preset;
@@ -160,7 +162,8 @@ struct DesignOptions {
   int most_iterations = 25;
 };
 
-/// Drawn as the camera moves: at half the resolution; still: at all of it.
+/// Drawn as the camera moves: at half the resolution, rods and cells in few pieces; still: at all of
+/// it.
 enum class Resolution { moving, still };
 
 class ViewerState {
