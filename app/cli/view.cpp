@@ -97,7 +97,8 @@ Result<void> export_shell(const preset::Preset& preset, const fs::path& file,
 /// The joints of a scan.csv, those that are missing left out; a line from each to its neighbours.
 Result<window::OtherShell> load_scan(const fs::path& file) {
   TRY(text, read_file(file));
-  window::OtherShell scan{file.parent_path().filename().string(), {}, {}, {}};
+  record::Layout scan;
+  record::Frame frame;
   std::vector<Eigen::Vector3d> places;
   std::map<std::pair<int, int>, int> nodes;
   std::istringstream lines(*text);
@@ -116,18 +117,19 @@ Result<window::OtherShell> load_scan(const fs::path& file) {
     for (const auto& beside : {std::pair(at.first + 1, at.second), {at.first, at.second + 1}})
       if (const auto other = nodes.find(beside); other != nodes.end())
         scan.rods.push_back({node, other->second});
-  scan.nodes.resize(3, Eigen::Index(places.size()));
-  for (std::size_t k = 0; k < places.size(); ++k) scan.nodes.col(Eigen::Index(k)) = places[k];
-  return scan;
+  frame.nodes.resize(3, Eigen::Index(places.size()));
+  for (std::size_t k = 0; k < places.size(); ++k) frame.nodes.col(Eigen::Index(k)) = places[k];
+  return window::OtherShell{file.parent_path().filename().string(),
+                            window::view_of(std::move(scan), frame, frame)};
 }
 
 Result<window::OtherShell> load_run(const fs::path& folder) {
   std::error_code error;
   if (fs::exists(folder / "scan.csv", error)) return load_scan(folder / "scan.csv");
   TRY(runs, read_runs(folder, {}, false));
-  const record::Trajectory& trajectory = runs->front().trajectory;
-  return window::OtherShell{folder.filename().string(), trajectory.layout.joints,
-                            trajectory.layout.rods, trajectory.frames.back().nodes};
+  const record::Trajectory& run = runs->front().trajectory;
+  return window::OtherShell{folder.filename().string(),
+                            window::view_of(run.layout, run.frames.back(), run.frames.front())};
 }
 
 /// As a page of its own in the folder of temporary files.

@@ -232,8 +232,10 @@ void Interface::press_key(Key key) {
 // ---- a frame ----
 
 void Interface::view_panel(const Panel& panel, const render::Box& box) {
+  // of two side by side the left one is in hand
   view_ = box;
-  viewer_.view = {box.width, box.height};
+  view_.width /= viewer_.show.shells();
+  viewer_.view = {view_.width, view_.height};
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
   begin_fixed("view", box, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
   ImGui::PopStyleVar();
@@ -253,13 +255,13 @@ void Interface::view_panel(const Panel& panel, const render::Box& box) {
     if (!ImGui::IsItemActive()) mouse_.release(x, y);
   } else if (ImGui::IsItemHovered()) {
     mouse_.hover(x, y);
-    if (io.MouseWheel != 0) mouse_.wheel(io.MouseWheel, x, y);
+    if (io.MouseWheel != 0) mouse_.wheel(io.MouseWheel, std::fmod(x, view_.width), y);
     for (int button = 0; button < 3; ++button)
       if (ImGui::IsMouseClicked(button)) mouse_.press(Button(button), io.KeyShift, x, y);
   } else {
     mouse_.leave();
   }
-  view_overlay(panel, box);
+  view_overlay(panel, view_);
   colour_legend(panel, box);
   ImGui::End();
 }

@@ -96,6 +96,8 @@ struct ShellView : ViewedState {
   int equilibria = 0;  ///< found so far
   double seconds = 0;  ///< the last one took
 
+  Eigen::VectorXd net_K;  ///< of the cells on the net that it was designed on; empty without one
+
   bool any() const { return layout != nullptr; }
   bool stable() const { return certificate.stable(); }
   /// Of a circle's boundary.
@@ -105,6 +107,10 @@ struct ShellView : ViewedState {
   }
   bool designing() const { return design && design->under_way; }
 };
+
+/// A state of a record, seen against `first`.
+std::shared_ptr<const ShellView> view_of(record::Layout layout, record::Frame frame,
+                                         record::Frame first);
 
 /// Why the shell cannot be designed, a sentence; empty: it can.
 std::string why_not_designed(const ShellView& shell);

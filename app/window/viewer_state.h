@@ -176,7 +176,7 @@ class ViewerState {
   EngineThread engine;
   std::shared_ptr<const ShellView> shell = std::make_shared<ShellView>();
   render::Camera camera;
-  PictureSize view;  ///< of the shell's picture, pixels
+  PictureSize view;  ///< of the shell's picture, pixels; of two side by side of each
   Show show;
   std::optional<SavedCamera> saved_camera;  ///< for when that preset's shell comes
   RangeOf range_of = RangeOf::run;          ///< of the colours
@@ -266,6 +266,8 @@ class ViewerState {
   /// The net that it was designed on.
   void compare_with_net();
   void compare(std::shared_ptr<const OtherShell> other);
+  /// Beside the shell instead of over it.
+  void set_beside(bool on);
   /// How far the joints are from those of the same name in the other shell: "largest 3.2 mm at
   /// (0, 1), mean 1.1 mm".
   std::string difference_text() const;

@@ -103,13 +103,18 @@ TEST_CASE("two joints give their distance, straight and along their rod, three a
 TEST_CASE("another run's joints are compared by their names") {
   ViewerState viewer({});
   viewer.shell = std::make_shared<ShellView>(shell_of_four_joints());
-  OtherShell other{"other", viewer.shell->layout->joints, {}, viewer.shell->frame.nodes};
-  std::swap(other.joints[0].node, other.joints[3].node);
-  other.nodes.col(1).z() = 1;
-  viewer.show.other = std::make_shared<const OtherShell>(other);
+  record::Layout layout = *viewer.shell->layout;
+  record::Frame frame = viewer.shell->frame;
+  std::swap(layout.joints[0].node, layout.joints[3].node);
+  frame.nodes.col(1).z() = 1;
+  const auto compare = [&] {
+    viewer.compare(std::make_shared<const OtherShell>(
+        OtherShell{"other", view_of(layout, frame, frame)}));
+  };
+  compare();
   CHECK(viewer.difference_text() == "largest distance 2 mm at joint (0, 0), mean 1.25 mm");
-  other.joints.clear();
-  viewer.show.other = std::make_shared<const OtherShell>(other);
+  layout.joints.clear();
+  compare();
   CHECK(viewer.difference_text() == "no joint has the same name in both");
 }
 
