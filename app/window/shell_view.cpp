@@ -46,6 +46,29 @@ void put_values(ShellView& shell) {
 
 }  // namespace
 
+PlotPoint plot_point_of(const ShellView& shell) {
+  const record::Frame& frame = shell.frame;
+  PlotPoint now{.equilibrium = double(shell.equilibria),
+                .radius_mm = frame.boundary_radius_mm,
+                .progress = shell.progress,
+                .height_mm = frame.height_mm,
+                .energy_mJ = frame.energies.total(),
+                .total_K = frame.total_K,
+                .residual_N = shell.certificate.residual_N,
+                .error_mm = shell.certificate.error_estimate_mm,
+                .steps = int(shell.steps.size()),
+                .refined = shell.refined,
+                .stable = shell.stable()};
+  if (!shell.held.empty()) {
+    const HeldJoint& held = shell.held.back();
+    now.joint = held.joint;
+    now.depth_mm = held.moved_mm.norm();
+    const double along = held.force_N.dot(held.moved_mm.normalized());
+    now.force_N = std::isfinite(along) ? along : 0;
+  }
+  return now;
+}
+
 std::shared_ptr<const ShellView> view_of(record::Layout layout, record::Frame frame,
                                          record::Frame first) {
   auto shell = std::make_shared<ShellView>();

@@ -107,15 +107,6 @@ struct PointOnRod {
   int point = 0;
 };
 
-/// What the plots show of an equilibrium.
-struct PlotPoint {
-  double equilibrium = 0, radius_mm = 0, progress = 0, height_mm = 0, energy_mJ = 0, depth_mm = 0,
-         force_N = 0, total_K = 0, residual_N = 0, error_mm = 0;
-  int joint = -1;  ///< that is held and was taken last; none
-  int steps = 0;   ///< that were done
-  bool refined = true, stable = true;
-};
-
 /// What can be plotted over what; named as columns of frames.csv.
 struct Quantity {
   const char *name, *label;
