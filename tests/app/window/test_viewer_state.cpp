@@ -55,8 +55,8 @@ TEST_CASE("switches switch, and back") {
   ViewerState viewer({});
   for (const Action& action : actions()) {
     const std::string name = action.name;
-    // those need a shell
-    if (!action.on || name == "play" || name == "gravity" || name.starts_with("colour_") ||
+    // those need a shell, or another one
+    if (!action.on || name == "play" || name == "gravity" || name == "beside" || name.starts_with("colour_") ||
         name.starts_with("range_"))
       continue;
     const bool before = action.on(viewer);
@@ -116,6 +116,33 @@ TEST_CASE("another run's joints are compared by their names") {
   layout.joints.clear();
   compare();
   CHECK(viewer.difference_text() == "no joint has the same name in both");
+}
+
+TEST_CASE("two shells stand side by side, each in half of the view") {
+  ViewerState viewer({});
+  auto shell = std::make_shared<ShellView>(shell_of_four_joints());
+  viewer.shell = shell;
+  viewer.view = {800, 600};
+  find_action("beside")->act(viewer);
+  CHECK(viewer.message_bad);
+  CHECK(viewer.show.shells() == 1);
+  record::Frame higher = shell->frame;
+  higher.nodes.row(2).array() += 1;
+  viewer.compare(std::make_shared<const OtherShell>(
+      OtherShell{"higher", view_of(*shell->layout, higher, higher)}));
+  find_action("beside")->act(viewer);
+  CHECK(viewer.show.shells() == 2);
+  CHECK(viewer.view.width == 400);
+  // over it the other one is ghosts, beside it none
+  const auto ghosts = [&] { return drawing_of(*shell, viewer.show, 0.1).ghosts.size(); };
+  CHECK(ghosts() == 0);
+  find_action("beside")->act(viewer);
+  CHECK(viewer.view.width == 800);
+  CHECK(ghosts() == 1);
+  find_action("beside")->act(viewer);
+  viewer.compare({});
+  CHECK(viewer.view.width == 800);
+  CHECK(viewer.show.shells() == 1);
 }
 
 TEST_CASE("every quantity of a plot has a name and a place of its own") {
