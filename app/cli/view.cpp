@@ -172,10 +172,11 @@ window::Library library_of(const ViewOptions& options) {
   return library;
 }
 
-/// The software rasteriser leaves a processor to the engine.
+/// The software rasteriser leaves a processor to the engine and one to the window, which draws by
+/// itself where there are but two.
 void share_processors() {
   const unsigned cores = std::max(2u, std::thread::hardware_concurrency());
-  setenv("LP_NUM_THREADS", std::to_string(cores - 1).c_str(), 0);
+  setenv("LP_NUM_THREADS", std::to_string(cores - 2).c_str(), 0);
 }
 
 void print_bench(const window::BenchFigures& figures) {

@@ -158,13 +158,14 @@ Result<render::Image> picture_of(const PictureRequest& asked, render::Renderer& 
   PictureRequest request = asked;
   request.show.dark = false;
   const bool sized = request.kept.width > 0;
-  const int width = sized ? request.kept.width / request.show.shells() : 2 * int(request.view.width),
+  const int width =
+                sized ? request.kept.width / request.show.shells() : 2 * int(request.view.width),
             height = sized ? request.kept.height : 2 * int(request.view.height);
   // what the view shows from side to side is in the picture too
   const double wide = request.view.width / request.view.height, now = double(width) / height;
   request.camera.half_extent_mm *= std::max(1.0, wide / now);
   auto image = draw_shells(renderer, request, render::draw_quality(request.kept.quality), width,
-                          height, least_px * std::max(1.0, height / 720.0));
+                           height, least_px * std::max(1.0, height / 720.0));
   if (!image || !request.kept.legend || request.show.colour_by == ColourBy::none ||
       values_of(*request.shell, request.show).size() == 0)
     return image;
@@ -173,7 +174,8 @@ Result<render::Image> picture_of(const PictureRequest& asked, render::Renderer& 
   bar.ends = true;
   render::draw_over(*image, [&](render::Canvas& canvas) {
     const double room = render::colour_bar_width(canvas, bar, font);
-    draw_colour_bar(canvas, {image->width - room - 1.5 * font, 1.5 * font, room, 0.4 * height}, bar, font);
+    draw_colour_bar(canvas, {image->width - room - 1.5 * font, 1.5 * font, room, 0.4 * height}, bar,
+                    font);
   });
   return image;
 }

@@ -129,8 +129,8 @@ struct BenchFigures {
 
 /// Drags the radius to and fro for so many seconds and turns the camera, at most 60 frames a second
 /// and each a new picture, with the engine on its own thread; then rests until the view is sharp.
-/// Frames of the first second are no worst ones. Errors: no_equilibrium where the preset has no shell; the
-/// renderer's.
+/// Frames of the first second are no worst ones. Errors: no_equilibrium where the preset has no
+/// shell; the renderer's.
 Result<BenchFigures> bench(Interface& interface, ViewerState& viewer, double seconds);
 
 }  // namespace gridshell::window

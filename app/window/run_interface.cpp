@@ -94,7 +94,7 @@ namespace {
 
 constexpr int most_frames = 2000;  // until nothing moves any more
 constexpr int frames_to_sharpen = 30;
-constexpr double turn_deg = 0.2;           // a frame of a bench
+constexpr double turn_deg = 0.2;            // a frame of a bench
 constexpr double longest_to_sharpen_s = 5;  // of a bench
 
 /// Frames until all events are taken, the engine rests and the view shows what it found.
@@ -142,14 +142,15 @@ Result<void> play(Interface& interface, ViewerState& viewer,
 
 namespace {
 
-/// A frame as the window shows it; the rest of a sixtieth of a second is the engine's. Seconds that
-/// the frame itself took.
-Result<double> paced_frame(Interface& interface) {
+/// A frame as the window shows it; what is left until the next is `due` is the engine's. Seconds
+/// that the frame itself took.
+Result<double> paced_frame(Interface& interface, double& due) {
   const double begin = seconds_now();
   TRY_DO(interface.frame_aside(frame_s));
-  const double took = seconds_now() - begin;
-  if (took < frame_s) std::this_thread::sleep_for(std::chrono::duration<double>(frame_s - took));
-  return took;
+  const double end = seconds_now();
+  due = std::max(due + frame_s, end);
+  std::this_thread::sleep_for(std::chrono::duration<double>(due - end));
+  return end - begin;
 }
 
 }  // namespace
@@ -162,12 +163,13 @@ Result<BenchFigures> bench(Interface& interface, ViewerState& viewer, double sec
   const int before = viewer.shell->equilibria;
   const double cpu = cpu_seconds_now();
   int frames = 0;
+  double due = begin;
   for (double now = begin; now < begin + seconds; now = seconds_now()) {
     // there and back in four seconds, between half the path and its end, seen from all sides
     const double phase = std::abs(std::remainder(now - begin, 4.0)) / 2;
     viewer.post(Move{1 - 0.5 * phase}, true);
     viewer.camera.azimuth_deg += turn_deg;
-    TRY(frame, paced_frame(interface));
+    TRY(frame, paced_frame(interface, due));
     if (now - begin > 1) figures.worst_frame_ms = std::max(figures.worst_frame_ms, 1e3 * *frame);
     ++frames;
   }
@@ -182,7 +184,7 @@ Result<BenchFigures> bench(Interface& interface, ViewerState& viewer, double sec
   // the hand rests, and the view becomes sharp
   for (const double until = seconds_now() + longest_to_sharpen_s;
        interface.busy() && seconds_now() < until;) {
-    TRY(frame, paced_frame(interface));
+    TRY(frame, paced_frame(interface, due));
     figures.worst_frame_ms = std::max(figures.worst_frame_ms, 1e3 * *frame);
   }
   // the whole path and back, stopped soon after it began

@@ -118,8 +118,8 @@ double state_pictures(const Panel& panel, const render::Box& box) {
     if (ImGui::InvisibleButton("state", {wide, high})) viewer.recall(k);
     if (ImGui::BeginPopupContextItem("beside")) {
       if (ImGui::MenuItem("Compare with this state"))
-        viewer.compare(std::make_shared<const OtherShell>(OtherShell{
-            fmt::format("state {}", k + 1), (*viewer.shell->found)[std::size_t(k)]}));
+        viewer.compare(std::make_shared<const OtherShell>(
+            OtherShell{fmt::format("state {}", k + 1), (*viewer.shell->found)[std::size_t(k)]}));
       panel.named(fmt::format("state {} compare", k + 1), "");
       ImGui::EndPopup();
     }

@@ -139,7 +139,8 @@ void Overlay::tell_other() {
   if (!beside) return label(text, {float(view_.x), top});
   list_.AddLine({right, float(view_.y)}, {right, float(view_.bottom())},
                 ImGui::GetColorU32(ImGuiCol_Border));
-  const render::Box left = std::exchange(view_, render::Box{right, view_.y, view_.width, view_.height});
+  const render::Box left =
+      std::exchange(view_, render::Box{right, view_.y, view_.width, view_.height});
   label(text, {right, top});
   view_ = left;
   label("in hand", {float(view_.x), top});

@@ -153,8 +153,8 @@ struct DesignOptions {
   int most_iterations = 25;
 };
 
-/// Drawn as the camera moves: at half the resolution, rods and cells in few pieces; still: at all of
-/// it.
+/// Drawn as the camera moves: at half the resolution, rods and cells in few pieces; still: at all
+/// of it.
 enum class Resolution { moving, still };
 
 class ViewerState {

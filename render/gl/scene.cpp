@@ -307,7 +307,8 @@ class Weaver {
       add_strip_quad(piece.indices, first, k, next);
     }
     // a shadow keeps every edge: where it just touches a rod little decides
-    for (int k = begin; casts && quality_.shadow && k < end; ++k) add_strip_quad(scene_.casters, first, k, k + 1);
+    for (int k = begin; casts && quality_.shadow && k < end; ++k)
+      add_strip_quad(scene_.casters, first, k, k + 1);
     ribbons_.push_back(std::move(piece));
   }
   /// A bead's shadow is that of a short strip as wide as it.

@@ -56,8 +56,8 @@ TEST_CASE("switches switch, and back") {
   for (const Action& action : actions()) {
     const std::string name = action.name;
     // those need a shell, or another one
-    if (!action.on || name == "play" || name == "gravity" || name == "beside" || name.starts_with("colour_") ||
-        name.starts_with("range_"))
+    if (!action.on || name == "play" || name == "gravity" || name == "beside" ||
+        name.starts_with("colour_") || name.starts_with("range_"))
       continue;
     const bool before = action.on(viewer);
     action.act(viewer);
@@ -108,8 +108,8 @@ TEST_CASE("another run's joints are compared by their names") {
   std::swap(layout.joints[0].node, layout.joints[3].node);
   frame.nodes.col(1).z() = 1;
   const auto compare = [&] {
-    viewer.compare(std::make_shared<const OtherShell>(
-        OtherShell{"other", view_of(layout, frame, frame)}));
+    viewer.compare(
+        std::make_shared<const OtherShell>(OtherShell{"other", view_of(layout, frame, frame)}));
   };
   compare();
   CHECK(viewer.difference_text() == "largest distance 2 mm at joint (0, 0), mean 1.25 mm");
