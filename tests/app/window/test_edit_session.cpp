@@ -317,6 +317,24 @@ TEST_CASE(
   CHECK_FALSE(shell.view().stable());
 }
 
+TEST_CASE("a shake that comes back to the same state says so, and is no snap") {
+  EditedShell shell;
+  const auto joints = Eigen::Index(shell.view().layout->joints.size());
+  int same = 0;
+  for (int seed = 1; seed < 8; ++seed) {
+    const Eigen::Matrix3Xd before = shell.nodes().leftCols(joints);
+    shell.act(Jitter{seed});
+    const double moved_mm = (shell.nodes().leftCols(joints) - before).colwise().norm().maxCoeff();
+    const bool back = shell.view().message == "shaken, and at rest in the same state";
+    CHECK(back == (moved_mm < 2e-3 * shell.view().layout->length_scale_mm));
+    if (back) CHECK(shell.view().event.empty());
+    same += back;
+    shell.refine();
+  }
+  CHECK(same > 0);
+  CHECK(same < 7);
+}
+
 TEST_CASE("a state that was met beside another one is come back to, as one step") {
   EditedShell shell;
   CHECK_FALSE(shell.view().found);
