@@ -97,7 +97,8 @@ Result<void> export_shell(const preset::Preset& preset, const fs::path& file,
 /// The joints of a scan.csv, those that are missing left out; a line from each to its neighbours.
 Result<window::OtherShell> load_scan(const fs::path& file) {
   TRY(text, read_file(file));
-  window::OtherShell scan{file.parent_path().filename().string(), {}, {}, {}};
+  record::Layout scan;
+  record::Frame frame;
   std::vector<Eigen::Vector3d> places;
   std::map<std::pair<int, int>, int> nodes;
   std::istringstream lines(*text);
@@ -116,18 +117,19 @@ Result<window::OtherShell> load_scan(const fs::path& file) {
     for (const auto& beside : {std::pair(at.first + 1, at.second), {at.first, at.second + 1}})
       if (const auto other = nodes.find(beside); other != nodes.end())
         scan.rods.push_back({node, other->second});
-  scan.nodes.resize(3, Eigen::Index(places.size()));
-  for (std::size_t k = 0; k < places.size(); ++k) scan.nodes.col(Eigen::Index(k)) = places[k];
-  return scan;
+  frame.nodes.resize(3, Eigen::Index(places.size()));
+  for (std::size_t k = 0; k < places.size(); ++k) frame.nodes.col(Eigen::Index(k)) = places[k];
+  return window::OtherShell{file.parent_path().filename().string(),
+                            window::view_of(std::move(scan), frame, frame)};
 }
 
 Result<window::OtherShell> load_run(const fs::path& folder) {
   std::error_code error;
   if (fs::exists(folder / "scan.csv", error)) return load_scan(folder / "scan.csv");
   TRY(runs, read_runs(folder, {}, false));
-  const record::Trajectory& trajectory = runs->front().trajectory;
-  return window::OtherShell{folder.filename().string(), trajectory.layout.joints,
-                            trajectory.layout.rods, trajectory.frames.back().nodes};
+  const record::Trajectory& run = runs->front().trajectory;
+  return window::OtherShell{folder.filename().string(),
+                            window::view_of(run.layout, run.frames.back(), run.frames.front())};
 }
 
 /// As a page of its own in the folder of temporary files.
@@ -160,15 +162,21 @@ window::Library library_of(const ViewOptions& options) {
     TRY(image, window::picture_of(order, maker->renderer()));
     return render::write_png(*image, file, order.kept.dpi);
   };
+  library.draw_still =
+      [context = options.context](const window::PictureRequest& shown) -> Result<render::Image> {
+    TRY(maker, PictureMaker::create(context));
+    return window::view_picture(shown, window::Resolution::still, maker->renderer());
+  };
   library.write_preset = write_preset_with_tables;
   library.save_to = options.output;
   return library;
 }
 
-/// The software rasteriser leaves a processor to the engine.
+/// The software rasteriser leaves a processor to the engine and one to the window, which draws by
+/// itself where there are but two.
 void share_processors() {
   const unsigned cores = std::max(2u, std::thread::hardware_concurrency());
-  setenv("LP_NUM_THREADS", std::to_string(cores - 1).c_str(), 0);
+  setenv("LP_NUM_THREADS", std::to_string(cores - 2).c_str(), 0);
 }
 
 void print_bench(const window::BenchFigures& figures) {
@@ -298,6 +306,8 @@ Result<int> view(ViewOptions options) {
   share_processors();
   window::ViewerState viewer(library_of(options));
   viewer.timed = !off_screen;
+  // what is played is drawn in turn
+  if (off_screen && options.bench == 0) viewer.library.draw_still = nullptr;
   TRY_DO(size_picture(options, viewer.picture));
   restore(options, viewer);
   if (!options.input.empty()) {

@@ -30,6 +30,8 @@ preset::Points rows_of(const Eigen::Matrix3Xd& dragged) {
 }
 
 constexpr Eigen::Index most_nodes_marked = 8000;  // of the leading mesh: some 30 rods a direction
+constexpr double same_shape = 2e-3;               // of the length scale
+constexpr double part_mm = 1, most_parts = 12;    // of a long push
 
 preset::Step step_of(preset::StepKind kind) {
   preset::Step step;
@@ -71,9 +73,7 @@ Result<void> EditSession::do_step(preset::Step step, const Watch& watch) {
   const bool began_stable = view_.stable();
   const double began_mm = pushed_mm(step);
   simulate::StepPath way;
-  // where one equilibrium takes long already, what lies between is not looked at
-  const bool looks = session_->shell().mesh(0).rod_nodes() < most_nodes_marked;
-  TRY(report, simulate::apply_step(*session_, step, watch, looks ? &way : nullptr));
+  TRY(report, simulate::apply_step(*session_, step, watch, looks_between() ? &way : nullptr));
   const std::string event_at = note_way(step, way, began_mm, began_stable, *report);
   add_step(std::move(step), *report);
   const auto done = note_events(*report);
@@ -148,7 +148,25 @@ Result<void> EditSession::act(const Push& command, const Watch& watch) {
   const Eigen::Vector3d way = command.to - session_->nodes().col(command.joint);
   const bool still = (free ? std::abs(way.dot(command.along)) : way.norm()) < nearest_mm;
   if (still && session_->grip_origins.contains(command.joint)) return {};
+  // a long way that was typed shows its equilibria as one that was dragged
+  const bool dragged = this_drag_ == 0 || this_drag_ == steps_drag_;
+  const int parts =
+      dragged || !looks_between() ? 1 : int(std::clamp(way.norm() / part_mm, 1.0, most_parts));
+  for (int k = 1; k < parts; ++k) {
+    step.to_mm = xyz_of(command.to - (1 - double(k) / parts) * way);
+    TRY_DO(do_step(step, watch));
+    now_.refined = false;
+    update_view();
+    if (listener_) listener_(view_);
+    view_.way.push_back(plot_point_of(view_));
+  }
+  step.to_mm = xyz_of(command.to);
   return do_step(std::move(step), watch);
+}
+
+/// Where one equilibrium takes long already, what lies between is not looked at.
+bool EditSession::looks_between() const {
+  return session_->shell().mesh(0).rod_nodes() < most_nodes_marked;
 }
 
 Result<void> EditSession::act(const Release& command, const Watch& watch) {
@@ -174,7 +192,17 @@ Result<void> EditSession::act(const Jitter& command, const Watch& watch) {
   preset::Step step = step_of(preset::StepKind::jitter);
   step.seed = command.seed;
   step.force_N = 20 * now_.preset.jitter.field_N_per_mm * now_.scene->footprint.spacing;
-  return do_step(std::move(step), watch);
+  const auto joints = Eigen::Index(now_.scene->footprint.joints.size());
+  const Eigen::Matrix3Xd before = session_->nodes().leftCols(joints);
+  const bool snapped = now_.snapped;
+  TRY_DO(do_step(std::move(step), watch));
+  // what happened on its way was no way to another state
+  const Eigen::Matrix3Xd moved = session_->nodes().leftCols(joints) - before;
+  if (moved.colwise().norm().maxCoeff() > same_shape * now_.scene->length_scale_mm) return {};
+  view_.message = "shaken, and at rest in the same state";
+  view_.event.clear();
+  now_.snapped = snapped;
+  return {};
 }
 
 // The shell is designed: its steps are seen as they come, the last certified one stays.

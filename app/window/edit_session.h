@@ -121,6 +121,7 @@ class EditSession {
   void note_state();
   std::string note_way(const preset::Step& step, const simulate::StepPath& way, double began_mm,
                        bool began_stable, Report& report);
+  bool looks_between() const;
   double pushed_mm(const preset::Step& step) const;
   std::string place_text(const PathMark& mark) const;
 

@@ -105,41 +105,67 @@ namespace {
 
 constexpr double least_px = 1.5;  // width of a rod
 
-Result<render::Image> draw_shell(render::Renderer& renderer, const PictureRequest& request,
-                                 const render::DrawQuality& quality, int width, int height,
-                                 double rod_px) {
+/// Of two shells side by side each is so wide.
+Result<render::Image> draw_shells(render::Renderer& renderer, const PictureRequest& request,
+                                  const render::DrawQuality& quality, int width, int height,
+                                  double rod_px) {
   const double thin = rod_px * mm_per_pixel(request.camera, {double(width), double(height)});
-  return renderer.draw(drawing_of(*request.shell, request.show, thin), request.camera, quality,
-                       width, height);
+  const auto draw = [&](const ShellView& shell, const Show& show) {
+    return renderer.draw(drawing_of(shell, show, thin), request.camera, quality, width, height);
+  };
+  auto image = draw(*request.shell, request.show);
+  if (!image || request.show.shells() < 2) return image;
+  // what is coloured by how far apart they are has the same colours in both
+  Show theirs = request.show;
+  theirs.mode_mm = 0;
+  theirs.other = std::make_shared<const OtherShell>(OtherShell{"", request.shell});
+  TRY(other, draw(*request.show.other->seen, theirs));
+  render::Image both(2 * width, height);
+  for (int y = 0; y < height; ++y) {
+    std::copy_n(image->pixel(0, y), 4 * width, both.pixel(0, y));
+    std::copy_n(other->pixel(0, y), 4 * width, both.pixel(width, y));
+  }
+  return both;
 }
 
 }  // namespace
 
-Result<void> ShellPicture::draw(const PictureRequest& shown, Resolution sharpness) {
+Result<render::Image> view_picture(const PictureRequest& shown, Resolution sharpness,
+                                   render::Renderer& renderer) {
   const bool moving = sharpness == Resolution::moving;
-  const double begin = seconds_now();
   const double scale = moving ? 0.5 : 1;
   const int width = std::max(16, int(scale * shown.view.width)),
             height = std::max(16, int(scale * shown.view.height));
-  const render::DrawQuality quality{.supersample = 1, .shadow = !moving, .jittered_passes = 1};
-  TRY(image, draw_shell(*renderer_, shown, quality, width, height,
-                        moving ? 0.75 * least_px : least_px * std::max(1.0, height / 720.0)));
-  fill_texture(*gl_, texture_.id(), width, height, image->rgba.data());
-  if (!moving) still_took_s_ = seconds_now() - begin;
+  const render::DrawQuality quality{
+      .supersample = 1, .shadow = !moving, .jittered_passes = 1, .coarse = moving};
+  return draw_shells(renderer, shown, quality, width, height,
+                     moving ? 0.75 * least_px : least_px * std::max(1.0, height / 720.0));
+}
+
+Result<void> ShellPicture::draw(const PictureRequest& shown, Resolution sharpness) {
+  const double begin = seconds_now();
+  TRY(image, view_picture(shown, sharpness, *renderer_));
+  show(*image);
+  took_s_[std::size_t(sharpness)] = seconds_now() - begin;
   return {};
+}
+
+void ShellPicture::show(const render::Image& image) {
+  fill_texture(*gl_, texture_.id(), image.width, image.height, image.rgba.data());
 }
 
 Result<render::Image> picture_of(const PictureRequest& asked, render::Renderer& renderer) {
   PictureRequest request = asked;
   request.show.dark = false;
   const bool sized = request.kept.width > 0;
-  const int width = sized ? request.kept.width : 2 * int(request.view.width),
+  const int width =
+                sized ? request.kept.width / request.show.shells() : 2 * int(request.view.width),
             height = sized ? request.kept.height : 2 * int(request.view.height);
   // what the view shows from side to side is in the picture too
   const double wide = request.view.width / request.view.height, now = double(width) / height;
   request.camera.half_extent_mm *= std::max(1.0, wide / now);
-  auto image = draw_shell(renderer, request, render::draw_quality(request.kept.quality), width,
-                          height, least_px * std::max(1.0, height / 720.0));
+  auto image = draw_shells(renderer, request, render::draw_quality(request.kept.quality), width,
+                           height, least_px * std::max(1.0, height / 720.0));
   if (!image || !request.kept.legend || request.show.colour_by == ColourBy::none ||
       values_of(*request.shell, request.show).size() == 0)
     return image;
@@ -148,7 +174,8 @@ Result<render::Image> picture_of(const PictureRequest& asked, render::Renderer& 
   bar.ends = true;
   render::draw_over(*image, [&](render::Canvas& canvas) {
     const double room = render::colour_bar_width(canvas, bar, font);
-    draw_colour_bar(canvas, {width - room - 1.5 * font, 1.5 * font, room, 0.4 * height}, bar, font);
+    draw_colour_bar(canvas, {image->width - room - 1.5 * font, 1.5 * font, room, 0.4 * height}, bar,
+                    font);
   });
   return image;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <imgui.h>
+#include <array>
 #include <memory>
 
 #include "app/window/viewer_state.h"
@@ -51,16 +52,22 @@ class ShellPicture {
   /// Draws it in the view's size, at half the resolution while it moves. Errors: those of the
   /// renderer.
   Result<void> draw(const PictureRequest& shown, Resolution sharpness);
+  /// One that was drawn elsewhere.
+  void show(const render::Image& image);
   GLuint texture() const { return texture_.id(); }
-  /// What the last one at full resolution took; 0: none yet.
-  double still_took_s() const { return still_took_s_; }
+  /// What the last one took in that resolution; 0: none yet.
+  double took_s(Resolution sharpness) const { return took_s_[std::size_t(sharpness)]; }
 
  private:
   const render::Gl* gl_;
   render::Renderer* renderer_;
-  double still_took_s_ = 0;
+  std::array<double, 2> took_s_{};  // by resolution
   render::Texture texture_;
 };
+
+/// The view's picture. Errors: those of the renderer.
+Result<render::Image> view_picture(const PictureRequest& shown, Resolution sharpness,
+                                   render::Renderer& renderer);
 
 /// The picture for a file, with the colours' legend where it is wanted.
 Result<render::Image> picture_of(const PictureRequest& request, render::Renderer& renderer);

@@ -4,6 +4,7 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -17,8 +18,6 @@ namespace gridshell::window {
 namespace {
 
 constexpr double least_view = 400;  // px of a view beside plots
-// stillness before full resolution; what that may take while an equilibrium is on its way
-constexpr double sharp_after_s = 0.15, sharp_while_busy_s = 0.6, longest_while_busy_s = 0.05;
 
 /// What the interface library does with keys of its own.
 void map_keys(ImGuiIO& io) {
@@ -101,6 +100,7 @@ Result<void> Interface::resize(int width, int height, double density) {
   height_ = height;
   density_ = density;
   shell_anew_ = true;
+  draw_anew();
   if (!denser) return {};
   if (auto loaded = load_fonts(density); !loaded) return loaded;
   painter_->take_fonts(*ImGui::GetIO().Fonts);
@@ -228,8 +228,10 @@ void Interface::press_key(Key key) {
 // ---- a frame ----
 
 void Interface::view_panel(const Panel& panel, const render::Box& box) {
+  // of two side by side the left one is in hand
   view_ = box;
-  viewer_.view = {box.width, box.height};
+  view_.width /= viewer_.show.shells();
+  viewer_.view = {view_.width, view_.height};
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
   begin_fixed("view", box, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
   ImGui::PopStyleVar();
@@ -249,13 +251,13 @@ void Interface::view_panel(const Panel& panel, const render::Box& box) {
     if (!ImGui::IsItemActive()) mouse_.release(x, y);
   } else if (ImGui::IsItemHovered()) {
     mouse_.hover(x, y);
-    if (io.MouseWheel != 0) mouse_.wheel(io.MouseWheel, x, y);
+    if (io.MouseWheel != 0) mouse_.wheel(io.MouseWheel, std::fmod(x, view_.width), y);
     for (int button = 0; button < 3; ++button)
       if (ImGui::IsMouseClicked(button)) mouse_.press(Button(button), io.KeyShift, x, y);
   } else {
     mouse_.leave();
   }
-  view_overlay(panel, box);
+  view_overlay(panel, view_);
   colour_legend(panel, box);
   ImGui::End();
 }
@@ -307,58 +309,6 @@ void Interface::lay_out() {
     help_sheet(panel, render::Box{0, top, double(width_), height}.inset(20 * density_));
 }
 
-/// Anew only where anything that it shows is new, and sharp only once it rests.
-Result<void> Interface::draw_shell() {
-  if (!viewer_.shell->any() || viewer_.view.width < 16) return {};
-  const ShownShell shown{viewer_.camera, viewer_.view, viewer_.show};
-  const bool anew = shell_anew_ || shown != shown_;
-  if (anew) still_seconds_ = 0;
-  const bool idle = viewer_.engine.idle();
-  const bool sharp = !anew && still_seconds_ >= (idle ? sharp_after_s : sharp_while_busy_s) &&
-                     (idle || picture_.still_took_s() < longest_while_busy_s);
-  if (!anew && (!sharp || sharp_)) return {};
-  shown_ = shown;
-  shell_anew_ = false;
-  sharp_ = sharp;
-  return picture_.draw(viewer_.picture_request(), sharp ? Resolution::still : Resolution::moving);
-}
-
-/// Small pictures of the states that were found, each once, from where the camera looks then.
-Result<void> Interface::draw_states() {
-  const auto& found = viewer_.shell->found;
-  if (!found) return states_.clear(), Result<void>();
-  std::size_t same = 0, most = std::min(states_.size(), found->size());
-  while (same < most && states_[same].first == (*found)[same]) ++same;
-  states_.erase(states_.begin() + std::ptrdiff_t(same), states_.end());
-  for (std::size_t k = same; k < found->size(); ++k) {
-    const auto& state = (*found)[k];
-    PictureRequest small{state, viewer_.camera, {160, 100}, viewer_.show, {}};
-    small.show.other.reset();
-    small.show.mode_mm = 0;
-    fit(small.camera, small.view, state->frame.nodes);
-    states_.emplace_back(state, ShellPicture(gl_, renderer_));
-    TRY_DO(states_.back().second.draw(small, Resolution::still));
-  }
-  return {};
-}
-
-Result<void> Interface::compose(double seconds) {
-  ImGuiIO& io = ImGui::GetIO();
-  io.DisplaySize = {float(width_), float(height_)};
-  io.DeltaTime = float(std::clamp(seconds, 1e-4, 0.5));
-  still_seconds_ += seconds;
-  shell_anew_ |= viewer_.tick(seconds);
-  if (dark_ != viewer_.show.dark) choose_colours(dark_ = viewer_.show.dark, density_);
-  feed();
-  TRY_DO(draw_states());
-  ImGui::NewFrame();
-  lay_out();
-  ImGui::Render();
-  io.MouseWheel = 0;
-  if (!viewer_.copied.empty()) ImGui::SetClipboardText(std::exchange(viewer_.copied, "").c_str());
-  return draw_shell();
-}
-
 bool Interface::busy() const {
   return !events_.empty() || (viewer_.shell->any() && (shell_anew_ || !sharp_));
 }
@@ -368,33 +318,6 @@ render::Cursor Interface::cursor() const {
   if (viewer_.joint_under >= 0)
     return viewer_.measuring ? render::Cursor::cross : render::Cursor::hand;
   return viewer_.edge_under >= 0 ? render::Cursor::hand : render::Cursor::arrow;
-}
-
-Result<void> Interface::frame(double seconds) {
-  if (auto made = compose(seconds); !made) return made;
-  gl_.BindFramebuffer(GL_FRAMEBUFFER, 0);
-  gl_.ClearColor(0.5f, 0.5f, 0.5f, 1);
-  gl_.Clear(GL_COLOR_BUFFER_BIT);
-  painter_->draw(*ImGui::GetDrawData(), true);
-  return {};
-}
-
-Result<void> Interface::frame_aside(double seconds) {
-  if (auto made = compose(seconds); !made) return made;
-  if (auto bound = target_.bind(width_, height_, GL_RGBA8); !bound) return bound;
-  gl_.ClearColor(0.5f, 0.5f, 0.5f, 1);
-  gl_.Clear(GL_COLOR_BUFFER_BIT);
-  painter_->draw(*ImGui::GetDrawData(), false);
-  return {};
-}
-
-render::Image Interface::read() {
-  render::Image image(width_, height_);
-  gl_.BindFramebuffer(GL_FRAMEBUFFER, target_.frame());
-  gl_.ReadBuffer(GL_COLOR_ATTACHMENT0);
-  gl_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
-  for (std::size_t k = 3; k < image.rgba.size(); k += 4) image.rgba[k] = 255;
-  return image;
 }
 
 }  // namespace gridshell::window

@@ -4,6 +4,7 @@
 
 #include <deque>
 #include <functional>
+#include <future>
 #include <map>
 #include <memory>
 #include <optional>
@@ -37,10 +38,13 @@ class Interface {
   /// for the name of something that is not there.
   Result<void> take(const InputEvent& event);
 
-  /// One frame after so many seconds, into framebuffer 0. Errors: the renderer's.
-  Result<void> frame(double seconds);
+  /// One frame after so many seconds, into framebuffer 0; false: it would be as the last one, and
+  /// nothing was drawn. Errors: the renderer's.
+  Result<bool> frame(double seconds);
   /// One frame into a picture of its own, which read() gives.
   Result<void> frame_aside(double seconds);
+  /// The next frame is drawn whatever it shows.
+  void draw_anew() { drawn_.clear(); }
   render::Image read();
 
   /// Whether events wait or the picture is still to become sharp.
@@ -69,8 +73,11 @@ class Interface {
   void lay_out();
   void view_panel(const Panel& panel, const render::Box& box);
   Result<void> draw_shell();
+  bool take_still(const PictureRequest& shown);
   Result<void> draw_states();
-  Result<void> compose(double seconds);
+  Result<bool> compose(double seconds);
+  bool is_new();
+  void paint(bool upwards);
 
   render::Gl gl_;  // others point to it
   ImGuiContext* imgui_;
@@ -92,7 +99,11 @@ class Interface {
   double density_ = 1;
   double still_seconds_ = 0;
   bool shell_anew_ = true, sharp_ = false, dark_ = false;
-  std::optional<ShownShell> shown_;  // the last picture
+  std::optional<ShownShell> shown_;           // the last picture
+  std::uint64_t pictures_ = 0;                // drawn so far
+  std::vector<char> drawn_;                   // what the last frame was drawn from
+  std::future<Result<render::Image>> still_;  // being drawn on a thread of its own
+  std::uint64_t still_of_ = 0;                // the picture that it makes sharp
 };
 
 // The interface in a window of the desktop.
@@ -116,9 +127,10 @@ struct BenchFigures {
   double frame_cpu_ms = 0;
 };
 
-/// Drags the radius to and fro for so many seconds with the engine on its own thread; frames of the
-/// first second are no worst ones. Errors: no_equilibrium where the preset has no shell; the
-/// renderer's.
+/// Drags the radius to and fro for so many seconds and turns the camera, at most 60 frames a second
+/// and each a new picture, with the engine on its own thread; then rests until the view is sharp.
+/// Frames of the first second are no worst ones. Errors: no_equilibrium where the preset has no
+/// shell; the renderer's.
 Result<BenchFigures> bench(Interface& interface, ViewerState& viewer, double seconds);
 
 }  // namespace gridshell::window

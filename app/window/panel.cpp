@@ -54,12 +54,16 @@ void Panel::tick(const char* name) const {
 }
 
 void begin_fixed(const char* name, const render::Box& box, ImGuiWindowFlags more, Layer layer) {
+  const bool fixed = layer == Layer::fixed;
   ImGui::SetNextWindowPos({float(box.x), float(box.y)});
   ImGui::SetNextWindowSize({float(box.width), float(box.height)});
+  // the frame begins in the colour of panels; to fill them again would take as long as their text
+  if (fixed) ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4(0, 0, 0, 0));
   ImGui::Begin(name, nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
-                   (layer == Layer::fixed ? ImGuiWindowFlags_NoBringToFrontOnFocus : 0) | more);
+                   (fixed ? ImGuiWindowFlags_NoBringToFrontOnFocus : 0) | more);
+  if (fixed) ImGui::PopStyleColor();
 }
 
 bool is_typed_into() { return ImGui::IsItemActive() && ImGui::GetIO().WantTextInput; }

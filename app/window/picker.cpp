@@ -32,7 +32,8 @@ Eigen::Vector2d Picker::pixel_of(int node) const {
 /// The joint or edge point under the mouse; of several near ones the nearest to the eye.
 void Picker::find(double x, double y) {
   joint_ = edge_ = -1;
-  if (!viewer_.shell->any()) return;
+  // beside it is another shell, which cannot be taken
+  if (!viewer_.shell->any() || x > viewer_.view.width) return;
   const record::Layout& layout = *viewer_.shell->layout;
   const Eigen::Vector3d forward = render::camera_axes(viewer_.camera).forward;
   const double within = near_px * std::max(1.0, viewer_.view.height / 720);
@@ -141,7 +142,7 @@ void Picker::release(double x, double y) {
   const bool at_shell = gesture_ == Gesture::push || gesture_ == Gesture::pull_freely ||
                         gesture_ == Gesture::drag_edge;
   if (moved_ && at_shell) viewer_.end_drag();
-  if (moved_) return;
+  if (moved_ || x > viewer_.view.width) return;
   if (gesture_ == Gesture::let_go_joint) return viewer_.send_command(Release{joint_});
   if (viewer_.measuring && joint_ >= 0) return viewer_.measure(joint_);
   viewer_.picked_joint = joint_;

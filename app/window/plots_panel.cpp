@@ -126,6 +126,7 @@ class PlotBox {
   /// Labels at round values, the lines of a grid through them.
   void ticks_y(const Span& y, bool logarithmic) {
     const int count = std::max(1, int((to_.y - from_.y) / (2.2f * line_)));
+    float last = to_.y + line_;  // the label below
     const std::vector<render::Tick> ticks =
         logarithmic ? render::log_ticks(std::pow(10., y.low), std::pow(10., y.high), count)
                     : render::linear_ticks(double(y.low), double(y.high), count);
@@ -134,6 +135,8 @@ class PlotBox {
       const float at = height_of(y, float(logarithmic ? std::log10(tick.value) : tick.value));
       const std::string text = fmt::format("{:.6g}", tick.value);
       list_.AddLine({from_.x, at}, {to_.x, at}, grid());
+      if (last - at < line_) continue;
+      last = at;
       list_.AddText(
           {from_.x - ImGui::CalcTextSize(text.c_str()).x - panel_.px(4), at - 0.5f * line_}, pale(),
           text.c_str());
@@ -142,13 +145,18 @@ class PlotBox {
   void ticks_x(const Span& x) {
     const float y = to_.y + panel_.px(2);
     const int count = std::max(1, int((to_.x - from_.x) / (3.2f * line_)));
+    float last = from_.x - panel_.px(6);  // where the label before ends
     for (const render::Tick& tick : render::linear_ticks(double(x.low), double(x.high), count)) {
       if (!tick.major) continue;
       const float at = from_.x + x.at(float(tick.value)) * (to_.x - from_.x);
       const std::string text = fmt::format("{:.6g}", tick.value);
-      const float half = 0.5f * ImGui::CalcTextSize(text.c_str()).x;
+      const float wide = ImGui::CalcTextSize(text.c_str()).x;
       list_.AddLine({at, from_.y}, {at, to_.y}, grid());
-      if (at + half < to_.x + panel_.px(6)) list_.AddText({at - half, y}, pale(), text.c_str());
+      // beside the lowest label at the left, and within the panel
+      const float left = std::clamp(at - 0.5f * wide, from_.x, to_.x - wide);
+      if (left < last + panel_.px(6)) continue;
+      last = left + wide;
+      list_.AddText({left, y}, pale(), text.c_str());
     }
   }
   /// The values of the point next to the mouse.

@@ -253,28 +253,41 @@ void ViewerState::compare_with(const fs::path& run) {
 
 void ViewerState::compare_with_this() {
   if (!shell->any()) return say("there is no shell yet", true);
-  const record::Layout& layout = *shell->layout;
-  compare(std::make_shared<const OtherShell>(
-      OtherShell{"before", layout.joints, layout.rods, shell->frame.nodes}));
+  compare(std::make_shared<const OtherShell>(OtherShell{"before", shell}));
 }
 
 void ViewerState::compare_with_net() {
   const record::Layout* layout = shell->layout.get();
   if (!layout || layout->net_nodes.cols() == 0)
     return say("this shell was not designed on a net", true);
-  compare(std::make_shared<const OtherShell>(
-      OtherShell{"net", layout->joints, layout->rods, layout->net_nodes}));
+  record::Frame frame;
+  frame.progress = frame.actuation = shell->frame.actuation;
+  frame.nodes = layout->net_nodes;
+  frame.cell_K = shell->net_K;
+  compare(std::make_shared<const OtherShell>(OtherShell{"net", view_of(*layout, frame, frame)}));
 }
 
 void ViewerState::compare(std::shared_ptr<const OtherShell> other) {
+  set_beside(show.beside && other);
   show.other = std::move(other);
   // it may be what the colours show
   if (show.colour_by == ColourBy::displacement) show.scale = scale_of(*shell, show);
 }
 
+void ViewerState::set_beside(bool on) {
+  if (on && !show.other) return say("nothing is compared: File > Compare with…", true);
+  if (on == show.beside) return;
+  show.beside = on;
+  view.width *= on ? 0.5 : 2;
+  fit_view();
+  if (on && range_of == RangeOf::run)
+    show.scale = next_scale(show.scale, scale_of(*show.other->seen, show), range_of);
+}
+
 std::string ViewerState::difference_text() const {
   std::map<std::pair<int, int>, int> others;
-  for (const record::Joint& joint : show.other->joints) others[{joint.i, joint.j}] = joint.node;
+  const ShellView& other = *show.other->seen;
+  for (const record::Joint& joint : other.layout->joints) others[{joint.i, joint.j}] = joint.node;
   double largest = -1, sum = 0;
   int count = 0;
   const record::Joint* at = nullptr;
@@ -282,7 +295,7 @@ std::string ViewerState::difference_text() const {
     const auto same = others.find({joint.i, joint.j});
     if (same == others.end()) continue;
     const double apart =
-        (shell->frame.nodes.col(joint.node) - show.other->nodes.col(same->second)).norm();
+        (shell->frame.nodes.col(joint.node) - other.frame.nodes.col(same->second)).norm();
     sum += apart, ++count;
     if (apart > largest) largest = apart, at = &joint;
   }

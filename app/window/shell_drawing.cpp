@@ -96,8 +96,8 @@ Eigen::VectorXd values_of(const ShellView& shell, const Show& show) {
                                          show.colour_by == ColourBy::utilisation);
     case ColourBy::displacement:
       if (!show.other) return displacement(shell, shell.first->nodes);
-      if (!same_joints(shell.layout->joints, show.other->joints)) return {};
-      return displacement(shell, show.other->nodes);
+      if (!same_joints(shell.layout->joints, show.other->seen->layout->joints)) return {};
+      return displacement(shell, show.other->seen->frame.nodes);
   }
   return {};
 }
@@ -255,9 +255,9 @@ render::Drawing drawing_of(const ShellView& shell, const Show& show, double thin
   };
   if (show.net) ghosts(layout.net_nodes);
   if (show.footprint) ghosts(layout.flat_nodes);
-  if (show.other)
-    drawing.ghosts.push_back(
-        {show.other->nodes, show.other->rods, 0.7 * drawing.rod_diameter_mm, other_green});
+  if (show.other && !show.beside)
+    drawing.ghosts.push_back({show.other->seen->frame.nodes, show.other->seen->layout->rods,
+                              0.7 * drawing.rod_diameter_mm, other_green});
   put_forces(shell, show, thin_mm, drawing);
   render::put_contacts(layout, shell.frame, thin_mm, drawing);
   // what starts flat stands on its boundary's plane

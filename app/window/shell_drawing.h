@@ -21,12 +21,11 @@ using preset::ColourBy;
 /// hand.
 enum class RangeOf { state, run, hand };
 
-/// A state that the shell in hand is compared with: the last of a run, or one in hand before.
+/// A state that the shell in hand is compared with: the last of a run, one in hand before, the net,
+/// the joints of a scan.
 struct OtherShell {
   std::string name;
-  std::vector<record::Joint> joints;
-  std::vector<std::vector<int>> rods;  ///< nodes of each
-  Eigen::Matrix3Xd nodes;
+  std::shared_ptr<const ShellView> seen;  ///< not null, and has a layout
 };
 
 /// What is shown, and how.
@@ -35,7 +34,9 @@ struct Show {
   render::ColourScale scale;  ///< of the colours
   bool joints = true, rings = true, ground = true, net = false, footprint = false, dark = false;
   double mode_mm = 0;                            ///< how far along the soft mode it is drawn
-  std::shared_ptr<const OtherShell> other = {};  ///< drawn over it; null: none
+  std::shared_ptr<const OtherShell> other = {};  ///< drawn over it, or beside it; null: none
+  bool beside = false;
+  int shells() const { return beside && other ? 2 : 1; }  ///< side by side
   bool operator==(const Show&) const = default;
 };
 

@@ -368,8 +368,9 @@ void picked(const Panel& panel) {
 void shell_panel(const Panel& panel, const render::Box& box) {
   ViewerState& viewer = panel.viewer;
   begin_fixed("shell", box);
-  ImGui::TextWrapped("%s", viewer.shell->any() ? viewer.shell->preset.title.c_str()
-                                               : "No shell yet: pick a preset.");
+  ImGui::TextWrapped("%s", viewer.shell->any()    ? viewer.shell->preset.title.c_str()
+                           : viewer.engine.idle() ? "No shell yet: pick a preset."
+                                                  : "The shell is being formed.");
   // all four in one row, where a scroll bar leaves room for it
   const float gap = 0.5f * ImGui::GetStyle().ItemSpacing.x;
   panel.button("pick_preset");

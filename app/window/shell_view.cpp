@@ -37,7 +37,47 @@ std::string words_of_group(const std::string& group) {
   return found == words.end() ? "symmetry " + group : found->second;
 }
 
+/// What colours show along the rods, and how far the cells are off the net.
+void put_values(ShellView& shell) {
+  shell.axial_N = record::axial_force_of_nodes_N(*shell.layout, shell.frame);
+  shell.bending_mJ_m = record::bending_of_nodes_mJ_per_m(*shell.layout, shell.frame);
+  shell.deviation = record::deviation_of_cells(*shell.layout, shell.frame);
+}
+
 }  // namespace
+
+PlotPoint plot_point_of(const ShellView& shell) {
+  const record::Frame& frame = shell.frame;
+  PlotPoint now{.equilibrium = double(shell.equilibria),
+                .radius_mm = frame.boundary_radius_mm,
+                .progress = shell.progress,
+                .height_mm = frame.height_mm,
+                .energy_mJ = frame.energies.total(),
+                .total_K = frame.total_K,
+                .residual_N = shell.certificate.residual_N,
+                .error_mm = shell.certificate.error_estimate_mm,
+                .steps = int(shell.steps.size()),
+                .refined = shell.refined,
+                .stable = shell.stable()};
+  if (!shell.held.empty()) {
+    const HeldJoint& held = shell.held.back();
+    now.joint = held.joint;
+    now.depth_mm = held.moved_mm.norm();
+    const double along = held.force_N.dot(held.moved_mm.normalized());
+    now.force_N = std::isfinite(along) ? along : 0;
+  }
+  return now;
+}
+
+std::shared_ptr<const ShellView> view_of(record::Layout layout, record::Frame frame,
+                                         record::Frame first) {
+  auto shell = std::make_shared<ShellView>();
+  shell->layout = std::make_shared<const record::Layout>(std::move(layout));
+  shell->frame = std::move(frame);
+  shell->first = std::make_shared<const record::Frame>(std::move(first));
+  put_values(*shell);
+  return shell;
+}
 
 /// Why a state at rest is less than what the tolerance asks for.
 std::string EditSession::accuracy_warning() const {
@@ -106,6 +146,10 @@ void EditSession::update_layout() {
   if (layout->flat_nodes.cols() == 0)
     layout->flat_nodes = drawn_nodes(mesh, now_.scene->flat).leftCols(mesh.rod_nodes());
   view_.layout = std::make_shared<const record::Layout>(std::move(*layout));
+  const Footprint& footprint = now_.scene->footprint;
+  const Eigen::Matrix3Xd& net = view_.layout->net_nodes;
+  view_.net_K.resize(0);
+  if (net.cols() > 0) view_.net_K = cell_curvature(footprint, joint_tangents(footprint, mesh, net));
   view_.least_progress = least_progress_of(*session_);
   nodes_shown_ = mesh.rod_nodes();
   // joints come first on every mesh, and the coarsest is the quickest to look at
@@ -142,12 +186,9 @@ void EditSession::update_normals() {
 
 /// What colours show: axial force and bending energy at the nodes, and the cells' deviation.
 void EditSession::update_rods() {
-  const record::Layout& layout = *view_.layout;
-  view_.axial_N = record::axial_force_of_nodes_N(layout, view_.frame);
-  view_.bending_mJ_m = record::bending_of_nodes_mJ_per_m(layout, view_.frame);
-  view_.deviation = record::deviation_of_cells(layout, view_.frame);
+  put_values(view_);
   if (!now_.design || !now_.target) return;
-  const Eigen::Index joints = Eigen::Index(layout.joints.size());
+  const Eigen::Index joints = Eigen::Index(view_.layout->joints.size());
   update_deviation(now_.target->distances(view_.frame.nodes.leftCols(joints)).size());
 }
 

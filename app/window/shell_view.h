@@ -53,6 +53,15 @@ struct DesignProgress {
   std::optional<double> rounded_max_mm;  ///< once it has ended, where the rounded shell holds
 };
 
+/// What the plots show of an equilibrium.
+struct PlotPoint {
+  double equilibrium = 0, radius_mm = 0, progress = 0, height_mm = 0, energy_mJ = 0, depth_mm = 0,
+         force_N = 0, total_K = 0, residual_N = 0, error_mm = 0;
+  int joint = -1;  ///< that is held and was taken last; none
+  int steps = 0;   ///< that were done
+  bool refined = true, stable = true;
+};
+
 /// What commands change of a shell, beside the state of its rods.
 struct ViewedState {
   preset::Preset preset;  ///< in a view with the boundary's radius as it stands
@@ -92,9 +101,12 @@ struct ShellView : ViewedState {
   std::string error;           ///< why the last command was not met; empty: it was
   /// States at rest on one boundary, where more than one was met; null: none.
   std::shared_ptr<const std::vector<std::shared_ptr<const ShellView>>> found;
+  std::vector<PlotPoint> way;  ///< equilibria that the last push came past, but for this one
   int undo_steps = 0, redo_steps = 0;
   int equilibria = 0;  ///< found so far
   double seconds = 0;  ///< the last one took
+
+  Eigen::VectorXd net_K;  ///< of the cells on the net that it was designed on; empty without one
 
   bool any() const { return layout != nullptr; }
   bool stable() const { return certificate.stable(); }
@@ -105,6 +117,12 @@ struct ShellView : ViewedState {
   }
   bool designing() const { return design && design->under_way; }
 };
+
+PlotPoint plot_point_of(const ShellView& shell);
+
+/// A state of a record, seen against `first`.
+std::shared_ptr<const ShellView> view_of(record::Layout layout, record::Frame frame,
+                                         record::Frame first);
 
 /// Why the shell cannot be designed, a sentence; empty: it can.
 std::string why_not_designed(const ShellView& shell);

@@ -119,8 +119,7 @@ double state_pictures(const Panel& panel, const render::Box& box) {
     if (ImGui::BeginPopupContextItem("beside")) {
       if (ImGui::MenuItem("Compare with this state"))
         viewer.compare(std::make_shared<const OtherShell>(
-            OtherShell{fmt::format("state {}", k + 1), state.layout->joints, state.layout->rods,
-                       state.frame.nodes}));
+            OtherShell{fmt::format("state {}", k + 1), (*viewer.shell->found)[std::size_t(k)]}));
       panel.named(fmt::format("state {} compare", k + 1), "");
       ImGui::EndPopup();
     }

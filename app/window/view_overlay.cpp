@@ -56,7 +56,7 @@ class Overlay {
   const Panel& panel_;
   ViewerState& viewer_;
   const ShellView& shell_;
-  const render::Box& view_;
+  render::Box view_;
   ImDrawList& list_;
   float wide_;
 };
@@ -129,11 +129,21 @@ void Overlay::write_measure() {
   if (joints.size() > 1) label(text_of_measure(shell_, joints), point_of(right));
 }
 
-/// What the green rods are, and how far the joints are from theirs.
+/// What the green rods are, or the shell at the right, and how far the joints are from theirs.
 void Overlay::tell_other() {
   if (!viewer_.show.other) return;
-  const std::string text = viewer_.show.other->name + " (green): " + viewer_.difference_text();
-  label(text, {float(view_.x), float(view_.y) + panel_.px(34)});
+  const bool beside = viewer_.show.shells() > 1;
+  const std::string text =
+      viewer_.show.other->name + (beside ? ": " : " (green): ") + viewer_.difference_text();
+  const float top = float(view_.y) + panel_.px(34), right = float(view_.right());
+  if (!beside) return label(text, {float(view_.x), top});
+  list_.AddLine({right, float(view_.y)}, {right, float(view_.bottom())},
+                ImGui::GetColorU32(ImGuiCol_Border));
+  const render::Box left =
+      std::exchange(view_, render::Box{right, view_.y, view_.width, view_.height});
+  label(text, {right, top});
+  view_ = left;
+  label("in hand", {float(view_.x), top});
 }
 
 /// A round length of some hundred pixels; of a picture in perspective it holds in the

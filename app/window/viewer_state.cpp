@@ -220,31 +220,16 @@ void ViewerState::reset_view() {
 }
 
 void ViewerState::add_plot_point() {
-  const record::Frame& frame = shell->frame;
-  PlotPoint now{.equilibrium = double(shell->equilibria),
-                .radius_mm = frame.boundary_radius_mm,
-                .progress = shell->progress,
-                .height_mm = frame.height_mm,
-                .energy_mJ = frame.energies.total(),
-                .total_K = frame.total_K,
-                .residual_N = shell->certificate.residual_N,
-                .error_mm = shell->certificate.error_estimate_mm,
-                .steps = int(shell->steps.size()),
-                .refined = shell->refined,
-                .stable = shell->stable()};
-  if (!shell->held.empty()) {
-    const HeldJoint& held = shell->held.back();
-    now.joint = held.joint;
-    now.depth_mm = held.moved_mm.norm();
-    const double along = held.force_N.dot(held.moved_mm.normalized());
-    now.force_N = std::isfinite(along) ? along : 0;
-  }
+  const PlotPoint now = plot_point_of(*shell);
   // what was undone is not shown
   while (!plot_points.empty() && plot_points.back().steps > now.steps) plot_points.pop_back();
   // the finer meshes of a drag's end take the place of its coarse one
   if (now.refined && !plot_points.empty() && !plot_points.back().refined &&
       plot_points.back().steps == now.steps)
     plot_points.pop_back();
+  for (const PlotPoint& point : shell->way)
+    if (plot_points.empty() || point.equilibrium > plot_points.back().equilibrium)
+      plot_points.push_back(point);
   plot_points.push_back(now);
   if (plot_points.size() > most_points)
     plot_points.erase(plot_points.begin(), plot_points.begin() + most_points / 4);

@@ -79,6 +79,8 @@ struct Library {
   std::function<Result<preset::Preset>(const std::string& name)> load;
   std::function<Result<void>(const PictureRequest& request, const std::filesystem::path& file)>
       draw_picture;
+  /// The view at full resolution on any thread, for shells that take long; none: in the window's.
+  std::function<Result<render::Image>(const PictureRequest& request)> draw_still;
   /// A preset as a file, its tables in files beside it, whose names begin as its own.
   std::function<Result<void>(const preset::Preset& preset, const std::filesystem::path& file)>
       write_preset;
@@ -103,15 +105,6 @@ struct Library {
 struct PointOnRod {
   int rod = -1;  ///< none
   int point = 0;
-};
-
-/// What the plots show of an equilibrium.
-struct PlotPoint {
-  double equilibrium = 0, radius_mm = 0, progress = 0, height_mm = 0, energy_mJ = 0, depth_mm = 0,
-         force_N = 0, total_K = 0, residual_N = 0, error_mm = 0;
-  int joint = -1;  ///< that is held and was taken last; none
-  int steps = 0;   ///< that were done
-  bool refined = true, stable = true;
 };
 
 /// What can be plotted over what; named as columns of frames.csv.
@@ -160,7 +153,8 @@ struct DesignOptions {
   int most_iterations = 25;
 };
 
-/// Drawn as the camera moves: at half the resolution; still: at all of it.
+/// Drawn as the camera moves: at half the resolution, rods and cells in few pieces; still: at all
+/// of it.
 enum class Resolution { moving, still };
 
 class ViewerState {
@@ -173,7 +167,7 @@ class ViewerState {
   EngineThread engine;
   std::shared_ptr<const ShellView> shell = std::make_shared<ShellView>();
   render::Camera camera;
-  PictureSize view;  ///< of the shell's picture, pixels
+  PictureSize view;  ///< of the shell's picture, pixels; of two side by side of each
   Show show;
   std::optional<SavedCamera> saved_camera;  ///< for when that preset's shell comes
   RangeOf range_of = RangeOf::run;          ///< of the colours
@@ -263,6 +257,8 @@ class ViewerState {
   /// The net that it was designed on.
   void compare_with_net();
   void compare(std::shared_ptr<const OtherShell> other);
+  /// Beside the shell instead of over it.
+  void set_beside(bool on);
   /// How far the joints are from those of the same name in the other shell: "largest 3.2 mm at
   /// (0, 1), mean 1.1 mm".
   std::string difference_text() const;

@@ -118,17 +118,20 @@ void EngineThread::work() {
       unrefined_ = !command.passing;
       lock.unlock();
       session_.execute(command, *watch);
+      auto seen = std::make_shared<const ShellView>(session_.shell());
       lock.lock();
+      shell_ = std::move(seen);
       // of a design that is stopped the last step stands, and is to be certified as any other
       if (watch->cancelled()) unrefined_ = std::holds_alternative<Design>(command.edit);
     } else {
       refining_ = true;
       lock.unlock();
       session_.refine(*watch);
+      auto seen = std::make_shared<const ShellView>(session_.shell());
       lock.lock();
+      shell_ = std::move(seen);
       refining_ = unrefined_ = false;
     }
-    shell_ = std::make_shared<ShellView>(session_.shell());
     working_ = false;
     watch_.reset();
     if (commands_.empty() && !unrefined_) rested_.notify_all();

@@ -48,6 +48,7 @@ struct WindowListener {
   std::function<void(unsigned codepoint)> text = [](unsigned) {};
   /// a file or folder that was dropped on the window
   std::function<void(const std::string& path)> dropped = [](const std::string&) {};
+  std::function<void()> uncovered = [] {};  ///< what it showed is lost
 };
 
 /// What the mouse would do where it is.

@@ -127,7 +127,7 @@ class GlRenderer final : public Renderer {
                      int width, int height) override {
     TRY_DO(check(quality, width, height));
     const double sample_mm = 2 * camera.half_extent_mm / height / quality.supersample;
-    TRY(scene, make_scene(drawing, camera, sample_mm));
+    TRY(scene, make_scene(drawing, camera, sample_mm, quality));
     while (gl_.GetError() != GL_NO_ERROR) continue;  // not ours
 
     Image image(width, height);

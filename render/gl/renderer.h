@@ -87,6 +87,7 @@ struct DrawQuality {
   int supersample = 2;      ///< s x s samples a pixel
   bool shadow = true;       ///< soft-edged shadow on the ground and the shell
   int jittered_passes = 1;  ///< above 1: light and pixel jittered over that many passes, averaged
+  bool coarse = false;      ///< rods and cells in few pieces, off by up to a sample: while it moves
 };
 
 // Where a Camera puts a point: the matrices of the renderer, and pixels for whoever labels a

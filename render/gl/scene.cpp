@@ -19,7 +19,10 @@ namespace {
 
 // what pieces longer than the edges of a mesh may miss, in samples: of a rod, whose outline shows
 // it, and of a cell, whose sides are hidden by rods
-constexpr double rod_tolerance_samples = 0.02, cell_tolerance_samples = 0.25;
+struct Tolerance {
+  double rod_samples, cell_samples;
+};
+constexpr Tolerance fine{0.02, 0.25}, coarse{0.5, 1};
 
 using Points = std::vector<Eigen::Vector3f>;
 using Colours = std::vector<Eigen::Vector4f>;
@@ -109,11 +112,14 @@ std::vector<Eigen::Vector3f> shell_normals(const Drawing& drawing) {
 /// Collects the pieces, each with its depth along the view, and puts them in order.
 class Weaver {
  public:
-  Weaver(Scene& scene, const Drawing& drawing, const Camera& camera, double mm_per_sample)
+  Weaver(Scene& scene, const Drawing& drawing, const Camera& camera, double mm_per_sample,
+         const DrawQuality& quality)
       : scene_(scene),
         drawing_(drawing),
         forward_(camera_axes(camera).forward),
-        mm_per_sample_(mm_per_sample) {}
+        mm_per_sample_(mm_per_sample),
+        quality_(quality),
+        tolerance_(quality.coarse ? coarse : fine) {}
 
   void add_cell_patches() {
     cell_depth_.assign(drawing_.layout->cells.size(), INFINITY);
@@ -123,7 +129,7 @@ class Weaver {
                    [](const Colour& c) { return to_linear(c); });
     auto patches =
         render::add_cell_patches(scene_.sheets, *drawing_.layout, drawing_.nodes, colours,
-                                 float(cell_tolerance_samples * mm_per_sample_));
+                                 float(tolerance_.cell_samples * mm_per_sample_));
     for (CellPatch& patch : patches) {
       double depth = 0;
       for (int joint : drawing_.layout->cells[patch.cell].joints)
@@ -180,7 +186,7 @@ class Weaver {
       const double depth =
           std::min(node_depth_[joint.node], forward_.dot(drawing_.nodes.col(joint.node)));
       beads_.push_back({depth, add_bead(scene_.beads, at, axis, radius, BeadShape::flat, colour)});
-      add_bead_shadow(at, axis, radius);
+      if (quality_.shadow) add_bead_shadow(at, axis, radius);
     }
   }
 
@@ -194,11 +200,13 @@ class Weaver {
       if (points.size() < 3) continue;
       const Colours colours(points.size(), opaque(ring.colour));
       const float radius = radius_of(ring.diameter_mm, mm_per_sample_);
-      const std::uint32_t first = add_ribbon(scene_.ribbons, {points, colours, {&radius, 1}, true});
-      for (int k = 0, n = int(points.size()); k < n; ++k) {
+      const Ribbon ribbon{points, colours, {&radius, 1}, true};
+      const std::uint32_t first = add_ribbon(scene_.ribbons, ribbon);
+      for (int k = 0, n = int(points.size()), next = 0; k < n; k = next) {
+        next = quality_.coarse ? longest_straight_piece(ribbon, k, n, rod_tolerance()) : k + 1;
         Piece piece{forward_.dot(points[k].cast<double>()), {}};
-        add_strip_quad(piece.indices, first, k, (k + 1) % n);
-        if (ring.shadow) insert(scene_.casters, piece.indices);
+        add_strip_quad(piece.indices, first, k, next % n);
+        if (ring.shadow && quality_.shadow) insert(scene_.casters, piece.indices);
         ribbons_.push_back(std::move(piece));
       }
     }
@@ -290,7 +298,7 @@ class Weaver {
     for (; next < pieces.size() && pieces[next].depth >= until; ++next)
       insert(indices, pieces[next].indices);
   }
-  float rod_tolerance() const { return float(rod_tolerance_samples * mm_per_sample_); }
+  float rod_tolerance() const { return float(tolerance_.rod_samples * mm_per_sample_); }
   void add_stretch(const Ribbon& ribbon, std::uint32_t first, int begin, int end, double depth,
                    bool casts) {
     Piece piece{depth, {}};
@@ -299,7 +307,8 @@ class Weaver {
       add_strip_quad(piece.indices, first, k, next);
     }
     // a shadow keeps every edge: where it just touches a rod little decides
-    for (int k = begin; casts && k < end; ++k) add_strip_quad(scene_.casters, first, k, k + 1);
+    for (int k = begin; casts && quality_.shadow && k < end; ++k)
+      add_strip_quad(scene_.casters, first, k, k + 1);
     ribbons_.push_back(std::move(piece));
   }
   /// A bead's shadow is that of a short strip as wide as it.
@@ -315,6 +324,8 @@ class Weaver {
   const Drawing& drawing_;
   Eigen::Vector3d forward_;
   double mm_per_sample_;
+  const DrawQuality& quality_;
+  Tolerance tolerance_;
   std::vector<double> cell_depth_, node_depth_;
   std::vector<Piece> sheets_, ribbons_, beads_;
 };
@@ -337,11 +348,12 @@ void enclose(Scene& scene) {
 
 double Scene::radius() const { return 0.5 * (high - low).norm(); }
 
-Result<Scene> make_scene(const Drawing& drawing, const Camera& camera, double mm_per_sample) {
+Result<Scene> make_scene(const Drawing& drawing, const Camera& camera, double mm_per_sample,
+                         const DrawQuality& quality) {
   if (const std::string fault = mismatch(drawing); !fault.empty())
     return fail(Fault::bad_input, "the drawing " + fault);
   Scene scene;
-  Weaver weaver(scene, drawing, camera, mm_per_sample);
+  Weaver weaver(scene, drawing, camera, mm_per_sample, quality);
   weaver.add_cell_patches();
   weaver.add_rods();
   weaver.add_rings();

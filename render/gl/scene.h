@@ -35,7 +35,8 @@ struct Scene {
 /// thinner than a sample.
 /// Errors: Fault::bad_input when the drawing's arrays do not fit each other or a node is not
 /// finite.
-Result<Scene> make_scene(const Drawing& drawing, const Camera& camera, double mm_per_sample);
+Result<Scene> make_scene(const Drawing& drawing, const Camera& camera, double mm_per_sample,
+                         const DrawQuality& quality = {});
 
 // Everything that one picture is made from.
 

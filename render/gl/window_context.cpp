@@ -34,6 +34,7 @@
   X(on_key, glfwSetKeyCallback)                 \
   X(on_char, glfwSetCharCallback)               \
   X(on_drop, glfwSetDropCallback)               \
+  X(on_refresh, glfwSetWindowRefreshCallback)   \
   X(new_cursor, glfwCreateStandardCursor)       \
   X(set_cursor, glfwSetCursor)                  \
   X(size_limits, glfwSetWindowSizeLimits)
@@ -101,6 +102,9 @@ class GlfwWindow final : public Window {
     });
     glfw_.on_drop(window_, [](GLFWwindow* w, int count, const char** paths) {
       if (of(w).listener_ && count > 0) of(w).listener_->dropped(paths[0]);
+    });
+    glfw_.on_refresh(window_, [](GLFWwindow* w) {
+      if (of(w).listener_) of(w).listener_->uncovered();
     });
   }
   ~GlfwWindow() override {

@@ -88,6 +88,30 @@ TEST_CASE("a joint pushed along its normal resists, and lets go to where it was"
   CHECK(difference(shell, before) < 1e-4);
 }
 
+TEST_CASE("a push that begins with a long way tells the equilibria on it, and is one step") {
+  EditedShell shell;
+  const int joint = shell.joint(0, 0);
+  const Eigen::Vector3d normal = shell.view().normals.col(joint), from = shell.node(joint);
+  const auto push = [&](double depth, int drag) {
+    shell.drag(Push{joint, from - depth * normal, normal}, drag);
+  };
+  push(6, 1);
+  const std::vector<PlotPoint> way = shell.view().way;
+  REQUIRE(way.size() == 5);
+  for (std::size_t k = 0; k < way.size(); ++k) {
+    // the drag's coarse mesh begins a little elsewhere
+    CHECK(way[k].depth_mm == Approx(double(k + 1)).margin(0.2));
+    CHECK(way[k].force_N > (k == 0 ? 0 : way[k - 1].force_N));
+  }
+  CHECK(shell.view().steps.size() == 1);
+  CHECK(shell.view().undo_steps == 1);
+  CHECK(shell.view().held.at(0).moved_mm.norm() == Approx(6));
+  // the same drag goes on without
+  push(9, 1);
+  CHECK(shell.view().way.empty());
+  CHECK(shell.view().steps.size() == 1);
+}
+
 TEST_CASE("steps that are put aside into a file are undone and done again to the bit") {
   // no memory for more than the latest
   EditedShell shell(small_shell(), 0);
@@ -291,6 +315,24 @@ TEST_CASE(
   REQUIRE(unstable().size() == 1);
   shell.act(Undo{});
   CHECK_FALSE(shell.view().stable());
+}
+
+TEST_CASE("a shake that comes back to the same state says so, and is no snap") {
+  EditedShell shell;
+  const auto joints = Eigen::Index(shell.view().layout->joints.size());
+  int same = 0;
+  for (int seed = 1; seed < 8; ++seed) {
+    const Eigen::Matrix3Xd before = shell.nodes().leftCols(joints);
+    shell.act(Jitter{seed});
+    const double moved_mm = (shell.nodes().leftCols(joints) - before).colwise().norm().maxCoeff();
+    const bool back = shell.view().message == "shaken, and at rest in the same state";
+    CHECK(back == (moved_mm < 2e-3 * shell.view().layout->length_scale_mm));
+    if (back) CHECK(shell.view().event.empty());
+    same += back;
+    shell.refine();
+  }
+  CHECK(same > 0);
+  CHECK(same < 7);
 }
 
 TEST_CASE("a state that was met beside another one is come back to, as one step") {

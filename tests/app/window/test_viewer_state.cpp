@@ -55,9 +55,9 @@ TEST_CASE("switches switch, and back") {
   ViewerState viewer({});
   for (const Action& action : actions()) {
     const std::string name = action.name;
-    // those need a shell
-    if (!action.on || name == "play" || name == "gravity" || name.starts_with("colour_") ||
-        name.starts_with("range_"))
+    // those need a shell, or another one
+    if (!action.on || name == "play" || name == "gravity" || name == "beside" ||
+        name.starts_with("colour_") || name.starts_with("range_"))
       continue;
     const bool before = action.on(viewer);
     action.act(viewer);
@@ -103,14 +103,46 @@ TEST_CASE("two joints give their distance, straight and along their rod, three a
 TEST_CASE("another run's joints are compared by their names") {
   ViewerState viewer({});
   viewer.shell = std::make_shared<ShellView>(shell_of_four_joints());
-  OtherShell other{"other", viewer.shell->layout->joints, {}, viewer.shell->frame.nodes};
-  std::swap(other.joints[0].node, other.joints[3].node);
-  other.nodes.col(1).z() = 1;
-  viewer.show.other = std::make_shared<const OtherShell>(other);
+  record::Layout layout = *viewer.shell->layout;
+  record::Frame frame = viewer.shell->frame;
+  std::swap(layout.joints[0].node, layout.joints[3].node);
+  frame.nodes.col(1).z() = 1;
+  const auto compare = [&] {
+    viewer.compare(
+        std::make_shared<const OtherShell>(OtherShell{"other", view_of(layout, frame, frame)}));
+  };
+  compare();
   CHECK(viewer.difference_text() == "largest distance 2 mm at joint (0, 0), mean 1.25 mm");
-  other.joints.clear();
-  viewer.show.other = std::make_shared<const OtherShell>(other);
+  layout.joints.clear();
+  compare();
   CHECK(viewer.difference_text() == "no joint has the same name in both");
+}
+
+TEST_CASE("two shells stand side by side, each in half of the view") {
+  ViewerState viewer({});
+  auto shell = std::make_shared<ShellView>(shell_of_four_joints());
+  viewer.shell = shell;
+  viewer.view = {800, 600};
+  find_action("beside")->act(viewer);
+  CHECK(viewer.message_bad);
+  CHECK(viewer.show.shells() == 1);
+  record::Frame higher = shell->frame;
+  higher.nodes.row(2).array() += 1;
+  viewer.compare(std::make_shared<const OtherShell>(
+      OtherShell{"higher", view_of(*shell->layout, higher, higher)}));
+  find_action("beside")->act(viewer);
+  CHECK(viewer.show.shells() == 2);
+  CHECK(viewer.view.width == 400);
+  // over it the other one is ghosts, beside it none
+  const auto ghosts = [&] { return drawing_of(*shell, viewer.show, 0.1).ghosts.size(); };
+  CHECK(ghosts() == 0);
+  find_action("beside")->act(viewer);
+  CHECK(viewer.view.width == 800);
+  CHECK(ghosts() == 1);
+  find_action("beside")->act(viewer);
+  viewer.compare({});
+  CHECK(viewer.view.width == 800);
+  CHECK(viewer.show.shells() == 1);
 }
 
 TEST_CASE("every quantity of a plot has a name and a place of its own") {

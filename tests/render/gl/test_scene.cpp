@@ -100,6 +100,20 @@ TEST_CASE("rods throw shadows, a ring only when asked, ghosts never", "[scene]")
   CHECK(count() == rods + 4 * 6);
 }
 
+TEST_CASE("what moves is drawn in fewer pieces, and without shadows nothing throws one",
+          "[scene]") {
+  const auto shell = test::square_shell(6, 8);
+  const Drawing drawing = test::square_drawing(shell);
+  const auto fine = make_scene(drawing, {}, 0.3),
+             coarse = make_scene(drawing, {}, 0.3, {.coarse = true}),
+             flat = make_scene(drawing, {}, 0.3, {.shadow = false});
+  CHECK(coarse->ribbons.indices.size() < fine->ribbons.indices.size());
+  CHECK(coarse->sheets.indices.size() <= fine->sheets.indices.size());
+  CHECK(coarse->beads.indices.size() == fine->beads.indices.size());
+  CHECK(flat->ribbons.indices.size() == fine->ribbons.indices.size());
+  CHECK(flat->casters.empty());
+}
+
 TEST_CASE("rods of other diameters are drawn thicker and thinner in proportion", "[scene]") {
   test::SquareShell shell = test::square_shell(3, 2);
   auto& layout = shell.layout;
