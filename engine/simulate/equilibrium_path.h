@@ -68,7 +68,8 @@ double worst_estimate_mm(const EquilibriumPath& path);
 /// before it.
 const LoadStep& load_step_before(const PathSegment& segment, double t);
 
-/// Whether nothing happens to the branch between two load steps that follow one another, both stable.
+/// Whether nothing happens to the branch between two load steps that follow one another, both
+/// stable.
 bool goes_on_between(const PathSegment& segment, const LoadStep& a, const LoadStep& b);
 
 /// From where the simulation stands on: follows the path to `to` and keeps the way as a segment.

@@ -140,12 +140,12 @@ TEST_CASE("a frame of an older version, which kept no forces, is read without th
   Frame frame = sample_trajectory().frames[1];
   const std::string head = packed_head({"s1_actuation", Kind::run}, {});
   const auto columns = unpacked_head(head)->columns;
-  // five empty matrices, each its rows and columns
+  // seven empty matrices, each its rows and columns
   const std::string packed = packed_frame(frame);
-  const auto old = unpacked_frame(packed.substr(0, packed.size() - 80), columns);
+  const auto old = unpacked_frame(packed.substr(0, packed.size() - 112), columns);
   REQUIRE(old);
-  // the last two came later, one after the other
-  for (const int bytes : {16, 32})
+  // the last four came later, one after the other
+  for (const int bytes : {16, 32, 48, 64})
     CHECK(unpacked_frame(packed.substr(0, packed.size() - std::size_t(bytes)), columns));
   CHECK(same_bits(old->nodes, frame.nodes));
   CHECK(same_bits(old->K_bins, frame.K_bins));

@@ -115,13 +115,14 @@ TEST_CASE("where its leader alone loses the branch a path ends, and a finer lead
   check_same_end(**settled, actuated(p, fine));
 }
 
-TEST_CASE("48 rods rise evenly from frame to frame, on one branch", "[full]") {
+TEST_CASE("48 rods rise evenly where a leader of 4 edges alone loses their branch", "[full]") {
   preset::Preset p = circle(48, 486, 364.5, 120);
   p.accuracy.tolerance = 1e-2;
   const auto outcome = run(p);
   const auto& frames = outcome.trajectory.frames;
   REQUIRE(frames.size() == 120);
-  for (std::size_t k = 20; k + 1 < frames.size(); ++k) {
+  // at progress 0.34 to 0.44; a state of another branch is 1 mm higher
+  for (std::size_t k = 25; k < 60; ++k) {
     const double rise = frames[k + 1].height_mm - frames[k].height_mm,
                  before = frames[k].height_mm - frames[k - 1].height_mm;
     INFO("frame " << k << ": " << before << ", " << rise);
