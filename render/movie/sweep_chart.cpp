@@ -297,8 +297,8 @@ std::optional<double> deviation_onset(const std::vector<double>& x, const std::v
 Plot law_plot(const std::vector<record::PowerLaw>& laws, const SweepView& view) {
   Plot plot;
   plot.title = plain(view.title);
-  plot.x.label = "what its power law says";
   plot.y.label = label_of(view.figure);
+  plot.x.label = plot.y.label + " by its power law";
   plot.x.logarithmic = plot.y.logarithmic = true;
   for (std::size_t k = 0; k < laws.size(); ++k) {
     const record::PowerLaw& one = laws[k];
@@ -311,8 +311,10 @@ Plot law_plot(const std::vector<record::PowerLaw>& laws, const SweepView& view) 
     for (const record::LawRow& key : one.keys) {
       std::string power = record::with_error(key.exponent, key.error, "");
       if (power.starts_with('-')) power.replace(0, 1, "−");
-      Series row =
-          line_series(fmt::format("power {} of {}", power, label_of(key.key)), series_colour(k), 1);
+      // one line, a row of the legend a key
+      const double width = &key == &one.keys.front() ? 1 : 0;
+      Series row = line_series(fmt::format("power {} of {}", power, label_of(key.key)),
+                               series_colour(k), width);
       row.x = row.y = {low, high};
       plot.add(std::move(row));
     }
