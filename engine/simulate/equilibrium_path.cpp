@@ -102,12 +102,14 @@ LevelPlan initial_levels(const Scene& scene) {
 
 namespace {
 
-/// Whether a path ended where its leader alone loses the branch.
+/// Whether a segment of the path ended where its leader alone loses the branch.
 bool lost_by_leader(const EquilibriumPath& path) {
-  const LevelPlan& plan = path.simulation.shell().plan();
-  const Report& last = path.segments.back().report;
-  return plan.finest_decides && last.end != Outcome::reached && !last.events.empty() &&
-         !last.events.back().is_limit() && !last.events.back().to;
+  const auto lost = [](const PathSegment& segment) {
+    const Report& last = segment.report;
+    return last.end != Outcome::reached && !last.events.empty() && !last.events.back().is_limit() &&
+           !last.events.back().to;
+  };
+  return path.simulation.shell().plan().finest_decides && std::ranges::any_of(path.segments, lost);
 }
 
 }  // namespace
@@ -129,6 +131,8 @@ Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follo
     auto path = follow(plan, watch);
     if (!path || watch.cancelled()) return path;
     (*path)->asked = plan;
+    // whoever confirms it follows its ways to their ends
+    (*path)->asked.finest_decides = false;
     (*path)->seconds_setup += setup;
     (*path)->simulation.charge(spent);
     if (lost_by_leader(**path)) {
