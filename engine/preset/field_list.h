@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <functional>
+#include <initializer_list>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -54,49 +56,66 @@ std::vector<std::string> words_of_type(const std::vector<T>*) {
   return words_of_type(static_cast<const T*>(nullptr));
 }
 
+/// What the lists of all structs share, compiled once and not once a key.
+class AnyFieldList {
+ protected:
+  using StructOf = std::function<void*(Preset& preset, int item)>;
+  using Fault = std::function<std::string(const Preset& preset, const void* one)>;
+  using Condition = std::function<bool(const Preset& preset, const void* one)>;
+  using WordOf = std::function<std::string_view(const Preset& preset, const void* one)>;
+  using Keys = std::initializer_list<std::string_view>;
+
+  AnyFieldList(std::vector<Field>& all, std::string table, StructOf of);
+
+  void add(std::string key, std::string_view meaning, Range range, std::vector<std::string> words,
+           Member (*member)(void* one));
+  void rename(std::string key);
+  void add_rule(RuleKind kind, Keys others, Fault fault);
+  void add_rule(RuleKind kind, Keys others, std::string_view what, Condition condition);
+  /// Unused unless the word of `decider` is one of `users`.
+  void use_only(std::string_view decider, WordOf word, std::vector<std::string> users);
+
+  std::vector<Field>& all_;
+  std::string table_, first_key_;
+  std::function<bool(const Preset&)> where_;
+
+ private:
+  void add_rule(Rule rule);
+
+  StructOf of_;
+  std::vector<Rule> common_;
+};
+
 /// The keys of a struct. What is said after a key speaks of that key; what is said before the
 /// first, of all. Conditions take the preset, the struct, or both.
 template <class Struct>
-class FieldList {
+class FieldList : AnyFieldList {
  public:
   /// `of` leads to the struct, in a list of tables to that of an item (below 0: the last).
   template <class Of>
-  FieldList(std::vector<Field>& all, std::string table, Of of) : all_(all), table_(table) {
-    of_ = [of](Preset& preset, int item) -> Struct& {
-      if constexpr (std::is_invocable_v<Of, Preset&, int>)
-        return of(preset, item);
-      else
-        return std::invoke(of, preset);
-    };
-  }
+  FieldList(std::vector<Field>& all, std::string table, Of of)
+      : AnyFieldList(all, std::move(table), [of](Preset& preset, int item) -> void* {
+          if constexpr (std::is_invocable_v<Of, Preset&, int>)
+            return &of(preset, item);
+          else
+            return &std::invoke(of, preset);
+        }) {}
 
   /// A key with the name of its member and the unit that its name ends in.
   template <auto member>
-  FieldList& add(Range range, std::string meaning) {
+  FieldList& add(Range range, std::string_view meaning) {
     using Value = std::remove_reference_t<decltype(std::declval<Struct&>().*member)>;
-    const auto key = member_name<member>();
-    if (first_key_.empty()) first_key_ = key;
-    all_.push_back(
-        {.table = table_,
-         .key = key,
-         .unit = unit_of(key),
-         .meaning = std::move(meaning),
-         .in = [of = of_](Preset& preset, int item) { return member_at(of(preset, item).*member); },
-         .range = range,
-         .words = words_of_type(static_cast<const Value*>(nullptr)),
-         .rules = common_});
+    AnyFieldList::add(member_name<member>(), meaning, range,
+                      words_of_type(static_cast<const Value*>(nullptr)),
+                      [](void* one) { return member_at(static_cast<Struct*>(one)->*member); });
     return *this;
   }
   template <auto member>
-  FieldList& add(std::string meaning) {
-    return add<member>({}, std::move(meaning));
+  FieldList& add(std::string_view meaning) {
+    return add<member>({}, meaning);
   }
 
-  FieldList& named(std::string key) {
-    if (first_key_ == all_.back().key) first_key_ = key;
-    all_.back().key = std::move(key);
-    return *this;
-  }
+  FieldList& named(std::string key) { return rename(std::move(key)), *this; }
   FieldList& unit(std::string unit) { return all_.back().unit = std::move(unit), *this; }
   /// Of a list of numbers: what it holds, or else it is empty.
   FieldList& shape(std::string shape) { return all_.back().shape = std::move(shape), *this; }
@@ -114,57 +133,58 @@ class FieldList {
   }
   /// `fault` says what is wrong, or is empty.
   template <class Say>
-  FieldList& rule(RuleKind kind, std::vector<std::string> others, Say fault) {
-    rules().push_back({kind, std::move(others),
-                       [of = of_, where = where_, fault](const Preset& preset, int item) {
-                         if (where && !where(preset)) return std::string();
-                         // nothing is written through this
-                         return std::string(
-                             ask(fault, preset, of(const_cast<Preset&>(preset), item)));
-                       }});
+  FieldList& rule(RuleKind kind, Keys others, Say fault) {
+    add_rule(kind, others, [fault](const Preset& preset, const void* one) {
+      return std::string(ask(fault, preset, one));
+    });
     return *this;
   }
-  template <class Condition>
-  FieldList& rule(RuleKind kind, std::vector<std::string> others, std::string what,
-                  Condition condition) {
-    return rule(kind, std::move(others), [=](const Preset& preset, const Struct& one) {
-      return ask(condition, preset, one) ? what : "";
-    });
+  template <class Holds>
+  FieldList& rule(RuleKind kind, Keys others, std::string_view what, Holds holds) {
+    add_rule(kind, others, what,
+             [holds](const Preset& preset, const void* one) { return ask(holds, preset, one); });
+    return *this;
   }
   template <class... Arguments>
-  FieldList& unused(std::vector<std::string> others, Arguments... arguments) {
-    return rule(RuleKind::unused, std::move(others), std::move(arguments)...);
+  FieldList& unused(Keys others, Arguments... arguments) {
+    return rule(RuleKind::unused, others, std::move(arguments)...);
   }
   template <class... Arguments>
-  FieldList& refused(std::vector<std::string> others, Arguments... arguments) {
-    return rule(RuleKind::refused, std::move(others), std::move(arguments)...);
+  FieldList& refused(Keys others, Arguments... arguments) {
+    return rule(RuleKind::refused, others, std::move(arguments)...);
   }
-  template <class Condition>
-  FieldList& needs_twist(std::string why, Condition condition) {
-    return rule(RuleKind::needs_twist, {}, std::move(why), condition);
+  template <class Holds>
+  FieldList& needs_twist(std::string_view why, Holds holds) {
+    return rule(RuleKind::needs_twist, {}, why, holds);
   }
-  template <class Condition>
-  FieldList& needs_equilibrium(std::string why, Condition condition) {
-    return rule(RuleKind::needs_equilibrium, {}, std::move(why), condition);
+  template <class Holds>
+  FieldList& needs_equilibrium(std::string_view why, Holds holds) {
+    return rule(RuleKind::needs_equilibrium, {}, why, holds);
   }
 
   /// The words of `kind`, the first key of the list, for which the key counts.
   template <class Kind>
   FieldList& used_by(Kind Struct::*kind, std::vector<std::type_identity_t<Kind>> users) {
-    return only(
-        first_key_, [kind](const Preset&, const Struct& one) { return one.*kind; }, users);
+    use_only(
+        first_key_,
+        [kind](const Preset&, const void* one) {
+          return word_of(static_cast<const Struct*>(one)->*kind);
+        },
+        words_for(users));
+    return *this;
   }
   FieldList& used_by_footprint(std::vector<FootprintKind> users) {
-    return only(
+    use_only(
         "[footprint] kind",
-        [](const Preset& preset, const Struct&) { return preset.footprint.kind; }, users);
+        [](const Preset& preset, const void*) { return word_of(preset.footprint.kind); },
+        words_for(users));
+    return *this;
   }
 
  private:
-  std::vector<Rule>& rules() { return first_key_.empty() ? common_ : all_.back().rules; }
-
   template <class Asked>
-  static auto ask(const Asked& asked, const Preset& preset, const Struct& one) {
+  static auto ask(const Asked& asked, const Preset& preset, const void* at) {
+    const auto& one = *static_cast<const Struct*>(at);
     if constexpr (std::is_invocable_v<Asked, const Preset&, const Struct&>)
       return std::invoke(asked, preset, one);
     else if constexpr (std::is_invocable_v<Asked, const Struct&>)
@@ -173,26 +193,12 @@ class FieldList {
       return std::invoke(asked, preset);
   }
 
-  template <class KindOf, class Kind>
-  FieldList& only(const std::string& decider, KindOf kind_of, const std::vector<Kind>& users) {
-    std::vector<std::string> names;
-    for (const Kind user : users) names.emplace_back(word_of(user));
-    const auto fault = [=, of = of_, where = where_, table = table_](const Preset& preset,
-                                                                     int item) -> std::string {
-      const Kind kind = kind_of(preset, of(const_cast<Preset&>(preset), item));
-      if ((where && !where(preset)) || std::ranges::find(users, kind) != users.end()) return "";
-      return fmt::format("{} = \"{}\" does not use it, only {}", full_label(table, decider, item),
-                         word_of(kind), words_text(names));
-    };
-    rules().push_back({RuleKind::unused, {decider}, fault});
-    return *this;
+  template <class Kind>
+  static std::vector<std::string> words_for(const std::vector<Kind>& kinds) {
+    std::vector<std::string> words;
+    for (const Kind kind : kinds) words.emplace_back(word_of(kind));
+    return words;
   }
-
-  std::vector<Field>& all_;
-  std::string table_, first_key_;
-  std::function<Struct&(Preset&, int)> of_;
-  std::function<bool(const Preset&)> where_;
-  std::vector<Rule> common_;
 };
 
 /// What asks for a mass that a family of rods lacks.

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "engine/preset/field_list.h"
 
 namespace gridshell::preset {
@@ -37,6 +39,65 @@ std::string unit_of(const std::string& key) {
   for (const auto& [ending, unit] : units)
     if (key.ends_with(ending)) return unit;
   return "";
+}
+
+AnyFieldList::AnyFieldList(std::vector<Field>& all, std::string table, StructOf of)
+    : all_(all), table_(std::move(table)), of_(std::move(of)) {}
+
+void AnyFieldList::add(std::string key, std::string_view meaning, Range range,
+                       std::vector<std::string> words, Member (*member)(void* one)) {
+  if (first_key_.empty()) first_key_ = key;
+  all_.push_back(
+      {.table = table_,
+       .key = key,
+       .unit = unit_of(key),
+       .meaning = std::string(meaning),
+       .in = [of = of_, member](Preset& preset, int item) { return member(of(preset, item)); },
+       .range = range,
+       .words = std::move(words),
+       .rules = common_});
+}
+
+void AnyFieldList::rename(std::string key) {
+  if (first_key_ == all_.back().key) first_key_ = key;
+  all_.back().key = std::move(key);
+}
+
+void AnyFieldList::add_rule(Rule rule) {
+  auto& rules = first_key_.empty() ? common_ : all_.back().rules;
+  rules.push_back(std::move(rule));
+}
+
+void AnyFieldList::add_rule(RuleKind kind, Keys others, Fault fault) {
+  add_rule({kind,
+            {others.begin(), others.end()},
+            [of = of_, where = where_, fault = std::move(fault)](const Preset& preset, int item) {
+              if (where && !where(preset)) return std::string();
+              // nothing is written through this
+              return fault(preset, of(const_cast<Preset&>(preset), item));
+            }});
+}
+
+void AnyFieldList::add_rule(RuleKind kind, Keys others, std::string_view what,
+                            Condition condition) {
+  add_rule(
+      kind, others,
+      [what = std::string(what), condition = std::move(condition)](
+          const Preset& preset, const void* one) { return condition(preset, one) ? what : ""; });
+}
+
+void AnyFieldList::use_only(std::string_view decider, WordOf word, std::vector<std::string> users) {
+  const std::string key(decider);
+  add_rule({RuleKind::unused,
+            {key},
+            [=, of = of_, where = where_, table = table_](const Preset& preset,
+                                                          int item) -> std::string {
+              const auto found = word(preset, of(const_cast<Preset&>(preset), item));
+              if ((where && !where(preset)) || std::ranges::find(users, found) != users.end())
+                return "";
+              return fmt::format("{} = \"{}\" does not use it, only {}",
+                                 full_label(table, key, item), found, words_text(users));
+            }});
 }
 
 const std::vector<Table>& tables() {
