@@ -6,6 +6,7 @@ find_path(SPECTRA_INCLUDE_DIR Spectra/SymEigsSolver.h REQUIRED)
 find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
 find_library(CHOLMOD_LIBRARY cholmod REQUIRED)
 find_library(MUPARSER_LIBRARY muparser REQUIRED)
+find_library(DEFLATE_LIBRARY deflate REQUIRED)
 pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5-serial)
 find_library(HDF5_HL_LIBRARY NAMES hdf5_serial_hl hdf5_hl REQUIRED)
 
@@ -41,7 +42,8 @@ target_include_directories(gridshell_engine SYSTEM PRIVATE ${SPECTRA_INCLUDE_DIR
   ${CHOLMOD_INCLUDE_DIR})
 target_compile_definitions(gridshell_engine PUBLIC EIGEN_DONT_PARALLELIZE)
 target_link_libraries(gridshell_engine PUBLIC fmt::fmt
-  PRIVATE tomlplusplus::tomlplusplus ${CHOLMOD_LIBRARY} ${MUPARSER_LIBRARY} ${HDF5_HL_LIBRARY} PkgConfig::HDF5)
+  PRIVATE tomlplusplus::tomlplusplus ${CHOLMOD_LIBRARY} ${MUPARSER_LIBRARY} ${DEFLATE_LIBRARY}
+  ${HDF5_HL_LIBRARY} PkgConfig::HDF5)
 # the two hot loops may contract a*b+c; everything else rounds each operation
 set_source_files_properties(engine/solve/block_factor.cpp engine/elastic/assembly.cpp
   PROPERTIES COMPILE_OPTIONS -ffp-contract=fast SKIP_PRECOMPILE_HEADERS ON)

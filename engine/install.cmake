@@ -76,7 +76,7 @@ if(PROJECT_IS_TOP_LEVEL)
   set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "ffmpeg, libosmesa6, libglfw3")
   # what whoever compiles against the library needs
   set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libfmt-dev, libeigen3-dev, libexpected-dev, \
-libsuitesparse-dev, libmuparser-dev, libhdf5-dev, libtomlplusplus-dev")
+libsuitesparse-dev, libmuparser-dev, libdeflate-dev, libhdf5-dev, libtomlplusplus-dev")
   if(TARGET gridshell_python)
     # a module is of one minor version of Python
     set(python ${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR})

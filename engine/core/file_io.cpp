@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <libdeflate.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -51,6 +52,13 @@ int write_all(int descriptor, std::string_view bytes) {
     bytes.remove_prefix(std::size_t(put));
   }
   return 0;
+}
+
+void Checksum::add(std::string_view bytes) {
+  if (kind_ == ChecksumKind::crc32)
+    sum_ = libdeflate_crc32(std::uint32_t(sum_), bytes.data(), bytes.size());
+  else
+    for (const char byte : bytes) sum_ = (sum_ ^ static_cast<unsigned char>(byte)) * 1099511628211u;
 }
 
 int append_whole(int descriptor, std::string_view bytes, std::uint64_t& size) {

@@ -97,21 +97,25 @@ Result<std::string> read_file(const std::filesystem::path& path,
 /// Makes a folder and its parents; one that exists is fine. Errors: Fault::io, path and reason.
 Result<void> make_folder(const std::filesystem::path& folder);
 
-/// The checksum of the files of a run: 64-bit FNV-1a. It tells damage, not intent.
+/// Files of many bytes bear a CRC-32, lines a 64-bit FNV-1a, and so do files of version 0.2.
+enum class ChecksumKind { fnv1a, crc32 };
+
+/// The checksum of the files of a run. It tells damage, not intent.
 class Checksum {
  public:
-  void add(std::string_view bytes) {
-    for (const char byte : bytes) sum_ = (sum_ ^ static_cast<unsigned char>(byte)) * 1099511628211u;
-  }
+  explicit Checksum(ChecksumKind kind = ChecksumKind::fnv1a)
+      : kind_(kind), sum_(kind == ChecksumKind::fnv1a ? 14695981039346656037u : 0) {}
+  void add(std::string_view bytes);
   std::uint64_t value() const { return sum_; }
-  static std::uint64_t of(std::string_view bytes) {
-    Checksum sum;
+  static std::uint64_t of(std::string_view bytes, ChecksumKind kind = ChecksumKind::fnv1a) {
+    Checksum sum(kind);
     sum.add(bytes);
     return sum.value();
   }
 
  private:
-  std::uint64_t sum_ = 14695981039346656037u;
+  ChecksumKind kind_;
+  std::uint64_t sum_;
 };
 
 }  // namespace gridshell

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdint>
+#include <functional>
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -18,7 +20,9 @@
 namespace gridshell::record {
 namespace {
 
-constexpr std::string_view first_line = "gridshell journal 1\n";
+// version 0.2 wrote the older
+constexpr std::string_view first_line = "gridshell journal 2\n",
+                           older_first_line = "gridshell journal 1\n";
 enum RecordKind : std::uint32_t { head_record = 1, frame_record = 2 };
 constexpr std::size_t before_payload = 12, after_payload = 8;
 // of a record: beyond any shell, and little enough to be asked for
@@ -135,12 +139,11 @@ Result<void> JournalWriter::append(const Frame& frame) {
 }
 
 Result<void> JournalWriter::put(std::uint32_t kind, const std::string& payload) {
-  ByteWriter start, end;
-  start.number(kind);
-  start.number(std::uint64_t(payload.size()));
-  const std::string bytes = start.bytes() + payload;
-  end.number(Checksum::of(bytes));
-  if (const int code = append_whole(file_, bytes + end.bytes(), size_))
+  ByteWriter record;
+  record.number(kind);
+  record.text(payload);
+  record.number(Checksum::of(record.bytes(), ChecksumKind::crc32));
+  if (const int code = append_whole(file_, record.bytes(), size_))
     return fail_io("write", path_, code);
   return {};
 }
@@ -160,7 +163,7 @@ struct Record {
 };
 
 /// The record at `at`, if it is whole.
-std::optional<Record> record_at(const ReadableFile& file, std::uint64_t at) {
+std::optional<Record> record_at(const ReadableFile& file, std::uint64_t at, ChecksumKind summed) {
   const auto start = file.read(at, before_payload);
   if (!start) return std::nullopt;
   ByteReader in(*start);
@@ -170,7 +173,7 @@ std::optional<Record> record_at(const ReadableFile& file, std::uint64_t at) {
   if (length > largest_record) return std::nullopt;
   auto rest = file.read(at + before_payload, length + after_payload);
   if (!rest) return std::nullopt;
-  Checksum sum;
+  Checksum sum(summed);
   sum.add(*start);
   sum.add(std::string_view(*rest).substr(0, length));
   if (ByteReader(std::string_view(*rest).substr(length)).number<std::uint64_t>() != sum.value())
@@ -182,11 +185,20 @@ std::optional<Record> record_at(const ReadableFile& file, std::uint64_t at) {
   return found;
 }
 
-/// An open journal: its head, and where each frame lies by its index.
+/// An open journal.
 struct OpenJournal {
   ReadableFile file;
   JournalHead head;
-  std::map<int, Place> frames = {};
+  ChecksumKind summed;
+  std::uint64_t begin;  ///< of the records of frames
+
+  /// take(index, record) for every whole record of a frame; of one index the last counts.
+  void each_frame(const std::function<void(int, const Record&)>& take) const {
+    for (auto record = record_at(file, begin, summed); record;
+         record = record_at(file, record->next, summed))
+      if (record->kind == frame_record && record->payload.size() >= sizeof(std::int32_t))
+        take(ByteReader(record->payload).number<std::int32_t>(), *record);
+  }
 };
 
 Result<OpenJournal> open_journal(const fs::path& path) {
@@ -194,16 +206,13 @@ Result<OpenJournal> open_journal(const fs::path& path) {
     return fail(Fault::bad_input, "'{}': {}", path.string(), because);
   };
   TRY(file, ReadableFile::open(path));
-  if (file->read(0, first_line.size()) != first_line) return refuse("it is no journal of a run");
-  const auto first = record_at(*file, first_line.size());
+  const auto line = file->read(0, first_line.size());
+  if (line != first_line && line != older_first_line) return refuse("it is no journal of a run");
+  const auto summed = line == first_line ? ChecksumKind::crc32 : ChecksumKind::fnv1a;
+  const auto first = record_at(*file, first_line.size(), summed);
   auto head = first && first->kind == head_record ? unpacked_head(first->payload) : std::nullopt;
   if (!head) return refuse("its beginning is damaged");
-  OpenJournal journal{std::move(*file), std::move(*head)};
-  for (auto record = record_at(journal.file, first->next); record;
-       record = record_at(journal.file, record->next))
-    if (record->kind == frame_record && record->payload.size() >= sizeof(std::int32_t))
-      journal.frames[ByteReader(record->payload).number<std::int32_t>()] = record->place;
-  return journal;
+  return OpenJournal{std::move(*file), std::move(*head), summed, first->next};
 }
 
 class JournalFrames : public FrameSource {
@@ -213,12 +222,17 @@ class JournalFrames : public FrameSource {
   /// The first frame that fits the layout decides how many nodes there are; those that do not fit
   /// it are left out.
   void find_those_of(const Layout& layout) {
+    std::map<int, std::pair<Place, Eigen::Index>> found;  // and its nodes; -1: it fits none
+    journal_.each_frame([&](int index, const Record& record) {
+      const auto one = unpacked_frame(record.payload, journal_.head.columns);
+      const Eigen::Index nodes = one ? one->nodes.cols() : -1;
+      const bool fits = one && check_layout(layout, nodes) && check_frame(layout, *one, 0, nodes);
+      found[index] = {record.place, fits ? nodes : -1};
+    });
     Eigen::Index nodes = -1;
-    for (const auto& [index, place] : journal_.frames) {
-      const auto one = frame_at(place);
-      if (!one) continue;
-      if (nodes < 0 && check_layout(layout, one->nodes.cols())) nodes = one->nodes.cols();
-      if (nodes >= 0 && check_frame(layout, *one, 0, nodes)) places_.push_back(place);
+    for (const auto& [index, one] : found) {
+      if (nodes < 0) nodes = one.second;
+      if (nodes >= 0 && one.second == nodes) places_.push_back(one.first);
     }
   }
   std::size_t size() const override { return places_.size(); }
@@ -269,8 +283,11 @@ std::optional<std::string> preset_of_journal(const fs::path& folder) {
 std::size_t frames_in_journal(const fs::path& folder) {
   std::size_t most = 0;
   for (const char* name : {journal_name, coarser_journal_name})
-    if (const auto journal = open_journal(folder / name))
-      most = std::max(most, journal->frames.size());
+    if (const auto journal = open_journal(folder / name)) {
+      std::set<int> indices;
+      journal->each_frame([&](int index, const Record&) { indices.insert(index); });
+      most = std::max(most, indices.size());
+    }
   return most;
 }
 

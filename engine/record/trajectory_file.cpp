@@ -27,16 +27,18 @@ constexpr const char* trajectory_format = "gridshell trajectory 1";
 constexpr std::size_t header_size = 512;
 
 /// The header that a file should bear, from the bytes after it; nothing when they cannot be read.
-std::optional<std::string> expected_header(const ReadableFile& file) {
+std::optional<std::string> expected_header(const ReadableFile& file,
+                                           ChecksumKind kind = ChecksumKind::crc32) {
   constexpr std::uint64_t block = 1 << 18;
-  Checksum sum;
+  Checksum sum(kind);
   for (std::uint64_t at = header_size; at < file.size(); at += block) {
     const auto bytes = file.read(at, std::min(block, file.size() - at));
     if (!bytes) return std::nullopt;
     sum.add(*bytes);
   }
-  const std::string header = fmt::format("{}\n{} bytes, FNV-1a {:016x}\n", trajectory_format,
-                                         file.size() - header_size, sum.value());
+  const std::string header =
+      fmt::format("{}\n{} bytes, {} {:016x}\n", trajectory_format, file.size() - header_size,
+                  kind == ChecksumKind::crc32 ? "CRC-32" : "FNV-1a", sum.value());
   return header + std::string(header_size - header.size(), '\0');
 }
 
@@ -50,7 +52,9 @@ std::string header_fault(const ReadableFile& file, bool unsealed) {
                       "all the same)";
   if (!start || !start->starts_with(trajectory_format)) return "it is not an HDF5 file";
   if (start->size() < header_size) return "it is cut short";
-  if (unsealed || start == expected_header(file)) return "";
+  const bool older = start->find("FNV-1a") != start->npos;
+  if (unsealed || start == expected_header(file, older ? ChecksumKind::fnv1a : ChecksumKind::crc32))
+    return "";
   return "it is cut short, damaged or was changed: its checksum does not match";
 }
 

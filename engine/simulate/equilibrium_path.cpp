@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/core/try.h"
+#include "engine/simulate/expected_cost.h"
 #include "engine/simulate/frames.h"
 #include "engine/simulate/frames_between.h"
 #include "engine/simulate/guided_path.h"

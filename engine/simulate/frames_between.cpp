@@ -85,12 +85,16 @@ std::optional<record::Frame> FramesBetween::leading_at(double t, State& guess) {
   const Scene& scene = path_.simulation.scene();
   NewtonOptions options;
   options.tolerance_mm = options.trusted_mm = 1e-3 * scene.tolerance * scene.length_scale_mm;
-  options.trusted_misfit = 1e-7;  // forces are shown
+  options.trusted_misfit = 3e-5;  // forces are shown
   options.farthest_mm = nearby * scene.footprint.spacing;
-  options.most_iterations = 5;
+  options.most_iterations = 8;
+  if (system.effort().factorizations == leading_factored_) options.factored = leading_inertia_;
   shell.motion(0).impose(system, t, guess);
   const NewtonReport report = newton(system, guess, options, watch_);
-  if (report.outcome != Outcome::reached || !report.inertia.positive_definite()) return {};
+  const bool stable = report.outcome == Outcome::reached && report.inertia.positive_definite();
+  leading_inertia_ = report.inertia;
+  leading_factored_ = stable ? system.effort().factorizations : -1;
+  if (!stable) return {};
   system.gradient_at(guess);
   record::Frame frame = leading_frame(path_.simulation, guess, system.assembly(), to_finest_);
   frame.residual_N = system.residual();

@@ -14,7 +14,9 @@ namespace gridshell::simulate {
 /// cubic through states and tangents of both [Hermite]; what finer meshes add to its nodes, K,
 /// reactions and energies, and what lies along the rods, is a polynomial in t through up to six
 /// load steps of that branch [Lagrange], or, where that leaves too much, through the two around it
-/// and three states certified between them. Residual and pivots are the coarsest mesh's. The error
+/// and three states certified between them. The residual is the coarsest mesh's, and the pivots are
+/// those of its last factorisation, of a frame before as long as corrections by it shrink tenfold:
+/// then no stiffness that they meet has changed by more than a tenth since. The error
 /// estimates are those of the load steps around it, evenly in between, and twice what polynomials
 /// of one degree less, without the first or the last of those load steps, would have changed.
 class FramesBetween {
@@ -61,6 +63,9 @@ class FramesBetween {
   record::ContactSearch contacts_;
   bool wanted_;
   std::size_t segment_ = 0;
+  // of the coarsest mesh: its last factorisation for a frame, and how many it had done by then
+  Inertia leading_inertia_;
+  int leading_factored_ = -1;
   // by load step, and by quarters of the way to the next; nothing: there is none
   std::map<std::pair<std::size_t, int>, std::optional<Knot>> knots_;
 };

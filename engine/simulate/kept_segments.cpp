@@ -22,7 +22,7 @@ concept Is = std::same_as<std::remove_const_t<T>, Of>;
 /// Straight into a file, as a path may be large; in ByteWriter's form.
 struct Pack {
   std::ofstream file;
-  Checksum sum = {};
+  Checksum sum = Checksum(ChecksumKind::crc32);
 
   void raw(const void* data, std::size_t size) {
     const auto* bytes = static_cast<const char*>(data);
@@ -155,7 +155,7 @@ std::optional<KeptSegment> KeptSegments::next(const SegmentBegin& begin) {
   const std::size_t size = bytes->size() - sizeof sum;
   const std::string_view all_of_it = std::string_view(*bytes).substr(0, size);
   std::memcpy(&sum, bytes->data() + size, sizeof sum);
-  if (sum != Checksum::of(all_of_it)) return std::nullopt;
+  if (sum != Checksum::of(all_of_it, ChecksumKind::crc32)) return std::nullopt;
   Unpack in{ByteReader(all_of_it)};
   KeptSegment segment;
   all(in, segment);

@@ -14,6 +14,7 @@
 #include "engine/record/trajectory.h"
 #include "engine/scene/scene.h"
 #include "engine/simulate/actuation.h"
+#include "engine/simulate/expected_cost.h"
 #include "engine/simulate/first_state.h"
 #include "engine/simulate/frames.h"
 #include "engine/simulate/indentation.h"

@@ -7,7 +7,7 @@
 #include "engine/core/system_info.h"
 #include "engine/core/try.h"
 #include "engine/simulate/branch_switch.h"
-#include "engine/simulate/mesh_choice.h"
+#include "engine/simulate/expected_cost.h"
 #include "engine/simulate/simulation.h"
 
 namespace gridshell {

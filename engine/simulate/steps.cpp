@@ -8,8 +8,8 @@
 #include "engine/core/algorithms.h"
 #include "engine/core/try.h"
 #include "engine/record/gauss_curvature.h"
+#include "engine/simulate/expected_cost.h"
 #include "engine/simulate/indentation.h"
-#include "engine/simulate/mesh_choice.h"
 #include "engine/simulate/stiffening.h"
 
 namespace gridshell::simulate {

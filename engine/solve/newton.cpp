@@ -269,14 +269,17 @@ NewtonReport newton(Linearisation& system, State& state, const NewtonOptions& op
     return report;
   };
   const NextCorrection next_move(system.model());
-  bool factor = true;
-  double before = 0;
+  bool borrowed = options.factored.has_value(), factor = !borrowed;
+  if (borrowed) report.inertia = *options.factored;
+  double before = borrowed ? std::numeric_limits<double>::infinity() : 0;
   for (report.iterations = 1; report.iterations <= options.most_iterations; ++report.iterations) {
     if (watch.cancelled()) return end(Outcome::cancelled);
-    if (factor)
+    if (factor) {
       report.inertia = system.at(state);
-    else
+      borrowed = false;
+    } else {
       system.residual_at(state);
+    }
     ++system.effort().newton_iterations;
     if (!std::isfinite(system.assembly().energies.total())) return end(Outcome::not_finite);
     if (system.assembly().smallest_cosine < options.widest_turn) return end(Outcome::folded);
@@ -299,10 +302,16 @@ NewtonReport newton(Linearisation& system, State& state, const NewtonOptions& op
       if (move <= options.tolerance_mm) return end(Outcome::lost);
       continue;
     }
-    if (move <= options.tolerance_mm) return end(Outcome::reached);
-    if (factor && next_move.after(move) <= options.trusted_mm &&
-        (!options.trusted_misfit ||
-         system.force_misfit(state) <= *options.trusted_misfit * state.force.cwiseAbs().maxCoeff()))
+    const auto forces_agree = [&] {
+      return !options.trusted_misfit ||
+             system.force_misfit(state) <=
+                 *options.trusted_misfit * state.force.cwiseAbs().maxCoeff();
+    };
+    // of one from elsewhere the first correction alone tells nothing
+    const bool doubtful = borrowed && (report.iterations == 1 || move > 0.1 * before);
+    if (move <= options.tolerance_mm && !doubtful && (!borrowed || forces_agree()))
+      return end(Outcome::reached);
+    if (factor && next_move.after(move) <= options.trusted_mm && forces_agree())
       return end(Outcome::reached);
     // an old factorisation serves near the end only, and while it shrinks the corrections
     const bool near = move < options.near_mm;

@@ -176,6 +176,9 @@ struct NewtonOptions {
       {};  ///< and where axial forces and strains agree within this share of the largest force
   double farthest_mm = 1e300;  ///< a correction that moves a node further is refused: lost
   double widest_turn = -0.5;   ///< edges that turn further than this cosine have folded
+  std::optional<Inertia> factored =
+      {};  ///< of the factorisation that is there, of a state nearby: corrections begin with it,
+           ///< two at least, which tell whether it serves
 };
 
 struct NewtonReport {
@@ -186,7 +189,7 @@ struct NewtonReport {
   double last_move_mm = 0;
   double factored_move_mm =
       0;            ///< since the last factorisation, the first correction with it included
-  Inertia inertia;  ///< of the last factorisation (mixed form)
+  Inertia inertia;  ///< of the last factorisation (mixed form), the one given included
 };
 
 /// Full mixed Newton steps from `state`, what is held held; a factorisation is used again for as

@@ -10,8 +10,8 @@
 #include "engine/record/shape_symmetry.h"
 #include "engine/scene/scene.h"
 #include "engine/simulate/actuation.h"
+#include "engine/simulate/expected_cost.h"
 #include "engine/simulate/indentation.h"
-#include "engine/simulate/mesh_choice.h"
 #include "engine/simulate/simulation.h"
 #include "engine/solve/buckling.h"
 

@@ -9,8 +9,8 @@
 #include "engine/core/system_info.h"
 #include "engine/core/try.h"
 #include "engine/record/states.h"
+#include "engine/simulate/expected_cost.h"
 #include "engine/simulate/frames.h"
-#include "engine/simulate/mesh_choice.h"
 #include "engine/study/state_measures.h"
 
 namespace gridshell::study {

@@ -27,10 +27,8 @@ const std::string small =
 
 // as trajectory_file.cpp seals its files: this damage is meant
 std::string sealed(const std::string& hdf5) {
-  gridshell::Checksum sum;
-  sum.add(hdf5);
-  auto seal =
-      fmt::format("gridshell trajectory 1\n{} bytes, FNV-1a {:016x}\n", hdf5.size(), sum.value());
+  const auto sum = gridshell::Checksum::of(hdf5, gridshell::ChecksumKind::crc32);
+  auto seal = fmt::format("gridshell trajectory 1\n{} bytes, CRC-32 {:016x}\n", hdf5.size(), sum);
   seal.resize(512, '\0');
   return seal + hdf5;
 }

@@ -45,9 +45,7 @@ void sweep_log(std::string_view bytes) {
     std::string line(taken(bytes, "\n"));
     if (line.ends_with('}') && line.find("\"sum\"") == line.npos) {
       line.pop_back();
-      Checksum sum;
-      sum.add(line);
-      line += fmt::format(",\"sum\":\"{:016x}\"}}", sum.value());
+      line += fmt::format(",\"sum\":\"{:016x}\"}}", Checksum::of(line));
     }
     text += line + '\n';
   }
