@@ -13,7 +13,7 @@ constexpr double share_of_tolerance = 0.1;  // that a polynomial in t may leave
 constexpr double nearby = 1e-3;  // of d: a correction beyond is none of the guess's own branch
 constexpr double misfit_of_knots = 1e-5;  // of the largest axial force (nested_certificate.cpp)
 constexpr std::size_t most_knots = 6;
-constexpr int parts = 4;  // of the way between two load steps, where theirs do not suffice
+constexpr int parts = 4;  // of the way between two load steps
 
 bool smooth(const PathSegment& segment, std::size_t k) {
   return goes_on_between(segment, segment.load_steps[k], segment.load_steps[k + 1]);
@@ -78,8 +78,24 @@ FramesBetween::Weights FramesBetween::weights_at(const std::vector<double>& know
            all - polynomial_weights(known, t, known.size() - 1)}};
 }
 
+/// Factorises the coarsest mesh in the middle of the piece between two load steps in which t lies,
+/// so that a frame does not depend on which others there are.
+Inertia FramesBetween::factored_near(double t, const PathPoint& from, const PathPoint& to) {
+  const double piece = std::floor(parts * (t - from.t) / (to.t - from.t));
+  const double middle = from.t + (piece + 0.5) / parts * (to.t - from.t);
+  NestedShell& shell = path_.simulation.shell();
+  Linearisation& system = shell.system(0);
+  if (factored_.t == middle && factored_.count == system.effort().factorizations)
+    return factored_.inertia;
+  State state = hermite(shell.model(0), from, to, middle);
+  shell.motion(0).impose(system, middle, state);
+  factored_ = {middle, system.at(state), system.effort().factorizations};
+  return factored_.inertia;
+}
+
 /// The coarsest mesh brought to rest beside a guess, where it is stable there.
-std::optional<record::Frame> FramesBetween::leading_at(double t, State& guess) {
+std::optional<record::Frame> FramesBetween::leading_at(double t, State& guess,
+                                                       std::optional<Inertia> factored) {
   NestedShell& shell = path_.simulation.shell();
   Linearisation& system = shell.system(0);
   const Scene& scene = path_.simulation.scene();
@@ -88,13 +104,10 @@ std::optional<record::Frame> FramesBetween::leading_at(double t, State& guess) {
   options.trusted_misfit = 3e-5;  // forces are shown
   options.farthest_mm = nearby * scene.footprint.spacing;
   options.most_iterations = 8;
-  if (system.effort().factorizations == leading_factored_) options.factored = leading_inertia_;
+  if (factored && factored->positive_definite()) options.factored = factored;
   shell.motion(0).impose(system, t, guess);
   const NewtonReport report = newton(system, guess, options, watch_);
-  const bool stable = report.outcome == Outcome::reached && report.inertia.positive_definite();
-  leading_inertia_ = report.inertia;
-  leading_factored_ = stable ? system.effort().factorizations : -1;
-  if (!stable) return {};
+  if (report.outcome != Outcome::reached || !report.inertia.positive_definite()) return {};
   system.gradient_at(guess);
   record::Frame frame = leading_frame(path_.simulation, guess, system.assembly(), to_finest_);
   frame.residual_N = system.residual();
@@ -192,7 +205,7 @@ std::optional<record::Frame> FramesBetween::at(const PathSample& sample) {
   State guess = hermite(model, from, to, sample.t);
   const Weights weights = weights_at(window->t, sample.t);
   if (doubt_mm(knots, weights) <= allowed_mm)
-    if (auto frame = leading_at(sample.t, guess))
+    if (auto frame = leading_at(sample.t, guess, factored_near(sample.t, from, to)))
       return composed(std::move(*frame), sample.t, share, {&before, &after}, knots, weights);
   // states in between
   const Knots closer = knots_between(segment, *window);
@@ -211,7 +224,7 @@ std::optional<record::Frame> FramesBetween::at(const PathSample& sample) {
   guess.force = weighted(closer, of_closer.all, [](const Knot& knot) -> const Eigen::VectorXd& {
     return knot.leading.force;
   });
-  auto frame = leading_at(sample.t, guess);
+  auto frame = leading_at(sample.t, guess, factored_near(sample.t, from, to));
   if (!frame) return {};
   return composed(std::move(*frame), sample.t, share, {&before, &after}, closer, of_closer);
 }

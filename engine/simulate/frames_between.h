@@ -14,11 +14,12 @@ namespace gridshell::simulate {
 /// cubic through states and tangents of both [Hermite]; what finer meshes add to its nodes, K,
 /// reactions and energies, and what lies along the rods, is a polynomial in t through up to six
 /// load steps of that branch [Lagrange], or, where that leaves too much, through the two around it
-/// and three states certified between them. The residual is the coarsest mesh's, and the pivots are
-/// those of its last factorisation, of a frame before as long as corrections by it shrink tenfold:
-/// then no stiffness that they meet has changed by more than a tenth since. The error
-/// estimates are those of the load steps around it, evenly in between, and twice what polynomials
-/// of one degree less, without the first or the last of those load steps, would have changed.
+/// and three states certified between them. The residual is the coarsest mesh's. Its pivots are
+/// those in the middle of a quarter of the way between the load steps, as long as corrections by
+/// that factorisation shrink tenfold: no stiffness that they meet differs by more than a tenth
+/// then. The error estimates are those of the load steps around it, evenly in between, and twice
+/// what polynomials of one degree less, without the first or the last of those load steps, would
+/// have changed.
 class FramesBetween {
  public:
   /// `measure`: as of Caption.
@@ -52,7 +53,9 @@ class FramesBetween {
   Knots knots_between(const PathSegment& segment, const Window& window);
   double doubt_mm(const Knots& knots, const Weights& weights) const;
   std::optional<Knot> knot_at(double t, const LoadStep& beside);
-  std::optional<record::Frame> leading_at(double t, State& guess);
+  Inertia factored_near(double t, const PathPoint& from, const PathPoint& to);
+  std::optional<record::Frame> leading_at(double t, State& guess,
+                                          std::optional<Inertia> factored = {});
   record::Frame composed(record::Frame frame, double t, double share, const Knots& around,
                          const Knots& knots, const Weights& weights) const;
 
@@ -63,9 +66,12 @@ class FramesBetween {
   record::ContactSearch contacts_;
   bool wanted_;
   std::size_t segment_ = 0;
-  // of the coarsest mesh: its last factorisation for a frame, and how many it had done by then
-  Inertia leading_inertia_;
-  int leading_factored_ = -1;
+  /// Where the coarsest mesh was factorised last for a frame, and how often it was by then.
+  struct Factored {
+    double t = record::unknown;
+    Inertia inertia = {};
+    int count = 0;
+  } factored_;
   // by load step, and by quarters of the way to the next; nothing: there is none
   std::map<std::pair<std::size_t, int>, std::optional<Knot>> knots_;
 };
