@@ -139,8 +139,12 @@ double expected_seconds(const Scene& scene, const preset::Preset& preset) {
                finest = double(edges.back()) / edges.front();
   const double frame =
       tellings * finest * unit.assembly + corrections * (unit.assembly + unit.factorisation);
-  // what is chosen is confirmed by meshes of twice the edges
-  const double ways = (scene.from_net ? 1 : 3) + 3 * double(preset.step.size());
+  // what is chosen is confirmed by meshes of twice the edges; bolts and braces come in at rest
+  using Do = preset::StepKind;
+  const auto moves = std::ranges::count_if(preset.step, [](const preset::Step& step) {
+    return step.kind != Do::tighten && step.kind != Do::brace && step.kind != Do::hold;
+  });
+  const double ways = (scene.from_net ? 1 : 3) + 3 * double(moves);
   return start_s + frame * preset.movie.frames +
          ways * factorisations_of(scene, preset.footprint) * all *
              (unit.assembly + unit.factorisation);
