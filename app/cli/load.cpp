@@ -71,7 +71,7 @@ Result<FormedStudy> find_loads(const preset::Preset& preset, int imperfections, 
     all.moves.push_back(std::move(moved));
     all.captions.push_back(fmt::format("{}: {:.4g}", row.load_case, row.critical_factor));
   }
-  const auto plot = render::load_plot(found->points, preset::title_or_name(preset));
+  const auto plot = render::load_plot(found->points, found->cases, preset::title_or_name(preset));
   all.draw_more = [plot, name = fs::path(preset.name).filename().string()](
                       render::Renderer&, const fs::path& folder, Progress&) {
     return render::write_plot((folder / name).string() + "_factors", plot, {.width_mm = 120});

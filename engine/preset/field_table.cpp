@@ -26,6 +26,7 @@ std::string unit_of(const std::string& key) {
                                                                   {"_kg_m3", "kg/m^3"},
                                                                   {"_m_s2", "m/s^2"},
                                                                   {"_N_m2", "N/m^2"},
+                                                                  {"_N_m", "N/m"},
                                                                   {"_Nmm", "N mm/rad"},
                                                                   {"_GPa", "GPa"},
                                                                   {"_MPa", "MPa"},

@@ -146,7 +146,7 @@ TEST_CASE("every key of joints, ends and loads takes a cap off the net, which kn
   // scans, then one with gravity and in motion, the others for load cases
   const std::set<std::string> harmless{
       "stiffness_N_per_mm", "rings",    "diameter_mm", "height_mm",      "mass_g",      "snow_N_m2",
-      "wind_N_m2",          "wind_deg", "edge_N_m",    "edge_direction", "imperfection"};
+      "wind_N_m2", "pressure_N_m2",          "wind_deg", "edge_N_m",    "edge_direction", "imperfection"};
   Preset cap;
   cap.footprint.kind = FootprintKind::net;
   cap.accuracy.tolerance = 0.05;
