@@ -45,8 +45,8 @@ std::string EditSession::note_way(const preset::Step& step, const simulate::Step
   const auto lost = [](const PathMark& mark) { return mark.unstable; };
   if ((leapt || !(moves || pushes)) && std::erase_if(now_.marks, lost) > 0) {
     const double at = session_->boundary.progress;
-    now_.way_left =
-        fmt::format("{} at {}", leapt ? "a snap" : word_of(step.kind), place_text({at, at}));
+    now_.way_left = fmt::format("{} at {}", moves || pushes ? "a snap" : word_of(step.kind),
+                                place_text({at, at}));
   }
   if (way.load_steps.empty()) return "";
   const auto joint = simulate::joint_of(step, now_.scene->footprint);

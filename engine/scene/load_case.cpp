@@ -60,18 +60,8 @@ void add_pressure(const Face& face, double pressure, std::vector<NodeAction>& ac
 
 }  // namespace
 
-Result<void> check_faces(const LoadCase& load, const std::string& key, const Footprint& footprint) {
-  const auto wrong = [&](const char* name, const std::string& what) {
-    return fail(Fault::bad_input, "{} {}: {}", key, name, what);
-  };
-  const std::array<std::pair<const char*, double>, 4> on_faces{{{"snow", load.snow_N_mm2},
-                                                                {"wind", load.wind_N_mm2},
-                                                                {"pressure", load.pressure_N_mm2},
-                                                                {"edge", load.edge_N_mm}}};
-  const auto acts = std::ranges::find_if(on_faces, [](const auto& one) { return one.second != 0; });
-  if (acts == on_faces.end()) return {};
-  const std::vector<Face> faces = faces_of(footprint);
-  if (faces.empty()) return wrong(acts->first, "rods and boundary enclose no face that it acts on");
+Result<void> check_pressure(const LoadCase& load, const std::string& key,
+                            const Footprint& footprint) {
   if (load.pressure_N_mm2 == 0) return {};
   std::set<int> held(footprint.held_joints.begin(), footprint.held_joints.end());
   const int joints = int(footprint.joints.size());
@@ -79,17 +69,18 @@ Result<void> check_faces(const LoadCase& load, const std::string& key, const Foo
     if (is_held(footprint.rods[r].begin)) held.insert(joints + 2 * int(r));
     if (is_held(footprint.rods[r].end)) held.insert(joints + 2 * int(r) + 1);
   }
-  for (const Side& side : edge_of(faces)) {
-    const auto loose = std::ranges::find_if(side, [&](int node) { return !held.contains(node); });
-    if (loose == side.end()) continue;
-    const std::string place =
-        *loose < joints ? fmt::format("joint [{}, {}]", footprint.joints[std::size_t(*loose)].i,
-                                      footprint.joints[std::size_t(*loose)].j)
-                        : fmt::format("an end of rod {}", (*loose - joints) / 2);
-    return wrong("pressure", "the edge of its faces must be held, and " + place +
-                                 " there is free: such a load has no energy; a load on the edge "
-                                 "with edge_direction = \"pressure\" has one");
-  }
+  for (const Side& side : edge_of(faces_of(footprint)))
+    for (const int node : side) {
+      if (held.contains(node)) continue;
+      const std::string place =
+          node < joints ? fmt::format("joint [{}, {}]", footprint.joints[std::size_t(node)].i,
+                                      footprint.joints[std::size_t(node)].j)
+                        : fmt::format("an end of rod {}", (node - joints) / 2);
+      return fail(Fault::bad_input,
+                  "{} pressure: the edge of the faces must be held, and {} there is free: such a "
+                  "load has no energy; one on the edge has, edge_direction = \"pressure\"",
+                  key, place);
+    }
   return {};
 }
 

@@ -41,8 +41,9 @@ struct LoadCase {
 std::vector<NodeAction> forces_of(const LoadCase& load, const Footprint& footprint,
                                   const Eigen::Matrix3Xd& nodes);
 
-/// Errors (bad_input), by `key`, the case's: it has what acts on faces and there are none; it has a
-/// pressure on faces whose edge is not held, which would have no energy.
-Result<void> check_faces(const LoadCase& load, const std::string& key, const Footprint& footprint);
+/// Errors (bad_input), by `key`, the case's: a pressure on faces whose edge is not held, which has
+/// no energy.
+Result<void> check_pressure(const LoadCase& load, const std::string& key,
+                            const Footprint& footprint);
 
 }  // namespace gridshell

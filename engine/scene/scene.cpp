@@ -137,7 +137,7 @@ Result<void> put_rods(const preset::Preset& preset, Scene& scene) {
                                 side_of(one.snow_side), 1e-3 * one.edge * loads.edge_N_m,
                                 loads.edge_direction, 1e-6 * one.pressure * loads.pressure_N_m2,
                                 std::move(*forces)});
-    TRY_DO(check_faces(scene.load_cases.back(), key, footprint));
+    TRY_DO(check_pressure(scene.load_cases.back(), key, footprint));
   }
   const bool springs = preset.joints.kind == preset::JointKind::spring;
   scene.rods.joints = {springs ? preset.joints.stiffness_N_per_mm : 0, preset.joints.shear_Nmm,
