@@ -35,7 +35,9 @@ std::string text_of(const record::LoadRow& row) {
     text += row.event == BranchEvent::locking ? "rods at their length before stability is lost"
                                               : "stability is not lost on the way followed";
   if (std::isfinite(row.linear_factor)) text += fmt::format(" (linear {:.4g})", row.linear_factor);
-  if (std::isfinite(row.strength_factor))
+  if (row.strength_factor == 0)
+    text += "; beyond its strength before any of it";
+  else if (std::isfinite(row.strength_factor))
     text +=
         "; at its strength at " + record::with_error(row.strength_factor, row.strength_error, "");
   if (row.imperfections > 0)

@@ -173,7 +173,8 @@ Result<render::Image> picture_of(const PictureRequest& asked, render::Renderer& 
   if (key && request.show.loads && request.shell->frame.loads_N.cols() > 0) {
     const double per_mm = 1 / mm_per_pixel(request.camera, {double(width), double(height)});
     render::draw_over(*image, [&](render::Canvas& canvas) {
-      draw_arrow_key(canvas, {font, height - 3.5 * font, key->length_mm * per_mm + 6 * font, 3 * font},
+      draw_arrow_key(canvas,
+                     {font, height - 3.5 * font, key->length_mm * per_mm + 6 * font, 3 * font},
                      *key, per_mm, font);
     });
   }

@@ -169,8 +169,9 @@ float Overlay::draw_length(float x, float wide, const std::string& text, ImU32 c
 void Overlay::draw_scale() {
   const double per_px = mm_per_pixel(viewer_.camera, viewer_.view);
   const double length_mm = render::nice_ceiling(per_px * panel_.px(80));
-  float x = draw_length(float(view_.x) + panel_.px(104), float(length_mm / per_px),
-                        fmt::format("{:g} mm", length_mm), ImGui::GetColorU32(ImGuiCol_Text), false);
+  float x =
+      draw_length(float(view_.x) + panel_.px(104), float(length_mm / per_px),
+                  fmt::format("{:g} mm", length_mm), ImGui::GetColorU32(ImGuiCol_Text), false);
   const auto ink = [](const render::Colour& c) {
     return ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, c.a});
   };

@@ -155,8 +155,7 @@ void add_shear(const Model& model, const State& state, const ModelShear& shear, 
   out.energies[Term::shear] += 0.5 * moment * excess;
   std::vector<std::pair<int, Eigen::Vector3d>> slope;
   const auto add_slope = [&](int node, const Eigen::Vector3d& by) {
-    const auto known =
-        std::ranges::find(slope, node, &std::pair<int, Eigen::Vector3d>::first);
+    const auto known = std::ranges::find(slope, node, &std::pair<int, Eigen::Vector3d>::first);
     if (known == slope.end())
       slope.emplace_back(node, by);
     else
@@ -175,8 +174,7 @@ void add_shear(const Model& model, const State& state, const ModelShear& shear, 
   for (const auto& [node, by] : slope) out.gradient.col(node) += moment * by;
   for (std::size_t a = 0; with_hessian && a < slope.size(); ++a)
     for (std::size_t b = 0; b <= a; ++b) {
-      const Eigen::Matrix3d m =
-          shear.stiffness * slope[a].second * slope[b].second.transpose();
+      const Eigen::Matrix3d m = shear.stiffness * slope[a].second * slope[b].second.transpose();
       if (a == b)
         out.hessian.diagonal[std::size_t(slope[a].first)].matrix() += m;
       else

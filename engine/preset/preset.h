@@ -199,10 +199,10 @@ struct Loads {
   double field_N_per_mm = 0;  ///< of rod, downwards
   Points points;              ///< (i, j, F_x, F_y, F_z), N
   // what cases have of it acts on the formed shell
-  double snow_N_m2 = 0;  ///< of plan, downwards
-  double wind_N_m2 = 0;  ///< its pressure where it meets the shell at right angles
+  double snow_N_m2 = 0;      ///< of plan, downwards
+  double wind_N_m2 = 0;      ///< its pressure where it meets the shell at right angles
   double pressure_N_m2 = 0;  ///< on all faces, turning with them
-  double edge_N_m = 0;   ///< on the shell's edge
+  double edge_N_m = 0;       ///< on the shell's edge
   EdgeDirection edge_direction = EdgeDirection::down;
   double imperfection = 0.002;  ///< of the length scale
   double wind_deg = 0;          ///< where it blows to, from +x towards +y

@@ -229,8 +229,8 @@ void put_forces(const Simulation& simulation, record::Frame& frame) {
   CertifiedVectors force = certify_vectors(reactions, extrapolate, pressing);
   put_reactions(std::move(force.value), frame);
   frame.force_error_N = force.error;
-  frame.loads_N = loads_on(shell.finest(), shell.model(last),
-                           shell.state().levels.back().x, shell.outside(last));
+  frame.loads_N = loads_on(shell.finest(), shell.model(last), shell.state().levels.back().x,
+                           shell.outside(last));
   frame.brace_force_N =
       brace_forces(simulation.scene().footprint, shell.model(last), shell.state().levels.back().x);
   frame.energies = by_term.back();

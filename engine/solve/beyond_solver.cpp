@@ -9,8 +9,7 @@ namespace {
 
 class BeyondSolver final : public LinearSolver {
  public:
-  explicit BeyondSolver(const Model& model)
-      : model_(model), apart_(make_pattern_solver(model)) {}
+  explicit BeyondSolver(const Model& model) : model_(model), apart_(make_pattern_solver(model)) {}
 
   Inertia factor(const BlockHessian& hessian, double shift) override {
     current_ = apart_.get();

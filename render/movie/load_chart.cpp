@@ -45,7 +45,7 @@ Series marks_of(const std::vector<LoadPoint>& points, BranchEvent event, const c
 /// the finest mesh passes there.
 Series strength_marks(const std::vector<LoadPoint>& points,
                       const std::vector<record::LoadRow>& cases) {
-  Series marks = mark_series("at its strength", ink, Marker::triangle, 5);
+  Series marks = mark_series("at its strength", ink, Marker::triangle, 4);
   for (const record::LoadRow& row : cases) {
     const auto beyond = std::ranges::find_if(points, [&](const LoadPoint& point) {
       return point.load_case == row.load_case && point.utilisation >= 1;
