@@ -35,7 +35,9 @@ std::string text_of(const record::LoadRow& row) {
     text += row.event == BranchEvent::locking ? "rods at their length before stability is lost"
                                               : "stability is not lost on the way followed";
   if (std::isfinite(row.linear_factor)) text += fmt::format(" (linear {:.4g})", row.linear_factor);
-  if (std::isfinite(row.strength_factor))
+  if (row.strength_factor == 0)
+    text += "; beyond its strength before any of it";
+  else if (std::isfinite(row.strength_factor))
     text +=
         "; at its strength at " + record::with_error(row.strength_factor, row.strength_error, "");
   if (row.imperfections > 0)
@@ -71,7 +73,7 @@ Result<FormedStudy> find_loads(const preset::Preset& preset, int imperfections, 
     all.moves.push_back(std::move(moved));
     all.captions.push_back(fmt::format("{}: {:.4g}", row.load_case, row.critical_factor));
   }
-  const auto plot = render::load_plot(found->points, preset::title_or_name(preset));
+  const auto plot = render::load_plot(found->points, found->cases, preset::title_or_name(preset));
   all.draw_more = [plot, name = fs::path(preset.name).filename().string()](
                       render::Renderer&, const fs::path& folder, Progress&) {
     return render::write_plot((folder / name).string() + "_factors", plot, {.width_mm = 120});

@@ -186,7 +186,7 @@ Result<void> add_loads(Sheets& sheets, study::FormedShell& shell, const ReportOp
                 {"at its strength", 72},
                 {"lost by", 0, AlignX::left}},
                rows);
-  sheets.plot(render::load_plot(found->points, ""));
+  sheets.plot(render::load_plot(found->points, found->cases, ""));
   return {};
 }
 

@@ -42,8 +42,12 @@ std::string EditSession::note_way(const preset::Step& step, const simulate::Step
   const bool moves = step.kind == preset::StepKind::move,
              pushes = step.kind == preset::StepKind::push;
   // what is known of a branch does not hold of another one
-  if (leapt || !(moves || pushes))
-    std::erase_if(now_.marks, [](const PathMark& mark) { return mark.unstable; });
+  const auto lost = [](const PathMark& mark) { return mark.unstable; };
+  if ((leapt || !(moves || pushes)) && std::erase_if(now_.marks, lost) > 0) {
+    const double at = session_->boundary.progress;
+    now_.way_left = fmt::format("{} at {}", moves || pushes ? "a snap" : word_of(step.kind),
+                                place_text({at, at}));
+  }
   if (way.load_steps.empty()) return "";
   const auto joint = simulate::joint_of(step, now_.scene->footprint);
   const double grew_mm = pushed_mm(step) - began_mm,

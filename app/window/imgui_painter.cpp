@@ -6,6 +6,7 @@
 
 #include "render/canvas/canvas.h"
 #include "render/canvas/legend.h"
+#include "render/movie/frame_overlay.h"
 
 #include "engine/core/system_info.h"
 #include "engine/core/try.h"
@@ -166,10 +167,20 @@ Result<render::Image> picture_of(const PictureRequest& asked, render::Renderer& 
   request.camera.half_extent_mm *= std::max(1.0, wide / now);
   auto image = draw_shells(renderer, request, render::draw_quality(request.kept.quality), width,
                            height, least_px * std::max(1.0, height / 720.0));
-  if (!image || !request.kept.legend || request.show.colour_by == ColourBy::none ||
+  if (!image || !request.kept.legend) return image;
+  const double font = std::max(9.0, height / 45.0);
+  const auto key = render::arrow_key(*request.shell->layout, request.show.largest_load_N);
+  if (key && request.show.loads && request.shell->frame.loads_N.cols() > 0) {
+    const double per_mm = 1 / mm_per_pixel(request.camera, {double(width), double(height)});
+    render::draw_over(*image, [&](render::Canvas& canvas) {
+      draw_arrow_key(canvas,
+                     {font, height - 3.5 * font, key->length_mm * per_mm + 6 * font, 3 * font},
+                     *key, per_mm, font);
+    });
+  }
+  if (request.show.colour_by == ColourBy::none ||
       values_of(*request.shell, request.show).size() == 0)
     return image;
-  const double font = std::max(9.0, height / 45.0);
   render::ColourBar bar{label_of(*request.shell, request.show), request.show.scale};
   bar.ends = true;
   render::draw_over(*image, [&](render::Canvas& canvas) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <imgui.h>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -60,11 +61,18 @@ std::string help_of(const preset::Field& field);
 
 /// A small heading within a panel.
 void heading(const Panel& panel, const char* text);
+/// A slider over the panel's width; true while the mouse changes its value, and once what was typed
+/// is done.
+bool slider(const Panel& panel, const char* name, float& value, float low, float high,
+            const char* format, const std::string& tip);
+/// Without what a float adds.
+inline double four_digits(float value) { return std::round(1e4 * double(value)) / 1e4; }
 
 // ---- the panels, by where they stand ----
 
 void menu_bar(const Panel& panel);
 void shell_panel(const Panel& panel, const render::Box& box);
+void picked_figures(const Panel& panel);
 void plots_panel(const Panel& panel, const render::Box& box);
 void design_panel(const Panel& panel, const render::Box& box);
 void status_line(const Panel& panel, const render::Box& box);
@@ -157,6 +165,7 @@ struct Curve {
   std::vector<float> second = {};          ///< another one, paler
   bool logarithmic = false;                ///< y, which is above 0
   std::vector<std::size_t> unstable = {};  ///< points
+  std::vector<std::size_t> coarse = {};    ///< points of a drag's coarse mesh: pale
   std::vector<CurveMark> marks = {};
 };
 

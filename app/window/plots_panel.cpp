@@ -67,8 +67,8 @@ class PlotBox {
     if (curve.bars)
       draw_bars(points_of(curve.y), height_of(y, 0));
     else
-      draw_line(points_of(curve.y), curve.jumps, ink());
-    if (!curve.second.empty()) draw_line(points_of(curve.second), curve.jumps, pale());
+      draw_line(points_of(curve.y), curve, ink());
+    if (!curve.second.empty()) draw_line(points_of(curve.second), curve, pale());
     const auto points = points_of(curve.y);
     for (const std::size_t k : curve.unstable)
       list_.AddCircleFilled(points[k], panel_.px(2.5), text_colours(panel_.viewer.show.dark).error);
@@ -99,12 +99,14 @@ class PlotBox {
                           ink());
     list_.AddLine({from_.x, zero}, {to_.x, zero}, pale());
   }
-  void draw_line(const std::vector<ImVec2>& points, std::vector<std::size_t> ends, ImU32 colour) {
+  void draw_line(const std::vector<ImVec2>& points, const Curve& curve, ImU32 colour) {
+    std::vector<std::size_t> ends = curve.jumps;
     ends.push_back(points.size());
     std::size_t from = 0;
     for (const std::size_t end : ends) {
-      list_.AddPolyline(points.data() + from, int(end - from), colour, 0, panel_.px(1.4));
-      if (end == from + 1) list_.AddCircleFilled(points[from], panel_.px(2), colour);
+      const ImU32 shade = std::ranges::binary_search(curve.coarse, from) ? pale() : colour;
+      list_.AddPolyline(points.data() + from, int(end - from), shade, 0, panel_.px(1.4));
+      if (end == from + 1) list_.AddCircleFilled(points[from], panel_.px(2), shade);
       from = end;
     }
     list_.AddCircleFilled(points.back(), panel_.px(3), colour);
@@ -171,6 +173,7 @@ class PlotBox {
     std::string told =
         fmt::format("{} {:.5g}\n{} {:.5g}", curve.x_label, curve.x[k], curve.y_label, curve.y[k]);
     if (!curve.second.empty()) told += fmt::format(", {:.5g}", curve.second[k]);
+    if (std::ranges::binary_search(curve.coarse, k)) told += "\non the coarse mesh of a drag";
     const float over = curve.x[k];
     for (const CurveMark& mark : curve.marks)
       if (mark.from <= over && over <= mark.to) told += "\n" + mark.what;
@@ -242,7 +245,8 @@ Curve curve_of(const ViewerState& viewer, const PlotAxes& axes) {
     // the boundary was put elsewhere, not drawn there; and a drag's coarse mesh has other numbers
     const bool put = k > 0 && points[k].joint < 0 &&
                      std::abs(points[k].progress - points[k - 1].progress) > jump;
-    if (put || (k > 0 && points[k].refined != points[k - 1].refined)) curve.jumps.push_back(k);
+    if (put || (k > 0 && points[k].coarse != points[k - 1].coarse)) curve.jumps.push_back(k);
+    if (points[k].coarse) curve.coarse.push_back(curve.x.size());
     if (!points[k].stable) curve.unstable.push_back(curve.x.size());
     curve.x.push_back(float(points[k].*over.value));
     curve.y.push_back(float(points[k].*shown.value));

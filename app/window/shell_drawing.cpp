@@ -259,6 +259,8 @@ render::Drawing drawing_of(const ShellView& shell, const Show& show, double thin
     drawing.ghosts.push_back({show.other->seen->frame.nodes, show.other->seen->layout->rods,
                               0.7 * drawing.rod_diameter_mm, other_green});
   put_forces(shell, show, thin_mm, drawing);
+  if (show.loads) render::put_loads(layout, shell.frame, show.largest_load_N, thin_mm, drawing);
+  if (show.braces) render::put_braces(layout, shell.frame, thin_mm, drawing);
   render::put_contacts(layout, shell.frame, thin_mm, drawing);
   // what starts flat stands on its boundary's plane
   const double lowest_mm = drawing.nodes.row(2).minCoeff();

@@ -32,8 +32,10 @@ struct OtherShell {
 struct Show {
   ColourBy colour_by = ColourBy::K;
   render::ColourScale scale;  ///< of the colours
-  bool joints = true, rings = true, ground = true, net = false, footprint = false, dark = false;
-  double mode_mm = 0;                            ///< how far along the soft mode it is drawn
+  bool joints = true, rings = true, ground = true, net = false, footprint = false, dark = false,
+       loads = true, braces = true;
+  double largest_load_N = 0;  ///< of the states since the shell was opened: the arrows' scale
+  double mode_mm = 0;         ///< how far along the soft mode it is drawn
   std::shared_ptr<const OtherShell> other = {};  ///< drawn over it, or beside it; null: none
   bool beside = false;
   int shells() const { return beside && other ? 2 : 1; }  ///< side by side

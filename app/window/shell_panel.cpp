@@ -1,4 +1,4 @@
-// What is done to the shell: path, boundary, joints held, rest, accuracy, colours; what was picked.
+// What is done to the shell: path, boundary, joints held, rest, accuracy, colours.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,10 +10,7 @@
 #include "render/movie/frame_overlay.h"
 
 namespace gridshell::window {
-namespace {
 
-/// A slider over the panel's width; true while the mouse changes its value, and once what was typed
-/// is done.
 bool slider(const Panel& panel, const char* name, float& value, float low, float high,
             const char* format, const std::string& tip) {
   const std::string label = std::string("##") + name;
@@ -33,6 +30,8 @@ bool slider(const Panel& panel, const char* name, float& value, float low, float
   value = kept.GetFloat(number);
   return true;
 }
+
+namespace {
 
 /// On the slider that was drawn last, where no shell stays (red) and what happened (amber);
 /// `share_of` takes a progress to a share of the slider.
@@ -65,9 +64,6 @@ std::string text_of_marks(const ShellView& shell) {
               (circle ? " mm" : "");
   return text;
 }
-
-/// Without what a float adds.
-double four_digits(float value) { return std::round(1e4 * double(value)) / 1e4; }
 
 void speed(const Panel& panel, float gap) {
   constexpr int seconds[] = {2, 4, 8, 16, 32};
@@ -286,83 +282,6 @@ void keep(const Panel& panel) {
               "of a kept picture: draft has no shadow, figure has soft light and takes seconds");
 }
 
-/// "u-rod 3", by the index that its joints have in common; of networks, whose joints are named by
-/// points, "Rod 12".
-std::string rod_name(const record::Layout& layout, int rod) {
-  if (std::ranges::all_of(layout.joints, [](const record::Joint& joint) { return joint.j == 0; }))
-    return fmt::format("Rod {}", rod);
-  const std::string family =
-      layout.families.empty() ? std::string() : layout.families[std::size_t(rod)];
-  for (const int node : layout.rods[std::size_t(rod)]) {
-    if (node >= int(layout.joints.size())) continue;
-    const record::Joint& joint = layout.joints[std::size_t(node)];
-    if (family == "u") return fmt::format("u-rod {}", joint.j);
-    if (family == "v") return fmt::format("v-rod {}", joint.i);
-  }
-  return fmt::format("Rod {}", rod);
-}
-
-void picked_rod(const Panel& panel, const PointOnRod& at) {
-  const ShellView& shell = *panel.viewer.shell;
-  const record::Layout& layout = *shell.layout;
-  const std::vector<int>& nodes = layout.rods[std::size_t(at.rod)];
-  const std::size_t k = std::min(std::size_t(at.point), nodes.size() - 1);
-  double along = 0, length = 0;
-  for (std::size_t n = 1; n < nodes.size(); ++n) {
-    length += (shell.frame.nodes.col(nodes[n]) - shell.frame.nodes.col(nodes[n - 1])).norm();
-    if (n == k) along = length;
-  }
-  heading(panel, rod_name(layout, at.rod).c_str());
-  ImGui::Text("%.1f of %.1f mm along it", along, length);
-  const auto force = record::axial_force_N(layout, shell.frame, std::size_t(at.rod));
-  ImGui::Text("axial force %.3g N", force[k]);
-  const double curvature = record::curvature_per_mm(layout, shell.frame, std::size_t(at.rod))[k];
-  ImGui::Text("curvature %.4f 1/mm", curvature);
-  ImGui::Text("bending %.3g mJ/m", shell.bending_mJ_m[nodes[k]]);
-}
-
-/// How far the joint that was clicked is pushed inwards, to drag or to type.
-void push_depth(const Panel& panel, int joint) {
-  ViewerState& viewer = panel.viewer;
-  const ShellView& shell = *viewer.shell;
-  Eigen::Vector3d along = shell.normals.col(joint), from = shell.frame.nodes.col(joint);
-  for (const HeldJoint& held : shell.held)
-    if (held.joint == joint && !held.along.isZero(0)) along = held.along, from -= held.moved_mm;
-  float depth = -float((shell.frame.nodes.col(joint) - from).dot(along));
-  if (std::abs(depth) < 5e-4f) depth = 0;
-  const float most = float(0.5 * shell.layout->length_scale_mm);
-  if (slider(panel, "push_depth", depth, -most, most, "pushed in %.2f mm",
-             "pushes it along its normal and holds it, inwards above 0; Ctrl+click to type"))
-    viewer.post(Push{joint, from - four_digits(depth) * along, along}, true);
-  if (ImGui::IsItemDeactivated()) viewer.end_drag();
-}
-
-void picked(const Panel& panel) {
-  const ViewerState& viewer = panel.viewer;
-  const ShellView& shell = *viewer.shell;
-  const record::Layout& layout = *shell.layout;
-  if (viewer.picked_joint >= 0 && viewer.picked_joint < int(layout.joints.size())) {
-    const record::Joint& joint = layout.joints[std::size_t(viewer.picked_joint)];
-    // round-off is no -0.00
-    const Eigen::Vector3d at = shell.frame.nodes.col(viewer.picked_joint).unaryExpr([](double x) {
-      return std::abs(x) < 5e-3 ? 0.0 : x;
-    });
-    heading(panel, fmt::format("Joint ({}, {})", joint.i, joint.j).c_str());
-    push_depth(panel, viewer.picked_joint);
-    ImGui::Text("x %.2f  y %.2f  z %.2f mm", at.x(), at.y(), at.z());
-    ImGui::Text("axial force %.3g N", shell.axial_N[viewer.picked_joint]);
-    ImGui::Text("bending %.3g mJ/m", shell.bending_mJ_m[viewer.picked_joint]);
-  }
-  if (viewer.picked_rod.rod >= 0 && viewer.picked_rod.rod < int(layout.rods.size()))
-    picked_rod(panel, viewer.picked_rod);
-  if (viewer.picked_cell >= 0 && viewer.picked_cell < int(layout.cells.size())) {
-    const record::Cell& cell = layout.cells[std::size_t(viewer.picked_cell)];
-    heading(panel, fmt::format("Cell ({}, {})", cell.i, cell.j).c_str());
-    ImGui::Text("K□ = %.4f rad", shell.frame.cell_K[viewer.picked_cell]);
-    if (shell.deviation.size() > 0) ImGui::Text("Δ/ρ = %.4f", shell.deviation[viewer.picked_cell]);
-  }
-}
-
 }  // namespace
 
 void shell_panel(const Panel& panel, const render::Box& box) {
@@ -386,7 +305,7 @@ void shell_panel(const Panel& panel, const render::Box& box) {
     path(panel);
     boundary(panel);
     held(panel);
-    picked(panel);
+    picked_figures(panel);
     stability(panel);
     contacts(panel);
     accuracy(panel);

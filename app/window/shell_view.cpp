@@ -58,7 +58,8 @@ PlotPoint plot_point_of(const ShellView& shell) {
                 .error_mm = shell.certificate.error_estimate_mm,
                 .steps = int(shell.steps.size()),
                 .refined = shell.refined,
-                .stable = shell.stable()};
+                .stable = shell.stable(),
+                .coarse = !shell.refined && shell.meshes.size() < 2};
   if (!shell.held.empty()) {
     const HeldJoint& held = shell.held.back();
     now.joint = held.joint;

@@ -60,6 +60,7 @@ struct PlotPoint {
   int joint = -1;  ///< that is held and was taken last; none
   int steps = 0;   ///< that were done
   bool refined = true, stable = true;
+  bool coarse = false;  ///< of one mesh alone, in a drag
 };
 
 /// What commands change of a shell, beside the state of its rods.
@@ -72,6 +73,7 @@ struct ViewedState {
   bool refined = false;            ///< to the preset's tolerance; else coarse, as in a drag
   bool rods_changed_late = false;  ///< keys of its rods were changed after steps
   bool snapped = false;            ///< it came to rest elsewhere on its way
+  std::string way_left;  ///< by what and where the way was left whose losses were known; empty: not
   std::shared_ptr<const DesignProgress> design;  ///< that the shell is of; null: none
 };
 

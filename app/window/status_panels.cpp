@@ -67,7 +67,12 @@ void ViewerState::go_to_loss() {
   std::vector<double> places;
   for (const PathMark& mark : shell->marks)
     if (mark.joint < 0 && mark.unstable) places.push_back(0.5 * (mark.from + mark.to));
-  if (places.empty()) return say("on the boundary's way so far every state is stable", true);
+  if (places.empty())
+    return say(shell->way_left.empty()
+                   ? "on the boundary's way so far every state is stable"
+                   : "the way on which stability is lost was left by " + shell->way_left +
+                         ", and the one since then is stable; Undo goes back to it",
+               true);
   std::ranges::sort(places);
   const auto next =
       std::ranges::find_if(places, [&](double at) { return at > shell->progress + 1e-6; });

@@ -7,6 +7,7 @@
 #include "app/window/panel.h"
 #include "render/canvas/text.h"
 #include "render/gl/renderer.h"
+#include "render/movie/frame_overlay.h"
 
 namespace gridshell::window {
 
@@ -52,6 +53,7 @@ class Overlay {
     list_.AddCircle(point_of(node), panel_.px(points), mark_colour, 0, wide_);
   }
   void label(const std::string& text, ImVec2 beside);
+  float draw_length(float x, float wide, const std::string& text, ImU32 colour, bool arrow);
 
   const Panel& panel_;
   ViewerState& viewer_;
@@ -146,21 +148,43 @@ void Overlay::tell_other() {
   label("in hand", {float(view_.x), top});
 }
 
-/// A round length of some hundred pixels; of a picture in perspective it holds in the
-/// plane that the camera looks at.
+/// A length along the view's lower edge and what it stands for over it; where the next may begin.
+float Overlay::draw_length(float x, float wide, const std::string& text, ImU32 colour, bool arrow) {
+  const float y = float(view_.bottom()) - panel_.px(16), tall = panel_.px(4);
+  const float written = ImGui::CalcTextSize(text.c_str()).x, room = std::max(wide, written);
+  x += 0.5f * (room - wide);
+  list_.AddLine({x, y}, {x + wide, y}, colour, panel_.px(1.6));
+  if (arrow)
+    list_.AddTriangleFilled({x + wide - 2 * tall, y - tall}, {x + wide, y},
+                            {x + wide - 2 * tall, y + tall}, colour);
+  for (const float end : {x, x + wide})
+    if (!arrow) list_.AddLine({end, y - tall}, {end, y + tall}, colour, panel_.px(1.6));
+  list_.AddText({x + 0.5f * (wide - written), y - panel_.px(4) - ImGui::GetTextLineHeight()},
+                ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
+  return x + 0.5f * (wide + room) + panel_.px(24);
+}
+
+/// A round length of some hundred pixels, and what the arrows of loads and the bars of braces are;
+/// of a picture in perspective lengths hold in the plane that the camera looks at.
 void Overlay::draw_scale() {
   const double per_px = mm_per_pixel(viewer_.camera, viewer_.view);
   const double length_mm = render::nice_ceiling(per_px * panel_.px(80));
-  const auto wide = float(length_mm / per_px), tall = panel_.px(4);
-  const float x = float(view_.x) + panel_.px(104), y = float(view_.bottom()) - panel_.px(16);
-  const ImU32 colour = ImGui::GetColorU32(ImGuiCol_Text);
-  list_.AddLine({x, y}, {x + wide, y}, colour, panel_.px(1.6));
-  for (const float end : {x, x + wide})
-    list_.AddLine({end, y - tall}, {end, y + tall}, colour, panel_.px(1.6));
-  const std::string text = fmt::format("{:g} mm", length_mm);
-  list_.AddText({x + 0.5f * (wide - ImGui::CalcTextSize(text.c_str()).x),
-                 y - panel_.px(4) - ImGui::GetTextLineHeight()},
-                colour, text.c_str());
+  float x =
+      draw_length(float(view_.x) + panel_.px(104), float(length_mm / per_px),
+                  fmt::format("{:g} mm", length_mm), ImGui::GetColorU32(ImGuiCol_Text), false);
+  const auto ink = [](const render::Colour& c) {
+    return ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, c.a});
+  };
+  const record::Frame& frame = shell_.frame;
+  if (viewer_.show.braces && frame.brace_force_N.size() > 0)
+    x = draw_length(x, panel_.px(30), "braces", ink(render::brace_ink), false);
+  const std::string sums = render::load_caption(frame);
+  const auto key = render::arrow_key(*shell_.layout, viewer_.show.largest_load_N);
+  if (!viewer_.show.loads || sums.empty() || !key) return;
+  x = draw_length(x, float(key->length_mm / per_px), key->name, ink(key->colour), true);
+  if (x + ImGui::CalcTextSize(sums.c_str()).x < float(view_.right()))
+    list_.AddText({x, float(view_.bottom()) - panel_.px(16) - 0.5f * ImGui::GetTextLineHeight()},
+                  ImGui::GetColorU32(ImGuiCol_Text), sums.c_str());
 }
 
 /// x, y and z from where the camera looks; a click on an end looks along it.

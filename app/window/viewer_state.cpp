@@ -138,7 +138,14 @@ render::Camera ViewerState::fitted_view() const {
   const record::Layout& layout = *shell->layout;
   Eigen::Matrix3Xd points(3, shell->frame.nodes.cols() + layout.original_boundary.cols());
   points << shell->frame.nodes, layout.original_boundary;
-  fit(fitted, view, points);
+  if (show.shells() == 1 || show.colour_by == ColourBy::none) {
+    fit(fitted, view, points);
+    return fitted;
+  }
+  // beside one another they leave the right one's edge to the colours' legend
+  const double legend_px = 0.18 * view.width;
+  fit(fitted, {view.width - legend_px, view.height}, points);
+  pan(fitted, view, -0.5 * legend_px, 0);
   return fitted;
 }
 
@@ -192,6 +199,9 @@ void ViewerState::take(std::shared_ptr<const ShellView> next) {
   if (fresh_) reset_view();
   if (to_end) go(1, false), say("on to where the run ended");
   show.scale = next_scale(show.scale, scale_of(*shell, show), range_of);
+  if (shell->frame.loads_N.cols() > 0)
+    show.largest_load_N =
+        std::max(show.largest_load_N, shell->frame.loads_N.colwise().norm().maxCoeff());
   add_plot_point();
   note_step();
 }
@@ -201,6 +211,7 @@ void ViewerState::reset_view() {
   fresh_ = false;
   const preset::Movie& movie = shell->preset.movie;
   show.footprint = show.net = false;
+  show.largest_load_N = 0;
   design = {shell->preset.inverse};
   // one that says what may change asks for it
   if (!design.inverse.vary.empty()) design_panel = true;
@@ -262,6 +273,8 @@ void each_switch(AnyViewer& viewer, const Visit& visit) {
   visit("net", viewer.show.net);
   visit("footprint", viewer.show.footprint);
   visit("dark", viewer.show.dark);
+  visit("loads", viewer.show.loads);
+  visit("braces", viewer.show.braces);
   visit("numbers", viewer.numbers);
   visit("plots", viewer.plots);
   visit("design", viewer.design_panel);

@@ -62,6 +62,13 @@ void each_pair_list(const Model& model, Visit visit) {
   std::apply([&](const auto&... lists) { (visit(lists), ...); }, model.pairs);
 }
 
+/// Mean angle at a joint beyond that at rest, rad.
+inline double excess_of(const Model& model, const State& state, const ModelShear& shear) {
+  double sum = 0;
+  for (const auto& pair : shear.pairs) sum += pair.law.excess(pair_geometry(model, state, pair));
+  return sum;
+}
+
 inline Eigen::Vector3d gap_of(const State& state, const NodeSpring& spring) {
   return state.x.col(spring.b) - state.x.col(spring.a);
 }

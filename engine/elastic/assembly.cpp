@@ -148,6 +148,40 @@ void add_contact_hessian(const Model& model, const EdgeContact& contact, BlockHe
     }
 }
 
+/// With s the slope of the mean angle by the nodes: k (s s^T + excess s').
+void add_shear(const Model& model, const State& state, const ModelShear& shear, bool with_hessian,
+               Assembly& out) {
+  const double excess = excess_of(model, state, shear), moment = shear.stiffness * excess;
+  out.energies[Term::shear] += 0.5 * moment * excess;
+  std::vector<std::pair<int, Eigen::Vector3d>> slope;
+  const auto add_slope = [&](int node, const Eigen::Vector3d& by) {
+    const auto known = std::ranges::find(slope, node, &std::pair<int, Eigen::Vector3d>::first);
+    if (known == slope.end())
+      slope.emplace_back(node, by);
+    else
+      known->second += by;
+  };
+  for (const Pair<JointAngle>& pair : shear.pairs) {
+    PairEnergy angle;
+    pair.law.add(pair_geometry(model, state, pair), angle);
+    for (const auto& [edge, by] : {std::pair(pair.e, 0), std::pair(pair.f, 3)}) {
+      const Eigen::Vector3d part = angle.gradient.segment<3>(by);
+      add_slope(model.edges[std::size_t(edge)].from, -part);
+      add_slope(model.edges[std::size_t(edge)].to, part);
+    }
+    if (with_hessian) add_pair_hessian(model, pair, moment * angle.hessian, out.hessian);
+  }
+  for (const auto& [node, by] : slope) out.gradient.col(node) += moment * by;
+  for (std::size_t a = 0; with_hessian && a < slope.size(); ++a)
+    for (std::size_t b = 0; b <= a; ++b) {
+      const Eigen::Matrix3d m = shear.stiffness * slope[a].second * slope[b].second.transpose();
+      if (a == b)
+        out.hessian.diagonal[std::size_t(slope[a].first)].matrix() += m;
+      else
+        out.hessian.add(model.pattern.find(slope[a].first, slope[b].first), m);
+    }
+}
+
 void add_bar(const ModelBar& bar, const State& state, bool with_hessian, Assembly& out) {
   const NodeBar& law = bar.law;
   const EdgeGeometry along = geometry_between(state.x, law.a, law.b);
@@ -164,6 +198,23 @@ void add_bar(const ModelBar& bar, const State& state, bool with_hessian, Assembl
   out.hessian.add(bar.slot, -m);
 }
 
+/// d(y x z) = [y] dz - [z] dy, likewise round; nodes of a face need not be neighbours on a rod.
+void add_action_hessian(const NodeAction& action, double factor, const Eigen::Matrix3Xd& x,
+                        BlockHessian& h) {
+  h.diagonal[std::size_t(action.node)].matrix().diagonal() += factor * action.stiffness;
+  if (action.pressure == 0) return;
+  const double share = factor * action.pressure / 6;
+  const auto [second, third] = action.beside;
+  const auto add = [&](int row, int column, const Eigen::Vector3d& by) {
+    h.beyond.push_back({row, column, {}});
+    h.beyond.back().block.matrix() = share * cross_matrix(by);
+  };
+  add(action.node, second, action.apex(x));
+  if (third < 0) return;
+  add(action.node, third, -x.col(second));
+  add(second, third, x.col(action.node));
+}
+
 /// What stores energy beside edges and bends.
 void add_others(const Model& model, const State& state, const ExternalLoads& outside,
                 bool with_hessian, Assembly& out) {
@@ -175,6 +226,7 @@ void add_others(const Model& model, const State& state, const ExternalLoads& out
       if (with_hessian) add_pair_hessian(model, pair, energy.hessian, out.hessian);
     }
   });
+  for (const ModelShear& shear : model.shears) add_shear(model, state, shear, with_hessian, out);
   for (const ModelSpring& spring : model.springs) {
     const Eigen::Vector3d gap = gap_of(state, spring.law), pull = spring.law.gradient(gap);
     out.energies[spring.law.term] += spring.law.value(gap);
@@ -188,12 +240,9 @@ void add_others(const Model& model, const State& state, const ExternalLoads& out
   }
   for (const ModelBar& bar : model.bars) add_bar(bar, state, with_hessian, out);
   each_action(model, outside, [&](const NodeAction& action, double factor) {
-    const Eigen::Vector3d x = state.x.col(action.node);
-    out.energies[action.term] += factor * action.value(x);
-    out.gradient.col(action.node) += factor * action.gradient(x);
-    if (with_hessian)
-      out.hessian.diagonal[std::size_t(action.node)].matrix().diagonal() +=
-          factor * action.stiffness;
+    out.energies[action.term] += factor * action.value(state.x);
+    action.add_gradient(factor, state.x, out.gradient);
+    if (with_hessian) add_action_hessian(action, factor, state.x, out.hessian);
   });
   each_contact(model, state.x, true, [&](const EdgeContact& contact) {
     out.energies[Term::contact] += contact.energy;

@@ -7,12 +7,31 @@
 
 namespace gridshell {
 
-double NodeAction::value(const Eigen::Vector3d& x) const {
-  return -force.dot(x) + 0.5 * (stiffness.array() * (x - anchor).array().square()).sum();
+NodeAction& NodeAction::operator*=(double factor) {
+  force *= factor;
+  stiffness *= factor;
+  pressure *= factor;
+  return *this;
 }
 
-Eigen::Vector3d NodeAction::gradient(const Eigen::Vector3d& x) const {
-  return -force + stiffness.cwiseProduct(x - anchor);
+double NodeAction::value(const Eigen::Matrix3Xd& x) const {
+  const Eigen::Vector3d at = x.col(node);
+  double value = -force.dot(at) + 0.5 * (stiffness.array() * (at - anchor).array().square()).sum();
+  if (pressure != 0)
+    value -= pressure / 6 * at.dot(Eigen::Vector3d(x.col(beside[0])).cross(apex(x)));
+  return value;
+}
+
+void NodeAction::add_gradient(double factor, const Eigen::Matrix3Xd& x,
+                              Eigen::Matrix3Xd& gradient) const {
+  const Eigen::Vector3d at = x.col(node);
+  gradient.col(node) += factor * (stiffness.cwiseProduct(at - anchor) - force);
+  if (pressure == 0) return;
+  const Eigen::Vector3d y = x.col(beside[0]), z = apex(x);
+  const double share = factor * pressure / 6;
+  gradient.col(node) -= share * y.cross(z);
+  gradient.col(beside[0]) -= share * z.cross(at);
+  if (beside[1] >= 0) gradient.col(beside[1]) -= share * at.cross(y);
 }
 
 double NodeBar::value(double e) const {
@@ -279,25 +298,14 @@ double EndBending::add(const PairGeometry& at, PairEnergy& out) const {
   return value(at);
 }
 
-namespace {
-
-double angle(const PairGeometry& at) {
-  return std::acos(std::clamp(at.e.tangent.dot(at.f.tangent), -1.0, 1.0));
+double JointAngle::excess(const PairGeometry& at) const {
+  return weight * (std::acos(std::clamp(at.e.tangent.dot(at.f.tangent), -1.0, 1.0)) - rest);
 }
 
-}  // namespace
-
-double JointShear::value(const PairGeometry& at) const {
-  const double beyond = angle(at) - rest;
-  return 0.5 * stiffness * beyond * beyond;
-}
-
-double JointShear::add(const PairGeometry& at, PairEnergy& out) const {
-  const double beyond = angle(at) - rest, c = at.e.tangent.dot(at.f.tangent),
-               slope = 1 / std::sqrt(1 - c * c);
-  add_cosine(-stiffness * beyond * slope, stiffness * slope * slope * (1 - beyond * c * slope),
-             at.e, at.f, out);
-  return 0.5 * stiffness * beyond * beyond;
+double JointAngle::add(const PairGeometry& at, PairEnergy& out) const {
+  const double c = at.e.tangent.dot(at.f.tangent), slope = 1 / std::sqrt(1 - c * c);
+  add_cosine(-weight * slope, -weight * c * slope * slope * slope, at.e, at.f, out);
+  return excess(at);
 }
 
 double joint_spin(int side, double theta, const EdgeGeometry& e, const Eigen::Vector3d& director,

@@ -1,24 +1,34 @@
-// What acts on a node from outside: a load, the ground.
+// What acts on nodes from outside: a load, the ground, a pressure.
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cmath>
 
 #include "engine/core/energies.h"
 
 namespace gridshell {
 
-/// E = -f . x + 1/2 sum over x, y, z of k (x - a)^2: a dead or transient force, springs to the
-/// ground, or both.
+/// E = -f . x + 1/2 sum over x, y, z of k (x - a)^2 - p/6 x . (y x z): a dead or transient force,
+/// springs to the ground, and the pressure p under the triangle of the node and the two `beside` it
+/// at y and z: the volume of its cone from the origin times p, so that the force turns with it. On
+/// a plane curve z is the anchor, three times its normal, and p a force per length.
 struct NodeAction {
   int node = 0;
   Eigen::Vector3d force = Eigen::Vector3d::Zero();      ///< f, N
   Eigen::Vector3d stiffness = Eigen::Vector3d::Zero();  ///< k, N/mm
   Eigen::Vector3d anchor = Eigen::Vector3d::Zero();     ///< a, mm
   Term term = Term::load;
+  double pressure = 0;                ///< p, N/mm^2
+  std::array<int, 2> beside{-1, -1};  ///< the second -1: the anchor
 
-  double value(const Eigen::Vector3d& x) const;
-  Eigen::Vector3d gradient(const Eigen::Vector3d& x) const;
+  NodeAction& operator*=(double factor);
+  bool is_none() const { return force.isZero(0) && stiffness.isZero(0) && pressure == 0; }
+  double value(const Eigen::Matrix3Xd& x) const;
+  void add_gradient(double factor, const Eigen::Matrix3Xd& x, Eigen::Matrix3Xd& gradient) const;
+  Eigen::Vector3d apex(const Eigen::Matrix3Xd& x) const {  ///< z, mm
+    return beside[1] < 0 ? anchor : Eigen::Vector3d(x.col(beside[1]));
+  }
 };
 
 // Two nodes held together by a spring: crossing rods, each with a node of its own at the joint, or
@@ -202,13 +212,12 @@ struct EndBending {
 
 // The resistance of a joint to shear.
 
-/// E = k/8 sum over the four pairs of edges at a joint of (angle - rest)^2, one pair each.
-struct JointShear {
-  static constexpr Term term = Term::shear;
-  double stiffness = 0;  ///< k/4, N mm/rad
+/// The angle of a pair of edges at a joint, one part w (angle - rest) of their mean.
+struct JointAngle {
+  double weight = 0.25;  ///< w
   double rest = M_PI / 2;
 
-  double value(const PairGeometry& at) const;
+  double excess(const PairGeometry& at) const;
   double add(const PairGeometry& at, PairEnergy& out) const;
 };
 

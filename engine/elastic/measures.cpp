@@ -77,13 +77,15 @@ Energies energies_of(const Model& model, const State& state, const ExternalLoads
     for (const Pair<Law>& pair : list)
       sum[Law::term] += pair.law.value(pair_geometry(model, state, pair));
   });
+  for (const ModelShear& shear : model.shears)
+    sum[Term::shear] += 0.5 * shear.stiffness * std::pow(excess_of(model, state, shear), 2);
   for (const ModelSpring& spring : model.springs)
     sum[spring.law.term] += spring.law.value(gap_of(state, spring.law));
   for (const ModelBar& bar : model.bars)
     sum[Term::stretch] +=
         bar.law.value(bar.law.strain(geometry_between(state.x, bar.law.a, bar.law.b).length));
   each_action(model, outside, [&](const NodeAction& action, double factor) {
-    sum[action.term] += factor * action.value(state.x.col(action.node));
+    sum[action.term] += factor * action.value(state.x);
   });
   each_contact(model, state.x, false,
                [&](const EdgeContact& contact) { sum[Term::contact] += contact.energy; });

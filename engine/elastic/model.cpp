@@ -276,15 +276,14 @@ double turn_between(const Model& model, int rod, const std::vector<int>& beside)
 
 /// add(e, f, share) for every pair of edges where two rods cross
 template <class Add>
-void at_crossing(const Model& model, int rod_a, int node_a, int rod_b, int node_b, double stiffness,
-                 Add add) {
+void at_crossing(const Model& model, int rod_a, int node_a, int rod_b, int node_b, Add add) {
   const std::vector<int> first = edges_beside(model, rod_a, node_a),
                          second = edges_beside(model, rod_b, node_b);
   const std::vector<double> of_first = shares_of(model, first),
                             of_second = shares_of(model, second);
   for (std::size_t e = 0; e < first.size(); ++e)
     for (std::size_t f = 0; f < second.size(); ++f)
-      add(first[e], second[f], stiffness * of_first[e] * of_second[f]);
+      add(first[e], second[f], of_first[e] * of_second[f]);
 }
 
 /// where the blocks of a pair of edges stand
@@ -293,8 +292,7 @@ void place_pair(Model& model, Pair<Law>& pair) {
   const ModelEdge &e = model.edges[std::size_t(pair.e)], &f = model.edges[std::size_t(pair.f)];
   const auto slot = [&](int a, int b) { return a == b ? -1 : model.pattern.slot(a, b); };
   PairSlots& slots = pair.slots;
-  slots.e = e.slot;
-  slots.f = f.slot;
+  slots.e = e.slot, slots.f = f.slot;
   const int ends[4] = {e.from, e.to, f.from, f.to};
   for (int a = 0; a < 2; ++a)
     for (int b = 0; b < 2; ++b) slots.across[a][b] = slot(ends[a], ends[2 + b]);
@@ -339,9 +337,9 @@ Result<Model> build_model(int nodes, const std::vector<ModelRod>& rods, RodModel
 
 std::vector<int> edges_beside(const Model& model, int rod, int node) {
   std::vector<int> edges;
-  for (int edge : model.rods[std::size_t(rod)].edges)
-    if (model.edges[std::size_t(edge)].from == node || model.edges[std::size_t(edge)].to == node)
-      edges.push_back(edge);
+  for (int k : model.rods[std::size_t(rod)].edges)
+    if (const ModelEdge& edge = model.edges[std::size_t(k)]; edge.from == node || edge.to == node)
+      edges.push_back(k);
   return edges;
 }
 
@@ -350,17 +348,17 @@ void add_joint_shear(Model& model, int rod_a, int node_a, int rod_b, int node_b,
   const double between = turn_between(model, rod_a, edges_beside(model, rod_a, node_a)) +
                          turn_between(model, rod_b, edges_beside(model, rod_b, node_b));
   stiffness = std::isinf(stiffness) ? 1 / between : stiffness / (1 + stiffness * between);
-  at_crossing(model, rod_a, node_a, rod_b, node_b, stiffness, [&](int e, int f, double share) {
-    std::get<std::vector<Pair<JointShear>>>(model.pairs)
-        .push_back({e, f, -1, {share, rest_angle(e, f)}});
+  ModelShear& shear = model.shears.emplace_back(ModelShear{stiffness, {}});
+  at_crossing(model, rod_a, node_a, rod_b, node_b, [&](int e, int f, double share) {
+    shear.pairs.push_back({e, f, -1, {share, rest_angle(e, f)}});
   });
 }
 
 void add_joint_spin(Model& model, int rod_a, int node_a, int rod_b, int node_b, double stiffness) {
   auto& list = std::get<std::vector<Pair<JointSpin>>>(model.pairs);
-  at_crossing(model, rod_a, node_a, rod_b, node_b, stiffness, [&](int e, int f, double share) {
-    list.push_back({e, f, -1, {share, 1}});
-    list.push_back({f, e, -1, {share, -1}});
+  at_crossing(model, rod_a, node_a, rod_b, node_b, [&](int e, int f, double share) {
+    list.push_back({e, f, -1, {stiffness * share, 1}});
+    list.push_back({f, e, -1, {stiffness * share, -1}});
   });
   // a spin that cost nothing and was held does now
   for (int rod : {rod_a, rod_b}) {
@@ -388,6 +386,8 @@ void finish(Model& model) {
         (place(lists), ...);
       },
       model.pairs);
+  for (ModelShear& shear : model.shears)
+    for (auto& pair : shear.pairs) place_pair(model, pair);
   model.free_index.assign(std::size_t(model.columns()), -1);
   model.free_columns.clear();
   for (int column = 0; column < model.columns(); ++column) {

@@ -42,7 +42,8 @@ class BlockPattern {
 };
 
 /// Blocks on the diagonal, one a column, beside it, one a pair of the pattern, and *beyond* the
-/// pattern between edges that come near each other, some of them zero, several at a place. N/mm.
+/// pattern between edges that come near each other and between nodes of a face under pressure, some
+/// of them zero, several at a place. N/mm.
 struct BlockHessian {
   struct Beyond {
     int row = 0, column = 0;
@@ -129,8 +130,15 @@ struct Pair {
 
 /// All energies of two edges beside plain bending: an energy more is one list more.
 using PairLists = std::tuple<std::vector<Pair<Torsion>>, std::vector<Pair<SectionBending>>,
-                             std::vector<Pair<EndBending>>, std::vector<Pair<JointShear>>,
-                             std::vector<Pair<JointSpin>>>;
+                             std::vector<Pair<EndBending>>, std::vector<Pair<JointSpin>>>;
+
+/// The resistance of a joint to shear: E = k/2 (sum of w (angle - rest) over its pairs of edges)^2.
+/// It acts on the angle between the rods' tangents at the joint alone; a sum of the squares would
+/// resist their bending there too, over an edge of each.
+struct ModelShear {
+  double stiffness = 0;  ///< k, N mm/rad
+  std::vector<Pair<JointAngle>> pairs;
+};
 
 /// A rod: its nodes and their arc lengths at rest. A closed rod has one arc length more than nodes.
 /// Ends that hold a direction (`tangent`, `clamped`) hold it at the end point itself, by a ghost
@@ -160,6 +168,7 @@ struct Model {
   std::vector<ModelSpring> springs;
   std::vector<ModelBar> bars;  ///< braces
   PairLists pairs;
+  std::vector<ModelShear> shears;
   std::vector<NodeAction> loads;   ///< dead; they count times a load factor
   std::vector<NodeAction> ground;  ///< what the shell stands on
   ContactPairs contact;            ///< edges that may touch; none: nothing keeps them apart

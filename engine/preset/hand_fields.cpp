@@ -175,6 +175,11 @@ void add_area_loads(FieldList<Loads> list) {
   idle(&LoadCase::wind);
   list.add<&Loads::wind_deg>(between(-360, 360), "where the wind blows to, from +x towards +y");
   idle(&LoadCase::wind);
+  list.add<&Loads::pressure_N_m2>(
+      at_least(0),
+      "of cases: pressure on every face against its normal, which turns with the shell; the edge "
+      "must be held");
+  idle(&LoadCase::pressure);
   list.add<&Loads::edge_N_m>(
       at_least(0),
       "of cases: on every metre of the edge, the sides of faces that no other face shares, of the "
@@ -182,7 +187,7 @@ void add_area_loads(FieldList<Loads> list) {
   idle(&LoadCase::edge);
   list.add<&Loads::edge_direction>(
       "of that: \"down\"; \"normal\": against the shell's normal there; \"inward\": in the shell's "
-      "surface, across the edge");
+      "surface, across the edge; \"pressure\": in plan, inwards across the edge as it turns");
   idle(&LoadCase::edge);
   list.add<&Loads::imperfection>(
       above(0),
@@ -217,6 +222,11 @@ void add_load_cases(FieldList<LoadCase> list) {
   list.add<&C::wind>(between(-1000, 1000), "how many times wind_N_m2")
       .refused({"[loads] wind_N_m2"}, "there is no wind: [loads] wind_N_m2 must be above 0",
                lacks(&C::wind, &Loads::wind_N_m2));
+  list.add<&C::pressure>(between(-1000, 1000),
+                         "how many times pressure_N_m2; below 0 it blows the shell up")
+      .refused({"[loads] pressure_N_m2"},
+               "there is no pressure: [loads] pressure_N_m2 must be above 0",
+               lacks(&C::pressure, &Loads::pressure_N_m2));
   list.add<&C::edge>(between(-1000, 1000), "how many times edge_N_m")
       .refused({"[loads] edge_N_m"},
                "there is no load on the edge: [loads] edge_N_m must be above 0",

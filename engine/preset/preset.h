@@ -192,16 +192,17 @@ struct Step {
 };
 
 /// Where a load on the edge points: downwards; against the shell's normal there; into the shell, in
-/// its surface and across the edge.
-enum class EdgeDirection { down, normal, inward };
+/// its surface and across the edge; in plan across the edge as it turns.
+enum class EdgeDirection { down, normal, inward, pressure };
 struct Loads {
   double gravity_m_s2 = 0;    ///< downwards
   double field_N_per_mm = 0;  ///< of rod, downwards
   Points points;              ///< (i, j, F_x, F_y, F_z), N
   // what cases have of it acts on the formed shell
-  double snow_N_m2 = 0;  ///< of plan, downwards
-  double wind_N_m2 = 0;  ///< its pressure where it meets the shell at right angles
-  double edge_N_m = 0;   ///< on the shell's edge
+  double snow_N_m2 = 0;      ///< of plan, downwards
+  double wind_N_m2 = 0;      ///< its pressure where it meets the shell at right angles
+  double pressure_N_m2 = 0;  ///< on all faces, turning with them
+  double edge_N_m = 0;       ///< on the shell's edge
   EdgeDirection edge_direction = EdgeDirection::down;
   double imperfection = 0.002;  ///< of the length scale
   double wind_deg = 0;          ///< where it blows to, from +x towards +y
@@ -220,7 +221,7 @@ constexpr auto words(SnowSide) {
 /// Loads that come on together on the formed shell, beside those that it was formed under.
 struct LoadCase {
   std::string name;
-  double dead = 0, snow = 0, wind = 0, edge = 0;  ///< factors
+  double dead = 0, snow = 0, wind = 0, pressure = 0, edge = 0;  ///< factors
   SnowSide snow_side = SnowSide::all;
   Points points;  ///< (i, j, F_x, F_y, F_z), N
 };

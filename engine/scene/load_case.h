@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/result.h"
 #include "engine/elastic/shell_rods.h"
 #include "engine/footprint/footprint.h"
 #include "engine/preset/preset.h"
@@ -22,6 +23,7 @@ struct LoadCase {
   Eigen::Vector2d snow_side{0, 0};  ///< the half that has snow; zero: all
   double edge_N_mm = 0;
   preset::EdgeDirection edge_direction = preset::EdgeDirection::down;
+  double pressure_N_mm2 = 0;  ///< on the faces, against their normals
   std::vector<PointLoad> points;
 };
 
@@ -31,7 +33,17 @@ struct LoadCase {
 /// overhung, -s A_z z, at the corners on the side that has it; wind of direction w on its area A =
 /// |A| n the force q (w . n) A. Of each side a to b that no other face shares, anticlockwise about
 /// n, both ends bear half of its length times the load on the edge: along -z, -n or n x (b - a).
+///
+/// A pressure p turns with the shell. Its energy is p times the volume under the faces, of cones
+/// from the origin, 1/3 A . c of a face, c the mean of its corners; the cones' walls are taken off
+/// at the edge, which is held (check_pressure()). Of a pressure on the edge, per length, it is p
+/// times the area in plan inside the edge, held or not.
 std::vector<NodeAction> forces_of(const LoadCase& load, const Footprint& footprint,
                                   const Eigen::Matrix3Xd& nodes);
+
+/// Errors (bad_input), by `key`, the case's: a pressure on faces whose edge is not held, which has
+/// no energy.
+Result<void> check_pressure(const LoadCase& load, const std::string& key,
+                            const Footprint& footprint);
 
 }  // namespace gridshell

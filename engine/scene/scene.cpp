@@ -132,10 +132,11 @@ Result<void> put_rods(const preset::Preset& preset, Scene& scene) {
     const preset::LoadCase& one = preset.load_case[k];
     const auto key = fmt::format("[[loads.case]] {}", k + 1);
     TRY(forces, points_of(one.points, key, footprint));
-    scene.load_cases.push_back({one.name, one.dead, 1e-6 * one.snow * loads.snow_N_m2,
-                                1e-6 * one.wind * loads.wind_N_m2, loads.wind_deg * M_PI / 180,
-                                side_of(one.snow_side), 1e-3 * one.edge * loads.edge_N_m,
-                                loads.edge_direction, std::move(*forces)});
+    scene.load_cases.push_back(
+        {one.name, one.dead, 1e-6 * one.snow * loads.snow_N_m2, 1e-6 * one.wind * loads.wind_N_m2,
+         loads.wind_deg * M_PI / 180, side_of(one.snow_side), 1e-3 * one.edge * loads.edge_N_m,
+         loads.edge_direction, 1e-6 * one.pressure * loads.pressure_N_m2, std::move(*forces)});
+    TRY_DO(check_pressure(scene.load_cases.back(), key, footprint));
   }
   const bool springs = preset.joints.kind == preset::JointKind::spring;
   scene.rods.joints = {springs ? preset.joints.stiffness_N_per_mm : 0, preset.joints.shear_Nmm,

@@ -258,7 +258,8 @@ std::string how_it_ended(const PathSegment& segment, const At& at) {
   };
   const bool begun = report.t == segment.from;
   if (report.end == Outcome::overbent)
-    return fmt::format("{} a rod is strained {} [limits] {} allows", place(),
+    return fmt::format("{} a rod is strained {} [limits] {} allows",
+                       begun ? "where the path begins, " + at(report.t, {}) + "," : place(),
                        begun ? "further than" : "as far as", report.events.back().what);
   const double strain = report.certificate.largest_strain;
   if (report.end == Outcome::locked && strain < 0)

@@ -54,10 +54,14 @@ Eigen::Matrix3Xd reactions_of(const RodMesh& mesh, const Model& model, const Ass
 namespace {
 
 /// What acts on every node of the model, N.
-Eigen::Matrix3Xd acting_on(const Model& model, const ExternalLoads& outside) {
+Eigen::Matrix3Xd acting_on(const Model& model, const Eigen::Matrix3Xd& x,
+                           const ExternalLoads& outside) {
   Eigen::Matrix3Xd acting = Eigen::Matrix3Xd::Zero(3, model.nodes);
   const auto add = [&](const std::vector<NodeAction>& actions, double factor) {
-    for (const NodeAction& one : actions) acting.col(one.node) += factor * one.force;
+    for (NodeAction one : actions) {
+      one.stiffness.setZero();
+      one.add_gradient(-factor, x, acting);
+    }
   };
   add(model.loads, outside.load);
   if (outside.steady) add(*outside.steady, 1);
@@ -67,8 +71,9 @@ Eigen::Matrix3Xd acting_on(const Model& model, const ExternalLoads& outside) {
 
 }  // namespace
 
-Eigen::Matrix3Xd loads_on(const RodMesh& mesh, const Model& model, const ExternalLoads& outside) {
-  Eigen::Matrix3Xd acting = acting_on(model, outside);
+Eigen::Matrix3Xd loads_on(const RodMesh& mesh, const Model& model, const Eigen::Matrix3Xd& x,
+                          const ExternalLoads& outside) {
+  Eigen::Matrix3Xd acting = acting_on(model, x, outside);
   if (acting.isZero(0)) return {};
   // the second node of a joint with a spring
   for (int k = mesh.nodes(); k < model.nodes; ++k) acting.col(k - mesh.nodes()) += acting.col(k);

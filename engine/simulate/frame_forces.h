@@ -21,10 +21,11 @@ std::vector<int> supports_of(const RodMesh& mesh);
 Eigen::Matrix3Xd reactions_of(const RodMesh& mesh, const Model& model, const Assembly& at,
                               const std::vector<Constraint>& holds);
 
-/// What acts from outside, N, on the supports: forces between two of them are handed on to both as
-/// a beam does, so that the sum is that of all. Empty: nothing acts. Rods that close without a
-/// joint are left out.
-Eigen::Matrix3Xd loads_on(const RodMesh& mesh, const Model& model, const ExternalLoads& outside);
+/// What acts from outside in a state at `x`, N, on the supports: forces between two of them are
+/// handed on to both as a beam does, so that the sum is that of all. Empty: nothing acts. Rods that
+/// close without a joint are left out.
+Eigen::Matrix3Xd loads_on(const RodMesh& mesh, const Model& model, const Eigen::Matrix3Xd& x,
+                          const ExternalLoads& outside);
 
 /// Axial forces of the braces along both diagonals of every cell, N; NaN: there is none. Empty:
 /// nothing is braced.

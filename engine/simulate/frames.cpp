@@ -229,7 +229,8 @@ void put_forces(const Simulation& simulation, record::Frame& frame) {
   CertifiedVectors force = certify_vectors(reactions, extrapolate, pressing);
   put_reactions(std::move(force.value), frame);
   frame.force_error_N = force.error;
-  frame.loads_N = loads_on(shell.finest(), shell.model(last), shell.outside(last));
+  frame.loads_N = loads_on(shell.finest(), shell.model(last), shell.state().levels.back().x,
+                           shell.outside(last));
   frame.brace_force_N =
       brace_forces(simulation.scene().footprint, shell.model(last), shell.state().levels.back().x);
   frame.energies = by_term.back();
@@ -367,7 +368,7 @@ record::Frame leading_frame(const Simulation& simulation, const State& state,
   frame.cell_K = cell_curvature(footprint, joint_tangents(footprint, mesh, nodes));
   frame.energies = forces.energies;
   frame.reactions_N = reactions_of(mesh, model, forces, simulation.holds());
-  frame.loads_N = loads_on(mesh, model, simulation.shell().outside(0));
+  frame.loads_N = loads_on(mesh, model, state.x, simulation.shell().outside(0));
   return frame;
 }
 

@@ -15,16 +15,12 @@ namespace {
 
 /// `b` in the place of `a`: what comes on beside `a` as it goes.
 std::vector<NodeAction> difference(std::vector<NodeAction> b, const std::vector<NodeAction>& a) {
-  for (NodeAction action : a) {
-    action.force *= -1;
-    action.stiffness *= -1;
-    b.push_back(action);
-  }
+  for (NodeAction action : a) b.push_back(action *= -1);
   return b;
 }
 
 std::vector<NodeAction> times(std::vector<NodeAction> actions, double factor) {
-  for (NodeAction& action : actions) action.force *= factor, action.stiffness *= factor;
+  for (NodeAction& action : actions) action *= factor;
   return actions;
 }
 
@@ -55,8 +51,7 @@ Report Simulation::drive(const PrescribedMove& drive, std::vector<NodeAction> co
   std::vector<NodeAction> field = field_;
   const auto come = times(std::move(coming), drive.field.begin + done.t * drive.field.change);
   field.insert(field.end(), come.begin(), come.end());
-  std::erase_if(field,
-                [](const NodeAction& a) { return a.force.isZero(0) && a.stiffness.isZero(0); });
+  std::erase_if(field, [](const NodeAction& action) { return action.is_none(); });
   apply_field(std::move(field));
   return done;
 }

@@ -80,14 +80,15 @@ Result<Report> bring_case(Simulation& simulation, const std::string& name, doubl
   const auto place = on - cases.begin();
   std::vector<NodeAction> field = simulation.field();
   for (NodeAction action : on->forces) {
-    action.force *= more;
+    action *= more;
     const auto there = std::ranges::find_if(field, [&](const NodeAction& one) {
-      return one.node == action.node && one.term == action.term && one.stiffness.isZero(0);
+      return one.node == action.node && one.term == action.term && one.stiffness.isZero(0) &&
+             one.beside == action.beside;
     });
     if (there == field.end())
       field.push_back(action);
     else
-      there->force += action.force;
+      there->force += action.force, there->pressure += action.pressure;
   }
   const Report done = simulation.set_field(std::move(field), watch, more * on->dead);
   CaseOnShell& now = cases[std::size_t(place)];

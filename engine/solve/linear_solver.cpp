@@ -2,10 +2,6 @@
 
 namespace gridshell {
 
-std::unique_ptr<LinearSolver> make_linear_solver(const Model& model) {
-  return model.contact.any() ? make_contact_solver(model) : make_pattern_solver(model);
-}
-
 std::unique_ptr<LinearSolver> make_pattern_solver(const Model& model) {
   constexpr int measured = 1000000;  // degrees of freedom
   return model.dof() <= measured ? make_block_cholesky(model) : make_cholmod(model);

@@ -60,8 +60,10 @@ class LinearSolver {
   virtual long long blocks() const = 0;
 };
 
-/// What a model's Hessians are solved with: by its pattern, or where its edges may touch by that
-/// and the pairs that are near each other.
+/// What a model's Hessians are solved with: a pattern solver, and another one for the pattern with
+/// the blocks beyond it, which is planned anew when one of them is new: a plan takes some three
+/// factorisations, and as blocks are kept for edges that only come near it is rare. A factor of the
+/// pattern corrected by low rank would need as many solves as there are contacts.
 std::unique_ptr<LinearSolver> make_linear_solver(const Model& model);
 
 /// The faster of the two below for the size of `model`: block Cholesky as far as it was measured,
@@ -71,12 +73,6 @@ std::unique_ptr<LinearSolver> make_pattern_solver(const Model& model);
 
 /// 3x3-block signed Cholesky L S L^T on a fixed schedule, geometric nested dissection.
 std::unique_ptr<LinearSolver> make_block_cholesky(const Model& model);
-
-/// A pattern solver, and another one for the pattern with the blocks beyond it, which is planned
-/// anew when one of them is new: a plan takes some three factorisations, and as blocks are kept for
-/// edges that only come near it is rare. A factor of the pattern corrected by low rank would need
-/// as many solves as there are contacts.
-std::unique_ptr<LinearSolver> make_contact_solver(const Model& model);
 
 /// How CHOLMOD factorises, and in which order.
 struct CholmodOptions {

@@ -141,8 +141,7 @@ void Linearisation::tangent(const Eigen::Matrix3Xd& prescribed,
   multiply(model_, assembly_.hessian, moved, velocity);
   velocity *= -1;
   const auto grow = [&](const std::vector<NodeAction>& actions, double factor) {
-    for (const NodeAction& action : actions)
-      velocity.col(action.node) -= factor * action.gradient(state.x.col(action.node));
+    for (const NodeAction& action : actions) action.add_gradient(-factor, state.x, velocity);
   };
   if (outside_velocity.load != 0) grow(model_.loads, outside_velocity.load);
   if (outside_velocity.field && outside_velocity.field_factor != 0)

@@ -28,15 +28,16 @@ BlockHessian stiffness_slope(const Linearisation& system, const State& begin,
     assemble_hessian(model, state, outside, {}, out);
     return std::move(out.hessian);
   };
-  BlockHessian up = hessian(h);
-  const BlockHessian down = hessian(-h);
+  BlockHessian up = hessian(h), down = hessian(-h);
   const auto slope = [&](std::vector<Block3>& a, const std::vector<Block3>& b) {
     for (std::size_t k = 0; k < a.size(); ++k)
       a[k].matrix() = (a[k].matrix() - b[k].matrix()) / (2 * h);
   };
   slope(up.diagonal, down.diagonal);
   slope(up.pair, down.pair);
-  up.beyond.clear();
+  for (BlockHessian::Beyond& one : down.beyond) one.block.matrix() *= -1;
+  up.beyond.insert(up.beyond.end(), down.beyond.begin(), down.beyond.end());
+  for (BlockHessian::Beyond& one : up.beyond) one.block.matrix() /= 2 * h;
   return up;
 }
 

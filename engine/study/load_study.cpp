@@ -105,7 +105,7 @@ class Loading {
   /// All that comes on with a factor of one, on the layout's supports, N.
   Eigen::Matrix3Xd loads() const {
     return simulate::loads_on(shell_.finest(), shell_.model(shell_.levels() - 1),
-                              {load_.dead, &forces_, nullptr, 0});
+                              shell_.state().levels.back().x, {load_.dead, &forces_, nullptr, 0});
   }
 
  private:

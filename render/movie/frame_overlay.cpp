@@ -163,7 +163,6 @@ void put_contacts(const record::Layout& layout, const record::Frame& frame, doub
 
 void put_braces(const record::Layout& layout, const record::Frame& frame, double thin_mm,
                 Drawing& drawing) {
-  constexpr Colour brace_ink{0.30f, 0.36f, 0.50f, 1};
   GhostRods braces{frame.nodes, {}, std::max(0.6 * layout.rod_diameter_mm, thin_mm), brace_ink};
   for (Eigen::Index k = 0; k < frame.brace_force_N.size(); ++k) {
     if (std::isnan(frame.brace_force_N[k])) continue;
@@ -174,6 +173,25 @@ void put_braces(const record::Layout& layout, const record::Frame& frame, double
     braces.rods.push_back({node(k % 2), node(k % 2 + 2)});
   }
   if (!braces.rods.empty()) drawing.ghosts.push_back(std::move(braces));
+}
+
+namespace {
+
+constexpr Colour force_ink{0.0f, 0.56f, 0.30f, 1};
+
+}  // namespace
+
+void put_loads(const record::Layout& layout, const record::Frame& frame, double largest_N,
+               double thin_mm, Drawing& drawing) {
+  const double width = std::max(0.02 * longest_force(layout), 1.5 * thin_mm);
+  for (const LoadArrow& arrow : force_arrows(layout, frame, largest_N))
+    drawing.arrows.push_back({arrow.from, arrow.to, width, force_ink});
+}
+
+std::optional<ArrowKey> arrow_key(const record::Layout& layout, double largest_N) {
+  if (!(largest_N > 0)) return {};
+  const double shown_N = nice_ceiling(0.6 * largest_N);
+  return ArrowKey{longest_force(layout) * shown_N / largest_N, force_text(shown_N), force_ink};
 }
 
 std::string force_text(double N) {

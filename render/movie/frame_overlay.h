@@ -2,6 +2,7 @@
 // what does not fit is left out.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,7 @@
 namespace gridshell::render {
 
 inline constexpr Colour pale_ink{0.38f, 0.39f, 0.42f, 1}, event_ink{0.70f, 0.10f, 0.08f, 1},
-    contact_ink{0.80f, 0.05f, 0.60f, 1};
+    contact_ink{0.80f, 0.05f, 0.60f, 1}, brace_ink{0.30f, 0.36f, 0.50f, 1};
 
 /// Boxes in pixels; an empty one is not shown.
 struct FrameLayout {
@@ -62,6 +63,12 @@ void put_contacts(const record::Layout& layout, const record::Frame& frame, doub
 /// The frame's braces as bars.
 void put_braces(const record::Layout& layout, const record::Frame& frame, double thin_mm,
                 Drawing& drawing);
+
+/// Its loads as arrows, those of force_arrows(), and the key to their scale; none where there are
+/// none.
+void put_loads(const record::Layout& layout, const record::Frame& frame, double largest_N,
+               double thin_mm, Drawing& drawing);
+std::optional<ArrowKey> arrow_key(const record::Layout& layout, double largest_N);
 
 /// "loads 71.98 kN, reactions 71.98 kN": sizes of the sums of those that are known.
 std::string load_caption(const record::Frame& frame);

@@ -1,5 +1,6 @@
 // What a shell carries: the load factor over a joint's way, a curve a case.
 #include <algorithm>
+#include <cmath>
 
 #include "render/movie/state_charts.h"
 
@@ -40,9 +41,30 @@ Series marks_of(const std::vector<LoadPoint>& points, BranchEvent event, const c
   return marks;
 }
 
+/// Where each case's rods come to their strength: the factor with its error, the way as the path on
+/// the finest mesh passes there.
+Series strength_marks(const std::vector<LoadPoint>& points,
+                      const std::vector<record::LoadRow>& cases) {
+  Series marks = mark_series("at its strength", ink, Marker::triangle, 4);
+  for (const record::LoadRow& row : cases) {
+    const auto beyond = std::ranges::find_if(points, [&](const LoadPoint& point) {
+      return point.load_case == row.load_case && point.utilisation >= 1;
+    });
+    if (!std::isfinite(row.strength_factor) || beyond == points.end()) continue;
+    double way = beyond->way_mm;
+    if (beyond != points.begin() && beyond[-1].load_case == row.load_case)
+      way -= (beyond->utilisation - 1) / (beyond->utilisation - beyond[-1].utilisation) *
+             (way - beyond[-1].way_mm);
+    marks.add(way, row.strength_factor);
+    marks.y_error.push_back(row.strength_error);
+  }
+  return marks;
+}
+
 }  // namespace
 
-Plot load_plot(const std::vector<LoadPoint>& points, const std::string& title) {
+Plot load_plot(const std::vector<LoadPoint>& points, const std::vector<record::LoadRow>& cases,
+               const std::string& title) {
   Plot plot;
   plot.title = title;
   plot.x.label = "way of the joint that goes furthest (mm)";
@@ -52,6 +74,7 @@ Plot load_plot(const std::vector<LoadPoint>& points, const std::string& title) {
     add_path(points, name, series_colour(next++), plot);
   plot.add(marks_of(points, BranchEvent::turn, "limit point", Marker::square));
   plot.add(marks_of(points, BranchEvent::bifurcation, "bifurcation", Marker::circle));
+  plot.add(strength_marks(points, cases));
   return plot;
 }
 

@@ -92,7 +92,7 @@ Box Framing::union_of_views(const Eigen::Matrix3Xd& points) const {
 namespace {
 
 constexpr Colour load_ink{0.05f, 0.05f, 0.06f, 1}, mark_ink{0.98f, 0.76f, 0.10f, 1},
-    original_ink{0.66f, 0.67f, 0.7f, 1}, force_ink{0.0f, 0.56f, 0.30f, 1};
+    original_ink{0.66f, 0.67f, 0.7f, 1};
 
 // a square around everything that moves or bounds
 TopExtent top_extent(const Eigen::Matrix3Xd& points) {
@@ -241,10 +241,8 @@ std::vector<Colour> Stage::node_colours(const record::Frame& frame) const {
 }
 
 std::optional<ArrowKey> Stage::arrow_key() const {
-  const double largest_N = survey_.largest_load_N;
-  if (!style_.look.loads || !(largest_N > 0)) return {};
-  const double shown_N = nice_ceiling(0.6 * largest_N);
-  return ArrowKey{longest_force(run_) * shown_N / largest_N, force_text(shown_N), force_ink};
+  if (!style_.look.loads) return {};
+  return render::arrow_key(run_, survey_.largest_load_N);
 }
 
 Drawing Stage::drawing(const record::Frame& frame) const {
@@ -276,10 +274,7 @@ Drawing Stage::drawing(const record::Frame& frame) const {
     drawing.arrows.push_back({arrow.from, arrow.to, std::max(1.6, 2.0 * thin), load_ink});
     drawing.marks.push_back({frame.nodes.col(arrow.node), std::max(5.0, 6 * thin), mark_ink});
   }
-  if (look.loads)
-    for (const LoadArrow& arrow : force_arrows(run_, frame, survey_.largest_load_N))
-      drawing.arrows.push_back(
-          {arrow.from, arrow.to, std::max(0.02 * longest_force(run_), 1.5 * thin), force_ink});
+  if (look.loads) put_loads(run_, frame, survey_.largest_load_N, thin, drawing);
   if (look.braces) put_braces(run_, frame, thin, drawing);
   put_contacts(run_, frame, thin, drawing);
   drawing.ground_z_mm = ground_z_mm_;

@@ -36,8 +36,9 @@ Result<void> write_branches(const std::filesystem::path& stem,
                             const std::string& title);
 
 /// The load factor over a joint's way, a curve a case, dashed where it is not stable; limit points
-/// and bifurcations are marked.
-Plot load_plot(const std::vector<record::LoadPoint>& points, const std::string& title);
+/// and bifurcations are marked, and where the rods come to their strength, with its error.
+Plot load_plot(const std::vector<record::LoadPoint>& points,
+               const std::vector<record::LoadRow>& cases, const std::string& title);
 
 // Which states footprints of so many rods and so long legs can rest in [Baek 2018, Fig. 2B].
 

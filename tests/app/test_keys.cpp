@@ -144,9 +144,10 @@ TEST_CASE("every member of a preset has a key") {
 TEST_CASE("every key of joints, ends and loads takes a cap off the net, which knows none of them") {
   // the first counts for spring joints alone, the second for surfaces with rings, the next two for
   // scans, then one with gravity and in motion, the others for load cases
-  const std::set<std::string> harmless{
-      "stiffness_N_per_mm", "rings",    "diameter_mm", "height_mm",      "mass_g",      "snow_N_m2",
-      "wind_N_m2",          "wind_deg", "edge_N_m",    "edge_direction", "imperfection"};
+  const std::set<std::string> harmless{"stiffness_N_per_mm", "rings",          "diameter_mm",
+                                       "height_mm",          "mass_g",         "snow_N_m2",
+                                       "wind_N_m2",          "pressure_N_m2",  "wind_deg",
+                                       "edge_N_m",           "edge_direction", "imperfection"};
   Preset cap;
   cap.footprint.kind = FootprintKind::net;
   cap.accuracy.tolerance = 0.05;

@@ -133,6 +133,9 @@ TEST_CASE("two shells stand side by side, each in half of the view") {
   find_action("beside")->act(viewer);
   CHECK(viewer.show.shells() == 2);
   CHECK(viewer.view.width == 400);
+  // the right one's edge is the legend's
+  for (const auto& node : shell->frame.nodes.colwise())
+    CHECK(render::to_pixel(viewer.camera, 400, 600, node).x() < 0.83 * 400);
   // over it the other one is ghosts, beside it none
   const auto ghosts = [&] { return drawing_of(*shell, viewer.show, 0.1).ghosts.size(); };
   CHECK(ghosts() == 0);
@@ -143,6 +146,44 @@ TEST_CASE("two shells stand side by side, each in half of the view") {
   viewer.compare({});
   CHECK(viewer.view.width == 800);
   CHECK(viewer.show.shells() == 1);
+}
+
+TEST_CASE("what loads a shell is drawn as arrows and its braces as bars, until switched off") {
+  ShellView shell = shell_of_four_joints();
+  auto layout = std::make_shared<record::Layout>(*shell.layout);
+  layout->length_scale_mm = 10, layout->spacing_mm = 2;
+  layout->actuated_boundary = layout->original_boundary = Eigen::Matrix3Xd::Zero(3, 2);
+  layout->supports = {0, 1, 2};
+  layout->cells.emplace_back().joints = {0, 1, 2, 3};
+  shell.layout = layout;
+  shell.frame.loads_N = Eigen::Vector3d(0, 0, -1) * Eigen::RowVector3d(1, 2, 1e-4);
+  shell.frame.brace_force_N = Eigen::Vector2d(3, NAN);
+  Show show;
+  show.colour_by = ColourBy::none;
+  show.largest_load_N = 4;
+  const render::Drawing drawn = drawing_of(shell, show, 0.1);
+  // the third is too small to be seen
+  REQUIRE(drawn.arrows.size() == 2);
+  const auto length = [&](int k) {
+    return (drawn.arrows[std::size_t(k)].to - drawn.arrows[std::size_t(k)].from).norm();
+  };
+  CHECK(length(1) == Approx(2 * length(0)));
+  REQUIRE(drawn.ghosts.size() == 1);
+  CHECK(drawn.ghosts[0].rods == std::vector<std::vector<int>>{{0, 2}});
+  show.loads = show.braces = false;
+  CHECK(drawing_of(shell, show, 0.1).arrows.empty());
+  CHECK(drawing_of(shell, show, 0.1).ghosts.empty());
+}
+
+TEST_CASE("where stability is lost is not asked of a way that was left without a word of it") {
+  ViewerState viewer({});
+  auto shell = std::make_shared<ShellView>(shell_of_four_joints());
+  viewer.shell = shell;
+  viewer.go_to_loss();
+  CHECK(viewer.message == "on the boundary's way so far every state is stable");
+  shell->way_left = "jitter at R_a = 94.5 mm";
+  viewer.go_to_loss();
+  CHECK(viewer.message.find("left by jitter at R_a = 94.5 mm") != std::string::npos);
 }
 
 TEST_CASE("every quantity of a plot has a name and a place of its own") {

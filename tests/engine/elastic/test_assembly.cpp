@@ -29,7 +29,7 @@ const RodMaterial wire{700, 6, 6, 3, {0, 0}, 0};
 const ExternalLoads outside{.load = 0.7};
 
 /// Two rods that share a node, one of them clamped, with axes and a shape at rest, sheared at the
-/// joint; a third hung on by a spring; loads and ground.
+/// joint; a third hung on by a spring; loads, pressures and ground.
 Model sample_model() {
   const ModelRod a{{0, 1, 2, 3, 4}, {0, 4, 9, 13, 18}, strip, {}, RodEnd::clamped, RodEnd::pinned};
   const ModelRod b{{5, 6, 2, 7, 8}, {0, 5, 9, 14, 18}, wire, {}, RodEnd::tangent, RodEnd::free};
@@ -40,6 +40,9 @@ Model sample_model() {
   add_joint_shear(model, 0, 2, 1, 2, 7.5, 1.4);
   add_joint_spin(model, 0, 2, 1, 2, 3.5);
   for (int node = 0; node < 12; ++node) model.loads.push_back({node, {0, 0, -0.1}});
+  // pressures on a triangle and on a plane curve
+  model.loads.push_back({.node = 1, .pressure = 0.05, .beside = {6, 3}});
+  model.loads.push_back({.node = 7, .anchor = {0, 0, 3}, .pressure = 0.3, .beside = {3, -1}});
   model.ground.push_back({6, {0, 0, 0}, {2, 3, 4}, {1, -1, 0.5}});
   // edges 4 of `a` and 6 of `b`, so thick that they press
   model.contact = {

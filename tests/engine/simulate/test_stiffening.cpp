@@ -30,8 +30,10 @@ preset::Preset loaded_shell() {
   p.load_case = {{.name = "snow", .snow = 1, .points = {}},
                  {.name = "half", .snow = 1, .snow_side = preset::SnowSide::x, .points = {}},
                  {.name = "wind", .dead = 0.5, .wind = 1, .points = {{0, 0, 0.8, 0, 0}}},
-                 {.name = "edge", .edge = 1, .points = {}}};
+                 {.name = "edge", .edge = 1, .points = {}},
+                 {.name = "pressure", .pressure = 1, .points = {}}};
   p.loads.edge_N_m = 50;
+  p.loads.pressure_N_m2 = 3000;
   return p;
 }
 
@@ -86,8 +88,9 @@ double stiffness_of_push(Simulation simulation) {
 TEST_CASE("load cases: what comes on is what the supports bear, to 1e-9 of it") {
   Simulation simulation = formed(loaded_shell());
   const Eigen::Matrix3Xd shape = simulation.nodes();
-  double plan = 0, half = 0;
+  double plan = 0, half = 0, covered = 0;
   for (const Face& face : faces_of(simulation.scene().footprint)) {
+    covered += area_of(face, shape).z();
     const double area = std::max(area_of(face, shape).z(), 0.0);  // none lies on overhangs
     plan += area;
     const double middle =
@@ -108,14 +111,16 @@ TEST_CASE("load cases: what comes on is what the supports bear, to 1e-9 of it") 
   double around = 0;
   for (std::size_t k = 0; k < ring.size(); ++k)
     around += (ring[(k + 1) % ring.size()] - ring[k]).norm();
-  for (const char* name : {"snow", "half", "wind", "edge"}) {
+  for (const char* name : {"snow", "half", "wind", "edge", "pressure"}) {
     CAPTURE(name);
     preset::Step load = step(StepKind::load);
     load.load_case = name;
     load.factor = 0.8;
     done(simulation, load);
     const std::string of = name;
-    const Eigen::Vector3d field = sum_of(simulation.field());
+    const bool turns = std::string(name) == "pressure";
+    const Eigen::Vector3d field =
+        turns ? Eigen::Vector3d(0, 0, -0.8 * 3e-3 * covered) : sum_of(simulation.field());
     if (of == "snow") CHECK(field.z() == Approx(-0.8 * 4e-3 * plan).epsilon(1e-10));
     if (of == "half") CHECK(field.z() == Approx(-0.8 * 4e-3 * half).epsilon(1e-3));
     if (of == "wind") CHECK(field.x() > 0.8 * 0.8);

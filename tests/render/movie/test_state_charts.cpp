@@ -40,6 +40,24 @@ std::vector<BranchPoint> points() {
 
 }  // namespace
 
+TEST_CASE("load factors are marked where the rods come to their strength, with the error") {
+  using record::LoadPoint;
+  const std::vector<LoadPoint> path{{"snow", 0, 0, 0, BranchEvent::none, 0.2},
+                                    {"snow", 1, 2, 0, BranchEvent::none, 0.6},
+                                    {"snow", 2, 5, 0, BranchEvent::none, 1.4},
+                                    {"wind", 1, 3, 0, BranchEvent::none, 0.5}};
+  record::LoadRow torn, whole;
+  torn.load_case = "snow", whole.load_case = "wind";
+  torn.strength_factor = 1.45, torn.strength_error = 0.1;
+  const Plot plot = load_plot(path, {torn, whole}, "");
+  const Series& marks = plot.series.back();
+  CHECK(marks.name == "at its strength");
+  CHECK(marks.x == std::vector<double>{3.5});
+  CHECK(marks.y == std::vector<double>{1.45});
+  CHECK(marks.y_error == std::vector<double>{0.1});
+  CHECK(load_plot(path, {whole}, "").series.back().name == "wind");
+}
+
 TEST_CASE("stable parts are full, others dashed, and parts meet where something happens") {
   const Plot plot = branches_plot(points(), BranchAxis::amplitude);
   CHECK(plot.x.label == "*R*_{a} (mm)");

@@ -1,14 +1,15 @@
-// Blocks beyond a model's pattern, between edges that come near each other: a pattern with theirs
-// and a solver planned for it.
+// Blocks beyond a model's pattern, between edges that come near each other or nodes of a face: a
+// pattern with theirs and a solver planned for it.
+#include <optional>
+
 #include "engine/solve/linear_solver.h"
 
 namespace gridshell {
 namespace {
 
-class ContactSolver final : public LinearSolver {
+class BeyondSolver final : public LinearSolver {
  public:
-  explicit ContactSolver(const Model& model)
-      : model_(model), touching_(model), apart_(make_pattern_solver(model)) {}
+  explicit BeyondSolver(const Model& model) : model_(model), apart_(make_pattern_solver(model)) {}
 
   Inertia factor(const BlockHessian& hessian, double shift) override {
     current_ = apart_.get();
@@ -26,27 +27,27 @@ class ContactSolver final : public LinearSolver {
  private:
   bool known(const BlockHessian& hessian) const {
     return std::ranges::all_of(hessian.beyond, [&](const BlockHessian::Beyond& one) {
-      return touching_.pattern.find(one.row, one.column) >= 0;
+      return wider_->pattern.find(one.row, one.column) >= 0;
     });
   }
   void plan(const BlockHessian& hessian) {
-    touching_.pattern = model_.pattern;
+    wider_ = model_;
     for (const BlockHessian::Beyond& one : hessian.beyond)
-      touching_.pattern.slot(one.row, one.column);
-    together_ = make_pattern_solver(touching_);
+      wider_->pattern.slot(one.row, one.column);
+    together_ = make_pattern_solver(*wider_);
   }
   /// The same with all blocks in the pattern.
   const BlockHessian& merged(const BlockHessian& hessian) {
     merged_.diagonal = hessian.diagonal;
     merged_.pair = hessian.pair;
-    merged_.pair.resize(touching_.pattern.pairs().size());
+    merged_.pair.resize(wider_->pattern.pairs().size());
     for (const BlockHessian::Beyond& one : hessian.beyond)
-      merged_.add(touching_.pattern.find(one.row, one.column), one.block);
+      merged_.add(wider_->pattern.find(one.row, one.column), one.block);
     return merged_;
   }
 
   const Model& model_;
-  Model touching_;  // its pattern has the blocks beyond
+  std::optional<Model> wider_;  // its pattern has the blocks beyond
   std::unique_ptr<LinearSolver> apart_, together_;
   LinearSolver* current_ = apart_.get();
   BlockHessian merged_;
@@ -54,8 +55,8 @@ class ContactSolver final : public LinearSolver {
 
 }  // namespace
 
-std::unique_ptr<LinearSolver> make_contact_solver(const Model& model) {
-  return std::make_unique<ContactSolver>(model);
+std::unique_ptr<LinearSolver> make_linear_solver(const Model& model) {
+  return std::make_unique<BeyondSolver>(model);
 }
 
 }  // namespace gridshell

@@ -1,0 +1,108 @@
+// The figures of what was clicked: a joint, a rod and the point on it, a cell.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/window/panel.h"
+#include "engine/gridshell.h"
+
+namespace gridshell::window {
+namespace {
+
+/// "u-rod 3", by the index that its joints have in common; of networks, whose joints are named by
+/// points, "Rod 12".
+std::string rod_name(const record::Layout& layout, int rod) {
+  if (std::ranges::all_of(layout.joints, [](const record::Joint& joint) { return joint.j == 0; }))
+    return fmt::format("Rod {}", rod);
+  const std::string family =
+      layout.families.empty() ? std::string() : layout.families[std::size_t(rod)];
+  for (const int node : layout.rods[std::size_t(rod)]) {
+    if (node >= int(layout.joints.size())) continue;
+    const record::Joint& joint = layout.joints[std::size_t(node)];
+    if (family == "u") return fmt::format("u-rod {}", joint.j);
+    if (family == "v") return fmt::format("v-rod {}", joint.i);
+  }
+  return fmt::format("Rod {}", rod);
+}
+
+/// "stress 120 MPa, 0.48 of the strength" of a node, as far as they are known.
+void stress_text(const ShellView& shell, int node) {
+  const auto of = [&](bool utilisation) {
+    const Eigen::VectorXd all =
+        record::stress_of_nodes_MPa(*shell.layout, shell.frame, utilisation);
+    return node < all.size() ? all[node] : record::unknown;
+  };
+  const double stress = of(false), used = of(true);
+  if (!std::isfinite(stress)) return;
+  std::string text = fmt::format("stress {:.3g} MPa", stress);
+  if (std::isfinite(used)) text += fmt::format(", {:.2g} of the strength", used);
+  ImGui::TextUnformatted(text.c_str());
+}
+
+void picked_rod(const Panel& panel, const PointOnRod& at) {
+  const ShellView& shell = *panel.viewer.shell;
+  const record::Layout& layout = *shell.layout;
+  const std::vector<int>& nodes = layout.rods[std::size_t(at.rod)];
+  const std::size_t k = std::min(std::size_t(at.point), nodes.size() - 1);
+  double along = 0, length = 0;
+  for (std::size_t n = 1; n < nodes.size(); ++n) {
+    length += (shell.frame.nodes.col(nodes[n]) - shell.frame.nodes.col(nodes[n - 1])).norm();
+    if (n == k) along = length;
+  }
+  heading(panel, rod_name(layout, at.rod).c_str());
+  ImGui::Text("%.1f of %.1f mm along it", along, length);
+  const auto force = record::axial_force_N(layout, shell.frame, std::size_t(at.rod));
+  ImGui::Text("axial force %.3g N", force[k]);
+  const double curvature = record::curvature_per_mm(layout, shell.frame, std::size_t(at.rod))[k];
+  ImGui::Text("curvature %.4f 1/mm", curvature);
+  ImGui::Text("bending %.3g mJ/m", shell.bending_mJ_m[nodes[k]]);
+  stress_text(shell, nodes[k]);
+}
+
+/// How far the joint that was clicked is pushed inwards, to drag or to type.
+void push_depth(const Panel& panel, int joint) {
+  ViewerState& viewer = panel.viewer;
+  const ShellView& shell = *viewer.shell;
+  Eigen::Vector3d along = shell.normals.col(joint), from = shell.frame.nodes.col(joint);
+  for (const HeldJoint& held : shell.held)
+    if (held.joint == joint && !held.along.isZero(0)) along = held.along, from -= held.moved_mm;
+  float depth = -float((shell.frame.nodes.col(joint) - from).dot(along));
+  if (std::abs(depth) < 5e-4f) depth = 0;
+  const float most = float(0.5 * shell.layout->length_scale_mm);
+  if (slider(panel, "push_depth", depth, -most, most, "pushed in %.2f mm",
+             "pushes it along its normal and holds it, inwards above 0; Ctrl+click to type"))
+    viewer.post(Push{joint, from - four_digits(depth) * along, along}, true);
+  if (ImGui::IsItemDeactivated()) viewer.end_drag();
+}
+
+}  // namespace
+
+void picked_figures(const Panel& panel) {
+  const ViewerState& viewer = panel.viewer;
+  const ShellView& shell = *viewer.shell;
+  const record::Layout& layout = *shell.layout;
+  if (viewer.picked_joint >= 0 && viewer.picked_joint < int(layout.joints.size())) {
+    const record::Joint& joint = layout.joints[std::size_t(viewer.picked_joint)];
+    // round-off is no -0.00
+    const Eigen::Vector3d at = shell.frame.nodes.col(viewer.picked_joint).unaryExpr([](double x) {
+      return std::abs(x) < 5e-3 ? 0.0 : x;
+    });
+    heading(panel, fmt::format("Joint ({}, {})", joint.i, joint.j).c_str());
+    push_depth(panel, viewer.picked_joint);
+    ImGui::Text("x %.2f  y %.2f  z %.2f mm", at.x(), at.y(), at.z());
+    ImGui::Text("axial force %.3g N", shell.axial_N[viewer.picked_joint]);
+    ImGui::Text("bending %.3g mJ/m", shell.bending_mJ_m[viewer.picked_joint]);
+    stress_text(shell, viewer.picked_joint);
+  }
+  if (viewer.picked_rod.rod >= 0 && viewer.picked_rod.rod < int(layout.rods.size()))
+    picked_rod(panel, viewer.picked_rod);
+  if (viewer.picked_cell >= 0 && viewer.picked_cell < int(layout.cells.size())) {
+    const record::Cell& cell = layout.cells[std::size_t(viewer.picked_cell)];
+    heading(panel, fmt::format("Cell ({}, {})", cell.i, cell.j).c_str());
+    ImGui::Text("K□ = %.4f rad", shell.frame.cell_K[viewer.picked_cell]);
+    if (shell.deviation.size() > 0) ImGui::Text("Δ/ρ = %.4f", shell.deviation[viewer.picked_cell]);
+  }
+}
+
+}  // namespace gridshell::window
