@@ -140,8 +140,9 @@ struct ModelRod {
   std::vector<int> nodes;
   std::vector<double> position;  ///< mm, ascending
   RodMaterial material;
-  /// Curvature binormal at rest about m1 at every node, beside the material's curvature; empty: 0.
-  std::vector<double> turns{};
+  /// Curvature binormal at rest about m1 and m2 of the edge before, at every node, beside the
+  /// material's curvature; empty: 0.
+  std::vector<Eigen::Vector2d> turns{};
   RodEnd begin = RodEnd::pinned, end = RodEnd::pinned;
   Eigen::Vector3d director{0, 0, 1};     ///< m1 at the begin, as near as the tangent allows
   int ghost_begin = -1, ghost_end = -1;  ///< nodes of the ghosts; -1: numbered after the others
@@ -228,21 +229,25 @@ auto* law_of(AnyModel& model, int bend) {
 /// The edges of a rod that meet at a node, one or two.
 std::vector<int> edges_beside(const Model& model, int rod, int node);
 
-/// Adds the resistance to shear `stiffness` (N mm/rad) where rods `a` and `b` of the model cross
-/// at a node (or at two nodes that a spring joins): the edges before and after it on each rod.
+/// Where rods `a` and `b` of a model cross: at a node, or at two nodes that a spring joins.
+struct Crossing {
+  int rod_a = 0, node_a = 0, rod_b = 0, node_b = 0;
+};
+
+/// Adds the resistance to shear `stiffness` (N mm/rad) where rods cross: of the edges before and
+/// after the node on each rod.
 /// It acts on the rods' tangents at the joint, which lie between those of the edges: what these
 /// turn less than the joint is put in series with it (of a rigid one, infinite, that alone is
-/// left). `rest_angle`: between edge e of `a` and edge f of `b`. finish() afterwards; so for the
-/// two below.
-void add_joint_shear(Model& model, int rod_a, int node_a, int rod_b, int node_b, double stiffness,
-                     const std::function<double(int e, int f)>& rest_angle);
-/// The same with one angle of all four.
-void add_joint_shear(Model& model, int rod_a, int node_a, int rod_b, int node_b, double stiffness,
-                     double rest_angle);
+/// left). `rest_angle`: between edge e of `a` and edge f of `b`. `share`: how much of a joint of
+/// several pairs of rods this one is. finish() afterwards; so for the two below.
+void add_joint_shear(Model& model, const Crossing& at, double stiffness,
+                     const std::function<double(int e, int f)>& rest_angle, double share = 1);
 
 /// Adds the resistance to spin `stiffness` (N mm/rad) of both rods where they cross: their first
-/// directors stay near the joint's normal, from the direction of `a` to that of `b`.
-void add_joint_spin(Model& model, int rod_a, int node_a, int rod_b, int node_b, double stiffness);
+/// directors stay near the joint's normal, `side` times that from the direction of `a` to that of
+/// `b`. What the edges turn less than the joint is in series with it, as of the shear.
+void add_joint_spin(Model& model, const Crossing& at, double stiffness, int side = 1,
+                    double share = 1);
 
 /// Works out pattern and numbering after elements were added or unknowns held.
 void finish(Model& model);
