@@ -44,8 +44,10 @@ inline __attribute__((always_inline)) void along_rods(const Model& model, const 
 }
 
 template <class Law>
-PairGeometry pair_geometry(const Model& model, const State& state, const Pair<Law>& pair) {
+PairGeometry pair_geometry(const Model& model, const State& state, const Pair<Law>& pair,
+                           double opening = 0) {
   PairGeometry at;
+  at.opening = opening;
   at.e = geometry_of(state.x, model.edges[std::size_t(pair.e)]);
   at.f = geometry_of(state.x, model.edges[std::size_t(pair.f)]);
   if (!model.has_spins()) return at;

@@ -170,7 +170,8 @@ void add_others(const Model& model, const State& state, const ExternalLoads& out
   each_pair_list(model, [&]<class Law>(const std::vector<Pair<Law>>& list) {
     for (const Pair<Law>& pair : list) {
       PairEnergy energy;
-      out.energies[Law::term] += pair.law.add(pair_geometry(model, state, pair), energy);
+      out.energies[Law::term] +=
+          pair.law.add(pair_geometry(model, state, pair, outside.opening), energy);
       add_pair_gradient(model, pair, energy, out);
       if (with_hessian) add_pair_hessian(model, pair, energy.hessian, out.hessian);
     }
@@ -279,6 +280,18 @@ void assemble_gradient(const Model& model, const State& state, const ExternalLoa
                        Assembly& out) {
   rod_gradient(model, state.x, out);
   add_others(model, state, outside, false, out);
+}
+
+Eigen::Matrix3Xd opening_rate(const Model& model, const State& state) {
+  Assembly out;
+  out.gradient.setZero(3, model.columns());
+  for (const auto& pair : std::get<std::vector<Pair<JointShear>>>(model.pairs)) {
+    if (pair.law.opening == 0) continue;
+    PairEnergy rate;
+    pair.law.add_opening_rate(pair_geometry(model, state, pair), rate);
+    add_pair_gradient(model, pair, rate, out);
+  }
+  return std::move(out.gradient);
 }
 
 void assemble_mixed_residual(const Model& model, const State& state, const ExternalLoads& outside,

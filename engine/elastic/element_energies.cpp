@@ -287,17 +287,25 @@ double angle(const PairGeometry& at) {
 
 }  // namespace
 
+double JointShear::beyond(const PairGeometry& at) const {
+  return angle(at) - rest - at.opening * opening;
+}
+
 double JointShear::value(const PairGeometry& at) const {
-  const double beyond = angle(at) - rest;
-  return 0.5 * stiffness * beyond * beyond;
+  return 0.5 * stiffness * beyond(at) * beyond(at);
 }
 
 double JointShear::add(const PairGeometry& at, PairEnergy& out) const {
-  const double beyond = angle(at) - rest, c = at.e.tangent.dot(at.f.tangent),
+  const double off = beyond(at), c = at.e.tangent.dot(at.f.tangent),
                slope = 1 / std::sqrt(1 - c * c);
-  add_cosine(-stiffness * beyond * slope, stiffness * slope * slope * (1 - beyond * c * slope),
-             at.e, at.f, out);
-  return 0.5 * stiffness * beyond * beyond;
+  add_cosine(-stiffness * off * slope, stiffness * slope * slope * (1 - off * c * slope), at.e,
+             at.f, out);
+  return 0.5 * stiffness * off * off;
+}
+
+void JointShear::add_opening_rate(const PairGeometry& at, PairEnergy& out) const {
+  const double c = at.e.tangent.dot(at.f.tangent);
+  add_cosine(stiffness * opening / std::sqrt(1 - c * c), 0, at.e, at.f, out);
 }
 
 double joint_spin(int side, double theta, const EdgeGeometry& e, const Eigen::Vector3d& director,

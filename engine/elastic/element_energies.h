@@ -65,6 +65,7 @@ struct PairGeometry {
   double angle_e = 0, angle_f = 0;         ///< theta of each edge, rad
   Eigen::Vector3d director_e, director_f;  ///< of their reference frames
   double reference_twist = 0;              ///< m_ref from e to f, of edges that follow one another
+  double opening = 0;                      ///< how much of their opening joints have come
 
   /// tau = theta_f - theta_e + m_ref
   double twist() const { return angle_f - angle_e + reference_twist; }
@@ -202,11 +203,17 @@ struct EndBending {
 
 // The resistance of a joint to shear.
 
-/// E = k/8 sum over the four pairs of edges at a joint of (angle - rest)^2, one pair each.
+/// E = k/8 sum over the four pairs of edges at a joint of (angle - rest)^2, one pair each; of a
+/// joint that is opened the rest grows with how much of that has come.
 struct JointShear {
   static constexpr Term term = Term::shear;
   double stiffness = 0;  ///< k/4, N mm/rad
   double rest = M_PI / 2;
+  double opening = 0;  ///< of the rest in all, rad
+
+  double beyond(const PairGeometry& at) const;  ///< angle - rest, rad
+  /// Adds how the gradient changes with the opening's part that has come.
+  void add_opening_rate(const PairGeometry& at, PairEnergy& out) const;
 
   double value(const PairGeometry& at) const;
   double add(const PairGeometry& at, PairEnergy& out) const;

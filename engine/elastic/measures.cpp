@@ -75,7 +75,7 @@ Energies energies_of(const Model& model, const State& state, const ExternalLoads
       });
   each_pair_list(model, [&]<class Law>(const std::vector<Pair<Law>>& list) {
     for (const Pair<Law>& pair : list)
-      sum[Law::term] += pair.law.value(pair_geometry(model, state, pair));
+      sum[Law::term] += pair.law.value(pair_geometry(model, state, pair, outside.opening));
   });
   for (const ModelSpring& spring : model.springs)
     sum[spring.law.term] += spring.law.value(gap_of(state, spring.law));

@@ -353,13 +353,14 @@ std::vector<int> edges_beside(const Model& model, int rod, int node) {
 }
 
 void add_joint_shear(Model& model, const Crossing& at, double stiffness,
-                     const std::function<double(int e, int f)>& rest_angle, double share) {
+                     const std::function<double(int e, int f)>& rest_angle, double share,
+                     double opening) {
   const double between = turn_between(model, at.rod_a, at.node_a, Turn::aside) +
                          turn_between(model, at.rod_b, at.node_b, Turn::aside);
   const double k = share * in_series(stiffness, between);
   at_crossing(model, at, [&](int e, int f, double part) {
     std::get<std::vector<Pair<JointShear>>>(model.pairs)
-        .push_back({e, f, -1, {part * k, rest_angle(e, f)}});
+        .push_back({e, f, -1, {part * k, rest_angle(e, f), opening}});
   });
 }
 

@@ -239,9 +239,11 @@ struct Crossing {
 /// It acts on the rods' tangents at the joint, which lie between those of the edges: what these
 /// turn less than the joint is put in series with it (of a rigid one, infinite, that alone is
 /// left). `rest_angle`: between edge e of `a` and edge f of `b`. `share`: how much of a joint of
-/// several pairs of rods this one is. finish() afterwards; so for the two below.
+/// several pairs of rods this one is; `opening`: by how much it is to open, rad. finish() afterwards;
+/// so for the one below.
 void add_joint_shear(Model& model, const Crossing& at, double stiffness,
-                     const std::function<double(int e, int f)>& rest_angle, double share = 1);
+                     const std::function<double(int e, int f)>& rest_angle, double share = 1,
+                     double opening = 0);
 
 /// Adds the resistance to spin `stiffness` (N mm/rad) of both rods where they cross: their first
 /// directors stay near the joint's normal, `side` times that from the direction of `a` to that of

@@ -204,13 +204,17 @@ void add_bolts(const RodMesh& mesh, const Bolts& bolts, bool springs, const Cros
   for (int joint = 0; joint < mesh.joints; ++joint) {
     const std::vector<int>& rods = crossings[std::size_t(joint)];
     const auto& held = bolts.rods[std::size_t(joint)];
+    const auto of = [&](const std::vector<double>& angles) {
+      return angles.empty() ? 0 : angles[std::size_t(joint)];
+    };
     each_two(held.size(), [&](std::size_t k, std::size_t m, double share) {
       const Crossing at = crossing(mesh, rods, joint, springs, k, m);
       const auto rest = [&](int e, int f) {
-        return angle_between(held[k].at(beyond(model.edges[std::size_t(e)], at.node_a)),
+        return of(bolts.opened) +
+               angle_between(held[k].at(beyond(model.edges[std::size_t(e)], at.node_a)),
                              held[m].at(beyond(model.edges[std::size_t(f)], at.node_b)));
       };
-      add_joint_shear(model, at, bolts.stiffness_Nmm, rest, share);
+      add_joint_shear(model, at, bolts.stiffness_Nmm, rest, share, of(bolts.opening));
     });
   }
 }
@@ -286,9 +290,26 @@ Eigen::Vector3d JointDirections::at(double mm) const {
   return between > 0 ? before + (mm + before_mm) / between * (after - before) : before;
 }
 
+double angle_between(const std::vector<JointDirections>& rods) {
+  return angle_between(rods[0].at(0), rods[1].at(0));
+}
+
+std::vector<double> joint_torques(const RodMesh& mesh, const Model& model, const State& state) {
+  std::vector<double> torques(std::size_t(mesh.joints), 0);
+  const auto joint_of = [&](int node) { return node < mesh.nodes() ? node : node - mesh.nodes(); };
+  for (const auto& pair : std::get<std::vector<Pair<JointShear>>>(model.pairs)) {
+    const ModelEdge &e = model.edges[std::size_t(pair.e)], &f = model.edges[std::size_t(pair.f)];
+    const int to = joint_of(e.to);
+    const int joint = to == joint_of(f.from) || to == joint_of(f.to) ? to : joint_of(e.from);
+    torques[std::size_t(joint)] -=
+        pair.law.stiffness * pair.law.beyond(pair_geometry(model, state, pair));
+  }
+  return torques;
+}
+
 Bolts tightened(const RodMesh& mesh, const Model& model, const Eigen::Matrix3Xd& columns,
                 double stiffness_Nmm) {
-  Bolts bolts{stiffness_Nmm, {}};
+  Bolts bolts{stiffness_Nmm, {}, {}, {}};
   const auto crossings = crossings_of(mesh);
   const bool springs = model.nodes >= mesh.nodes() + mesh.joints;
   for (int joint = 0; joint < mesh.joints; ++joint) {

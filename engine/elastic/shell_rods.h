@@ -12,6 +12,8 @@
 
 namespace gridshell {
 
+struct State;
+
 /// A dead force on a joint, N.
 struct PointLoad {
   int joint = 0;
@@ -36,11 +38,16 @@ struct JointDirections {
 };
 
 /// Bolts that keep the angles that crossing rods had when they were tightened: free of stress in
-/// that shape, on every mesh.
+/// that shape, on every mesh. Joints that are opened strive for angles as much larger.
 struct Bolts {
   double stiffness_Nmm = 0;                        ///< per rad, of each joint; infinite: rigid
-  std::vector<std::vector<JointDirections>> rods;  ///< of every joint, in the order of its rods
+  std::vector<std::vector<JointDirections>> rods;  ///< of every joint, in its rods' order; or none
+  std::vector<double> opened{};   ///< of every joint, rad; empty: as they were tightened
+  std::vector<double> opening{};  ///< what is to come beside that, rad; empty: nothing
 };
+
+/// The angle between the first two rods of a joint, rad.
+double angle_between(const std::vector<JointDirections>& rods);
 
 /// A straight member between two joints.
 struct Brace {
@@ -92,6 +99,10 @@ std::vector<NodeAction> dead_loads(const RodMesh& mesh, const ShellRods& rods);
 /// build_model().
 Result<Model> build_model(const RodMesh& mesh, const ShellRods& rods,
                           RodModel rung = RodModel::bend);
+
+/// Torques of bolts and of joints that resist shear, on each joint's rods, that would open it: sums
+/// of k (rest - angle) over its pairs of edges, N mm.
+std::vector<double> joint_torques(const RodMesh& mesh, const Model& model, const State& state);
 
 /// Bolts tightened in a state of that model.
 Bolts tightened(const RodMesh& mesh, const Model& model, const Eigen::Matrix3Xd& columns,
