@@ -31,6 +31,7 @@ std::string text_of_step(const ShellView& shell) {
     case preset::StepKind::jitter:
     case preset::StepKind::tighten:
     case preset::StepKind::brace:
+    case preset::StepKind::open:
       return std::string(word_of(step.kind)) + at;
   }
   return "";

@@ -62,9 +62,10 @@ void each_pair_list(const Model& model, Visit visit) {
   std::apply([&](const auto&... lists) { (visit(lists), ...); }, model.pairs);
 }
 
-/// Mean angle at a joint beyond that at rest, rad.
-inline double excess_of(const Model& model, const State& state, const ModelShear& shear) {
-  double sum = 0;
+/// Mean angle at a joint beyond that at rest, so much of its opening having come, rad.
+inline double excess_of(const Model& model, const State& state, const ModelShear& shear,
+                        double opening) {
+  double sum = -opening * shear.opening;
   for (const auto& pair : shear.pairs) sum += pair.law.excess(pair_geometry(model, state, pair));
   return sum;
 }

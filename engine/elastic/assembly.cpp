@@ -148,13 +148,12 @@ void add_contact_hessian(const Model& model, const EdgeContact& contact, BlockHe
     }
 }
 
-/// With s the slope of the mean angle by the nodes: k (s s^T + excess s').
-void add_shear(const Model& model, const State& state, const ModelShear& shear, bool with_hessian,
-               Assembly& out) {
-  const double excess = excess_of(model, state, shear), moment = shear.stiffness * excess;
-  out.energies[Term::shear] += 0.5 * moment * excess;
+/// How the mean angle at a joint changes with the nodes about it; `each` takes every pair's share.
+template <class Each>
+std::vector<std::pair<int, Eigen::Vector3d>> angle_slope(const Model& model, const State& state,
+                                                         const ModelShear& shear, Each each) {
   std::vector<std::pair<int, Eigen::Vector3d>> slope;
-  const auto add_slope = [&](int node, const Eigen::Vector3d& by) {
+  const auto add = [&](int node, const Eigen::Vector3d& by) {
     const auto known = std::ranges::find(slope, node, &std::pair<int, Eigen::Vector3d>::first);
     if (known == slope.end())
       slope.emplace_back(node, by);
@@ -166,11 +165,23 @@ void add_shear(const Model& model, const State& state, const ModelShear& shear, 
     pair.law.add(pair_geometry(model, state, pair), angle);
     for (const auto& [edge, by] : {std::pair(pair.e, 0), std::pair(pair.f, 3)}) {
       const Eigen::Vector3d part = angle.gradient.segment<3>(by);
-      add_slope(model.edges[std::size_t(edge)].from, -part);
-      add_slope(model.edges[std::size_t(edge)].to, part);
+      add(model.edges[std::size_t(edge)].from, -part);
+      add(model.edges[std::size_t(edge)].to, part);
     }
-    if (with_hessian) add_pair_hessian(model, pair, moment * angle.hessian, out.hessian);
+    each(pair, angle);
   }
+  return slope;
+}
+
+/// With s the slope of the mean angle by the nodes: k (s s^T + excess s').
+void add_shear(const Model& model, const State& state, const ModelShear& shear, double opening,
+               bool with_hessian, Assembly& out) {
+  const double excess = excess_of(model, state, shear, opening), moment = shear.stiffness * excess;
+  out.energies[Term::shear] += 0.5 * moment * excess;
+  const auto slope =
+      angle_slope(model, state, shear, [&](const Pair<JointAngle>& pair, const PairEnergy& angle) {
+        if (with_hessian) add_pair_hessian(model, pair, moment * angle.hessian, out.hessian);
+      });
   for (const auto& [node, by] : slope) out.gradient.col(node) += moment * by;
   for (std::size_t a = 0; with_hessian && a < slope.size(); ++a)
     for (std::size_t b = 0; b <= a; ++b) {
@@ -226,7 +237,8 @@ void add_others(const Model& model, const State& state, const ExternalLoads& out
       if (with_hessian) add_pair_hessian(model, pair, energy.hessian, out.hessian);
     }
   });
-  for (const ModelShear& shear : model.shears) add_shear(model, state, shear, with_hessian, out);
+  for (const ModelShear& shear : model.shears)
+    add_shear(model, state, shear, outside.opening, with_hessian, out);
   for (const ModelSpring& spring : model.springs) {
     const Eigen::Vector3d gap = gap_of(state, spring.law), pull = spring.law.gradient(gap);
     out.energies[spring.law.term] += spring.law.value(gap);
@@ -328,6 +340,15 @@ void assemble_gradient(const Model& model, const State& state, const ExternalLoa
                        Assembly& out) {
   rod_gradient(model, state.x, out);
   add_others(model, state, outside, false, out);
+}
+
+Eigen::Matrix3Xd opening_rate(const Model& model, const State& state) {
+  Eigen::Matrix3Xd rate = Eigen::Matrix3Xd::Zero(3, model.columns());
+  for (const ModelShear& shear : model.shears)
+    if (shear.opening != 0)
+      for (const auto& [node, by] : angle_slope(model, state, shear, [](const auto&...) {}))
+        rate.col(node) -= shear.stiffness * shear.opening * by;
+  return rate;
 }
 
 void assemble_mixed_residual(const Model& model, const State& state, const ExternalLoads& outside,

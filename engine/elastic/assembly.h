@@ -20,12 +20,13 @@ struct Assembly {
 };
 
 /// What acts on a model from outside beside its ground: its dead loads times a factor, a field that
-/// is there, and one that comes or goes.
+/// is there, and one that comes or goes; and how much joints that are opened have come.
 struct ExternalLoads {
   double load = 1;
   const std::vector<NodeAction>* steady = nullptr;
   const std::vector<NodeAction>* field = nullptr;
   double field_factor = 0;
+  double opening = 0;  ///< what has come of ModelShear::opening
 };
 
 /// How the Hessian's stretch is taken.
@@ -50,6 +51,9 @@ Eigen::VectorXd bending_strain_of(const Model& model, const State& state);
 /// Energies, gradient and axial forces at a state.
 void assemble_gradient(const Model& model, const State& state, const ExternalLoads& outside,
                        Assembly& out);
+
+/// How the gradient changes with the opening of the joints, N.
+Eigen::Matrix3Xd opening_rate(const Model& model, const State& state);
 
 /// The residual of the mixed form at a state with axial forces N, its condition N = EA strain
 /// eliminated with the edges' directions t0 of an earlier linearisation: the gradient with N t +

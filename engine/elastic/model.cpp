@@ -89,10 +89,10 @@ class Builder {
       if (e == entry.ghost_begin) share = rod.begin == RodEnd::clamped ? 0 : 1;
       if (f == entry.ghost_end) share = rod.end == RodEnd::clamped ? 1 : 0;
       const std::size_t node = entry.ghost_begin >= 0 ? k - 1 : k;
-      add_bend(rod.material, entry, {e, f}, share, rod.turns.empty() ? 0 : rod.turns[node]);
+      add_bend(rod.material, entry, {e, f}, share, turn_of(rod, node));
     }
     if (entry.closed)
-      rings_.push_back({model_.rods.size(), rod.material, rod.turns.empty() ? 0 : rod.turns[0]});
+      rings_.push_back({model_.rods.size(), rod.material, turn_of(rod, 0)});
     model_.rods.push_back(std::move(entry));
   }
 
@@ -115,6 +115,10 @@ class Builder {
  private:
   int ghost(int known) { return known >= 0 ? known : model_.nodes++; }
 
+  static Eigen::Vector2d turn_of(const ModelRod& rod, std::size_t node) {
+    return rod.turns.empty() ? Eigen::Vector2d(0, 0) : rod.turns[node];
+  }
+
   int add_edge(Model::Rod& entry, int from, int to, double length, double EA) {
     entry.edges.push_back(int(model_.edges.size()));
     model_.edges.push_back({from, to, length, EA});
@@ -123,7 +127,7 @@ class Builder {
 
   /// Between two edges; `share`: MaterialBend's, `turn`: one of ModelRod::turns.
   void add_bend(const RodMaterial& m, const Model::Rod& entry, std::pair<int, int> edges,
-                double share, double turn) {
+                double share, const Eigen::Vector2d& turn) {
     const auto [e, f] = edges;
     // at a held end only the half edge on the rod's side bends
     const double before = e == entry.ghost_begin ? 0 : model_.edges[std::size_t(e)].rest_length,
@@ -142,8 +146,8 @@ class Builder {
           .push_back({e,
                       f,
                       bend,
-                      {{Eigen::Vector2d(m.EI1, m.EI2) / length,
-                        length * m.curvature + turn * Eigen::Vector2d::UnitX(), share}}});
+                      {{Eigen::Vector2d(m.EI1, m.EI2) / length, length * m.curvature + turn,
+                        share}}});
   }
 
   /// nodes that rods share
@@ -240,16 +244,20 @@ class Builder {
   struct Ring {
     std::size_t rod;
     RodMaterial material;
-    double turn;
+    Eigen::Vector2d turn;
   };
   std::vector<Ring> rings_;
 };
 
-/// l/EI of a bend in the flat plane, l its length, 1/(N mm).
-double give_of(const Model& model, int bend) {
+/// How a couple turns a rod: in the surface of the shell, out of it, or about itself.
+enum class Turn { aside, out, spin };
+
+/// l/EI of a bend, of its twist l/GJ, l its length, 1/(N mm).
+double give_of(const Model& model, int bend, Turn how) {
+  if (how == Turn::spin) return 1 / law_of<Torsion>(model, bend)->stiffness;
   const auto* end = law_of<EndBending>(model, bend);
   if (const auto* section = law_of<SectionBending>(model, bend))
-    return 1 / section->bend.stiffness[0];
+    return 1 / section->bend.stiffness[how == Turn::aside ? 0 : 1];
   return 2 / (end ? end->stiffness : model.bends[std::size_t(bend)].stiffness);
 }
 
@@ -265,20 +273,26 @@ std::vector<double> shares_of(const Model& model, const std::vector<int>& beside
 /// joint holds the rod itself and its energy the edges beside, whose tangents lie half an edge off:
 /// l/(4 EI) of a rod that goes on (of edges of other lengths l l'/(2 EI (l + l'))), l/(2 EI) of one
 /// that ends there.
-double turn_between(const Model& model, int rod, const std::vector<int>& beside) {
+double turn_between(const Model& model, int rod, int node, Turn how) {
   const Model::Rod& one = model.rods[std::size_t(rod)];
+  const std::vector<int> beside = edges_beside(model, rod, node);
   const int at = beside.front() - one.edges.front(), last = int(one.edges.size()) - 1;
   if (last == 0) return 0;  // nothing bends
-  const double give = give_of(model, one.first_bend + std::clamp(at, 0, last - 1));
+  const double give = give_of(model, one.first_bend + std::clamp(at, 0, last - 1), how);
   const std::vector<double> share = shares_of(model, beside);
   return give * (share.size() == 1 ? 0.5 : share[0] * share[1]);
 }
 
+/// A joint's stiffness in series with what its edges turn less than the joint; infinite: none.
+double in_series(double stiffness, double between) {
+  return std::isinf(stiffness) ? 1 / between : stiffness / (1 + stiffness * between);
+}
+
 /// add(e, f, share) for every pair of edges where two rods cross
 template <class Add>
-void at_crossing(const Model& model, int rod_a, int node_a, int rod_b, int node_b, Add add) {
-  const std::vector<int> first = edges_beside(model, rod_a, node_a),
-                         second = edges_beside(model, rod_b, node_b);
+void at_crossing(const Model& model, const Crossing& at, Add add) {
+  const std::vector<int> first = edges_beside(model, at.rod_a, at.node_a),
+                         second = edges_beside(model, at.rod_b, at.node_b);
   const std::vector<double> of_first = shares_of(model, first),
                             of_second = shares_of(model, second);
   for (std::size_t e = 0; e < first.size(); ++e)
@@ -313,12 +327,6 @@ double length_between(const Model& model, int e, int f) {
   return 0.5 * (length(e) + length(f));
 }
 
-void add_joint_shear(Model& model, int rod_a, int node_a, int rod_b, int node_b, double stiffness,
-                     double rest_angle) {
-  add_joint_shear(model, rod_a, node_a, rod_b, node_b, stiffness,
-                  [rest_angle](int, int) { return rest_angle; });
-}
-
 int Model::dof() const {
   int count = 0;
   for (unsigned char bits : held) count += 3 - std::popcount(bits);
@@ -343,25 +351,34 @@ std::vector<int> edges_beside(const Model& model, int rod, int node) {
   return edges;
 }
 
-void add_joint_shear(Model& model, int rod_a, int node_a, int rod_b, int node_b, double stiffness,
-                     const std::function<double(int e, int f)>& rest_angle) {
-  const double between = turn_between(model, rod_a, edges_beside(model, rod_a, node_a)) +
-                         turn_between(model, rod_b, edges_beside(model, rod_b, node_b));
-  stiffness = std::isinf(stiffness) ? 1 / between : stiffness / (1 + stiffness * between);
-  ModelShear& shear = model.shears.emplace_back(ModelShear{stiffness, {}});
-  at_crossing(model, rod_a, node_a, rod_b, node_b, [&](int e, int f, double share) {
-    shear.pairs.push_back({e, f, -1, {share, rest_angle(e, f)}});
+void add_joint_shear(Model& model, const Crossing& at, double stiffness,
+                     const std::function<double(int e, int f)>& rest_angle, double share,
+                     double opening) {
+  const double between = turn_between(model, at.rod_a, at.node_a, Turn::aside) +
+                         turn_between(model, at.rod_b, at.node_b, Turn::aside);
+  ModelShear& shear = model.shears.emplace_back();
+  shear.stiffness = share * in_series(stiffness, between);
+  shear.opening = opening;
+  at_crossing(model, at, [&](int e, int f, double part) {
+    shear.pairs.push_back({e, f, -1, {part, rest_angle(e, f)}});
   });
 }
 
-void add_joint_spin(Model& model, int rod_a, int node_a, int rod_b, int node_b, double stiffness) {
+void add_joint_spin(Model& model, const Crossing& at, double stiffness, int side, double share) {
+  // a couple about one rod twists it and bends the other out of the surface
+  const auto of = [&](int rod, int node, int other, int there) {
+    return share * in_series(stiffness, turn_between(model, rod, node, Turn::spin) +
+                                            turn_between(model, other, there, Turn::out));
+  };
+  const double a = of(at.rod_a, at.node_a, at.rod_b, at.node_b),
+               b = of(at.rod_b, at.node_b, at.rod_a, at.node_a);
   auto& list = std::get<std::vector<Pair<JointSpin>>>(model.pairs);
-  at_crossing(model, rod_a, node_a, rod_b, node_b, [&](int e, int f, double share) {
-    list.push_back({e, f, -1, {stiffness * share, 1}});
-    list.push_back({f, e, -1, {stiffness * share, -1}});
+  at_crossing(model, at, [&](int e, int f, double part) {
+    list.push_back({e, f, -1, {part * a, side}});
+    list.push_back({f, e, -1, {part * b, -side}});
   });
   // a spin that cost nothing and was held does now
-  for (int rod : {rod_a, rod_b}) {
+  for (int rod : {at.rod_a, at.rod_b}) {
     int& held = model.rods[std::size_t(rod)].held_spin;
     if (held < 0) continue;
     const int place = model.spin[std::size_t(std::exchange(held, -1))];

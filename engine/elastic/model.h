@@ -132,11 +132,13 @@ struct Pair {
 using PairLists = std::tuple<std::vector<Pair<Torsion>>, std::vector<Pair<SectionBending>>,
                              std::vector<Pair<EndBending>>, std::vector<Pair<JointSpin>>>;
 
-/// The resistance of a joint to shear: E = k/2 (sum of w (angle - rest) over its pairs of edges)^2.
+/// The resistance of a joint to shear: E = k/2 (sum of w (angle - rest) over its pairs of edges)^2,
+/// less, of a joint that is opened, what has come of its opening.
 /// It acts on the angle between the rods' tangents at the joint alone; a sum of the squares would
 /// resist their bending there too, over an edge of each.
 struct ModelShear {
   double stiffness = 0;  ///< k, N mm/rad
+  double opening = 0;    ///< in all, rad
   std::vector<Pair<JointAngle>> pairs;
 };
 
@@ -148,8 +150,9 @@ struct ModelRod {
   std::vector<int> nodes;
   std::vector<double> position;  ///< mm, ascending
   RodMaterial material;
-  /// Curvature binormal at rest about m1 at every node, beside the material's curvature; empty: 0.
-  std::vector<double> turns{};
+  /// Curvature binormal at rest about m1 and m2 of the edge before, at every node, beside the
+  /// material's curvature; empty: 0.
+  std::vector<Eigen::Vector2d> turns{};
   RodEnd begin = RodEnd::pinned, end = RodEnd::pinned;
   Eigen::Vector3d director{0, 0, 1};     ///< m1 at the begin, as near as the tangent allows
   int ghost_begin = -1, ghost_end = -1;  ///< nodes of the ghosts; -1: numbered after the others
@@ -237,21 +240,27 @@ auto* law_of(AnyModel& model, int bend) {
 /// The edges of a rod that meet at a node, one or two.
 std::vector<int> edges_beside(const Model& model, int rod, int node);
 
-/// Adds the resistance to shear `stiffness` (N mm/rad) where rods `a` and `b` of the model cross
-/// at a node (or at two nodes that a spring joins): the edges before and after it on each rod.
+/// Where rods `a` and `b` of a model cross: at a node, or at two nodes that a spring joins.
+struct Crossing {
+  int rod_a = 0, node_a = 0, rod_b = 0, node_b = 0;
+};
+
+/// Adds the resistance to shear `stiffness` (N mm/rad) where rods cross: of the edges before and
+/// after the node on each rod.
 /// It acts on the rods' tangents at the joint, which lie between those of the edges: what these
 /// turn less than the joint is put in series with it (of a rigid one, infinite, that alone is
-/// left). `rest_angle`: between edge e of `a` and edge f of `b`. finish() afterwards; so for the
-/// two below.
-void add_joint_shear(Model& model, int rod_a, int node_a, int rod_b, int node_b, double stiffness,
-                     const std::function<double(int e, int f)>& rest_angle);
-/// The same with one angle of all four.
-void add_joint_shear(Model& model, int rod_a, int node_a, int rod_b, int node_b, double stiffness,
-                     double rest_angle);
+/// left). `rest_angle`: between edge e of `a` and edge f of `b`. `share`: how much of a joint of
+/// several pairs of rods this one is; `opening`: by how much it is to open, rad. finish() afterwards;
+/// so for the one below.
+void add_joint_shear(Model& model, const Crossing& at, double stiffness,
+                     const std::function<double(int e, int f)>& rest_angle, double share = 1,
+                     double opening = 0);
 
 /// Adds the resistance to spin `stiffness` (N mm/rad) of both rods where they cross: their first
-/// directors stay near the joint's normal, from the direction of `a` to that of `b`.
-void add_joint_spin(Model& model, int rod_a, int node_a, int rod_b, int node_b, double stiffness);
+/// directors stay near the joint's normal, `side` times that from the direction of `a` to that of
+/// `b`. What the edges turn less than the joint is in series with it, as of the shear.
+void add_joint_spin(Model& model, const Crossing& at, double stiffness, int side = 1,
+                    double share = 1);
 
 /// Works out pattern and numbering after elements were added or unknowns held.
 void finish(Model& model);

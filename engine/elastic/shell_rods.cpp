@@ -1,6 +1,7 @@
 #include "engine/elastic/shell_rods.h"
 
 #include "engine/elastic/along_rods.h"
+#include "engine/elastic/rod_frame.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -10,24 +11,39 @@
 namespace gridshell {
 namespace {
 
-/// the curvature binormal of a line in the flat at each of its nodes, about +z; 0 at ends
-std::vector<double> turns_of(const RodMesh& mesh, const std::vector<int>& nodes, bool closed) {
-  const std::size_t size = nodes.size();
-  const auto way = [&](std::size_t from, std::size_t to) -> Eigen::Vector2d {
-    return (mesh.flat.col(nodes[to]) - mesh.flat.col(nodes[from])).normalized();
-  };
-  std::vector<double> turns(size, 0);
-  for (std::size_t k = closed ? 0 : 1; k + (closed ? 0 : 1) < size; ++k) {
-    const Eigen::Vector2d t = way((k + size - 1) % size, k), s = way(k, (k + 1) % size);
-    turns[k] = 2 * (t.x() * s.y() - t.y() * s.x()) / (1 + t.dot(s));
+/// where a node is drawn, a joint's second one too
+Eigen::Vector3d place(const RodMesh& mesh, int node) {
+  const Eigen::Index k = node < mesh.nodes() ? node : node - mesh.nodes();
+  return {mesh.flat(0, k), mesh.flat(1, k), mesh.height.size() > 0 ? mesh.height[k] : 0};
+}
+
+Eigen::Vector3d way(const RodMesh& mesh, int from, int to) {
+  return (place(mesh, to) - place(mesh, from)).normalized();
+}
+
+/// the curvature binormal of a line as drawn at each of its nodes, about the directors m1 and m2
+/// that are carried along it from `director` at its begin; 0 at ends
+std::vector<Eigen::Vector2d> turns_of(const RodMesh& mesh, const ModelRod& rod) {
+  const std::vector<int>& nodes = rod.nodes;
+  const std::size_t size = nodes.size(), last = rod.closed() ? size : size - 2;
+  std::vector<Eigen::Vector2d> turns(size, Eigen::Vector2d::Zero());
+  Eigen::Vector3d t = way(mesh, nodes[0], nodes[1]), m1 = normal_near(rod.director, t);
+  for (std::size_t k = 1; k <= last; ++k) {
+    const Eigen::Vector3d s = way(mesh, nodes[k % size], nodes[(k + 1) % size]),
+                          kb = curvature_binormal(t, s).kb;
+    turns[k % size] << kb.dot(m1), kb.dot(t.cross(m1));
+    m1 = carried_director(m1, t, s);
+    t = s;
   }
   return turns;
 }
 
 /// the rod without its ghosts, and what holds its ends
-ModelRod rod_of(const RodMesh& mesh, std::size_t r, const RodMaterial& material) {
+ModelRod rod_of(const RodMesh& mesh, std::size_t r, const RodMaterial& material,
+                const Eigen::Vector3d& director) {
   ModelRod rod;
   rod.material = material;
+  rod.director = director;
   for (std::size_t k = 0; k < mesh.rods[r].size(); ++k) {
     const int node = mesh.rods[r][k];
     if (mesh.is_ghost(node)) {
@@ -39,7 +55,7 @@ ModelRod rod_of(const RodMesh& mesh, std::size_t r, const RodMaterial& material)
   }
   // a closed rod comes back to its first node
   if (rod.nodes.front() == rod.nodes.back()) rod.nodes.pop_back();
-  if (material.as_drawn) rod.turns = turns_of(mesh, rod.nodes, rod.closed());
+  if (material.as_drawn) rod.turns = turns_of(mesh, rod);
   // what hangs on a spring is free in itself
   const auto held = [&](RodEnd end) {
     return end == RodEnd::joined || end == RodEnd::sprung ? RodEnd::free : end;
@@ -60,41 +76,122 @@ std::vector<std::vector<int>> crossings_of(const RodMesh& mesh) {
   return rods;
 }
 
-/// how a rod runs through one of its nodes in the flat, unit
-Eigen::Vector2d direction_at(const RodMesh& mesh, int rod, int node) {
+/// how a rod runs through one of its nodes as drawn, unit
+Eigen::Vector3d direction_at(const RodMesh& mesh, int rod, int node) {
   const std::vector<int>& nodes = mesh.rods[std::size_t(rod)];
   const auto at = std::find(nodes.begin(), nodes.end(), node);
   const auto before = at == nodes.begin() ? at : at - 1,
              after = at + 1 == nodes.end() ? at : at + 1;
-  return (mesh.flat.col(*after) - mesh.flat.col(*before)).normalized();
+  return way(mesh, *before, *after);
 }
 
-double flat_angle(const RodMesh& mesh, int a, int b, int node) {
-  return std::acos(
-      std::clamp(direction_at(mesh, a, node).dot(direction_at(mesh, b, node)), -1.0, 1.0));
+/// visit(k, m, share) for every two of the rods at a joint, which count alike: all of them together
+/// as much as one rod with each of the others
+template <class Visit>
+void each_two(std::size_t rods, Visit visit) {
+  for (std::size_t k = 0; k < rods; ++k)
+    for (std::size_t m = k + 1; m < rods; ++m) visit(k, m, 2.0 / double(rods));
 }
 
-/// the first rod of a joint with each of the others
-void add_joints(const RodMesh& mesh, const JointLaw& law, Model& model) {
-  const auto crossings = crossings_of(mesh);
-  const bool springs = law.spring_N_per_mm > 0;
-  for (int joint = 0; joint < mesh.joints; ++joint) {
-    const int other = springs ? mesh.nodes() + joint : joint;
-    const std::vector<int>& rods = crossings[std::size_t(joint)];
-    if (springs)
-      model.springs.push_back({{joint, other, Eigen::Vector3d::Constant(law.spring_N_per_mm)}});
-    const int a = rods.front();
-    for (std::size_t k = 1; k < rods.size(); ++k) {
-      const int b = rods[k];
-      if (law.shear_Nmm > 0)
-        add_joint_shear(model, a, joint, b, other, law.shear_Nmm, flat_angle(mesh, a, b, joint));
-      if (law.twist_Nmm > 0) add_joint_spin(model, a, joint, b, other, law.twist_Nmm);
+/// where two of a joint's rods cross; with spring joints all but the first have nodes of their own
+Crossing crossing(const RodMesh& mesh, const std::vector<int>& rods, int joint, bool springs,
+                  std::size_t k, std::size_t m) {
+  const auto node = [&](std::size_t rod) { return springs && rod > 0 ? mesh.nodes() + joint : joint; };
+  return {rods[k], node(k), rods[m], node(m)};
+}
+
+using Crossings = std::vector<std::vector<int>>;
+
+/// Unit normals of the joints as drawn: up in the flat, in space across the rods there, all of a
+/// piece to one side, the upper one of the whole; zero where no two rods cross.
+std::vector<Eigen::Vector3d> normals_of(const RodMesh& mesh, const Crossings& crossings) {
+  std::vector<Eigen::Vector3d> normals(crossings.size(), Eigen::Vector3d::UnitZ());
+  if (mesh.height.size() == 0) return normals;
+  std::vector<std::vector<int>> beside(crossings.size());
+  for (std::size_t joint = 0; joint < crossings.size(); ++joint) {
+    std::vector<Eigen::Vector3d> across;
+    each_two(crossings[joint].size(), [&](std::size_t k, std::size_t m, double) {
+      across.push_back(direction_at(mesh, crossings[joint][k], int(joint))
+                           .cross(direction_at(mesh, crossings[joint][m], int(joint))));
+    });
+    const auto longest = std::ranges::max_element(across, {}, &Eigen::Vector3d::squaredNorm);
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& one : across) sum += one.dot(*longest) < 0 ? -one : one;
+    normals[joint] = sum.norm() > 1e-6 ? sum.normalized() : Eigen::Vector3d(0, 0, 0);
+  }
+  for (const std::vector<int>& rod : mesh.rods) {
+    int before = -1;
+    for (const int node : rod) {
+      if (node >= mesh.joints || normals[std::size_t(node)].isZero(0)) continue;
+      if (before >= 0) {
+        beside[std::size_t(before)].push_back(node);
+        beside[std::size_t(node)].push_back(before);
+      }
+      before = node;
     }
   }
+  std::vector<char> seen(crossings.size(), 0);
+  for (std::size_t first = 0; first < crossings.size(); ++first) {
+    if (std::exchange(seen[first], 1)) continue;
+    std::vector<int> piece{int(first)};
+    for (std::size_t k = 0; k < piece.size(); ++k)
+      for (const int next : beside[std::size_t(piece[k])]) {
+        if (std::exchange(seen[std::size_t(next)], 1)) continue;
+        Eigen::Vector3d& normal = normals[std::size_t(next)];
+        if (normal.dot(normals[std::size_t(piece[k])]) < 0) normal *= -1;
+        piece.push_back(next);
+      }
+    double up = 0;
+    for (const int joint : piece) up += normals[std::size_t(joint)].z();
+    if (up < 0)
+      for (const int joint : piece) normals[std::size_t(joint)] *= -1;
+  }
+  return normals;
+}
+
+/// A rod's first director: the normal of the first joint that has one, carried to its begin.
+Eigen::Vector3d director_of(const RodMesh& mesh, std::size_t r,
+                            const std::vector<Eigen::Vector3d>& normals) {
+  const std::vector<int>& nodes = mesh.rods[r];
+  for (const int node : nodes)
+    if (node < mesh.joints && !normals[std::size_t(node)].isZero(0))
+      return transport(normals[std::size_t(node)], direction_at(mesh, int(r), node),
+                       way(mesh, nodes[0], nodes[1]));
+  return Eigen::Vector3d::UnitZ();
 }
 
 double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+/// every two of the rods of every joint, by the law there
+void add_joints(const RodMesh& mesh, const ShellRods& shell, const Crossings& crossings,
+                const std::vector<Eigen::Vector3d>& normals, Model& model) {
+  const double spring = shell.joints.spring_N_per_mm;
+  for (int joint = 0; joint < mesh.joints; ++joint) {
+    const auto own = shell.own_joints.find(joint);
+    const JointLaw& law = own == shell.own_joints.end() ? shell.joints : own->second;
+    const std::vector<int>& rods = crossings[std::size_t(joint)];
+    if (spring > 0)
+      model.springs.push_back({{joint, mesh.nodes() + joint, Eigen::Vector3d::Constant(spring)}});
+    // at rest as drawn: of a rod that is straight at rest by how it runs through the joint
+    const auto along = [&](int rod, int edge) {
+      const ModelEdge& one = model.edges[std::size_t(edge)];
+      return shell.material(std::size_t(rod)).as_drawn ? way(mesh, one.from, one.to)
+                                                       : direction_at(mesh, rod, joint);
+    };
+    each_two(rods.size(), [&](std::size_t k, std::size_t m, double share) {
+      const Crossing at = crossing(mesh, rods, joint, spring > 0, k, m);
+      const auto rest = [&](int e, int f) {
+        return angle_between(along(at.rod_a, e), along(at.rod_b, f));
+      };
+      if (law.shear_Nmm > 0) add_joint_shear(model, at, law.shear_Nmm, rest, share);
+      const Eigen::Vector3d across =
+          direction_at(mesh, at.rod_a, joint).cross(direction_at(mesh, at.rod_b, joint));
+      const int side = across.dot(normals[std::size_t(joint)]) < 0 ? -1 : 1;
+      if (law.twist_Nmm > 0) add_joint_spin(model, at, law.twist_Nmm, side, share);
+    });
+  }
 }
 
 /// how far the middle of an edge lies beyond one of its nodes, mm
@@ -102,18 +199,23 @@ double beyond(const ModelEdge& edge, int node) {
   return (edge.to == node ? -0.5 : 0.5) * edge.rest_length;
 }
 
-void add_bolts(const RodMesh& mesh, const Bolts& bolts, bool springs, Model& model) {
-  const auto crossings = crossings_of(mesh);
+void add_bolts(const RodMesh& mesh, const Bolts& bolts, bool springs, const Crossings& crossings,
+               Model& model) {
   for (int joint = 0; joint < mesh.joints; ++joint) {
-    const int other = springs ? mesh.nodes() + joint : joint;
     const std::vector<int>& rods = crossings[std::size_t(joint)];
     const auto& held = bolts.rods[std::size_t(joint)];
-    for (std::size_t k = 1; k < rods.size(); ++k)
-      add_joint_shear(
-          model, rods[0], joint, rods[k], other, bolts.stiffness_Nmm, [&](int e, int f) {
-            return angle_between(held[0].at(beyond(model.edges[std::size_t(e)], joint)),
-                                 held[k].at(beyond(model.edges[std::size_t(f)], other)));
-          });
+    const auto of = [&](const std::vector<double>& angles) {
+      return angles.empty() ? 0 : angles[std::size_t(joint)];
+    };
+    each_two(held.size(), [&](std::size_t k, std::size_t m, double share) {
+      const Crossing at = crossing(mesh, rods, joint, springs, k, m);
+      const auto rest = [&](int e, int f) {
+        return of(bolts.opened) +
+               angle_between(held[k].at(beyond(model.edges[std::size_t(e)], at.node_a)),
+                             held[m].at(beyond(model.edges[std::size_t(f)], at.node_b)));
+      };
+      add_joint_shear(model, at, bolts.stiffness_Nmm, rest, share, of(bolts.opening));
+    });
   }
 }
 
@@ -188,9 +290,26 @@ Eigen::Vector3d JointDirections::at(double mm) const {
   return between > 0 ? before + (mm + before_mm) / between * (after - before) : before;
 }
 
+double angle_between(const std::vector<JointDirections>& rods) {
+  return angle_between(rods[0].at(0), rods[1].at(0));
+}
+
+std::vector<double> joint_torques(const RodMesh& mesh, const Model& model, const State& state) {
+  std::vector<double> torques(std::size_t(mesh.joints), 0);
+  const auto joint_of = [&](int node) { return node < mesh.nodes() ? node : node - mesh.nodes(); };
+  for (const ModelShear& shear : model.shears) {
+    const ModelEdge &e = model.edges[std::size_t(shear.pairs.front().e)],
+                    &f = model.edges[std::size_t(shear.pairs.front().f)];
+    const int to = joint_of(e.to);
+    const int joint = to == joint_of(f.from) || to == joint_of(f.to) ? to : joint_of(e.from);
+    torques[std::size_t(joint)] -= shear.stiffness * excess_of(model, state, shear, 0);
+  }
+  return torques;
+}
+
 Bolts tightened(const RodMesh& mesh, const Model& model, const Eigen::Matrix3Xd& columns,
                 double stiffness_Nmm) {
-  Bolts bolts{stiffness_Nmm, {}};
+  Bolts bolts{stiffness_Nmm, {}, {}, {}};
   const auto crossings = crossings_of(mesh);
   const bool springs = model.nodes >= mesh.nodes() + mesh.joints;
   for (int joint = 0; joint < mesh.joints; ++joint) {
@@ -216,13 +335,15 @@ Bolts tightened(const RodMesh& mesh, const Model& model, const Eigen::Matrix3Xd&
 
 Result<Model> build_model(const RodMesh& mesh, const ShellRods& shell, RodModel rung) {
   // a member more does not compile here: whoever adds one puts it into the model
-  const auto& [materials, joints, weight_N_per_mm, joint_weight_N, points, contact, bolts, braces] =
-      shell;
+  const auto& [materials, joints, own_joints, weight_N_per_mm, joint_weight_N, points, contact,
+               bolts, braces] = shell;
+  const Crossings at_joints = crossings_of(mesh);
+  const std::vector<Eigen::Vector3d> normals = normals_of(mesh, at_joints);
   const bool springs = rung == RodModel::twist && joints.spring_N_per_mm > 0;
   std::vector<ModelRod> rods;
   std::vector<char> taken(std::size_t(mesh.joints), 0);
   for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
-    rods.push_back(rod_of(mesh, r, shell.material(r)));
+    rods.push_back(rod_of(mesh, r, shell.material(r), director_of(mesh, r, normals)));
     if (!springs) continue;
     for (int& node : rods.back().nodes)
       if (node < mesh.joints && std::exchange(taken[std::size_t(node)], 1)) node += mesh.nodes();
@@ -235,12 +356,12 @@ Result<Model> build_model(const RodMesh& mesh, const ShellRods& shell, RodModel 
   }
   auto model = build_model(nodes, rods, rung, crossings);
   if (!model) return model;
-  if (rung == RodModel::twist) add_joints(mesh, joints, *model);
+  if (rung == RodModel::twist) add_joints(mesh, shell, at_joints, normals, *model);
   for (const MeshSpring& spring : mesh.springs)
     model->springs.push_back({{spring.support, spring.node, spring.N_per_mm, Term::support}});
   const std::vector<int> pinned = pinned_beside_ends(mesh);
   for (const int node : pinned) model->pin(node);
-  if (bolts) add_bolts(mesh, *bolts, springs, *model);
+  if (bolts) add_bolts(mesh, *bolts, springs, at_joints, *model);
   for (const Brace& brace : braces)
     model->bars.push_back({{brace.a, brace.b, brace.rest_length_mm, brace.EA, brace.cable}});
   if (rung == RodModel::twist || !pinned.empty() || bolts || !braces.empty()) finish(*model);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -10,6 +11,8 @@
 #include "engine/footprint/mesh.h"
 
 namespace gridshell {
+
+struct State;
 
 /// A dead force on a joint, N.
 struct PointLoad {
@@ -20,8 +23,8 @@ struct PointLoad {
 /// How crossing rods hold on to each other.
 struct JointLaw {
   double spring_N_per_mm = 0;  ///< of spring joints; 0: the rods share a node
-  double shear_Nmm = 0;        ///< per rad; 0: they shear freely
-  double twist_Nmm = 0;        ///< per rad; 0: they pass no twist
+  double shear_Nmm = 0;        ///< per rad; 0: they shear freely; infinite: they keep their angle
+  double twist_Nmm = 0;        ///< per rad; 0: they pass no twist; infinite: they keep to the normal
 };
 
 /// How a rod runs through a joint: unit tangents of the edges before and after it, and how far off
@@ -35,11 +38,16 @@ struct JointDirections {
 };
 
 /// Bolts that keep the angles that crossing rods had when they were tightened: free of stress in
-/// that shape, on every mesh.
+/// that shape, on every mesh. Joints that are opened strive for angles as much larger.
 struct Bolts {
   double stiffness_Nmm = 0;                        ///< per rad, of each joint; infinite: rigid
-  std::vector<std::vector<JointDirections>> rods;  ///< of every joint, in the order of its rods
+  std::vector<std::vector<JointDirections>> rods;  ///< of every joint, in its rods' order; or none
+  std::vector<double> opened{};   ///< of every joint, rad; empty: as they were tightened
+  std::vector<double> opening{};  ///< what is to come beside that, rad; empty: nothing
 };
+
+/// The angle between the first two rods of a joint, rad.
+double angle_between(const std::vector<JointDirections>& rods);
 
 /// A straight member between two joints.
 struct Brace {
@@ -52,6 +60,7 @@ struct Brace {
 struct ShellRods {
   std::vector<RodMaterial> materials;   ///< one a rod, or one for all
   JointLaw joints;                      ///< on the twist rung; on the bend rung rods share nodes
+  std::map<int, JointLaw> own_joints;   ///< of joints that turn by other laws
   std::vector<double> weight_N_per_mm;  ///< one a rod, downwards; empty: none
   double joint_weight_N = 0;            ///< of every joint, downwards
   std::vector<PointLoad> points;
@@ -68,7 +77,7 @@ struct ShellRods {
   }
   bool loaded() const {
     // a member more does not compile here: whoever adds one says whether it loads the shell
-    const auto& [rods, law, weight, of_joints, loads, touching, tight, diagonals] = *this;
+    const auto& [rods, law, laws, weight, of_joints, loads, touching, tight, diagonals] = *this;
     return !weight.empty() || of_joints != 0 || !loads.empty();
   }
 };
@@ -83,9 +92,17 @@ std::vector<NodeAction> dead_loads(const RodMesh& mesh, const ShellRods& rods);
 /// The model of a meshed footprint; edge points are pinned but for free ends and those on springs,
 /// ghosts, supports of springs and the far ends of tails too. Node
 /// numbers are the mesh's; with spring joints the v rod's own node of a joint comes after them, in
-/// the order of the joints. First directors stand up from the flat (+z). Errors as build_model().
+/// the order of the joints. First directors stand up from the flat (+z), or, of rods drawn in
+/// space, along the normal of their first joint with another rod: normals are all to one side, the
+/// upper one. A rod is straight at rest, or as it is drawn; without twist as drawn. Where several
+/// rods cross, each pair counts so much that all together are the joint's law. Errors as
+/// build_model().
 Result<Model> build_model(const RodMesh& mesh, const ShellRods& rods,
                           RodModel rung = RodModel::bend);
+
+/// Torques of bolts and of joints that resist shear, on each joint's rods, that would open it: sums
+/// of k (rest - angle) over its pairs of edges, N mm.
+std::vector<double> joint_torques(const RodMesh& mesh, const Model& model, const State& state);
 
 /// Bolts tightened in a state of that model.
 Bolts tightened(const RodMesh& mesh, const Model& model, const Eigen::Matrix3Xd& columns,

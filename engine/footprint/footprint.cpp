@@ -116,9 +116,13 @@ Eigen::Vector3d FootprintRod::on_path(double position) const {
 }
 
 Eigen::Vector2d FootprintRod::tangent(double position) const {
-  if (path.empty()) return direction;
+  return way(position).head<2>().normalized();
+}
+
+Eigen::Vector3d FootprintRod::way(double position) const {
+  if (path.empty()) return {direction.x(), direction.y(), 0};
   const std::size_t piece = piece_at(path, position);
-  return (path[piece + 1] - path[piece]).head<2>().normalized();
+  return (path[piece + 1] - path[piece]).head<3>().normalized();
 }
 
 void find_cells(Footprint& net) {

@@ -120,6 +120,8 @@ struct FootprintRod {
   /// (u, v) of a position, and the unit tangent there in the plane.
   Eigen::Vector2d at(double position) const;
   Eigen::Vector2d tangent(double position) const;
+  /// (u, v, height) of the unit tangent there.
+  Eigen::Vector3d way(double position) const;
   /// Above the plane.
   double height(double position) const;
   /// (u, v, height) of a position on the path.

@@ -127,7 +127,7 @@ void NetworkBuilder::rename(const std::vector<int>& joint_of) {
   };
   for (std::vector<int>& rod : network_.rods)
     for (int& point : rod) point = name(point);
-  for (Points* rows : {&network_.supports, &network_.springs})
+  for (Points* rows : {&network_.supports, &network_.springs, &network_.joint_laws})
     for (std::vector<double>& row : *rows) row[0] = name(int(row[0]));
   std::set<int> free, supported;
   for (const std::vector<double>& row : network_.supports) supported.insert(int(row[0]));

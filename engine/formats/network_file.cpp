@@ -157,6 +157,13 @@ std::string network_fault(const NetworkData& network) {
       return fmt::format("a spring at point {}, must be one of a support", row[0]);
     if (const auto wrong = spring_fault({row[1], row[2], row[3]}); !wrong.empty()) return wrong;
   }
+  std::set<double> ruled;
+  for (const auto& row : network.joint_laws) {
+    if (row.size() != 3 || !there(row[0]) || !(row[1] <= 1e9 && row[2] <= 1e9))
+      return "joint_laws must be rows [point, shear_Nmm, twist_Nmm], below 0: rigid";
+    if (!ruled.insert(row[0]).second)
+      return fmt::format("the joint at point {} has two laws, must have one", row[0]);
+  }
   for (const int point : network.free)
     if (!there(point)) return fmt::format("free names point {} of {}", point, points);
   return "";

@@ -165,8 +165,10 @@ class Reader {
     const auto joints = document_.json.find("joints");
     return joints != document_.json.end() &&
            std::any_of(joints->begin(), joints->end(), [&](const Json& joint) {
-             return joint.is_array() &&
-                    std::find(joint.begin(), joint.end(), number) != joint.end();
+             const Json& points = joint.is_object() && joint.contains("points") ? joint["points"]
+                                                                                : joint;
+             return points.is_array() &&
+                    std::find(points.begin(), points.end(), number) != points.end();
            });
   }
 
@@ -203,6 +205,13 @@ class Reader {
   }
 
   Result<void> joint(const Json& value) {
+    if (value.is_object()) return joint_with_law(value);
+    TRY(point, merged(value));
+    return {};
+  }
+
+  /// Points that are to be one: the first of them.
+  Result<int> merged(const Json& value) {
     if (!value.is_array() || value.size() < 2 || value.size() > most_at_a_joint)
       return wrong("must be a list of 2 to 100 points, by number or place");
     std::vector<int> points;
@@ -213,7 +222,36 @@ class Reader {
         return wrong("lists a point twice, must list each once");
       points.push_back(*point);
     }
-    return draft_.add_joint(std::move(points), at_);
+    const int first = points.front();
+    TRY_DO(draft_.add_joint(std::move(points), at_));
+    return first;
+  }
+
+  /// "free", "hinge": turns about the normal alone; "rigid"; or "spring" of two stiffnesses.
+  Result<void> joint_with_law(const Json& value) {
+    static const std::map<std::string, std::pair<double, double>> laws{
+        {"free", {0, 0}}, {"hinge", {0, -1}}, {"rigid", {-1, -1}}, {"spring", {0, 0}}};
+    const auto text = value.find("law");
+    const auto law = text != value.end() && text->is_string() ? laws.find(text->get<std::string>())
+                                                              : laws.end();
+    if (law == laws.end())
+      return wrong("\"law\" must be \"free\", \"hinge\", \"rigid\" or \"spring\"");
+    auto [shear, twist] = law->second;
+    for (const auto& [key, inner] : value.items()) {
+      if (key == "law" || key == "point" || key == "points") continue;
+      const bool stiffness = key == "shear_Nmm" || key == "twist_Nmm";
+      if (!stiffness || law->first != "spring")
+        return wrong("must be {\"point\" or \"points\", \"law\"}, of a \"spring\" with "
+                     "\"shear_Nmm\" and \"twist_Nmm\"");
+      if (!inner.is_number() || !(inner.get<double>() >= 0 && inner.get<double>() <= 1e9))
+        return wrong("shear_Nmm and twist_Nmm must be numbers from 0 to 1e9");
+      (key == "shear_Nmm" ? shear : twist) = inner.get<double>();
+    }
+    if (value.contains("point") == value.contains("points"))
+      return wrong("a law must be of a \"point\", or of \"points\" that are one joint");
+    TRY(point, value.contains("point") ? point_of(value["point"]) : merged(value["points"]));
+    draft_.add_law(*point, shear, twist);
+    return {};
   }
 
   Result<void> support(const Json& value) {

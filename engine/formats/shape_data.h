@@ -51,6 +51,7 @@ struct NetworkData {
   Points supports;                     ///< number of a point and where it goes: x, y, z, mm
   Points springs;         ///< number of a support's point, stiffness along x, y, z, N/mm
   std::vector<int> free;  ///< numbers of points at rods' ends that nothing holds
+  Points joint_laws;      ///< a joint's point, its shear_Nmm and twist_Nmm; below 0: rigid
 
   bool empty() const { return rods.empty(); }
 };
@@ -78,6 +79,7 @@ void each_part(Data& data, bool, const Visit& visit) {
   visit("supports_mm", data.supports, false);
   visit("springs_N_per_mm", data.springs, false);
   visit("free", data.free, false);
+  visit("joint_laws", data.joint_laws, false);
 }
 
 }  // namespace gridshell::preset

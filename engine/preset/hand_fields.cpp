@@ -25,8 +25,22 @@ void step_rules(FieldList<Step>& list) {
 void add_stiffening(FieldList<Step>& list) {
   using K = StepKind;
   list.add<&Step::stiffness_Nmm>(
-      at_least(0), "of a tighten: resistance of each joint to a change of its angle; 0: rigid");
-  list.used_by(&Step::kind, {K::tighten});
+      at_least(0),
+      "of a tighten: resistance of each joint to a change of its angle; of an open: of each joint to "
+      "being off the angle that it is opened to; 0: rigid");
+  list.used_by(&Step::kind, {K::tighten, K::open});
+  list.add<&Step::angle_deg>(
+      between(0, 180),
+      "of an open: to what all joints where two rods cross open on average, each by as much; between "
+      "the directions in which their rods run; 0: `angles` says it");
+  list.used_by(&Step::kind, {K::open})
+      .refused({}, "an open has `angle_deg` or `angles`, must be one of the two",
+               [](const Step& of) {
+                 return of.kind == K::open && of.angles.empty() == (of.angle_deg == 0);
+               });
+  list.add<&Step::angles>("of an open: joints and to what each opens; the others are let be")
+      .points({"i", "j", "angle_deg"});
+  list.used_by(&Step::kind, {K::open});
   list.add<&Step::cells>("of a brace: the cells; empty: all complete ones").points({"i", "j"});
   list.used_by(&Step::kind, {K::brace});
   list.add<&Step::diagonals>(
@@ -52,7 +66,7 @@ void add_steps(FieldList<Step> list) {
           "it is; \"release\" one; \"load\": more or less of what [loads] says; \"rest\": down the "
           "energy; \"jitter\": random forces on all joints come on and go away again; "
           "\"tighten\" bolts: all joints keep the angles that they have; \"brace\" cells along "
-          "diagonals; both free of stress at that moment")
+          "diagonals; both free of stress at that moment; \"open\" joints to other angles")
       .named("do");
   step_rules(list);
   list.add<&Step::progress>(

@@ -12,7 +12,7 @@
 
 namespace gridshell::preset {
 
-enum class StepKind { move, push, hold, release, load, rest, jitter, tighten, brace };
+enum class StepKind { move, push, hold, release, load, rest, jitter, tighten, brace, open };
 
 // A preset: everything an experiment and its pictures need, as plain values with defaults. The
 // names are those of the TOML keys: `[rod] diameter_mm` is `preset.rod.diameter_mm`. What each key
@@ -189,6 +189,8 @@ struct Step {
   BraceKind brace = BraceKind::cable;
   double EA_N = 0;
   Released what = Released::joints;
+  double angle_deg = 0;  ///< that joints are opened to on average
+  Points angles;         ///< (i, j, degrees) of those that are opened; empty: all
 };
 
 /// Where a load on the edge points: downwards; against the shell's normal there; into the shell, in

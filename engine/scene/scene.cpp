@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "engine/core/result.h"
@@ -223,8 +224,9 @@ Result<void> hold_directions(const Eigen::Matrix2Xd& ends, RodEnd hold, Scene& s
     // a spring holds no direction
     if (!is_held(held) || held == RodEnd::sprung) continue;
     held = hold;
+    const Eigen::Vector3d way = rod.way(k % 2 == 0 ? rod.span.begin : rod.span.end);
     scene.motion.begin_tangent.col(k) =
-        scene.flat.axes * rod.tangent(k % 2 == 0 ? rod.span.begin : rod.span.end);
+        scene.flat.axes * way.head<2>() + way.z() * Eigen::Vector3d::UnitZ();
     scene.motion.end_tangent.col(k) = scene.motion.begin_tangent.col(k);
     if (!scene.net) continue;
     TRY(point, scene.net->at(ends(0, k), ends(1, k)));
@@ -272,19 +274,57 @@ Result<void> build(const preset::Preset& preset, Scene& scene) {
   return build_net(preset, scene);
 }
 
-/// What rods have at rest besides their length is known in the plane alone.
-Result<void> check_in_space(const preset::Preset& preset, const Scene& scene) {
-  if (!scene.drawn_in_space) return {};
-  const std::string reason = "of a network that is drawn in space, ";
-  if (scene.rung == RodModel::twist)
-    return fail(Fault::bad_input, reason +
-                                      "how rods spin and meet at rest is not known: the bend "
-                                      "rung alone takes it; " +
-                                      preset::model_reason(preset));
-  if (preset.ends.kind != preset::EndKind::pinned)
-    return fail(Fault::bad_input,
-                "[ends] kind: " + reason + "ends are pinned: where they point is not known");
+/// How a rod runs through a joint as drawn.
+Eigen::Vector3d way_through(const FootprintRod& rod, int joint) {
+  const auto at = std::ranges::find(rod.joints, joint) - rod.joints.begin();
+  const double mark = rod.marks[std::size_t(at)], near = 1e-6 * (rod.span.end - rod.span.begin);
+  return rod.way(std::max(mark - near, rod.span.begin)) +
+         rod.way(std::min(mark + near, rod.span.end));
+}
+
+/// Rods that hold on to one another at a joint cross there.
+Result<void> check_crossings(const Scene& scene) {
+  const Footprint& footprint = scene.footprint;
+  std::vector<std::vector<const FootprintRod*>> rods(footprint.joints.size());
+  for (const FootprintRod& rod : footprint.rods)
+    for (const int joint : std::set<int>(rod.joints.begin(), rod.joints.end()))
+      rods[std::size_t(joint)].push_back(&rod);
+  for (int joint = 0; joint < int(rods.size()); ++joint) {
+    const auto own = scene.rods.own_joints.find(joint);
+    const JointLaw& law = own == scene.rods.own_joints.end() ? scene.rods.joints : own->second;
+    if (law.shear_Nmm == 0 && law.twist_Nmm == 0) continue;
+    for (const FootprintRod* a : rods[std::size_t(joint)])
+      for (const FootprintRod* b : rods[std::size_t(joint)]) {
+        const Eigen::Vector3d t = way_through(*a, joint).normalized(),
+                              s = way_through(*b, joint).normalized();
+        if (a < b && t.cross(s).norm() < 1e-3)
+          return fail(Fault::bad_input,
+                      "joint [{}, {}]: rods[{}] and rods[{}] run alike there, must cross, as the "
+                      "joint holds them by the angle between them",
+                      footprint.joints[std::size_t(joint)].i,
+                      footprint.joints[std::size_t(joint)].j, a->number, b->number);
+      }
+  }
   return {};
+}
+
+/// Joints that turn by laws of their own, of a network's file.
+Result<void> put_laws(const preset::Preset& preset, Scene& scene) {
+  const auto stiffness = [](double given) {
+    return given < 0 ? std::numeric_limits<double>::infinity() : given;
+  };
+  if (preset.footprint.kind != preset::FootprintKind::network) return {};
+  for (const auto& row : preset.footprint.file.joint_laws) {
+    const int joint = joint_at(scene.footprint, int(row[0]), 0);
+    if (joint < 0)
+      return fail(Fault::bad_input,
+                  "[footprint] file: joints: no rods are joined at point {:g}, a law must be of a "
+                  "joint",
+                  row[0]);
+    scene.rods.own_joints[joint] = {scene.rods.joints.spring_N_per_mm, stiffness(row[1]),
+                                    stiffness(row[2])};
+  }
+  return scene.footprint.rods.front().number < 0 ? Result<void>() : check_crossings(scene);
 }
 
 }  // namespace
@@ -311,7 +351,7 @@ Result<Scene> scene_of(const preset::Preset& preset) {
   TRY_DO(apply_ends_table(preset.ends.table, scene));
   TRY_DO(put_rods(preset, scene));
   scene.rung = preset::rod_model_of(preset);
-  TRY_DO(check_in_space(preset, scene));
+  TRY_DO(put_laws(preset, scene));
   scene.seed.up = preset.actuation.seed == preset::Seed::up ? 1 : -1;
   scene.seed.diagonal = preset.actuation.seed_diagonal == preset::SeedDiagonal::y_eq_x ? 1 : -1;
   scene.imperfection = {preset.imperfection.size * scene.footprint.spacing,

@@ -77,13 +77,18 @@ Result<State> buckled_state(NestedShell& shell, const Scene& scene, const ShellR
 
 bool begins_as_drawn(const Scene& scene, const RodMesh& mesh, const PinnedMotion& motion) {
   if (scene.drawn_in_space) return true;
-  return !scene.from_net && (scene.rods.loaded() || !scene.load_cases.empty()) &&
+  const bool stays = scene.footprint.rods.front().number >= 0 && motion.change.isZero(0);
+  return !scene.from_net && (scene.rods.loaded() || !scene.load_cases.empty() || stays) &&
          !parameter_of_shortening(mesh, motion, least_shortening);
 }
 
 Result<State> state_as_drawn(NestedShell& shell, const Scene& scene, const ShellRods& rods,
                              const Watch& watch) {
-  return chosen(drawn_rest, shell, scene, rods, 0, watch).map_error([](const Error& error) {
+  // rods that have axes or a shape of their own lie there as they are
+  auto rest = scene.solved_model() == RodModel::twist
+                  ? drawn_rest(shell.system(0), shell.mesh(0), shell.motion(0), 0, scene, watch)
+                  : chosen(drawn_rest, shell, scene, rods, 0, watch);
+  return rest.map_error([](const Error& error) {
     return Error{error.fault, "from the network as drawn: " + error.message};
   });
 }

@@ -11,6 +11,7 @@
 #include "engine/simulate/actuation.h"
 #include "engine/simulate/equilibrium_path.h"
 #include "engine/simulate/frames.h"
+#include "engine/simulate/stiffening.h"
 
 namespace gridshell::simulate {
 namespace {
@@ -20,6 +21,7 @@ using preset::StepKind;
 /// One step that was done: its segment of the path stands at the same place.
 struct Done {
   Checkpoint way_end, end;  ///< where its way ended, and where the shell stands after it
+  std::string told = {};    ///< what a sentence says of it beside its certificate
 };
 
 /// A hand's whole work on one plan of meshes.
@@ -28,10 +30,11 @@ struct Work : EquilibriumPath {
   std::vector<Done> done = {};
 };
 
-/// Whether frames are taken on the way of a step, which a segment then knows: of a push, and of a
-/// move of the whole boundary, before and after which no edge point lies off it.
+/// Whether frames are taken on the way of a step, which a segment then knows: of a push, of joints
+/// that open, and of a move of the whole boundary, before and after which no edge point lies off it.
 bool has_way(const std::vector<preset::Step>& steps, std::size_t k) {
-  if (steps[k].kind != StepKind::move) return steps[k].kind == StepKind::push;
+  if (steps[k].kind != StepKind::move)
+    return steps[k].kind == StepKind::push || steps[k].kind == StepKind::open;
   const auto before = std::find_if(steps.rend() - std::ptrdiff_t(k), steps.rend(),
                                    [](const auto& step) { return step.kind == StepKind::move; });
   return steps[k].edge_points.empty() && (before == steps.rend() || before->edge_points.empty());
@@ -79,6 +82,7 @@ Result<Work> do_steps(const std::shared_ptr<const Scene>& scene,
     static_cast<PathRecord&>(segment) = std::move(way);
     close(segment, simulation);
     work.done.push_back({std::move(way.end), simulation.save()});
+    if (kind == StepKind::open) work.done.back().told = ", " + text_of_opened(simulation);
     if (segment.report.end != Outcome::reached) break;
   }
   return work;
@@ -269,7 +273,8 @@ Result<void> check_steps(const std::vector<preset::Step>& steps, const Footprint
                     k + 1, cell[0], cell[1]);
     if (step.kind == preset::StepKind::brace && footprint.cells.empty())
       return fail(Fault::bad_input, "[[step]] {}: the footprint has no cells to brace", k + 1);
-    if (step.kind == preset::StepKind::tighten) strengthened.insert(preset::Released::bolts);
+    if (step.kind == preset::StepKind::tighten || step.kind == preset::StepKind::open)
+      strengthened.insert(preset::Released::bolts);
     if (step.kind == preset::StepKind::brace) strengthened.insert(preset::Released::braces);
     if (step.kind != preset::StepKind::release) continue;
     if (step.what != preset::Released::joints) {
@@ -326,7 +331,8 @@ Result<StepsResult> run_steps(const std::shared_ptr<const Scene>& scene,
   TRY_DO(Show(*work, steps, frames, sink, watch).all());
   StepsResult stepped{EquilibriumPath(std::move(*work))};
   for (std::size_t k = 0; k < stepped.path.segments.size(); ++k)
-    stepped.messages.push_back(message_of(k, steps[k], stepped.path.segments[k]));
+    stepped.messages.push_back(message_of(k, steps[k], stepped.path.segments[k]) +
+                               (k < work->done.size() ? work->done[k].told : ""));
   return stepped;
 }
 

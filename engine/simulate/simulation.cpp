@@ -231,6 +231,8 @@ void Simulation::set_progress(double progress) {
 /// Other meshes or rods in the place of these, at rest where these stand; if they are not, these
 /// stay.
 Result<Outcome> Simulation::replace_meshes(const LevelPlan& plan, bool nearby, const Watch& watch) {
+  // joints on their way to other angles stand on the meshes that they open on
+  if (!nearby && shell_->outside(0).opening != 0) return Outcome::meshes_disagree;
   std::unique_ptr<NestedShell> before = std::move(shell_);
   const auto back = [&] {
     if (shell_) spent_ += shell_->effort();

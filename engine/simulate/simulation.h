@@ -178,6 +178,8 @@ class Simulation {
   /// Puts a field of forces in the place of that which is there, or takes it away (empty), and with
   /// it the factor of the dead loads by `dead` up.
   Report set_field(std::vector<NodeAction> field, const Watch& watch, double dead = 0);
+  /// Joints open as far as the bolts of the rods say that is to come, t from 0 to 1.
+  Report open_joints(const Watch& watch, PathRecord* record = nullptr);
   /// Down the energy to rest from where it is, whatever happened to it; off a saddle to that side.
   Report rest(const Watch& watch, BranchSide side = BranchSide::lower);
   /// The same in time, with the scene's damping; `seen` after each time step.
@@ -255,7 +257,8 @@ class Simulation {
   };
   CallBegin call_begin() const;
   Report report(Outcome end, double t, const CallBegin& begin) const;
-  Report drive(const PrescribedMove& drive, std::vector<NodeAction> field, const Watch& watch);
+  Report drive(const PrescribedMove& drive, std::vector<NodeAction> field, const Watch& watch,
+               PathRecord* record = nullptr);
   void apply_field(std::vector<NodeAction> field);
   void set_progress(double progress);
   double load_step() const;

@@ -313,6 +313,8 @@ bool Simulation::Walk::finest_goes_on() {
 double Simulation::Walk::parameter_scale(double t) const {
   const PinnedMotion& motion = shell_.motion(0);
   const double speed = motion.speed(t);
+  // joints that are opened count by the whole way that they are to open
+  if (motion.opening.change != 0) return 1;
   const double boundary = scene_.length_scale_mm / std::max(shell_.reach_mm() * speed, 0.1);
   const double rate = std::abs(speed * motion.load.change);
   if (rate == 0 || shell_.model(0).loads.empty()) return boundary;

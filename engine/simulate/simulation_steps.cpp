@@ -37,7 +37,7 @@ void Simulation::apply_field(std::vector<NodeAction> field) {
 
 /// Drives the shell from where it is, all the way if it can.
 Report Simulation::drive(const PrescribedMove& drive, std::vector<NodeAction> coming,
-                         const Watch& watch) {
+                         const Watch& watch, PathRecord* record) {
   const CallBegin begin = call_begin();
   const std::vector<Constraint> held = drive.holds;
   shell_->set_fields(field_, coming);
@@ -47,7 +47,7 @@ Report Simulation::drive(const PrescribedMove& drive, std::vector<NodeAction> co
   first_stiffness_ = 0;
   const NestedReport started = shell_->start(0, shell_->state().levels[0], watch);
   if (started.end != Outcome::reached) return report(started.end, 0, begin);
-  Report done = go(1, watch);
+  Report done = go(1, watch, {}, record);
   std::vector<NodeAction> field = field_;
   const auto come = times(std::move(coming), drive.field.begin + done.t * drive.field.change);
   field.insert(field.end(), come.begin(), come.end());
@@ -149,6 +149,11 @@ Report Simulation::set_field(std::vector<NodeAction> field, const Watch& watch, 
   if (dead != 0) load_scale_ = load.begin + done.t * dead;
   if (done.end == Outcome::reached) apply_field(std::move(field));
   return done;
+}
+
+Report Simulation::open_joints(const Watch& watch, PathRecord* record) {
+  const LoadFactor load = steady_load();
+  return drive({.holds = holds_, .load = load, .opening = {0, 1}}, {}, watch, record);
 }
 
 Report Simulation::rest(const Watch& watch, BranchSide side) {

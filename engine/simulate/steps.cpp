@@ -232,6 +232,8 @@ Result<Report> take_step(Simulation& simulation, const preset::Step& step, const
       return led([&] { return jitter(simulation, step, watch); });
     case preset::StepKind::tighten:
       return tighten(simulation, step, watch);
+    case preset::StepKind::open:
+      return open(simulation, step, watch, way);
     case preset::StepKind::brace:
       return brace(simulation, step, watch);
   }

@@ -1,10 +1,13 @@
 #include "engine/simulate/stiffening.h"
 
+#include <fmt/format.h>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
 #include "engine/core/try.h"
+#include "engine/simulate/steps.h"
 
 namespace gridshell::simulate {
 namespace {
@@ -18,17 +21,121 @@ Result<void> check_formed(const Simulation& simulation) {
   return {};
 }
 
+Bolts now_tightened(const Simulation& simulation, double stiffness) {
+  const NestedShell& shell = simulation.shell();
+  return tightened(shell.finest(), shell.model(shell.levels() - 1), shell.state().levels.back().x,
+                   stiffness);
+}
+
 }  // namespace
 
 Result<Report> tighten(Simulation& simulation, const preset::Step& step, const Watch& watch) {
   TRY_DO(check_formed(simulation));
   constexpr double rigid = std::numeric_limits<double>::infinity();
   const double stiffness = step.stiffness_Nmm > 0 ? step.stiffness_Nmm : rigid;
-  const NestedShell& shell = simulation.shell();
   ShellRods rods = simulation.rods();
-  rods.bolts = std::make_shared<const Bolts>(tightened(
-      shell.finest(), shell.model(shell.levels() - 1), shell.state().levels.back().x, stiffness));
+  rods.bolts = std::make_shared<const Bolts>(now_tightened(simulation, stiffness));
   return simulation.set_rods(rods, watch);
+}
+
+namespace {
+
+/// How far each joint is to open so that its bolt, of `now`, rests at the step's angle, rad; NaN of
+/// joints that are left as they are.
+Result<std::vector<double>> openings(const preset::Step& step, const Footprint& footprint,
+                                     const Bolts& now) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN(), rad = M_PI / 180;
+  const auto rest = [&](std::size_t joint) {
+    return angle_between(now.rods[joint]) + (now.opened.empty() ? 0 : now.opened[joint]);
+  };
+  std::vector<double> by(now.rods.size(), none);
+  for (const auto& row : step.angles) {
+    const int joint = joint_at(footprint, int(row[0]), int(row[1]));
+    if (joint < 0 || now.rods[std::size_t(joint)].size() != 2)
+      return fail(Fault::bad_input, "angles: [{:g}, {:g}] is no joint where two rods cross", row[0],
+                  row[1]);
+    by[std::size_t(joint)] = row[2] * rad - rest(std::size_t(joint));
+  }
+  if (step.angles.empty()) {
+    double sum = 0;
+    int count = 0;
+    for (std::size_t joint = 0; joint < by.size(); ++joint)
+      if (now.rods[joint].size() == 2) sum += rest(joint), ++count;
+    if (count == 0) return fail(Fault::bad_input, "the footprint has no joint where two rods cross");
+    for (std::size_t joint = 0; joint < by.size(); ++joint)
+      if (now.rods[joint].size() == 2) by[joint] = step.angle_deg * rad - sum / count;
+  }
+  for (std::size_t joint = 0; joint < by.size(); ++joint) {
+    const double to = std::isnan(by[joint]) ? 1 : rest(joint) + by[joint];
+    if (!(to > rad && to < M_PI - rad))
+      return fail(Fault::bad_input,
+                  "joint [{}, {}] would open to {:.4g} degrees, must be between 1 and 179",
+                  footprint.joints[joint].i, footprint.joints[joint].j, to / rad);
+  }
+  return by;
+}
+
+}  // namespace
+
+Result<Report> open(Simulation& simulation, const preset::Step& step, const Watch& watch,
+                    StepPath* way) {
+  TRY_DO(check_formed(simulation));
+  const double stiffness =
+      step.stiffness_Nmm > 0 ? step.stiffness_Nmm : std::numeric_limits<double>::infinity();
+  const auto known = simulation.rods().bolts;
+  if (known && known->stiffness_Nmm != stiffness)
+    return fail(Fault::bad_input,
+                "bolts of another stiffness are there, which must be the same, or be released");
+  // bolts that are there keep what they strive for
+  Bolts bolts = now_tightened(simulation, stiffness);
+  bolts.opened.assign(bolts.rods.size(), 0);
+  for (std::size_t joint = 0; known && joint < bolts.rods.size(); ++joint) {
+    if (known->rods[joint].empty()) continue;
+    bolts.rods[joint] = known->rods[joint];
+    if (!known->opened.empty()) bolts.opened[joint] = known->opened[joint];
+  }
+  TRY(by, openings(step, simulation.scene().footprint, bolts));
+  bolts.opening = *by;
+  for (std::size_t joint = 0; joint < by->size(); ++joint) {
+    if (!std::isnan((*by)[joint])) continue;
+    bolts.opening[joint] = 0;
+    if (!known || known->rods[joint].empty()) bolts.rods[joint].clear();
+  }
+  ShellRods rods = simulation.rods();
+  rods.bolts = std::make_shared<const Bolts>(bolts);
+  auto report = simulation.set_rods(rods, watch);
+  if (!report || report->end != Outcome::reached) return report;
+  report = simulation.open_joints(watch, way);
+  if (way) way->end = simulation.save();
+  // from here on that is how the joints rest
+  for (std::size_t joint = 0; joint < by->size(); ++joint)
+    bolts.opened[joint] += report->t * std::exchange(bolts.opening[joint], 0);
+  rods.bolts = std::make_shared<const Bolts>(std::move(bolts));
+  const auto kept = simulation.set_rods(rods, watch);
+  if (!kept) return kept;
+  if (report->end == Outcome::reached) report->end = kept->end;
+  report->certificate = kept->certificate;
+  return report;
+}
+
+std::string text_of_opened(const Simulation& simulation) {
+  const NestedShell& shell = simulation.shell();
+  const int last = shell.levels() - 1;
+  const Bolts now = now_tightened(simulation, 1);
+  const auto torques =
+      joint_torques(shell.finest(), shell.model(last), shell.state().levels.back());
+  double sum = 0, least = M_PI, most = 0, torque = 0;
+  int count = 0;
+  for (std::size_t joint = 0; joint < now.rods.size(); ++joint) {
+    if (now.rods[joint].size() != 2) continue;
+    const double angle = angle_between(now.rods[joint]);
+    sum += angle, ++count;
+    least = std::min(least, angle), most = std::max(most, angle);
+    torque = std::max(torque, std::abs(torques[joint]));
+  }
+  constexpr double deg = 180 / M_PI;
+  return fmt::format("joints at {:.2f} degrees on average, {:.2f} to {:.2f}, torques to {:.4g} N mm",
+                     deg * sum / std::max(count, 1), deg * least, deg * most, torque);
 }
 
 Result<Report> brace(Simulation& simulation, const preset::Step& step, const Watch& watch) {

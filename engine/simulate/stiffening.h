@@ -8,8 +8,20 @@
 
 namespace gridshell::simulate {
 
+struct StepPath;
+
 /// All joints keep the angles that they have. Errors (bad_input): a shell that is flat yet.
 Result<Report> tighten(Simulation& simulation, const preset::Step& step, const Watch& watch);
+
+/// Bolts in the joints strive for other angles, evenly along a path: each is a spring at the joint
+/// that is tightened where the joint stands, and whose angle of rest goes to the step's. Errors
+/// (bad_input): a flat shell, a joint where not two rods cross, an angle that no joint has, bolts of
+/// another stiffness.
+Result<Report> open(Simulation& simulation, const preset::Step& step, const Watch& watch,
+                    StepPath* way);
+
+/// What joints that were opened came to: "joints at 62.1 degrees on average, ...".
+std::string text_of_opened(const Simulation& simulation);
 
 /// Diagonals come into cells, as long as these are now. Errors (bad_input): a cell that is not
 /// there, a flat shell.

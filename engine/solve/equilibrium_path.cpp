@@ -39,6 +39,7 @@ Eigen::Matrix3Xd PinnedMotion::rate(double t) const {
 void PinnedMotion::apply_loads(Linearisation& system, double t) const {
   system.outside.load = factor_at(load, t);
   system.outside.field_factor = factor_at(field, t);
+  system.outside.opening = factor_at(opening, t);
 }
 
 void PinnedMotion::impose(Linearisation& system, double t, State& state) const {
@@ -58,6 +59,7 @@ void PinnedMotion::velocity(Linearisation& system, double t, const State& state,
   ExternalLoads growing = system.outside;
   growing.load = speed(t) * load.change;
   growing.field_factor = speed(t) * field.change;
+  growing.opening = speed(t) * opening.change;
   system.tangent(rate(t), growing, state, velocity.x);
   velocity.force = system.force_change(velocity.x);
 }

@@ -307,6 +307,7 @@ void NestedShell::take_reactions() {
     if (&system != &finest) {
       system.outside.load = finest.outside.load;
       system.outside.field_factor = finest.outside.field_factor;
+      system.outside.opening = finest.outside.opening;
       // the path's own factorisation may stand a load step away
       if (k == 0)
         system.at(state_.levels[k], false);

@@ -76,6 +76,7 @@ struct PrescribedMove {
       {};                  ///< where the edge points go (its end); else they stay
   LoadFactor load{1, 0};   ///< of the dead loads
   LoadFactor field{0, 0};  ///< and of the field
+  LoadFactor opening{0, 0};  ///< and of the joints that are opened
 };
 
 /// A footprint meshed on several levels with one motion of its boundary.

@@ -146,6 +146,8 @@ void Linearisation::tangent(const Eigen::Matrix3Xd& prescribed,
   if (outside_velocity.load != 0) grow(model_.loads, outside_velocity.load);
   if (outside_velocity.field && outside_velocity.field_factor != 0)
     grow(*outside_velocity.field, outside_velocity.field_factor);
+  if (outside_velocity.opening != 0)
+    velocity -= outside_velocity.opening * opening_rate(model_, state);
   solve(velocity);
   velocity += moved;
 }

@@ -60,8 +60,9 @@ double portal(int edges) {
     }
   Model model = build_model(last + 1, rods, RodModel::twist).value();
   constexpr double rigid = 1e6;
-  add_joint_shear(model, 0, corner, 1, corner, rigid, M_PI / 2);
-  add_joint_shear(model, 1, other, 2, other, rigid, M_PI / 2);
+  const auto square = [](int, int) { return M_PI / 2; };
+  add_joint_shear(model, {0, corner, 1, corner}, rigid, square);
+  add_joint_shear(model, {1, other, 2, other}, rigid, square);
   for (int node = 0; node <= last; ++node) model.hold(node, 1);
   for (const int node : {corner, other})
     model.loads.push_back({node, {0, 0, -EI / length / length}});

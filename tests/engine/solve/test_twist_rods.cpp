@@ -269,7 +269,7 @@ TEST_CASE("joint shear: two rigid crossing rods turn by moment over stiffness") 
   ModelRod b{{3, 1, 4}, {0, 10, 20}, stiff, {}, RodEnd::free, RodEnd::free};
   Model model = build_model(5, {a, b}, RodModel::twist).value();
   const double stiffness = 40, couple = 2;  // N mm/rad, N mm
-  add_joint_shear(model, 0, 1, 1, 1, stiffness, M_PI / 2);
+  add_joint_shear(model, {0, 1, 1, 1}, stiffness, [](int, int) { return M_PI / 2; });
   model.loads.push_back({3, {couple / 20, 0, 0}});
   model.loads.push_back({4, {-couple / 20, 0, 0}});
   for (int node : {3, 4}) model.hold(node, 2);  // in the plane

@@ -1,0 +1,220 @@
+// Joints with laws of their own, and shells that are deployed by opening them.
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+#include <functional>
+#include <numbers>
+
+#include "engine/elastic/assembly.h"
+#include "engine/elastic/shell_rods.h"
+#include "tests/engine/elastic/differences.h"
+#include "tests/engine/simulate/run.h"
+
+using namespace gridshell;
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+preset::Preset network(const preset::NetworkData& file, int edges) {
+  preset::Preset p;
+  p.footprint.kind = preset::FootprintKind::network;
+  p.footprint.file = file;
+  p.accuracy.edges_per_segment = edges;
+  p.movie.frames = 3;
+  p.rod.diameter_mm = 2, p.rod.young_GPa = 10, p.rod.shear_GPa = 4;
+  return p;
+}
+
+/// Two families of three rods that cross at `angle`, in steps of 30 mm, held against rigid motions
+/// alone.
+preset::NetworkData rhombi(double angle) {
+  preset::NetworkData file;
+  const auto at = [&](double p, double q) {
+    return std::vector<double>{(p + q) * std::cos(angle / 2), (p - q) * std::sin(angle / 2), 0};
+  };
+  for (const double p : {-45, -30, 0, 30, 45})
+    for (const double q : {-45, -30, 0, 30, 45}) file.points.push_back(at(p, q));
+  for (const int k : {1, 2, 3}) {
+    file.rods.push_back({5 * k, 5 * k + 1, 5 * k + 2, 5 * k + 3, 5 * k + 4});
+    file.rods.push_back({k, 5 + k, 10 + k, 15 + k, 20 + k});
+    for (const int end : {5 * k, 5 * k + 4, k, 20 + k}) file.free.push_back(end);
+  }
+  file.supports = {{12}, {18}, {16}};
+  file.springs = {{12, 10, 10, 10}, {18, 0, 10, 10}, {16, 0, 0, 10}};
+  return file;
+}
+
+preset::Step opened(double degrees, double stiffness) {
+  preset::Step step;
+  step.kind = preset::StepKind::open;
+  step.angle_deg = degrees;
+  step.stiffness_Nmm = stiffness;
+  return step;
+}
+
+/// Laths that cross on a sphere of 100 mm, three each way, ends at the supports.
+preset::NetworkData on_sphere() {
+  preset::NetworkData file;
+  const auto at = [&](double lambda, double phi) {
+    return std::vector<double>{100 * std::sin(lambda), 100 * std::sin(phi),
+                               100 * std::sqrt(1 - std::pow(std::sin(lambda), 2) -
+                                               std::pow(std::sin(phi), 2))};
+  };
+  for (const double p : {-0.5, -0.3, 0.05, 0.3, 0.5})
+    for (const double q : {-0.5, -0.25, 0.0, 0.3, 0.5}) file.points.push_back(at(p, q));
+  for (const int k : {1, 2, 3}) {
+    file.rods.push_back({5 * k, 5 * k + 1, 5 * k + 2, 5 * k + 3, 5 * k + 4});
+    file.rods.push_back({k, 5 + k, 10 + k, 15 + k, 20 + k});
+  }
+  file.joint_laws = {{6, 3, -1}, {12, -1, -1}, {18, 0, 5}, {7, 4, 0}};
+  return file;
+}
+
+using Map = std::function<Eigen::Vector3d(const Eigen::Vector3d&)>;
+
+/// The energy of a network as drawn, its points mapped.
+Energies energy_drawn(preset::NetworkData file, const Map& map, preset::EndKind ends) {
+  for (auto& point : file.points) {
+    const Eigen::Vector3d there = map({point[0], point[1], point[2]});
+    point = {there.x(), there.y(), there.z()};
+  }
+  preset::Preset p = network(file, 3);
+  p.rod.width_mm = 3, p.rod.thickness_mm = 1;
+  p.joints.twist_Nmm = 7, p.joints.shear_Nmm = 2;
+  p.ends.kind = ends;
+  const Scene scene = value_of(scene_of(p));
+  CHECK(scene.rung == RodModel::twist);
+  const RodMesh mesh = mesh_rods(scene.footprint, 3);
+  const Model model = value_of(build_model(mesh, scene.rods, scene.rung));
+  Eigen::Matrix3Xd nodes = drawn_nodes(mesh, scene.flat);
+  return energies_of(model, start_state(model, columns_of(mesh, model, nodes)));
+}
+
+}  // namespace
+
+TEST_CASE("a twisted network in space has one energy however it is turned, mirrored or listed") {
+  const preset::NetworkData file = on_sphere();
+  for (const auto ends : {preset::EndKind::pinned, preset::EndKind::clamped}) {
+    const auto of = [&](const preset::NetworkData& one, const Map& map) {
+      return energy_drawn(one, map, ends);
+    };
+    const Map same = [](const Eigen::Vector3d& x) { return x; };
+    const Energies drawn = of(file, same);
+    CHECK(drawn[Term::bend] > 1);
+    CHECK(drawn[Term::joint] > 1e-4);
+    const auto check = [&](const Energies& other) {
+      for (const Term term : {Term::bend, Term::joint, Term::shear, Term::twist})
+        CHECK(other[term] == Approx(drawn[term]).epsilon(1e-11).margin(1e-11));
+    };
+    for (const double turn : {40.0, 170.0}) {
+      const Eigen::Matrix3d by =
+          Eigen::AngleAxisd(turn * degree, Eigen::Vector3d(1, 2, -0.5).normalized())
+              .toRotationMatrix();
+      check(of(file, [&](const Eigen::Vector3d& x) { return Eigen::Vector3d(by * x); }));
+    }
+    check(of(file, [](const Eigen::Vector3d& x) {
+      return Eigen::Vector3d(x + Eigen::Vector3d(13, -400, 77));
+    }));
+    check(of(file, [](const Eigen::Vector3d& x) { return Eigen::Vector3d(-x.x(), x.y(), x.z()); }));
+    // rods in another order, points under other numbers
+    preset::NetworkData other = file;
+    std::ranges::reverse(other.rods);
+    std::ranges::reverse(other.points);
+    for (auto& rod : other.rods)
+      for (int& point : rod) point = 24 - point;
+    for (auto& law : other.joint_laws) law[0] = 24 - law[0];
+    check(of(other, same));
+  }
+}
+
+TEST_CASE("joints of three rods count alike, whichever the file lists first") {
+  preset::NetworkData file;
+  file.points = {{-50, 0, 0}, {50, 0, 0}, {-25, -43, 2}, {25, 43, 2}, {-25, 43, 4}, {25, -43, 4},
+                 {0, 0, 10}};
+  const std::vector<std::vector<int>> rods{{0, 6, 1}, {2, 6, 3}, {4, 6, 5}};
+  std::vector<double> found;
+  for (const std::vector<std::size_t>& order :
+       {std::vector<std::size_t>{0, 1, 2}, {1, 2, 0}, {2, 1, 0}}) {
+    file.rods.clear();
+    for (const std::size_t k : order) file.rods.push_back(rods[k]);
+    const Energies energies =
+        energy_drawn(file, [](const Eigen::Vector3d& x) { return x; }, preset::EndKind::pinned);
+    found.push_back(energies.total());
+  }
+  CHECK(found[1] == Approx(found[0]).epsilon(1e-12));
+  CHECK(found[2] == Approx(found[0]).epsilon(1e-12));
+}
+
+TEST_CASE("a hinge that tilts twists the rod that it is on, as in closed form") {
+  // a slim rod clamped at both ends; a stiff one across, whose ends are moved about it by springs
+  const double psi = 0.05, a = 100, b = 40, k = 1e5;
+  preset::NetworkData file;
+  file.points = {{-a, 0, 0}, {a, 0, 0}, {0, -b, 0}, {0, b, 0}, {0, 0, 0}};
+  file.rods = {{0, 4, 1}, {2, 4, 3}};
+  file.diameters = {2, 10};
+  file.supports = {{2, 0, -b * std::cos(psi), -b * std::sin(psi)},
+                   {3, 0, b * std::cos(psi), b * std::sin(psi)}};
+  file.springs = {{2, k, k, k}, {3, k, k, k}};
+  file.joint_laws = {{4, 0, -1}};
+  preset::Preset p = network(file, 4);
+  p.ends.kind = preset::EndKind::clamped;
+  const auto slim = circular_material(2, 10, 4), stiff = circular_material(10, 10, 4);
+  // the hub turns by M (a/(2 GJ) + b/(6 EI) + 1/(2 k b^2))
+  const double give = a / (2 * slim.GJ) + b / (6 * stiff.EI1) + 1 / (2 * k * b * b);
+  const auto outcome = run(p);
+  CAPTURE(outcome.summary.limit_reason);
+  CHECK(outcome.summary.stable);
+  CHECK(outcome.summary.energies.total() == Approx(0.5 * psi * psi / give).epsilon(2e-3));
+  CHECK(outcome.summary.energies[Term::twist] > 0.8 * outcome.summary.energies.total());
+}
+
+TEST_CASE("rhombi of straight rods open in the flat without a force, to the angle asked for") {
+  preset::Preset p = network(rhombi(50 * degree), 2);
+  p.step = {opened(80, 100), opened(95, 100)};
+  const auto outcome = run(p);
+  CAPTURE(outcome.summary.limit_reason);
+  REQUIRE(outcome.summary.steps.size() == 2);
+  CHECK_THAT(outcome.summary.steps[0], Catch::Contains("joints at 80.00 degrees on average"));
+  CHECK_THAT(outcome.summary.steps[1], Catch::Contains("joints at 95.00 degrees on average"));
+  CHECK(outcome.summary.energies.total() < 1e-10);
+  CHECK(outcome.summary.height_mm == Approx(0).margin(1e-6));
+}
+
+TEST_CASE("one joint that opens is a hinge's torque on straight rods, and what is wrong is told") {
+  preset::Preset p = network(rhombi(50 * degree), 2);
+  preset::Step step = opened(0, 100);
+  step.angles = {{12, 0, 70}};
+  p.step = {step};
+  CHECK(run(p).summary.energies.total() < 1e-10);
+  p.step[0].angles = {{3, 0, 70}};
+  CHECK_THAT(refused_run(p), Catch::Contains("[3, 0] is no joint where two rods cross"));
+  p.step = {opened(179.5, 100)};
+  CHECK_THAT(refused_run(p), Catch::Contains("must be between 1 and 179"));
+  p.step = {opened(60, 100), opened(70, 200)};
+  CHECK_THAT(refused_run(p), Catch::Contains("bolts of another stiffness"));
+}
+
+TEST_CASE("how forces change as joints open, against differences") {
+  preset::Preset p = network(rhombi(50 * degree), 2);
+  const Scene scene = value_of(scene_of(p));
+  const RodMesh mesh = mesh_rods(scene.footprint, 2);
+  const Model loose = value_of(build_model(mesh, scene.rods, RodModel::bend));
+  const State flat = start_state(loose, columns_of(mesh, loose, drawn_nodes(mesh, scene.flat)));
+  ShellRods rods = scene.rods;
+  Bolts bolts = tightened(mesh, loose, flat.x, 100);
+  bolts.opening.assign(bolts.rods.size(), 0.3);
+  rods.bolts = std::make_shared<const Bolts>(bolts);
+  const Model model = value_of(build_model(mesh, rods, RodModel::bend));
+  const State state = start_state(model, flat.x);
+  Assembly plus, minus;
+  ExternalLoads outside;
+  outside.opening = 0.4 + 1e-5;
+  assemble_gradient(model, state, outside, plus);
+  outside.opening = 0.4 - 1e-5;
+  assemble_gradient(model, state, outside, minus);
+  const Eigen::Matrix3Xd rate = opening_rate(model, state);
+  CHECK(rate.norm() > 1);
+  CHECK(((plus.gradient - minus.gradient) / 2e-5 - rate).norm() < 1e-7 * rate.norm());
+  outside.opening = 0.4;
+  check_derivatives(model, state, outside, 1e-6, 1e-4, 1e-5);
+}
