@@ -97,7 +97,9 @@ void each_two(std::size_t rods, Visit visit) {
 /// where two of a joint's rods cross; with spring joints all but the first have nodes of their own
 Crossing crossing(const RodMesh& mesh, const std::vector<int>& rods, int joint, bool springs,
                   std::size_t k, std::size_t m) {
-  const auto node = [&](std::size_t rod) { return springs && rod > 0 ? mesh.nodes() + joint : joint; };
+  const auto node = [&](std::size_t rod) {
+    return springs && rod > 0 ? mesh.nodes() + joint : joint;
+  };
   return {rods[k], node(k), rods[m], node(m)};
 }
 
@@ -298,7 +300,8 @@ namespace {
 bool has_corner(const RodMesh& mesh, const Model& model, int rod, const std::vector<int>& beside) {
   const Model::Rod& one = model.rods[std::size_t(rod)];
   const auto* law = law_of<SectionBending>(model, one.first_bend + beside[0] - one.edges.front());
-  const ModelEdge &e = model.edges[std::size_t(beside[0])], &f = model.edges[std::size_t(beside[1])];
+  const ModelEdge &e = model.edges[std::size_t(beside[0])],
+                  &f = model.edges[std::size_t(beside[1])];
   return law && !law->bend.rest.isZero(0) &&
          way(mesh, e.from, e.to).cross(way(mesh, f.from, f.to)).norm() > 1e-9;
 }

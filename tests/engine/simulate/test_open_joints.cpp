@@ -63,9 +63,9 @@ preset::Preset linkage() {
 preset::NetworkData on_sphere() {
   preset::NetworkData file;
   const auto at = [&](double lambda, double phi) {
-    return std::vector<double>{100 * std::sin(lambda), 100 * std::sin(phi),
-                               100 * std::sqrt(1 - std::pow(std::sin(lambda), 2) -
-                                               std::pow(std::sin(phi), 2))};
+    return std::vector<double>{
+        100 * std::sin(lambda), 100 * std::sin(phi),
+        100 * std::sqrt(1 - std::pow(std::sin(lambda), 2) - std::pow(std::sin(phi), 2))};
   };
   for (const double p : {-0.5, -0.3, 0.05, 0.3, 0.5})
     for (const double q : {-0.5, -0.25, 0.0, 0.3, 0.5}) file.points.push_back(at(p, q));
@@ -140,24 +140,24 @@ TEST_CASE("rods cut as they are drawn in space lie there without stress, ends he
   preset::NetworkData file = on_sphere();
   file.joint_laws = {{6, -1, 0}};
   for (const auto ends : {preset::EndKind::pinned, preset::EndKind::clamped}) {
-    const Energies energies =
-        energy_drawn(file, [](const Eigen::Vector3d& x) { return x; }, ends, true);
+    const Energies energies = energy_drawn(
+        file, [](const Eigen::Vector3d& x) { return x; }, ends, true);
     CHECK(std::abs(energies.total()) < 1e-18);
   }
 }
 
 TEST_CASE("joints of three rods count alike, whichever the file lists first") {
   preset::NetworkData file;
-  file.points = {{-50, 0, 0}, {50, 0, 0}, {-25, -43, 2}, {25, 43, 2}, {-25, 43, 4}, {25, -43, 4},
-                 {0, 0, 10}};
+  file.points = {{-50, 0, 0},  {50, 0, 0},   {-25, -43, 2}, {25, 43, 2},
+                 {-25, 43, 4}, {25, -43, 4}, {0, 0, 10}};
   const std::vector<std::vector<int>> rods{{0, 6, 1}, {2, 6, 3}, {4, 6, 5}};
   std::vector<double> found;
   for (const std::vector<std::size_t>& order :
        {std::vector<std::size_t>{0, 1, 2}, {1, 2, 0}, {2, 1, 0}}) {
     file.rods.clear();
     for (const std::size_t k : order) file.rods.push_back(rods[k]);
-    const Energies energies =
-        energy_drawn(file, [](const Eigen::Vector3d& x) { return x; }, preset::EndKind::pinned);
+    const Energies energies = energy_drawn(
+        file, [](const Eigen::Vector3d& x) { return x; }, preset::EndKind::pinned);
     found.push_back(energies.total());
   }
   CHECK(found[1] == Approx(found[0]).epsilon(1e-12));
@@ -223,8 +223,7 @@ TEST_CASE("bolts of laths cut with corners are free of stress on every mesh") {
   ShellRods rods = scene.rods;
   const RodMesh fine = mesh_rods(scene.footprint, 4), coarse = mesh_rods(scene.footprint, 2);
   const Model loose = value_of(build_model(fine, rods, RodModel::twist));
-  rods.bolts =
-      std::make_shared<const Bolts>(tightened(fine, loose, lying(fine, loose).x, 2000));
+  rods.bolts = std::make_shared<const Bolts>(tightened(fine, loose, lying(fine, loose).x, 2000));
   for (const RodMesh& mesh : {coarse, fine}) {
     const Model model = value_of(build_model(mesh, rods, RodModel::twist));
     CHECK(energies_of(model, lying(mesh, model)).total() < 1e-18);
