@@ -91,8 +91,7 @@ class Builder {
       const std::size_t node = entry.ghost_begin >= 0 ? k - 1 : k;
       add_bend(rod.material, entry, {e, f}, share, turn_of(rod, node));
     }
-    if (entry.closed)
-      rings_.push_back({model_.rods.size(), rod.material, turn_of(rod, 0)});
+    if (entry.closed) rings_.push_back({model_.rods.size(), rod.material, turn_of(rod, 0)});
     model_.rods.push_back(std::move(entry));
   }
 
@@ -143,11 +142,11 @@ class Builder {
         .push_back({e, f, bend, {m.GJ / length, length * m.twist}});
     if (!plain)
       std::get<std::vector<Pair<SectionBending>>>(model_.pairs)
-          .push_back({e,
-                      f,
-                      bend,
-                      {{Eigen::Vector2d(m.EI1, m.EI2) / length, length * m.curvature + turn,
-                        share}}});
+          .push_back(
+              {e,
+               f,
+               bend,
+               {{Eigen::Vector2d(m.EI1, m.EI2) / length, length * m.curvature + turn, share}}});
   }
 
   /// nodes that rods share

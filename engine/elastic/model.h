@@ -250,8 +250,8 @@ struct Crossing {
 /// It acts on the rods' tangents at the joint, which lie between those of the edges: what these
 /// turn less than the joint is put in series with it (of a rigid one, infinite, that alone is
 /// left). `rest_angle`: between edge e of `a` and edge f of `b`. `share`: how much of a joint of
-/// several pairs of rods this one is; `opening`: by how much it is to open, rad. finish() afterwards;
-/// so for the one below.
+/// several pairs of rods this one is; `opening`: by how much it is to open, rad. finish()
+/// afterwards; so for the one below.
 void add_joint_shear(Model& model, const Crossing& at, double stiffness,
                      const std::function<double(int e, int f)>& rest_angle, double share = 1,
                      double opening = 0);

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace gridshell {
@@ -96,7 +97,9 @@ void each_two(std::size_t rods, Visit visit) {
 /// where two of a joint's rods cross; with spring joints all but the first have nodes of their own
 Crossing crossing(const RodMesh& mesh, const std::vector<int>& rods, int joint, bool springs,
                   std::size_t k, std::size_t m) {
-  const auto node = [&](std::size_t rod) { return springs && rod > 0 ? mesh.nodes() + joint : joint; };
+  const auto node = [&](std::size_t rod) {
+    return springs && rod > 0 ? mesh.nodes() + joint : joint;
+  };
   return {rods[k], node(k), rods[m], node(m)};
 }
 
@@ -287,8 +290,23 @@ std::vector<NodeAction> dead_loads(const RodMesh& mesh, const ShellRods& rods) {
 
 Eigen::Vector3d JointDirections::at(double mm) const {
   const double between = before_mm + after_mm;
+  if (std::isinf(between)) return mm < 0 ? before : mm > 0 ? after : 0.5 * (before + after);
   return between > 0 ? before + (mm + before_mm) / between * (after - before) : before;
 }
+
+namespace {
+
+/// whether a rod is cut with a corner at a node: it is drawn so, and bends there at rest
+bool has_corner(const RodMesh& mesh, const Model& model, int rod, const std::vector<int>& beside) {
+  const Model::Rod& one = model.rods[std::size_t(rod)];
+  const auto* law = law_of<SectionBending>(model, one.first_bend + beside[0] - one.edges.front());
+  const ModelEdge &e = model.edges[std::size_t(beside[0])],
+                  &f = model.edges[std::size_t(beside[1])];
+  return law && !law->bend.rest.isZero(0) &&
+         way(mesh, e.from, e.to).cross(way(mesh, f.from, f.to)).norm() > 1e-9;
+}
+
+}  // namespace
 
 double angle_between(const std::vector<JointDirections>& rods) {
   return angle_between(rods[0].at(0), rods[1].at(0));
@@ -324,6 +342,8 @@ Bolts tightened(const RodMesh& mesh, const Model& model, const Eigen::Matrix3Xd&
         (before ? one.before : one.after) = geometry_between(columns, edge.from, edge.to).tangent;
         (before ? one.before_mm : one.after_mm) = 0.5 * edge.rest_length;
       }
+      if (beside.size() > 1 && has_corner(mesh, model, rod, beside))
+        one.before_mm = one.after_mm = std::numeric_limits<double>::infinity();
       if (beside.size() > 1) continue;
       const bool ends = one.before_mm > 0;
       (ends ? one.after : one.before) = ends ? one.before : one.after;

@@ -24,16 +24,18 @@ struct PointLoad {
 struct JointLaw {
   double spring_N_per_mm = 0;  ///< of spring joints; 0: the rods share a node
   double shear_Nmm = 0;        ///< per rad; 0: they shear freely; infinite: they keep their angle
-  double twist_Nmm = 0;        ///< per rad; 0: they pass no twist; infinite: they keep to the normal
+  double twist_Nmm = 0;  ///< per rad; 0: they pass no twist; infinite: they keep to the normal
 };
 
 /// How a rod runs through a joint: unit tangents of the edges before and after it, and how far off
-/// their middles lie, mm. Of a rod that ends there both are those of its one edge.
+/// their middles lie, mm; infinite where it is cut with a corner there. Of a rod that ends there
+/// both are those of its one edge.
 struct JointDirections {
   Eigen::Vector3d before, after;
   double before_mm = 0, after_mm = 0;
 
-  /// Where it points `mm` beyond the joint, between the two along a straight line.
+  /// Where it points `mm` beyond the joint, between the two along a straight line, or round the
+  /// corner.
   Eigen::Vector3d at(double mm) const;
 };
 

@@ -164,8 +164,11 @@ std::string network_fault(const NetworkData& network) {
     if (!ruled.insert(row[0]).second)
       return fmt::format("the joint at point {} has two laws, must have one", row[0]);
   }
-  for (const int point : network.free)
+  std::set<int> freed;
+  for (const int point : network.free) {
     if (!there(point)) return fmt::format("free names point {} of {}", point, points);
+    if (!freed.insert(point).second) return fmt::format("point {} is named as free twice", point);
+  }
   return "";
 }
 

@@ -165,8 +165,8 @@ class Reader {
     const auto joints = document_.json.find("joints");
     return joints != document_.json.end() &&
            std::any_of(joints->begin(), joints->end(), [&](const Json& joint) {
-             const Json& points = joint.is_object() && joint.contains("points") ? joint["points"]
-                                                                                : joint;
+             const Json& points =
+                 joint.is_object() && joint.contains("points") ? joint["points"] : joint;
              return points.is_array() &&
                     std::find(points.begin(), points.end(), number) != points.end();
            });
@@ -232,8 +232,8 @@ class Reader {
     static const std::map<std::string, std::pair<double, double>> laws{
         {"free", {0, 0}}, {"hinge", {0, -1}}, {"rigid", {-1, -1}}, {"spring", {0, 0}}};
     const auto text = value.find("law");
-    const auto law = text != value.end() && text->is_string() ? laws.find(text->get<std::string>())
-                                                              : laws.end();
+    const auto law =
+        text != value.end() && text->is_string() ? laws.find(text->get<std::string>()) : laws.end();
     if (law == laws.end())
       return wrong("\"law\" must be \"free\", \"hinge\", \"rigid\" or \"spring\"");
     auto [shear, twist] = law->second;
@@ -241,8 +241,9 @@ class Reader {
       if (key == "law" || key == "point" || key == "points") continue;
       const bool stiffness = key == "shear_Nmm" || key == "twist_Nmm";
       if (!stiffness || law->first != "spring")
-        return wrong("must be {\"point\" or \"points\", \"law\"}, of a \"spring\" with "
-                     "\"shear_Nmm\" and \"twist_Nmm\"");
+        return wrong(
+            "must be {\"point\" or \"points\", \"law\"}, of a \"spring\" with "
+            "\"shear_Nmm\" and \"twist_Nmm\"");
       if (!inner.is_number() || !(inner.get<double>() >= 0 && inner.get<double>() <= 1e9))
         return wrong("shear_Nmm and twist_Nmm must be numbers from 0 to 1e9");
       (key == "shear_Nmm" ? shear : twist) = inner.get<double>();

@@ -24,15 +24,15 @@ void step_rules(FieldList<Step>& list) {
 /// What makes a formed shell stiff, and takes it away again.
 void add_stiffening(FieldList<Step>& list) {
   using K = StepKind;
-  list.add<&Step::stiffness_Nmm>(
-      at_least(0),
-      "of a tighten: resistance of each joint to a change of its angle; of an open: of each joint to "
-      "being off the angle that it is opened to; 0: rigid");
+  list.add<&Step::stiffness_Nmm>(at_least(0),
+                                 "of a tighten: resistance of each joint to a change of its angle; "
+                                 "of an open: of each joint to "
+                                 "being off the angle that it is opened to; 0: rigid");
   list.used_by(&Step::kind, {K::tighten, K::open});
-  list.add<&Step::angle_deg>(
-      between(0, 180),
-      "of an open: to what all joints where two rods cross open on average, each by as much; between "
-      "the directions in which their rods run; 0: `angles` says it");
+  list.add<&Step::angle_deg>(between(0, 180),
+                             "of an open: to what all joints where two rods cross open on average, "
+                             "each by as much; between "
+                             "the directions in which their rods run; 0: `angles` says it");
   list.used_by(&Step::kind, {K::open})
       .refused({}, "an open has `angle_deg` or `angles`, must be one of the two",
                [](const Step& of) {

@@ -94,8 +94,8 @@ void add_footprint(std::vector<Field>& all) {
                })
       .needs_twist("joints of the file have laws of their own", [=](const Footprint& of) {
         return network(of) && std::ranges::any_of(of.file.joint_laws, [](const auto& row) {
-          return row[1] != 0 || row[2] != 0;
-        });
+                 return row[1] != 0 || row[2] != 0;
+               });
       });
   list.add<&Footprint::rods>(between(1, 500), "rods a direction in a circle, n")
       .used_by(&Footprint::kind, {Kinds::circle});

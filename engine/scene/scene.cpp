@@ -308,12 +308,18 @@ Result<void> check_crossings(const Scene& scene) {
   return {};
 }
 
-/// Joints that turn by laws of their own, of a network's file.
+/// What a network's rods are at rest, and its joints that turn by laws of their own.
 Result<void> put_laws(const preset::Preset& preset, Scene& scene) {
   const auto stiffness = [](double given) {
     return given < 0 ? std::numeric_limits<double>::infinity() : given;
   };
   if (preset.footprint.kind != preset::FootprintKind::network) return {};
+  for (std::size_t r = 0; scene.drawn_in_space && r < scene.rods.materials.size(); ++r)
+    if (scene.rods.materials[r].as_drawn && scene.footprint.rods[r].closed())
+      return fail(Fault::bad_input,
+                  "[rod] as_drawn: rods[{}] is a ring drawn in space, whose section comes round "
+                  "turned: a rod that is cut so must have two ends",
+                  scene.footprint.rods[r].number);
   for (const auto& row : preset.footprint.file.joint_laws) {
     const int joint = joint_at(scene.footprint, int(row[0]), 0);
     if (joint < 0)

@@ -31,7 +31,8 @@ struct Work : EquilibriumPath {
 };
 
 /// Whether frames are taken on the way of a step, which a segment then knows: of a push, of joints
-/// that open, and of a move of the whole boundary, before and after which no edge point lies off it.
+/// that open, and of a move of the whole boundary, before and after which no edge point lies off
+/// it.
 bool has_way(const std::vector<preset::Step>& steps, std::size_t k) {
   if (steps[k].kind != StepKind::move)
     return steps[k].kind == StepKind::push || steps[k].kind == StepKind::open;

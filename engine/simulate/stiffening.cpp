@@ -61,7 +61,8 @@ Result<std::vector<double>> openings(const preset::Step& step, const Footprint& 
     int count = 0;
     for (std::size_t joint = 0; joint < by.size(); ++joint)
       if (now.rods[joint].size() == 2) sum += rest(joint), ++count;
-    if (count == 0) return fail(Fault::bad_input, "the footprint has no joint where two rods cross");
+    if (count == 0)
+      return fail(Fault::bad_input, "the footprint has no joint where two rods cross");
     for (std::size_t joint = 0; joint < by.size(); ++joint)
       if (now.rods[joint].size() == 2) by[joint] = step.angle_deg * rad - sum / count;
   }
@@ -134,8 +135,9 @@ std::string text_of_opened(const Simulation& simulation) {
     torque = std::max(torque, std::abs(torques[joint]));
   }
   constexpr double deg = 180 / M_PI;
-  return fmt::format("joints at {:.2f} degrees on average, {:.2f} to {:.2f}, torques to {:.4g} N mm",
-                     deg * sum / std::max(count, 1), deg * least, deg * most, torque);
+  return fmt::format(
+      "joints at {:.2f} degrees on average, {:.2f} to {:.2f}, torques to {:.4g} N mm",
+      deg * sum / std::max(count, 1), deg * least, deg * most, torque);
 }
 
 Result<Report> brace(Simulation& simulation, const preset::Step& step, const Watch& watch) {

@@ -15,8 +15,8 @@ Result<Report> tighten(Simulation& simulation, const preset::Step& step, const W
 
 /// Bolts in the joints strive for other angles, evenly along a path: each is a spring at the joint
 /// that is tightened where the joint stands, and whose angle of rest goes to the step's. Errors
-/// (bad_input): a flat shell, a joint where not two rods cross, an angle that no joint has, bolts of
-/// another stiffness.
+/// (bad_input): a flat shell, a joint where not two rods cross, an angle that no joint has, bolts
+/// of another stiffness.
 Result<Report> open(Simulation& simulation, const preset::Step& step, const Watch& watch,
                     StepPath* way);
 

@@ -54,7 +54,7 @@ struct PinnedMotion {
   PathLaw law = PathLaw::square;
   LoadFactor load{0, 1};
   LoadFactor field{0, 0};
-  LoadFactor opening{0, 0};  ///< of the joints that are opened
+  LoadFactor opening{0, 0};             ///< of the joints that are opened
   std::vector<EndRotation> turns = {};  ///< these nodes do not move straight
 
   double progress(double t) const { return law == PathLaw::square ? progress_at(t) : t; }

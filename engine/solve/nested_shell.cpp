@@ -179,8 +179,12 @@ void NestedShell::drive(const PrescribedMove& drive) {
   for (std::size_t k = 0; k < levels_.size(); ++k) {
     Level& level = *levels_[k];
     const Eigen::Matrix3Xd& x = state_.levels[k].x;
-    level.motion = {x,          Eigen::Matrix3Xd::Zero(3, x.cols()), PathLaw::even,
-                    drive.load, drive.field,                         drive.opening};
+    level.motion = {x,
+                    Eigen::Matrix3Xd::Zero(3, x.cols()),
+                    PathLaw::even,
+                    drive.load,
+                    drive.field,
+                    drive.opening};
     if (drive.boundary) {
       const PinnedMotion wanted = pinned_motion(level.mesh, *drive.boundary);
       const Eigen::Matrix3Xd there = wanted.at(1);

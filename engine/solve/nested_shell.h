@@ -73,9 +73,9 @@ struct PrescribedMove {
   std::vector<Constraint> holds;  ///< joints that are held from here on, all of them
   std::vector<Eigen::Vector3d> displacements = {};  ///< of the held components, one a hold
   std::optional<BoundaryMotion> boundary =
-      {};                  ///< where the edge points go (its end); else they stay
-  LoadFactor load{1, 0};   ///< of the dead loads
-  LoadFactor field{0, 0};  ///< and of the field
+      {};                    ///< where the edge points go (its end); else they stay
+  LoadFactor load{1, 0};     ///< of the dead loads
+  LoadFactor field{0, 0};    ///< and of the field
   LoadFactor opening{0, 0};  ///< and of the joints that are opened
 };
 

@@ -100,14 +100,16 @@ TEST_CASE("joints that cannot be are refused, with their line") {
 }
 
 TEST_CASE("joints of a network have laws of their own, by point or by points that become one") {
-  const NetworkData network = read(with("[4, 1],\n    [2, 6]", R"({"points": [4, 1], "law": "hinge"},
+  const NetworkData network =
+      read(with("[4, 1],\n    [2, 6]", R"({"points": [4, 1], "law": "hinge"},
     {"points": [2, 6], "law": "spring", "shear_Nmm": 3.5, "twist_Nmm": 2})"));
   CHECK(network.rods[0] == std::vector<int>{0, 4, 2});
   CHECK(network.joint_laws == Points{{4, 0, -1}, {2, 3.5, 2}});
   CHECK(network_fault(network).empty());
   wrong(R"({"points": [4, 1], "law": "stiff"})", "\"law\" must be");
   wrong(R"({"points": [4, 1], "law": "hinge", "shear_Nmm": 1})", "must be {\"point\"");
-  wrong(R"({"points": [4, 1], "law": "spring", "shear_Nmm": -1})", "shear_Nmm and twist_Nmm must be");
+  wrong(R"({"points": [4, 1], "law": "spring", "shear_Nmm": -1})",
+        "shear_Nmm and twist_Nmm must be");
   wrong(R"({"law": "rigid"})", "a law must be of a");
   wrong(R"({"point": 99, "law": "rigid"})", "names a point that is not there");
 }

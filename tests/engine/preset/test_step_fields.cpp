@@ -92,7 +92,11 @@ TEST_CASE("what is wrong with a step is said with its place, its number and what
   const auto [text, sentence] = GENERATE(values<Row>({
       {"[[step]]\ndo = \"shove\"",
        "bad.toml:2:6: [[step]] 1 do = \"shove\": unknown word, must be \"move\", \"push\", "
-       "\"hold\", \"release\", \"load\", \"rest\", \"jitter\", \"tighten\" or \"brace\""},
+       "\"hold\", \"release\", \"load\", \"rest\", \"jitter\", \"tighten\", \"brace\" "
+       "or \"open\""},
+      {"[[step]]\ndo = \"open\"",
+       "bad.toml:1:1: [[step]] 1 angle_deg = 0.0: an open has `angle_deg` or `angles`, must be one "
+       "of the two"},
       {"[[step]]\ndo = \"brace\"",
        "bad.toml:1:1: [[step]] 1 EA_N = 0.0: a brace needs a stiffness, must be above 0"},
       {"[[step]]\ndo = \"load\"\ncase = \"snow\"",

@@ -164,6 +164,8 @@ std::vector<Preset> stepped() {
   add(StepKind::jitter).seed = 7;
   steps.back().force_N = 0.11;
   add(StepKind::tighten).stiffness_Nmm = 1e5 / 3;
+  add(StepKind::open).angle_deg = 100.0 / 3;
+  add(StepKind::open).angles = {{1, 0, 70.5}};
   Step& braced = add(StepKind::brace);
   braced.cells = {{-1, 2}};
   braced.diagonals = Diagonals::second;
@@ -225,7 +227,8 @@ std::vector<Preset> samples() {
                             {{0, "young_GPa", 1e2 / 3}},
                             {{0}, {1, 30, 0, 2}},
                             {{1, 1e2 / 3, 0, 5}},
-                            {2}};
+                            {2},
+                            {{1, 2.5, -1}}};
   all.push_back(network);
   for (Preset& preset : stepped()) all.push_back(std::move(preset));
   return all;
