@@ -78,7 +78,8 @@ Energies energies_of(const Model& model, const State& state, const ExternalLoads
       sum[Law::term] += pair.law.value(pair_geometry(model, state, pair));
   });
   for (const ModelShear& shear : model.shears)
-    sum[Term::shear] += 0.5 * shear.stiffness * std::pow(excess_of(model, state, shear, outside.opening), 2);
+    sum[Term::shear] +=
+        0.5 * shear.stiffness * std::pow(excess_of(model, state, shear, outside.opening), 2);
   for (const ModelSpring& spring : model.springs)
     sum[spring.law.term] += spring.law.value(gap_of(state, spring.law));
   for (const ModelBar& bar : model.bars)
