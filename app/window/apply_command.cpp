@@ -78,6 +78,11 @@ Result<void> EditSession::do_step(preset::Step step, const Watch& watch) {
   add_step(std::move(step), *report);
   const auto done = note_events(*report);
   if (!event_at.empty()) view_.event = view_.message += " at " + event_at;
+  // what was lost on the way may be there again
+  const auto lost = [](const Event& e) { return e.kind == Event::Kind::stability_lost && !e.to; };
+  if (!event_at.empty() && report->end == Outcome::reached && report->certificate.stable() &&
+      std::ranges::all_of(report->events, lost))
+    view_.event = view_.message = "stable again; on the way " + view_.message;
   return done;
 }
 

@@ -109,9 +109,10 @@ render::ColourScale scale_of(const ShellView& shell, const Show& show) {
   render::ColourScale scale =
       render::symmetric_scale(std::vector<double>(all.begin(), all.end()), 0.9);
   if (by == ColourBy::K || by == ColourBy::K_change || by == ColourBy::axial_force) {
-    // round-off has no colour
+    // round-off has no colour, nor has a shell that nothing has changed yet a range
     const double least = by == ColourBy::axial_force ? 1e-6 : 0.02;
-    if (scale.high < least) scale.low = -least, scale.high = least;
+    const bool changed = all.size() > 0 && all.cwiseAbs().maxCoeff() >= least;
+    if (!changed || scale.high < least) scale.low = -least, scale.high = least;
     scale.start = start;
     return scale;
   }

@@ -89,7 +89,8 @@ void path(const Panel& panel) {
   }
   speed(panel, gap);
   float part = float(viewer.part());
-  if (std::abs(part) < 5e-4f) part = 0;  // round-off
+  // what finer meshes moved the joint by before it was pushed is no push
+  if (std::abs(part) < 5e-4f || (push && viewer.shell->steps.empty())) part = 0;
   if (slider(panel, "path", part, 0, std::max(1.f, part), push ? "push %.3f" : "progress %.3f",
              push ? "share of the preset's depth"
                   : "share of the boundary's way" + text_of_marks(*viewer.shell)))

@@ -65,9 +65,15 @@ void ViewerState::recall(int state) {
 }
 
 void ViewerState::go_to_loss() {
+  if (shell->push.joint >= 0 && shell->preset.footprint.kind != preset::FootprintKind::circle)
+    return say("the boundary of this shell stays: it is a push that is followed", true);
   std::vector<double> places;
-  for (const PathMark& mark : shell->marks)
-    if (mark.joint < 0 && mark.unstable) places.push_back(0.5 * (mark.from + mark.to));
+  for (const PathMark& mark : shell->marks) {
+    if (mark.joint >= 0 || !mark.unstable) continue;
+    if (!shell->stable() && mark.from <= shell->progress && shell->progress <= mark.to)
+      return say("here: the shell stands on the part of its way that is not stable", true);
+    places.push_back(0.5 * (mark.from + mark.to));
+  }
   if (places.empty())
     return say(shell->way_left.empty()
                    ? "on the boundary's way so far every state is stable"
