@@ -55,6 +55,7 @@ int write_all(int descriptor, std::string_view bytes) {
 }
 
 void Checksum::add(std::string_view bytes) {
+  if (bytes.empty()) return;  // of no bytes at no place libdeflate begins anew
   if (kind_ == ChecksumKind::crc32)
     sum_ = libdeflate_crc32(std::uint32_t(sum_), bytes.data(), bytes.size());
   else
