@@ -86,7 +86,7 @@ choose_files() {
     grep -q "\"file\": \"$PWD/$file\"" "$scratch/compile_commands.json" && echo "$file"
   done <"$scratch/files" >"$scratch/built"
   # GCC's precompiled headers are nothing to clang; a file includes what it uses
-  sed -i 's/-Winvalid-pch -include [^ ]*cmake_pch\.hxx//' "$scratch/compile_commands.json"
+  sed -i 's/ --param=ggc-min-heapsize=[0-9]*//; s/-Winvalid-pch -include [^ ]*cmake_pch\.hxx//' "$scratch/compile_commands.json"
 }
 
 tidy() {

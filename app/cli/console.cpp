@@ -116,8 +116,8 @@ Result<int> printed() {
   return fail(Fault::io, "cannot write to standard output: it is closed");
 }
 
-bool flush_stdout() {
-  errno = 0;
+bool flush_stdout(int failed_before) {
+  errno = failed_before;
   const bool flushed = std::fflush(stdout) == 0;
   if (flushed && !std::ferror(stdout)) return true;
   std::fprintf(stderr, "cannot write to standard output: %s\n",

@@ -64,8 +64,9 @@ class InterruptGuard {
 /// opened would get its number, and be written to as if it were the terminal.
 void open_standard_streams() noexcept;
 
-/// Whether all that was printed on stdout arrived; else a line on stderr says why not.
-bool flush_stdout();
+/// Whether all that was printed on stdout arrived; else a line on stderr says why not, with the
+/// error number of what failed before.
+bool flush_stdout(int failed_before = 0);
 
 /// The exit code of a command that does nothing but print: a stdout that was closed from the
 /// beginning is a failure of it.

@@ -1,5 +1,7 @@
 // The program `gridshell`: reads the command line, runs one command, returns its exit code.
+#include <cstdio>
 #include <exception>
+#include <system_error>
 
 #include "app/cli/commands.h"
 #include "app/cli/console.h"
@@ -21,13 +23,20 @@ int main(int argc, char** argv) {
   gridshell::app::open_standard_streams();
   gridshell::render::keep_compiled_shaders();
   int code = gridshell::app::ExitCode::failed;
+  int not_printed = 0;
   try {
     code = run(argc, argv);
+  } catch (const std::system_error& error) {
+    // of what is printed it is told below
+    if (std::ferror(stdout))
+      not_printed = error.code().value();
+    else
+      code = gridshell::app::report_exception(error);
   } catch (const std::exception& error) {
     code = gridshell::app::report_exception(error);
   }
   // what could not be printed was not done
-  if (!gridshell::app::flush_stdout() && code == gridshell::app::ExitCode::done)
+  if (!gridshell::app::flush_stdout(not_printed) && code == gridshell::app::ExitCode::done)
     code = gridshell::app::ExitCode::failed;
   return code;
 }

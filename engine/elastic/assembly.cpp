@@ -253,7 +253,13 @@ void add_others(const Model& model, const State& state, const ExternalLoads& out
   for (const ModelBar& bar : model.bars) add_bar(bar, state, with_hessian, out);
   each_action(model, outside, [&](const NodeAction& action, double factor) {
     out.energies[action.term] += factor * action.value(state.x);
-    action.add_gradient(factor, state.x, out.gradient);
+    if (action.pressure != 0) {
+      action.add_gradient(factor, state.x, out.gradient);
+    } else {
+      const Eigen::Vector3d off = state.x.col(action.node) - action.anchor;
+      const Eigen::Vector3d slope = action.stiffness.cwiseProduct(off) - action.force;
+      out.gradient.col(action.node) += factor * slope;
+    }
     if (with_hessian) add_action_hessian(action, factor, state.x, out.hessian);
   });
   each_contact(model, state.x, true, [&](const EdgeContact& contact) {
