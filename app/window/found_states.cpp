@@ -58,7 +58,7 @@ std::string EditSession::note_way(const preset::Step& step, const simulate::Step
   const auto marks = marks_of(way, report.events, pushes && joint ? *joint : -1, place);
   add_marks(now_.marks, marks);
   for (const PathMark& mark : marks)
-    if (mark.unstable && mark.to > mark.from && report.certificate.stable() && !leapt)
+    if (mark.unstable && report.certificate.stable() && !leapt)
       view_.message = view_.event = "stable again; not stable on the way at " + place_text(mark);
   const auto event = std::ranges::find(marks, false, &PathMark::unstable);
   return event == marks.end() ? "" : place_text(*event);

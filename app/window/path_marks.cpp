@@ -7,12 +7,13 @@
 namespace gridshell::window {
 namespace {
 
-/// Between a load step that is stable and one that is not, either way.
-double edge_between(double a, double b, const std::vector<Event>& events) {
+/// Where between a load step that is not stable and one that is an event says that stability ends,
+/// else the first: of what lies between nothing is known.
+double edge_between(double unstable, double stable, const std::vector<Event>& events) {
   for (const Event& event : events)
-    if (event.kind == Event::Kind::stability_lost && (event.t - a) * (event.t - b) <= 0)
+    if (event.kind == Event::Kind::stability_lost && (event.t - unstable) * (event.t - stable) <= 0)
       return event.t;
-  return 0.5 * (a + b);
+  return unstable;
 }
 
 constexpr double touching = 1e-9;
@@ -32,7 +33,7 @@ std::vector<PathMark> marks_of(const PathRecord& path, const std::vector<Event>&
     const double t = steps[k].point.t;
     double from = t, to = t;
     if (k > 0)
-      from = steps[k - 1].certificate.stable() ? edge_between(steps[k - 1].point.t, t, events)
+      from = steps[k - 1].certificate.stable() ? edge_between(t, steps[k - 1].point.t, events)
                                                : steps[k - 1].point.t;
     if (k + 1 < steps.size() && steps[k + 1].certificate.stable())
       to = edge_between(t, steps[k + 1].point.t, events);

@@ -23,7 +23,7 @@ struct PathMark {
 
 /// The marks of a path by the pivots of its load steps and by its events; `place` takes the path
 /// parameter to the place. Between a load step that is stable and one that is not, stability ends
-/// where an event says so, else half way.
+/// where an event says so; else the stretch ends at the one that is not, as far as it is known.
 std::vector<PathMark> marks_of(const PathRecord& path, const std::vector<Event>& events, int joint,
                                const std::function<double(double)>& place);
 

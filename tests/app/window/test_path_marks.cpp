@@ -24,13 +24,13 @@ PathRecord way_of(const std::vector<std::pair<double, int>>& steps) {
 }  // namespace
 
 TEST_CASE(
-    "a stretch that is not stable reaches half way to the stable load steps, or to its event") {
+    "a stretch that is not stable reaches as far as states are known not to be, or to its event") {
   const PathRecord way = way_of({{0.2, 0}, {0.4, 1}, {0.6, 2}, {0.8, 0}});
   const auto marks = marks_of(way, {}, -1, progress_at);
   REQUIRE(marks.size() == 1);
   CHECK(marks[0].unstable);
-  CHECK(marks[0].from == Approx(0.3 * 0.3));
-  CHECK(marks[0].to == Approx(0.7 * 0.7));
+  CHECK(marks[0].from == Approx(0.4 * 0.4));
+  CHECK(marks[0].to == Approx(0.6 * 0.6));
   Event lost;
   lost.t = 0.35;
   const auto told = marks_of(way, {lost}, -1, progress_at);

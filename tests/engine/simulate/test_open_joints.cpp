@@ -231,7 +231,7 @@ TEST_CASE("bolts of laths cut with corners are free of stress on every mesh") {
 }
 
 TEST_CASE("an X-shell that its joints open leaves the flat at a branch and bears on nothing",
-          "[standard]") {
+          "[full]") {
   preset::Preset p = shipped("lit_xshell_lens");
   p.movie.frames = 3;
   const auto outcome = run(p);
