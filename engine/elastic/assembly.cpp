@@ -256,6 +256,8 @@ void add_others(const Model& model, const State& state, const ExternalLoads& out
     if (action.pressure != 0) {
       action.add_gradient(factor, state.x, out.gradient);
     } else {
+      // as add_gradient(), but rounded once a product, as this file is compiled: states keep their
+      // bits
       const Eigen::Vector3d off = state.x.col(action.node) - action.anchor;
       const Eigen::Vector3d slope = action.stiffness.cwiseProduct(off) - action.force;
       out.gradient.col(action.node) += factor * slope;

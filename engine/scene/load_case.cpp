@@ -100,7 +100,8 @@ std::vector<NodeAction> forces_of(const LoadCase& load, const Footprint& footpri
   };
   const Eigen::Vector3d wind(std::cos(load.wind_rad), std::sin(load.wind_rad), 0);
   const std::vector<Face> faces = faces_of(footprint);
-  const std::set<Side> edge = edge_of(faces);
+  const bool at_edge = load.edge_N_mm != 0 || load.pressure_N_mm2 != 0;
+  const std::set<Side> edge = at_edge ? edge_of(faces) : std::set<Side>();
   std::vector<NodeAction> actions;
   for (const Face& face : faces) {
     const Eigen::Vector3d area = area_of(face, nodes);

@@ -4,20 +4,12 @@
 #include <numbers>
 
 #include "engine/simulate/actuation.h"
+#include "tests/engine/simulate/network_preset.h"
 #include "tests/engine/simulate/run.h"
 
 using namespace gridshell;
 
 namespace {
-
-preset::Preset network(const preset::NetworkData& file, int edges) {
-  preset::Preset p;
-  p.footprint.kind = preset::FootprintKind::network;
-  p.footprint.file = file;
-  p.accuracy.edges_per_segment = edges;
-  p.movie.frames = 3;
-  return p;
-}
 
 /// Two crossing rods of length 2 a over a square, feet `foot` from the middle and the joint at
 /// `height`.

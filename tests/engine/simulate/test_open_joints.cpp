@@ -7,6 +7,7 @@
 #include "engine/elastic/assembly.h"
 #include "engine/elastic/shell_rods.h"
 #include "tests/engine/elastic/differences.h"
+#include "tests/engine/simulate/network_preset.h"
 #include "tests/engine/simulate/run.h"
 
 using namespace gridshell;
@@ -15,12 +16,8 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-preset::Preset network(const preset::NetworkData& file, int edges) {
-  preset::Preset p;
-  p.footprint.kind = preset::FootprintKind::network;
-  p.footprint.file = file;
-  p.accuracy.edges_per_segment = edges;
-  p.movie.frames = 3;
+preset::Preset network_of_rods(const preset::NetworkData& file, int edges) {
+  preset::Preset p = network(file, edges);
   p.rod.diameter_mm = 2, p.rod.young_GPa = 10, p.rod.shear_GPa = 4;
   return p;
 }
@@ -54,7 +51,7 @@ preset::Step opened(double degrees, double stiffness) {
 
 /// These as a shell that is no mechanism: hinges, and a trace of resistance to shear.
 preset::Preset linkage() {
-  preset::Preset p = network(rhombi(50 * degree), 2);
+  preset::Preset p = network_of_rods(rhombi(50 * degree), 2);
   p.joints.twist_Nmm = 1e3, p.joints.shear_Nmm = 1e-3;
   return p;
 }
@@ -86,7 +83,7 @@ Energies energy_drawn(preset::NetworkData file, const Map& map, preset::EndKind 
     const Eigen::Vector3d there = map({point[0], point[1], point[2]});
     point = {there.x(), there.y(), there.z()};
   }
-  preset::Preset p = network(file, 3);
+  preset::Preset p = network_of_rods(file, 3);
   p.rod.width_mm = 3, p.rod.thickness_mm = 1;
   p.joints.twist_Nmm = as_drawn ? 0 : 7, p.joints.shear_Nmm = 2;
   p.rod.as_drawn = as_drawn;
@@ -175,7 +172,7 @@ TEST_CASE("a hinge that tilts twists the rod that it is on, as in closed form") 
                    {3, 0, b * std::cos(psi), b * std::sin(psi)}};
   file.springs = {{2, k, k, k}, {3, k, k, k}};
   file.joint_laws = {{4, 0, -1}};
-  preset::Preset p = network(file, 4);
+  preset::Preset p = network_of_rods(file, 4);
   p.ends.kind = preset::EndKind::clamped;
   const auto slim = circular_material(2, 10, 4), stiff = circular_material(10, 10, 4);
   // the hub turns by M (a/(2 GJ) + b/(6 EI) + 1/(2 k b^2))
@@ -247,7 +244,7 @@ TEST_CASE("an X-shell that its joints open leaves the flat at a branch and bears
 }
 
 TEST_CASE("how forces change as joints open, against differences") {
-  preset::Preset p = network(rhombi(50 * degree), 2);
+  preset::Preset p = network_of_rods(rhombi(50 * degree), 2);
   const Scene scene = value_of(scene_of(p));
   const RodMesh mesh = mesh_rods(scene.footprint, 2);
   const Model loose = value_of(build_model(mesh, scene.rods, RodModel::bend));
