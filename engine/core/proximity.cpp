@@ -20,8 +20,56 @@ NearestPoints nearest_points(const Eigen::Vector3d& p, const Eigen::Vector3d& q,
   return near;
 }
 
-bool are_near(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b, double mm) {
-  return ((a.min() - b.max()).array() <= mm).all() && ((b.min() - a.max()).array() <= mm).all();
+BoxPlane::BoxPlane(const std::vector<Eigen::AlignedBox3d>& boxes, double mm) {
+  const auto count = boxes.size();
+  Eigen::AlignedBox3d all;
+  Eigen::Vector3d mean{0, 0, 0}, largest{0, 0, 0};
+  for (const Eigen::AlignedBox3d& each : boxes) {
+    all.extend(each);
+    mean += each.sizes() / double(count);
+    largest = largest.cwiseMax(each.sizes());
+  }
+  // the plane in which they lie farthest apart
+  Eigen::Index across = 0;
+  if (count > 0) all.sizes().minCoeff(&across);
+  const Eigen::Index axes[2] = {(across + 1) % 3, (across + 2) % 3};
+  double size[2];
+  int* const cells[2] = {&columns, &rows};
+  const double most = std::sqrt(double(count)) + 1;
+  for (int k = 0; k < 2 && count > 0; ++k) {
+    const double whole = all.sizes()[axes[k]];
+    size[k] = std::max(std::min(largest[axes[k]], 4 * mean[axes[k]]) + mm, whole / most);
+    // all in one cell where there is no size
+    *cells[k] = size[k] > 0 ? int(std::min(most, whole / size[k])) + 1 : 1;
+  }
+  const auto cell_of = [&](const Eigen::AlignedBox3d& each) {
+    int at[2] = {0, 0};
+    for (int k = 0; k < 2; ++k) {
+      if (!(each.sizes()[axes[k]] + mm <= size[k])) return -1;
+      const double way = each.min()[axes[k]] - all.min()[axes[k]];
+      if (size[k] > 0) at[k] = int(std::min(*cells[k] - 1.0, way / size[k]));
+    }
+    return at[1] * columns + at[0];
+  };
+  std::vector<int> cell(count);
+  first.assign(std::size_t(columns * rows) + 1, 0);
+  for (std::size_t k = 0; k < count; ++k) {
+    cell[k] = cell_of(boxes[k]);
+    if (cell[k] < 0)
+      wide.push_back(int(k));
+    else
+      ++first[std::size_t(cell[k]) + 1];
+  }
+  for (std::size_t c = 1; c < first.size(); ++c) first[c] += first[c - 1];
+  std::vector<int> next(first.begin(), first.end() - 1);
+  number.resize(count - wide.size());
+  box.resize(number.size());
+  for (std::size_t k = 0; k < count; ++k) {
+    if (cell[k] < 0) continue;
+    const auto place = std::size_t(next[std::size_t(cell[k])]++);
+    number[place] = int(k);
+    box[place] = boxes[k];
+  }
 }
 
 bool BoxGrid::add(int thing, const Eigen::AlignedBox3d& box, std::size_t most) {

@@ -21,29 +21,54 @@ struct NearestPoints {
 NearestPoints nearest_points(const Eigen::Vector3d& p, const Eigen::Vector3d& q,
                              const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 
-// Boxes that are near each other, by a sweep along the axis on which they lie farthest apart.
-
 /// Whether two boxes are within mm of each other.
-bool are_near(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b, double mm);
+inline bool are_near(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b, double mm) {
+  return ((a.min() - b.max()).array() <= mm).all() && ((b.min() - a.max()).array() <= mm).all();
+}
+
+/// Boxes sorted into the cells of a plane, by their lowest corners. Cells are so wide that boxes
+/// which are within mm of each other lie in neighbouring ones, but for those of `wide`.
+struct BoxPlane {
+  BoxPlane(const std::vector<Eigen::AlignedBox3d>& boxes, double mm);
+
+  int columns = 1, rows = 1;
+  std::vector<int> first;   ///< place of a cell's first box, row after row, and the end
+  std::vector<int> number;  ///< of the box at a place
+  std::vector<Eigen::AlignedBox3d> box;
+  std::vector<int> wide;  ///< in no cell
+};
 
 /// visit(i, j), i < j, once for every two boxes that are within mm of each other.
 template <class Visit>
 void each_near_pair(const std::vector<Eigen::AlignedBox3d>& boxes, double mm, const Visit& visit) {
-  Eigen::AlignedBox3d all;
-  for (const Eigen::AlignedBox3d& box : boxes) all.extend(box);
-  Eigen::Index along = 0;
-  all.sizes().maxCoeff(&along);
-  std::vector<std::pair<double, int>> order;
-  for (std::size_t k = 0; k < boxes.size(); ++k) order.emplace_back(boxes[k].min()[along], int(k));
-  std::ranges::sort(order);
-  std::vector<Eigen::AlignedBox3d> sorted;
-  for (const auto& [low, k] : order) sorted.push_back(boxes[std::size_t(k)]);
-  for (std::size_t i = 0; i < sorted.size(); ++i) {
-    const double end = sorted[i].max()[along] + mm;
-    for (std::size_t j = i + 1; j < sorted.size() && sorted[j].min()[along] <= end; ++j)
-      if (are_near(sorted[i], sorted[j], mm))
-        visit(std::min(order[i].second, order[j].second),
-              std::max(order[i].second, order[j].second));
+  const BoxPlane plane(boxes, mm);
+  const auto look = [&](int k, int from, int to) {
+    for (int other = from; other < to; ++other)
+      if (are_near(plane.box[std::size_t(k)], plane.box[std::size_t(other)], mm))
+        visit(std::min(plane.number[std::size_t(k)], plane.number[std::size_t(other)]),
+              std::max(plane.number[std::size_t(k)], plane.number[std::size_t(other)]));
+  };
+  for (int row = 0; row < plane.rows; ++row)
+    for (int column = 0; column < plane.columns; ++column) {
+      const int cell = row * plane.columns + column;
+      const auto begin = [&](int c) { return plane.first[std::size_t(c)]; };
+      // the rest of this cell and the next one, and the three above
+      const int beside = cell + (column + 1 < plane.columns ? 2 : 1);
+      const int above = cell + plane.columns;
+      for (int k = begin(cell); k < begin(cell + 1); ++k) {
+        look(k, k + 1, begin(beside));
+        if (row + 1 < plane.rows)
+          look(k, begin(column > 0 ? above - 1 : above),
+               begin(column + 1 < plane.columns ? above + 2 : above + 1));
+      }
+    }
+  for (std::size_t k = 0; k < plane.wide.size(); ++k) {
+    const int a = plane.wide[k];
+    const Eigen::AlignedBox3d& box = boxes[std::size_t(a)];
+    for (const int b : plane.number)
+      if (are_near(box, boxes[std::size_t(b)], mm)) visit(std::min(a, b), std::max(a, b));
+    for (std::size_t l = k + 1; l < plane.wide.size(); ++l)
+      if (are_near(box, boxes[std::size_t(plane.wide[l])], mm)) visit(a, plane.wide[l]);
   }
 }
 

@@ -15,6 +15,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr int no_tree = std::numeric_limits<int>::min();
 
 }  // namespace
 
@@ -31,9 +32,11 @@ class ShapeContacts {
   struct Joint {
     double at_a = 0, at_b = 0, within = 0;
   };
-  /// The largest angle between an edge of a segment and its chord.
-  struct Spread {
+  /// A segment's chord, from its begin to its end, and the largest angle of an edge with it.
+  struct Chord {
+    Vector3d along{0, 0, 0};  ///< unit vector
     double cosine = 1, sine = 0;
+    int node[2] = {-1, -1};  ///< at begin and end
   };
   /// What is looked for between two segments.
   struct Search {
@@ -59,12 +62,13 @@ class ShapeContacts {
   int node(int point) const { return of_.points_[point]; }
   const Segment& segment(int k) const { return of_.segments_[k]; }
   double length(const Segment& s) const { return along_[s.end] - along_[s.begin]; }
-  const Box& box_of(int begin, int end) const {
-    return end - begin == 1 ? edge_[begin] : tree_[(begin + end) / 2];
+  /// Of edges begin to end - 1 of a segment with a tree.
+  const Box& box_of(int k, int begin, int end) const {
+    return end - begin == 1 ? edge_[begin + tree_at_[k]] : tree_[(begin + end) / 2 + tree_at_[k]];
   }
   void lay_out(std::size_t k);
   void grow_tree(int k);
-  Box grown(int begin, int end);
+  Box grown(int k, int begin, int end);
   bool apart(int a, int b) const;
   bool apart_but_at_joint(int a, int b) const;
   Search between(int a, int b) const;
@@ -80,12 +84,11 @@ class ShapeContacts {
   const ContactSearch& of_;
   std::vector<Vector3d> x_;    // of the points
   std::vector<double> along_;  // the rods
-  std::vector<Box> edge_;      // by its first point, of segments with a tree
-  std::vector<Box> tree_;      // of edges begin to end - 1 at the point in the middle
-  std::vector<char> has_tree_;
-  std::vector<Box> box_;         // of the segments
-  std::vector<Vector3d> chord_;  // unit vectors from their begins to their ends
-  std::vector<Spread> spread_;
+  std::vector<Box> edge_;      // of segments with a tree, one after another, by its first point
+  std::vector<Box> tree_;      // of edges begin to end - 1, at the point in the middle
+  std::vector<int> tree_at_;   // what is added to a segment's points for it; no_tree
+  std::vector<Box> box_;       // of the segments
+  std::vector<Chord> chord_;
   const Eigen::Matrix3Xd& nodes_;
   Contacts all_;
 };
@@ -98,56 +101,62 @@ ShapeContacts::ShapeContacts(const ContactSearch& search, const Eigen::Matrix3Xd
   for (std::size_t k = 0; k < points; ++k) x_[k] = nodes.col(search.points_[k]);
   box_.resize(segments);
   chord_.resize(segments);
-  spread_.resize(segments);
-  has_tree_.resize(segments);
+  tree_at_.assign(segments, no_tree);
   for (std::size_t k = 0; k < segments; ++k) lay_out(k);
 }
 
-/// Box, lengths and directions of a segment.
+/// Box and chord of a segment.
 void ShapeContacts::lay_out(std::size_t k) {
   const std::size_t begin = std::size_t(of_.segments_[k].begin),
                     end = std::size_t(of_.segments_[k].end);
-  const Vector3d chord = (x_[end] - x_[begin]).stableNormalized();
-  double least = 1;  // cosine
-  box_[k].extend(x_[begin]);
+  Chord& chord = chord_[k];
+  chord.along = (x_[end] - x_[begin]).stableNormalized();
+  chord.node[0] = of_.points_[begin];
+  chord.node[1] = of_.points_[end];
+  // the least dot / |edge|, as a fraction that is not divided
+  double dot2 = 1, edge2 = 1;
+  bool back = false;
+  Box box(x_[begin]);
   for (std::size_t p = begin; p < end; ++p) {
     const Vector3d edge = x_[p + 1] - x_[p];
-    const double length = edge.norm();
-    box_[k].extend(x_[p + 1]);
-    along_[p + 1] = along_[p] + length;
-    least = std::min(least, edge.dot(chord) / std::max(length, 1e-300));
+    box.extend(x_[p + 1]);
+    const double dot = edge.dot(chord.along), square = edge.squaredNorm();
+    back = back || !(dot > 0);
+    along_[p + 1] = along_[p] + std::sqrt(square);
+    if (dot * dot * edge2 < dot2 * square) std::tie(dot2, edge2) = std::pair(dot * dot, square);
   }
-  chord_[k] = chord;
-  spread_[k] = {least, std::sqrt(std::max(0.0, 1 - least * least))};
+  box_[k] = box;
+  chord.cosine = back ? -1 : std::sqrt(dot2 / std::max(edge2, 1e-300));
+  chord.sine = std::sqrt(std::max(0.0, 1 - chord.cosine * chord.cosine));
 }
 
 void ShapeContacts::grow_tree(int k) {
-  if (std::exchange(has_tree_[k], 1)) return;
-  edge_.resize(x_.size());
-  tree_.resize(x_.size());
+  if (tree_at_[k] != no_tree) return;
   const Segment& s = segment(k);
-  for (std::size_t p = std::size_t(s.begin); p < std::size_t(s.end); ++p) {
-    edge_[p].extend(x_[p]);
-    edge_[p].extend(x_[p + 1]);
+  tree_at_[k] = int(edge_.size()) - s.begin;
+  for (int p = s.begin; p < s.end; ++p) {
+    edge_.emplace_back(x_[p]);
+    edge_.back().extend(x_[p + 1]);
   }
-  grown(s.begin, s.end);
+  tree_.resize(edge_.size());
+  grown(k, s.begin, s.end);
 }
 
-Eigen::AlignedBox3d ShapeContacts::grown(int begin, int end) {
-  if (end - begin == 1) return edge_[begin];
+Eigen::AlignedBox3d ShapeContacts::grown(int k, int begin, int end) {
+  if (end - begin == 1) return box_of(k, begin, end);
   const int middle = (begin + end) / 2;
-  Box box = grown(begin, middle);
-  box.extend(grown(middle, end));
-  return tree_[middle] = box;
+  Box box = grown(k, begin, middle);
+  box.extend(grown(k, middle, end));
+  return tree_[middle + tree_at_[k]] = box;
 }
 
 /// Whether two segments are a diameter apart, as far as they are from their chords at most.
 bool ShapeContacts::apart(int a, int b) const {
   const Segment &one = segment(a), &other = segment(b);
   const auto x = [&](int point) { return x_[point]; };
-  const Spread &sa = spread_[a], &sb = spread_[b];
-  if (!(std::min(sa.cosine, sb.cosine) > 0)) return false;
-  const double reach = 0.5 * (length(one) * sa.sine + length(other) * sb.sine) +
+  const Chord &ca = chord_[a], &cb = chord_[b];
+  if (!(std::min(ca.cosine, cb.cosine) > 0)) return false;
+  const double reach = 0.5 * (length(one) * ca.sine + length(other) * cb.sine) +
                        2 * (of_.radius_mm_[one.rod] + of_.radius_mm_[other.rod]);
   return nearest_points(x(one.begin), x(one.end), x(other.begin), x(other.end)).distance2 >
          reach * reach;
@@ -156,27 +165,25 @@ bool ShapeContacts::apart(int a, int b) const {
 /// Whether two segments that meet at one joint go away from it in cones so far apart that they are
 /// a diameter apart beyond its cylinder.
 bool ShapeContacts::apart_but_at_joint(int a, int b) const {
-  const Segment &one = segment(a), &other = segment(b);
+  const Chord &ca = chord_[a], &cb = chord_[b];
   int shared = 0;
   double between = 0;  // cosine of the angle between the chords, away from the joint
-  for (const int at : {one.begin, one.end})
-    for (const int beside : {other.begin, other.end}) {
-      if (node(at) != node(beside)) continue;
+  for (const int end : {0, 1})
+    for (const int other : {0, 1}) {
+      if (ca.node[end] != cb.node[other]) continue;
       ++shared;
-      const bool same_way = (at == one.begin) == (beside == other.begin);
-      between = (same_way ? 1 : -1) * chord_[a].dot(chord_[b]);
+      between = (end == other ? 1 : -1) * ca.along.dot(cb.along);
     }
   if (shared != 1) return false;
   // sine of the angle between the nearest rays of the two cones
-  const Spread &sa = spread_[a], &sb = spread_[b];
   const double across = std::sqrt(std::max(0.0, 1 - between * between));
-  const double cosine = sa.cosine * sb.cosine - sa.sine * sb.sine,
-               sine = sa.sine * sb.cosine + sa.cosine * sb.sine;
+  const double cosine = ca.cosine * cb.cosine - ca.sine * cb.sine,
+               sine = ca.sine * cb.cosine + ca.cosine * cb.sine;
   const double apart = across * cosine - between * sine;
   if (!(apart > 0)) return false;
   const bool wide = between * cosine + across * sine < 0;
-  const double radii = of_.radius_mm_[one.rod] + of_.radius_mm_[other.rod];
-  return 0.5 * of_.joint_diameter_mm_ * std::min(sa.cosine, sb.cosine) * (wide ? 1 : apart) >
+  const double radii = of_.radius_mm_[segment(a).rod] + of_.radius_mm_[segment(b).rod];
+  return 0.5 * of_.joint_diameter_mm_ * std::min(ca.cosine, cb.cosine) * (wide ? 1 : apart) >
          2 * radii;
 }
 
@@ -237,7 +244,9 @@ void ShapeContacts::look_at_edges(Search& search, int edge_a, int edge_b) const 
 }
 
 void ShapeContacts::look(Search& search, int begin_a, int end_a, int begin_b, int end_b) const {
-  if (!are_near(box_of(begin_a, end_a), box_of(begin_b, end_b), search.radii + search.gap)) return;
+  if (!are_near(box_of(search.a, begin_a, end_a), box_of(search.b, begin_b, end_b),
+                search.radii + search.gap))
+    return;
   const auto along = [&](int point) { return along_[point]; };
   for (int k = 0; k < search.joints; ++k) {
     const Joint& joint = search.joint[k];
@@ -292,7 +301,7 @@ void ShapeContacts::rods(bool by_all_pairs) {
   for (int a = 0; a < count; ++a) {
     // within 50 degrees of its chord a rod does not come back to itself: what is pi S apart along
     // it is 2 S apart
-    if (spread_[a].cosine > 2 / std::numbers::pi) continue;
+    if (chord_[a].cosine > 2 / std::numbers::pi) continue;
     Search search = between(a, a);
     grow_tree(a);
     look_within(search, segment(a).begin, segment(a).end);
