@@ -11,6 +11,7 @@
 #include "engine/simulate/equilibrium_path.h"
 #include "engine/simulate/first_state.h"
 #include "engine/simulate/frames.h"
+#include "engine/simulate/guided_path.h"
 #include "engine/solve/buckling.h"
 
 namespace gridshell::simulate {
@@ -28,13 +29,6 @@ bool follow_back(EquilibriumPath& path, const BifurcationPolicy& leaving, const 
       follow_segment(path, nearly_flat ? std::min(*nearly_flat, t) : 0, leaving, watch);
   back.back = true;
   return back.report.end == Outcome::reached;
-}
-
-/// A way on which no state has a negative pivot.
-bool stable(const PathSegment& segment) {
-  const auto& load_steps = segment.load_steps;
-  return std::all_of(load_steps.begin(), load_steps.end(),
-                     [](const LoadStep& load_step) { return load_step.certificate.stable(); });
 }
 
 /// The first buckled state, and the way back from it to the flat: through states that are not

@@ -25,9 +25,10 @@ class GuidedSegment {
 
   /// Nothing: these meshes have no such branch.
   std::optional<PathSegment> followed();
+  /// From the guide's state at a load step, brought to these meshes; whether it is beside it.
+  bool begin(std::size_t step);
 
  private:
-  bool begin(std::size_t step);
   std::optional<std::size_t> begin_from(std::size_t step, int& restarts);
   bool beside(std::size_t step) const;
   bool through_unstable(std::size_t step) const;
@@ -47,7 +48,6 @@ bool GuidedSegment::beside(std::size_t step) const {
          (simulation_.certificate().stable() || !there.certificate.stable());
 }
 
-/// From the guide's state at a load step, brought to these meshes.
 bool GuidedSegment::begin(std::size_t step) {
   const LoadStep& there = guide_.load_steps[step];
   NestedShell& shell = simulation_.shell();
@@ -142,11 +142,23 @@ bool follow_guide(EquilibriumPath& path, const EquilibriumPath& guide, double al
   return worst_estimate_mm(path) <= allowed_mm;
 }
 
+bool stable(const PathSegment& segment) {
+  return std::ranges::all_of(segment.load_steps,
+                             [](const LoadStep& step) { return step.certificate.stable(); });
+}
+
+bool has_states_of(Simulation& simulation, const EquilibriumPath& path, const Watch& watch) {
+  const NestedShell &from = path.simulation.shell(), &to = simulation.shell();
+  const StateTransfer carried(from.mesh(0), from.model(0), to.mesh(0), to.model(0));
+  const PathSegment& segment = path.segments.back();
+  GuidedSegment guided(simulation, segment, carried, watch);
+  const std::size_t last = segment.load_steps.size() - 1;
+  return stable(segment) && std::ranges::all_of(std::initializer_list<std::size_t>{0, last / 2, last},
+                             [&](std::size_t step) { return guided.begin(step); });
+}
+
 bool uneventful(const EquilibriumPath& path) {
-  return !path.has_events() && std::ranges::all_of(path.segments, [](const PathSegment& segment) {
-    return std::ranges::all_of(segment.load_steps,
-                               [](const LoadStep& step) { return step.certificate.stable(); });
-  });
+  return !path.has_events() && std::ranges::all_of(path.segments, stable);
 }
 
 bool begin_alike(const EquilibriumPath& a, const EquilibriumPath& b) {

@@ -14,6 +14,13 @@ namespace gridshell::simulate {
 bool follow_guide(EquilibriumPath& path, const EquilibriumPath& guide, double allowed_mm,
                   const Watch& watch);
 
+/// Whether the meshes of a simulation have the states of a path's last segment at its begin, in its
+/// middle and at its end: stable, and beside those that are brought to them.
+bool has_states_of(Simulation& simulation, const EquilibriumPath& path, const Watch& watch);
+
+/// A way on which no state has a negative pivot.
+bool stable(const PathSegment& segment);
+
 /// Whether a path is one on which nothing happened: all of it stable, without an event, to its end.
 bool uneventful(const EquilibriumPath& path);
 

@@ -143,6 +143,17 @@ SharedPath on_coarsest(const Scene& scene, std::span<const SharedPath> tried, Sh
   return confirmed;
 }
 
+/// Whether the meshes of a plan have the states of a path on which nothing happened.
+bool has_states(const LevelPlan& plan, EquilibriumPath& path, const Scene& scene,
+                const Watch& watch) {
+  // the scene outlives it
+  auto fine = Simulation::open(std::shared_ptr<const Scene>(std::shared_ptr<void>(), &scene), plan);
+  if (!fine) return false;
+  const bool there = has_states_of(*fine, path, watch);
+  path.simulation.charge(fine->effort());
+  return there;
+}
+
 }  // namespace
 
 std::optional<std::string> mesh_disagreement(const EquilibriumPath& coarse,
@@ -181,7 +192,8 @@ Result<SharedPath> settled_by_finer(const Scene& scene, SharedPath path, const F
 }
 
 Result<SharedPath> confirm_on_finer_meshes(const Scene& scene, SharedPath path,
-                                           const Follow& follow, const Watch& watch) {
+                                           const Follow& follow, const Watch& watch,
+                                           bool one_motion) {
   // the first buckling is a choice too, which the coarsest mesh made
   const auto chose = [&] { return path->has_events() || !scene.from_net; };
   auto plan = std::optional(path->asked);
@@ -193,6 +205,9 @@ Result<SharedPath> confirm_on_finer_meshes(const Scene& scene, SharedPath path,
           "no mesh finer than {} edges a segment led to confirm it", leading_edges_of(*path));
       return path;
     }
+    if (asked == 0 && one_motion && !scene.leader_asked && !path->has_events() &&
+        has_states(*plan, *path, scene, watch))
+      return path;
     auto fine = follow(*plan, watch);
     if (watch.cancelled()) return stopped();
     if (!fine) {

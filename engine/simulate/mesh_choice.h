@@ -21,7 +21,8 @@ Result<SharedPath> settled_by_finer(const Scene& scene, SharedPath path, const F
                                     const Watch& watch);
 
 /// A path that began in a buckled state out of the flat, or on which something happened, followed
-/// once more with leading meshes of twice the edges.
+/// once more with leading meshes of twice the edges; `one_motion`, where nothing happened on it,
+/// three of its states alone are looked for on them.
 /// Where both tell the same, the events' places are extrapolated (the error falls fourfold), with
 /// an error, and where the path turns back clearly later with the finer one, its path is kept;
 /// where they do not, the finer one is asked against a still finer one, at most three times, unless
@@ -30,7 +31,8 @@ Result<SharedPath> settled_by_finer(const Scene& scene, SharedPath path, const F
 /// for, its path is kept, and what a finer one does not confirm is said. What remains in doubt is
 /// said. Errors: cancelled.
 Result<SharedPath> confirm_on_finer_meshes(const Scene& scene, SharedPath path,
-                                           const Follow& follow, const Watch& watch);
+                                           const Follow& follow, const Watch& watch,
+                                           bool one_motion);
 
 /// A path on the meshes asked for that did not come to its end, followed once more without its
 /// leading mesh, and again: the first that does, else the path as it was.

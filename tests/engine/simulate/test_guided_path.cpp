@@ -115,6 +115,35 @@ TEST_CASE("where its leader alone loses the branch a path ends, and a finer lead
   check_same_end(**settled, actuated(p, fine));
 }
 
+TEST_CASE("finer meshes confirm a path without events by three of its states") {
+  preset::Preset p = circle(6, 66, 55, 3);
+  p.accuracy.tolerance = 1e-2;
+  const auto scene = shared_scene(p);
+  const auto path = [&](bool one_motion) {
+    auto found = converged_path(
+        *scene,
+        [&](const LevelPlan& on, const Watch& watch) {
+          return follow_actuation(scene, on, false, 1, watch);
+        },
+        unwatched, one_motion);
+    REQUIRE(found);
+    return std::move(*found);
+  };
+  EquilibriumPath by_states = path(true), followed = path(false);
+  CHECK(by_states.asked.edges_per_segment == followed.asked.edges_per_segment);
+  CHECK(by_states.simulation.nodes() == followed.simulation.nodes());
+  CHECK(3 * by_states.simulation.effort().factorizations <
+        2 * followed.simulation.effort().factorizations);
+
+  auto finer = Simulation::open(scene, {{8, 16}, false});
+  REQUIRE(finer);
+  CHECK(has_states_of(*finer, by_states, unwatched));
+  // a state that no mesh has
+  State& last = by_states.segments.back().load_steps.back().point.state;
+  last.x.row(2).leftCols(by_states.simulation.shell().finest().joints) *= 1.2;
+  CHECK_FALSE(has_states_of(*finer, by_states, unwatched));
+}
+
 TEST_CASE("48 rods rise evenly where a leader of 4 edges alone loses their branch", "[full]") {
   preset::Preset p = circle(48, 486, 364.5, 120);
   p.accuracy.tolerance = 1e-2;
