@@ -11,8 +11,8 @@ namespace {
 constexpr double on_boundary = 1e-6;
 constexpr double most_joints = 1e6;
 
-/// Fills joints, legs and cells of rods that know their line and span; drops nothing.
-Result<Footprint> cross(Footprint net) {
+/// Fills joints and marks of rods that know their line and span.
+void cross(Footprint& net) {
   // the v-rods of each line index; a line that a concave boundary cuts twice carries several rods
   std::map<int, std::vector<int>> v_rods;
   for (int r = 0; r < int(net.rods.size()); ++r)
@@ -36,11 +36,6 @@ Result<Footprint> cross(Footprint net) {
     }
   }
   for (FootprintRod& rod : net.rods) {
-    if (rod.joints.empty())
-      return fail(Fault::bad_input,
-                  "the {}-rod at {} = {:g} mm crosses no other rod: it would hang on its two ends "
-                  "alone; move the boundary or the spacing",
-                  name_of(rod.family), rod.family == Family::u ? "v" : "u", rod.line());
     const auto along = [&](int joint) {
       return rod.family == Family::u ? net.joints[joint].u : net.joints[joint].v;
     };
@@ -48,9 +43,9 @@ Result<Footprint> cross(Footprint net) {
               [&](int a, int b) { return along(a) < along(b); });
     for (const int joint : rod.joints) rod.marks.push_back(along(joint));
   }
-  find_cells(net);
-  return net;
 }
+
+bool crosses_none(const FootprintRod& rod) { return rod.joints.empty(); }
 
 void add_rods(Footprint& net, const Domain& domain, Family family, int index) {
   const double line = line_of(net.placement, index, net.spacing);
@@ -183,7 +178,15 @@ Result<Footprint> cut_footprint(const Domain& domain, double spacing, Placement 
     for (int index = -last; index <= last; ++index) add_rods(net, domain, family, index);
   if (net.rods.empty())
     return fail(Fault::bad_input, "no grid line of spacing {:g} mm meets the boundary", spacing);
-  return cross(std::move(net));
+  cross(net);
+  net.left_out = int(std::erase_if(net.rods, crosses_none));
+  if (net.rods.empty())
+    return fail(Fault::bad_input,
+                "no two rods of spacing {:g} mm cross within the boundary: it must be larger, or "
+                "the spacing smaller",
+                spacing);
+  find_cells(net);
+  return net;
 }
 
 // of d: a leg that a user may be advised to take
@@ -212,7 +215,15 @@ Result<Footprint> circular_footprint(double radius, int rods, double spacing, Pl
   const Disk disk(radius);
   for (Family family : {Family::u, Family::v})
     for (int k = 0; k < rods; ++k) add_rods(net, disk, family, first + k);
-  return cross(std::move(net));
+  cross(net);
+  const auto alone = std::ranges::find_if(net.rods, crosses_none);
+  if (alone != net.rods.end())
+    return fail(Fault::bad_input,
+                "the {}-rod at {} = {:g} mm crosses no other rod: it would hang on its two ends "
+                "alone; move the boundary or the spacing",
+                name_of(alone->family), alone->family == Family::u ? "v" : "u", alone->line());
+  find_cells(net);
+  return net;
 }
 
 }  // namespace gridshell

@@ -149,6 +149,7 @@ struct Footprint {
   std::vector<FootprintCell> cells;      ///< none where rods are not of a square grid
   std::vector<int> held_joints{};        ///< those that the boundary holds, as it does edge points
   std::vector<SupportSpring> springs{};  ///< of what is held by springs; of the rest none
+  int left_out = 0;  ///< pieces of grid lines within the boundary that no other crosses
 
   bool is_sprung(int joint) const;  ///< whether a held joint is on a spring
   bool in_space() const;            ///< whether a joint or a rod leaves the plane
@@ -165,8 +166,8 @@ double line_of(Placement placement, int index, double spacing);
 void find_cells(Footprint& footprint);
 
 /// Cuts the square grid along the boundary of `domain`. Rods of both families at
-/// line_of(placement, k, d) for every k whose line meets the domain.
-/// Errors (bad_input): a rod without a joint; no rods at all; too many joints (above 1e6).
+/// line_of(placement, k, d) for every k whose line meets the domain and crosses another rod there.
+/// Errors (bad_input): no rods at all; too many joints (above 1e6).
 Result<Footprint> cut_footprint(const Domain& domain, double spacing, Placement placement);
 
 /// The paper's circle: n rods a direction in a disk of radius R_o. Errors (bad_input), with

@@ -12,6 +12,7 @@
 #include "engine/simulate/first_state.h"
 #include "engine/simulate/frames.h"
 #include "engine/simulate/guided_path.h"
+#include "engine/simulate/shell_symmetry.h"
 #include "engine/solve/buckling.h"
 
 namespace gridshell::simulate {
@@ -67,8 +68,32 @@ bool leads_to(EquilibriumPath& path, const Checkpoint& first, const Watch& watch
   return same;
 }
 
+/// Next to the flat, where the simulation stands after the way back: of its state and its mirror
+/// images, which are as good, the one whose diagonal lies lower as the seed asks.
+void turn_to_seed(Simulation& simulation, const Watch& watch) {
+  const NestedShell& shell = simulation.shell();
+  const RodMesh& mesh = shell.mesh(0);
+  const Model& model = shell.model(0);
+  if (model.has_spins()) return;
+  const double t = shell.state().t, diagonal = simulation.scene().seed.diagonal;
+  const Checkpoint here = simulation.save();
+  const Eigen::Matrix3Xd nodes = shell.state().levels[0].x.leftCols(model.nodes);
+  Eigen::Matrix3Xd best = nodes;
+  for (const MeshSymmetry& symmetry :
+       symmetries_of_shell(simulation.scene(), mesh, symmetries_of(mesh, shell.motion(0).at(t)))) {
+    const Eigen::Matrix3Xd image = symmetry.of(nodes);
+    if (!symmetry.turns_over() &&
+        diagonal * (lower_on_diagonal(mesh, image) - lower_on_diagonal(mesh, best)) > 1e-6)
+      best = image;
+  }
+  if (best != nodes &&
+      simulation.begin_at(t, start_state(model, best), watch).end != Outcome::reached)
+    simulation.restore(here);
+}
+
 /// On from the first state, or, where the path from the flat does not lead to it through stable
-/// states, from next to the flat, where the simulation stands after the way back.
+/// states or branches on the way, from next to the flat, where the simulation stands after the way
+/// back.
 void follow_from_flat(EquilibriumPath& path, const Checkpoint& first, double to,
                       const Watch& watch) {
   Simulation& simulation = path.simulation;
@@ -80,11 +105,13 @@ void follow_from_flat(EquilibriumPath& path, const Checkpoint& first, double to,
                          return !load_step.contacts.places.empty();
                        });
   if (connected && (stopped || simulation.scene().imperfection.chooses())) {
-    const bool straight = stable(back) && leads_to(path, first, watch);
+    const bool straight =
+        stable(back) && !breaks_more(simulation, first.state.x) && leads_to(path, first, watch);
     const bool rests =
         !straight && (stable(back) || simulation.rest(watch).end == Outcome::reached);
     if (rests || watch.cancelled()) {
       path.segments.clear();
+      turn_to_seed(simulation, watch);
       // nearer to the flat nothing happens any more
       follow_segment(path, to, {}, watch).from = 0;
       return;

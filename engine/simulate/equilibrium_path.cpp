@@ -148,7 +148,8 @@ Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follo
     const double worst = worst_estimate_mm(**path);
     if (asked) return located(led_by_finer(std::move(*path), follow, watch), watch);
     if (!(worst > allowed))
-      return located(confirm_on_finer_meshes(scene, std::move(*path), follow, watch, one_motion), watch);
+      return located(confirm_on_finer_meshes(scene, std::move(*path), follow, watch, one_motion),
+                     watch);
     // twice the edges leave a quarter, and may lose no stability where the leader does alone
     if (stays_beyond_event(**path) && !plan.extrapolate && !scene.leader_asked &&
         worst <= 4 * allowed) {

@@ -15,14 +15,6 @@ namespace {
 constexpr double least_shortening = 1e-3;  // of rods that buckle
 constexpr int choosing_edges = 4;  // a segment, of the mesh that finds the first buckled state
 
-/// By how much the joints far out on y = -x lie higher than those on y = x, mm.
-double lower_on_diagonal(const RodMesh& mesh, const Eigen::Matrix3Xd& nodes) {
-  Eigen::VectorXd weight(mesh.joints);
-  for (int k = 0; k < mesh.joints; ++k) weight[k] = -std::pow(mesh.flat.col(k).prod(), 3);
-  const double all = weight.cwiseAbs().sum();
-  return all > 0 ? weight.dot(nodes.row(2).head(mesh.joints)) / all : 0;
-}
-
 /// The seed's dome, at rest on the bend rung; of mirror images the one asked for.
 Result<State> buckled_dome(Linearisation& system, const RodMesh& mesh, const PinnedMotion& motion,
                            double t, const Scene& scene, const Watch& watch) {
@@ -69,6 +61,13 @@ Result<State> chosen(FindShape& find, NestedShell& shell, const Scene& scene, co
 }
 
 }  // namespace
+
+double lower_on_diagonal(const RodMesh& mesh, const Eigen::Matrix3Xd& nodes) {
+  Eigen::VectorXd weight(mesh.joints);
+  for (int k = 0; k < mesh.joints; ++k) weight[k] = -std::pow(mesh.flat.col(k).prod(), 3);
+  const double all = weight.cwiseAbs().sum();
+  return all > 0 ? weight.dot(nodes.row(2).head(mesh.joints)) / all : 0;
+}
 
 Result<State> buckled_state(NestedShell& shell, const Scene& scene, const ShellRods& rods, double t,
                             const Watch& watch) {

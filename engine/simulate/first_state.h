@@ -9,6 +9,10 @@
 
 namespace gridshell {
 
+/// By how much the joints far out on y = -x lie higher than those on y = x, mm; nodes: joints
+/// first.
+double lower_on_diagonal(const RodMesh& mesh, const Eigen::Matrix3Xd& nodes);
+
 /// The seed's buckled state of the coarsest mesh at t, at rest. Every rung and mesh starts from the
 /// shape of the bend rung on 4 edges a segment: neither what twist and springs add nor the mesh
 /// asked for chooses the branch. Of the two diagonals the

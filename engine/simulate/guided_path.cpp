@@ -153,7 +153,8 @@ bool has_states_of(Simulation& simulation, const EquilibriumPath& path, const Wa
   const PathSegment& segment = path.segments.back();
   GuidedSegment guided(simulation, segment, carried, watch);
   const std::size_t last = segment.load_steps.size() - 1;
-  return stable(segment) && std::ranges::all_of(std::initializer_list<std::size_t>{0, last / 2, last},
+  return stable(segment) &&
+         std::ranges::all_of(std::initializer_list<std::size_t>{0, last / 2, last},
                              [&](std::size_t step) { return guided.begin(step); });
 }
 

@@ -55,18 +55,41 @@ std::vector<MeshSymmetry> symmetries_of_shell(const Scene& scene, const RodMesh&
   return kept;
 }
 
-double distance_of_image(const Simulation& simulation, double least_mm) {
+namespace {
+
+/// Joints have the same numbers on every mesh: the smallest tells what goes where.
+std::vector<MeshSymmetry> symmetries_here(const Simulation& simulation) {
   const Scene& scene = simulation.scene();
-  // joints have the same numbers on every mesh: the smallest tells what goes where
   const RodMesh mesh = mesh_rods(scene.footprint, 1);
   const Eigen::Matrix3Xd ends = pinned_motion(mesh, scene.motion).at(simulation.shell().state().t);
-  const Eigen::Matrix3Xd joints = simulation.nodes().leftCols(mesh.joints);
+  return symmetries_of_shell(scene, mesh, symmetries_of(mesh, ends));
+}
+
+}  // namespace
+
+double distance_of_image(const Simulation& simulation, double least_mm) {
+  const Eigen::Matrix3Xd joints = simulation.nodes().leftCols(simulation.shell().finest().joints);
   double nearest = std::numeric_limits<double>::infinity();
-  for (const MeshSymmetry& symmetry : symmetries_of_shell(scene, mesh, symmetries_of(mesh, ends))) {
+  for (const MeshSymmetry& symmetry : symmetries_here(simulation)) {
     const double off = distance_under(symmetry, joints, joints);
     if (off > least_mm) nearest = std::min(nearest, off);
   }
   return nearest;
+}
+
+bool breaks_more(const Simulation& nearer, const Eigen::Matrix3Xd& nodes) {
+  constexpr double times = 4;  // over the height: what breaks from the flat on grows with it
+  const double broken_mm = 0.02 * nearer.scene().footprint.spacing;
+  const Eigen::Index count = nearer.shell().finest().joints;
+  const Eigen::Matrix3Xd before = nearer.nodes().leftCols(count), joints = nodes.leftCols(count);
+  const auto rise = [](const Eigen::Matrix3Xd& x) {
+    return x.row(2).maxCoeff() - x.row(2).minCoeff();
+  };
+  return std::ranges::any_of(symmetries_here(nearer), [&](const MeshSymmetry& symmetry) {
+    const double off = distance_under(symmetry, joints, joints);
+    return off > broken_mm &&
+           off * rise(before) > times * rise(joints) * distance_under(symmetry, before, before);
+  });
 }
 
 }  // namespace gridshell::simulate

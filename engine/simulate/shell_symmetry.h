@@ -20,4 +20,8 @@ std::vector<MeshSymmetry> symmetries_of_shell(const Scene& scene, const RodMesh&
 /// equilibrium, as stable and of the same energy.
 double distance_of_image(const Simulation& simulation, double least_mm);
 
+/// Whether a state further along the path (nodes of the finest mesh) breaks a symmetry of the shell
+/// that the simulation's own, nearer to the flat, keeps: the path branches in between.
+bool breaks_more(const Simulation& nearer, const Eigen::Matrix3Xd& nodes);
+
 }  // namespace gridshell::simulate

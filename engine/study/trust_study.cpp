@@ -143,7 +143,10 @@ void rods(RandomDraw& draw, Preset& p) {
     case 4:
       p.rod.shear_GPa = 31;
       p.joints.twist_Nmm = draw.between(0.1, 5);
-      if (p.footprint.kind == preset::FootprintKind::circle) p.footprint.rods = 4;
+      if (p.footprint.kind == preset::FootprintKind::circle) {
+        p.footprint.rods = 4;
+        p.footprint.placement = Placement::half;
+      }
       break;
   }
 }
