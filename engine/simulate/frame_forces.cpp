@@ -1,11 +1,17 @@
 #include "engine/simulate/frame_forces.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <optional>
+#include <string>
 #include <utility>
 
-#include "engine/record/frame.h"
+#include "engine/record/frame_values.h"
+#include "engine/simulate/frames.h"
 
 namespace gridshell::simulate {
 
@@ -117,6 +123,165 @@ Eigen::VectorXd brace_forces(const Footprint& footprint, const Model& model,
     forces[k] = there == along.end() ? record::unknown : there->second;
   }
   return forces;
+}
+
+// ---- what rods bear ----
+
+namespace {
+
+/// Where on a rod a point lies: "u+3, 45.00 mm from its begin, at joint [0, 1]".
+std::string place_on_rod(const Footprint& footprint, const RodMesh& mesh, std::size_t r,
+                         std::size_t point) {
+  const std::vector<int>& nodes = mesh.rods[r];
+  const std::vector<double>& position = mesh.position[r];
+  const std::size_t first = mesh.is_ghost(nodes.front()) ? 1 : 0, k = first + point;
+  const auto joint_from = [&](std::size_t from, int step) {
+    for (std::size_t n = from; n < nodes.size(); n += std::size_t(step))
+      if (nodes[n] < mesh.joints) {
+        const FootprintJoint& joint = footprint.joints[std::size_t(nodes[n])];
+        return fmt::format("[{}, {}]", joint.i, joint.j);
+      }
+    return std::string("its end");
+  };
+  std::string text = fmt::format("{}, {:.2f} mm from its begin, ", name_of(footprint.rods[r]),
+                                 position[k] - position[first]);
+  if (nodes[k] < mesh.joints) return text + "at joint " + joint_from(k, 1);
+  return text + fmt::format("between {} and {}", joint_from(k, -1), joint_from(k, 1));
+}
+
+/// Curvature (1/mm), strain by bending and bending energy over length (mJ/m), point after point.
+class Bending {
+ public:
+  Bending(const Model& model, const State& state, const Assembly& at)
+      : model_(model), at_(at), energy_(bending_of(model, state)) {
+    if (!strains_by_curvature(model)) strain_of_bend_ = bending_strain_of(model, state);
+  }
+
+  void put(const Model::Rod& rod, int bend) {
+    const auto& [e, f, stiffness, slot] = model_.bends[std::size_t(bend)];
+    const double length = length_between(model_, e, f);
+    curvature_.push_back(
+        record::curvature_between(at_.tangents.col(e), at_.tangents.col(f), length));
+    over_length_.push_back(1000 * energy_[bend] / length);
+    strain_.push_back(strain_of_bend_.size() > 0 ? strain_of_bend_[bend]
+                                                 : rod.fibres.strain(curvature_.back()));
+  }
+  void put_straight() {
+    curvature_.push_back(0);
+    over_length_.push_back(0);
+    strain_.push_back(0);
+  }
+  /// Of all points, rod after rod.
+  const std::vector<double>& strain() const { return strain_; }
+  void fill(record::Frame& frame) const {
+    const auto vector_of = [](const std::vector<double>& values) {
+      return Eigen::VectorXd(
+          Eigen::Map<const Eigen::VectorXd>(values.data(), Eigen::Index(values.size())));
+    };
+    frame.curvature_per_mm = vector_of(curvature_);
+    frame.bending_mJ_per_m = vector_of(over_length_);
+  }
+
+ private:
+  const Model& model_;
+  const Assembly& at_;
+  Eigen::VectorXd energy_, strain_of_bend_;
+  std::vector<double> curvature_, over_length_, strain_;
+};
+
+/// Points of a rod that are no ghosts.
+std::size_t points_of(const RodMesh& mesh, std::size_t rod) {
+  return std::size_t(
+      std::ranges::count_if(mesh.rods[rod], [&](int node) { return !mesh.is_ghost(node); }));
+}
+
+/// Where a point lies, of all points of all rods in order.
+std::string place_of(const Footprint& footprint, const RodMesh& mesh, std::size_t point) {
+  std::size_t r = 0;
+  while (point >= points_of(mesh, r)) point -= points_of(mesh, r++);
+  return place_on_rod(footprint, mesh, r, point);
+}
+
+/// Stress of a fibre at every point, E (|N|/EA + strain by bending), and the largest; N of the
+/// stronger edge there.
+void put_stress(const Scene& scene, const RodMesh& mesh, const Model& model,
+                const std::vector<double>& strain, record::Frame& frame) {
+  frame.stress_MPa.resize(Eigen::Index(strain.size()));
+  std::vector<double> counts;  // what is largest at the place that is told
+  Eigen::Index edge = 0, point = 0;
+  for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
+    const Model::Rod& rod = model.rods[r];
+    const double area = area_of(rod.fibres),
+                 young = model.edges[std::size_t(rod.edges[rod.edges.size() / 2])].EA / area;
+    const Eigen::Index points = Eigen::Index(points_of(mesh, r));
+    for (Eigen::Index k = 0; k < points; ++k, ++point) {
+      const double before = k > 0 ? std::abs(frame.axial_force_N[edge + k - 1]) : 0,
+                   after = k + 1 < points ? std::abs(frame.axial_force_N[edge + k]) : 0;
+      const double stress = std::max(before, after) / area + young * strain[std::size_t(point)];
+      frame.stress_MPa[point] = stress;
+      counts.push_back(scene.strength_MPa.empty() ? stress : stress / scene.strength_MPa[r]);
+    }
+    edge += points - 1;
+  }
+  const auto largest = std::ranges::max_element(counts);
+  if (largest == counts.end()) return;
+  frame.largest_stress_MPa = frame.stress_MPa.maxCoeff();
+  if (!scene.strength_MPa.empty()) frame.utilisation = *largest;
+  frame.stress_at = place_of(scene.footprint, mesh, std::size_t(largest - counts.begin()));
+}
+
+}  // namespace
+
+double area_of(const FibreReach& fibres) {
+  return fibres.round ? M_PI * fibres.about_1 * fibres.about_1
+                      : 4 * fibres.about_1 * fibres.about_2;
+}
+
+bool strains_by_curvature(const Model& model) {
+  return std::get<std::vector<Pair<SectionBending>>>(model.pairs).empty() &&
+         std::get<std::vector<Pair<EndBending>>>(model.pairs).empty();
+}
+
+void put_strains(const Scene& scene, const RodMesh& mesh, const Model& model,
+                 const std::vector<double>& strain, record::Frame& frame) {
+  const auto largest = std::ranges::max_element(strain);
+  if (largest == strain.end()) return;
+  frame.largest_bending_strain = *largest;
+  frame.bending_strain_at = place_of(scene.footprint, mesh, std::size_t(largest - strain.begin()));
+  put_stress(scene, mesh, model, strain, frame);
+}
+
+void put_rods(const Scene& scene, const RodMesh& mesh, const Model& model, const State& state,
+              const Assembly& at, record::Frame& frame) {
+  std::vector<double> force;
+  Bending bending(model, state, at);
+  // what closes rings comes last
+  int closing = int(model.bends.size());
+  for (const Model::Rod& rod : model.rods) closing -= rod.closed;
+  for (const Model::Rod& rod : model.rods) {
+    const auto ghost = [&](std::size_t k) {
+      return model.edges[std::size_t(rod.edges[k])].EA == 0;
+    };
+    const auto put_end = [&] {
+      // where a ring closes its two ends are one node
+      if (rod.closed)
+        bending.put(rod, closing);
+      else
+        bending.put_straight();
+    };
+    for (std::size_t k = 0; k < rod.edges.size(); ++k) {
+      if (k > 0)
+        bending.put(rod, rod.first_bend + int(k) - 1);
+      else if (!ghost(k))
+        put_end();
+      if (!ghost(k)) force.push_back(at.force[rod.edges[k]]);
+    }
+    if (!ghost(rod.edges.size() - 1)) put_end();
+    closing += rod.closed;
+  }
+  frame.axial_force_N = Eigen::Map<Eigen::VectorXd>(force.data(), long(force.size()));
+  bending.fill(frame);
+  put_strains(scene, mesh, model, bending.strain(), frame);
 }
 
 }  // namespace gridshell::simulate

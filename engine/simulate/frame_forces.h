@@ -1,4 +1,4 @@
-// What holds a shell, what loads it and what braces it, as its frames tell it.
+// What holds a shell, what loads it, what braces it and what its rods bear, as its frames tell it.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,6 +6,8 @@
 
 #include "engine/footprint/footprint.h"
 #include "engine/footprint/mesh.h"
+#include "engine/record/frame.h"
+#include "engine/scene/scene.h"
 #include "engine/solve/newton.h"
 
 namespace gridshell::simulate {
@@ -31,5 +33,21 @@ Eigen::Matrix3Xd loads_on(const RodMesh& mesh, const Model& model, const Eigen::
 /// nothing is braced.
 Eigen::VectorXd brace_forces(const Footprint& footprint, const Model& model,
                              const Eigen::Matrix3Xd& x);
+
+/// Of a section by how far it reaches, mm^2.
+double area_of(const FibreReach& fibres);
+
+/// Whether all that bends is strained as it is curved (FibreReach).
+bool strains_by_curvature(const Model& model);
+
+/// The largest strain by bending and stress, and where they are. `strain`: of all points, rod after
+/// rod; the frame's axial forces are known.
+void put_strains(const Scene& scene, const RodMesh& mesh, const Model& model,
+                 const std::vector<double>& strain, record::Frame& frame);
+
+/// Forces, curvature, bending and stress along the rods of an equilibrium on one mesh, with the
+/// forces there; ends that hold no direction do not bend.
+void put_rods(const Scene& scene, const RodMesh& mesh, const Model& model, const State& state,
+              const Assembly& at, record::Frame& frame);
 
 }  // namespace gridshell::simulate

@@ -47,12 +47,6 @@ double utilisation_of(const Simulation& simulation);
 double utilisation_of(const Scene& scene, const RodMesh& mesh, const Model& model,
                       const State& state, const Assembly& forces);
 
-/// Of a section by how far it reaches, mm^2.
-double area_of(const FibreReach& fibres);
-
-/// Whether all that bends is strained as it is curved (FibreReach).
-bool strains_by_curvature(const Model& model);
-
 /// What follows from a frame's nodes, K, reactions and curvature on the finest mesh.
 void complete_shape(const Simulation& simulation, const record::Contacts& contacts,
                     record::Frame& frame);

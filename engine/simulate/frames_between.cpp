@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/core/dense.h"
+#include "engine/simulate/frame_forces.h"
 #include "engine/simulate/frames.h"
 
 namespace gridshell::simulate {
