@@ -53,3 +53,15 @@ TEST_CASE("of a shell's mirror images it is the seed's, whichever mesh leads") {
   p.actuation.seed_diagonal = preset::SeedDiagonal::y_eq_minus_x;
   CHECK(distance(run(p), by_finer) > 5);
 }
+
+TEST_CASE("a branch on which states are found late is doubtful", "[full]") {
+  // at each of two corners rods give way to either side, all at nearly the same radius, which a
+  // leader of 4 or 8 edges does not see there
+  preset::Preset p = circle(14, 168.50041607, 151.962336432, 2);
+  p.ends.kind = preset::EndKind::tangent;
+  p.imperfection.seed = 930;
+  p.accuracy.tolerance = 1e-2;
+  const record::Summary s = run(p).summary;
+  CHECK_THAT(s.limit_reason, Catch::Contains("branches at progress 0.4077"));
+  CHECK_THAT(s.doubt, Catch::StartsWith("of the branch that leaves the path at progress 0.4077"));
+}
