@@ -365,17 +365,17 @@ void add_joint_shear(Model& model, const Crossing& at, double stiffness,
 
 void add_joint_spin(Model& model, const Crossing& at, double stiffness, int side, double share) {
   // a couple about one rod twists it and bends the other out of the surface
-  const auto of = [&](int rod, int node, int other, int there) {
-    return share * in_series(stiffness, turn_between(model, rod, node, Turn::spin) +
-                                            turn_between(model, other, there, Turn::out));
+  const auto add = [&](const Crossing& of, int to) {
+    const double between = turn_between(model, of.rod_a, of.node_a, Turn::spin) +
+                           turn_between(model, of.rod_b, of.node_b, Turn::out);
+    ModelSpin& spin = model.joint_spins.emplace_back();
+    spin.stiffness = share * in_series(stiffness, between);
+    at_crossing(model, of, [&](int e, int f, double part) {
+      spin.pairs.push_back({e, f, -1, {part, to}});
+    });
   };
-  const double a = of(at.rod_a, at.node_a, at.rod_b, at.node_b),
-               b = of(at.rod_b, at.node_b, at.rod_a, at.node_a);
-  auto& list = std::get<std::vector<Pair<JointSpin>>>(model.pairs);
-  at_crossing(model, at, [&](int e, int f, double part) {
-    list.push_back({e, f, -1, {part * a, side}});
-    list.push_back({f, e, -1, {part * b, -side}});
-  });
+  add(at, side);
+  add({at.rod_b, at.node_b, at.rod_a, at.node_a}, -side);
   // a spin that cost nothing and was held does now
   for (int rod : {at.rod_a, at.rod_b}) {
     int& held = model.rods[std::size_t(rod)].held_spin;
@@ -402,8 +402,10 @@ void finish(Model& model) {
         (place(lists), ...);
       },
       model.pairs);
-  for (ModelShear& shear : model.shears)
-    for (auto& pair : shear.pairs) place_pair(model, pair);
+  each_joint_list(model, [&](auto& list) {
+    for (auto& mean : list)
+      for (auto& pair : mean.pairs) place_pair(model, pair);
+  });
   model.free_index.assign(std::size_t(model.columns()), -1);
   model.free_columns.clear();
   for (int column = 0; column < model.columns(); ++column) {

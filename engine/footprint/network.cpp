@@ -9,6 +9,7 @@
 #include <numeric>
 #include <optional>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "engine/core/algorithms.h"
@@ -151,6 +152,21 @@ void lay(const Eigen::Matrix3Xd& points, const std::vector<int>& numbers, Footpr
   }
 }
 
+/// How the begin (of rod r at 2 r) or end of a rod is held.
+Result<RodEnd> hold_of(const RodNetwork& network, const Roles& roles, int end) {
+  const std::vector<int>& rod = network.rods[std::size_t(end / 2)];
+  const RodEnd there = roles.end_at(end % 2 == 0 ? rod.front() : rod.back());
+  const auto own = network.holds.find(end);
+  if (own == network.holds.end()) return there == RodEnd::pinned ? network.hold : there;
+  if (there == RodEnd::pinned) return own->second;
+  return fail(Fault::bad_input,
+              "rods[{}]: its {} {}, how it is held can be said of an end at a support alone",
+              end / 2, end % 2 == 0 ? "begin" : "end",
+              there == RodEnd::joined   ? "is joined there"
+              : there == RodEnd::sprung ? "hangs on a spring"
+                                        : "is free");
+}
+
 Result<FootprintRod> rod_of(const RodNetwork& network, std::size_t r, const Roles& roles,
                             const std::map<int, int>& joint_at) {
   const std::vector<int>& numbers = network.rods[r];
@@ -171,8 +187,10 @@ Result<FootprintRod> rod_of(const RodNetwork& network, std::size_t r, const Role
   if (rod.joints.empty())
     return fail(Fault::bad_input,
                 "rods[{}]: is joined to no other rod, must share a point with one", r);
-  rod.begin = roles.end_at(numbers.front());
-  rod.end = roles.end_at(numbers.back());
+  TRY(begin, hold_of(network, roles, int(2 * r)));
+  TRY(end, hold_of(network, roles, int(2 * r) + 1));
+  rod.begin = *begin;
+  rod.end = *end;
   return rod;
 }
 
@@ -220,6 +238,23 @@ bool hold_all(const std::vector<HeldPlace>& places) {
   return rank_of(moves, on_a_line) == 6;
 }
 
+/// What the directions that a rod's ends hold are as held places: one further out along it, and
+/// where its spin is held one beside it.
+void add_directions(const RodNetwork& network, std::size_t r, const FootprintRod& rod,
+                    std::vector<HeldPlace>& places) {
+  const std::vector<int>& points = network.rods[r];
+  const std::size_t last = points.size() - 1;
+  const std::tuple<RodEnd, int, int> ends[] = {{rod.begin, points[0], points[1]},
+                                               {rod.end, points[last], points[last - 1]}};
+  for (const auto& [hold, from, to] : ends) {
+    if (!holds_direction(hold)) continue;
+    const Eigen::Vector3d at = network.points.col(from), way = network.points.col(to) - at;
+    places.push_back({at + way, Eigen::Vector3d::Ones()});
+    if (hold == RodEnd::clamped)
+      places.push_back({at + way.norm() * way.unitOrthogonal(), Eigen::Vector3d::Ones()});
+  }
+}
+
 /// Every piece that hangs together is held where it cannot turn.
 Result<void> check_held(const RodNetwork& network, const Roles& roles, const Footprint& footprint) {
   UnionFind pieces(footprint.joints.size());
@@ -233,6 +268,7 @@ Result<void> check_held(const RodNetwork& network, const Roles& roles, const Foo
     for (const int point : network.rods[r])
       if (roles.is_held(point) && (roles.is_joint(point) || roles.at(point).ends > 0))
         held[at].push_back({network.points.col(point), held_along(network, point)});
+    add_directions(network, r, footprint.rods[r], held[at]);
   }
   for (const auto& [at, rod] : first_rod) {
     if (!off_a_line(held[at]))

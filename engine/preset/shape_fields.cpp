@@ -96,6 +96,9 @@ void add_footprint(std::vector<Field>& all) {
         return network(of) && std::ranges::any_of(of.file.joint_laws, [](const auto& row) {
                  return row[1] != 0 || row[2] != 0;
                });
+      })
+      .needs_twist("clamped ends of the file hold the rods' spin", [=](const Footprint& of) {
+        return network(of) && clamps(of.file);
       });
   list.add<&Footprint::rods>(between(1, 500), "rods a direction in a circle, n")
       .used_by(&Footprint::kind, {Kinds::circle});
