@@ -152,15 +152,31 @@ std::vector<Eigen::Vector3d> normals_of(const RodMesh& mesh, const Crossings& cr
   return normals;
 }
 
-/// A rod's first director: the normal of the first joint that has one, carried to its begin.
+/// A rod's first director: the mean of its joints' normals, carried to its begin, so that it lies
+/// alike whichever way its points are listed.
 Eigen::Vector3d director_of(const RodMesh& mesh, std::size_t r,
                             const std::vector<Eigen::Vector3d>& normals) {
   const std::vector<int>& nodes = mesh.rods[r];
-  for (const int node : nodes)
-    if (node < mesh.joints && !normals[std::size_t(node)].isZero(0))
-      return transport(normals[std::size_t(node)], direction_at(mesh, int(r), node),
-                       way(mesh, nodes[0], nodes[1]));
-  return Eigen::Vector3d::UnitZ();
+  if (mesh.height.size() == 0) return Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d first = way(mesh, nodes[0], nodes[1]),
+                        begin = normal_near(Eigen::Vector3d::UnitZ(), first);
+  Eigen::Vector3d t = first, m1 = begin;
+  Eigen::Vector2d sum(0, 0);  // along m1 and across it
+  const std::size_t size = nodes.size() - (nodes.front() == nodes.back() ? 1 : 0);
+  for (std::size_t k = 0; k < size; ++k) {
+    if (k > 0 && k + 1 < nodes.size()) {
+      const Eigen::Vector3d s = way(mesh, nodes[k], nodes[k + 1]);
+      m1 = carried_director(m1, t, s);
+      t = s;
+    }
+    const int node = nodes[k];
+    if (node >= mesh.joints || normals[std::size_t(node)].isZero(0)) continue;
+    const Eigen::Vector3d normal =
+        transport(normals[std::size_t(node)], direction_at(mesh, int(r), node), t);
+    sum += Eigen::Vector2d(normal.dot(m1), normal.dot(t.cross(m1)));
+  }
+  if (sum.norm() < 1e-6) return Eigen::Vector3d::UnitZ();
+  return (sum.x() * begin + sum.y() * first.cross(begin)).normalized();
 }
 
 double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {

@@ -191,8 +191,8 @@ void put_boundaries(const NetworkFootprint& made, const Eigen::Matrix3Xd& points
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& place : from) box.extend(place);
   // held in one place, as a cantilever is: around its rods
-  for (int k = 0; box.diagonal().norm() < made.footprint.spacing && k < points.cols(); ++k)
-    box.extend(scene.flat.origin + points.col(k));
+  if (box.diagonal().norm() < made.footprint.spacing)
+    for (const auto& point : points.colwise()) box.extend(scene.flat.origin + point);
   scene.length_scale_mm = 0.5 * box.diagonal().norm();
 }
 

@@ -32,7 +32,7 @@ struct Beside {
   V tangent, director;
   double length = 0;
 };
-using Crossing = std::vector<std::vector<Beside>>;  // of each of a joint's two rods
+using Hinge = std::vector<std::vector<Beside>>;  // of each of a joint's two rods
 
 double share(const std::vector<Beside>& rod, std::size_t k) {
   return rod[1 - k].length / (rod[0].length + rod[1].length);
@@ -44,7 +44,7 @@ double between(const std::vector<Beside>& rod) {
 }
 
 template <class Angle>
-T mean(const Crossing& at, Angle angle) {
+T mean(const Hinge& at, Angle angle) {
   T sum(0);
   for (std::size_t e = 0; e < 2; ++e)
     for (std::size_t f = 0; f < 2; ++f)
@@ -52,7 +52,7 @@ T mean(const Crossing& at, Angle angle) {
   return sum;
 }
 
-T mean_angle(const Crossing& at) {
+T mean_angle(const Hinge& at) {
   return mean(at, [](const Beside& e, const Beside& f) { return T(acos(dot(e.tangent, f.tangent))); });
 }
 
@@ -84,7 +84,7 @@ struct Laths {
 
   /// E of positions and, for every edge, the angle of its section beside a frame without twist;
   /// the edges beside the joints into `at`.
-  T energy(const std::vector<V>& x, const std::vector<T>& angle, std::vector<Crossing>& at) const {
+  T energy(const std::vector<V>& x, const std::vector<T>& angle, std::vector<Hinge>& at) const {
     T sum(0);
     at.assign(std::size_t(mesh.joints), {});
     std::size_t edge = 0;
@@ -119,8 +119,8 @@ struct Laths {
       }
     }
     for (std::size_t joint = 0; joint < at.size(); ++joint) {
-      const Crossing& one = at[joint];
-      for (const Crossing& pair : {one, Crossing{one[1], one[0]}}) {
+      const Hinge& one = at[joint];
+      for (const Hinge& pair : {one, Hinge{one[1], one[0]}}) {
         const T phi = mean(pair, spin);
         sum += 0.5 / (between(pair[0]) / lath.GJ + between(pair[1]) / lath.EI2) * phi * phi;
       }
@@ -132,7 +132,7 @@ struct Laths {
   }
 
   /// The same with its slopes by the free places and the angles, which are in `at`.
-  T at_place(const Eigen::Matrix3Xd& nodes, const Eigen::VectorXd& by, std::vector<Crossing>& at) const {
+  T at_place(const Eigen::Matrix3Xd& nodes, const Eigen::VectorXd& by, std::vector<Hinge>& at) const {
     const Eigen::Index size = by.size();
     std::vector<V> x;
     for (const auto& place : nodes.colwise())
@@ -155,7 +155,7 @@ struct Laths {
     std::uniform_real_distribution<double> off(-0.01, 0.01);
     Eigen::VectorXd by(size);
     for (double& one : by) one = off(random);
-    std::vector<Crossing> at;
+    std::vector<Hinge> at;
     T here = at_place(nodes, by, at);
     for (int step = 0; step < 30 && here.derivatives().norm() > 1e-7; ++step) {
       Eigen::MatrixXd hessian(size, size);
@@ -217,12 +217,12 @@ TEST_CASE("a hinged X-shell, formed and opened, is where its energy is least", "
   // as its joints stand, and by how much they are to open
   constexpr double target = 1.2;
   laths.spring = 300;
-  std::vector<Crossing> at;
+  std::vector<Hinge> at;
   const Eigen::Index size = 3 * Eigen::Index(laths.free().size()) + laths.edges();
   laths.rest.assign(4, 0);
   laths.at_place(rest, Eigen::VectorXd::Zero(size), at);
   double standing = 0;
-  for (const Crossing& one : at) {
+  for (const Hinge& one : at) {
     const auto through = [](const std::vector<Beside>& rod) {
       return T(share(rod, 0)) * rod[0].tangent + T(share(rod, 1)) * rod[1].tangent;
     };
