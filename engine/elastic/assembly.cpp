@@ -243,8 +243,7 @@ void add_others(const Model& model, const State& state, const ExternalLoads& out
     }
   });
   each_joint_list(model, [&](const auto& list) {
-    for (const auto& mean : list)
-      add_mean(model, state, mean, outside.opening, with_hessian, out);
+    for (const auto& mean : list) add_mean(model, state, mean, outside.opening, with_hessian, out);
   });
   for (const ModelSpring& spring : model.springs) {
     const Eigen::Vector3d gap = gap_of(state, spring.law), pull = spring.law.gradient(gap);

@@ -363,19 +363,31 @@ void add_joint_shear(Model& model, const Crossing& at, double stiffness,
   });
 }
 
-void add_joint_spin(Model& model, const Crossing& at, double stiffness, int side, double share) {
-  // a couple about one rod twists it and bends the other out of the surface
-  const auto add = [&](const Crossing& of, int to) {
-    const double between = turn_between(model, of.rod_a, of.node_a, Turn::spin) +
-                           turn_between(model, of.rod_b, of.node_b, Turn::out);
-    ModelSpin& spin = model.joint_spins.emplace_back();
-    spin.stiffness = share * in_series(stiffness, between);
+void add_joint_spin(Model& model, const Crossing& at, double stiffness, int side, double share,
+                    double angle) {
+  const Crossing back{at.rod_b, at.node_b, at.rod_a, at.node_a};
+  const double c = std::cos(angle), ss = std::pow(std::sin(angle), 2);
+  const double out_a = turn_between(model, at.rod_a, at.node_a, Turn::out),
+               out_b = turn_between(model, at.rod_b, at.node_b, Turn::out);
+  // how far both rods spin by a couple about each, rad/(N mm)
+  const auto own = [&](int rod, int node, double out, double other) {
+    return 1 / stiffness + turn_between(model, rod, node, Turn::spin) + (other + c * c * out) / ss;
+  };
+  const double a = own(at.rod_a, at.node_a, out_a, out_b),
+               b = own(at.rod_b, at.node_b, out_b, out_a), both = c * (out_a + out_b) / ss;
+  const auto add = [&](ModelSpin& spin, const Crossing& of, int to, double weight) {
     at_crossing(model, of, [&](int e, int f, double part) {
-      spin.pairs.push_back({e, f, -1, {part, to}});
+      spin.pairs.push_back({e, f, -1, {weight * part, to}});
     });
   };
-  add(at, side);
-  add({at.rod_b, at.node_b, at.rod_a, at.node_a}, -side);
+  // its inverse in squares: phi_b^2/b + (phi_a - both/b phi_b)^2/(a - both^2/b)
+  ModelSpin& first = model.joint_spins.emplace_back();
+  first.stiffness = share / (a - both * both / b);
+  add(first, at, side, 1);
+  if (std::abs(both) > 1e-12 * b) add(first, back, -side, -both / b);
+  ModelSpin& second = model.joint_spins.emplace_back();
+  second.stiffness = share / b;
+  add(second, back, -side, 1);
   // a spin that cost nothing and was held does now
   for (int rod : {at.rod_a, at.rod_b}) {
     int& held = model.rods[std::size_t(rod)].held_spin;

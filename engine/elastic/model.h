@@ -270,9 +270,11 @@ void add_joint_shear(Model& model, const Crossing& at, double stiffness,
 
 /// Adds the resistance to spin `stiffness` (N mm/rad) of both rods where they cross: their first
 /// directors stay near the joint's normal, `side` times that from the direction of `a` to that of
-/// `b`. What the edges turn less than the joint is in series with it, as of the shear.
+/// `b`. What the edges turn less than the joint is in series with it, as of the shear, at the
+/// `angle` between the rods as drawn: a couple M_a about `a` that keeps it to the normal bends both
+/// out of the surface, `a` by M_a cot(angle), `b` by M_a/sin(angle).
 void add_joint_spin(Model& model, const Crossing& at, double stiffness, int side = 1,
-                    double share = 1);
+                    double share = 1, double angle = M_PI / 2);
 
 /// Works out pattern and numbering after elements were added or unknowns held.
 void finish(Model& model);

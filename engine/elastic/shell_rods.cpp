@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace gridshell {
@@ -183,6 +184,16 @@ double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
+/// the angle that a joint is opened to, if it is
+std::optional<double> opened_angle(const ShellRods& shell, int joint) {
+  if (!shell.bolts || shell.bolts->opening.empty()) return std::nullopt;
+  const auto& held = shell.bolts->rods[std::size_t(joint)];
+  const double to = shell.bolts->opening[std::size_t(joint)];
+  const auto& before = shell.bolts->opened;
+  if (held.size() != 2) return std::nullopt;
+  return gridshell::angle_between(held) + (before.empty() ? 0 : before[std::size_t(joint)]) + to;
+}
+
 /// every two of the rods of every joint, by the law there
 void add_joints(const RodMesh& mesh, const ShellRods& shell, const Crossings& crossings,
                 const std::vector<Eigen::Vector3d>& normals, Model& model) {
@@ -205,10 +216,12 @@ void add_joints(const RodMesh& mesh, const ShellRods& shell, const Crossings& cr
         return angle_between(along(at.rod_a, e), along(at.rod_b, f));
       };
       if (law.shear_Nmm > 0) add_joint_shear(model, at, law.shear_Nmm, rest, share);
-      const Eigen::Vector3d across =
-          direction_at(mesh, at.rod_a, joint).cross(direction_at(mesh, at.rod_b, joint));
-      const int side = across.dot(normals[std::size_t(joint)]) < 0 ? -1 : 1;
-      if (law.twist_Nmm > 0) add_joint_spin(model, at, law.twist_Nmm, side, share);
+      const Eigen::Vector3d a = direction_at(mesh, at.rod_a, joint),
+                            b = direction_at(mesh, at.rod_b, joint);
+      const int side = a.cross(b).dot(normals[std::size_t(joint)]) < 0 ? -1 : 1;
+      if (law.twist_Nmm > 0)
+        add_joint_spin(model, at, law.twist_Nmm, side, share,
+                       opened_angle(shell, joint).value_or(angle_between(a, b)));
     });
   }
 }

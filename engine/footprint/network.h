@@ -45,4 +45,8 @@ struct NetworkFootprint {
 /// it would move or turn freely.
 Result<NetworkFootprint> network_footprint(const RodNetwork& network);
 
+/// Names rods and cells as those of a square grid about the origin, u-rods first, if they all are;
+/// else changes nothing. Joints keep the names of their points.
+void name_as_grid(NetworkFootprint& network, Placement placement);
+
 }  // namespace gridshell

@@ -99,7 +99,8 @@ Result<void> NetworkBuilder::add_rod(std::vector<int> points, double diameter_mm
 }
 
 Result<NetworkData> NetworkBuilder::take(const std::string& name) {
-  if (network_.rods.empty()) return fail(Fault::bad_input, name + ": holds no rods, must have one at least");
+  if (network_.rods.empty())
+    return fail(Fault::bad_input, name + ": holds no rods, must have one at least");
   if (!diameters_) network_.diameters.clear();
   if (const auto wrong = network_fault(network_); !wrong.empty())
     return fail(Fault::bad_input, name + ": " + wrong);
@@ -179,7 +180,8 @@ std::string network_fault(const NetworkData& network) {
   std::set<int> freed;
   for (const int point : network.free) {
     if (!there(point)) return fmt::format("free names point {} of {}", point, points);
-    if (!freed.insert(point).second) return fmt::format("point {} is named as free twice, must be once", point);
+    if (!freed.insert(point).second)
+      return fmt::format("point {} is named as free twice, must be once", point);
   }
   return "";
 }

@@ -155,8 +155,8 @@ Preset random_preset(SceneKind kind, std::mt19937& random) {
   Preset p;
   p.accuracy.tolerance = std::pow(10, draw.between(-4, -2));
   constexpr void (*draw_kind[])(RandomDraw&, Preset&) = {
-      circle, curve, cap, revolution, profile, translation, blocks, push, load, rods,
-      random_network};
+      circle, curve, cap,  revolution, profile,       translation,
+      blocks, push,  load, rods,       random_network};
   static_assert(std::size(draw_kind) == words_of<SceneKind>().size());
   draw_kind[std::size_t(kind)](draw, p);
   return p;

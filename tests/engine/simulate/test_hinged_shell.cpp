@@ -1,6 +1,8 @@
 // An X-shell whose laths are hinged, against energies written and minimised by themselves.
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <catch2/catch.hpp>
+#include <numeric>
 #include <random>
 #include <unsupported/Eigen/AutoDiff>
 
@@ -53,7 +55,8 @@ T mean(const Hinge& at, Angle angle) {
 }
 
 T mean_angle(const Hinge& at) {
-  return mean(at, [](const Beside& e, const Beside& f) { return T(acos(dot(e.tangent, f.tangent))); });
+  return mean(at,
+              [](const Beside& e, const Beside& f) { return T(acos(dot(e.tangent, f.tangent))); });
 }
 
 /// About the tangent of the first from the joint's upper normal to its director.
@@ -67,8 +70,9 @@ T spin(const Beside& e, const Beside& f) {
 struct Laths {
   RodMesh mesh;
   RodMaterial lath;
-  double spring = 0;         ///< N mm/rad
-  std::vector<double> rest;  ///< angles at which they rest, of every joint
+  std::vector<double> crossing;  ///< of every joint as drawn or opened to, rad
+  double spring = 0;             ///< N mm/rad
+  std::vector<double> rest;      ///< angles at which they rest, of every joint
 
   std::vector<int> free() const {
     std::vector<int> nodes;
@@ -101,17 +105,20 @@ struct Laths {
           frame = unit(frame - dot(frame, t) * t);
         else
           frame = frame - T(dot(frame, t) / (1.0 + dot(before, t))) * (before + t);
-        const V side = cross(t, frame), director = T(cos(angle[edge])) * frame + T(sin(angle[edge])) * side;
+        const V side = cross(t, frame),
+                director = T(cos(angle[edge])) * frame + T(sin(angle[edge])) * side;
         if (k > 1) {
           const double l = 0.5 * (last + length);
-          const T twist = angle[edge] - angle[edge - 1], turn = 0.5 * (angle[edge] + angle[edge - 1]);
+          const T twist = angle[edge] - angle[edge - 1],
+                  turn = 0.5 * (angle[edge] + angle[edge - 1]);
           // kb stands across both tangents, so that both frames see it alike
           const V kb = T(2.0 / (1.0 + dot(before, t))) * cross(before, t);
           const T a = dot(kb, frame), b = dot(kb, side);
           const T w1 = a * cos(turn) + b * sin(turn), w2 = b * cos(turn) - a * sin(turn);
           sum += 0.5 / l * (lath.GJ * twist * twist + lath.EI1 * w1 * w1 + lath.EI2 * w2 * w2);
         }
-        if (k > 1 && node < mesh.joints) at[std::size_t(node)].back().push_back({t, director, length});
+        if (k > 1 && node < mesh.joints)
+          at[std::size_t(node)].back().push_back({t, director, length});
         if (const int to = mesh.rods[r][k]; to < mesh.joints)
           at[std::size_t(to)].push_back({{t, director, length}});
         before = t;
@@ -120,10 +127,16 @@ struct Laths {
     }
     for (std::size_t joint = 0; joint < at.size(); ++joint) {
       const Hinge& one = at[joint];
-      for (const Hinge& pair : {one, Hinge{one[1], one[0]}}) {
-        const T phi = mean(pair, spin);
-        sum += 0.5 / (between(pair[0]) / lath.GJ + between(pair[1]) / lath.EI2) * phi * phi;
-      }
+      // couples about both rods, which twist them and bend them out of the surface
+      Eigen::Matrix<double, 4, 2> by;
+      const double c = std::cos(crossing[joint]), s = std::sin(crossing[joint]);
+      by << 1, 0, 0, 1, c / s, 1 / s, 1 / s, c / s;
+      const double a = between(one[0]), b = between(one[1]);
+      const Eigen::Vector4d give(a / lath.GJ, b / lath.GJ, a / lath.EI2, b / lath.EI2);
+      const Eigen::Matrix2d stiff = (by.transpose() * give.asDiagonal() * by).inverse();
+      const T phi[2] = {mean(one, spin), mean({one[1], one[0]}, spin)};
+      for (int i = 0; i < 2; ++i)
+        for (int j = 0; j < 2; ++j) sum += 0.5 * stiff(i, j) * phi[i] * phi[j];
       if (spring == 0) continue;
       const T off = mean_angle(one) - rest[joint];
       sum += 0.5 / (1 / spring + (between(one[0]) + between(one[1])) / lath.EI1) * off * off;
@@ -132,7 +145,8 @@ struct Laths {
   }
 
   /// The same with its slopes by the free places and the angles, which are in `at`.
-  T at_place(const Eigen::Matrix3Xd& nodes, const Eigen::VectorXd& by, std::vector<Hinge>& at) const {
+  T at_place(const Eigen::Matrix3Xd& nodes, const Eigen::VectorXd& by,
+             std::vector<Hinge>& at) const {
     const Eigen::Index size = by.size();
     std::vector<V> x;
     for (const auto& place : nodes.colwise())
@@ -163,11 +177,13 @@ struct Laths {
         constexpr double h = 1e-5;
         const Eigen::VectorXd apart = h * Eigen::VectorXd::Unit(size, k);
         hessian.col(k) = (at_place(nodes, by + apart, at).derivatives() -
-                          at_place(nodes, by - apart, at).derivatives()) / (2 * h);
+                          at_place(nodes, by - apart, at).derivatives()) /
+                         (2 * h);
       }
       Eigen::VectorXd way;
       for (double shift = 0;; shift = shift == 0 ? 1e-3 : 10 * shift) {
-        const Eigen::LLT<Eigen::MatrixXd> factor(hessian + shift * Eigen::MatrixXd::Identity(size, size));
+        const Eigen::LLT<Eigen::MatrixXd> factor(hessian +
+                                                 shift * Eigen::MatrixXd::Identity(size, size));
         if (factor.info() != Eigen::Success) continue;
         way = factor.solve(-here.derivatives());
         break;
@@ -188,9 +204,9 @@ struct Laths {
 /// Four laths that cross at angles of 60 degrees and about, ends drawn in to 0.97.
 preset::Preset hinged() {
   preset::NetworkData file;
-  file.points = {{-22, -2, 0}, {0, -14, 0}, {23, 1, 0}, {1, 13, 0},   // joints
-                 {-44, 10, 0}, {22, -26, 0}, {-21, 25, 0}, {45, -11, 0},
-                 {-45, -17, 0}, {24, 28, 0}, {-23, -29, 0}, {46, 16, 0}};
+  file.points = {{-22, -2, 0},  {0, -14, 0},  {23, 1, 0},    {1, 13, 0},  // joints
+                 {-44, 10, 0},  {22, -26, 0}, {-21, 25, 0},  {45, -11, 0},
+                 {-45, -17, 0}, {24, 28, 0},  {-23, -29, 0}, {46, 16, 0}};
   file.rods = {{4, 0, 1, 5}, {6, 3, 2, 7}, {8, 0, 3, 9}, {10, 1, 2, 11}};
   for (int joint = 0; joint < 4; ++joint) file.joint_laws.push_back({double(joint), 0, -1});
   preset::Preset p = network(file, 2);
@@ -205,7 +221,11 @@ preset::Preset hinged() {
 TEST_CASE("a hinged X-shell, formed and opened, is where its energy is least", "[standard]") {
   preset::Preset p = hinged();
   const Scene scene = value_of(scene_of(p));
-  Laths laths{mesh_rods(scene.footprint, 2), scene.rods.materials.front(), 0, {}};
+  Laths laths{mesh_rods(scene.footprint, 2),
+              scene.rods.materials.front(),
+              std::vector<double>(4, std::atan2(12, 22) + std::atan2(15, 23)),
+              0,
+              {}};
   const auto formed = run(p);
   REQUIRE(formed.summary.stable);
   const Eigen::Matrix3Xd rest = last_frame(formed).nodes;
@@ -221,16 +241,19 @@ TEST_CASE("a hinged X-shell, formed and opened, is where its energy is least", "
   const Eigen::Index size = 3 * Eigen::Index(laths.free().size()) + laths.edges();
   laths.rest.assign(4, 0);
   laths.at_place(rest, Eigen::VectorXd::Zero(size), at);
-  double standing = 0;
+  std::vector<double> standing;
   for (const Hinge& one : at) {
     const auto through = [](const std::vector<Beside>& rod) {
       return T(share(rod, 0)) * rod[0].tangent + T(share(rod, 1)) * rod[1].tangent;
     };
     const V a = unit(through(one[0])), b = unit(through(one[1]));
-    standing += std::acos(dot(a, b).value()) / 4;
+    standing.push_back(std::acos(dot(a, b).value()));
   }
-  for (std::size_t joint = 0; joint < 4; ++joint)
-    laths.rest[joint] = mean_angle(at[joint]).value() + target - standing;
+  const double by = target - std::accumulate(standing.begin(), standing.end(), 0.0) / 4;
+  for (std::size_t joint = 0; joint < 4; ++joint) {
+    laths.rest[joint] = mean_angle(at[joint]).value() + by;
+    laths.crossing[joint] = standing[joint] + by;
+  }
   preset::Step step;
   step.kind = preset::StepKind::open;
   step.angle_deg = target * 180 / M_PI;
