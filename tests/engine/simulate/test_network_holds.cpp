@@ -177,3 +177,21 @@ TEST_CASE("holds of ends that have no support of their own are refused by rod an
   p.footprint.file.holds = {{0, 0, 1}};
   CHECK_THAT(refusal(scene_of(p)), Catch::Contains("would turn freely"));
 }
+
+TEST_CASE("laths that lie flat are stable, however rounding has them spin") {
+  for (int degrees = 0; degrees < 90; degrees += 10) {
+    const Eigen::Rotation2Dd by(degrees * M_PI / 180);
+    preset::Preset p = Cross{{pinned, pinned, pinned, pinned}}.preset(4);
+    for (auto& point : p.footprint.file.points) {
+      const Eigen::Vector2d to = by * Eigen::Vector2d(point[0], point[1]);
+      point = {to.x(), to.y(), 0};
+    }
+    p.rod.width_mm = 3, p.rod.thickness_mm = 1;
+    p.loads.points.clear();
+    p.actuation.scale = 0.99;
+    const auto outcome = run(p);
+    CAPTURE(degrees);
+    CHECK(outcome.trajectory.frames.front().negative_pivots == 0);
+    CHECK(outcome.summary.stable);
+  }
+}
