@@ -61,7 +61,7 @@ preset::Preset random_preset(SceneKind kind, std::mt19937& random);
 // load steps of half the size, an eighth of the tolerance and other numbers of frames.
 
 struct TrustOptions {
-  int scenes = 600;  ///< of all kinds in turn, networks left out
+  int scenes = 600;                 ///< of all kinds in turn, networks left out
   std::optional<SceneKind> kind{};  ///< of this one alone
   int seed = 1;
   double seconds = 20;  ///< a run beyond that is too slow
