@@ -31,6 +31,7 @@ struct ChartOptions {
   double limit_s = 0;          ///< of one run; 0: as the study has it
   int edges = 32;              ///< a segment of the finest mesh that methods are given
   int scenes = 600, seed = 1;  ///< of a study of trust
+  std::string scene_kind;      ///< and its kind of scenes; empty: in turn
   std::string sizes;           ///< of accuracy: rods a direction, "12,24,48"
 };
 
@@ -276,6 +277,7 @@ Result<int> chart_trust(const ChartOptions& options) {
   auto how = limited<study::TrustOptions>(options);
   how.scenes = options.scenes;
   how.seed = options.seed;
+  how.kind = find_word<study::SceneKind>(options.scene_kind);
   Json summary;
   const auto work = [&](const fs::path& partial, Progress& progress) -> Result<void> {
     TRY(scenes, study::trust_study(how, progress.next_phase()));
@@ -339,6 +341,10 @@ void add_chart(CommandLine& program) {
                  "of accuracy: instead, the program itself at so many rods a direction, 12,24,48");
   command.option("--scenes", options->scenes, "of trust: how many, of ten kinds in turn")
       .in_range(1, 100000);
+  command
+      .option("--scene-kind", options->scene_kind,
+              "of trust: scenes of one kind alone; those of kind network come in no other way")
+      .one_of(all_words<study::SceneKind>());
   command.option("--seed", options->seed, "of trust: other scenes").in_range(0, 1 << 30);
 }
 

@@ -63,10 +63,11 @@ void each_pair_list(const Model& model, Visit visit) {
 }
 
 /// Mean angle at a joint beyond that at rest, so much of its opening having come, rad.
-inline double excess_of(const Model& model, const State& state, const ModelShear& shear,
-                        double opening) {
-  double sum = -opening * shear.opening;
-  for (const auto& pair : shear.pairs) sum += pair.law.excess(pair_geometry(model, state, pair));
+template <class Law>
+double excess_of(const Model& model, const State& state, const ModelMean<Law>& mean,
+                 double opening) {
+  double sum = -opening * mean.opening;
+  for (const auto& pair : mean.pairs) sum += pair.law.excess(pair_geometry(model, state, pair));
   return sum;
 }
 

@@ -148,44 +148,49 @@ void add_contact_hessian(const Model& model, const EdgeContact& contact, BlockHe
     }
 }
 
-/// How the mean angle at a joint changes with the nodes about it; `each` takes every pair's share.
-template <class Each>
-std::vector<std::pair<int, Eigen::Vector3d>> angle_slope(const Model& model, const State& state,
-                                                         const ModelShear& shear, Each each) {
+/// How the mean angle at a joint changes with the columns; `each` takes every pair's share.
+template <class Law, class Each>
+std::vector<std::pair<int, Eigen::Vector3d>> mean_slope(const Model& model, const State& state,
+                                                        const ModelMean<Law>& mean, Each each) {
   std::vector<std::pair<int, Eigen::Vector3d>> slope;
-  const auto add = [&](int node, const Eigen::Vector3d& by) {
-    const auto known = std::ranges::find(slope, node, &std::pair<int, Eigen::Vector3d>::first);
+  const auto add = [&](int column, const Eigen::Vector3d& by) {
+    const auto known = std::ranges::find(slope, column, &std::pair<int, Eigen::Vector3d>::first);
     if (known == slope.end())
-      slope.emplace_back(node, by);
+      slope.emplace_back(column, by);
     else
       known->second += by;
   };
-  for (const Pair<JointAngle>& pair : shear.pairs) {
+  for (const Pair<Law>& pair : mean.pairs) {
     PairEnergy angle;
     pair.law.add(pair_geometry(model, state, pair), angle);
     for (const auto& [edge, by] : {std::pair(pair.e, 0), std::pair(pair.f, 3)}) {
-      const Eigen::Vector3d part = angle.gradient.segment<3>(by);
+      const Eigen::Vector3d part = angle.gradient.template segment<3>(by);
       add(model.edges[std::size_t(edge)].from, -part);
       add(model.edges[std::size_t(edge)].to, part);
+    }
+    if (angle.gradient[6] != 0) {
+      const int place = model.spin[std::size_t(pair.e)];
+      add(place / 3, angle.gradient[6] / model.spin_length * Eigen::Vector3d::Unit(place % 3));
     }
     each(pair, angle);
   }
   return slope;
 }
 
-/// With s the slope of the mean angle by the nodes: k (s s^T + excess s').
-void add_shear(const Model& model, const State& state, const ModelShear& shear, double opening,
-               bool with_hessian, Assembly& out) {
-  const double excess = excess_of(model, state, shear, opening), moment = shear.stiffness * excess;
-  out.energies[Term::shear] += 0.5 * moment * excess;
+/// With s the slope of the mean angle by the columns: k (s s^T + excess s').
+template <class Law>
+void add_mean(const Model& model, const State& state, const ModelMean<Law>& mean, double opening,
+              bool with_hessian, Assembly& out) {
+  const double excess = excess_of(model, state, mean, opening), moment = mean.stiffness * excess;
+  out.energies[Law::term] += 0.5 * moment * excess;
   const auto slope =
-      angle_slope(model, state, shear, [&](const Pair<JointAngle>& pair, const PairEnergy& angle) {
+      mean_slope(model, state, mean, [&](const Pair<Law>& pair, const PairEnergy& angle) {
         if (with_hessian) add_pair_hessian(model, pair, moment * angle.hessian, out.hessian);
       });
-  for (const auto& [node, by] : slope) out.gradient.col(node) += moment * by;
+  for (const auto& [column, by] : slope) out.gradient.col(column) += moment * by;
   for (std::size_t a = 0; with_hessian && a < slope.size(); ++a)
     for (std::size_t b = 0; b <= a; ++b) {
-      const Eigen::Matrix3d m = shear.stiffness * slope[a].second * slope[b].second.transpose();
+      const Eigen::Matrix3d m = mean.stiffness * slope[a].second * slope[b].second.transpose();
       if (a == b)
         out.hessian.diagonal[std::size_t(slope[a].first)].matrix() += m;
       else
@@ -237,8 +242,9 @@ void add_others(const Model& model, const State& state, const ExternalLoads& out
       if (with_hessian) add_pair_hessian(model, pair, energy.hessian, out.hessian);
     }
   });
-  for (const ModelShear& shear : model.shears)
-    add_shear(model, state, shear, outside.opening, with_hessian, out);
+  each_joint_list(model, [&](const auto& list) {
+    for (const auto& mean : list) add_mean(model, state, mean, outside.opening, with_hessian, out);
+  });
   for (const ModelSpring& spring : model.springs) {
     const Eigen::Vector3d gap = gap_of(state, spring.law), pull = spring.law.gradient(gap);
     out.energies[spring.law.term] += spring.law.value(gap);
@@ -354,7 +360,7 @@ Eigen::Matrix3Xd opening_rate(const Model& model, const State& state) {
   Eigen::Matrix3Xd rate = Eigen::Matrix3Xd::Zero(3, model.columns());
   for (const ModelShear& shear : model.shears)
     if (shear.opening != 0)
-      for (const auto& [node, by] : angle_slope(model, state, shear, [](const auto&...) {}))
+      for (const auto& [node, by] : mean_slope(model, state, shear, [](const auto&...) {}))
         rate.col(node) -= shear.stiffness * shear.opening * by;
   return rate;
 }

@@ -315,11 +315,14 @@ double joint_spin(int side, double theta, const EdgeGeometry& e, const Eigen::Ve
   return std::remainder(theta - alpha - side * M_PI / 2, 2 * M_PI);
 }
 
-double add_joint_spin(double stiffness, int side, double theta, const EdgeGeometry& e,
-                      const Eigen::Vector3d& director, const EdgeGeometry& f, PairEnergy& out) {
+double JointSpin::excess(const PairGeometry& at) const {
+  return weight * joint_spin(side, at.angle_e, at.e, at.director_e, at.f);
+}
+
+double JointSpin::add(const PairGeometry& at, PairEnergy& out) const {
   using Complex = Eigen::Vector3cd;
-  const Eigen::Vector3d &t = e.tangent, &s = f.tangent;
-  const double phi = joint_spin(side, theta, e, director, f), c = t.dot(s);
+  const Eigen::Vector3d &t = at.e.tangent, &s = at.f.tangent, &director = at.director_e;
+  const double c = t.dot(s);
   const Complex d = director.cast<std::complex<double>>() +
                     std::complex<double>(0, 1) * t.cross(director).cast<std::complex<double>>();
   const std::complex<double> sd(s.dot(director), s.dot(t.cross(director)));
@@ -343,20 +346,11 @@ double add_joint_spin(double stiffness, int side, double theta, const EdgeGeomet
   curvature.block<3, 3>(3, 0) = curvature.block<3, 3>(0, 3).transpose();
 
   PairEnergy here;
-  here.gradient = stiffness * phi * slope;
-  here.hessian = stiffness * (slope * slope.transpose() - phi * curvature);
-  scale_to_edges(e.length, f.length, here);
+  here.gradient = weight * slope;
+  here.hessian = -weight * curvature;
+  scale_to_edges(at.e.length, at.f.length, here);
   out += here;
-  return 0.5 * stiffness * phi * phi;
-}
-
-double JointSpin::value(const PairGeometry& at) const {
-  const double phi = joint_spin(side, at.angle_e, at.e, at.director_e, at.f);
-  return 0.5 * stiffness * phi * phi;
-}
-
-double JointSpin::add(const PairGeometry& at, PairEnergy& out) const {
-  return add_joint_spin(stiffness, side, at.angle_e, at.e, at.director_e, at.f, out);
+  return excess(at);
 }
 
 }  // namespace gridshell

@@ -210,10 +210,11 @@ struct EndBending {
   double add(const PairGeometry& at, PairEnergy& out) const;
 };
 
-// The resistance of a joint to shear.
+// The resistances of a joint, to shear and to spin: each acts on a mean over its pairs of edges.
 
 /// The angle of a pair of edges at a joint, one part w (angle - rest) of their mean.
 struct JointAngle {
+  static constexpr Term term = Term::shear;
   double weight = 0.25;  ///< w
   double rest = M_PI / 2;
 
@@ -229,23 +230,18 @@ struct JointAngle {
 double joint_spin(int side, double theta, const EdgeGeometry& e, const Eigen::Vector3d& director,
                   const EdgeGeometry& f);
 
-/// E = stiffness/2 phi^2 (mJ): returns it and adds gradient and Hessian by edge vectors and angles.
-/// With the complex director d = d1 + i d2 and z = d/(s.d), alpha = Im log(s.d), and d carried in
-/// time d(t') = d - (d.t')/(1 + t.t') (t + t'),
+/// The spin of the first edge of a pair, one part w phi of the mean of its rod. With the complex
+/// director d = d1 + i d2 and z = d/(s.d), alpha = Im log(s.d), and d carried in time
+/// d(t') = d - (d.t')/(1 + t.t') (t + t'),
 ///   (s.d)'/(s.d)  = z.Qq - c z.p,
 ///   (s.d)''/(s.d) = 2 [c (t.p)(z.p) - (s.q)(z.Qq) - (z.p)(t.Qq + s.Pp/2)] + a real part,
 /// p = de/|e|, q = df/|f|.
-double add_joint_spin(double stiffness, int side, double theta, const EdgeGeometry& e,
-                      const Eigen::Vector3d& director, const EdgeGeometry& f, PairEnergy& out);
-
-/// The joint's resistance to the spin of the first of two edges beside the normal: of four pairs of
-/// edges at a joint each holds both rods, k/8 phi^2 a rod and pair, so that k is the joint's.
 struct JointSpin {
   static constexpr Term term = Term::joint;
-  double stiffness = 0;  ///< k/4, N mm/rad
+  double weight = 0.25;  ///< w
   int side = 1;          ///< +1: the normal is t_e x t_f; -1: t_f x t_e
 
-  double value(const PairGeometry& at) const;
+  double excess(const PairGeometry& at) const;
   double add(const PairGeometry& at, PairEnergy& out) const;
 };
 

@@ -77,9 +77,11 @@ Energies energies_of(const Model& model, const State& state, const ExternalLoads
     for (const Pair<Law>& pair : list)
       sum[Law::term] += pair.law.value(pair_geometry(model, state, pair));
   });
-  for (const ModelShear& shear : model.shears)
-    sum[Term::shear] +=
-        0.5 * shear.stiffness * std::pow(excess_of(model, state, shear, outside.opening), 2);
+  each_joint_list(model, [&]<class Law>(const std::vector<ModelMean<Law>>& list) {
+    for (const ModelMean<Law>& mean : list)
+      sum[Law::term] +=
+          0.5 * mean.stiffness * std::pow(excess_of(model, state, mean, outside.opening), 2);
+  });
   for (const ModelSpring& spring : model.springs)
     sum[spring.law.term] += spring.law.value(gap_of(state, spring.law));
   for (const ModelBar& bar : model.bars)

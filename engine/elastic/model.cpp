@@ -363,19 +363,31 @@ void add_joint_shear(Model& model, const Crossing& at, double stiffness,
   });
 }
 
-void add_joint_spin(Model& model, const Crossing& at, double stiffness, int side, double share) {
-  // a couple about one rod twists it and bends the other out of the surface
-  const auto of = [&](int rod, int node, int other, int there) {
-    return share * in_series(stiffness, turn_between(model, rod, node, Turn::spin) +
-                                            turn_between(model, other, there, Turn::out));
+void add_joint_spin(Model& model, const Crossing& at, double stiffness, int side, double share,
+                    double angle) {
+  const Crossing back{at.rod_b, at.node_b, at.rod_a, at.node_a};
+  const double c = std::cos(angle), ss = std::pow(std::sin(angle), 2);
+  const double out_a = turn_between(model, at.rod_a, at.node_a, Turn::out),
+               out_b = turn_between(model, at.rod_b, at.node_b, Turn::out);
+  // how far both rods spin by a couple about each, rad/(N mm)
+  const auto own = [&](int rod, int node, double out, double other) {
+    return 1 / stiffness + turn_between(model, rod, node, Turn::spin) + (other + c * c * out) / ss;
   };
-  const double a = of(at.rod_a, at.node_a, at.rod_b, at.node_b),
-               b = of(at.rod_b, at.node_b, at.rod_a, at.node_a);
-  auto& list = std::get<std::vector<Pair<JointSpin>>>(model.pairs);
-  at_crossing(model, at, [&](int e, int f, double part) {
-    list.push_back({e, f, -1, {part * a, side}});
-    list.push_back({f, e, -1, {part * b, -side}});
-  });
+  const double a = own(at.rod_a, at.node_a, out_a, out_b),
+               b = own(at.rod_b, at.node_b, out_b, out_a), both = c * (out_a + out_b) / ss;
+  const auto add = [&](ModelSpin& spin, const Crossing& of, int to, double weight) {
+    at_crossing(model, of, [&](int e, int f, double part) {
+      spin.pairs.push_back({e, f, -1, {weight * part, to}});
+    });
+  };
+  // its inverse in squares: phi_b^2/b + (phi_a - both/b phi_b)^2/(a - both^2/b)
+  ModelSpin& first = model.joint_spins.emplace_back();
+  first.stiffness = share / (a - both * both / b);
+  add(first, at, side, 1);
+  if (std::abs(both) > 1e-12 * b) add(first, back, -side, -both / b);
+  ModelSpin& second = model.joint_spins.emplace_back();
+  second.stiffness = share / b;
+  add(second, back, -side, 1);
   // a spin that cost nothing and was held does now
   for (int rod : {at.rod_a, at.rod_b}) {
     int& held = model.rods[std::size_t(rod)].held_spin;
@@ -402,8 +414,10 @@ void finish(Model& model) {
         (place(lists), ...);
       },
       model.pairs);
-  for (ModelShear& shear : model.shears)
-    for (auto& pair : shear.pairs) place_pair(model, pair);
+  each_joint_list(model, [&](auto& list) {
+    for (auto& mean : list)
+      for (auto& pair : mean.pairs) place_pair(model, pair);
+  });
   model.free_index.assign(std::size_t(model.columns()), -1);
   model.free_columns.clear();
   for (int column = 0; column < model.columns(); ++column) {

@@ -130,17 +130,21 @@ struct Pair {
 
 /// All energies of two edges beside plain bending: an energy more is one list more.
 using PairLists = std::tuple<std::vector<Pair<Torsion>>, std::vector<Pair<SectionBending>>,
-                             std::vector<Pair<EndBending>>, std::vector<Pair<JointSpin>>>;
+                             std::vector<Pair<EndBending>>>;
 
-/// The resistance of a joint to shear: E = k/2 (sum of w (angle - rest) over its pairs of edges)^2,
-/// less, of a joint that is opened, what has come of its opening.
-/// It acts on the angle between the rods' tangents at the joint alone; a sum of the squares would
-/// resist their bending there too, over an edge of each.
-struct ModelShear {
+/// The resistance of a joint: E = k/2 (sum of w (angle - rest) over its pairs of edges)^2, less, of
+/// a joint that is opened, what has come of its opening.
+/// It acts on the rods' tangents and directors at the joint alone; a sum of the squares would
+/// resist their bending and twisting there too, over an edge of each.
+template <class Law>
+struct ModelMean {
   double stiffness = 0;  ///< k, N mm/rad
   double opening = 0;    ///< in all, rad
-  std::vector<Pair<JointAngle>> pairs;
+  std::vector<Pair<Law>> pairs;
 };
+using ModelShear = ModelMean<JointAngle>;
+/// Of one of two rods: its spin beside the joint's normal.
+using ModelSpin = ModelMean<JointSpin>;
 
 /// A rod: its nodes and their arc lengths at rest. A closed rod has one arc length more than nodes.
 /// Ends that hold a direction (`tangent`, `clamped`) hold it at the end point itself, by a ghost
@@ -172,6 +176,7 @@ struct Model {
   std::vector<ModelBar> bars;  ///< braces
   PairLists pairs;
   std::vector<ModelShear> shears;
+  std::vector<ModelSpin> joint_spins;
   std::vector<NodeAction> loads;   ///< dead; they count times a load factor
   std::vector<NodeAction> ground;  ///< what the shell stands on
   ContactPairs contact;            ///< edges that may touch; none: nothing keeps them apart
@@ -217,6 +222,13 @@ struct Model {
   }
 };
 
+/// visit(list) for every kind of resistance of joints
+template <class AnyModel, class Visit>
+void each_joint_list(AnyModel& model, Visit visit) {
+  visit(model.shears);
+  visit(model.joint_spins);
+}
+
 /// What bends between two edges, mm: the mean of their rest lengths; a ghost has none.
 double length_between(const Model& model, int e, int f);
 
@@ -258,9 +270,11 @@ void add_joint_shear(Model& model, const Crossing& at, double stiffness,
 
 /// Adds the resistance to spin `stiffness` (N mm/rad) of both rods where they cross: their first
 /// directors stay near the joint's normal, `side` times that from the direction of `a` to that of
-/// `b`. What the edges turn less than the joint is in series with it, as of the shear.
+/// `b`. What the edges turn less than the joint is in series with it, as of the shear, at the
+/// `angle` between the rods as drawn: a couple M_a about `a` that keeps it to the normal bends both
+/// out of the surface, `a` by M_a cot(angle), `b` by M_a/sin(angle).
 void add_joint_spin(Model& model, const Crossing& at, double stiffness, int side = 1,
-                    double share = 1);
+                    double share = 1, double angle = M_PI / 2);
 
 /// Works out pattern and numbering after elements were added or unknowns held.
 void finish(Model& model);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace gridshell {
@@ -152,19 +153,45 @@ std::vector<Eigen::Vector3d> normals_of(const RodMesh& mesh, const Crossings& cr
   return normals;
 }
 
-/// A rod's first director: the normal of the first joint that has one, carried to its begin.
+/// A rod's first director: the mean of its joints' normals, carried to its begin, so that it lies
+/// alike whichever way its points are listed.
 Eigen::Vector3d director_of(const RodMesh& mesh, std::size_t r,
                             const std::vector<Eigen::Vector3d>& normals) {
   const std::vector<int>& nodes = mesh.rods[r];
-  for (const int node : nodes)
-    if (node < mesh.joints && !normals[std::size_t(node)].isZero(0))
-      return transport(normals[std::size_t(node)], direction_at(mesh, int(r), node),
-                       way(mesh, nodes[0], nodes[1]));
-  return Eigen::Vector3d::UnitZ();
+  if (mesh.height.size() == 0) return Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d first = way(mesh, nodes[0], nodes[1]),
+                        begin = normal_near(Eigen::Vector3d::UnitZ(), first);
+  Eigen::Vector3d t = first, m1 = begin;
+  Eigen::Vector2d sum(0, 0);  // along m1 and across it
+  const std::size_t size = nodes.size() - (nodes.front() == nodes.back() ? 1 : 0);
+  for (std::size_t k = 0; k < size; ++k) {
+    if (k > 0 && k + 1 < nodes.size()) {
+      const Eigen::Vector3d s = way(mesh, nodes[k], nodes[k + 1]);
+      m1 = carried_director(m1, t, s);
+      t = s;
+    }
+    const int node = nodes[k];
+    if (node >= mesh.joints || normals[std::size_t(node)].isZero(0)) continue;
+    const Eigen::Vector3d normal =
+        transport(normals[std::size_t(node)], direction_at(mesh, int(r), node), t);
+    sum += Eigen::Vector2d(normal.dot(m1), normal.dot(t.cross(m1)));
+  }
+  if (sum.norm() < 1e-6) return Eigen::Vector3d::UnitZ();
+  return (sum.x() * begin + sum.y() * first.cross(begin)).normalized();
 }
 
 double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+/// the angle that a joint is opened to, if it is
+std::optional<double> opened_angle(const ShellRods& shell, int joint) {
+  if (!shell.bolts || shell.bolts->opening.empty()) return std::nullopt;
+  const auto& held = shell.bolts->rods[std::size_t(joint)];
+  const double to = shell.bolts->opening[std::size_t(joint)];
+  const auto& before = shell.bolts->opened;
+  if (held.size() != 2) return std::nullopt;
+  return gridshell::angle_between(held) + (before.empty() ? 0 : before[std::size_t(joint)]) + to;
 }
 
 /// every two of the rods of every joint, by the law there
@@ -189,10 +216,12 @@ void add_joints(const RodMesh& mesh, const ShellRods& shell, const Crossings& cr
         return angle_between(along(at.rod_a, e), along(at.rod_b, f));
       };
       if (law.shear_Nmm > 0) add_joint_shear(model, at, law.shear_Nmm, rest, share);
-      const Eigen::Vector3d across =
-          direction_at(mesh, at.rod_a, joint).cross(direction_at(mesh, at.rod_b, joint));
-      const int side = across.dot(normals[std::size_t(joint)]) < 0 ? -1 : 1;
-      if (law.twist_Nmm > 0) add_joint_spin(model, at, law.twist_Nmm, side, share);
+      const Eigen::Vector3d a = direction_at(mesh, at.rod_a, joint),
+                            b = direction_at(mesh, at.rod_b, joint);
+      const int side = a.cross(b).dot(normals[std::size_t(joint)]) < 0 ? -1 : 1;
+      if (law.twist_Nmm > 0)
+        add_joint_spin(model, at, law.twist_Nmm, side, share,
+                       opened_angle(shell, joint).value_or(angle_between(a, b)));
     });
   }
 }

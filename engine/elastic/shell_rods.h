@@ -95,10 +95,9 @@ std::vector<NodeAction> dead_loads(const RodMesh& mesh, const ShellRods& rods);
 /// ghosts, supports of springs and the far ends of tails too. Node
 /// numbers are the mesh's; with spring joints the v rod's own node of a joint comes after them, in
 /// the order of the joints. First directors stand up from the flat (+z), or, of rods drawn in
-/// space, along the normal of their first joint with another rod: normals are all to one side, the
-/// upper one. A rod is straight at rest, or as it is drawn; without twist as drawn. Where several
-/// rods cross, each pair counts so much that all together are the joint's law. Errors as
-/// build_model().
+/// space, along the mean of the normals at their joints: these are all to one side, the upper one.
+/// A rod is straight at rest, or as it is drawn; without twist as drawn. Where several rods cross,
+/// each pair counts so much that all together are the joint's law. Errors as build_model().
 Result<Model> build_model(const RodMesh& mesh, const ShellRods& rods,
                           RodModel rung = RodModel::bend);
 

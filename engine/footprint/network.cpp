@@ -9,6 +9,7 @@
 #include <numeric>
 #include <optional>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "engine/core/algorithms.h"
@@ -20,7 +21,6 @@ namespace {
 
 constexpr double straight = 1e-9;   // of its length: how far a straight rod's points are off a line
 constexpr double on_a_line = 1e-6;  // of their extent: three points that do not hold a piece
-constexpr double of_a_grid = 1e-6;  // of d: how far a line of a square grid is off its place
 
 /// How often rods go through a point, and how often they end there.
 struct Visits {
@@ -151,6 +151,21 @@ void lay(const Eigen::Matrix3Xd& points, const std::vector<int>& numbers, Footpr
   }
 }
 
+/// How the begin (of rod r at 2 r) or end of a rod is held.
+Result<RodEnd> hold_of(const RodNetwork& network, const Roles& roles, int end) {
+  const std::vector<int>& rod = network.rods[std::size_t(end / 2)];
+  const RodEnd there = roles.end_at(end % 2 == 0 ? rod.front() : rod.back());
+  const auto own = network.holds.find(end);
+  if (own == network.holds.end()) return there == RodEnd::pinned ? network.hold : there;
+  if (there == RodEnd::pinned) return own->second;
+  return fail(Fault::bad_input,
+              "rods[{}]: its {} {}, how it is held can be said of an end at a support alone",
+              end / 2, end % 2 == 0 ? "begin" : "end",
+              there == RodEnd::joined   ? "is joined there"
+              : there == RodEnd::sprung ? "hangs on a spring"
+                                        : "is free");
+}
+
 Result<FootprintRod> rod_of(const RodNetwork& network, std::size_t r, const Roles& roles,
                             const std::map<int, int>& joint_at) {
   const std::vector<int>& numbers = network.rods[r];
@@ -171,8 +186,10 @@ Result<FootprintRod> rod_of(const RodNetwork& network, std::size_t r, const Role
   if (rod.joints.empty())
     return fail(Fault::bad_input,
                 "rods[{}]: is joined to no other rod, must share a point with one", r);
-  rod.begin = roles.end_at(numbers.front());
-  rod.end = roles.end_at(numbers.back());
+  TRY(begin, hold_of(network, roles, int(2 * r)));
+  TRY(end, hold_of(network, roles, int(2 * r) + 1));
+  rod.begin = *begin;
+  rod.end = *end;
   return rod;
 }
 
@@ -220,6 +237,23 @@ bool hold_all(const std::vector<HeldPlace>& places) {
   return rank_of(moves, on_a_line) == 6;
 }
 
+/// What the directions that a rod's ends hold are as held places: one further out along it, and
+/// where its spin is held one beside it.
+void add_directions(const RodNetwork& network, std::size_t r, const FootprintRod& rod,
+                    std::vector<HeldPlace>& places) {
+  const std::vector<int>& points = network.rods[r];
+  const std::size_t last = points.size() - 1;
+  const std::tuple<RodEnd, int, int> ends[] = {{rod.begin, points[0], points[1]},
+                                               {rod.end, points[last], points[last - 1]}};
+  for (const auto& [hold, from, to] : ends) {
+    if (!holds_direction(hold)) continue;
+    const Eigen::Vector3d at = network.points.col(from), way = network.points.col(to) - at;
+    places.push_back({at + way, Eigen::Vector3d::Ones()});
+    if (hold == RodEnd::clamped)
+      places.push_back({at + way.norm() * way.unitOrthogonal(), Eigen::Vector3d::Ones()});
+  }
+}
+
 /// Every piece that hangs together is held where it cannot turn.
 Result<void> check_held(const RodNetwork& network, const Roles& roles, const Footprint& footprint) {
   UnionFind pieces(footprint.joints.size());
@@ -233,6 +267,7 @@ Result<void> check_held(const RodNetwork& network, const Roles& roles, const Foo
     for (const int point : network.rods[r])
       if (roles.is_held(point) && (roles.is_joint(point) || roles.at(point).ends > 0))
         held[at].push_back({network.points.col(point), held_along(network, point)});
+    add_directions(network, r, footprint.rods[r], held[at]);
   }
   for (const auto& [at, rod] : first_rod) {
     if (!off_a_line(held[at]))
@@ -260,78 +295,6 @@ double spacing_of(const Footprint& footprint) {
   const auto middle = segments.begin() + std::ptrdiff_t(segments.size() / 2);
   std::nth_element(segments.begin(), middle, segments.end());
   return *middle;
-}
-
-/// k of a line of the grid; none: it is none of its lines.
-std::optional<int> line_number(Placement placement, double line, double spacing) {
-  const double k = line / spacing - (placement == Placement::half ? 0.5 : 0);
-  if (std::abs(k - std::round(k)) > of_a_grid) return std::nullopt;
-  return int(std::lround(k));
-}
-
-/// A rod along u or v as one of the square grid, its positions growing with u or v.
-std::optional<FootprintRod> grid_rod(const FootprintRod& rod, const Footprint& footprint) {
-  const bool u = std::abs(rod.direction.y()) < straight, v = std::abs(rod.direction.x()) < straight;
-  if (!rod.path.empty() || u == v || rod.begin == RodEnd::joined || rod.end == RodEnd::joined)
-    return std::nullopt;
-  const int along = u ? 0 : 1;
-  const double line = rod.origin[1 - along];
-  const auto number = line_number(footprint.placement, line, footprint.spacing);
-  if (!number) return std::nullopt;
-  const double first = rod.at(rod.span.begin)[along], last = rod.at(rod.span.end)[along];
-  auto named = FootprintRod::of_grid(u ? Family::u : Family::v, *number, line,
-                                     {std::min(first, last), std::max(first, last)});
-  named.joints = rod.joints;
-  if (first > last) std::ranges::reverse(named.joints);
-  for (const int joint : named.joints) {
-    const FootprintJoint& at = footprint.joints[joint];
-    named.marks.push_back(u ? at.u : at.v);
-  }
-  named.begin = first > last ? rod.end : rod.begin;
-  named.end = first > last ? rod.begin : rod.end;
-  named.number = rod.number;
-  named.reversed = first > last;
-  return named;
-}
-
-/// Names rods and cells as those of a square grid, u-rods first, if they all are; else changes
-/// nothing. Joints keep the names of their points.
-void name_as_grid(NetworkFootprint& network, Placement placement) {
-  NetworkFootprint named = network;
-  Footprint& grid = named.footprint;
-  grid.placement = placement;
-  std::vector<std::size_t> order(grid.rods.size());
-  for (std::size_t r = 0; r < grid.rods.size(); ++r) {
-    const FootprintRod given = grid.rods[r];
-    const auto rod = grid_rod(given, grid);
-    if (!rod) return;
-    grid.rods[r] = *rod;
-    const int along = rod->family == Family::u ? 0 : 1;
-    if (given.at(given.span.begin)[along] > given.at(given.span.end)[along])
-      std::swap(named.ends[2 * r], named.ends[2 * r + 1]);
-    order[r] = r;
-  }
-  std::vector<Visits> through(grid.joints.size());  // u-rods, v-rods
-  for (const FootprintRod& rod : grid.rods)
-    for (const int joint : rod.joints) {
-      const bool u = rod.family == Family::u;
-      ++(u ? through[joint].passes : through[joint].ends);
-      (u ? grid.joints[joint].j : grid.joints[joint].i) = rod.index;
-    }
-  if (std::ranges::any_of(through, [](const Visits& v) { return v.passes != 1 || v.ends != 1; }))
-    return;
-  std::ranges::stable_sort(
-      order, {}, [&](std::size_t r) { return std::pair(grid.rods[r].family, grid.rods[r].index); });
-  auto points = std::move(network.footprint.joints);
-  network = named;
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    const std::size_t r = order[k];
-    network.footprint.rods[k] = grid.rods[r];
-    network.ends[2 * k] = named.ends[2 * r];
-    network.ends[2 * k + 1] = named.ends[2 * r + 1];
-  }
-  find_cells(network.footprint);
-  network.footprint.joints = std::move(points);
 }
 
 /// The springs of the network's supports, of its ends and held joints as they are named.

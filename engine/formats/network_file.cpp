@@ -99,7 +99,8 @@ Result<void> NetworkBuilder::add_rod(std::vector<int> points, double diameter_mm
 }
 
 Result<NetworkData> NetworkBuilder::take(const std::string& name) {
-  if (network_.rods.empty()) return fail(Fault::bad_input, name + ": holds no rods");
+  if (network_.rods.empty())
+    return fail(Fault::bad_input, name + ": holds no rods, must have one at least");
   if (!diameters_) network_.diameters.clear();
   if (const auto wrong = network_fault(network_); !wrong.empty())
     return fail(Fault::bad_input, name + ": " + wrong);
@@ -135,9 +136,10 @@ std::string network_fault(const NetworkData& network) {
   if (!network.diameters.empty() && network.diameters.size() != rods)
     return fmt::format("holds {} diameters_mm, must be one for each of {} rods",
                        network.diameters.size(), rods);
-  for (const double diameter : network.diameters)
-    if (diameter != 0 && !(diameter >= 1e-6 && diameter <= 1e6))
-      return fmt::format("a diameter of {:g} mm, must be from 1e-6 to 1e6", diameter);
+  for (std::size_t r = 0; r < network.diameters.size(); ++r)
+    if (const double diameter = network.diameters[r];
+        diameter != 0 && !(diameter >= 1e-6 && diameter <= 1e6))
+      return fmt::format("rods[{}]: a diameter of {:g} mm, must be from 1e-6 to 1e6", r, diameter);
   const auto of_rod = [](const RodValue& value) { return value.rod; };
   if (!std::ranges::is_sorted(network.own, {}, of_rod) ||
       (rods > 0 && !network.own.empty() && network.own.back().rod >= int(rods)))
@@ -148,7 +150,7 @@ std::string network_fault(const NetworkData& network) {
       return "supports_mm must be rows [point] or [point, x, y, z]";
     if (!there(row[0])) return fmt::format("a support at point {} of {}", row[0], points);
     if (!named.insert(row[0]).second)
-      return fmt::format("point {} is named as a support twice", row[0]);
+      return fmt::format("point {} is named as a support twice, must be once", row[0]);
   }
   std::set<double> sprung;
   for (const auto& row : network.springs) {
@@ -164,10 +166,22 @@ std::string network_fault(const NetworkData& network) {
     if (!ruled.insert(row[0]).second)
       return fmt::format("the joint at point {} has two laws, must have one", row[0]);
   }
+  std::set<std::pair<double, double>> held;
+  for (const auto& row : network.holds) {
+    if (row.size() != 3 || !(row[1] == 0 || row[1] == 1) ||
+        !(row[2] == 0 || row[2] == 1 || row[2] == 2))
+      return "holds must be rows [rod, 0 (begin) or 1 (end), 0 (pinned), 1 (tangent) or 2 "
+             "(clamped)]";
+    if (!(row[0] >= 0 && row[0] < double(rods) && row[0] == std::floor(row[0])))
+      return fmt::format("a hold of rod {:g} of {}", row[0], rods);
+    if (!held.insert({row[0], row[1]}).second)
+      return fmt::format("rods[{}] has two holds at one end", row[0]);
+  }
   std::set<int> freed;
   for (const int point : network.free) {
     if (!there(point)) return fmt::format("free names point {} of {}", point, points);
-    if (!freed.insert(point).second) return fmt::format("point {} is named as free twice", point);
+    if (!freed.insert(point).second)
+      return fmt::format("point {} is named as free twice, must be once", point);
   }
   return "";
 }

@@ -25,7 +25,8 @@ inline constexpr double softest_spring = 1e-6, stiffest_spring = 1e6;
 /// Reads a file as its name's ending says:
 ///   .json  {"points_mm": [[x, y], ...], "rods": [[0, 1, ...], ...], "supports": [...]}; a rod is a
 ///          list of numbers of points (from 0) or of places [x, y], or {"points": list,
-///          "diameter_mm": d} with any more keys of [rod]; a support {"point": number or place,
+///          "diameter_mm": d, "begin" and "end": "pinned", "tangent" or "clamped"} with any more
+///          keys of [rod]; a support {"point": number or place,
 ///          "to_mm": [x, y, z]}, where "to_mm" may be "free" (of an end that nothing holds) or left
 ///          out (as the preset says), and "spring_N_per_mm": k or [kx, ky, kz] puts it on a spring;
 ///          "joints": [[a, b, ...], ...] lists points that are one joint though they lie apart; or
@@ -65,6 +66,10 @@ class NetworkBuilder {
   /// A key of [rod] that the last rod has of its own.
   void add_own(const std::string& key, double value) {
     network_.own.push_back({int(network_.rods.size()) - 1, key, value});
+  }
+  /// How the begin or the end of the last rod is held.
+  void add_hold(bool end, EndKind kind) {
+    network_.holds.push_back({double(network_.rods.size()) - 1, double(end), double(kind)});
   }
   void add_support(std::vector<double> row) { network_.supports.push_back(std::move(row)); }
   /// The spring of a support, along x, y, z, N/mm.

@@ -8,7 +8,9 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 
+#include "engine/core/enum_words.h"
 #include "engine/core/text.h"
 #include "engine/core/try.h"
 #include "engine/formats/network_file.h"
@@ -62,10 +64,18 @@ struct Document {
 Result<Document> parse(std::string_view bytes, const std::string& name) {
   Document document;
   int line = 1;
-  std::string key;
+  std::string key, twice;
+  std::map<int, std::set<std::string>> keys;  // of the objects that are open, by depth
   const auto seen = [&](int depth, Json::parse_event_t event, Json& value) {
     using Event = Json::parse_event_t;
-    if (event == Event::key && depth == 1) key = value.get<std::string>();
+    if (event == Event::object_start) keys[depth + 1].clear();
+    if (event == Event::key) {
+      const auto here = value.get<std::string>();
+      if (depth == 1) key = here;
+      if (twice.empty() && !keys[depth].insert(here).second)
+        twice = fmt::format("{}:{}: key '{}' stands twice in one object, must stand once", name,
+                            line, here.substr(0, longest_key));
+    }
     const bool begins =
         event == Event::array_start || event == Event::object_start || event == Event::value;
     if (begins && depth == 2) document.lines[key].push_back(line);
@@ -78,6 +88,7 @@ Result<Document> parse(std::string_view bytes, const std::string& name) {
     return fail(Fault::bad_input, "{}:{}: {}", name, line,
                 bytes.empty() ? "is empty, must be JSON" : "is no JSON here");
   }
+  if (!twice.empty()) return fail(Fault::bad_input, twice);
   if (!document.json.is_object())
     return fail(Fault::bad_input,
                 name + ":1: must be an object {\"points_mm\": ..., \"rods\": ...}");
@@ -176,20 +187,32 @@ class Reader {
     const Json* list = &value;
     double diameter = 0;
     std::vector<std::pair<std::string, double>> own;
+    std::vector<std::pair<bool, EndKind>> holds;
     if (value.is_object()) {
       for (const auto& [key, inner] : value.items()) {
         if (key == "points") {
           list = &inner;
+        } else if (key == "begin" || key == "end") {
+          const auto kind =
+              inner.is_string() ? find_word<EndKind>(inner.get<std::string>()) : std::nullopt;
+          if (!kind)
+            return wrong(fmt::format("\"{}\" must be \"{}\"{}", key,
+                                     fmt::join(all_words<EndKind>(), "\", \""),
+                                     ", how the rod is held there")
+                             .c_str());
+          holds.emplace_back(key == "end", *kind);
         } else if (key == "diameter_mm" && inner.is_number() && inner.get<double>() > 0) {
           diameter = inner.get<double>();
-        } else if (key != "diameter_mm" && (inner.is_number() || inner.is_boolean())) {
+        } else if (key != "diameter_mm" &&
+                   (key == "as_drawn" ? inner.is_boolean() : inner.is_number())) {
           // which keys there are is known where [rod] is
           own.emplace_back(key.substr(0, longest_key),
                            inner.is_boolean() ? double(inner.get<bool>()) : inner.get<double>());
         } else {
           return wrong(
               "must be {\"points\": list, \"diameter_mm\": number above 0} and may have "
-              "other keys of [rod], each a number, true or false");
+              "other keys of [rod], each a number (as_drawn: true or false), and \"begin\" and "
+              "\"end\"");
         }
       }
     }
@@ -201,6 +224,7 @@ class Reader {
     }
     TRY_DO(draft_.add_rod(std::move(points), diameter, at_));
     for (const auto& [key, number] : own) draft_.add_own(key, number);
+    for (const auto& [end, kind] : holds) draft_.add_hold(end, kind);
     return {};
   }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
@@ -34,6 +35,9 @@ struct SurfaceData {
   bool empty() const { return z.empty() && triangles.empty(); }
 };
 
+/// How a rod's end is held: its position; its direction too; its spin too.
+enum class EndKind { pinned, tangent, clamped };
+
 /// What a network's rod has of its own: a key of [rod] and its number, true: 1, false: 0.
 struct RodValue {
   int rod = 0;
@@ -52,9 +56,16 @@ struct NetworkData {
   Points springs;         ///< number of a support's point, stiffness along x, y, z, N/mm
   std::vector<int> free;  ///< numbers of points at rods' ends that nothing holds
   Points joint_laws;      ///< a joint's point, its shear_Nmm and twist_Nmm; below 0: rigid
+  Points holds;           ///< a rod, 0 (its begin) or 1 (its end), the number of an EndKind
 
   bool empty() const { return rods.empty(); }
 };
+
+/// Whether an end of a rod is clamped.
+inline bool clamps(const NetworkData& network) {
+  return std::ranges::any_of(network.holds,
+                             [](const auto& row) { return row[2] == double(EndKind::clamped); });
+}
 
 // Both as tables of a preset: visit(key, member, whether it must be there).
 
@@ -80,6 +91,7 @@ void each_part(Data& data, bool, const Visit& visit) {
   visit("springs_N_per_mm", data.springs, false);
   visit("free", data.free, false);
   visit("joint_laws", data.joint_laws, false);
+  visit("holds", data.holds, false);
 }
 
 }  // namespace gridshell::preset

@@ -55,7 +55,6 @@ struct Joints {
   double mass_g = 0;              ///< of each, beside that of its rods
 };
 
-enum class EndKind { pinned, tangent, clamped };
 enum class Rings { pinned, free };
 /// Points of a curve, each of as many coordinates as its key says, mm; a coordinate that is a word
 /// is the number of that word among those of its key.

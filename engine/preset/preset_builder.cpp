@@ -59,6 +59,8 @@ std::string fault_text(const Preset& preset, const KeyFault& fault, const std::s
   // a network or a table may be of thousands of points
   constexpr std::size_t longest = 60;
   auto value = value_text(*find_field(fault.table, fault.key), preset, fault.item);
+  // what came out of a file says where it stands there
+  if (value.starts_with('{')) return fmt::format("{}: {}{}", fault.label(), more, fault.what);
   if (value.size() > longest) value.replace(longest - 3, std::string::npos, "...");
   return fmt::format("{} = {}: {}{}", fault.label(), value, more, fault.what);
 }

@@ -56,7 +56,8 @@ void add_rods(FieldList<Rod> rods, const std::string& table) {
           "rods twisted at rest turn their axes", [=](const Preset& preset, const Rod& rod) {
             const bool curved = rod.curvature_per_mm != 0 || rod.curvature_sideways_per_mm != 0;
             return rod.twist_rad_per_mm != 0 &&
-                   (two_axes(rod) || curved || preset.ends.kind == EndKind::clamped);
+                   (two_axes(rod) || curved || preset.ends.kind == EndKind::clamped ||
+                    clamps(preset.footprint.file));
           });
   if (table == "rod")
     rods.add<&Rod::as_drawn>(

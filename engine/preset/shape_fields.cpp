@@ -92,11 +92,15 @@ void add_footprint(std::vector<Field>& all) {
                [=](const Preset& preset, const Footprint& of) {
                  return network(of) && preset.rod.rectangular() && !of.file.diameters.empty();
                })
-      .needs_twist("joints of the file have laws of their own", [=](const Footprint& of) {
-        return network(of) && std::ranges::any_of(of.file.joint_laws, [](const auto& row) {
-                 return row[1] != 0 || row[2] != 0;
-               });
-      });
+      .needs_twist("joints of the file have laws of their own",
+                   [=](const Footprint& of) {
+                     return network(of) &&
+                            std::ranges::any_of(of.file.joint_laws, [](const auto& row) {
+                              return row[1] != 0 || row[2] != 0;
+                            });
+                   })
+      .needs_twist("clamped ends of the file hold the rods' spin",
+                   [=](const Footprint& of) { return network(of) && clamps(of.file); });
   list.add<&Footprint::rods>(between(1, 500), "rods a direction in a circle, n")
       .used_by(&Footprint::kind, {Kinds::circle});
   list.add<&Footprint::radius_mm>(above(0), "radius of a circle, R_o");

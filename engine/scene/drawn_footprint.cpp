@@ -59,6 +59,18 @@ Result<CurveDesign> curve_design(const preset::Preset& preset) {
   return CurveDesign{std::move(domain), std::move(*map), scale};
 }
 
+RodEnd hold_as(preset::EndKind kind) {
+  switch (kind) {
+    case preset::EndKind::pinned:
+      return RodEnd::pinned;
+    case preset::EndKind::tangent:
+      return RodEnd::tangent;
+    case preset::EndKind::clamped:
+      break;
+  }
+  return RodEnd::clamped;
+}
+
 namespace {
 
 Eigen::Vector3d vector_of(const std::vector<double>& row, std::size_t first) {
@@ -79,7 +91,8 @@ Eigen::Vector3d origin_of(const preset::NetworkData& file) {
   return origin;
 }
 
-RodNetwork network_of(const preset::NetworkData& file, const Eigen::Vector3d& origin) {
+RodNetwork network_of(const preset::NetworkData& file, preset::EndKind ends,
+                      const Eigen::Vector3d& origin) {
   constexpr double in_plane_mm = 1e-3;  // as near as points are one
   RodNetwork network;
   network.points.resize(3, Eigen::Index(file.points.size()));
@@ -94,6 +107,9 @@ RodNetwork network_of(const preset::NetworkData& file, const Eigen::Vector3d& or
   network.free.assign(file.points.size(), 0);
   for (const auto& row : file.supports) network.supported[std::size_t(row[0])] = 1;
   for (const int point : file.free) network.free[std::size_t(point)] = 1;
+  network.hold = hold_as(ends);
+  for (const auto& row : file.holds)
+    network.holds[int(2 * row[0] + row[1])] = hold_as(preset::EndKind(int(row[2])));
   for (const auto& row : file.springs) network.springs[int(row[0])] = vector_of(row, 1);
   return network;
 }
@@ -174,6 +190,9 @@ void put_boundaries(const NetworkFootprint& made, const Eigen::Matrix3Xd& points
   }
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& place : from) box.extend(place);
+  // held in one place, as a cantilever is: around its rods
+  if (box.diagonal().norm() < made.footprint.spacing)
+    for (const auto& point : points.colwise()) box.extend(scene.flat.origin + point);
   scene.length_scale_mm = 0.5 * box.diagonal().norm();
 }
 
@@ -197,7 +216,7 @@ Result<void> check_diameters(const preset::Preset& preset, const Footprint& foot
 Result<void> build_network(const preset::Preset& preset, Scene& scene) {
   const preset::NetworkData& file = preset.footprint.file;
   scene.flat.origin = origin_of(file);
-  const RodNetwork network = network_of(file, scene.flat.origin);
+  const RodNetwork network = network_of(file, preset.ends.kind, scene.flat.origin);
   const auto refuse = [](const Error& error) {
     return fail(error.fault, "[footprint] file: " + error.message);
   };

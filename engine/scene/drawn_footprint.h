@@ -24,6 +24,9 @@ struct CurveDesign {
 /// Errors (bad_input): those of the curves and of the map between them, saying which.
 Result<CurveDesign> curve_design(const preset::Preset& preset);
 
+/// What the word stands for.
+RodEnd hold_as(preset::EndKind kind);
+
 // A footprint from a file of rods, what holds it and where that goes.
 
 /// Fills footprint, frame, motion and boundaries of a scene from `[footprint] file`. The flat frame

@@ -214,16 +214,13 @@ void free_rings(Scene& scene) {
   }
 }
 
-/// Holds the directions of all ends that are held at all, and with `clamped` their spin: from the
-/// flat to the net's tangents, or where there is no net as they are in the flat.
-Result<void> hold_directions(const Eigen::Matrix2Xd& ends, RodEnd hold, Scene& scene) {
+/// How ends that hold their directions move: from the flat to the net's tangents, or where there is
+/// no net as they are drawn.
+Result<void> hold_directions(const Eigen::Matrix2Xd& ends, Scene& scene) {
   scene.motion.begin_tangent = scene.motion.end_tangent = Eigen::Matrix3Xd::Zero(3, ends.cols());
   for (Eigen::Index k = 0; k < ends.cols(); ++k) {
-    FootprintRod& rod = scene.footprint.rods[std::size_t(k / 2)];
-    RodEnd& held = k % 2 == 0 ? rod.begin : rod.end;
-    // a spring holds no direction
-    if (!is_held(held) || held == RodEnd::sprung) continue;
-    held = hold;
+    const FootprintRod& rod = scene.footprint.rods[std::size_t(k / 2)];
+    if (!holds_direction(k % 2 == 0 ? rod.begin : rod.end)) continue;
     const Eigen::Vector3d way = rod.way(k % 2 == 0 ? rod.span.begin : rod.span.end);
     scene.motion.begin_tangent.col(k) =
         scene.flat.axes * way.head<2>() + way.z() * Eigen::Vector3d::UnitZ();
@@ -348,11 +345,14 @@ int joint_at(const Footprint& footprint, int i, int j) {
 Result<Scene> scene_of(const preset::Preset& preset) {
   Scene scene;
   TRY_DO(build(preset, scene));
-  if (preset.ends.kind != preset::EndKind::pinned) {
-    const bool clamped = preset.ends.kind == preset::EndKind::clamped;
-    TRY_DO(hold_directions(edge_points(scene.footprint),
-                           clamped ? RodEnd::clamped : RodEnd::tangent, scene));
-  }
+  if (preset.footprint.kind != preset::FootprintKind::network)
+    for (FootprintRod& rod : scene.footprint.rods)
+      for (RodEnd* end : {&rod.begin, &rod.end})
+        if (*end == RodEnd::pinned) *end = hold_as(preset.ends.kind);
+  if (std::ranges::any_of(scene.footprint.rods, [](const FootprintRod& rod) {
+        return holds_direction(rod.begin) || holds_direction(rod.end);
+      }))
+    TRY_DO(hold_directions(edge_points(scene.footprint), scene));
   if (preset.ends.second_ring_mm > 0) TRY_DO(add_second_ring(preset.ends.second_ring_mm, scene));
   TRY_DO(apply_ends_table(preset.ends.table, scene));
   TRY_DO(put_rods(preset, scene));

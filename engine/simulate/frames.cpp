@@ -285,6 +285,10 @@ record::Frame flat_frame(Simulation& simulation) {
   frame.boundary_radius_mm = scene.radius_begin_mm;
   put_contacts(simulation.contacts(), frame);
   put_forces(simulation, frame);
+  // what stores nothing is at a least energy, whatever sign rounding gives the pivots of laths that
+  // turn about themselves
+  constexpr double nothing_mJ = 1e-15;
+  if (std::abs(frame.energies.total()) < nothing_mJ) frame.negative_pivots = 0;
   simulation.restore(before);
   return frame;
 }

@@ -158,7 +158,8 @@ Preset random_preset(SceneKind kind, std::mt19937& random) {
   Preset p;
   p.accuracy.tolerance = std::pow(10, draw.between(-4, -2));
   constexpr void (*draw_kind[])(RandomDraw&, Preset&) = {
-      circle, curve, cap, revolution, profile, translation, blocks, push, load, rods};
+      circle, curve, cap,  revolution, profile,       translation,
+      blocks, push,  load, rods,       random_network};
   static_assert(std::size(draw_kind) == words_of<SceneKind>().size());
   draw_kind[std::size_t(kind)](draw, p);
   return p;
@@ -317,8 +318,7 @@ TrustClass judge(const Trial& asked, const Trial& fine, const Trial& other, reco
 }
 
 TrustScene judged(int index, const TrustOptions& options, const Watch& watch) {
-  constexpr int kinds = int(words_of<SceneKind>().size());
-  const auto kind = SceneKind(index % kinds);
+  const auto kind = options.kind.value_or(SceneKind(index % int(SceneKind::network)));
   // a generator a scene, so that any scene can be drawn by itself
   std::mt19937 random{std::uint32_t(options.seed) * 100003u + std::uint32_t(index)};
   TrustScene scene;

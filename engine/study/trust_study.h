@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -40,12 +41,16 @@ enum class SceneKind {
   blocks,
   push,
   load,
-  rods
+  rods,
+  network
 };
 constexpr auto words(SceneKind) {
   return names_except<SceneKind>(
       {{SceneKind::revolution, "cylinder and saddle"}, {SceneKind::rods, "rods and ends"}});
 }
+
+/// A network, flat or in space, its joints and ends of one kind or of several.
+void random_network(RandomDraw& draw, preset::Preset& p);
 
 /// A preset of that kind, of 4 to 14 rods a direction, with a tolerance of 1e-2 to 1e-4; the same
 /// for the same numbers drawn, on every machine.
@@ -56,7 +61,8 @@ preset::Preset random_preset(SceneKind kind, std::mt19937& random);
 // load steps of half the size, an eighth of the tolerance and other numbers of frames.
 
 struct TrustOptions {
-  int scenes = 600;  ///< of all kinds in turn
+  int scenes = 600;                 ///< of all kinds in turn, networks left out
+  std::optional<SceneKind> kind{};  ///< of this one alone
   int seed = 1;
   double seconds = 20;  ///< a run beyond that is too slow
   int threads = 2;

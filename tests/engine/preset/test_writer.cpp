@@ -228,7 +228,8 @@ std::vector<Preset> samples() {
                             {{0}, {1, 30, 0, 2}},
                             {{1, 1e2 / 3, 0, 5}},
                             {2},
-                            {{1, 2.5, -1}}};
+                            {{1, 2.5, -1}},
+                            {{0, 1, 2}}};
   all.push_back(network);
   for (Preset& preset : stepped()) all.push_back(std::move(preset));
   return all;

@@ -110,7 +110,7 @@ TEST_CASE("a twisted network in space has one energy however it is turned, mirro
     CHECK(drawn[Term::joint] > 1e-4);
     const auto check = [&](const Energies& other) {
       for (const Term term : {Term::bend, Term::joint, Term::shear, Term::twist})
-        CHECK(other[term] == Approx(drawn[term]).epsilon(1e-11).margin(1e-11));
+        CHECK(other[term] == Approx(drawn[term]).epsilon(1e-12).margin(1e-12));
     };
     for (const double turn : {40.0, 170.0}) {
       const Eigen::Matrix3d by =

@@ -34,6 +34,23 @@ TEST_CASE("sixty random scenes: none is silently wrong", "[full]") {
             scene.row.estimate, scene.preset.description);
     CHECK_FALSE(record::silently_wrong(scene.row.found));
   }
-  CHECK(kinds.size() == words_of<study::SceneKind>().size());
+  CHECK(kinds.size() == std::size_t(study::SceneKind::network));
   CHECK(judged > 30);
+}
+
+TEST_CASE("twenty random networks: none is silently wrong", "[full]") {
+  Watch watch;
+  const auto scenes =
+      study::trust_study(
+          {.scenes = 20, .kind = study::SceneKind::network, .seed = 1, .seconds = 60}, watch)
+          .value();
+  REQUIRE(scenes.size() == 20);
+  int judged = 0;
+  for (const auto& scene : scenes) {
+    judged += scene.row.error > 0;
+    CHECK(scene.row.kind == "network");
+    CAPTURE(scene.row.scene, word_of(scene.row.found), scene.row.error, scene.row.estimate);
+    CHECK_FALSE(record::silently_wrong(scene.row.found));
+  }
+  CHECK(judged > 15);
 }

@@ -1,0 +1,197 @@
+// Ends of a network that are held each in its own way.
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+
+#include "tests/engine/simulate/network_preset.h"
+#include "tests/engine/simulate/run.h"
+
+using namespace gridshell;
+
+namespace {
+
+enum Hold { pinned, tangent, clamped, let_go };
+
+/// Two beams of 200 mm that cross in their middles, pushed down there by a trace.
+struct Cross {
+  static constexpr double length = 200, push_N = 1e-5;
+  std::array<Hold, 4> ends;  ///< begin and end of the first, of the second
+
+  preset::Preset preset(int edges) const {
+    preset::NetworkData file;
+    file.points = {{-100, 0, 0}, {100, 0, 0}, {0, -100, 0}, {0, 100, 0}, {0, 0, 0}};
+    file.rods = {{0, 4, 1}, {2, 4, 3}};
+    for (int end = 0; end < 4; ++end) {
+      const Hold hold = ends[std::size_t(end)];
+      if (hold == let_go)
+        file.free.push_back(end);
+      else
+        file.holds.push_back({double(end / 2), double(end % 2), double(hold)});
+    }
+    preset::Preset p = network(file, edges);
+    p.rod.diameter_mm = 2, p.rod.young_GPa = 10, p.rod.shear_GPa = 4;
+    p.loads.points = {{4, 0, 0, 0, -push_N}};
+    return p;
+  }
+  /// What a beam bears in its middle over EI/L^3 [beam theory].
+  static double stiffness(Hold begin, Hold end) {
+    if (begin == pinned && end == pinned) return 48;
+    if (begin == let_go || end == let_go) return 24;
+    return begin == pinned || end == pinned ? 768.0 / 7 : 192;
+  }
+  double exact_mm() const {
+    const double EI = 1e4 * M_PI / 4;  // N mm^2
+    return push_N * std::pow(length, 3) / EI /
+           (stiffness(ends[0], ends[1]) + stiffness(ends[2], ends[3]));
+  }
+};
+
+double sunk(const preset::Preset& p) {
+  const auto outcome = run(p);
+  CHECK(outcome.summary.stable);
+  return -joints_of(outcome.trajectory)(2, 0);
+}
+
+/// A shallow vault of three rods each way, laws and holds mixed, which its supports press by a
+/// little.
+preset::NetworkData mixed() {
+  preset::NetworkData file;
+  const auto at = [&](double u, double v) {
+    return std::vector<double>{20 * u, 24 * v, 12 - 0.8 * u * u - 0.9 * v * v};
+  };
+  for (const double u : {-2.0, -1.0, 0.1, 1.0, 2.2})
+    for (const double v : {-2.0, -1.1, 0.0, 1.0, 2.0}) file.points.push_back(at(u, v));
+  for (const int k : {1, 2, 3}) {
+    file.rods.push_back({5 * k, 5 * k + 1, 5 * k + 2, 5 * k + 3, 5 * k + 4});
+    file.rods.push_back({k, 5 + k, 10 + k, 15 + k, 20 + k});
+  }
+  for (const int point : {5, 9, 10, 14, 15, 19, 1, 21, 2, 22, 3, 23}) {
+    const auto& from = file.points[std::size_t(point)];
+    file.supports.push_back({double(point), 0.99 * from[0], 0.99 * from[1], from[2]});
+  }
+  file.holds = {{0, 0, 2}, {0, 1, 1}, {1, 1, 1}, {2, 0, 2}, {3, 0, 0}, {5, 0, 2}, {5, 1, 2}};
+  file.springs = {{1, 2, 2, 2}, {14, 3, 3, 3}};
+  file.joint_laws = {{6, 3, -1}, {12, -1, -1}, {18, 0, 5}, {8, 0, -1}};
+  return file;
+}
+
+/// The energies of its rest, every place moved by `map`.
+template <class Map>
+Energies at_rest(preset::NetworkData file, Map map) {
+  const auto move = [&](std::vector<double>& row, std::size_t first) {
+    const Eigen::Vector3d to = map(Eigen::Vector3d(row[first], row[first + 1], row[first + 2]));
+    std::copy(to.begin(), to.end(), row.begin() + std::ptrdiff_t(first));
+  };
+  for (auto& point : file.points) move(point, 0);
+  for (auto& row : file.supports) move(row, 1);
+  preset::Preset p = network(file, 2);
+  p.rod.width_mm = 2, p.rod.thickness_mm = 1, p.rod.young_GPa = 10, p.rod.shear_GPa = 4;
+  p.limits.max_strain = 0.02;
+  const auto outcome = run(p);
+  CHECK(outcome.summary.stable);
+  CHECK(outcome.summary.limit == record::Limit::none);
+  return outcome.summary.energies;
+}
+
+}  // namespace
+
+TEST_CASE("beams of one network bear what their own ends hold, as beam theory has it") {
+  for (const auto& ends :
+       {std::array{clamped, pinned, clamped, pinned}, std::array{pinned, pinned, clamped, pinned},
+        std::array{clamped, clamped, pinned, clamped}, std::array{tangent, pinned, pinned, pinned},
+        std::array{tangent, clamped, let_go, clamped},
+        std::array{tangent, tangent, tangent, let_go}}) {
+    const Cross cross{ends};
+    CAPTURE(ends[0], ends[1], ends[2], ends[3]);
+    const double exact = cross.exact_mm(), coarse = sunk(cross.preset(8)),
+                 fine = sunk(cross.preset(16));
+    CHECK((coarse - exact) / (fine - exact) == Approx(4).epsilon(0.02));
+    CHECK((4 * fine - coarse) / 3 == Approx(exact).epsilon(2e-5));
+  }
+}
+
+TEST_CASE("a hold for all ends is of those that the file says nothing of") {
+  preset::Preset p = Cross{{clamped, pinned, clamped, pinned}}.preset(8);
+  const double by_file = sunk(p);
+  p.ends.kind = preset::EndKind::clamped;
+  p.footprint.file.holds = {{0, 1, 0}, {1, 1, 0}};
+  CHECK(sunk(p) == Approx(by_file).epsilon(1e-10));
+}
+
+TEST_CASE("a network of mixed laws and holds rests alike turned, moved and listed otherwise") {
+  const preset::NetworkData file = mixed();
+  const auto same = [](const Eigen::Vector3d& x) { return x; };
+  const Energies upright = at_rest(file, same);
+  for (const Term term : {Term::bend, Term::joint, Term::shear, Term::twist, Term::support})
+    CHECK(upright[term] > 1e-3);
+  const auto check = [&](const Energies& other) {
+    for (const Term term : {Term::bend, Term::joint, Term::shear, Term::twist, Term::support})
+      CHECK(other[term] == Approx(upright[term]).epsilon(1e-9));
+    CHECK(other.total() == Approx(upright.total()).epsilon(1e-12));
+  };
+  const Eigen::Matrix3d by =
+      Eigen::AngleAxisd(0.8, Eigen::Vector3d(1, 2, -0.5).normalized()).toRotationMatrix();
+  // springs pull alike along all axes, so that they turn with the rest
+  check(at_rest(file, [&](const Eigen::Vector3d& x) { return Eigen::Vector3d(by * x); }));
+  check(at_rest(file, [](const Eigen::Vector3d& x) { return Eigen::Vector3d(x.array() + 40.0); }));
+  check(at_rest(file,
+                [](const Eigen::Vector3d& x) { return Eigen::Vector3d(-x.x(), x.y(), x.z()); }));
+  preset::NetworkData other = file;
+  std::ranges::reverse(other.points);
+  std::ranges::reverse(other.rods);
+  for (auto& rod : other.rods) {
+    for (int& point : rod) point = 24 - point;
+    std::ranges::reverse(rod);
+  }
+  for (auto* rows : {&other.joint_laws, &other.supports, &other.springs})
+    for (auto& row : *rows) row[0] = 24 - row[0];
+  for (auto& row : other.holds) row = {5 - row[0], 1 - row[1], row[2]};
+  check(at_rest(other, same));
+}
+
+TEST_CASE("holds of ends that have no support of their own are refused by rod and end") {
+  const auto told = [](const char* reason, const auto& change) {
+    preset::NetworkData file = mixed();
+    change(file);
+    CHECK_THAT(refusal(scene_of(network(file, 4))), Catch::Contains(reason));
+  };
+  told("rods[1]: its begin hangs on a spring", [](auto& file) { file.holds[2] = {1, 0, 2}; });
+  told("rods[3]: its begin is free", [](auto& file) {
+    std::erase_if(file.supports, [](const auto& row) { return row[0] == 2; });
+    file.free = {2};
+  });
+  told("rods[6]: its end is joined there", [](auto& file) {
+    file.points.push_back({0, -80, 0});
+    file.rods.push_back({25, 12});
+    file.holds.push_back({6, 1, 1});
+  });
+  // one clamped end holds a piece, one that lets it spin does not
+  preset::NetworkData cantilever;
+  cantilever.points = {{0, 0, 0}, {50, 0, 0}, {100, 0, 0}, {50, 30, 0}};
+  cantilever.rods = {{0, 1, 2}, {1, 3}};
+  cantilever.free = {2, 3};
+  cantilever.holds = {{0, 0, 2}};
+  cantilever.joint_laws = {{1, -1, -1}};
+  preset::Preset p = network(cantilever, 4);
+  p.rod.shear_GPa = 31;
+  CHECK(value_of(scene_of(p)).length_scale_mm == Approx(std::hypot(100, 30) / 2));
+  p.footprint.file.holds = {{0, 0, 1}};
+  CHECK_THAT(refusal(scene_of(p)), Catch::Contains("would turn freely"));
+}
+
+TEST_CASE("laths that lie flat are stable, however rounding has them spin") {
+  for (int degrees = 0; degrees < 90; degrees += 10) {
+    const Eigen::Rotation2Dd by(degrees * M_PI / 180);
+    preset::Preset p = Cross{{pinned, pinned, pinned, pinned}}.preset(4);
+    for (auto& point : p.footprint.file.points) {
+      const Eigen::Vector2d to = by * Eigen::Vector2d(point[0], point[1]);
+      point = {to.x(), to.y(), 0};
+    }
+    p.rod.width_mm = 3, p.rod.thickness_mm = 1;
+    p.loads.points.clear();
+    p.actuation.scale = 0.99;
+    const auto outcome = run(p);
+    CAPTURE(degrees);
+    CHECK(outcome.trajectory.frames.front().negative_pivots == 0);
+    CHECK(outcome.summary.stable);
+  }
+}
