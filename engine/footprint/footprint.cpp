@@ -179,7 +179,7 @@ Result<Footprint> cut_footprint(const Domain& domain, double spacing, Placement 
   if (net.rods.empty())
     return fail(Fault::bad_input, "no grid line of spacing {:g} mm meets the boundary", spacing);
   cross(net);
-  net.left_out = int(std::erase_if(net.rods, crosses_none));
+  net.lone_lines = int(std::erase_if(net.rods, crosses_none));
   if (net.rods.empty())
     return fail(Fault::bad_input,
                 "no two rods of spacing {:g} mm cross within the boundary: it must be larger, or "

@@ -149,7 +149,7 @@ struct Footprint {
   std::vector<FootprintCell> cells;      ///< none where rods are not of a square grid
   std::vector<int> held_joints{};        ///< those that the boundary holds, as it does edge points
   std::vector<SupportSpring> springs{};  ///< of what is held by springs; of the rest none
-  int left_out = 0;  ///< pieces of grid lines within the boundary that no other crosses
+  int lone_lines = 0;  ///< pieces of grid lines within the boundary that no other crosses
 
   bool is_sprung(int joint) const;  ///< whether a held joint is on a spring
   bool in_space() const;            ///< whether a joint or a rod leaves the plane

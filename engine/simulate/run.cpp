@@ -275,7 +275,7 @@ Result<Plan> plan(const preset::Preset& preset) {
     plan.footprint +=
         fmt::format("; longest leg {:.2f} d, shortest {:.2f} d", scene->footprint.longest_leg() / d,
                     scene->footprint.shortest_leg() / d);
-  if (const int lone = scene->footprint.left_out; lone > 0)
+  if (const int lone = scene->footprint.lone_lines; lone > 0)
     plan.footprint += fmt::format("; {} more would cross no other and {} left out", lone,
                                   lone == 1 ? "is" : "are");
   if (scene->blocks)
