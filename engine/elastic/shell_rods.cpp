@@ -317,12 +317,6 @@ std::vector<NodeAction> dead_loads(const RodMesh& mesh, const ShellRods& rods) {
   return loads;
 }
 
-Eigen::Vector3d JointDirections::at(double mm) const {
-  const double between = before_mm + after_mm;
-  if (std::isinf(between)) return mm < 0 ? before : mm > 0 ? after : 0.5 * (before + after);
-  return between > 0 ? before + (mm + before_mm) / between * (after - before) : before;
-}
-
 namespace {
 
 /// whether a rod is cut with a corner at a node: it is drawn so, and bends there at rest
@@ -339,19 +333,6 @@ bool has_corner(const RodMesh& mesh, const Model& model, int rod, const std::vec
 
 double angle_between(const std::vector<JointDirections>& rods) {
   return angle_between(rods[0].at(0), rods[1].at(0));
-}
-
-std::vector<double> joint_torques(const RodMesh& mesh, const Model& model, const State& state) {
-  std::vector<double> torques(std::size_t(mesh.joints), 0);
-  const auto joint_of = [&](int node) { return node < mesh.nodes() ? node : node - mesh.nodes(); };
-  for (const ModelShear& shear : model.shears) {
-    const ModelEdge &e = model.edges[std::size_t(shear.pairs.front().e)],
-                    &f = model.edges[std::size_t(shear.pairs.front().f)];
-    const int to = joint_of(e.to);
-    const int joint = to == joint_of(f.from) || to == joint_of(f.to) ? to : joint_of(e.from);
-    torques[std::size_t(joint)] -= shear.stiffness * excess_of(model, state, shear, 0);
-  }
-  return torques;
 }
 
 Bolts tightened(const RodMesh& mesh, const Model& model, const Eigen::Matrix3Xd& columns,
@@ -418,24 +399,6 @@ Result<Model> build_model(const RodMesh& mesh, const ShellRods& shell, RodModel 
   if (contact.barrier.acts()) model->contact = contact_pairs(mesh, *model, contact);
   lay_flat(mesh, *model);
   return model;
-}
-
-Eigen::Matrix3Xd columns_of(const RodMesh& mesh, const Model& model,
-                            const Eigen::Matrix3Xd& nodes) {
-  Eigen::Matrix3Xd columns = Eigen::Matrix3Xd::Zero(3, model.columns());
-  columns.leftCols(mesh.nodes()) = nodes;
-  if (model.nodes > mesh.nodes())
-    columns.middleCols(mesh.nodes(), mesh.joints) = nodes.leftCols(mesh.joints);
-  return columns;
-}
-
-Eigen::Matrix3Xd nodes_of(const RodMesh& mesh, const Model& model,
-                          const Eigen::Matrix3Xd& columns) {
-  Eigen::Matrix3Xd nodes = columns.leftCols(mesh.nodes());
-  if (model.nodes > mesh.nodes())
-    nodes.leftCols(mesh.joints) =
-        0.5 * (nodes.leftCols(mesh.joints) + columns.middleCols(mesh.nodes(), mesh.joints));
-  return nodes;
 }
 
 }  // namespace gridshell

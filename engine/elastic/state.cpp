@@ -2,6 +2,7 @@
 
 #include "engine/core/algorithms.h"
 #include "engine/elastic/rod_frame.h"
+#include "engine/elastic/shell_rods.h"
 
 namespace gridshell {
 namespace {
@@ -173,6 +174,24 @@ void StateTransfer::carry_spins(const State& state, State& carried) const {
         angle(new_end) +=
             to_.spin_length * angle_between(from_, state, old_end, to_, carried, new_end);
   }
+}
+
+Eigen::Matrix3Xd columns_of(const RodMesh& mesh, const Model& model,
+                            const Eigen::Matrix3Xd& nodes) {
+  Eigen::Matrix3Xd columns = Eigen::Matrix3Xd::Zero(3, model.columns());
+  columns.leftCols(mesh.nodes()) = nodes;
+  if (model.nodes > mesh.nodes())
+    columns.middleCols(mesh.nodes(), mesh.joints) = nodes.leftCols(mesh.joints);
+  return columns;
+}
+
+Eigen::Matrix3Xd nodes_of(const RodMesh& mesh, const Model& model,
+                          const Eigen::Matrix3Xd& columns) {
+  Eigen::Matrix3Xd nodes = columns.leftCols(mesh.nodes());
+  if (model.nodes > mesh.nodes())
+    nodes.leftCols(mesh.joints) =
+        0.5 * (nodes.leftCols(mesh.joints) + columns.middleCols(mesh.nodes(), mesh.joints));
+  return nodes;
 }
 
 }  // namespace gridshell

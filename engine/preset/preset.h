@@ -1,4 +1,7 @@
-// The words of [[step]]: what a hand can do to a shell.
+// A preset: everything an experiment and its pictures need, as plain values with defaults. The
+// names are those of the TOML keys: `[rod] diameter_mm` is `preset.rod.diameter_mm`. What each key
+// means, its unit, range and default stand once, in the field table (field_table.h); the words of
+// an enum stand beside it.
 #pragma once
 
 #include <optional>
@@ -8,16 +11,10 @@
 #include "engine/core/choices.h"
 #include "engine/core/enum_words.h"
 #include "engine/formats/shape_data.h"
+#include "engine/preset/hand.h"
 #include "engine/preset/pictures.h"
 
 namespace gridshell::preset {
-
-enum class StepKind { move, push, hold, release, load, rest, jitter, tighten, brace, open };
-
-// A preset: everything an experiment and its pictures need, as plain values with defaults. The
-// names are those of the TOML keys: `[rod] diameter_mm` is `preset.rod.diameter_mm`. What each key
-// means, its unit, range and default stand once, in the field table (field_table.h); the words of
-// an enum stand beside it.
 
 struct Rod {
   double diameter_mm = 0.254;
@@ -56,10 +53,6 @@ struct Joints {
 };
 
 enum class Rings { pinned, free };
-/// Points of a curve, each of as many coordinates as its key says, mm; a coordinate that is a word
-/// is the number of that word among those of its key.
-using Points = std::vector<std::vector<double>>;
-
 struct Ends {
   EndKind kind = EndKind::pinned;
   Rings rings = Rings::pinned;
@@ -142,89 +135,6 @@ struct Actuation {
   Start start = Start::flat;
   Seed seed = Seed::up;
   SeedDiagonal seed_diagonal = SeedDiagonal::y_eq_x;
-};
-
-enum class IndentationPlace { pole, highest };
-enum class Direction { inward, outward };
-enum class Lateral { free, held };
-struct Indentation {
-  IndentationPlace at = IndentationPlace::pole;
-  double latitude_deg = 90, longitude_deg = 0;
-  std::vector<int> joint;  ///< (i, j), or empty
-  Direction direction = Direction::inward;
-  double depth = 0;     ///< of rho; 0: none
-  double depth_mm = 0;  ///< 0: none
-  Lateral lateral = Lateral::free;
-  bool unload = false;
-
-  bool wanted() const { return depth > 0 || depth_mm > 0; }
-};
-
-/// What a release takes out or lets go.
-enum class Released { joints, bolts, braces };
-enum class Diagonals { both, first, second };
-enum class BraceKind { cable, strut };
-
-/// One step of a hand, in a list that is done in order; numbers that its kind does not use count
-/// for nothing.
-struct Step {
-  StepKind kind = StepKind::move;
-  double progress = 1;        ///< of the boundary, beyond 1 further than its motion
-  double radius_mm = 0;       ///< of a circle's boundary; 0: `progress` says it
-  Points edge_points;         ///< (k, x, y, z): by how much edge points lie off the motion
-  std::vector<int> joint;     ///< (i, j)
-  std::vector<double> to_mm;  ///< (x, y, z) of the joint; empty: `depth_mm` says it
-  double depth_mm = 0;        ///< inward, against the shell's normal at the joint
-  std::vector<double> along;  ///< direction in which a joint is held; empty: the way of the push
-  Lateral lateral = Lateral::free;
-  double factor = 1;  ///< of the dead loads
-  BranchSide side = BranchSide::lower;
-  int seed = 1;
-  double force_N = 0.4;      ///< of a jitter
-  std::string load_case;     ///< whose factor it is; empty: that of the dead loads
-  double stiffness_Nmm = 0;  ///< of the bolts, per rad; 0: rigid
-  Points cells;              ///< (i, j) of those that are braced; empty: all
-  Diagonals diagonals = Diagonals::both;
-  BraceKind brace = BraceKind::cable;
-  double EA_N = 0;
-  Released what = Released::joints;
-  double angle_deg = 0;  ///< that joints are opened to on average
-  Points angles;         ///< (i, j, degrees) of those that are opened; empty: all
-};
-
-/// Where a load on the edge points: downwards; against the shell's normal there; into the shell, in
-/// its surface and across the edge; in plan across the edge as it turns.
-enum class EdgeDirection { down, normal, inward, pressure };
-struct Loads {
-  double gravity_m_s2 = 0;    ///< downwards
-  double field_N_per_mm = 0;  ///< of rod, downwards
-  Points points;              ///< (i, j, F_x, F_y, F_z), N
-  // what cases have of it acts on the formed shell
-  double snow_N_m2 = 0;      ///< of plan, downwards
-  double wind_N_m2 = 0;      ///< its pressure where it meets the shell at right angles
-  double pressure_N_m2 = 0;  ///< on all faces, turning with them
-  double edge_N_m = 0;       ///< on the shell's edge
-  EdgeDirection edge_direction = EdgeDirection::down;
-  double imperfection = 0.002;  ///< of the length scale
-  double wind_deg = 0;          ///< where it blows to, from +x towards +y
-
-  bool any() const { return gravity_m_s2 != 0 || field_N_per_mm != 0 || !points.empty(); }
-};
-
-/// Which half of the shell snow lies on, as seen from the middle.
-enum class SnowSide { all, x, minus_x, y, minus_y };
-constexpr auto words(SnowSide) {
-  return names_except<SnowSide>({{SnowSide::x, "+x"},
-                                 {SnowSide::minus_x, "-x"},
-                                 {SnowSide::y, "+y"},
-                                 {SnowSide::minus_y, "-y"}});
-}
-/// Loads that come on together on the formed shell, beside those that it was formed under.
-struct LoadCase {
-  std::string name;
-  double dead = 0, snow = 0, wind = 0, pressure = 0, edge = 0;  ///< factors
-  SnowSide snow_side = SnowSide::all;
-  Points points;  ///< (i, j, F_x, F_y, F_z), N
 };
 
 /// Of a snap in time.
