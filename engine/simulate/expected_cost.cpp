@@ -145,7 +145,9 @@ double expected_seconds(const Scene& scene, const preset::Preset& preset) {
   const auto moves = std::ranges::count_if(preset.step, [](const preset::Step& step) {
     return step.kind != Do::tighten && step.kind != Do::brace && step.kind != Do::hold;
   });
-  const double ways = (scene.from_net ? 1 : 3) + 3 * double(moves);
+  // of a way on which nothing is chosen three states are looked for there
+  const double to_begin = scene.from_net ? 1 : scene.imperfection.chooses() ? 3 : 0.7;
+  const double ways = to_begin + 3 * double(moves);
   return start_s + frame * preset.movie.frames +
          ways * factorisations_of(scene, preset.footprint) * all *
              (unit.assembly + unit.factorisation);

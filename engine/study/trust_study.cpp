@@ -57,6 +57,11 @@ void revolution(RandomDraw& draw, Preset& p) {
   const double longest[] = {2.2, 1.4, 0.5};
   p.net.length_mm = p.net.radius_mm * longest[which] * draw.between(0.7, 1);
   if (which > 0) p.net.waist = draw.between(0.5, 0.8);
+  // a pseudosphere ends at its rim
+  const double w = p.net.waist;
+  if (which == 2)
+    p.net.length_mm = std::min(p.net.length_mm, 1.9 * p.net.radius_mm *
+                                                    (std::acosh(1 / w) - std::sqrt(1 - w * w)));
   p.actuation.start = draw.once_in(2) ? preset::Start::net : preset::Start::flat;
 }
 
