@@ -235,16 +235,19 @@ class PageMaker {
   /// scale bar of its own, its name and whose it is.
   Result<Page> literature() {
     constexpr int columns = 3;
-    constexpr double width = 57, high = 36, pitch = 54;  // mm
+    constexpr double width = 57, high = 36, pitch = 51;  // mm
     const int count = int(records_.size());
     Page page{178, 3 + pitch * ((count + columns - 1) / columns), {}};
     for (int k = 0; k < count; ++k) {
       const Run& run = *records_[std::size_t(k)];
       record::Trajectory last{run.trajectory.layout, {run.trajectory.frames.back()}};
-      last.layout.original_boundary = last.layout.actuated_boundary;
+      // the shell alone is to fill its place
+      last.layout.original_boundary = last.layout.actuated_boundary =
+          last.frames.front().nodes.leftCols(1);
       render::MovieStyle style = style_of(run.preset, Pictures::stills);
       style.look = style_.look;
-      style.look.rings = false;
+      style.look.rings = style.look.loads = style.look.cells = false;
+      style.colour_by = preset::ColourBy::none;
       style = sized(std::move(style), width - 4, high);
       style.captions = style.heading = style.inset = style.legends = false;
       style.turn_deg = 0;
@@ -253,7 +256,7 @@ class PageMaker {
       const Box box{2 + k % columns * (width + 1.5), 3 + k / columns * pitch, width, high};
       page.add_image(std::string(1, char('A' + k)), "", box, std::move(*picture));
       const double units = high * 72 / 25.4 * stage.pixels_per_mm() / style.height();
-      page.add_scale_bar({box.x + 3, box.bottom(), width - 3, 6}, round_length(14 / units), units);
+      page.add_scale_bar({box.x + 3, box.bottom(), width - 3, 6}, round_length(34 / units), units);
       page.add_note({box.x + 3, box.bottom() + 6, width - 3, 4}, render::plain(run.preset.title));
       page.add_note({box.x + 3, box.bottom() + 9.5, width - 3, 4}, render::plain(run.preset.source));
       watch_.report(double(k + 1) / count);
