@@ -258,7 +258,8 @@ class PageMaker {
       const double units = high * 72 / 25.4 * stage.pixels_per_mm() / style.height();
       page.add_scale_bar({box.x + 3, box.bottom(), width - 3, 6}, round_length(34 / units), units);
       page.add_note({box.x + 3, box.bottom() + 6, width - 3, 4}, render::plain(run.preset.title));
-      page.add_note({box.x + 3, box.bottom() + 9.5, width - 3, 4}, render::plain(run.preset.source));
+      page.add_note({box.x + 3, box.bottom() + 9.5, width - 3, 4},
+                    render::plain(run.preset.source));
       watch_.report(double(k + 1) / count);
     }
     return page;
