@@ -240,13 +240,14 @@ class PageMaker {
     Page page{178, 3 + pitch * ((count + columns - 1) / columns), {}};
     for (int k = 0; k < count; ++k) {
       const Run& run = *records_[std::size_t(k)];
-      record::Trajectory last{run.trajectory.layout, {run.trajectory.frames.back()}};
+      record::Frame frame = run.trajectory.frames.back();
+      frame.contacts = -1;  // no word beside it would tell their marks
+      record::Trajectory last{run.trajectory.layout, {std::move(frame)}};
       // the shell alone is to fill its place
       last.layout.original_boundary = last.layout.actuated_boundary =
           last.frames.front().nodes.leftCols(1);
       render::MovieStyle style = style_of(run.preset, Pictures::stills);
-      style.look = style_.look;
-      style.look.rings = style.look.loads = style.look.cells = false;
+      style.look.floor = style.look.rings = style.look.loads = style.look.cells = false;
       style.colour_by = preset::ColourBy::none;
       style = sized(std::move(style), width - 4, high);
       style.captions = style.heading = style.inset = style.legends = false;
