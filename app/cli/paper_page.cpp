@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/cli/console.h"
 #include "app/cli/pictures.h"
@@ -57,6 +58,8 @@ class PageMaker {
         return fig4();
       case preset::PageKind::fig5:
         return fig5();
+      case preset::PageKind::literature:
+        return literature();
     }
     return Page{};
   }
@@ -226,6 +229,47 @@ class PageMaker {
     TRY(more, add_experiment(page));
     page.add_plot(*more, {116, 58, 60, 57}, render::curvature_plot(named_shells_));
     return page;
+  }
+
+  /// Shells at rest, three in a row, each seen from where all are and as large as its place, with a
+  /// scale bar of its own, its name and whose it is.
+  Result<Page> literature() {
+    constexpr int columns = 3;
+    constexpr double width = 57, high = 36, pitch = 51;  // mm
+    const int count = int(records_.size());
+    Page page{178, 3 + pitch * ((count + columns - 1) / columns), {}};
+    for (int k = 0; k < count; ++k) {
+      const Run& run = *records_[std::size_t(k)];
+      record::Frame frame = run.trajectory.frames.back();
+      frame.contacts = -1;  // no word beside it would tell their marks
+      record::Trajectory last{run.trajectory.layout, {std::move(frame)}};
+      // the shell alone is to fill its place
+      last.layout.original_boundary = last.layout.actuated_boundary =
+          last.frames.front().nodes.leftCols(1);
+      render::MovieStyle style = style_of(run.preset, Pictures::stills);
+      style.look.floor = style.look.rings = style.look.loads = style.look.cells = false;
+      style.colour_by = preset::ColourBy::none;
+      style = sized(std::move(style), width - 4, high);
+      style.captions = style.heading = style.inset = style.legends = false;
+      style.turn_deg = 0;
+      const render::Stage stage(last, style);
+      TRY(picture, stage.draw_views(renderer_, {last.frames.front(), 0}));
+      const Box box{2 + k % columns * (width + 1.5), 3 + k / columns * pitch, width, high};
+      page.add_image(std::string(1, char('A' + k)), "", box, std::move(*picture));
+      const double units = high * 72 / 25.4 * stage.pixels_per_mm() / style.height();
+      page.add_scale_bar({box.x + 3, box.bottom(), width - 3, 6}, round_length(34 / units), units);
+      page.add_note({box.x + 3, box.bottom() + 6, width - 3, 4}, render::plain(run.preset.title));
+      page.add_note({box.x + 3, box.bottom() + 9.5, width - 3, 4},
+                    render::plain(run.preset.source));
+      watch_.report(double(k + 1) / count);
+    }
+    return page;
+  }
+
+  /// The largest of 1, 2 and 5 times a power of ten that is no larger.
+  static double round_length(double length_mm) {
+    const double ten = std::pow(10, std::floor(std::log10(length_mm)));
+    return (length_mm >= 5 * ten ? 5 : length_mm >= 2 * ten ? 2 : 1) * ten;
   }
 
   static std::string numbered(const char* letter, int k, int count) {

@@ -245,7 +245,8 @@ render::Drawing drawing_of(const ShellView& shell, const Show& show, double thin
   drawing.joint_colour = palette.joint;
   drawing.joint_diameter_mm = show.joints ? std::max(3.0, 1.5 * drawing.rod_diameter_mm) : 0;
   put_colours(shell, show, drawing);
-  if (show.rings) {
+  // the line through supports that stay tells nothing
+  if (show.rings && layout.original_boundary != layout.actuated_boundary) {
     drawing.rings.push_back({layout.original_boundary, std::max(0.6, thin_mm), ghost_grey, false});
     drawing.rings.push_back({render::boundary_at(layout, shell.frame.actuation),
                              std::max(1.4, 1.6 * thin_mm), palette.ring});

@@ -165,7 +165,8 @@ void add_figure(FieldList<Figure> list) {
 void add_page(FieldList<Page> list) {
   list.unused({"kind"}, "no page is made: [page] kind is \"none\"",
               [](const Page& of) { return of.kind == PageKind::none; });
-  list.add<&Page::kind>("figure of the paper that `figure` lays out on one page");
+  list.add<&Page::kind>(
+      "figure of the paper that `figure` lays out on one page; \"literature\": all cases alike");
   list.add<&Page::photo>("a PNG in the photograph's place; empty: an empty frame");
   list.add<&Page::sweep>(
           "finished sweep over legs and rods in the phase diagram's place: its folder, its "

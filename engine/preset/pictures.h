@@ -76,8 +76,8 @@ struct Style {
   double font_size = 1;    ///< of all text, over its usual size
 };
 
-enum class PageKind { none, fig1, fig2, fig3, fig4, fig5 };
-/// A page that shows a figure of the paper.
+enum class PageKind { none, fig1, fig2, fig3, fig4, fig5, literature };
+/// A page that shows a figure of the paper, or shells of other authors beside one another.
 struct Page {
   PageKind kind = PageKind::none;
   std::string photo;  ///< a PNG for the photograph's place

@@ -299,16 +299,17 @@ constexpr Colour rod_ink{0.16f, 0.17f, 0.2f, 1}, joint_ink{0.75f, 0.12f, 0.1f, 1
 
 void draw_top_view(Canvas& canvas, const Box& box, const record::Layout& layout,
                    const record::Frame& frame, const TopExtent& extent,
-                   const std::vector<Colour>& cell_colours) {
+                   const std::vector<Colour>& cell_colours, bool rings) {
   const double hair = std::max(0.6, box.width / 260), radius = std::max(0.7, box.width / 130);
   const Box inside = box.inset(radius + hair);
   const PlanView place{inside.middle(),
                        {extent.x_mm, extent.y_mm},
                        std::min(inside.width, inside.height) / (2 * extent.half_mm)};
-  if (original_boundary_shown(frame))
+  if (rings && original_boundary_shown(frame))
     canvas.polyline(place.line(layout.original_boundary), {{0.6f, 0.6f, 0.62f, 1}, hair}, true);
-  canvas.polyline(place.line(boundary_at(layout, frame.actuation)),
-                  {{0.25f, 0.27f, 0.3f, 1}, 1.5 * hair}, true);
+  if (rings)
+    canvas.polyline(place.line(boundary_at(layout, frame.actuation)),
+                    {{0.25f, 0.27f, 0.3f, 1}, 1.5 * hair}, true);
   for (std::size_t c = 0; c < std::min(cell_colours.size(), layout.cells.size()); ++c) {
     std::vector<Point> corners;
     for (int joint : layout.cells[c].joints)

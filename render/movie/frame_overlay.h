@@ -98,9 +98,9 @@ struct TopExtent {
   double half_mm = 1;
 };
 
-/// `cell_colours`: one a cell, or empty.
+/// `cell_colours`: one a cell, or empty. `rings`: whether the boundaries are drawn.
 void draw_top_view(Canvas& canvas, const Box& box, const record::Layout& layout,
                    const record::Frame& frame, const TopExtent& extent,
-                   const std::vector<Colour>& cell_colours);
+                   const std::vector<Colour>& cell_colours, bool rings = true);
 
 }  // namespace gridshell::render

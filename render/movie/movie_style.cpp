@@ -50,6 +50,19 @@ ViewDirection direction_of(const preset::Movie& movie) {
   return {movie.azimuth_deg, movie.elevation_deg};
 }
 
+/// Whether the boundary goes anywhere: supports of a network may stay where they are drawn, and the
+/// line through them would tell nothing then.
+bool boundary_moves(const preset::Preset& preset) {
+  if (preset.footprint.kind != preset::FootprintKind::network) return true;
+  const double scale = preset.actuation.scale;
+  return (scale > 0 && scale != 1) ||
+         std::ranges::any_of(preset.footprint.file.supports,
+                             [](const auto& support) { return support.size() > 1; }) ||
+         std::ranges::any_of(preset.step, [](const preset::Step& step) {
+           return step.kind == preset::StepKind::move;
+         });
+}
+
 }  // namespace
 
 Appearance appearance_of(const preset::Style& style) {
@@ -88,6 +101,8 @@ MovieStyle movie_style(const preset::Preset& preset) {
   style.description = preset.description;
   style.font_scale = preset.style.font_size;
   style.look = appearance_of(preset.style);
+  if (preset.style.rings == preset::Visibility::automatic)
+    style.look.rings = style.look.rings && boundary_moves(preset);
   return style;
 }
 

@@ -359,7 +359,8 @@ void Stage::draw_overlay(Canvas& canvas, const ShownFrame& shown) const {
   if (bar_ && !layout_.colour_bar.empty())
     draw_colour_bar(canvas, layout_.colour_bar, *bar_, 0.95 * layout_.font_size);
   if (!layout_.inset.empty()) {
-    draw_top_view(canvas, layout_.inset, run_, shown.frame, top_, cell_colours(shown.frame, 1));
+    draw_top_view(canvas, layout_.inset, run_, shown.frame, top_, cell_colours(shown.frame, 1),
+                  style_.look.rings);
     // where the corner beside a round shell has room for it
     const double size = 0.75 * layout_.font_size, gap = 0.3 * size;
     if (layout_.inset.width > 11 * layout_.font_size)

@@ -110,3 +110,16 @@ TEST_CASE("ends of a vault in space that hold directions, on both rungs, turned 
   // who holds the spin too stores no less
   CHECK(tangent[1] >= tangent[0] * (1 - 1e-9));
 }
+
+TEST_CASE("straight strips laid flat by their geodesic lengths come to the sphere", "[standard]") {
+  const auto outcome = run_stills(shipped("lit_geodesic"));
+  CHECK(outcome.summary.stable);
+  CHECK(outcome.summary.limit == record::Limit::none);
+  // the acute corners lie 40 degrees off the pole
+  const Eigen::Vector3d middle(0, 0, -240 * std::cos(40 * std::numbers::pi / 180));
+  const Eigen::VectorXd off =
+      (joints_of(outcome.trajectory).colwise() - middle).colwise().norm().array() - 240;
+  CHECK(off.cwiseAbs().maxCoeff() < 0.01 * 240);
+  CHECK(off.cwiseAbs().mean() < 0.004 * 240);
+  CHECK(outcome.summary.height_mm == Approx(54.59).epsilon(2e-3));
+}

@@ -149,3 +149,15 @@ TEST_CASE("symmetries of a mesh keep what is held, and how stiffly") {
   p.footprint.file.free.push_back(p.footprint.file.rods[0].front());
   CHECK(count(p) < all);
 }
+
+TEST_CASE("the cantilever of a public code comes to the elastica, and near what that code says") {
+  const auto outcome = run_stills(shipped("lit_drm_cantilever"));
+  CHECK(outcome.summary.stable);
+  // by shooting along theta'' = -P L^2/EI cos theta, of P L^2/EI = 1.185185
+  constexpr double up = 345.676, in = 74.8805, theirs = 346.115;
+  const Eigen::Matrix3Xd& nodes = last_frame(outcome).nodes;
+  CHECK(outcome.summary.height_mm == Approx(up).epsilon(5e-5));
+  CHECK(1000 - nodes.row(0).maxCoeff() == Approx(in).epsilon(2e-4));
+  CHECK(std::abs(outcome.summary.height_mm - up) < 2 * outcome.summary.error_estimate_mm);
+  CHECK(outcome.summary.height_mm == Approx(theirs).epsilon(2e-3));  // ten elements
+}

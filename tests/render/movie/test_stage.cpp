@@ -8,6 +8,7 @@
 #include "render/movie/frame_overlay.h"
 #include "render/movie/run_summary.h"
 #include "render/movie/stage.h"
+#include "tests/presets.h"
 #include "tests/render/canvas/ink.h"
 #include "tests/render/movie/fake_renderer.h"
 #include "tests/render/synthetic.h"
@@ -200,6 +201,23 @@ TEST_CASE("loads are arrows as long as they are large, braces are bars, and a ke
   CHECK(bare.drawing(run.frames[2]).arrows.empty());
   CHECK(bare.drawing(run.frames[2]).ghosts.empty());
   CHECK_FALSE(bare.arrow_key());
+}
+
+TEST_CASE("a line goes through the supports of a network that move, and through no others") {
+  const auto ringed = [](const std::string& name, auto change) {
+    preset::Preset p = shipped(name);
+    change(p);
+    return movie_style(p).look.rings;
+  };
+  const auto as_is = [](preset::Preset&) {};
+  CHECK(ringed("network_space", as_is));     // scaled
+  CHECK(ringed("network_triaxial", as_is));  // each to its place
+  CHECK(ringed("fig1_actuation", as_is));
+  CHECK_FALSE(ringed("lit_xshell_lens", as_is));
+  CHECK(ringed("lit_xshell_lens",
+               [](preset::Preset& p) { p.step.front().kind = preset::StepKind::move; }));
+  CHECK(
+      ringed("lit_xshell_lens", [](preset::Preset& p) { p.style.rings = preset::Visibility::on; }));
 }
 
 TEST_CASE("a push of a step wears its arrow in the frames that it holds alone") {
