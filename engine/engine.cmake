@@ -47,9 +47,11 @@ target_link_libraries(gridshell_engine PUBLIC fmt::fmt
 # the two hot loops may contract a*b+c; everything else rounds each operation
 set_source_files_properties(engine/solve/block_factor.cpp engine/elastic/assembly.cpp
   PROPERTIES COMPILE_OPTIONS -ffp-contract=fast SKIP_PRECOMPILE_HEADERS ON)
-# what computes for long lies in geometry, footprint, elastic, solve and design; the rest asks it
+# what computes for long lies in geometry, footprint, elastic, solve and design; the rest asks it,
 file(GLOB light CONFIGURE_DEPENDS engine/formats/*.cpp engine/preset/*.cpp
   engine/record/*.cpp engine/scene/*.cpp engine/simulate/*.cpp engine/study/*.cpp)
+# but for what every frame has
+list(FILTER light EXCLUDE REGEX "contacts|frames_between|frame_forces|gauss_curvature")
 set_property(SOURCE ${light} ${embedded_page} APPEND PROPERTY
   COMPILE_OPTIONS $<$<CONFIG:Release>:-O1>)
 gridshell_position_independent(gridshell_engine)
