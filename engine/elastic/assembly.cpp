@@ -148,10 +148,12 @@ void add_contact_hessian(const Model& model, const EdgeContact& contact, BlockHe
     }
 }
 
+// What joints add is not inlined: how this file's hot loops round hangs on what stands in them.
+
 /// How the mean angle at a joint changes with the columns; `each` takes every pair's share.
 template <class Law, class Each>
-std::vector<std::pair<int, Eigen::Vector3d>> mean_slope(const Model& model, const State& state,
-                                                        const ModelMean<Law>& mean, Each each) {
+__attribute__((noinline)) std::vector<std::pair<int, Eigen::Vector3d>> mean_slope(
+    const Model& model, const State& state, const ModelMean<Law>& mean, Each each) {
   std::vector<std::pair<int, Eigen::Vector3d>> slope;
   const auto add = [&](int column, const Eigen::Vector3d& by) {
     const auto known = std::ranges::find(slope, column, &std::pair<int, Eigen::Vector3d>::first);
@@ -179,8 +181,9 @@ std::vector<std::pair<int, Eigen::Vector3d>> mean_slope(const Model& model, cons
 
 /// With s the slope of the mean angle by the columns: k (s s^T + excess s').
 template <class Law>
-void add_mean(const Model& model, const State& state, const ModelMean<Law>& mean, double opening,
-              bool with_hessian, Assembly& out) {
+__attribute__((noinline)) void add_mean(const Model& model, const State& state,
+                                        const ModelMean<Law>& mean, double opening,
+                                        bool with_hessian, Assembly& out) {
   const double excess = excess_of(model, state, mean, opening), moment = mean.stiffness * excess;
   out.energies[Law::term] += 0.5 * moment * excess;
   const auto slope =

@@ -80,8 +80,10 @@ void put_forces(const Simulation& simulation, record::Frame& frame) {
                frame);
   }
   const bool extrapolate = shell.plan().extrapolate_forces;
-  const bool pressing = energies.back()(0, long(Term::contact)) > 0;
-  CertifiedVectors force = certify_vectors(reactions, extrapolate, pressing);
+  // of rods that press, and on two meshes of joints that resist spin, no order is known
+  const bool no_order = energies.back()(0, long(Term::contact)) > 0 ||
+                        (energies.size() == 2 && !shell.model(last).joint_spins.empty());
+  CertifiedVectors force = certify_vectors(reactions, extrapolate, no_order);
   put_reactions(std::move(force.value), frame);
   frame.force_error_N = force.error;
   frame.loads_N = loads_on(shell.finest(), shell.model(last), shell.state().levels.back().x,
@@ -91,7 +93,7 @@ void put_forces(const Simulation& simulation, record::Frame& frame) {
   frame.energies = by_term.back();
   if (extrapolate && by_term.size() > 1)
     frame.energies = extrapolated(by_term.back(), by_term[by_term.size() - 2]);
-  frame.energy_error_mJ = certify_vectors(energies, extrapolate, pressing).error;
+  frame.energy_error_mJ = certify_vectors(energies, extrapolate, no_order).error;
 }
 
 /// Adds the blocks on their own nets and the rods across their seams to a layout.

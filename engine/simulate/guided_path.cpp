@@ -121,6 +121,10 @@ std::optional<PathSegment> GuidedSegment::followed() {
   return std::nullopt;
 }
 
+StateTransfer between_leaders(const Simulation& from, const Simulation& to) {
+  return {from.shell().mesh(0), from.shell().model(0), to.shell().mesh(0), to.shell().model(0)};
+}
+
 }  // namespace
 
 bool follow_guide(EquilibriumPath& path, const EquilibriumPath& guide, double allowed_mm,
@@ -129,8 +133,7 @@ bool follow_guide(EquilibriumPath& path, const EquilibriumPath& guide, double al
   if (!guide.single_motion || !guide.earlier.empty() || !simulation.holds().empty() ||
       simulation.scene().snap.wanted || guide.segments.empty())
     return false;
-  const NestedShell &from = guide.simulation.shell(), &to = simulation.shell();
-  const StateTransfer carried(from.mesh(0), from.model(0), to.mesh(0), to.model(0));
+  const StateTransfer carried = between_leaders(guide.simulation, simulation);
   std::vector<PathSegment> segments;
   for (const PathSegment& segment : guide.segments) {
     auto followed = GuidedSegment(simulation, segment, carried, watch).followed();
@@ -148,8 +151,7 @@ bool stable(const PathSegment& segment) {
 }
 
 bool has_states_of(Simulation& simulation, const EquilibriumPath& path, const Watch& watch) {
-  const NestedShell &from = path.simulation.shell(), &to = simulation.shell();
-  const StateTransfer carried(from.mesh(0), from.model(0), to.mesh(0), to.model(0));
+  const StateTransfer carried = between_leaders(path.simulation, simulation);
   const PathSegment& segment = path.segments.back();
   GuidedSegment guided(simulation, segment, carried, watch);
   const std::size_t last = segment.load_steps.size() - 1;

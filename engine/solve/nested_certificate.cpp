@@ -19,7 +19,7 @@ namespace {
 // quite in the asymptotic range
 constexpr double margin = 1.25, margin_extrapolated = 2.2;
 // of forces and energies on two meshes, of which one sign or the other may win
-constexpr double margin_of_two = 1.5;
+constexpr double margin_of_two = 1.4;
 
 // largest sum of the weights of an extrapolation, by size: three states one step apart, gone on by
 // one step, have 7, and so have two states gone on by three steps
@@ -264,7 +264,9 @@ void NestedShell::estimate() {
     return;
   }
   if (!plan_.extrapolate || last < 2) {
-    state_.error_estimate_mm = margin * max_column_norm(step) / 3 + options_.tolerance_mm;
+    // of joints that resist spin the order is seen on three meshes alone: it may be the first
+    const double by_order = finest.model.joint_spins.empty() ? 3 : 1;
+    state_.error_estimate_mm = margin * max_column_norm(step) / by_order + options_.tolerance_mm;
     return;
   }
   // (4 fine - coarse)/3 of these two meshes less that of the two before
@@ -323,9 +325,10 @@ void NestedShell::take_reactions() {
     const auto entries = state_.held_stiffness.reshaped().transpose();
     stiffness.emplace_back(Eigen::Matrix3Xd::Zero(3, entries.cols())).row(0) = entries;
   }
-  const bool pressing = finest.assembly().energies[Term::contact] > 0;
-  const CertifiedVectors force = certify_vectors(forces, plan_.extrapolate_forces, pressing),
-                         growth = certify_vectors(stiffness, plan_.extrapolate_forces, pressing);
+  const bool no_order = finest.assembly().energies[Term::contact] > 0 ||
+                        (forces.size() == 2 && !levels_.back()->model.joint_spins.empty());
+  const CertifiedVectors force = certify_vectors(forces, plan_.extrapolate_forces, no_order),
+                         growth = certify_vectors(stiffness, plan_.extrapolate_forces, no_order);
   state_.reactions.clear();
   for (const auto& on : force.value.colwise()) state_.reactions.emplace_back(on);
   state_.reaction_error_N = force.error;

@@ -60,8 +60,8 @@ void revolution(RandomDraw& draw, Preset& p) {
   // a pseudosphere ends at its rim
   const double w = p.net.waist;
   if (which == 2)
-    p.net.length_mm = std::min(p.net.length_mm, 1.9 * p.net.radius_mm *
-                                                    (std::acosh(1 / w) - std::sqrt(1 - w * w)));
+    p.net.length_mm = std::min(p.net.length_mm,
+                               1.9 * p.net.radius_mm * (std::acosh(1 / w) - std::sqrt(1 - w * w)));
   p.actuation.start = draw.once_in(2) ? preset::Start::net : preset::Start::flat;
 }
 

@@ -74,7 +74,7 @@ TEST_CASE("footprint: grid lines that cross no other within the boundary are lef
   REQUIRE(net);
   CHECK(net->rods.size() == 8);
   CHECK(net->lone_lines == 4);
-  CHECK(net->joints.size() == 12);
+  CHECK(net->joints.size() == 16);
   for (const FootprintRod& rod : net->rods) CHECK(rod.joints.size() >= 2);
   CHECK(cut_footprint(Disk(51.5), 20, Placement::half)->lone_lines == 0);
   CHECK(refusal(cut_footprint(Disk(9), 20, Placement::on_axis)) == "none");
