@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
+#include <initializer_list>
 
 namespace gridshell::simulate {
 namespace {
@@ -60,8 +60,9 @@ bool GuidedSegment::begin(std::size_t step) {
 
 /// As the guide went: back towards the flat, or on along the branch that lost its stability.
 bool GuidedSegment::through_unstable(std::size_t step) const {
-  return std::ranges::any_of(guide_.load_steps | std::views::take(end_of_branch(step) + 1),
-                             [](const LoadStep& at) { return !at.certificate.stable(); });
+  const auto begin = guide_.load_steps.begin();
+  return std::any_of(begin, begin + std::ptrdiff_t(end_of_branch(step) + 1),
+                     [](const LoadStep& at) { return !at.certificate.stable(); });
 }
 
 /// The last load step before the guide goes on in a rest further on.
