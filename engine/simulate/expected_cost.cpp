@@ -16,6 +16,7 @@
 #include "engine/simulate/equilibrium_path.h"
 #include "engine/simulate/frame_forces.h"
 #include "engine/simulate/frames.h"
+#include "engine/simulate/steps.h"
 #include "engine/solve/buckling.h"
 
 namespace gridshell {
@@ -133,7 +134,7 @@ double expected_seconds(const Scene& scene, const preset::Preset& preset) {
     return a_trial * dof_of(scene, 4) * (jitter.trials + jitter.confined);
   // of a frame: corrections on the leading mesh; what is told of the finest takes as long as some
   // assemblies there
-  constexpr double corrections = 3.3, tellings = 5.4, start_s = 0.02;
+  constexpr double corrections = 1.5, tellings = 5.4, start_s = 0.02;
   const std::vector<int> edges = initial_levels(scene).edges_per_segment;
   const UnitCost unit = unit_cost(scene, edges.front());
   const double all = std::accumulate(edges.begin(), edges.end(), 0.0) / edges.front(),
@@ -145,10 +146,19 @@ double expected_seconds(const Scene& scene, const preset::Preset& preset) {
   const auto moves = std::ranges::count_if(preset.step, [](const preset::Step& step) {
     return step.kind != Do::tighten && step.kind != Do::brace && step.kind != Do::hold;
   });
-  // of a way on which nothing is chosen three states are looked for there
-  const double to_begin = scene.from_net ? 1 : scene.imperfection.chooses() ? 3 : 0.7;
+  // of a way on which nothing is chosen three states are looked for there; only frames between the
+  // net and the flat take the way back to it
+  const bool network = preset.footprint.kind == preset::FootprintKind::network;
+  double to_begin = 0.7;
+  if (scene.from_net)
+    to_begin = preset.step.empty() ? 1 : 0.5;
+  else if (scene.imperfection.chooses())
+    to_begin = network ? 1.6 : 3;
   const double ways = to_begin + 3 * double(moves);
-  return start_s + frame * preset.movie.frames +
+  const std::vector<int> shares = frames_of_steps(preset.step, preset.movie.frames);
+  const int frames =
+      shares.empty() ? preset.movie.frames : std::accumulate(shares.begin(), shares.end(), 1);
+  return start_s + frame * frames +
          ways * factorisations_of(scene, preset.footprint) * all *
              (unit.assembly + unit.factorisation);
 }
