@@ -147,6 +147,7 @@ Result<EquilibriumPath> follow_actuation(const std::shared_ptr<const Scene>& sce
     TRY(begun, certified(path.simulation.begin_as_drawn(watch), "the network as drawn"));
     follow_segment(path, parameter_at(to), {}, watch);
   } else if (to == 0) {
+    path.simulation.begin_flat();
     return path;
   } else if (scene->from_net) {
     TRY(begun, certified(path.simulation.begin_on_net(watch), "the state beside the net"));
@@ -237,6 +238,7 @@ Result<EquilibriumPath> run_actuation(std::shared_ptr<const Scene> scene,
       TRY_DO(sampler.take(flat_frame(path->simulation), sample));
       continue;
     }
+    if (path->segments.empty()) break;  // the flat alone was asked for, and is none of its states
     const auto segment = leg_at(*path, sample.t);
     const PathSegment& last = path->segments.back();
     const bool tells = at_limit(last.report.end) && last.report.end != Outcome::locked;

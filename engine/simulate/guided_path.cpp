@@ -152,6 +152,7 @@ bool stable(const PathSegment& segment) {
 }
 
 bool has_states_of(Simulation& simulation, const EquilibriumPath& path, const Watch& watch) {
+  if (path.segments.empty()) return true;  // the flat itself
   const StateTransfer carried = between_leaders(path.simulation, simulation);
   const PathSegment& segment = path.segments.back();
   GuidedSegment guided(simulation, segment, carried, watch);

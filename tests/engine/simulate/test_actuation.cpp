@@ -148,3 +148,17 @@ TEST_CASE("a boundary that takes no rod out of the flat is refused before a run"
         "the actuated boundary does not shorten the rods: nothing would buckle");
   CHECK(simulate::plan(small_shell()));
 }
+
+TEST_CASE("a still of the flat alone is the flat, and of rods curved at rest there is none") {
+  preset::Preset p = circle(4, 42, 36);
+  p.figure.radii_mm = {42};
+  const auto flat = run_stills(p);
+  REQUIRE(flat.trajectory.frames.size() == 1);
+  CHECK(flat.trajectory.frames[0].height_mm == 0);
+  CHECK(flat.summary.stable);
+  p.rod.curvature_per_mm = 1e-3;
+  p.rod.shear_GPa = 31;
+  Watch watch;
+  CHECK_THAT(refusal(simulate::run(p, true, watch), Fault::no_equilibrium),
+             Catch::Contains("no equilibrium in the flat"));
+}
