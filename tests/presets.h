@@ -25,6 +25,18 @@ inline preset::Preset circle(int rods, double radius_mm, double to_mm, int frame
   return p;
 }
 
+/// A superellipse |x/a|^n + |y/b|^n = 1 that is drawn in to so much of its size.
+inline preset::Preset superellipse(double a_mm, double b_mm, double n, double scale) {
+  preset::Preset p;
+  p.footprint.kind = preset::FootprintKind::curve;
+  p.footprint.boundary.kind = preset::CurveKind::superellipse;
+  p.footprint.boundary.half_x_mm = a_mm;
+  p.footprint.boundary.half_y_mm = b_mm;
+  p.footprint.boundary.exponent = n;
+  p.actuation.scale = scale;
+  return p;
+}
+
 /// A shell that begins on its net, with rods on the axes.
 inline preset::Preset on_net(preset::NetKind kind = preset::NetKind::sphere, double radius_mm = 120,
                              double length_mm = 0) {

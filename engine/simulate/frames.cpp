@@ -80,9 +80,7 @@ void put_forces(const Simulation& simulation, record::Frame& frame) {
                frame);
   }
   const bool extrapolate = shell.plan().extrapolate_forces;
-  // of rods that press, and on two meshes of joints that resist spin, no order is known
-  const bool no_order = energies.back()(0, long(Term::contact)) > 0 ||
-                        (energies.size() == 2 && !shell.model(last).joint_spins.empty());
+  const bool no_order = order_unknown(shell.model(last), by_term.back(), by_term.size());
   CertifiedVectors force = certify_vectors(reactions, extrapolate, no_order);
   put_reactions(std::move(force.value), frame);
   frame.force_error_N = force.error;

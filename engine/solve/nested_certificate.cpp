@@ -258,15 +258,13 @@ void NestedShell::estimate() {
   const Eigen::Matrix3Xd coarser = nodes(last - 1);
   const int joints = finest.mesh.joints;
   const Eigen::Matrix3Xd step = state_.x.leftCols(joints) - coarser.leftCols(joints);
-  // where on its edges a mesh presses is chance: that knows no order
-  if (finest.system->assembly().energies[Term::contact] > 0) {
+  const bool two = !plan_.extrapolate || last < 2;  // are looked at
+  if (order_unknown(finest.model, finest.system->assembly().energies, two ? 2 : 3)) {
     state_.error_estimate_mm = margin * max_column_norm(step) + options_.tolerance_mm;
     return;
   }
-  if (!plan_.extrapolate || last < 2) {
-    // of joints that resist spin the order is seen on three meshes alone: it may be the first
-    const double by_order = finest.model.joint_spins.empty() ? 3 : 1;
-    state_.error_estimate_mm = margin * max_column_norm(step) / by_order + options_.tolerance_mm;
+  if (two) {
+    state_.error_estimate_mm = margin * max_column_norm(step) / 3 + options_.tolerance_mm;
     return;
   }
   // (4 fine - coarse)/3 of these two meshes less that of the two before
@@ -282,15 +280,19 @@ void NestedShell::estimate() {
   state_.x += correction;
 }
 
+bool order_unknown(const Model& model, const Energies& energies, std::size_t meshes) {
+  return energies[Term::contact] > 0 || (meshes == 2 && !model.joint_spins.empty());
+}
+
 CertifiedVectors certify_vectors(const std::vector<Eigen::Matrix3Xd>& levels, bool extrapolate,
-                                 bool pressing) {
+                                 bool no_order) {
   const std::size_t last = levels.size() - 1;
   CertifiedVectors found{levels[last], std::numeric_limits<double>::quiet_NaN()};
   if (last == 0) return found;
   const Eigen::Matrix3Xd step = levels[last] - levels[last - 1];
   if (extrapolate) found.value = (4 * levels[last] - levels[last - 1]) / 3;
-  found.error = (last == 1 ? margin_of_two : margin) * max_column_norm(step) / (pressing ? 1 : 3);
-  if (last == 1 || pressing) return found;
+  found.error = (last == 1 ? margin_of_two : margin) * max_column_norm(step) / (no_order ? 1 : 3);
+  if (last == 1 || no_order) return found;
   const Eigen::Matrix3Xd before = levels[last - 1] - levels[last - 2];
   const double by_order = margin * left_by_order(step, before);
   found.error =
@@ -325,8 +327,8 @@ void NestedShell::take_reactions() {
     const auto entries = state_.held_stiffness.reshaped().transpose();
     stiffness.emplace_back(Eigen::Matrix3Xd::Zero(3, entries.cols())).row(0) = entries;
   }
-  const bool no_order = finest.assembly().energies[Term::contact] > 0 ||
-                        (forces.size() == 2 && !levels_.back()->model.joint_spins.empty());
+  const bool no_order =
+      order_unknown(levels_.back()->model, finest.assembly().energies, forces.size());
   const CertifiedVectors force = certify_vectors(forces, plan_.extrapolate_forces, no_order),
                          growth = certify_vectors(stiffness, plan_.extrapolate_forces, no_order);
   state_.reactions.clear();

@@ -40,10 +40,15 @@ struct CertifiedVectors {
   double error = 0;  ///< of the largest, by the order that three meshes show; NaN on one mesh
 };
 
-/// `levels`: coarse to fine, of which the last three count. Where rods press on one another
-/// (`pressing`), which knows no order, the error is the whole step between the last two.
+/// Whether so many meshes tell no order of convergence: none do where rods press on one another,
+/// as where on its edges a mesh presses is chance, nor two of joints that resist spin, where it may
+/// be the first. `energies`: of the finest.
+bool order_unknown(const Model& model, const Energies& energies, std::size_t meshes);
+
+/// `levels`: coarse to fine, of which the last three count. Where no order is known the error is
+/// the whole step between the last two.
 CertifiedVectors certify_vectors(const std::vector<Eigen::Matrix3Xd>& levels, bool extrapolate,
-                                 bool pressing);
+                                 bool no_order);
 
 /// What a finer mesh adds to the state of the one before it, interpolated: where its state is
 /// looked for nearby. A guess, so in single precision.

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/simulate/simulation.h"
+#include "tests/presets.h"
 
 using namespace gridshell;
 
@@ -12,14 +13,8 @@ namespace {
 /// A superellipse whose dome has several states of rest close to one another: brought to rest on
 /// each mesh by itself, it came to states 0.6 mm apart in height.
 Scene many_states() {
-  preset::Preset p;
-  p.footprint.kind = preset::FootprintKind::curve;
-  p.footprint.boundary.kind = preset::CurveKind::superellipse;
-  p.footprint.boundary.half_x_mm = 123.26901689171791;
-  p.footprint.boundary.half_y_mm = 102.08232879638672;
-  p.footprint.boundary.exponent = 3.0916969776153564;
-  p.actuation.scale = 0.8719519721716642;
-  return scene_of(p).value();
+  return value_of(scene_of(superellipse(123.26901689171791, 102.08232879638672, 3.0916969776153564,
+                                        0.8719519721716642)));
 }
 
 Energies first_energies(const std::shared_ptr<const Scene>& scene, int edges) {

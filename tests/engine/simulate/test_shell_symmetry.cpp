@@ -35,13 +35,7 @@ TEST_CASE("symmetric states, and those that are clearly not, are not doubtful") 
 TEST_CASE("of a shell's mirror images it is the seed's, whichever mesh leads") {
   // rods of nearly one length, which buckle in many ways at once: next to the flat each leader
   // comes to an image of its own
-  preset::Preset p;
-  p.footprint.kind = preset::FootprintKind::curve;
-  p.footprint.boundary.kind = preset::CurveKind::superellipse;
-  p.footprint.boundary.half_x_mm = 97.549340278;
-  p.footprint.boundary.half_y_mm = 104.313228855;
-  p.footprint.boundary.exponent = 4.331419192;
-  p.actuation.scale = 0.9545160727;
+  preset::Preset p = superellipse(97.549340278, 104.313228855, 4.331419192, 0.9545160727);
   p.accuracy.tolerance = 3.6e-3;
   p.movie.frames = 2;
   const auto led = run(p);
