@@ -123,6 +123,7 @@ class StoredFrames : public FrameSource {
   }
 
   std::size_t size() const override { return heads_.size(); }
+  const Frame* head(std::size_t k) const override { return &heads_[k]; }
 
   Result<Frame> read(std::size_t k) const override {
     Frame frame = heads_[k];
@@ -200,31 +201,32 @@ void write_frames(hdf5::Writer& file, const Layout& layout, const FrameList& fra
                        "those of the finest mesh"
                      : "of the finest mesh");
   file.dataset("/cell_K", H5T_NATIVE_DOUBLE, {count, hsize_t(layout.cells.size())}, nullptr, "rad");
-  // loads and braces may be gone again at the end
+  // loads and braces may come late: frames before have none
   std::set<std::string> known;
-  for (const Frame& frame : frames)
-    each_rod_field([&](const char* name, const char*, SizeOf, const char*, auto field) {
-      if ((frame.*field).size() > 0) known.insert(name);
-    });
-  const auto each_known_field = [&](const auto& visit) {
-    each_rod_field(
-        [&](const char* name, const char* unit, SizeOf size, const char* meaning, auto field) {
-          if (known.contains(name)) visit(name, unit, size(layout), meaning, field);
-        });
-  };
-  each_known_field([&]<class Values>(const char* name, const char* unit, Eigen::Index size,
-                                     const char* meaning, Values Frame::*) {
+  const auto begin_field = [&]<class Values>(const char* name, const char* unit, Eigen::Index size,
+                                             const char* meaning, Values Frame::*, hsize_t from) {
+    if (!known.insert(name).second) return;
     file.dataset(name, H5T_NATIVE_DOUBLE, dims_of<Values>(count, size), nullptr, unit);
     file.attribute(name, "meaning", std::string(meaning) + "; NaN: unknown");
-  });
+    const Values none = sized<Values>(size);
+    for (hsize_t k = 0; k < from; ++k) file.write_slice(name, H5T_NATIVE_DOUBLE, k, none.data());
+  };
+  const auto begin_fields = [&](const Frame& frame, hsize_t k) {
+    each_rod_field(
+        [&](const char* name, const char* unit, SizeOf size, const char* meaning, auto field) {
+          if ((frame.*field).size() > 0) begin_field(name, unit, size(layout), meaning, field, k);
+        });
+  };
   std::vector<Frame> heads;
   for (const Frame& frame : frames) {
     const hsize_t k = heads.size();
+    begin_fields(frame, k);
     file.write_slice("/nodes", H5T_NATIVE_DOUBLE, k, frame.nodes.data());
     file.write_slice("/cell_K", H5T_NATIVE_DOUBLE, k, frame.cell_K.data());
-    each_known_field([&]<class Values>(const char* name, const char*, Eigen::Index size,
-                                       const char*, Values Frame::*field) {
-      const Values values = (frame.*field).size() > 0 ? frame.*field : sized<Values>(size);
+    each_rod_field([&]<class Values>(const char* name, const char*, SizeOf size, const char*,
+                                     Values Frame::*field) {
+      if (!known.contains(name)) return;
+      const Values values = (frame.*field).size() > 0 ? frame.*field : sized<Values>(size(layout));
       file.write_slice(name, H5T_NATIVE_DOUBLE, k, values.data());
     });
     heads.push_back(without_nodes(frame));

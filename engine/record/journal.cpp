@@ -222,19 +222,27 @@ class JournalFrames : public FrameSource {
   /// The first frame that fits the layout decides how many nodes there are; those that do not fit
   /// it are left out.
   void find_those_of(const Layout& layout) {
-    std::map<int, std::pair<Place, Eigen::Index>> found;  // and its nodes; -1: it fits none
+    struct Found {
+      Place place;
+      Eigen::Index nodes;  // -1: it fits none
+      Frame head;
+    };
+    std::map<int, Found> found;
     journal_.each_frame([&](int index, const Record& record) {
       const auto one = unpacked_frame(record.payload, journal_.head.columns);
       const Eigen::Index nodes = one ? one->nodes.cols() : -1;
       const bool fits = one && check_layout(layout, nodes) && check_frame(layout, *one, 0, nodes);
-      found[index] = {record.place, fits ? nodes : -1};
+      found[index] = {record.place, fits ? nodes : -1, fits ? without_nodes(*one) : Frame()};
     });
     Eigen::Index nodes = -1;
-    for (const auto& [index, one] : found) {
-      if (nodes < 0) nodes = one.second;
-      if (nodes >= 0 && one.second == nodes) places_.push_back(one.first);
+    for (auto& [index, one] : found) {
+      if (nodes < 0) nodes = one.nodes;
+      if (nodes < 0 || one.nodes != nodes) continue;
+      places_.push_back(one.place);
+      heads_.push_back(std::move(one.head));
     }
   }
+  const Frame* head(std::size_t k) const override { return &heads_[k]; }
   std::size_t size() const override { return places_.size(); }
   Result<Frame> read(std::size_t k) const override { return frame_at(places_[k]); }
 
@@ -247,6 +255,7 @@ class JournalFrames : public FrameSource {
 
   OpenJournal journal_;
   std::vector<Place> places_;
+  std::vector<Frame> heads_;
 };
 
 }  // namespace

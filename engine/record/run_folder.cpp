@@ -61,7 +61,8 @@ void put(CsvWriter& csv, const T& value) {
 std::string bins_csv(const Trajectory& trajectory) {
   CsvWriter csv;
   csv.line("frame", "x_low", "x_high", "K_mean", "K_deviation", "cells");
-  for (const Frame& frame : trajectory.frames) {
+  for (std::size_t f = 0; f < trajectory.frames.size(); ++f) {
+    const Frame& frame = trajectory.frames.head(f);
     const Eigen::Index bins = frame.K_bins.rows();
     for (Eigen::Index k = 0; k < bins; ++k)
       csv.line(frame.index, -1 + 2.0 * double(k) / double(bins),
@@ -75,9 +76,9 @@ std::string frames_csv(const Trajectory& trajectory) {
   CsvWriter csv;
   for (const FrameColumn& column : frame_columns) csv.cell(column.name);
   csv.end_line();
-  for (const Frame& frame : trajectory.frames) {
+  for (std::size_t k = 0; k < trajectory.frames.size(); ++k) {
     for (const FrameColumn& column : frame_columns)
-      visit_column(column, frame, [&](const auto& value) { put(csv, value); });
+      visit_column(column, trajectory.frames.head(k), [&](const auto& value) { put(csv, value); });
     csv.end_line();
   }
   return std::move(csv).text();

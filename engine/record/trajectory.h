@@ -19,11 +19,13 @@
 
 namespace gridshell::record {
 
-/// Frames that lie elsewhere.
+/// Frames that lie elsewhere, all of one layout.
 class FrameSource {
  public:
   virtual ~FrameSource() = default;
   virtual std::size_t size() const = 0;
+  /// The k-th without_nodes(), which stay in memory; null: they do not.
+  virtual const Frame* head(std::size_t) const { return nullptr; }
   /// The k-th in order. Errors: io, bad_input when what is read is damaged.
   virtual Result<Frame> read(std::size_t k) const = 0;
 };
@@ -60,6 +62,13 @@ class FrameList {
   std::size_t size() const { return source_ ? source_->size() : frames_.size(); }
   bool empty() const { return size() == 0; }
   const Frame& operator[](std::size_t k) const;
+  /// The k-th, of which nodes and what lies along rods may be missing: its numbers alone.
+  const Frame& head(std::size_t k) const {
+    const Frame* head = source_ ? source_->head(k) : nullptr;
+    return head ? *head : (*this)[k];
+  }
+  /// Whether frames come from a source, which has looked whether they fit their layout.
+  bool has_source() const { return source_ != nullptr; }
   const Frame& front() const { return (*this)[0]; }
   const Frame& back() const { return (*this)[size() - 1]; }
   const_iterator begin() const { return {this, 0}; }
@@ -211,7 +220,7 @@ Result<void> check_layout(const Layout& layout, Eigen::Index nodes);
 Result<void> check_frame(const Layout& layout, const Frame& frame, std::size_t k,
                          Eigen::Index nodes);
 
-/// All of this, of every frame the nodes of the first.
+/// All of this, of every frame the nodes of the first; a source has looked at its own.
 Result<void> check_consistency(const Trajectory& trajectory);
 
 // Where the frames of a run go as they are found.

@@ -232,6 +232,11 @@ Result<EquilibriumPath> run_actuation(std::shared_ptr<const Scene> scene,
   PathSampler sampler(*path, caption_of(*scene), sink, watch, progress.size());
   const Checkpoint end = path->simulation.save();
   std::optional<PathSample> last_taken;
+  std::vector<PathSample> samples;
+  for (std::size_t k = 0; k < progress.size(); ++k)
+    if (const double t = parameter_at(progress[k]); const auto segment = leg_at(*path, t))
+      samples.push_back({int(k), *segment, t, progress[k]});
+  sampler.expect(std::move(samples));
   for (std::size_t k = 0; k < progress.size(); ++k) {
     PathSample sample{int(k), 0, parameter_at(progress[k]), progress[k]};
     if (progress[k] == 0 && rests_flat(*scene)) {

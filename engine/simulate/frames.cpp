@@ -212,7 +212,7 @@ record::Frame frame_of(const Simulation& simulation) {
 }
 
 record::Frame leading_frame(const Simulation& simulation, const State& state,
-                            const Assembly& forces, const MeshTransfer& to_finest) {
+                            const Linearisation& system, const MeshTransfer& to_finest) {
   const RodMesh& mesh = simulation.shell().mesh(0);
   const Model& model = simulation.shell().model(0);
   const Footprint& footprint = simulation.scene().footprint;
@@ -221,9 +221,9 @@ record::Frame leading_frame(const Simulation& simulation, const State& state,
   to_finest.nodes(nodes, frame.nodes);
   frame.nodes.conservativeResize(3, simulation.shell().finest().rod_nodes());
   frame.cell_K = cell_curvature(footprint, joint_tangents(footprint, mesh, nodes));
-  frame.energies = forces.energies;
-  frame.reactions_N = reactions_of(mesh, model, forces, simulation.holds());
-  frame.loads_N = loads_on(mesh, model, state.x, simulation.shell().outside(0));
+  frame.energies = system.assembly().energies;
+  frame.reactions_N = reactions_of(mesh, model, system.assembly(), simulation.holds());
+  frame.loads_N = loads_on(mesh, model, state.x, system.outside);
   return frame;
 }
 

@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <span>
+#include <utility>
 
 #include "engine/core/dense.h"
+#include "engine/core/team.h"
 #include "engine/simulate/frame_forces.h"
 #include "engine/simulate/frames.h"
 
@@ -14,7 +18,8 @@ constexpr double share_of_tolerance = 0.1;  // that a polynomial in t may leave
 constexpr double nearby = 1e-3;  // of d: a correction beyond is none of the guess's own branch
 constexpr double misfit_of_knots = 1e-5;  // of the largest axial force (nested_certificate.cpp)
 constexpr std::size_t most_knots = 6;
-constexpr int parts = 4;  // of the way between two load steps
+constexpr int parts = 4;               // of the way between two load steps
+constexpr std::size_t most_ahead = 8;  // pieces of the way, however many help
 
 bool smooth(const PathSegment& segment, std::size_t k) {
   return goes_on_between(segment, segment.load_steps[k], segment.load_steps[k + 1]);
@@ -38,15 +43,23 @@ State hermite(const Model& model, const PathPoint& a, const PathPoint& b, double
   return guess;
 }
 
+/// What acts and what is held on another system of the same mesh.
+void take_over(const Linearisation& from, Linearisation& to) {
+  to.outside = from.outside;
+  to.hold(from.holds());
+  if (from.neutral_shift() > 0) to.bear_neutral_directions();
+}
+
 }  // namespace
 
 FramesBetween::FramesBetween(EquilibriumPath& path, decltype(Caption::measure) measure,
-                             const Watch& watch)
+                             const Watch& watch, std::vector<PathSample> expected)
     : path_(path),
       measure_(std::move(measure)),
       watch_(watch),
       to_finest_(path.simulation.shell().mesh(0), path.simulation.shell().finest()),
-      contacts_(parts_of(path.simulation.scene(), path.simulation.shell().finest())) {
+      contacts_(parts_of(path.simulation.scene(), path.simulation.shell().finest())),
+      expected_(std::move(expected)) {
   const Simulation& simulation = path.simulation;
   wanted_ = simulation.shell().levels() > 1 && !simulation.scene().rods.contact.barrier.acts() &&
             strains_by_curvature(simulation.shell().model(simulation.shell().levels() - 1));
@@ -79,26 +92,15 @@ FramesBetween::Weights FramesBetween::weights_at(const std::vector<double>& know
            all - polynomial_weights(known, t, known.size() - 1)}};
 }
 
-/// Factorises the coarsest mesh in the middle of the piece between two load steps in which t lies,
-/// so that a frame does not depend on which others there are.
-Inertia FramesBetween::factored_near(double t, const PathPoint& from, const PathPoint& to) {
-  const double piece = std::floor(parts * (t - from.t) / (to.t - from.t));
-  const double middle = from.t + (piece + 0.5) / parts * (to.t - from.t);
-  NestedShell& shell = path_.simulation.shell();
-  Linearisation& system = shell.system(0);
-  if (factored_.t == middle && factored_.count == system.effort().factorizations)
-    return factored_.inertia;
-  State state = hermite(shell.model(0), from, to, middle);
-  shell.motion(0).impose(system, middle, state);
-  factored_ = {middle, system.at(state), system.effort().factorizations};
-  return factored_.inertia;
+/// So that a frame does not depend on which others there are.
+double FramesBetween::Draft::middle() const {
+  return from->t + (std::floor(parts * share()) + 0.5) / parts * (to->t - from->t);
 }
 
 /// The coarsest mesh brought to rest beside a guess, where it is stable there.
-std::optional<record::Frame> FramesBetween::leading_at(double t, State& guess,
-                                                       std::optional<Inertia> factored) {
-  NestedShell& shell = path_.simulation.shell();
-  Linearisation& system = shell.system(0);
+std::optional<record::Frame> FramesBetween::leading_at(Linearisation& system, double t,
+                                                       State& guess,
+                                                       std::optional<Inertia> factored) const {
   const Scene& scene = path_.simulation.scene();
   NewtonOptions options;
   options.tolerance_mm = options.trusted_mm = 1e-3 * scene.tolerance * scene.length_scale_mm;
@@ -106,11 +108,11 @@ std::optional<record::Frame> FramesBetween::leading_at(double t, State& guess,
   options.farthest_mm = nearby * scene.footprint.spacing;
   options.most_iterations = 8;
   if (factored && factored->positive_definite()) options.factored = factored;
-  shell.motion(0).impose(system, t, guess);
+  path_.simulation.shell().motion(0).impose(system, t, guess);
   const NewtonReport report = newton(system, guess, options, watch_);
   if (report.outcome != Outcome::reached || !report.inertia.positive_definite()) return {};
   system.gradient_at(guess);
-  record::Frame frame = leading_frame(path_.simulation, guess, system.assembly(), to_finest_);
+  record::Frame frame = leading_frame(path_.simulation, guess, system, to_finest_);
   frame.residual_N = system.residual();
   frame.negative_pivots = 0;
   frame.newton_iterations = report.iterations;
@@ -118,17 +120,21 @@ std::optional<record::Frame> FramesBetween::leading_at(double t, State& guess,
 }
 
 /// The frame of a certified state, but of nodes, K, reactions and energies what finer meshes add.
-std::optional<FramesBetween::Knot> FramesBetween::knot_at(double t, const LoadStep& beside) {
+/// Nothing: there is no stable one.
+std::shared_ptr<const FramesBetween::Knot> FramesBetween::knot_at(double t,
+                                                                  const LoadStep& beside) {
+  NestedShell& shell = path_.simulation.shell();
   const Report report = path_.simulation.sample(t, beside, false, watch_);
-  if (report.end != Outcome::reached || !report.certificate.stable()) return {};
-  Knot knot{frame_of(path_.simulation), path_.simulation.shell().state().levels[0]};
-  measure_(knot.added, t, false);
-  const auto leading = leading_at(t, knot.leading);
-  if (!leading) return {};
-  knot.added.nodes -= leading->nodes;
-  knot.added.cell_K -= leading->cell_K;
-  knot.added.reactions_N -= leading->reactions_N;
-  knot.added.energies += -1 * leading->energies;
+  if (report.end != Outcome::reached || !report.certificate.stable()) return nullptr;
+  const auto knot =
+      std::make_shared<Knot>(Knot{frame_of(path_.simulation), shell.state().levels[0]});
+  measure_(knot->added, t, false);
+  const auto leading = leading_at(shell.system(0), t, knot->leading);
+  if (!leading) return nullptr;
+  knot->added.nodes -= leading->nodes;
+  knot->added.cell_K -= leading->cell_K;
+  knot->added.reactions_N -= leading->reactions_N;
+  knot->added.energies += -1 * leading->energies;
   return knot;
 }
 
@@ -143,7 +149,7 @@ FramesBetween::Knots FramesBetween::knots_in(const PathSegment& segment, const W
   for (std::size_t k = window.first; k < end; ++k) {
     const auto [at, is_new] = knots_.try_emplace({k, 0});
     if (is_new) at->second = knot_at(segment.load_steps[k].point.t, segment.load_steps[k]);
-    if (at->second) knots.push_back(&*at->second);
+    if (at->second) knots.push_back(at->second);
   }
   return knots;
 }
@@ -160,7 +166,7 @@ FramesBetween::Knots FramesBetween::knots_between(const PathSegment& segment,
     const double share = double(part) / parts;
     if (is_new) at->second = knot_at((1 - share) * a.point.t + share * b.point.t, whole ? b : a);
     if (!at->second) break;
-    knots.push_back(&*at->second);
+    knots.push_back(at->second);
   }
   return knots;
 }
@@ -187,6 +193,40 @@ double FramesBetween::doubt_mm(const Knots& knots, const Weights& weights) const
 }
 
 std::optional<record::Frame> FramesBetween::at(const PathSample& sample) {
+  if (!ready_.contains(sample.index)) read_ahead(sample);
+  auto frame = std::move(ready_.extract(sample.index).mapped());
+  if (frame) measure_(*frame, sample.t, true);
+  return frame;
+}
+
+/// Makes the frames of the piece of the way in which a sample lies, and of the next ones.
+void FramesBetween::read_ahead(const PathSample& sample) {
+  std::vector<Draft> drafts;
+  std::set<double> pieces;
+  auto next = std::ranges::find(expected_, sample.index, &PathSample::index);
+  for (PathSample ahead = sample; ahead.segment == sample.segment; ahead = *next) {
+    auto draft = draft_at(ahead, false);
+    if (!draft || (pieces.insert(draft->middle()), pieces.size() > most_ahead)) break;
+    drafts.push_back(std::move(*draft));
+    if (next == expected_.end() || ++next == expected_.end()) break;
+  }
+  ready_.clear();
+  ready_[sample.index] = {};
+  finish(drafts);
+  Factored alone{path_.simulation.shell().system(0)};
+  for (Draft& draft : drafts) {
+    if (!draft.frame)
+      if (auto closer = draft_at(draft.sample, true)) {
+        finish(*closer, alone);
+        draft.frame = std::move(closer->frame);
+      }
+    ready_[draft.sample.index] = std::move(draft.frame);
+  }
+}
+
+/// A sample's guess, by states in between where the polynomial through load steps is in doubt or
+/// `closer` is asked for. Nothing: as of at().
+std::optional<FramesBetween::Draft> FramesBetween::draft_at(const PathSample& sample, bool closer) {
   const PathSegment& segment = path_.segments[sample.segment];
   const auto window = wanted_ ? window_at(segment, sample.t) : std::nullopt;
   if (!window) return {};
@@ -197,44 +237,86 @@ std::optional<record::Frame> FramesBetween::at(const PathSample& sample) {
   segment_ = sample.segment;
   const Scene& scene = path_.simulation.scene();
   const Model& model = path_.simulation.shell().model(0);
-  const double allowed_mm = share_of_tolerance * scene.tolerance * scene.length_scale_mm,
-               share = (sample.t - from.t) / (to.t - from.t);
+  const double allowed_mm = share_of_tolerance * scene.tolerance * scene.length_scale_mm;
   const Knots knots = knots_in(segment, *window);
   if (knots.size() < window->t.size()) return {};
-  const Knot &before = *knots[window->before - window->first],
-             &after = *knots[window->before - window->first + 1];
-  State guess = hermite(model, from, to, sample.t);
-  const Weights weights = weights_at(window->t, sample.t);
-  if (doubt_mm(knots, weights) <= allowed_mm)
-    if (auto frame = leading_at(sample.t, guess, factored_near(sample.t, from, to)))
-      return composed(std::move(*frame), sample.t, share, {&before, &after}, knots, weights);
+  const std::size_t before = window->before - window->first;
+  Draft draft{
+      sample, hermite(model, from, to, sample.t), &from, &to, {knots[before], knots[before + 1]},
+      knots,  weights_at(window->t, sample.t)};
+  if (!closer && doubt_mm(draft.knots, draft.weights) <= allowed_mm) return draft;
   // states in between
-  const Knots closer = knots_between(segment, *window);
-  if (int(closer.size()) <= parts) return {};
+  draft.knots = knots_between(segment, *window);
+  if (int(draft.knots.size()) <= parts) return {};
   std::vector<double> known;
   for (int part = 0; part <= parts; ++part)
     known.push_back(from.t + (to.t - from.t) * part / parts);
-  const Weights of_closer = weights_at(known, sample.t);
-  if (!(doubt_mm(closer, of_closer) <= allowed_mm)) return {};
-  guess = hermite(model, from, to, sample.t);
-  Eigen::Matrix3Xd x = guess.x;
-  x.leftCols(model.nodes) = weighted(closer, of_closer.all, [&](const Knot& knot) {
+  draft.weights = weights_at(known, sample.t);
+  if (!(doubt_mm(draft.knots, draft.weights) <= allowed_mm)) return {};
+  Eigen::Matrix3Xd x = draft.guess.x;
+  x.leftCols(model.nodes) = weighted(draft.knots, draft.weights.all, [&](const Knot& knot) {
     return Eigen::Matrix3Xd(knot.leading.x.leftCols(model.nodes));
   });
-  move_to(model, x, guess);
-  guess.force = weighted(closer, of_closer.all, [](const Knot& knot) -> const Eigen::VectorXd& {
-    return knot.leading.force;
-  });
-  auto frame = leading_at(sample.t, guess, factored_near(sample.t, from, to));
-  if (!frame) return {};
-  return composed(std::move(*frame), sample.t, share, {&before, &after}, closer, of_closer);
+  move_to(model, x, draft.guess);
+  draft.guess.force =
+      weighted(draft.knots, draft.weights.all,
+               [](const Knot& knot) -> const Eigen::VectorXd& { return knot.leading.force; });
+  return draft;
+}
+
+/// Whole pieces of the way, each by one of the team.
+void FramesBetween::finish(std::vector<Draft>& drafts) {
+  std::vector<std::span<Draft>> pieces;
+  for (std::size_t begin = 0, end = 0; begin < drafts.size(); begin = end) {
+    while (end < drafts.size() && drafts[end].middle() == drafts[begin].middle()) ++end;
+    pieces.push_back(std::span(drafts).subspan(begin, end - begin));
+  }
+  const Scene& scene = path_.simulation.scene();
+  NestedShell& shell = path_.simulation.shell();
+  Linearisation& first = shell.system(0);
+  const int helpers = scene.team ? scene.team->threads() : 1,
+            lanes = std::min({helpers, int(pieces.size()), int(most_ahead)});
+  while (int(systems_.size()) + 1 < lanes)
+    systems_.push_back(std::make_unique<Linearisation>(shell.model(0)));
+  const auto work = [&](int lane) {
+    Factored factored{lane == 0 ? first : *systems_[std::size_t(lane - 1)]};
+    for (auto k = std::size_t(lane); k < pieces.size(); k += std::size_t(lanes))
+      for (Draft& draft : pieces[k]) finish(draft, factored);
+  };
+  if (lanes < 2) {
+    if (lanes == 1) work(0);
+    return;
+  }
+  for (const auto& system : systems_) take_over(first, *system);
+  first.work_with(nullptr);
+  scene.team->run(lanes, work);
+  first.work_with(scene.team.get());
+  for (const auto& system : systems_) first.effort() += std::exchange(system->effort(), {});
+}
+
+/// Brings the coarsest mesh to rest with one factorisation a piece.
+void FramesBetween::finish(Draft& draft, Factored& factored) const {
+  const NestedShell& shell = path_.simulation.shell();
+  Linearisation& system = factored.system;
+  const double middle = draft.middle();
+  if (factored.t != middle || factored.count != system.effort().factorizations) {
+    State state = hermite(shell.model(0), *draft.from, *draft.to, middle);
+    shell.motion(0).impose(system, middle, state);
+    factored.inertia = system.at(state);
+    factored.t = middle;
+    factored.count = system.effort().factorizations;
+  }
+  draft.frame = leading_at(system, draft.sample.t, draft.guess, factored.inertia);
+  if (draft.frame) compose(draft);
 }
 
 /// The coarsest mesh's frame with what finer meshes add, and the errors of both.
-record::Frame FramesBetween::composed(record::Frame frame, double t, double share,
-                                      const Knots& around, const Knots& knots,
-                                      const Weights& weights) const {
+void FramesBetween::compose(Draft& draft) const {
   using record::Frame;
+  Frame& frame = *draft.frame;
+  const double share = draft.share();
+  const Knots &around = draft.around, &knots = draft.knots;
+  const Weights& weights = draft.weights;
   const auto sum = [&](const Eigen::VectorXd& w, auto member) {
     return weighted(
         knots, w, [&](const Knot& knot) -> const auto& { return knot.added.*member; });
@@ -277,8 +359,6 @@ record::Frame FramesBetween::composed(record::Frame frame, double t, double shar
   error(&Frame::stiffness_error_N_per_mm,
         doubt(&Frame::stiffness_N_per_mm, [](double value) { return std::abs(value); }));
   complete_shape(path_.simulation, contacts_.in(frame.nodes), frame);
-  measure_(frame, t, true);
-  return frame;
 }
 
 }  // namespace gridshell::simulate

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
+#include <vector>
 
 #include "engine/footprint/mesh.h"
 #include "engine/record/contacts.h"
@@ -13,17 +15,20 @@ namespace gridshell::simulate {
 /// Between two load steps of one smooth branch the coarsest mesh is brought to rest at t, from the
 /// cubic through states and tangents of both [Hermite]; what finer meshes add to its nodes, K,
 /// reactions and energies, and what lies along the rods, is a polynomial in t through up to six
-/// load steps of that branch [Lagrange], or, where that leaves too much, through the two around it
-/// and three states certified between them. The residual is the coarsest mesh's. Its pivots are
-/// those in the middle of a quarter of the way between the load steps, as long as corrections by
-/// that factorisation shrink tenfold: no stiffness that they meet differs by more than a tenth
-/// then. The error estimates are those of the load steps around it, evenly in between, and twice
-/// what polynomials of one degree less, without the first or the last of those load steps, would
-/// have changed.
+/// load steps of that branch [Lagrange], or, where that leaves too much or does not lead to a
+/// state, through the two around it and three states certified between them. The residual is the
+/// coarsest mesh's. Its pivots are those in the middle of a quarter of the way between the load
+/// steps, as long as corrections by that factorisation shrink tenfold: no stiffness that they meet
+/// differs by more than a tenth then. The error estimates are those of the load steps around it,
+/// evenly in between, and twice what polynomials of one degree less, without the first or the last
+/// of those load steps, would have changed.
 class FramesBetween {
  public:
-  /// `measure`: as of Caption.
-  FramesBetween(EquilibriumPath& path, decltype(Caption::measure) measure, const Watch& watch);
+  /// `measure`: as of Caption; `expected`: samples that may come, in the order of their index.
+  /// Frames are made some pieces of the way ahead, by all of the scene's team, and are the same
+  /// without one.
+  FramesBetween(EquilibriumPath& path, decltype(Caption::measure) measure, const Watch& watch,
+                std::vector<PathSample> expected = {});
 
   /// The frame of a sample, without its place and event. Nothing: on a load step; where the branch
   /// is left, not stable, on one mesh, or pressed together by contact; where the error by the
@@ -36,7 +41,7 @@ class FramesBetween {
     record::Frame added;
     State leading;
   };
-  using Knots = std::vector<const Knot*>;
+  using Knots = std::vector<std::shared_ptr<const Knot>>;
   /// Of a polynomial in t at a place.
   struct Weights {
     Eigen::VectorXd all;
@@ -47,17 +52,39 @@ class FramesBetween {
     std::vector<double> t;   ///< of the load steps
     std::size_t before = 0;  ///< that in front of the sample
   };
+  /// A frame as it is begun, and as it becomes.
+  struct Draft {
+    PathSample sample;
+    State guess;
+    const PathPoint *from, *to;  ///< load steps around it
+    Knots around, knots;         ///< those at these load steps, and all that count
+    Weights weights;
+    std::optional<record::Frame> frame = {};
+
+    double share() const { return (sample.t - from->t) / (to->t - from->t); }
+    /// Path parameter in the middle of its piece of the way.
+    double middle() const;
+  };
+  /// Where the coarsest mesh was factorised last for a frame, and how often it was by then.
+  struct Factored {
+    Linearisation& system;
+    double t = record::unknown;
+    Inertia inertia = {};
+    int count = 0;
+  };
   static Weights weights_at(const std::vector<double>& known, double t);
   std::optional<Window> window_at(const PathSegment& segment, double t) const;
   Knots knots_in(const PathSegment& segment, const Window& window);
   Knots knots_between(const PathSegment& segment, const Window& window);
   double doubt_mm(const Knots& knots, const Weights& weights) const;
-  std::optional<Knot> knot_at(double t, const LoadStep& beside);
-  Inertia factored_near(double t, const PathPoint& from, const PathPoint& to);
-  std::optional<record::Frame> leading_at(double t, State& guess,
-                                          std::optional<Inertia> factored = {});
-  record::Frame composed(record::Frame frame, double t, double share, const Knots& around,
-                         const Knots& knots, const Weights& weights) const;
+  std::shared_ptr<const Knot> knot_at(double t, const LoadStep& beside);
+  std::optional<Draft> draft_at(const PathSample& sample, bool closer);
+  void read_ahead(const PathSample& sample);
+  void finish(std::vector<Draft>& drafts);
+  void finish(Draft& draft, Factored& factored) const;
+  std::optional<record::Frame> leading_at(Linearisation& system, double t, State& guess,
+                                          std::optional<Inertia> factored = {}) const;
+  void compose(Draft& draft) const;
 
   EquilibriumPath& path_;
   decltype(Caption::measure) measure_;
@@ -66,14 +93,11 @@ class FramesBetween {
   record::ContactSearch contacts_;
   bool wanted_;
   std::size_t segment_ = 0;
-  /// Where the coarsest mesh was factorised last for a frame, and how often it was by then.
-  struct Factored {
-    double t = record::unknown;
-    Inertia inertia = {};
-    int count = 0;
-  } factored_;
+  std::vector<PathSample> expected_;
+  std::map<int, std::optional<record::Frame>> ready_;    // by index of the sample
+  std::vector<std::unique_ptr<Linearisation>> systems_;  // of the team but for its first
   // by load step, and by quarters of the way to the next; nothing: there is none
-  std::map<std::pair<std::size_t, int>, std::optional<Knot>> knots_;
+  std::map<std::pair<std::size_t, int>, std::shared_ptr<const Knot>> knots_;
 };
 
 }  // namespace gridshell::simulate

@@ -253,8 +253,11 @@ Result<EquilibriumPath> run_indentation(std::shared_ptr<const Scene> scene,
   TRY_DO(sink.begin(std::move(*layout)));
   const Checkpoint end = kept->simulation.save();
   PathSampler sampler(*kept, caption_of(*kept), sink, watch, progress.size());
-  for (std::size_t k = 0; k < progress.size(); ++k) {
-    PathSample sample = sample_of(k, progress[k], indentation.unload);
+  std::vector<PathSample> samples;
+  for (std::size_t k = 0; k < progress.size(); ++k)
+    samples.push_back(sample_of(k, progress[k], indentation.unload));
+  sampler.expect(samples);
+  for (PathSample sample : samples) {
     Result<bool> taken = false;
     if (came_to(*kept, sample)) taken = sampler.at(sample);
     if (!taken) return tl::unexpected<Error>(taken.error());
