@@ -7,11 +7,9 @@
 #include <memory>
 
 #include "app/cli/console.h"
-#include "app/cli/design.h"
 #include "app/cli/pictures.h"
 #include "app/cli/preset_library.h"
 #include "app/cli/produce.h"
-#include "app/cli/reference.h"
 #include "app/cli/staged_folder.h"
 #include "engine/core/try.h"
 #include "engine/gridshell.h"

@@ -6,9 +6,9 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/console.h"
-#include "app/cli/finished_run.h"
 #include "app/cli/options.h"
 #include "app/cli/preset_library.h"
+#include "app/cli/produce.h"
 #include "app/cli/staged_folder.h"
 #include "app/window/viewer_state.h"
 #include "engine/core/file_io.h"

@@ -15,12 +15,10 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/console.h"
-#include "app/cli/design.h"
-#include "app/cli/finished_run.h"
 #include "app/cli/options.h"
 #include "app/cli/pictures.h"
 #include "app/cli/preset_library.h"
-#include "app/cli/reference.h"
+#include "app/cli/produce.h"
 #include "app/window/imgui_painter.h"
 #include "app/window/interface.h"
 #include "app/window/viewer_state.h"

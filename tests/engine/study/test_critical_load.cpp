@@ -1,12 +1,9 @@
 // Critical loads with known answers, by arc length and linearised.
-#include "engine/study/critical_load.h"
-
-#include <functional>
 
 #include "engine/elastic/along_rods.h"
 #include "engine/study/load_study.h"
 #include "tests/engine/solve/rod_cases.h"
-#include "tests/presets.h"
+#include "tests/results.h"
 #include "tests/small_shell.h"
 
 using namespace gridshell;

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "tests/render/gl/picture.h"
+#include "tests/render/synthetic.h"
+#include "tests/results.h"
 
 using namespace gridshell;
 using namespace gridshell::render;
@@ -11,16 +13,12 @@ using namespace gridshell::render;
 namespace {
 
 test::Studio open_studio() {
-  auto studio = test::studio();
-  REQUIRE(studio);
-  return std::move(*studio);
+  return value_of(test::studio());
 }
 
 Image drawn(test::Studio& studio, const Drawing& drawing, const Camera& camera = {},
             const DrawQuality& quality = {}, int width = 320, int height = 180) {
-  auto image = studio.renderer->draw(drawing, camera, quality, width, height);
-  REQUIRE(image);
-  return std::move(*image);
+  return value_of(studio.renderer->draw(drawing, camera, quality, width, height));
 }
 
 /// The largest difference of a channel between a pixel and a colour, of 255.
@@ -197,10 +195,7 @@ TEST_CASE("what cannot be drawn is refused with its reason", "[draw]") {
   const auto run = synthetic::dome(2, 2);
   const Drawing drawing = test::dome_drawing(run);
   const auto message = [&](const Drawing& d, const DrawQuality& quality, int width, int height) {
-    const auto image = studio.renderer->draw(d, {}, quality, width, height);
-    REQUIRE_FALSE(image);
-    CHECK(image.error().fault == Fault::bad_input);
-    return image.error().message;
+    return refusal(studio.renderer->draw(d, {}, quality, width, height));
   };
   CHECK(message(drawing, {}, 0, 100) == "a picture of 0 x 100 pixels: each must be 1 to 65536");
   CHECK(message(drawing, {0, true, 1}, 9, 9) == "supersample = 0: 1 to 16");
