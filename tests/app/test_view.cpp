@@ -93,8 +93,7 @@ TEST_CASE("a number that is refused says why, and is no step") {
       played(folder,
              "do numbers\ndown Ctrl\nmouse @rod.diameter_mm 0.5 0.5\npress left\nrelease left\n"
              "up Ctrl\ndown Ctrl\ndown A\nup A\nup Ctrl\ntype 99\ndown Enter\nup Enter\n");
-  CHECK(refused["message"].get<std::string>().find("neighbouring rods would touch") !=
-        std::string::npos);
+  CHECK_THAT(refused["message"].get<std::string>(), Contains("neighbouring rods would touch"));
   CHECK(refused["undo_steps"] == 0);
   CHECK(refused["error_estimate_mm"].is_number());
 }
@@ -141,8 +140,8 @@ TEST_CASE("an edge point dragged by the mouse, a key and a menu's action do what
 TEST_CASE("what cannot be done is said in the window, and by the recording's line") {
   const TemporaryFolder folder;
   CHECK(played(folder, "do undo\ndo undo\n")["message"] == "there is nothing to undo");
-  CHECK(played(folder, "open nothing_of_the_kind\n")["message"].get<std::string>().find(
-            "nothing_of_the_kind") != std::string::npos);
+  CHECK_THAT(played(folder, "open nothing_of_the_kind\n")["message"].get<std::string>(),
+             Contains("nothing_of_the_kind"));
   const auto refused = [&](const std::string& input) {
     REQUIRE(write_file(folder.path() / "visit.txt", input));
     return gridshell_program("view small.toml --play visit.txt", folder.path());
@@ -299,10 +298,10 @@ TEST_CASE("a shell is saved under a name, exported, and compared with a run", "[
   CHECK(asked["message"] == "it is there already: once more replaces it");
   // a name that no file system takes is a sentence too, bare and in a folder
   for (const std::string& name : {std::string(300, 'x'), "deep/" + std::string(300, 'x')})
-    CHECK(played(folder, "do save_as\n" + entered(name))["message"].get<std::string>().find(
-              "File name too long") != std::string::npos);
-  CHECK(played(folder, "do compare\n" + entered("deep"))["message"].get<std::string>().find(
-            "deep") != std::string::npos);
+    CHECK_THAT(played(folder, "do save_as\n" + entered(name))["message"].get<std::string>(),
+               Contains("File name too long"));
+  CHECK_THAT(played(folder, "do compare\n" + entered("deep"))["message"].get<std::string>(),
+             Contains("deep"));
 }
 
 TEST_CASE("a step of the strip along the bottom is gone back to, and on to") {

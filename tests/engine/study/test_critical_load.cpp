@@ -256,6 +256,5 @@ TEST_CASE("a shell that has no case to carry is refused by the key") {
   preset::Preset p = snowed_on();
   p.load_case.clear();
   Watch watch;
-  CHECK(refusal(load_study(p, 0, watch), Fault::bad_input).find("[[loads.case]]") !=
-        std::string::npos);
+  CHECK_THAT(refusal(load_study(p, 0, watch), Fault::bad_input), Catch::Contains("[[loads.case]]"));
 }

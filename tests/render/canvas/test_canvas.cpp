@@ -207,8 +207,7 @@ TEST_CASE("the font is chosen by name, and one that is not there is refused") {
   const double usual = width();
   const auto refused = use_font("No Such Font");
   REQUIRE_FALSE(refused);
-  CHECK(refused.error().message.find("\"No Such Font\": no font of that name") !=
-        std::string::npos);
+  CHECK_THAT(refused.error().message, Catch::Contains("\"No Such Font\": no font of that name"));
   CHECK(width() == usual);
   REQUIRE(use_font("DejaVu Sans Mono"));
   CHECK(width() > 1.5 * usual);

@@ -78,8 +78,8 @@ TEST_CASE("a failing ffmpeg is an error with its last words and leaves nothing")
       "for last; do :; done\necho half > \"${last#file:}\"\n"
       "echo 'first line' >&2\necho 'Unknown encoder libx264' >&2\nexit 8\n");
   const TemporaryFolder folder;
-  CHECK(refusal(encode_movie("frames", {}, folder.path() / "movie.mp4", {}), Fault::io)
-            .find("failed with exit code 8: Unknown encoder libx264") != std::string::npos);
+  CHECK_THAT(refusal(encode_movie("frames", {}, folder.path() / "movie.mp4", {}), Fault::io),
+             Catch::Contains("failed with exit code 8: Unknown encoder libx264"));
   CHECK(folder.entries().empty());
 }
 
@@ -223,9 +223,8 @@ TEST_CASE("without ffmpeg no movie is in the making, and one that stops reading 
   const FakeFfmpeg broken("echo 'No space left on device' >&2\nexit 3\n");
   auto movie = value_of(MovieEncoder::begin("frames", of_size(800, 600), folder.path() / "m.mp4"));
   for (int k = 0; k < 3; ++k) (movie)->put(large, unwatched);
-  CHECK(
-      refusal((movie)->finish(unwatched), Fault::io).find("exit code 3: No space left on device") !=
-      std::string::npos);
+  CHECK_THAT(refusal((movie)->finish(unwatched), Fault::io),
+             Catch::Contains("exit code 3: No space left on device"));
   CHECK(folder.entries().empty());
 }
 

@@ -86,8 +86,8 @@ TEST_CASE("what goes wrong is passed on: the renderer, the disk, the run") {
   test::FakeRenderer renderer;
   {
     const FileSizeLimit full(500);
-    CHECK(refusal(write(run, renderer, folder.path() / "b", watch), Fault::io)
-              .find("frame_00000.png") != std::string::npos);
+    CHECK_THAT(refusal(write(run, renderer, folder.path() / "b", watch), Fault::io),
+               Catch::Contains("frame_00000.png"));
   }
   CHECK(std::filesystem::is_empty(folder.path() / "b"));
 
