@@ -291,7 +291,8 @@ Result<int> make_report(ReportOptions options) {
 
 void add_report(CommandLine& program) {
   auto [command, options] = program.add<ReportOptions>(
-      "report", "geometry, stresses, reactions, loads, frequencies, cut list as a PDF", make_report);
+      "report", "geometry, stresses, reactions, loads, frequencies, cut list as a PDF",
+      make_report);
   command.option("RUN", options.input, "folder of a run").required();
   command.option("--to", options.to, "the file, by default RUN_report.pdf");
   command.option("--count", options.modes, "how many frequencies").in_range(1, 200);

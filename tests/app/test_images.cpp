@@ -13,9 +13,7 @@ const fs::path images = fs::path(GRIDSHELL_SOURCE_DIR) / "tests/images";
 
 std::string frame_name(int frame) { return "frame_0000" + std::to_string(frame) + ".png"; }
 
-render::Image picture(const fs::path& path) {
-  return value_of(render::read_png(path));
-}
+render::Image picture(const fs::path& path) { return value_of(render::read_png(path)); }
 
 double worst(const render::Image& a, const render::Image& b) {
   const auto comparison = render::compare(a, b);

@@ -13,9 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-StagedFolder staged_at(const fs::path& run) {
-  return value_of(StagedFolder::create(run));
-}
+StagedFolder staged_at(const fs::path& run) { return value_of(StagedFolder::create(run)); }
 
 // what a finished run leaves: its files, and the list of them
 void make_run(const fs::path& run) {
