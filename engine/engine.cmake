@@ -51,7 +51,7 @@ set_source_files_properties(engine/solve/block_factor.cpp engine/elastic/assembl
 file(GLOB light CONFIGURE_DEPENDS engine/formats/*.cpp engine/preset/*.cpp
   engine/record/*.cpp engine/scene/*.cpp engine/simulate/*.cpp engine/study/*.cpp)
 # but for what every frame has
-list(FILTER light EXCLUDE REGEX "contacts|frames_between|frame_forces|gauss_curvature")
+list(FILTER light EXCLUDE REGEX "contacts|frames_between|frame_forces|shape_measures")
 set_property(SOURCE ${light} ${embedded_page} APPEND PROPERTY
   COMPILE_OPTIONS $<$<CONFIG:Release>:-O1>)
 gridshell_position_independent(gridshell_engine)

@@ -18,7 +18,6 @@
 #include "engine/record/fabrication.h"         // IWYU pragma: export
 #include "engine/record/frame.h"               // IWYU pragma: export
 #include "engine/record/frame_values.h"        // IWYU pragma: export
-#include "engine/record/gauss_curvature.h"     // IWYU pragma: export
 #include "engine/record/journal.h"             // IWYU pragma: export
 #include "engine/record/phase_diagram.h"       // IWYU pragma: export
 #include "engine/record/run_folder.h"          // IWYU pragma: export
@@ -30,7 +29,6 @@
 #include "engine/record/sweep_results.h"       // IWYU pragma: export
 #include "engine/record/trajectory.h"          // IWYU pragma: export
 #include "engine/record/trajectory_file.h"     // IWYU pragma: export
-#include "engine/record/viewer_files.h"        // IWYU pragma: export
 #include "engine/scene/net_design.h"           // IWYU pragma: export
 #include "engine/scene/scene.h"                // IWYU pragma: export
 #include "engine/simulate/actuation.h"         // IWYU pragma: export
@@ -51,6 +49,5 @@
 #include "engine/study/scan.h"                 // IWYU pragma: export
 #include "engine/study/stability_study.h"      // IWYU pragma: export
 #include "engine/study/state_library.h"        // IWYU pragma: export
-#include "engine/study/state_measures.h"       // IWYU pragma: export
 #include "engine/study/sweep_study.h"          // IWYU pragma: export
 #include "engine/study/trust_study.h"          // IWYU pragma: export

@@ -314,38 +314,35 @@ Result<int> chart(const ChartOptions& options) {
 }  // namespace
 
 void add_chart(CommandLine& program) {
-  const auto options = std::make_shared<ChartOptions>();
-  CommandArguments command =
-      program.add("chart", "speed against accuracy; where methods hold and fail; branches; trust",
-                  [options] { return chart(*options); });
+  auto [command, options] = program.add<ChartOptions>(
+      "chart", "speed against accuracy; where methods hold and fail; branches; trust", chart);
   command
-      .option("KIND", options->kind,
+      .option("KIND", options.kind,
               "accuracy, stability, branches (the bifurcation diagram), or trust (random "
               "scenes, no PRESET)")
       .required()
       .one_of({"accuracy", "stability", "branches", "trust"});
-  add_preset_options(command, options->common);
+  add_preset_options(command, options.common);
   command.declared("PRESET").required(false);
-  add_work_options(command, options->common,
+  add_work_options(command, options.common,
                    "folder to write, by default out/<preset>_<KIND>, or out/trust");
   command
-      .option("--limit", options->limit_s,
+      .option("--limit", options.limit_s,
               "seconds after which a run is too slow: by default 30 for accuracy, 4 for "
               "stability, 20 for trust")
       .in_range(0.01, 1e6);
   command
-      .option("--edges", options->edges,
-              "edges a segment of the finest mesh that methods are given")
+      .option("--edges", options.edges, "edges a segment of the finest mesh that methods are given")
       .in_range(4, 32);
-  command.option("--sizes", options->sizes,
+  command.option("--sizes", options.sizes,
                  "of accuracy: instead, the program itself at so many rods a direction, 12,24,48");
-  command.option("--scenes", options->scenes, "of trust: how many, of ten kinds in turn")
+  command.option("--scenes", options.scenes, "of trust: how many, of ten kinds in turn")
       .in_range(1, 100000);
   command
-      .option("--scene-kind", options->scene_kind,
+      .option("--scene-kind", options.scene_kind,
               "of trust: scenes of one kind alone; those of kind network come in no other way")
       .one_of(all_words<study::SceneKind>());
-  command.option("--seed", options->seed, "of trust: other scenes").in_range(0, 1 << 30);
+  command.option("--seed", options.seed, "of trust: other scenes").in_range(0, 1 << 30);
 }
 
 }  // namespace gridshell::app

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/core/result.h"
@@ -92,6 +93,14 @@ class CommandLine {
 
   /// Adds `gridshell name`, which does `act`.
   CommandArguments add(const std::string& name, const std::string& meaning, Action act);
+
+  /// The same, which does `act` with the options that its arguments are kept in.
+  template <class Kept, class Act>
+  std::pair<CommandArguments, Kept&> add(const std::string& name, const std::string& meaning,
+                                         Act act) {
+    const auto kept = std::make_shared<Kept>();
+    return {add(name, meaning, [kept, act] { return act(*kept); }), *kept};
+  }
 
   /// Does what the command line asks for and returns the exit code; faults are reported.
   int run(int argc, char** argv);

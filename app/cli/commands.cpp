@@ -7,11 +7,9 @@
 #include <memory>
 
 #include "app/cli/console.h"
-#include "app/cli/design.h"
 #include "app/cli/pictures.h"
 #include "app/cli/preset_library.h"
 #include "app/cli/produce.h"
-#include "app/cli/reference.h"
 #include "app/cli/staged_folder.h"
 #include "engine/core/try.h"
 #include "engine/gridshell.h"
@@ -96,28 +94,26 @@ struct ListOptions {
   bool json = false, man = false;
 };
 
-Result<std::string> listing(const ListOptions& options) {
-  if (!options.keys.empty()) return preset::reference_markdown();
-  if (!options.completion.empty()) return bash_completion();
-  if (options.json) return listing_json();
-  return options.man ? man_page() : preset_lines();
+Result<int> list(const ListOptions& options) {
+  TRY(text, !options.keys.empty()         ? preset::reference_markdown()
+            : !options.completion.empty() ? bash_completion()
+            : options.json                ? listing_json()
+            : options.man                 ? man_page()
+                                          : preset_lines());
+  fmt::print("{}", *text);
+  return printed();
 }
 
 void add_list(CommandLine& program) {
-  const auto options = std::make_shared<ListOptions>();
-  CommandArguments command =
-      program.add("list", "the presets that come with the program", [options]() -> Result<int> {
-        TRY(text, listing(*options));
-        fmt::print("{}", *text);
-        return printed();
-      });
-  command.option("--keys", options->keys, "instead, the reference of all keys a preset can hold")
+  auto [command, options] =
+      program.add<ListOptions>("list", "the presets that come with the program", list);
+  command.option("--keys", options.keys, "instead, the reference of all keys a preset can hold")
       .one_of({"markdown"});
-  command.flag("--json", options->json,
+  command.flag("--json", options.json,
                "instead, all commands, options, presets and keys for other programs");
-  command.option("--completion", options->completion, "instead, a script for a shell")
+  command.option("--completion", options.completion, "instead, a script for a shell")
       .one_of({"bash"});
-  command.flag("--man", options->man, "instead, the manual page");
+  command.flag("--man", options.man, "instead, the manual page");
 }
 
 /// Those that take a preset, what changes it, where to write and how to draw, and nothing else.
@@ -125,13 +121,12 @@ void add_preset_command(CommandLine& program, const char* name, const char* mean
                         Result<int> (*act)(const Options&),
                         const char* output = "folder to write, by default out/<preset>",
                         bool resumes = false) {
-  const auto options = std::make_shared<Options>();
-  CommandArguments command = program.add(name, meaning, [options, act] { return act(*options); });
-  add_preset_options(command, *options);
-  add_work_options(command, *options, output);
-  add_picture_options(command, *options);
+  auto [command, options] = program.add<Options>(name, meaning, act);
+  add_preset_options(command, options);
+  add_work_options(command, options, output);
+  add_picture_options(command, options);
   if (resumes)
-    command.flag("--resume", options->resume,
+    command.flag("--resume", options.resume,
                  "go on where a run of this preset to the same folder was ended");
 }
 

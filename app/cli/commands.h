@@ -2,9 +2,11 @@
 // it does.
 #pragma once
 
+#include <filesystem>
+#include <string>
 #include <vector>
 
-#include "app/cli/command_line.h"
+#include "app/cli/options.h"
 
 namespace gridshell::window {
 struct ExportFormat;
@@ -23,6 +25,14 @@ void add_report(CommandLine& program);
 void add_scan(CommandLine& program);
 void add_compare(CommandLine& program);
 
+/// Designs the shell of a preset and writes its folder. Prints what it came to; the exit code.
+Result<int> produce_design(const Options& options);
+
+/// A preset whose `[ends] table` and `[rod] table`, where it has them, stand in STEM_ends.csv and
+/// STEM_rods.csv beside it. Errors: io.
+Result<void> write_preset_with_tables(const preset::Preset& preset,
+                                      const std::filesystem::path& file);
+
 /// What `export` writes by a file's ending alone.
 std::vector<window::ExportFormat> usual_exports();
 
@@ -31,5 +41,20 @@ void add_commands(CommandLine& program);
 
 /// All commands as data.
 std::vector<CommandEntry> command_table();
+
+// What the program has, as text. Errors: a preset that came with the program does not read.
+
+/// One object: `version`; `commands`, each with its options; `presets` with title, description and
+/// source; `tables` and `keys`, each with table, unit, default (as TOML), allowed and meaning.
+Result<std::string> listing_json();
+
+/// gridshell(1) in roff: commands with their options, presets, all keys.
+Result<std::string> man_page();
+/// The same as a page for a browser, which needs no network.
+Result<std::string> manual_html();
+
+/// A script for bash that completes command lines: commands, options and their words, names of
+/// presets, keys after --set; files and folders elsewhere.
+std::string bash_completion();
 
 }  // namespace gridshell::app

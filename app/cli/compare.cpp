@@ -131,7 +131,7 @@ Result<bool> compare_folders(const CompareOptions& options) {
   return true;
 }
 
-Result<bool> compare_any(const CompareOptions& options) {
+Result<int> compare(const CompareOptions& options) {
   const bool a = fs::is_directory(options.a), b = fs::is_directory(options.b);
   if (a != b)
     return fail(Fault::bad_input,
@@ -141,30 +141,25 @@ Result<bool> compare_any(const CompareOptions& options) {
     return fail(Fault::bad_input,
                 a ? "--update needs --why \"...\": the reason is kept beside the pictures"
                   : "--update is of folders of kept pictures");
-  return a ? compare_folders(options) : compare_pictures(options);
+  TRY(same, a ? compare_folders(options) : compare_pictures(options));
+  return *same ? ExitCode::done : ExitCode::different;
 }
 
 }  // namespace
 
 void add_compare(CommandLine& program) {
-  const auto options = std::make_shared<CompareOptions>();
-  CommandArguments command =
-      program.add("compare", "whether two pictures, or folders of them, are the same to the eye",
-                  [options]() -> Result<int> {
-                    TRY(same, compare_any(*options));
-                    return *same ? ExitCode::done : ExitCode::different;
-                  });
-  command.option("A", options->a, "a PNG, or a folder of kept ones").required();
-  command.option("B", options->b, "another of the same size, or a folder").required();
+  auto [command, options] = program.add<CompareOptions>(
+      "compare", "whether two pictures, or folders of them, are the same to the eye", compare);
+  command.option("A", options.a, "a PNG, or a folder of kept ones").required();
+  command.option("B", options.b, "another of the same size, or a folder").required();
   command
-      .option("--threshold", options->threshold,
-              "largest mean difference of an 8 x 8 block, of 255")
+      .option("--threshold", options.threshold, "largest mean difference of an 8 x 8 block, of 255")
       .in_range(0.0, 255.0)
       .show_default();
-  command.option("--difference", options->difference,
+  command.option("--difference", options.difference,
                  "PNG to write, differences in red; of folders a sheet of all that differ");
-  command.flag("--update", options->update, "put B's pictures in the place of A's");
-  command.option("--why", options->why, "with --update: the reason, kept in A/WHY.md");
+  command.flag("--update", options.update, "put B's pictures in the place of A's");
+  command.option("--why", options.why, "with --update: the reason, kept in A/WHY.md");
 }
 
 }  // namespace gridshell::app

@@ -6,9 +6,9 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/console.h"
-#include "app/cli/finished_run.h"
 #include "app/cli/options.h"
 #include "app/cli/preset_library.h"
+#include "app/cli/produce.h"
 #include "app/cli/staged_folder.h"
 #include "app/window/viewer_state.h"
 #include "engine/core/file_io.h"
@@ -263,20 +263,18 @@ std::vector<window::ExportFormat> usual_exports() {
 // `gridshell export RUN --to FILE`: for other programs and for the workshop.
 
 void add_export(CommandLine& program) {
-  const auto options = std::make_shared<ExportOptions>();
-  CommandArguments command =
-      program.add("export", "a run's shape for other programs, its footprint for the workshop",
-                  [options] { return export_file(*options); });
-  command.option("RUN", options->input, "folder of a run; for what is not a shape a PRESET too")
+  auto [command, options] = program.add<ExportOptions>(
+      "export", "a run's shape for other programs, its footprint for the workshop", export_file);
+  command.option("RUN", options.input, "folder of a run; for what is not a shape a PRESET too")
       .required();
-  command.option("--to", options->to, "the file; its extension is the format").required();
-  command.option("--what", options->what,
+  command.option("--to", options.to, "the file; its extension is the format").required();
+  command.option("--what", options.what,
                  "shape, tubes, footprint, plate, cutlist or sheet; by default what the "
                  "extension is for");
-  command.option("--frame", options->frame, "of a shape: index of its frame, by default the last");
-  command.option("--case", options->case_name, "of several cases: which");
-  command.option("--seconds", options->seconds, "of an animation (.glb)").in_range(0.1, 3600.0);
-  add_unsealed(command, options->unsealed);
+  command.option("--frame", options.frame, "of a shape: index of its frame, by default the last");
+  command.option("--case", options.case_name, "of several cases: which");
+  command.option("--seconds", options.seconds, "of an animation (.glb)").in_range(0.1, 3600.0);
+  add_unsealed(command, options.unsealed);
   command.footer("What is exported, and how:\n" + exported_formats());
 }
 

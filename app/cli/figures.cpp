@@ -6,11 +6,9 @@
 
 #include "app/cli/console.h"
 #include "app/cli/paper_page.h"
-#include "app/cli/pictures.h"
 #include "app/cli/preset_library.h"
 #include "engine/core/file_io.h"
 #include "engine/core/try.h"
-#include "engine/gridshell.h"
 #include "render/gl/image.h"
 #include "render/movie/encode.h"
 #include "render/movie/movie_writer.h"
@@ -132,7 +130,7 @@ Result<void> draw_beside(const Runs& runs, const std::string& title, render::Ren
                          const fs::path& folder, Watch& watch) {
   auto style = style_of(runs.front()->preset, Pictures::movie);
   style.title = title;
-  std::vector<render::ComparedRun> compared;
+  std::vector<render::NamedRun> compared;
   std::size_t frames = 0;
   for (const Run* run : runs) {
     compared.push_back({&run->trajectory, run->preset.title});

@@ -1,4 +1,4 @@
-#include "app/cli/finished_run.h"
+#include "app/cli/produce.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,6 @@
 #include "app/cli/staged_folder.h"
 #include "engine/core/file_io.h"
 #include "engine/core/json.h"
-#include "engine/core/system_info.h"
 #include "engine/core/try.h"
 #include "engine/gridshell.h"
 

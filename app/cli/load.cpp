@@ -94,15 +94,13 @@ Result<int> load(const LoadOptions& options) {
 }  // namespace
 
 void add_load(CommandLine& program) {
-  const auto options = std::make_shared<LoadOptions>();
-  CommandArguments command =
-      program.add("load", "how much of each load case the formed shell carries, and how it fails",
-                  [options] { return load(*options); });
-  add_preset_options(command, options->common);
-  add_work_options(command, options->common, "folder to write, by default out/<preset>_load");
-  add_picture_options(command, options->common);
+  auto [command, options] = program.add<LoadOptions>(
+      "load", "how much of each load case the formed shell carries, and how it fails", load);
+  add_preset_options(command, options.common);
+  add_work_options(command, options.common, "folder to write, by default out/<preset>_load");
+  add_picture_options(command, options.common);
   command
-      .option("--imperfections", options->imperfections,
+      .option("--imperfections", options.imperfections,
               "shells more a case whose shape is off by loads.imperfection")
       .in_range(0, 1000);
 }

@@ -108,15 +108,13 @@ Result<int> modes(const ModesOptions& options) {
 }  // namespace
 
 void add_modes(CommandLine& program) {
-  const auto options = std::make_shared<ModesOptions>();
-  CommandArguments command =
-      program.add("modes", "natural frequencies and shapes about the formed, loaded state",
-                  [options] { return modes(*options); });
-  add_preset_options(command, options->common);
-  add_work_options(command, options->common, "folder to write, by default out/<preset>_modes");
-  add_picture_options(command, options->common);
-  command.option("--count", options->count, "how many, from the lowest on").in_range(1, 200);
-  command.flag("--movies", options->movies, "a movie a mode too, in mode_01/movie.mp4 ...");
+  auto [command, options] = program.add<ModesOptions>(
+      "modes", "natural frequencies and shapes about the formed, loaded state", modes);
+  add_preset_options(command, options.common);
+  add_work_options(command, options.common, "folder to write, by default out/<preset>_modes");
+  add_picture_options(command, options.common);
+  command.option("--count", options.count, "how many, from the lowest on").in_range(1, 200);
+  command.flag("--movies", options.movies, "a movie a mode too, in mode_01/movie.mp4 ...");
 }
 
 }  // namespace gridshell::app

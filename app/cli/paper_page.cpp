@@ -2,17 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "app/cli/console.h"
-#include "app/cli/pictures.h"
 #include "engine/core/try.h"
 #include "render/canvas/legend.h"
 #include "render/gl/image.h"
 #include "render/movie/run_figures.h"
 #include "render/movie/run_plots.h"
-#include "render/movie/shell_lines.h"
 #include "render/movie/stage.h"
 #include "render/movie/stills.h"
 

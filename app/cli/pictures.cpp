@@ -3,13 +3,8 @@
 #include <algorithm>
 
 #include "engine/core/try.h"
-#include "engine/gridshell.h"
 #include "render/gl/image.h"
-#include "render/movie/colour_by.h"
-#include "render/movie/encode.h"
-#include "render/movie/movie_style.h"
-#include "render/movie/movie_writer.h"
-#include "render/movie/shell_lines.h"
+#include "render/movie/run_summary.h"
 #include "render/movie/stage.h"
 #include "render/movie/stills.h"
 

@@ -86,7 +86,7 @@ record::Frame moved_by(const record::Trajectory& state, const Eigen::Matrix3Xd& 
 extern const render::ColourBar bar_of_moves;
 
 /// Writes the frames of a movie, and shows each to whoever wants to see it.
-using DrawFrames = std::function<Result<render::MovieReport>(const render::FrameCallback& seen)>;
+using DrawFrames = std::function<Result<void>(const render::FrameCallback& seen)>;
 
 /// Draws so many frames into folder/frames and makes of them, where ffmpeg is on the PATH,
 /// movie.mp4 and what else the preset asks for; poster.png. Errors: those of `draw`, io, cancelled.

@@ -15,7 +15,6 @@
 #include "engine/core/json.h"
 #include "engine/core/parallel.h"
 #include "engine/core/try.h"
-#include "engine/gridshell.h"
 
 namespace gridshell::app {
 namespace fs = std::filesystem;

@@ -1,4 +1,5 @@
-// The work behind `movie`, `figure` and `run`: every run of a preset simulated, written and drawn.
+// Every run of a preset simulated, written and drawn, the work behind `movie`, `figure` and `run`;
+// and read back.
 #pragma once
 
 #include <filesystem>
@@ -17,5 +18,14 @@ Result<int> produce(const Options& options, Pictures pictures);
 /// How a run fell short of an equilibrium at the end of its path, stable unless that is allowed;
 /// empty when it did not.
 std::string failure_of(const record::Summary& summary, bool allow_unstable);
+
+/// All runs of a folder, finished or cut short: itself, or its cases. What stands in it may come
+/// from anybody. Of a run that was cut short the trajectory ends with the last whole frame, and the
+/// summary, which says so, speaks of that. Errors: bad_input naming file and cause.
+Result<std::vector<Run>> read_runs(const std::filesystem::path& folder,
+                                   const std::vector<preset::Override>& overrides, bool unsealed);
+
+/// "41 frames, up to progress 0.17" of a run that was cut short.
+std::string progress_text(const Run& run);
 
 }  // namespace gridshell::app

@@ -1,4 +1,3 @@
-#include "app/cli/reference.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,7 +7,6 @@
 #include "app/cli/preset_library.h"
 #include "app/window/actions.h"
 #include "engine/core/json.h"
-#include "engine/core/system_info.h"
 #include "engine/core/try.h"
 #include "engine/gridshell.h"
 

@@ -8,9 +8,9 @@
 #include "app/cli/commands.h"
 #include "app/cli/console.h"
 #include "app/cli/delivery.h"
-#include "app/cli/finished_run.h"
 #include "app/cli/paper_page.h"
 #include "app/cli/preset_library.h"
+#include "app/cli/produce.h"
 #include "app/cli/staged_folder.h"
 #include "engine/core/try.h"
 #include "engine/gridshell.h"
@@ -258,7 +258,7 @@ double study_seconds(const preset::Preset& preset) {
   return plan && std::isfinite(plan->expected_seconds) ? plan->expected_seconds : 1;
 }
 
-Result<int> report(ReportOptions options) {
+Result<int> make_report(ReportOptions options) {
   const fs::path run_folder = fs::path(options.input).lexically_normal();
   if (options.to.empty())
     options.to = (run_folder.has_filename() ? run_folder : run_folder.parent_path()).string() +
@@ -290,18 +290,17 @@ Result<int> report(ReportOptions options) {
 }  // namespace
 
 void add_report(CommandLine& program) {
-  const auto options = std::make_shared<ReportOptions>();
-  CommandArguments command =
-      program.add("report", "geometry, stresses, reactions, loads, frequencies, cut list as a PDF",
-                  [options] { return report(*options); });
-  command.option("RUN", options->input, "folder of a run").required();
-  command.option("--to", options->to, "the file, by default RUN_report.pdf");
-  command.option("--count", options->modes, "how many frequencies").in_range(1, 200);
+  auto [command, options] = program.add<ReportOptions>(
+      "report", "geometry, stresses, reactions, loads, frequencies, cut list as a PDF",
+      make_report);
+  command.option("RUN", options.input, "folder of a run").required();
+  command.option("--to", options.to, "the file, by default RUN_report.pdf");
+  command.option("--count", options.modes, "how many frequencies").in_range(1, 200);
   command
-      .option("--imperfections", options->imperfections,
+      .option("--imperfections", options.imperfections,
               "shells more a case whose shape is off by loads.imperfection")
       .in_range(0, 1000);
-  add_unsealed(command, options->unsealed);
+  add_unsealed(command, options.unsealed);
 }
 
 }  // namespace gridshell::app

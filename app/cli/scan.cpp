@@ -14,8 +14,8 @@
 #include "app/cli/console.h"
 #include "app/cli/delivery.h"
 #include "app/cli/figures.h"
-#include "app/cli/finished_run.h"
 #include "app/cli/preset_library.h"
+#include "app/cli/produce.h"
 #include "engine/core/file_io.h"
 #include "engine/core/json.h"
 #include "engine/core/try.h"
@@ -316,17 +316,15 @@ Result<int> produce_scan(const ScanOptions& options) {
 }  // namespace
 
 void add_scan(CommandLine& program) {
-  const auto options = std::make_shared<ScanOptions>();
-  CommandArguments command =
-      program.add("scan", "which state a 3D scan shows, and how far its joints are off",
-                  [options] { return produce_scan(*options); });
-  command.option("POINTS", options->common.input, "cloud of points: .ply, .xyz or .csv, mm")
+  auto [command, options] = program.add<ScanOptions>(
+      "scan", "which state a 3D scan shows, and how far its joints are off", produce_scan);
+  command.option("POINTS", options.common.input, "cloud of points: .ply, .xyz or .csv, mm")
       .required();
-  command.option("RUN", options->runs, "folders of runs; of a search all of its states").required();
-  add_changes(command, options->common);
-  add_work_options(command, options->common, "folder to write, by default out/<points>_scan");
-  add_picture_options(command, options->common);
-  add_unsealed(command, options->unsealed);
+  command.option("RUN", options.runs, "folders of runs; of a search all of its states").required();
+  add_changes(command, options.common);
+  add_work_options(command, options.common, "folder to write, by default out/<points>_scan");
+  add_picture_options(command, options.common);
+  add_unsealed(command, options.unsealed);
   command.footer(
       "The exit code is 3 where the scan shows none of the states. Joints are cylinders of\n"
       "[joints] diameter_mm and height_mm, of which the scan sees the tops.");

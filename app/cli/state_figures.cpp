@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 #include <algorithm>
-#include <array>
 #include <optional>
 
 #include "app/cli/figures.h"
@@ -13,7 +12,6 @@
 #include "render/canvas/plot.h"
 #include "render/movie/run_figures.h"
 #include "render/movie/run_summary.h"
-#include "render/movie/shell_lines.h"
 #include "render/movie/stage.h"
 #include "render/movie/state_charts.h"
 #include "render/movie/stills.h"

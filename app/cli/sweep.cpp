@@ -310,19 +310,18 @@ Result<int> sweep(const SweepOptions& options) {
 // `gridshell sweep PRESET`: many runs of one preset, resumable, on several cores or machines.
 
 void add_sweep(CommandLine& program) {
-  const auto options = std::make_shared<SweepOptions>();
-  CommandArguments command = program.add("sweep", "many runs of one preset, resumable, parallel",
-                                         [options] { return sweep(*options); });
-  add_preset_options(command, options->common);
-  add_work_options(command, options->common);
+  auto [command, options] =
+      program.add<SweepOptions>("sweep", "many runs of one preset, resumable, parallel", sweep);
+  add_preset_options(command, options.common);
+  add_work_options(command, options.common);
   command
-      .option("--jobs", options->jobs,
+      .option("--jobs", options.jobs,
               "points computed at a time, by default as many as there are cores; results do "
               "not change")
       .in_range(1, 1024);
   const auto shard =
-      command.option("--shard", options->shard, "i/N: every N-th point, in DIR/shard_i_of_N");
-  command.flag("--merge", options->merge, "gather the shards in DIR instead of computing")
+      command.option("--shard", options.shard, "i/N: every N-th point, in DIR/shard_i_of_N");
+  command.flag("--merge", options.merge, "gather the shards in DIR instead of computing")
       .excludes(shard);
 }
 

@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <vector>
 
 #include "app/cli/preset_library.h"
 #include "engine/core/file_io.h"
 #include "engine/core/try.h"
-#include "engine/gridshell.h"
 
 namespace gridshell::app {
 namespace fs = std::filesystem;

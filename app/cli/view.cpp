@@ -15,12 +15,10 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/console.h"
-#include "app/cli/design.h"
-#include "app/cli/finished_run.h"
 #include "app/cli/options.h"
 #include "app/cli/pictures.h"
 #include "app/cli/preset_library.h"
-#include "app/cli/reference.h"
+#include "app/cli/produce.h"
 #include "app/window/imgui_painter.h"
 #include "app/window/interface.h"
 #include "app/window/viewer_state.h"
@@ -322,34 +320,32 @@ Result<int> view(ViewOptions options) {
 }  // namespace
 
 void add_view(CommandLine& program) {
-  const auto options = std::make_shared<ViewOptions>();
-  CommandArguments command =
-      program.add("view", "the desktop window, or its input played without one",
-                  [options] { return view(*options); });
-  command.option("preset", options->input, "a preset's file or name, or a run's folder");
-  command.option("-o,--output", options->output,
+  auto [command, options] =
+      program.add<ViewOptions>("view", "the desktop window, or its input played without one", view);
+  command.option("preset", options.input, "a preset's file or name, or a run's folder");
+  command.option("-o,--output", options.output,
                  "folder that pictures and presets are saved to, by default out");
   command.option(
-      "--workspace", options->workspace,
+      "--workspace", options.workspace,
       "file that keeps camera, colours and panels from one visit to the next, by "
       "default ~/.local/state/gridshell/workspace.json; off-screen and with --record none");
-  command.option("--record", options->record, "keeps the input as text, a line an event");
-  command.option("--play", options->play,
+  command.option("--record", options.record, "keeps the input as text, a line an event");
+  command.option("--play", options.play,
                  "plays recorded input off-screen, each event's equilibrium awaited");
-  command.option("--shot", options->shot, "with it, the last frame as a PNG");
-  command.option("--picture", options->picture,
+  command.option("--shot", options.shot, "with it, the last frame as a PNG");
+  command.option("--picture", options.picture,
                  "draws the shell alone, off-screen, as 'Save picture' does");
-  command.option("--size", options->size,
+  command.option("--size", options.size,
                  "width and height of kept pictures: WxH; by default twice the view's");
-  command.option("--quality", options->quality, "of kept pictures: draft, movie or figure")
+  command.option("--quality", options.quality, "of kept pictures: draft, movie or figure")
       .one_of(all_words<render::Quality>());
-  command.flag("--bare", options->bare, "no legend in kept pictures");
+  command.flag("--bare", options.bare, "no legend in kept pictures");
   command
-      .option("--bench", options->bench,
+      .option("--bench", options.bench,
               "drags the radius to and fro for so many seconds, off-screen, and prints a "
               "line of JSON")
       .in_range(0.1, 600.0);
-  command.option("--context", options->context, "off-screen OpenGL: auto, osmesa or egl")
+  command.option("--context", options.context, "off-screen OpenGL: auto, osmesa or egl")
       .one_of({"auto", "osmesa", "egl"});
 }
 

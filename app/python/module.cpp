@@ -1,11 +1,8 @@
 #include "app/python/module.h"
 
 #include <pybind11/stl.h>
-#include <utility>
 
 #include "app/cli/preset_library.h"
-#include "engine/core/system_info.h"
-#include "engine/gridshell.h"
 #include "render/gl/context.h"
 
 namespace gridshell::python {

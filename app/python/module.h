@@ -15,8 +15,6 @@
 #include <vector>
 
 #include "app/python/shell.h"
-#include "engine/core/result.h"
-#include "engine/core/watch.h"
 #include "engine/gridshell.h"
 
 namespace gridshell::python {

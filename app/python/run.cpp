@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "app/cli/finished_run.h"
+#include "app/cli/produce.h"
 #include "app/python/module.h"
 #include "engine/gridshell.h"
 

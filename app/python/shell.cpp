@@ -3,9 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/core/system_info.h"
 #include "engine/core/try.h"
-#include "engine/gridshell.h"
 
 namespace gridshell::python {
 

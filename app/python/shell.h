@@ -8,8 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "engine/core/result.h"
-#include "engine/core/watch.h"
 #include "engine/gridshell.h"
 
 namespace gridshell::python {

@@ -202,7 +202,7 @@ Result<void> draw_on(const State& state, const render::MovieStyle& style,
   // OpenGL stays on the thread that began it, which is that of this call
   TRY(artist, app::PictureMaker::create(context, state.preset->style.font));
   const record::Trajectory run{*state.layout, {state.frame}};
-  if (auto showable = render::check_showable(run, style); !showable) return showable;
+  TRY_DO(render::check_showable(run, style));
   const render::Stage stage(run, style);
   TRY(picture, stage.draw(artist->renderer(), {run.frames.front(), 0}));
   return render::write_png(*picture, path);

@@ -19,58 +19,42 @@ auto& member_of(auto& viewer) {
 template <auto flag>
 constexpr Action toggle(const char* name, const char* menu, const char* label, Shortcut key,
                         const char* help) {
-  return {name,
-          menu,
-          label,
-          key,
-          help,
-          [](ViewerState& viewer) { member_of<flag>(viewer) = !member_of<flag>(viewer); },
-          [](const ViewerState& viewer) -> bool { return member_of<flag>(viewer); }};
+  constexpr auto act = [](ViewerState& viewer) { member_of<flag>(viewer) ^= true; };
+  constexpr auto on = [](const ViewerState& viewer) { return member_of<flag>(viewer); };
+  return {name, menu, label, key, help, act, on};
 }
 
 template <ColourBy by>
 constexpr Action colour(const char* name, const char* label, Shortcut key, const char* help) {
-  return {name,
-          "Colour",
-          label,
-          key,
-          help,
-          [](ViewerState& viewer) {
-            viewer.show.colour_by = by;
-            viewer.show.scale = scale_of(*viewer.shell, viewer.show);
-          },
-          [](const ViewerState& viewer) { return viewer.show.colour_by == by; }};
+  constexpr auto act = [](ViewerState& viewer) {
+    viewer.show.colour_by = by;
+    viewer.show.scale = scale_of(*viewer.shell, viewer.show);
+  };
+  constexpr auto on = [](const ViewerState& viewer) { return viewer.show.colour_by == by; };
+  return {name, "Colour", label, key, help, act, on};
 }
 
 template <RangeOf of>
 constexpr Action range(const char* name, const char* label, Shortcut key, const char* help) {
-  return {name,
-          "Colour",
-          label,
-          key,
-          help,
-          [](ViewerState& viewer) {
-            viewer.range_of = of;
-            const render::ColourScale now = scale_of(*viewer.shell, viewer.show);
-            viewer.show.scale = next_scale(viewer.show.scale, now, of);
-          },
-          [](const ViewerState& viewer) { return viewer.range_of == of; }};
+  constexpr auto act = [](ViewerState& viewer) {
+    viewer.range_of = of;
+    const render::ColourScale now = scale_of(*viewer.shell, viewer.show);
+    viewer.show.scale = next_scale(viewer.show.scale, now, of);
+  };
+  constexpr auto on = [](const ViewerState& viewer) { return viewer.range_of == of; };
+  return {name, "Colour", label, key, help, act, on};
 }
 
 /// What a drag of so many pixels to the right and down does to the view.
 template <int right, int down>
 constexpr Action turn(const char* name, const char* label, Key key, const char* help) {
-  return {name,  "View",
-          label, {key, false, false},
-          help,  [](ViewerState& viewer) {
-            orbit(viewer.camera, right, down); }};
+  constexpr auto act = [](ViewerState& viewer) { orbit(viewer.camera, right, down); };
+  return {name, "View", label, {key, false, false}, help, act};
 }
 template <int right, int down>
 constexpr Action shift_view(const char* name, const char* label, Key key, const char* help) {
-  return {name,  "View",
-          label, {key, true, false},
-          help,  [](ViewerState& viewer) {
-            pan(viewer.camera, viewer.view, right, down); }};
+  constexpr auto act = [](ViewerState& viewer) { pan(viewer.camera, viewer.view, right, down); };
+  return {name, "View", label, {key, true, false}, help, act};
 }
 void zoom_by(ViewerState& viewer, double steps) {
   zoom(viewer.camera, viewer.view, steps, viewer.view.width / 2, viewer.view.height / 2);

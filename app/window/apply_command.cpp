@@ -266,7 +266,7 @@ Result<void> EditSession::act(const Design& command, const Watch& watch) {
     return fail(Fault::bad_input, why);
   preset::Preset preset = now_.preset;
   preset.inverse = command.inverse;
-  if (auto agrees = check_preset(preset); !agrees) return agrees;
+  TRY_DO(check_preset(preset));
   TRY(made, shared_scene_of(preset));
   const std::shared_ptr<const Scene>& scene = *made;
   TRY(target, design_target(*scene, preset.inverse.target));
@@ -299,7 +299,7 @@ Result<void> EditSession::act(const Design& command, const Watch& watch) {
     if (course.stopped) return stopped();
     return fail(Fault::no_equilibrium, "no step brings the shell nearer to its surface");
   }
-  if (auto stands = show_designed(designed, state); !stands) return stands;
+  TRY_DO(show_designed(designed, state));
   view_.message = text_of_design(course);
   now_.design = std::make_shared<const DesignProgress>(std::move(course));
   now_.target = std::make_shared<DesignTarget>(std::move(*target));

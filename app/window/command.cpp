@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "engine/gridshell.h"
-
 namespace gridshell::window {
 
 std::vector<preset::Step> steps_of(const StepHistory& history) {

@@ -6,7 +6,6 @@
 #include <variant>
 #include <vector>
 
-#include "engine/core/result.h"
 #include "engine/gridshell.h"
 
 namespace gridshell::window {

@@ -132,7 +132,7 @@ Result<bool> Interface::frame(double seconds) {
 Result<void> Interface::frame_aside(double seconds) {
   TRY(anew, compose(seconds));
   if (!*anew) return {};
-  if (auto bound = target_.bind(width_, height_, GL_RGBA8); !bound) return bound;
+  TRY_DO(target_.bind(width_, height_, GL_RGBA8));
   paint(false);
   // as a window waits for what it shows
   gl_.Finish();

@@ -3,10 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/window/command.h"
-#include "engine/core/system_info.h"
 #include "engine/core/try.h"
-#include "engine/gridshell.h"
 
 namespace gridshell::window {
 
@@ -253,7 +250,7 @@ Result<void> EditSession::form(const preset::Preset& preset, const Watch& watch)
   for (const preset::Step& step : preset.step) {
     // what stands before a step is what it is seen against
     update_view();
-    if (auto done = do_step(step, watch); !done) return done;
+    TRY_DO(do_step(step, watch));
   }
   return set_preset_push();
 }
@@ -292,7 +289,7 @@ Result<void> EditSession::act(const Change& command, const Watch& watch) {
   if (!session_) return form(command.preset, watch);
   const ChangeKind kind = kind_of_change(view_.preset, command.preset);
   if (kind == ChangeKind::none) return {};
-  if (auto agrees = check_preset(command.preset); !agrees) return agrees;
+  TRY_DO(check_preset(command.preset));
   switch (kind) {
     case ChangeKind::none:
       break;
@@ -333,7 +330,7 @@ Result<void> EditSession::change_rods(const preset::Preset& preset, const Watch&
   TRY(scene, scene_of(preset));
   if (scene->rung != now_.scene->rung) return rebuild_shell(preset, watch);
   TRY(report, session_->set_rods(scene->rods, watch));
-  if (auto done = note_events(*report); !done) return done;
+  TRY_DO(note_events(*report));
   take_over_keys(preset);
   now_.rods_changed_late = !now_.steps.empty();
   return {};

@@ -13,8 +13,6 @@
 
 #include "app/window/command.h"
 #include "app/window/shell_view.h"
-#include "engine/core/result.h"
-#include "engine/core/watch.h"
 #include "engine/gridshell.h"
 
 namespace gridshell::window {

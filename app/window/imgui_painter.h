@@ -4,7 +4,6 @@
 
 #include <imgui.h>
 #include <array>
-#include <memory>
 
 #include "app/window/viewer_state.h"
 #include "engine/core/result.h"

@@ -1,15 +1,12 @@
 #include "app/window/interface.h"
 
-#include <fmt/format.h>
 #include <imgui_internal.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <utility>
 
-#include "app/window/panel.h"
 #include "render/gl/renderer.h"
 
 #include "engine/core/try.h"
@@ -102,7 +99,7 @@ Result<void> Interface::resize(int width, int height, double density) {
   shell_anew_ = true;
   draw_anew();
   if (!denser) return {};
-  if (auto loaded = load_fonts(density); !loaded) return loaded;
+  TRY_DO(load_fonts(density));
   painter_->take_fonts(*ImGui::GetIO().Fonts);
   choose_colours(viewer_.show.dark, density);
   return {};

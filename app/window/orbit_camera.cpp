@@ -1,10 +1,8 @@
-#include "app/window/orbit_camera.h"
+#include "app/window/shell_drawing.h"
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-
-#include "render/gl/renderer.h"
 
 namespace gridshell::window {
 namespace {

@@ -6,10 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cmath>
-#include <memory>
 #include <sstream>
-#include <string>
 
 namespace gridshell::window {
 namespace {

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "app/window/actions.h"
-#include "engine/core/result.h"
 #include "engine/gridshell.h"
 #include "render/canvas/canvas.h"
 #include "render/gl/opengl.h"

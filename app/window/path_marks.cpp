@@ -1,4 +1,4 @@
-#include "app/window/path_marks.h"
+#include "app/window/shell_view.h"
 
 #include <fmt/format.h>
 

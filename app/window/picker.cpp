@@ -5,7 +5,7 @@
 
 #include "app/window/shell_drawing.h"
 #include "render/gl/renderer.h"
-#include "render/movie/colour_by.h"
+#include "render/movie/run_summary.h"
 
 namespace gridshell::window {
 namespace {

@@ -101,14 +101,11 @@ constexpr double longest_to_sharpen_s = 5;  // of a bench
 Result<void> rest(Interface& interface, ViewerState& viewer) {
   for (int k = 0; k < most_frames; ++k) {
     viewer.engine.wait();
-    viewer.picture_task.wait();
-    viewer.movie_task.wait();
-    viewer.export_task.wait();
-    viewer.manual_task.wait();
-    if (auto drawn = interface.frame_aside(frame_s); !drawn) return drawn;
+    for (BackgroundTask* task : viewer.tasks()) task->wait();
+    TRY_DO(interface.frame_aside(frame_s));
     const bool rests = viewer.engine.idle() && viewer.engine.shell() == viewer.shell &&
-                       !viewer.playing && viewer.picture_task.idle() && viewer.movie_task.idle() &&
-                       viewer.export_task.idle() && viewer.manual_task.idle();
+                       !viewer.playing &&
+                       std::ranges::all_of(viewer.tasks(), &BackgroundTask::idle);
     if (rests && !interface.events_wait()) return {};
   }
   return {};
@@ -117,7 +114,7 @@ Result<void> rest(Interface& interface, ViewerState& viewer) {
 Result<void> wait_for(Interface& interface, ViewerState& viewer, double seconds) {
   for (double t = 0; t < seconds; t += frame_s) {
     viewer.engine.wait();
-    if (auto drawn = interface.frame_aside(frame_s); !drawn) return drawn;
+    TRY_DO(interface.frame_aside(frame_s));
   }
   return {};
 }
@@ -126,7 +123,7 @@ Result<void> wait_for(Interface& interface, ViewerState& viewer, double seconds)
 
 Result<void> play(Interface& interface, ViewerState& viewer,
                   const std::vector<InputEvent>& events) {
-  if (auto first = rest(interface, viewer); !first) return first;
+  TRY_DO(rest(interface, viewer));
   for (const InputEvent& event : events) {
     if (viewer.over) break;
     const auto done = interface.take(event).and_then([&] {
@@ -136,7 +133,7 @@ Result<void> play(Interface& interface, ViewerState& viewer,
     if (!done) return fail(done.error().fault, write_event(event) + ": " + done.error().message);
   }
   for (int k = 0; k < frames_to_sharpen && interface.busy(); ++k)
-    if (auto drawn = interface.frame_aside(frame_s); !drawn) return drawn;
+    TRY_DO(interface.frame_aside(frame_s));
   return interface.frame_aside(frame_s);
 }
 

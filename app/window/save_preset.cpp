@@ -330,7 +330,7 @@ void ViewerState::save_movie() {
 }
 
 void ViewerState::report_finished_tasks() {
-  for (BackgroundTask* work : {&picture_task, &movie_task, &export_task, &manual_task}) {
+  for (BackgroundTask* work : tasks()) {
     const auto end = work->take_end();
     if (!end) continue;
     if (end->made)

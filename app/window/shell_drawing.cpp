@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <numbers>
 
-#include "engine/gridshell.h"
 #include "render/canvas/text.h"
-#include "render/movie/colour_by.h"
 #include "render/movie/frame_overlay.h"
+#include "render/movie/run_summary.h"
 
 namespace gridshell::window {
 namespace {

@@ -6,7 +6,6 @@
 #include <map>
 
 #include "app/window/edit_session.h"
-#include "engine/gridshell.h"
 
 namespace gridshell::window {
 namespace {

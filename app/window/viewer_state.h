@@ -10,7 +10,6 @@
 #include <string_view>
 #include <vector>
 
-#include "app/window/orbit_camera.h"
 #include "app/window/shell_drawing.h"
 #include "app/window/worker_threads.h"
 #include "render/movie/movie_style.h"
@@ -196,6 +195,9 @@ class ViewerState {
   double play_head = 1, play_speed = 0.25;  ///< of the path a second
   PictureFormat picture;
   BackgroundTask picture_task, movie_task, export_task, manual_task;
+  std::array<BackgroundTask*, 4> tasks() {
+    return {&picture_task, &movie_task, &export_task, &manual_task};
+  }
   std::optional<FileRequest> file_request;
   std::vector<std::string> recent;  ///< what was opened, the last first
   std::string copied;               ///< text for the clipboard

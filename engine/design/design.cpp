@@ -6,7 +6,7 @@
 
 #include "engine/core/system_info.h"
 #include "engine/core/try.h"
-#include "engine/design/variables.h"
+#include "engine/design/design_shell.h"
 #include "engine/preset/consistency.h"
 #include "engine/scene/rod_ends.h"
 #include "engine/simulate/actuation.h"

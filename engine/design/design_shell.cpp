@@ -1,6 +1,5 @@
 #include "engine/design/design_shell.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "engine/core/try.h"

@@ -8,7 +8,6 @@
 
 #include "engine/core/watch.h"
 #include "engine/design/design_shell.h"
-#include "engine/design/variables.h"
 #include "engine/preset/preset.h"
 #include "engine/scene/scene.h"
 

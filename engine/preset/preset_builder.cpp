@@ -2,12 +2,10 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <set>
 #include <tuple>
 
 #include "engine/preset/consistency.h"
 #include "engine/preset/field_table.h"
-#include "engine/preset/preset.h"
 
 namespace gridshell::preset {
 

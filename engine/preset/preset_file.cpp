@@ -11,7 +11,6 @@
 #include "engine/core/file_io.h"
 #include "engine/preset/consistency.h"
 #include "engine/preset/field_table.h"
-#include "engine/preset/preset.h"
 #include "engine/preset/sweep_grid.h"
 #include "engine/preset/toml_reader.h"
 

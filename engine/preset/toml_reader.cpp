@@ -6,11 +6,8 @@
 #include <optional>
 #include <set>
 #include <tuple>
-#include <vector>
 
 #include "engine/core/text.h"
-#include "engine/preset/field_table.h"
-#include "engine/preset/preset.h"
 
 namespace gridshell::preset {
 namespace {

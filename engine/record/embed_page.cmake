@@ -1,7 +1,7 @@
 # Writes a .cpp that holds page.html as text. Arguments: PAGE, OUTPUT.
 file(READ ${PAGE} content)
 file(WRITE ${OUTPUT} "// Generated from page.html.
-#include \"engine/record/viewer_files.h\"
+#include \"engine/record/shape_export.h\"
 
 namespace gridshell::exports {
 const char* const page_template = R\"page(${content})page\";

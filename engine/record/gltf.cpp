@@ -1,12 +1,11 @@
 #include "engine/core/try.h"
-#include "engine/record/viewer_files.h"
+#include "engine/record/shape_export.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 
 #include "engine/core/json.h"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/core/json.h"
-#include "engine/record/viewer_files.h"
+#include "engine/record/shape_export.h"
 
 namespace gridshell::exports {
 

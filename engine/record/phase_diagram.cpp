@@ -1,8 +1,6 @@
 #include "engine/record/phase_diagram.h"
 
 #include <fmt/format.h>
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace gridshell::record {

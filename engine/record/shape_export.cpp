@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numeric>
 
 #include "engine/core/dense.h"
 #include "engine/formats/csv.h"

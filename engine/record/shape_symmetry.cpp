@@ -4,8 +4,6 @@
 #include <cmath>
 #include <set>
 
-#include "engine/footprint/symmetry.h"
-
 namespace gridshell {
 namespace {
 

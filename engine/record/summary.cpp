@@ -6,6 +6,7 @@
 
 #include "engine/core/file_io.h"
 #include "engine/core/json.h"
+#include "engine/core/text.h"
 #include "engine/core/try.h"
 
 namespace gridshell::record {
@@ -42,26 +43,13 @@ constexpr const char* of_a_solution[] = {"stable", "negative_pivots"};
 
 /// Whether an older version did not write the key.
 bool may_lack(const std::string& key) {
-  static const std::set<std::string> later{"kind",
-                                           "finished",
-                                           "largest_strain",
-                                           "steps",
-                                           "doubt",
-                                           "force_N",
-                                           "push_error_N",
-                                           "stiffness_N_per_mm",
-                                           "stiffness_error_N_per_mm",
-                                           "largest_force_N",
-                                           "force_error_N",
-                                           "largest_bending_strain",
-                                           "bending_strain_at",
-                                           "largest_stress_MPa",
-                                           "utilisation",
-                                           "stress_at",
-                                           "lowest_mm",
-                                           "contact",
-                                           "contacts"};
-  return key.starts_with("energy_") || key.ends_with("_gap_mm") || later.contains(key);
+  static const auto later = words_in(
+      "kind finished largest_strain steps doubt force_N push_error_N stiffness_N_per_mm "
+      "stiffness_error_N_per_mm largest_force_N force_error_N largest_bending_strain "
+      "bending_strain_at largest_stress_MPa utilisation stress_at lowest_mm contact contacts",
+      " ");
+  return key.starts_with("energy_") || key.ends_with("_gap_mm") ||
+         std::ranges::find(later, key) != later.end();
 }
 
 Json json_of_run(const Summary& summary) {

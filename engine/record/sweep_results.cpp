@@ -7,18 +7,14 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
-#include <optional>
 #include <set>
 #include <system_error>
-#include <utility>
 
 #include "engine/core/dense.h"
-#include "engine/core/file_io.h"
 #include "engine/core/json.h"
 #include "engine/core/text.h"
 #include "engine/core/try.h"
 #include "engine/formats/csv.h"
-#include "engine/record/frame.h"
 
 namespace gridshell::record {
 namespace {

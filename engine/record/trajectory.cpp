@@ -1,7 +1,5 @@
 #include "engine/record/trajectory.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "engine/core/try.h"

@@ -12,7 +12,6 @@
 #include "engine/core/file_io.h"
 #include "engine/core/try.h"
 #include "engine/formats/hdf5_file.h"
-#include "engine/record/trajectory.h"
 #include "engine/record/trajectory_hdf5.h"
 
 namespace gridshell::record {

@@ -1,6 +1,5 @@
 #include "engine/scene/drawn_footprint.h"
 
-#include <fmt/format.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>

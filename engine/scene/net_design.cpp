@@ -1,17 +1,14 @@
 #include "engine/scene/net_design.h"
 
-#include <fmt/format.h>
 #include <cmath>
 #include <functional>
 #include <numbers>
-#include <optional>
 
 #include "engine/core/try.h"
 #include "engine/footprint/domains.h"
 #include "engine/geometry/expression.h"
 #include "engine/geometry/spline.h"
 #include "engine/geometry/surface.h"
-#include "engine/geometry/surface_net.h"
 #include "engine/preset/consistency.h"
 
 namespace gridshell {

@@ -1,6 +1,5 @@
 #include "engine/scene/rod_ends.h"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <map>
 #include <tuple>

@@ -8,12 +8,8 @@
 #include <set>
 #include <utility>
 
-#include "engine/core/result.h"
 #include "engine/core/try.h"
-#include "engine/elastic/shell_rods.h"
-#include "engine/footprint/footprint.h"
 #include "engine/preset/consistency.h"
-#include "engine/preset/preset.h"
 #include "engine/scene/drawn_footprint.h"
 #include "engine/scene/net_design.h"
 #include "engine/scene/rod_ends.h"

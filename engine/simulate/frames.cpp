@@ -7,7 +7,7 @@
 #include "engine/core/try.h"
 #include "engine/preset/consistency.h"
 #include "engine/record/frame_values.h"
-#include "engine/record/gauss_curvature.h"
+#include "engine/record/shape_measures.h"
 #include "engine/scene/rod_ends.h"
 #include "engine/simulate/frame_forces.h"
 

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "engine/core/try.h"
-#include "engine/record/gauss_curvature.h"
 #include "engine/record/shape_measures.h"
 #include "engine/scene/net_design.h"
 #include "engine/simulate/actuation.h"

@@ -9,7 +9,6 @@
 #include "engine/core/try.h"
 #include "engine/core/watch.h"
 #include "engine/preset/consistency.h"
-#include "engine/record/gauss_curvature.h"
 #include "engine/record/shape_measures.h"
 #include "engine/record/trajectory.h"
 #include "engine/scene/scene.h"

@@ -7,7 +7,7 @@
 
 #include "engine/core/algorithms.h"
 #include "engine/core/try.h"
-#include "engine/record/gauss_curvature.h"
+#include "engine/record/shape_measures.h"
 #include "engine/simulate/expected_cost.h"
 #include "engine/simulate/indentation.h"
 #include "engine/simulate/stiffening.h"

@@ -1,4 +1,4 @@
-#include "engine/study/critical_load.h"
+#include "engine/study/load_study.h"
 
 #include <algorithm>
 #include <cmath>

@@ -11,8 +11,6 @@
 #include "engine/simulate/frames.h"
 #include "engine/solve/eigenmodes.h"
 #include "engine/solve/equilibrium.h"
-#include "engine/study/critical_load.h"
-#include "engine/study/modes.h"
 
 namespace gridshell::study {
 namespace {

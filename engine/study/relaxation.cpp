@@ -1,4 +1,3 @@
-#include "engine/study/relaxation.h"
 
 #include <algorithm>
 #include <cmath>

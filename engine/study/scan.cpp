@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <optional>
 
 #include "engine/core/algorithms.h"
 #include "engine/core/dense.h"

@@ -8,10 +8,8 @@
 #include "engine/core/parallel.h"
 #include "engine/core/system_info.h"
 #include "engine/core/try.h"
-#include "engine/record/states.h"
 #include "engine/simulate/expected_cost.h"
 #include "engine/simulate/frames.h"
-#include "engine/study/state_measures.h"
 
 namespace gridshell::study {
 

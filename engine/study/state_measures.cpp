@@ -1,4 +1,4 @@
-#include "engine/study/state_measures.h"
+#include "engine/study/state_library.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -7,7 +7,7 @@
 #include "engine/core/try.h"
 #include "engine/simulate/actuation.h"
 #include "engine/simulate/indentation.h"
-#include "engine/study/state_measures.h"
+#include "engine/study/state_library.h"
 
 namespace gridshell::study {
 
@@ -189,7 +189,7 @@ Result<State> StateSearcher::symmetric_trial(int k, const Watch& watch) {
 }
 
 Result<State> StateSearcher::release_boundary(const State& from, double to, const Watch& watch) {
-  if (auto out = go_from(1, from, parameter_at(to), watch); !out) return out;
+  TRY_DO(go_from(1, from, parameter_at(to), watch));
   return go(1, watch);
 }
 

@@ -1,9 +1,7 @@
 #include "engine/study/trust_study.h"
 
 #include <fmt/format.h>
-#include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "engine/core/parallel.h"
 #include "engine/scene/scene.h"

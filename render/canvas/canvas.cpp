@@ -5,7 +5,6 @@
 #include <cairo.h>
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <cstring>
 #include <numbers>
 #include <utility>
@@ -13,7 +12,6 @@
 #include "engine/core/file_io.h"
 #include "engine/core/text.h"
 #include "render/canvas/text.h"
-#include "render/gl/image.h"
 
 namespace gridshell::render {
 

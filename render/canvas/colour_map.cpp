@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "render/canvas/text.h"
-#include "render/gl/image.h"
 
 namespace gridshell::render {
 namespace {

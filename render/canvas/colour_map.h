@@ -2,7 +2,6 @@
 // [Ottosson 2020].
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "render/gl/image.h"

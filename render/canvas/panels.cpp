@@ -1,7 +1,5 @@
 #include "render/canvas/panels.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 

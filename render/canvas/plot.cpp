@@ -1,9 +1,5 @@
 #include "render/canvas/plot.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-
 #include "render/canvas/colour_map.h"
 
 #include "render/canvas/plot_frame.h"
@@ -98,17 +94,13 @@ void draw_error_bars(Canvas& canvas, const PlotFrame& frame, const Series& s) {
       canvas.line({p.x, low}, {p.x, high}, stroke);
       for (double y : {low, high}) canvas.line({p.x - cap, y}, {p.x + cap, y}, stroke);
     }
-    const auto bar_along_x = [&](double from, double to) {
-      double low = frame.x.place(from);
+    if (k < s.x_span.size() && s.x_span[k][1] > s.x_span[k][0]) {
+      double low = frame.x.place(s.x_span[k][0]);
       if (!std::isfinite(low)) low = frame.inside.x;
-      const double high = frame.x.place(to);
+      const double high = frame.x.place(s.x_span[k][1]);
       canvas.line({low, p.y}, {high, p.y}, stroke);
       for (double x : {low, high}) canvas.line({x, p.y - cap}, {x, p.y + cap}, stroke);
-    };
-    if (k < s.x_error.size() && s.x_error[k] > 0)
-      bar_along_x(s.x[k] - s.x_error[k], s.x[k] + s.x_error[k]);
-    if (k < s.x_span.size() && s.x_span[k][1] > s.x_span[k][0])
-      bar_along_x(s.x_span[k][0], s.x_span[k][1]);
+    }
   }
 }
 

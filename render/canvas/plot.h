@@ -36,7 +36,6 @@ struct Series {
   std::string name;  ///< marked text; empty: not in the legend
   std::vector<double> x = {}, y = {};
   std::vector<double> y_error = {};                ///< half-lengths; empty: none
-  std::vector<double> x_error = {};                ///< half-lengths; empty: none
   std::vector<std::array<double, 2>> x_span = {};  ///< ends of a bar, least and most; empty: none
   Colour colour{0.27f, 0.47f, 0.67f, 1};
   SeriesKind kind = SeriesKind::points;

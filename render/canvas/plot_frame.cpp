@@ -23,12 +23,11 @@ Range data_range(const Plot& plot, bool of_x) {
   Range range;
   for (const Series& s : plot.series) {
     const auto& values = of_x ? s.x : s.y;
-    const auto& errors = of_x ? s.x_error : s.y_error;
     for (std::size_t k = 0; k < values.size(); ++k) {
-      const double bar = s.kind == SeriesKind::bars && of_x ? s.bar_width / 2 : 0;
-      const double error = k < errors.size() && std::isfinite(errors[k]) ? errors[k] : 0;
-      range.add(values[k] - std::max(error, bar), logarithmic);
-      range.add(values[k] + std::max(error, bar), logarithmic);
+      double room = s.kind == SeriesKind::bars && of_x ? s.bar_width / 2 : 0;
+      if (!of_x && k < s.y_error.size() && std::isfinite(s.y_error[k])) room = s.y_error[k];
+      range.add(values[k] - room, logarithmic);
+      range.add(values[k] + room, logarithmic);
       if (s.kind == SeriesKind::bars && !of_x) range.add(0, logarithmic);
     }
   }

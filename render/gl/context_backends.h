@@ -2,7 +2,6 @@
 #pragma once
 
 #include <initializer_list>
-#include <string>
 
 #include "engine/core/result.h"
 #include "render/gl/context.h"

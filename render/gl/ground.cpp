@@ -1,4 +1,4 @@
-#include "render/gl/ground.h"
+#include "render/gl/painter.h"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -139,7 +139,7 @@ void Ground::draw_shadow(const RenderJob& shot, const Eigen::Matrix4d& matrix,
 }
 
 Result<void> Ground::begin_ground_light(const Tile& tile, const std::vector<Lighting>& passes) {
-  if (auto bound = gathered_.bind(tile.width, tile.height, GL_R32F); !bound) return bound;
+  TRY_DO(gathered_.bind(tile.width, tile.height, GL_R32F));
   float open = 0;
   for (const Lighting& light : passes) open += open_light(light) / float(passes.size());
   gl_->ClearColor(open, 0, 0, 0);
@@ -149,7 +149,7 @@ Result<void> Ground::begin_ground_light(const Tile& tile, const std::vector<Ligh
 
 Result<void> Ground::gather(const RenderJob& shot, const Tile& tile, const Eigen::Matrix4d& matrix,
                             const Lighting& light, const ShadowMap& shadow, int passes) {
-  if (auto bound = gathered_.bind(tile.width, tile.height, GL_R32F); !bound) return bound;
+  TRY_DO(gathered_.bind(tile.width, tile.height, GL_R32F));
   gl_->Disable(GL_DEPTH_TEST);
   gl_->Disable(GL_CULL_FACE);
   gl_->Enable(GL_BLEND);
@@ -172,7 +172,7 @@ void Ground::draw_ground_light(const RenderJob& shot, const Eigen::Matrix4d& mat
 Result<void> Ground::soften(const RenderJob& shot, const ShadowMap& shadow, const Lighting& light,
                             bool many) {
   const int texels = texels_for(shot.height);
-  if (auto bound = light_.bind(texels, texels, GL_R16F); !bound) return bound;
+  TRY_DO(light_.bind(texels, texels, GL_R16F));
   const Program& program = programs_.soften;
   program.use();
   program.set("cover", 0);

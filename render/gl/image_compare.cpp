@@ -1,7 +1,5 @@
 #include "render/gl/image.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdlib>

@@ -128,7 +128,7 @@ void ShadowMap::fit(const Scene& scene, const Eigen::Vector3d& light, double gro
 Result<void> ShadowMap::render(const Scene& scene, const VertexStore& ribbons,
                                const VertexStore& sheets, const Eigen::Vector3d& light,
                                double ground_z) {
-  if (auto bound = target_.bind(texels, texels, GL_RG8); !bound) return bound;
+  TRY_DO(target_.bind(texels, texels, GL_RG8));
   fit(scene, light, ground_z);
   caster_.use();
   caster_.set("light_matrix", matrix_);

@@ -1,8 +1,5 @@
 #include "render/gl/opengl.h"
 
-#include <fmt/format.h>
-#include <cstddef>
-
 #include "render/gl/context.h"
 
 namespace gridshell::render {

@@ -6,7 +6,6 @@
 #include <GL/glcorearb.h>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <initializer_list>
 #include <utility>
 #include <vector>

@@ -106,7 +106,7 @@ Result<void> Painter::prepare(const DrawQuality& quality) {
 }
 
 Result<void> Painter::begin(const RenderJob& shot) {
-  if (auto prepared = prepare(shot.quality); !prepared) return prepared;
+  TRY_DO(prepare(shot.quality));
   sheets_.upload(shot.scene.sheets);
   ribbons_.upload(shot.scene.ribbons, {shot.scene.casters});
   beads_.upload(shot.scene.beads);
@@ -140,12 +140,11 @@ Result<void> Painter::cast(const RenderJob& shot, int pass) {
 }
 
 Result<void> Painter::paint_single_pass(const RenderJob& shot, const Tile& tile) {
-  if (auto done = cast(shot, 0); !done) return done;
+  TRY_DO(cast(shot, 0));
   const Eigen::Matrix4d matrix = matrix_of(shot, tile, passes_[0]);
   const int s = shot.quality.supersample;
-  if (s > 1)
-    if (auto layer = paint_shell(shot, tile, passes_[0], layer_); !layer) return layer;
-  if (auto bound = pixels_.bind(tile.width, tile.height, GL_SRGB8_ALPHA8); !bound) return bound;
+  if (s > 1) TRY_DO(paint_shell(shot, tile, passes_[0], layer_));
+  TRY_DO(pixels_.bind(tile.width, tile.height, GL_SRGB8_ALPHA8));
   ground_.draw(shot, matrix, passes_[0], shot.quality.shadow ? &shadow_ : nullptr);
   if (s > 1)
     composite_shell(s, tile);
@@ -160,19 +159,16 @@ Result<void> Painter::paint_multi_pass(const RenderJob& shot, const Tile& tile) 
   const Tile part = shell_in(shot, tile);
   const bool shell = part.width > 0 && part.height > 0;
   const bool shade = shot.quality.shadow && Ground::seen(shot);
-  if (auto begun = ground_.begin_ground_light(tile, passes_); !begun) return begun;
+  TRY_DO(ground_.begin_ground_light(tile, passes_));
   for (int i = 0; i < int(passes_.size()); ++i) {
     const Lighting& light = passes_[std::size_t(i)];
-    if (auto done = cast(shot, i); !done) return done;
+    TRY_DO(cast(shot, i));
     if (shade)
-      if (auto done = ground_.gather(shot, tile, matrix_of(shot, tile, light), light, shadow_,
-                                     int(passes_.size()));
-          !done)
-        return done;
-    if (shell)
-      if (auto done = accumulate_shell(shot, part, light, i == 0); !done) return done;
+      TRY_DO(ground_.gather(shot, tile, matrix_of(shot, tile, light), light, shadow_,
+                            int(passes_.size())));
+    if (shell) TRY_DO(accumulate_shell(shot, part, light, i == 0));
   }
-  if (auto bound = whole_.bind(tile.width, tile.height, GL_RGBA16F); !bound) return bound;
+  TRY_DO(whole_.bind(tile.width, tile.height, GL_RGBA16F));
   const Eigen::Matrix4d still = matrix_of(shot, tile, Lighting{});
   if (Ground::seen(shot))
     ground_.draw_ground_light(shot, still);
@@ -184,7 +180,7 @@ Result<void> Painter::paint_multi_pass(const RenderJob& shot, const Tile& tile) 
     gl_->Viewport(part.x - tile.x, part.y - tile.y, part.width, part.height);
     show(sum_.colour(), 1.f / float(passes_.size()), {part.x - tile.x, part.y - tile.y});
   }
-  if (auto bound = pixels_.bind(tile.width, tile.height, GL_SRGB8_ALPHA8); !bound) return bound;
+  TRY_DO(pixels_.bind(tile.width, tile.height, GL_SRGB8_ALPHA8));
   gl_->Disable(GL_BLEND);
   show(whole_.colour(), 1, {0, 0});
   return {};
@@ -194,15 +190,14 @@ Result<void> Painter::paint_multi_pass(const RenderJob& shot, const Tile& tile) 
 Result<void> Painter::accumulate_shell(const RenderJob& shot, const Tile& part,
                                        const Lighting& light, bool first) {
   const int s = shot.quality.supersample;
-  if (auto painted = paint_shell(shot, part, light, s > 1 ? layer_ : pass_); !painted)
-    return painted;
+  TRY_DO(paint_shell(shot, part, light, s > 1 ? layer_ : pass_));
   if (s > 1) {
-    if (auto bound = pass_.bind(part.width, part.height, GL_RGBA16F); !bound) return bound;
+    TRY_DO(pass_.bind(part.width, part.height, GL_RGBA16F));
     gl_->ClearColor(0, 0, 0, 0);
     gl_->Clear(GL_COLOR_BUFFER_BIT);
     composite_shell(s, part);
   }
-  if (auto bound = sum_.bind(part.width, part.height, GL_RGBA32F); !bound) return bound;
+  TRY_DO(sum_.bind(part.width, part.height, GL_RGBA32F));
   if (first) {
     gl_->ClearColor(0, 0, 0, 0);
     gl_->Clear(GL_COLOR_BUFFER_BIT);
@@ -218,7 +213,7 @@ Result<void> Painter::paint_shell(const RenderJob& shot, const Tile& tile, const
                                   Target& to) {
   const int s = shot.quality.supersample;
   const GLenum format = multi_pass() ? GL_RGBA16F : GL_SRGB8_ALPHA8;
-  if (auto bound = to.bind(s * tile.width, s * tile.height, format); !bound) return bound;
+  TRY_DO(to.bind(s * tile.width, s * tile.height, format));
   gl_->ClearColor(0, 0, 0, 0);
   gl_->Clear(GL_COLOR_BUFFER_BIT);
   draw_meshes(shot, light, matrix_of(shot, tile, light).cast<float>());

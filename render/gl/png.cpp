@@ -1,6 +1,5 @@
 #include "render/gl/image.h"
 
-#include <fmt/format.h>
 #include <libdeflate.h>
 #include <png.h>
 

@@ -1,6 +1,5 @@
 #include "render/gl/renderer.h"
 
-#include <fmt/format.h>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
@@ -9,7 +8,6 @@
 #include <optional>
 
 #include "render/gl/context.h"
-#include "render/gl/image.h"
 #include "render/gl/painter.h"
 #include "render/gl/scene.h"
 

@@ -3,16 +3,12 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
 #include <utility>
-#include <vector>
 
 #include "render/gl/image.h"
-#include "render/gl/mesh.h"
-#include "render/gl/renderer.h"
 
 namespace gridshell::render {
 namespace {

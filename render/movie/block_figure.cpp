@@ -1,7 +1,5 @@
 #include "render/movie/run_figures.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <map>
 #include <numbers>
@@ -9,7 +7,6 @@
 
 #include "render/canvas/panels.h"
 #include "render/movie/run_plots.h"
-#include "render/movie/shell_lines.h"
 #include "render/movie/stage.h"
 
 #include "engine/core/try.h"

@@ -1,4 +1,4 @@
-#include "render/movie/colour_by.h"
+#include "render/movie/run_summary.h"
 
 #include <fmt/format.h>
 #include <algorithm>

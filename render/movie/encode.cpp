@@ -7,9 +7,7 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "engine/core/file_io.h"
 #include "engine/core/try.h"
-#include "render/movie/subprocess.h"
 
 namespace gridshell::render {
 
@@ -124,19 +122,16 @@ std::filesystem::path find_program(const std::string& name) {
   return {};
 }
 
-Result<Encoding> encode_movie(const std::filesystem::path& frames, const preset::Movie& timing,
-                              const std::filesystem::path& movie, const Watch& watch) {
-  Encoding encoding{false, shell_line(encode_arguments(frames, timing, movie))};
+Result<void> encode_movie(const std::filesystem::path& frames, const preset::Movie& timing,
+                          const std::filesystem::path& movie, const Watch& watch) {
   const std::filesystem::path program = find_program("ffmpeg");
-  if (program.empty()) return encoding;
+  if (program.empty()) return {};
   AtomicFile file(movie);
   std::vector<std::string> arguments = encode_arguments(frames, timing, file.temporary());
   arguments[0] = program.string();
   if (auto run = run_subprocess(arguments, watch); !run)
     return tl::unexpected(told(run.error(), frames, movie));
-  TRY_DO(file.commit());
-  encoding.made = true;
-  return encoding;
+  return file.commit();
 }
 
 Result<std::optional<MovieEncoder>> MovieEncoder::begin(const std::filesystem::path& frames,

@@ -16,12 +16,6 @@
 
 namespace gridshell::render {
 
-/// Whether the movie was made, and the line for a shell that makes it.
-struct Encoding {
-  bool made = false;
-  std::string command;
-};
-
 // How fast a movie of so many frames plays its preset says: fps, frames, seconds, hold_s, pace, and
 // title_s of the card before all, title.png beside the folder `frames`.
 
@@ -38,11 +32,10 @@ std::string shell_line(const std::vector<std::string>& words);
 /// Where a program is on the PATH; empty if nowhere.
 std::filesystem::path find_program(const std::string& name);
 
-/// Runs ffmpeg on `frames` and puts `movie` in place once it is whole. Without ffmpeg that is no
-/// error: `made` is false and `command` says how. Errors: Fault::io with ffmpeg's last words when
-/// it failed, Fault::cancelled.
-Result<Encoding> encode_movie(const std::filesystem::path& frames, const preset::Movie& timing,
-                              const std::filesystem::path& movie, const Watch& watch);
+/// Runs ffmpeg on `frames` and puts `movie` in place once it is whole; nothing is made without
+/// ffmpeg. Errors: Fault::io with ffmpeg's last words when it failed, Fault::cancelled.
+Result<void> encode_movie(const std::filesystem::path& frames, const preset::Movie& timing,
+                          const std::filesystem::path& movie, const Watch& watch);
 
 /// A movie that is made while its frames are drawn: the same file, to the bit, as encode_movie()
 /// makes of them afterwards.

@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 #include "engine/record/contacts.h"
 #include "render/canvas/text.h"
-#include "render/movie/run_summary.h"
 
 namespace gridshell::render {
 namespace {

@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 #include <system_error>
-#include <utility>
 
+#include "engine/core/try.h"
 #include "render/canvas/canvas.h"
-#include "render/gl/image.h"
 
 namespace gridshell::render {
 
@@ -82,14 +81,14 @@ Result<void> FrameWriter::put(Image picture, DrawOverPicture over) {
 }
 
 Result<void> FrameWriter::finish() {
-  if (auto written = worker_.wait(); !written) return written;
+  TRY_DO(worker_.wait());
   written_ = begun_;
   return {};
 }
 
 Result<void> FrameWriter::check() {
   if (!watch_.cancelled()) return {};
-  if (auto done = finish(); !done) return done;
+  TRY_DO(finish());
   return fail(Fault::cancelled, fmt::format("stopped after {} of {} frames", written_, count_));
 }
 

@@ -76,8 +76,6 @@ class FrameWriter {
   /// Fault::cancelled once the watch is, with how many frames there are.
   Result<void> check();
 
-  int written() const { return written_; }
-
  private:
   std::filesystem::path folder_;
   int count_;

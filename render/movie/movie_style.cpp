@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "render/canvas/canvas.h"
 #include "render/movie/frame_overlay.h"
 
 namespace gridshell::render {

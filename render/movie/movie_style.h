@@ -1,7 +1,6 @@
 // How a run is shown: everything a user may choose about a movie or a still.
 #pragma once
 
-#include <Eigen/Core>
 #include <string>
 #include <vector>
 

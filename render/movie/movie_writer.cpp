@@ -6,12 +6,10 @@
 #include <memory>
 
 #include "engine/core/file_io.h"
-#include "engine/core/system_info.h"
 #include "engine/core/try.h"
-#include "render/movie/colour_by.h"
 #include "render/movie/frame_overlay.h"
-#include "render/movie/frame_writer.h"
 #include "render/movie/run_figures.h"
+#include "render/movie/run_summary.h"
 #include "render/movie/stage.h"
 
 namespace gridshell::render {
@@ -24,33 +22,23 @@ struct DrawnFrame {
 };
 using DrawFrame = std::function<Result<DrawnFrame>(int at)>;
 
-Result<MovieReport> write_frames(int count, const DrawFrame& draw,
-                                 const std::filesystem::path& folder, Watch& watch,
-                                 const FrameCallback& on_frame) {
+Result<void> write_frames(int count, const DrawFrame& draw, const std::filesystem::path& folder,
+                          Watch& watch, const FrameCallback& on_frame) {
   FrameWriter writer(folder, count, watch, on_frame);
-  MovieReport report;
   for (int k = 0; k < count; ++k) {
     TRY_DO(writer.check());
-    const double begin = seconds_now();
     TRY(frame, draw(k));
-    const double drawn = seconds_now();
     TRY_DO(writer.put(std::move(frame->picture), std::move(frame->over)));
-    report.seconds_draw += drawn - begin;
-    report.seconds_write += seconds_now() - drawn;
   }
-  const double waiting = seconds_now();
-  TRY_DO(writer.finish());
-  report.seconds_write += seconds_now() - waiting;
-  report.frames = writer.written();
-  return report;
+  return writer.finish();
 }
 
 }  // namespace
 
-Result<MovieReport> write_movie(const FrameSource& source, RunSummary survey,
-                                const MovieStyle& style, const std::optional<ColourBar>& bar,
-                                Renderer& renderer, const std::filesystem::path& folder,
-                                Watch& watch, const FrameCallback& on_frame) {
+Result<void> write_movie(const FrameSource& source, RunSummary survey, const MovieStyle& style,
+                         const std::optional<ColourBar>& bar, Renderer& renderer,
+                         const std::filesystem::path& folder, Watch& watch,
+                         const FrameCallback& on_frame) {
   TRY_DO(check_size(style));
   if (source.count < 1) return fail(Fault::bad_input, "the run has no frame to show");
   TRY_DO(check_coloured(survey, style));
@@ -68,14 +56,6 @@ Result<MovieReport> write_movie(const FrameSource& source, RunSummary survey,
   return write_frames(source.count, draw, folder, watch, on_frame);
 }
 
-Result<MovieReport> write_movie(const record::Trajectory& run, const MovieStyle& style,
-                                Renderer& renderer, const std::filesystem::path& folder,
-                                Watch& watch, const FrameCallback& on_frame) {
-  TRY_DO(check_showable(run, style));
-  return write_movie(source_of(run), summarise_run(run), style, {}, renderer, folder, watch,
-                     on_frame);
-}
-
 namespace {
 
 // a run's part of the frame has no text of its own
@@ -89,14 +69,14 @@ MovieStyle without_captions(MovieStyle style) {
 
 class SideBySideMovie {
  public:
-  SideBySideMovie(const std::vector<ComparedRun>& runs, const MovieStyle& style)
+  SideBySideMovie(const std::vector<NamedRun>& runs, const MovieStyle& style)
       : runs_(runs), style_(style) {
     em_ = style.font_scale *
           std::max(7.5, 0.024 * std::min<double>(style.height(), 0.72 * style.width()));
     MovieStyle part = without_captions(style);
     std::vector<RunSummary> surveys;
     std::vector<const RunSummary*> all;
-    for (const ComparedRun& one : runs) surveys.push_back(summarise_run(*one.run));
+    for (const NamedRun& one : runs) surveys.push_back(summarise_run(*one.run));
     for (const RunSummary& survey : surveys) all.push_back(&survey);
     bar_ = colour_bar_of(all, style);
     legend_ = bar_ ? colour_bar_width(*bar_, 0.95 * em_) + em_ : 0;
@@ -106,12 +86,12 @@ class SideBySideMovie {
     // shells are about as high as wide: what is left below shows the forces of pushes
     const int high = int(0.92 * part.size[0]);
     const bool pushed = std::ranges::any_of(
-        runs, [](const ComparedRun& one) { return std::isfinite(one.run->frames.back().force_N); });
+        runs, [](const NamedRun& one) { return std::isfinite(one.run->frames.back().force_N); });
     if (style.captions && pushed && part.size[1] - high > 8 * em_) {
       spare_ = part.size[1] - high;
       part.size[1] = high;
       std::vector<NamedRun> named;
-      for (const ComparedRun& one : runs) named.push_back({one.run, plain(one.name)});
+      for (const NamedRun& one : runs) named.push_back({one.run, plain(one.name)});
       forces_ = force_plot(named);
       forces_.font_size = 0.9 * em_;
       for (Series& series : forces_.series) series.marker = Marker::none;
@@ -205,7 +185,7 @@ class SideBySideMovie {
                 {.size = em_, .align_y = AlignY::middle});
   }
 
-  const std::vector<ComparedRun>& runs_;
+  const std::vector<NamedRun>& runs_;
   MovieStyle style_;
   double em_ = 0, legend_ = 0;  // of the font; of the colour bar's column
   double spare_ = 0;            // height below the parts for the forces; 0: there is none
@@ -216,12 +196,11 @@ class SideBySideMovie {
 
 }  // namespace
 
-Result<MovieReport> write_side_by_side(const std::vector<ComparedRun>& runs,
-                                       const MovieStyle& style, Renderer& renderer,
-                                       const std::filesystem::path& folder, Watch& watch,
-                                       const FrameCallback& on_frame) {
+Result<void> write_side_by_side(const std::vector<NamedRun>& runs, const MovieStyle& style,
+                                Renderer& renderer, const std::filesystem::path& folder,
+                                Watch& watch, const FrameCallback& on_frame) {
   if (runs.empty()) return fail(Fault::bad_input, "there is no run to show");
-  for (const ComparedRun& one : runs) TRY_DO(check_showable(*one.run, style));
+  for (const NamedRun& one : runs) TRY_DO(check_showable(*one.run, style));
   TRY_DO(make_folder(folder));
   const SideBySideMovie beside(runs, style);
   const auto draw = [&](int k) {

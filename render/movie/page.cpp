@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "render/canvas/canvas.h"
-
 namespace gridshell::render {
 namespace {
 

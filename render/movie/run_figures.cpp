@@ -6,11 +6,7 @@
 
 #include "engine/core/try.h"
 #include "engine/record/frame_values.h"
-#include "render/canvas/panels.h"
-#include "render/movie/colour_by.h"
-#include "render/movie/run_plots.h"
 #include "render/movie/run_summary.h"
-#include "render/movie/shell_lines.h"
 #include "render/movie/stage.h"
 
 namespace gridshell::render {

@@ -3,9 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 

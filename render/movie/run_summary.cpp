@@ -1,12 +1,6 @@
 #include "render/movie/run_summary.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
-
-#include "render/movie/colour_by.h"
-
-#include "engine/core/try.h"
 
 namespace gridshell::render {
 namespace {
@@ -234,15 +228,6 @@ Eigen::Matrix3Xd RunSummary::bounds() const {
     count += part->cols();
   }
   return all;
-}
-
-Result<RunSummary> summarise_run(const FrameSource& source) {
-  RunSummary survey(*source.layout);
-  for (int k = 0; k < source.count; ++k) {
-    TRY(frame, source.at(k));
-    survey.take(*frame);
-  }
-  return survey;
 }
 
 RunSummary summarise_run(const record::Trajectory& run) {

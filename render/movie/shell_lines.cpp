@@ -1,4 +1,4 @@
-#include "render/movie/shell_lines.h"
+#include "render/movie/stage.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "render/canvas/legend.h"
-#include "render/gl/renderer.h"
 
 namespace gridshell::render {
 namespace {

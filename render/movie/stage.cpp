@@ -6,9 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "render/gl/renderer.h"
-#include "render/movie/colour_by.h"
-#include "render/movie/frame_overlay.h"
+#include "engine/core/try.h"
 #include "render/movie/run_plots.h"
 #include "render/movie/run_summary.h"
 
@@ -183,12 +181,12 @@ Result<void> check_coloured(const RunSummary& survey, const MovieStyle& style) {
 }
 
 Result<void> check_showable(const record::Trajectory& run, const MovieStyle& style) {
-  if (auto sized = check_size(style); !sized) return sized;
+  TRY_DO(check_size(style));
   if (run.frames.empty()) return fail(Fault::bad_input, "the run has no frame to show");
   if (run.layout.original_boundary.cols() != run.layout.actuated_boundary.cols())
     return fail(Fault::bad_input, "the run's two boundaries differ in their number of points");
   for (std::size_t k = 0; k < run.frames.size(); ++k)
-    if (auto good = check_frame(run.layout, run.frames[k], int(k), style); !good) return good;
+    TRY_DO(check_frame(run.layout, run.frames[k], int(k), style));
   const ColourBy by = style.colour_by;
   if (!may_be_missing(by)) return {};
   for (const record::Frame& frame : run.frames)

@@ -10,7 +10,6 @@
 #include <sstream>
 #include <utility>
 
-#include "engine/record/phase_diagram.h"
 #include "render/canvas/text.h"
 
 namespace gridshell::render {

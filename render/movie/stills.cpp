@@ -11,7 +11,6 @@
 #include "render/gl/image.h"
 #include "render/movie/frame_overlay.h"
 #include "render/movie/run_figures.h"
-#include "render/movie/stage.h"
 
 namespace gridshell::render {
 namespace {

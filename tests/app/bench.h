@@ -2,10 +2,8 @@
 // preset.
 #pragma once
 
-#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdlib>
-#include <sstream>
 
 #include "engine/core/file_io.h"
 #include "tests/app/program.h"

@@ -3,13 +3,14 @@
 #include <regex>
 #include <set>
 
-#include "app/cli/finished_run.h"
 #include "app/cli/paper_page.h"
+#include "app/cli/produce.h"
 #include "engine/formats/csv.h"
 #include "render/canvas/colour_map.h"
 #include "render/gl/image.h"
 #include "tests/app/bench.h"
 #include "tests/render/canvas/ink.h"
+#include "tests/results.h"
 
 using namespace gridshell;
 
@@ -277,18 +278,16 @@ double ink_around(const render::Image& picture, const render::Box& box) {
 }  // namespace
 
 TEST_CASE("on a page no words lie over others, nor over what is drawn", "[shared]") {
-  auto maker = app::PictureMaker::create("auto", "");
-  REQUIRE(maker);
+  auto maker = value_of(app::PictureMaker::create("auto", ""));
   for (int k = 1; k <= 5; ++k) {
     const TemporaryFolder folder;
     const fs::path stem = folder.path() / page_of(k);
     // as it is printed
     const std::vector<preset::Override> print{{"--width", "figure.width_mm", "178"},
                                               {"--dpi", "figure.dpi", "200"}};
-    auto records = app::read_runs(shared_run(page_of(k)), print, false);
-    REQUIRE(records);
+    auto records = value_of(app::read_runs(shared_run(page_of(k)), print, false));
     app::Runs runs;
-    for (const app::Run& run : *records) runs.push_back(&run);
+    for (const app::Run& run : records) runs.push_back(&run);
     std::vector<std::string> texts;
     std::vector<render::Box> boxes;
     double width = 1;
@@ -300,18 +299,17 @@ TEST_CASE("on a page no words lie over others, nor over what is drawn", "[shared
         boxes = canvas.text_boxes();
         width = canvas.width();
       });
-      REQUIRE(app::draw_page(runs, maker->renderer(), stem, watch));
+      REQUIRE(app::draw_page(runs, maker.renderer(), stem, watch));
     }
     REQUIRE(boxes.size() > 3);
-    const auto picture = render::read_png(fs::path(stem) += "_page.png");
-    REQUIRE(picture);
-    const double scale = picture->width / width;
+    const auto picture = value_of(render::read_png(fs::path(stem) += "_page.png"));
+    const double scale = picture.width / width;
     for (std::size_t n = 0; n < boxes.size(); ++n) {
       const render::Box box{scale * boxes[n].x, scale * boxes[n].y, scale * boxes[n].width,
                             scale * boxes[n].height};
       if (box.empty()) continue;
       INFO(page_of(k) << ": " << texts[n]);
-      CHECK(ink_around(*picture, box.inset(-2)) < 0.06);
+      CHECK(ink_around(picture, box.inset(-2)) < 0.06);
     }
   }
 }

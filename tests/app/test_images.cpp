@@ -3,6 +3,7 @@
 
 #include "render/gl/image.h"
 #include "tests/app/bench.h"
+#include "tests/results.h"
 
 using namespace gridshell;
 
@@ -12,11 +13,7 @@ const fs::path images = fs::path(GRIDSHELL_SOURCE_DIR) / "tests/images";
 
 std::string frame_name(int frame) { return "frame_0000" + std::to_string(frame) + ".png"; }
 
-render::Image picture(const fs::path& path) {
-  auto image = render::read_png(path);
-  if (!image) FAIL(image.error().message);
-  return std::move(*image);
-}
+render::Image picture(const fs::path& path) { return value_of(render::read_png(path)); }
 
 double worst(const render::Image& a, const render::Image& b) {
   const auto comparison = render::compare(a, b);
@@ -155,17 +152,15 @@ TEST_CASE("folders of pictures are compared, shown on a sheet, and replaced with
              Contains("in/other.png: differs by 110.00") && Contains("gone.png: is gone"));
   CHECK_THAT(first.out, Contains("new.png: is new") && !Contains("same.png") &&
                             Contains("3 of 4 pictures differ"));
-  const auto sheet = render::read_png(folder.path() / "sheet.png");
-  REQUIRE(sheet);
-  CHECK(sheet->width > 1400);
+  const auto sheet = value_of(render::read_png(folder.path() / "sheet.png"));
+  CHECK(sheet.width > 1400);
 
   CHECK(compare({"--update"}).code == 2);
   CHECK(fs::exists(kept / "gone.png"));
   CHECK(compare({"--update", "--why", "a lighter grey"}).code == 0);
   CHECK(compare({}).code == 0);
   CHECK_FALSE(fs::exists(kept / "gone.png"));
-  const auto why = read_file(kept / "WHY.md");
-  REQUIRE(why);
-  CHECK(why->find("a lighter grey (gone.png, in, new.png)") != std::string::npos);
+  const auto why = value_of(read_file(kept / "WHY.md"));
+  CHECK(why.find("a lighter grey (gone.png, in, new.png)") != std::string::npos);
   CHECK(gridshell_program("compare kept now/same.png", folder.path()).code == 2);
 }

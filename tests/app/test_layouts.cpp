@@ -15,6 +15,7 @@
 #include "render/movie/stills.h"
 #include "tests/render/canvas/ink.h"
 #include "tests/render/synthetic.h"
+#include "tests/results.h"
 #include "tests/temporary_folder.h"
 
 using namespace gridshell;
@@ -76,9 +77,8 @@ using Sizes = std::vector<std::pair<int, int>>;
 void check_words_of_all(const Sizes& sizes, const std::vector<double>& zooms,
                         const std::vector<int>& frames) {
   for (const auto& embedded : app::embedded_presets()) {
-    const auto presets = app::load_preset(embedded.name, {});
-    REQUIRE(presets);
-    for (const auto& one : app::runs_of(*presets)) {
+    const auto presets = value_of(app::load_preset(embedded.name, {}));
+    for (const auto& one : app::runs_of(presets)) {
       const record::Trajectory run = eventful(one.preset.indentation.wanted());
       for (const auto pictures : {app::Pictures::movie, app::Pictures::stills}) {
         MovieStyle style = app::style_of(one.preset, pictures);
@@ -118,9 +118,8 @@ TEST_CASE("the same in tall and wide pictures and in close-ups", "[full]") {
 TEST_CASE("a narrow still has its whole title, in two lines where one is too short") {
   int wrapped = 0;
   for (const auto& embedded : app::embedded_presets()) {
-    const auto presets = app::load_preset(embedded.name, {});
-    REQUIRE(presets);
-    MovieStyle style = still_style(app::style_of(presets->base, app::Pictures::stills));
+    const auto presets = value_of(app::load_preset(embedded.name, {}));
+    MovieStyle style = still_style(app::style_of(presets.base, app::Pictures::stills));
     style.size = {302, 170};
     const record::Trajectory run = eventful(true);
     const Stage stage(run, style);

@@ -5,7 +5,6 @@
 #include "app/cli/commands.h"
 #include "app/cli/delivery.h"
 #include "app/cli/preset_library.h"
-#include "app/cli/reference.h"
 #include "engine/core/json.h"
 #include "engine/preset/preset_file.h"
 #include "tests/app/bench.h"

@@ -4,6 +4,7 @@
 
 #include "app/cli/staged_folder.h"
 #include "engine/core/file_io.h"
+#include "tests/results.h"
 #include "tests/temporary_folder.h"
 
 using namespace gridshell;
@@ -12,11 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-StagedFolder staged_at(const fs::path& run) {
-  auto staged = StagedFolder::create(run);
-  REQUIRE(staged);
-  return std::move(*staged);
-}
+StagedFolder staged_at(const fs::path& run) { return value_of(StagedFolder::create(run)); }
 
 // what a finished run leaves: its files, and the list of them
 void make_run(const fs::path& run) {
@@ -186,10 +183,7 @@ TEST_CASE("what appears under the final name meanwhile is not destroyed") {
   SECTION("a folder of somebody's") {
     REQUIRE(make_folder(run));
     REQUIRE(write_file(run / "thesis.tex", "years of work"));
-    const auto committed = staged.commit();
-    REQUIRE_FALSE(committed);
-    CHECK(committed.error().fault == Fault::io);
-    CHECK_THAT(committed.error().message, Catch::Contains("it exists and is no run"));
+    CHECK_THAT(refusal(staged.commit(), Fault::io), Catch::Contains("it exists and is no run"));
     CHECK(read_file(run / "thesis.tex").value() == "years of work");
     CHECK(read_file(staged.path() / "summary.json").value() == "new");
   }

@@ -2,6 +2,7 @@
 #include "app/cli/preset_library.h"
 #include "engine/record/states.h"
 #include "tests/app/bench.h"
+#include "tests/results.h"
 
 using namespace gridshell;
 
@@ -20,11 +21,10 @@ TEST_CASE("a search for states: tables, pictures, and the same pictures again fr
   REQUIRE(write_file(at / "shell.toml", search));
   good("figure shell.toml --threads 1", at);
   const fs::path run = at / "out" / "shell";
-  const auto tables = gridshell::record::read_state_tables(run);
-  REQUIRE(tables);
-  REQUIRE(!tables->rows.empty());
-  CHECK(tables->search.trials == 8);
-  CHECK(tables->search.at_rest >= 7);
+  const auto tables = value_of(gridshell::record::read_state_tables(run));
+  REQUIRE(!tables.rows.empty());
+  CHECK(tables.search.trials == 8);
+  CHECK(tables.search.at_rest >= 7);
   for (const char* name : {"shell.png", "shell_1.png", "shell_energies.svg", "shell_lives.png"})
     CHECK(fs::exists(run / name));
   good("figure shell.toml --threads 2 -o two", at);
@@ -82,13 +82,12 @@ TEST_CASE("states and a finished sweep's phase diagram stand on one page", "[sta
 
 TEST_CASE("points of the shipped phase diagram come out again", "[standard]") {
   const std::string& text = app::embedded_files().at("fig2_phase_diagram.csv");
-  const auto shipped = record::read_sweep_csv(text);
-  REQUIRE(shipped);
-  CHECK(shipped->rows.size() == 207);
-  CHECK(record::sweep_csv(*shipped) == text);
+  const auto shipped = value_of(record::read_sweep_csv(text));
+  CHECK(shipped.rows.size() == 207);
+  CHECK(record::sweep_csv(shipped) == text);
   const TemporaryFolder folder;
   for (const std::size_t k : {9, 11, 199}) {
-    const record::SweepTable::Row& row = shipped->rows.at(k);
+    const record::SweepTable::Row& row = shipped.rows.at(k);
     INFO("point " << k);
     const auto figure = [](const record::PointResult& of, const char* name) {
       return record::number_of(of.figure(name) ? *of.figure(name) : record::Figure());
@@ -97,19 +96,18 @@ TEST_CASE("points of the shipped phase diagram come out again", "[standard]") {
         std::ranges::find(app::embedded_presets(), "fig2_phase_diagram", &app::EmbeddedPreset::name)
             ->text;
     preset.resize(preset.find("[sweep.over]"));
-    preset += fmt::format("[sweep.over]\n{} = [{}]\n{} = [{}]\n", shipped->axes[0],
-                          row.keys.values[0], shipped->axes[1], row.keys.values[1]);
+    preset += fmt::format("[sweep.over]\n{} = [{}]\n{} = [{}]\n", shipped.axes[0],
+                          row.keys.values[0], shipped.axes[1], row.keys.values[1]);
     REQUIRE(write_file(folder.path() / "point.toml", preset));
     good({"sweep", "point.toml", "-o", std::to_string(k), "--quiet", "--set",
           fmt::format("jitter.seed={}", figure(row.result, "jitter_seed"))},
          folder.path());
     const auto again =
-        record::read_sweep_csv(text_of(folder.path() / std::to_string(k) / "sweep.csv"));
-    REQUIRE(again);
+        value_of(record::read_sweep_csv(text_of(folder.path() / std::to_string(k) / "sweep.csv")));
     for (const char* name : {"states", "at_rest", "states_i", "met_i", "states_ii", "met_ii",
                              "met_confined_ii", "states_iv", "states_other", "met_other"})
-      CHECK(figure(again->rows.front().result, name) == figure(row.result, name));
-    CHECK_THAT(figure(again->rows.front().result, "height_mm"),
+      CHECK(figure(again.rows.front().result, name) == figure(row.result, name));
+    CHECK_THAT(figure(again.rows.front().result, "height_mm"),
                Catch::Matchers::WithinAbs(figure(row.result, "height_mm"), 1e-6));
   }
 }

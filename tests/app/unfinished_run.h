@@ -3,7 +3,6 @@
 
 #include <catch2/catch.hpp>
 #include <filesystem>
-#include <utility>
 
 #include "engine/record/journal.h"
 #include "engine/record/trajectory_file.h"

@@ -125,8 +125,8 @@ TEST_CASE("a shell that cannot be designed says why, and stays as it is") {
   shell.act(Open{small_cap()});
   shell.refine();
   // pinned ends hold no direction
-  CHECK(shell.attempt(design_of({preset::Vary::directions}, 4)).find("directions") !=
-        std::string::npos);
+  CHECK_THAT(shell.attempt(design_of({preset::Vary::directions}, 4)),
+             Catch::Contains("directions"));
   CHECK_FALSE(shell.view().design);
   CHECK(shell.view().layout != nullptr);
 }

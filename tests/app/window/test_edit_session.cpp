@@ -1,10 +1,10 @@
 // What commands do to a shell.
-#include <thread>
 
 #include "app/window/viewer_state.h"
 #include "app/window/worker_threads.h"
 #include "engine/simulate/run.h"
 #include "tests/app/window/edited_shell.h"
+#include "tests/results.h"
 
 using namespace gridshell;
 using namespace gridshell::window;
@@ -15,9 +15,8 @@ namespace {
 record::Frame end_of_run(const preset::Preset& preset) {
   REQUIRE(check_preset(preset));
   Watch watch;
-  auto run = simulate::run(preset, false, watch);
-  REQUIRE(run);
-  return run->trajectory.frames.back();
+  auto run = value_of(simulate::run(preset, false, watch));
+  return run.trajectory.frames.back();
 }
 
 /// How far the joints of two states are apart, on whatever meshes they stand.
@@ -210,12 +209,11 @@ TEST_CASE("what was done is kept as steps, and a run of them ends in the same st
   preset.actuation.radius_mm = shell.view().radius_end_mm;
   REQUIRE(check_preset(preset));
   Watch watch;
-  const auto run = simulate::run(preset, false, watch);
-  REQUIRE(run);
+  const auto run = value_of(simulate::run(preset, false, watch));
   // a jitter may come past other states
-  const record::Limit limit = run->summary.limit;
+  const record::Limit limit = run.summary.limit;
   CHECK((limit == record::Limit::none || limit == record::Limit::snap));
-  const record::Frame &a = shell.view().frame, &b = run->trajectory.frames.back();
+  const record::Frame &a = shell.view().frame, &b = run.trajectory.frames.back();
   REQUIRE(a.nodes.cols() == b.nodes.cols());
   CHECK((a.nodes - b.nodes).cwiseAbs().maxCoeff() < 1e-9 * 66);
   CHECK(b.energies[Term::bend] == Approx(a.energies[Term::bend]).epsilon(1e-9));

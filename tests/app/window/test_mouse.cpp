@@ -1,8 +1,8 @@
 // What the mouse does to the camera and to what is picked.
 #include <catch2/catch.hpp>
 
-#include "app/window/orbit_camera.h"
 #include "app/window/picker.h"
+#include "app/window/shell_drawing.h"
 #include "render/gl/renderer.h"
 
 using namespace gridshell;

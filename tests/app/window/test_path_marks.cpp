@@ -1,7 +1,7 @@
 // What a way is marked by: stretches that are not stable, and events.
 #include <catch2/catch.hpp>
 
-#include "app/window/path_marks.h"
+#include "app/window/shell_view.h"
 #include "engine/solve/equilibrium_path.h"
 
 using namespace gridshell;

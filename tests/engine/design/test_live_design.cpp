@@ -2,7 +2,6 @@
 #include "engine/design/design.h"
 
 #include <catch2/catch.hpp>
-#include <cmath>
 
 #include "tests/engine/simulate/run.h"
 

@@ -91,8 +91,8 @@ TEST_CASE("joints that cannot be are refused, with their line") {
   // the second joint has the point already
   const auto twice = read_network(with("[4, 1]", "[4, 1, 6]"), "n.json");
   REQUIRE_FALSE(twice);
-  CHECK(twice.error().message.find("n.json:10: joints[1]: point 6 is of another joint too") !=
-        std::string::npos);
+  CHECK_THAT(twice.error().message,
+             Catch::Contains("n.json:10: joints[1]: point 6 is of another joint too"));
   const auto held = read_network(
       with("{\"point\": 5", "{\"point\": 2}, {\"point\": 6}, {\"point\": 5"), "n.json");
   REQUIRE_FALSE(held);

@@ -3,6 +3,7 @@
 #include "engine/core/file_io.h"
 #include "engine/preset/preset.h"
 #include "engine/preset/preset_file.h"
+#include "tests/results.h"
 #include "tests/temporary_folder.h"
 
 using namespace gridshell;
@@ -288,28 +289,26 @@ second = "right.west"
 }
 
 TEST_CASE("a case's list of tables stands in the place of the file's") {
-  const auto presets = read_preset_text(
+  const auto presets = value_of(read_preset_text(
       "[footprint]\nkind = \"blocks\"\n[[block]]\nname = \"a\"\nradius_mm = 90.0\n[[block]]\n"
       "name = \"b\"\n[[join]]\nfirst = \"a.east\"\nsecond = \"b.west\"\n[[case]]\nname = \"both\"\n"
       "[[case]]\nname = \"one\"\n[[case.block]]\nname = \"c\"\n[[case.join]]\n"
       "first = \"c.east\"\nsecond = \"c.west\"\n",
-      "list.toml", "list");
-  REQUIRE(presets);
-  REQUIRE(presets->cases.size() == 2);
-  CHECK(presets->cases[0].preset.block.size() == 2);
-  const Preset& one = presets->cases[1].preset;
+      "list.toml", "list"));
+  REQUIRE(presets.cases.size() == 2);
+  CHECK(presets.cases[0].preset.block.size() == 2);
+  const Preset& one = presets.cases[1].preset;
   REQUIRE(one.block.size() == 1);
   CHECK(one.block[0].name == "c");
   // nothing is left of the file's
   CHECK(one.block[0].net.radius_mm == default_items().block[0].net.radius_mm);
   CHECK(one.join.size() == 1);
   // written down it comes to the same, and only where it differs
-  const std::string text = to_toml(*presets);
+  const std::string text = to_toml(presets);
   CHECK(text.find("[[case.block]]") != text.npos);
   CHECK(text.find("[[case.block]]") == text.rfind("[[case.block]]"));
-  const auto again = read_preset_text(text, "again.toml", "list");
-  REQUIRE(again);
-  CHECK(to_toml(*again) == text);
+  const auto again = value_of(read_preset_text(text, "again.toml", "list"));
+  CHECK(to_toml(again) == text);
 }
 
 TEST_CASE("points stand in the preset or in a file beside it") {
@@ -346,10 +345,9 @@ TEST_CASE("a file is read under its own name") {
   const TemporaryFolder folder;
   const auto file = folder.path() / "small.toml";
   REQUIRE(write_file(file, "[footprint]\nrods = 6\n"));
-  const auto presets = read_preset_file(file);
-  REQUIRE(presets);
-  CHECK(presets->base.name == "small");
-  CHECK(presets->base.footprint.rods == 6);
+  const auto presets = value_of(read_preset_file(file));
+  CHECK(presets.base.name == "small");
+  CHECK(presets.base.footprint.rods == 6);
   const auto missing = folder.path() / "none.toml";
   CHECK(read_preset_file(missing).error().message ==
         "cannot read '" + missing.string() + "': No such file or directory");

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/preset/preset_file.h"
+#include "tests/results.h"
 
 using namespace gridshell;
 using namespace gridshell::preset;
@@ -28,9 +29,8 @@ edge_points = [[3, 1.5, -1e-17, 0.0]]
 }  // namespace
 
 TEST_CASE("steps are read in their order, each with defaults of its own") {
-  const auto presets = read_preset_text(two_steps, "good.toml", "good");
-  REQUIRE(presets);
-  const auto& steps = presets->base.step;
+  const auto presets = value_of(read_preset_text(two_steps, "good.toml", "good"));
+  const auto& steps = presets.base.step;
   REQUIRE(steps.size() == 2);
   CHECK(steps[0].kind == StepKind::push);
   CHECK(steps[0].joint == std::vector{1, -2});
@@ -41,14 +41,12 @@ TEST_CASE("steps are read in their order, each with defaults of its own") {
 }
 
 TEST_CASE("written steps read back to the bit, without the keys that they do not use") {
-  const auto presets = read_preset_text(two_steps, "good.toml", "good");
-  REQUIRE(presets);
-  const std::string text = to_toml(*presets);
+  const auto presets = value_of(read_preset_text(two_steps, "good.toml", "good"));
+  const std::string text = to_toml(presets);
   CHECK_THAT(text, Catch::Contains("[[step]]\ndo = \"move\"\nprogress = 0.5\nedge_points = ") &&
                        !Catch::Contains("factor"));
-  const auto again = read_preset_text(text, "again.toml", "good");
-  REQUIRE(again);
-  CHECK(to_toml(*again) == text);
+  const auto again = value_of(read_preset_text(text, "again.toml", "good"));
+  CHECK(to_toml(again) == text);
 }
 
 TEST_CASE("load cases stand in [loads], are written there and read back") {

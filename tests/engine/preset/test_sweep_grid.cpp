@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/preset/preset_file.h"
+#include "tests/results.h"
 
 using namespace gridshell;
 using namespace gridshell::preset;
@@ -24,7 +25,7 @@ std::string over(const std::string& text) { return "[sweep.over]\n" + text + "\n
 }  // namespace
 
 TEST_CASE("a grid of cases, values and seeds, in the order of the file") {
-  const auto presets = read(R"(
+  const auto presets = value_of(read(R"(
 [sweep]
 seeds = 2
 [sweep.over]
@@ -35,9 +36,8 @@ name = "a"
 [[case]]
 name = "b"
 footprint.rods = 10
-)");
-  REQUIRE(presets);
-  const SweepGrid grid(*presets);
+)"));
+  const SweepGrid grid(presets);
   REQUIRE(grid.size() == 2u * 2 * 3 * 2);
   // written first changes slower, whatever the alphabet says
   CHECK(grid.sweep().over[0].key == "rod.young_GPa");
@@ -56,9 +56,8 @@ footprint.rods = 10
 
 TEST_CASE("searches for states shake otherwise at every point, and as before when asked again") {
   const auto seeds_of = [](const std::string& text) {
-    const auto presets = read(text);
-    REQUIRE(presets);
-    const SweepGrid grid(*presets);
+    const auto presets = value_of(read(text));
+    const SweepGrid grid(presets);
     std::vector<int> seeds;
     for (std::size_t k = 0; k < grid.size(); ++k) seeds.push_back(grid.at(k).preset.jitter.seed);
     return seeds;
@@ -77,13 +76,12 @@ TEST_CASE("searches for states shake otherwise at every point, and as before whe
 }
 
 TEST_CASE("values of every kind, ranges of integers, even factors") {
-  const auto presets = read(over(R"(actuation.seed = ["up", "down"]
+  const auto presets = value_of(read(over(R"(actuation.seed = ["up", "down"]
 footprint.rods = { from = 8, to = 16, count = 5 }
 rod.diameter_mm = { from = 0.1, to = 10, count = 3, log = true }
 indentation.unload = [true, false]
-indentation.depth_mm = [1])"));
-  REQUIRE(presets);
-  const auto& axes = presets->base.sweep.over;
+indentation.depth_mm = [1])")));
+  const auto& axes = presets.base.sweep.over;
   CHECK(axes[0].values == std::vector<std::string>{"\"up\"", "\"down\""});
   CHECK(axes[1].values == std::vector<std::string>{"8", "10", "12", "14", "16"});
   CHECK(axes[2].values == std::vector<std::string>{"0.1", "1.0", "10.0"});
@@ -91,22 +89,19 @@ indentation.depth_mm = [1])"));
 }
 
 TEST_CASE("a sweep is printed as a preset that sweeps the same") {
-  const auto presets = read("[sweep]\nseeds = 3\nplot = [\"total_K\"]\n" +
-                            over("rod.young_GPa = { from = 70, to = 90, count = 3 }"));
-  REQUIRE(presets);
-  const auto again = read(to_toml(*presets));
-  REQUIRE(again);
-  CHECK(to_toml(*again) == to_toml(*presets));
-  CHECK(again->base.sweep.over[0].values == presets->base.sweep.over[0].values);
+  const auto presets = value_of(read("[sweep]\nseeds = 3\nplot = [\"total_K\"]\n" +
+                                     over("rod.young_GPa = { from = 70, to = 90, count = 3 }")));
+  const auto again = value_of(read(to_toml(presets)));
+  CHECK(to_toml(again) == to_toml(presets));
+  CHECK(again.base.sweep.over[0].values == presets.base.sweep.over[0].values);
   // what sweeps nothing says nothing about it
   CHECK_THAT(to_toml(Preset{}), !Contains("sweep"));
 }
 
 TEST_CASE("a sweep is laid over by the command line") {
   const Override change{"--set", "sweep.over", "{rod.diameter_mm=[0.2,0.3]}"};
-  const auto presets = read("", {change});
-  REQUIRE(presets);
-  CHECK(SweepGrid(*presets).size() == 2);
+  const auto presets = value_of(read("", {change}));
+  CHECK(SweepGrid(presets).size() == 2);
   CHECK(SweepGrid(*read("")).size() == 0);
 }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/record/gauss_curvature.h"
+#include "engine/record/shape_measures.h"
 
 namespace gridshell {
 

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <cstring>
-#include <string>
 
 #include "engine/record/summary.h"
 #include "engine/record/trajectory.h"

@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "engine/footprint/symmetry.h"
-#include "engine/record/gauss_curvature.h"
 #include "engine/record/shape_measures.h"
 
 using namespace gridshell;

@@ -3,7 +3,6 @@
 #include <csignal>
 #include <filesystem>
 #include <random>
-#include <utility>
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -15,6 +14,7 @@
 #include "engine/record/summary.h"
 #include "engine/record/trajectory_file.h"
 #include "tests/engine/record/sample_run.h"
+#include "tests/results.h"
 #include "tests/temporary_folder.h"
 
 using namespace gridshell;
@@ -33,10 +33,9 @@ Frame frame_of(int index) {
 /// a journal of frames 0 ... count - 1 of the sample
 std::string journal_of(int count) {
   const TemporaryFolder folder;
-  auto journal = JournalWriter::create(folder.path() / "j", {"s1_actuation", Kind::movie},
-                                       sample_trajectory().layout);
-  REQUIRE(journal);
-  for (int k = 0; k < count; ++k) REQUIRE(journal->append(frame_of(k)));
+  auto journal = value_of(JournalWriter::create(folder.path() / "j", {"s1_actuation", Kind::movie},
+                                                sample_trajectory().layout));
+  for (int k = 0; k < count; ++k) REQUIRE(journal.append(frame_of(k)));
   return read_file(folder.path() / "j").value();
 }
 
@@ -51,21 +50,19 @@ Result<Journal> read_bytes(const std::string& bytes) {
 TEST_CASE("frames come back from a journal in order of their index, bit for bit") {
   const TemporaryFolder folder;
   const Trajectory run = sample_trajectory();
-  auto journal =
-      JournalWriter::create(folder.path() / "j", {"s1_actuation", Kind::figure}, run.layout);
-  REQUIRE(journal);
-  for (const std::size_t k : {2, 0, 1}) REQUIRE(journal->append(run.frames[k]));
+  auto journal = value_of(
+      JournalWriter::create(folder.path() / "j", {"s1_actuation", Kind::figure}, run.layout));
+  for (const std::size_t k : {2, 0, 1}) REQUIRE(journal.append(run.frames[k]));
   // found again: the later one counts
   Frame again = run.frames[1];
   again.event = "again";
-  REQUIRE(journal->append(again));
-  CHECK(journal->frames() == 3);
-  const auto back = read_journal(folder.path() / "j");
-  REQUIRE(back);
-  CHECK(back->name.preset == "s1_actuation");
-  CHECK(back->name.kind == Kind::figure);
-  CHECK(back->trajectory.layout.rods == run.layout.rods);
-  const FrameList& frames = back->trajectory.frames;
+  REQUIRE(journal.append(again));
+  CHECK(journal.frames() == 3);
+  const auto back = value_of(read_journal(folder.path() / "j"));
+  CHECK(back.name.preset == "s1_actuation");
+  CHECK(back.name.kind == Kind::figure);
+  CHECK(back.trajectory.layout.rods == run.layout.rods);
+  const FrameList& frames = back.trajectory.frames;
   REQUIRE(frames.size() == 3);
   for (std::size_t k = 0; k < 3; ++k)
     CHECK(packed_frame(frames[k]) == packed_frame(k == 1 ? again : run.frames[k]));
@@ -101,16 +98,14 @@ TEST_CASE("a journal with a changed bit reads up to the frame before it") {
 TEST_CASE("frames of another shell are left out of a journal") {
   const TemporaryFolder folder;
   const Trajectory run = sample_trajectory();
-  auto journal = JournalWriter::create(folder.path() / "j", {"x", Kind::run}, run.layout);
-  REQUIRE(journal);
-  REQUIRE(journal->append(run.frames[0]));
+  auto journal = value_of(JournalWriter::create(folder.path() / "j", {"x", Kind::run}, run.layout));
+  REQUIRE(journal.append(run.frames[0]));
   Frame other = run.frames[1];
   other.nodes.conservativeResize(3, 11);
-  REQUIRE(journal->append(other));
-  REQUIRE(journal->append(run.frames[2]));
-  const auto back = read_journal(folder.path() / "j");
-  REQUIRE(back);
-  CHECK(back->trajectory.frames.size() == 2);
+  REQUIRE(journal.append(other));
+  REQUIRE(journal.append(run.frames[2]));
+  const auto back = value_of(read_journal(folder.path() / "j"));
+  CHECK(back.trajectory.frames.size() == 2);
 }
 
 TEST_CASE("a run that is killed keeps every frame found so far") {
@@ -130,10 +125,9 @@ TEST_CASE("a run that is killed keeps every frame found so far") {
   REQUIRE(waitpid(child, &status, 0) == child);
   REQUIRE(WIFSIGNALED(status));
   CHECK(frames_in_journal(folder.path()) == killed_at);
-  const auto read = read_journal_of(folder.path());
-  REQUIRE(read);
-  CHECK(read->trajectory.frames.size() == killed_at);
-  CHECK(read->trajectory.frames.back().index == killed_at - 1);
+  const auto read = value_of(read_journal_of(folder.path()));
+  CHECK(read.trajectory.frames.size() == killed_at);
+  CHECK(read.trajectory.frames.back().index == killed_at - 1);
 }
 
 TEST_CASE("a frame of an older version, which kept no forces, is read without them") {
@@ -142,14 +136,13 @@ TEST_CASE("a frame of an older version, which kept no forces, is read without th
   const auto columns = unpacked_head(head)->columns;
   // seven empty matrices, each its rows and columns
   const std::string packed = packed_frame(frame);
-  const auto old = unpacked_frame(packed.substr(0, packed.size() - 112), columns);
-  REQUIRE(old);
+  const auto old = value_of(unpacked_frame(packed.substr(0, packed.size() - 112), columns));
   // the last four came later, one after the other
   for (const int bytes : {16, 32, 48, 64})
     CHECK(unpacked_frame(packed.substr(0, packed.size() - std::size_t(bytes)), columns));
-  CHECK(same_bits(old->nodes, frame.nodes));
-  CHECK(same_bits(old->K_bins, frame.K_bins));
-  CHECK(old->axial_force_N.size() == 0);
+  CHECK(same_bits(old.nodes, frame.nodes));
+  CHECK(same_bits(old.K_bins, frame.K_bins));
+  CHECK(old.axial_force_N.size() == 0);
   CHECK_FALSE(unpacked_frame(packed.substr(0, packed.size() - 24), columns));
 }
 
@@ -161,10 +154,9 @@ TEST_CASE("a sink becomes the files of a run, whatever the order of the frames")
   FolderSink sink(folder.path() / "found", {"s1_actuation", Kind::run, "A title"});
   REQUIRE(sink.begin(run.layout));
   for (const std::size_t k : {1, 2, 0}) REQUIRE(sink.take(run.frames[k]));
-  const auto finished = sink.finish(sample_summary());
-  REQUIRE(finished);
+  const auto finished = value_of(sink.finish(sample_summary()));
   // its frames are read from a journal that has no name any more
-  CHECK(same_bits(finished->frames[1].nodes, run.frames[1].nodes));
+  CHECK(same_bits(finished.frames[1].nodes, run.frames[1].nodes));
   for (const char* name : {"frames.csv", "joints.csv", "cells.csv", "bins.csv", "seams.csv",
                            "trajectory.h5", "summary.json"}) {
     INFO(name);

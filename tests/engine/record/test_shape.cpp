@@ -8,8 +8,8 @@
 
 #include "engine/core/json.h"
 #include "engine/record/shape_export.h"
-#include "engine/record/viewer_files.h"
 #include "tests/engine/record/sample_run.h"
+#include "tests/results.h"
 
 using namespace gridshell;
 using namespace gridshell::exports;
@@ -94,21 +94,20 @@ TEST_CASE("a VTP has as many numbers as it says") {
 
 TEST_CASE("a GLB holds its chunks, as many key shapes as frames, and a way for each joint") {
   const record::Trajectory run = sample_trajectory();
-  const auto glb = to_glb(run, "sample", 2);
-  REQUIRE(glb);
+  const auto glb = value_of(to_glb(run, "sample", 2));
   const auto word = [&](std::size_t at) {
     std::uint32_t value = 0;
-    std::memcpy(&value, glb->data() + at, 4);
+    std::memcpy(&value, glb.data() + at, 4);
     return value;
   };
-  CHECK(glb->substr(0, 4) == "glTF");
+  CHECK(glb.substr(0, 4) == "glTF");
   CHECK(word(4) == 2);
-  CHECK(word(8) == glb->size());
+  CHECK(word(8) == glb.size());
   const std::size_t json_size = word(12);
-  CHECK(glb->substr(16, 4) == "JSON");
-  const Json gltf = parsed(glb->substr(20, json_size));
+  CHECK(glb.substr(16, 4) == "JSON");
+  const Json gltf = parsed(glb.substr(20, json_size));
   REQUIRE(gltf.is_object());
-  CHECK(word(20 + json_size) == glb->size() - 28 - json_size);
+  CHECK(word(20 + json_size) == glb.size() - 28 - json_size);
   CHECK(gltf["buffers"][0]["byteLength"] <= word(20 + json_size));
   const std::size_t shapes = run.frames.size();
   CHECK(gltf["meshes"][0]["primitives"][0]["targets"].size() == shapes - 1);
@@ -128,13 +127,12 @@ TEST_CASE("a GLB holds its chunks, as many key shapes as frames, and a way for e
 
 TEST_CASE("a page holds the run, and a title cannot end its script") {
   const record::Trajectory run = sample_trajectory();
-  const auto page = to_page(run, "</script><b>bold");
-  REQUIRE(page);
-  CHECK(page->starts_with("<!DOCTYPE html>"));
-  CHECK(count(*page, "</script>") == 2);
-  CHECK(page->find("/*RUN*/") == page->npos);
-  const std::size_t from = page->find("application/json\">") + 18;
-  const Json json = parsed(page->substr(from, page->find("</script>", from) - from));
+  const auto page = value_of(to_page(run, "</script><b>bold"));
+  CHECK(page.starts_with("<!DOCTYPE html>"));
+  CHECK(count(page, "</script>") == 2);
+  CHECK(page.find("/*RUN*/") == page.npos);
+  const std::size_t from = page.find("application/json\">") + 18;
+  const Json json = parsed(page.substr(from, page.find("</script>", from) - from));
   REQUIRE(json.is_object());
   CHECK(json["frames"].size() == run.frames.size());
   CHECK(json["rods"].size() == run.layout.rods.size());

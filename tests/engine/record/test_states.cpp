@@ -6,6 +6,7 @@
 #include "engine/core/file_io.h"
 #include "engine/core/json.h"
 #include "engine/formats/csv.h"
+#include "tests/results.h"
 #include "tests/temporary_folder.h"
 
 using namespace gridshell;
@@ -44,19 +45,18 @@ TEST_CASE("state tables: what is written is read back, what is unknown stays so"
   const TemporaryFolder folder;
   const record::StateTables written = sample();
   REQUIRE(record::write_state_tables(folder.path(), written));
-  const auto read = record::read_state_tables(folder.path());
-  REQUIRE(read);
-  CHECK(record::csv_table(read->rows) == record::csv_table(written.rows));
-  CHECK(record::csv_table(read->transitions) == record::csv_table(written.transitions));
-  CHECK(record::csv_table(read->barriers) == record::csv_table(written.barriers));
-  CHECK(std::isnan(read->barriers[1].back_mJ));
+  const auto read = value_of(record::read_state_tables(folder.path()));
+  CHECK(record::csv_table(read.rows) == record::csv_table(written.rows));
+  CHECK(record::csv_table(read.transitions) == record::csv_table(written.transitions));
+  CHECK(record::csv_table(read.barriers) == record::csv_table(written.barriers));
+  CHECK(std::isnan(read.barriers[1].back_mJ));
   CHECK(record::csv_table(written.transitions) ==
         "from,to,by,count\niv.1,other.2,released,1\niv.1,,pushed,7\n");
-  CHECK(read->rows[1].barrier_mJ == 0.25);
-  CHECK(std::isnan(read->rows[0].barrier_mJ));
-  CHECK(text_of(json_of(read->search)) == text_of(json_of(written.search)));
-  CHECK(std::isnan(read->rows[0].eigenvalue_N_per_mm2));
-  CHECK(read->rows[0].lives_to == 0.0325);
+  CHECK(read.rows[1].barrier_mJ == 0.25);
+  CHECK(std::isnan(read.rows[0].barrier_mJ));
+  CHECK(text_of(json_of(read.search)) == text_of(json_of(written.search)));
+  CHECK(std::isnan(read.rows[0].eigenvalue_N_per_mm2));
+  CHECK(read.rows[0].lives_to == 0.0325);
 }
 
 TEST_CASE("states to draw: the lowest of each of the paper's classes, then those met most often") {
@@ -85,31 +85,28 @@ TEST_CASE("state tables of earlier versions: a number that has no column is unkn
   const auto cut = search.find(",", search.find("cpu_s"));
   REQUIRE(write_file(folder.path() / "states.csv", older));
   REQUIRE(write_file(folder.path() / "states.json", search.substr(0, cut) + "}"));
-  const auto read = record::read_state_tables(folder.path());
-  REQUIRE(read);
-  CHECK(read->rows.size() == 2);
-  CHECK(read->rows[0].kind == record::StateClass::iv);
-  CHECK(read->rows[0].lives_to == 0.0325);
-  CHECK(std::isnan(read->rows[1].barrier_mJ));
-  CHECK(read->search.trials == 900);
-  CHECK(read->search.paths_followed == 0);
+  const auto read = value_of(record::read_state_tables(folder.path()));
+  CHECK(read.rows.size() == 2);
+  CHECK(read.rows[0].kind == record::StateClass::iv);
+  CHECK(read.rows[0].lives_to == 0.0325);
+  CHECK(std::isnan(read.rows[1].barrier_mJ));
+  CHECK(read.search.trials == 900);
+  CHECK(read.search.paths_followed == 0);
   // and before all terms of the energy were kept
   REQUIRE(write_file(folder.path() / "states.csv",
                      "state,class,group,energy_bend_mJ,energy_stretch_mJ,inflections,count,"
                      "count_confined\n1,iv,C4v,39.9,0.1,2 | 2,6,0\n"));
-  const auto two_terms = record::read_state_tables(folder.path());
-  REQUIRE(two_terms);
-  CHECK(std::isnan(two_terms->rows.at(0).energies[Term::twist]));
-  CHECK(two_terms->rows.at(0).energy_mJ() == Approx(40));
+  const auto two_terms = value_of(record::read_state_tables(folder.path()));
+  CHECK(std::isnan(two_terms.rows.at(0).energies[Term::twist]));
+  CHECK(two_terms.rows.at(0).energy_mJ() == Approx(40));
   // states were numbers, and what disturbed them had other words
   REQUIRE(write_file(folder.path() / "transitions.csv",
                      "from,to,by,count\n1,1,let out,1\n1,0,poked,4\n"));
-  const auto older_words = record::read_state_tables(folder.path());
-  REQUIRE(older_words);
-  CHECK(older_words->transitions[0].from.text() == "iv.1");
-  CHECK(older_words->transitions[0].by == record::Disturbance::released);
-  CHECK(older_words->transitions[1].by == record::Disturbance::pushed);
-  CHECK(older_words->transitions[1].to == 0);
+  const auto older_words = value_of(record::read_state_tables(folder.path()));
+  CHECK(older_words.transitions[0].from.text() == "iv.1");
+  CHECK(older_words.transitions[0].by == record::Disturbance::released);
+  CHECK(older_words.transitions[1].by == record::Disturbance::pushed);
+  CHECK(older_words.transitions[1].to == 0);
   // what cannot be unknown, and what is of no version
   for (const char* heading : {"state,group\n", "state,state\n", "from,to\n"}) {
     REQUIRE(write_file(folder.path() / "states.csv", heading));

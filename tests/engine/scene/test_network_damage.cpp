@@ -4,7 +4,6 @@
 #include "engine/formats/network_file.h"
 #include "engine/preset/consistency.h"
 #include "engine/scene/scene.h"
-#include "tests/results.h"
 
 using namespace gridshell;
 

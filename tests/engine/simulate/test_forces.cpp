@@ -210,8 +210,7 @@ TEST_CASE("forces, energies and bending strain of pinned elasticas, as exact as 
       // the estimate is of use
       CHECK(frame.force_error_N < (tolerance < 1e-3 ? 5 * tolerance : 0.03) * exact.force);
       CHECK(frame.largest_bending_strain == Approx(exact.strain).epsilon(0.02));
-      CHECK(frame.bending_strain_at.find("100.00 mm from its begin, at joint [") !=
-            std::string::npos);
+      CHECK_THAT(frame.bending_strain_at, Catch::Contains("100.00 mm from its begin, at joint ["));
     }
 }
 
@@ -364,8 +363,8 @@ TEST_CASE("utilisation ends a path, and of two limits the one that is met first 
   p.limits.max_bending_strain = 1.2 * limit.strain;
   const auto outcome = run(p);
   CHECK(outcome.summary.limit == record::Limit::strength);
-  CHECK(outcome.summary.limit_reason.find("[limits] max_utilisation = 0.5 allows") !=
-        std::string::npos);
+  CHECK_THAT(outcome.summary.limit_reason,
+             Catch::Contains("[limits] max_utilisation = 0.5 allows"));
   double progress = 0;
   REQUIRE(std::sscanf(outcome.summary.limit_reason.c_str(), "at progress %lf", &progress) == 1);
   CHECK(progress == Approx(limit.shortening / exact.shortening).epsilon(0.01));
@@ -382,6 +381,5 @@ TEST_CASE("a shell bent further than is allowed is not pushed") {
   p.limits.max_bending_strain = 0.5 * elastica(0.24165275).strain;
   p.indentation.at = preset::IndentationPlace::highest;
   p.indentation.depth_mm = 5;
-  CHECK(refused_run(p, Fault::no_equilibrium).find("[limits] max_bending_strain") !=
-        std::string::npos);
+  CHECK_THAT(refused_run(p, Fault::no_equilibrium), Catch::Contains("[limits] max_bending_strain"));
 }

@@ -8,6 +8,7 @@
 #include "engine/simulate/actuation.h"
 #include "engine/simulate/mesh_choice.h"
 #include "tests/engine/simulate/run.h"
+#include "tests/results.h"
 
 using namespace gridshell;
 using namespace gridshell::simulate;
@@ -15,10 +16,9 @@ using namespace gridshell::simulate;
 namespace {
 
 EquilibriumPath actuated(const preset::Preset& preset, const LevelPlan& plan) {
-  auto path = follow_actuation(shared_scene(preset), plan, false, 1, unwatched);
-  REQUIRE(path);
-  path->asked = plan;
-  return std::move(*path);
+  auto path = value_of(follow_actuation(shared_scene(preset), plan, false, 1, unwatched));
+  path.asked = plan;
+  return path;
 }
 
 const LevelPlan coarse{{4, 8}, false}, fine{{8, 16}, false};
@@ -37,10 +37,9 @@ TEST_CASE("who watches a path sees where it stands and which mesh leads") {
   const Watch watch;
   CHECK(watch.place().edges == 0);
   const preset::Preset p = circle(6, 66, 60, 2);
-  const auto path = follow_actuation(shared_scene(p), coarse, false, 1, watch);
-  REQUIRE(path);
+  const auto path = value_of(follow_actuation(shared_scene(p), coarse, false, 1, watch));
   CHECK(watch.place().edges == 4);
-  CHECK(watch.place().t == path->segments.back().end());
+  CHECK(watch.place().t == path.segments.back().end());
 }
 
 TEST_CASE("a guide is followed to its end, back and forth, on coarser meshes") {
@@ -135,13 +134,12 @@ TEST_CASE("finer meshes confirm a path without events by three of its states") {
   CHECK(3 * by_states.simulation.effort().factorizations <
         2 * followed.simulation.effort().factorizations);
 
-  auto finer = Simulation::open(scene, {{8, 16}, false});
-  REQUIRE(finer);
-  CHECK(has_states_of(*finer, by_states, unwatched));
+  auto finer = value_of(Simulation::open(scene, {{8, 16}, false}));
+  CHECK(has_states_of(finer, by_states, unwatched));
   // a state that no mesh has
   State& last = by_states.segments.back().load_steps.back().point.state;
   last.x.row(2).leftCols(by_states.simulation.shell().finest().joints) *= 1.2;
-  CHECK_FALSE(has_states_of(*finer, by_states, unwatched));
+  CHECK_FALSE(has_states_of(finer, by_states, unwatched));
 }
 
 TEST_CASE("48 rods rise evenly where a leader of 4 edges alone loses their branch", "[full]") {

@@ -4,7 +4,6 @@
 #include <set>
 
 #include "engine/study/state_library.h"
-#include "engine/study/state_measures.h"
 #include "tests/engine/simulate/run.h"
 
 using namespace gridshell;

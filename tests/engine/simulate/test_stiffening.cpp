@@ -183,8 +183,8 @@ TEST_CASE("what is made stiff too early, or is not there, is named") {
   const auto scene = shared_scene(loaded_shell());
   Simulation flat = value_of(Simulation::open(scene, plan_levels(1e-2)));
   flat.begin_flat();
-  CHECK(refusal(apply_step(flat, step(StepKind::tighten), unwatched), Fault::bad_input)
-            .find("must be formed") != std::string::npos);
+  CHECK_THAT(refusal(apply_step(flat, step(StepKind::tighten), unwatched), Fault::bad_input),
+             Catch::Contains("must be formed"));
   preset::Preset p = loaded_shell();
   p.step = {step(StepKind::brace)};
   p.step[0].cells = {{40, 2}};

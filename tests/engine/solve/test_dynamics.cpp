@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "engine/solve/equilibrium.h"
-#include "engine/study/relaxation.h"
+#include "engine/study/benchmark_methods.h"
 #include "tests/engine/solve/crossing_rods.h"
 #include "tests/engine/solve/single_rod.h"
 #include "tests/results.h"

@@ -7,6 +7,7 @@
 #include "engine/study/benchmark_methods.h"
 #include "engine/study/time_limit.h"
 #include "tests/engine/study/small_scene.h"
+#include "tests/results.h"
 
 using namespace gridshell;
 using namespace gridshell::study;
@@ -50,10 +51,9 @@ TEST_CASE("every method comes to the same state of its mesh, the error falls wit
   options.most_edges = 4;
   options.runs = 1;
   options.scaling = false;
-  const auto study = accuracy_study(small_scene(), options, watch);
-  REQUIRE(study);
+  const auto study = value_of(accuracy_study(small_scene(), options, watch));
   std::set<std::string> methods;
-  for (const auto& row : study->rows) {
+  for (const auto& row : study.rows) {
     CAPTURE(row.method, row.edges_per_segment, row.error, word_of(row.outcome));
     methods.insert(row.method);
     CHECK_FALSE(record::silently_wrong(row.outcome));
@@ -62,25 +62,24 @@ TEST_CASE("every method comes to the same state of its mesh, the error falls wit
       CHECK(row.cpu_s <= row.cpu_max_s);
     }
     // one mesh, one error, whatever the method: but for joints of springs
-    const auto* bend = find(*study, "bend", row.edges_per_segment);
+    const auto* bend = find(study, "bend", row.edges_per_segment);
     const bool of_mesh = !row.method.starts_with("springs") && !row.method.starts_with("auto");
     if (bend && of_mesh && row.outcome == RunOutcome::right)
       CHECK(row.error == Approx(bend->error).epsilon(0.1));
   }
   CHECK(methods.size() >= 15);
   // softer springs open the joints further
-  CHECK(std::abs(find(*study, "springs 1 N/mm", 4)->error - find(*study, "bend", 4)->error) >
-        10 * std::abs(find(*study, "springs 100 N/mm", 4)->error - find(*study, "bend", 4)->error));
-  for (const auto& at : study->standings) CHECK(at.error < at.tolerance);
+  CHECK(std::abs(find(study, "springs 1 N/mm", 4)->error - find(study, "bend", 4)->error) >
+        10 * std::abs(find(study, "springs 100 N/mm", 4)->error - find(study, "bend", 4)->error));
+  for (const auto& at : study.standings) CHECK(at.error < at.tolerance);
 }
 
 TEST_CASE("a run beyond its time is stopped and said to be too slow") {
   Watch watch;
-  auto made = BenchmarkProblem::create(small_scene(), 16, watch);
-  REQUIRE(made);
+  auto made = value_of(BenchmarkProblem::create(small_scene(), 16, watch));
   const TimeLimit limit(0.05, watch);
   RelaxationOptions forever{.kind = Relaxation::explicit_damped, .tolerance_N = 0};
-  const auto arrival = relax(*(*made)->problem(4, watch).value(), forever, limit.watch());
+  const auto arrival = relax(*(made)->problem(4, watch).value(), forever, limit.watch());
   CHECK(arrival.claim == RunOutcome::too_slow);
   CHECK(limit.ran_out());
   CHECK(arrival.seconds < 2);

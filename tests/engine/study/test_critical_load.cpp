@@ -1,12 +1,9 @@
 // Critical loads with known answers, by arc length and linearised.
-#include "engine/study/critical_load.h"
-
-#include <functional>
 
 #include "engine/elastic/along_rods.h"
 #include "engine/study/load_study.h"
 #include "tests/engine/solve/rod_cases.h"
-#include "tests/presets.h"
+#include "tests/results.h"
 #include "tests/small_shell.h"
 
 using namespace gridshell;
@@ -259,6 +256,5 @@ TEST_CASE("a shell that has no case to carry is refused by the key") {
   preset::Preset p = snowed_on();
   p.load_case.clear();
   Watch watch;
-  CHECK(refusal(load_study(p, 0, watch), Fault::bad_input).find("[[loads.case]]") !=
-        std::string::npos);
+  CHECK_THAT(refusal(load_study(p, 0, watch), Fault::bad_input), Catch::Contains("[[loads.case]]"));
 }

@@ -3,8 +3,8 @@
 
 #include <catch2/catch.hpp>
 
-#include <set>
 #include "engine/formats/csv.h"
+#include "tests/results.h"
 
 using namespace gridshell;
 using study::find_states;
@@ -25,9 +25,7 @@ preset::Preset shell(int rods) {
 StateLibrary states_of(const preset::Preset& preset, int threads = 1, bool lives = false) {
   const auto scene = std::make_shared<const Scene>(scene_of(preset).value());
   Watch watch;
-  auto found = find_states(scene, preset.jitter, {.threads = threads, .lives = lives}, watch);
-  if (!found) FAIL(found.error().message);
-  return std::move(*found);
+  return value_of(find_states(scene, preset.jitter, {.threads = threads, .lives = lives}, watch));
 }
 
 const record::StateRow* of_class(const StateLibrary& library, record::StateClass kind) {

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "tests/results.h"
 #include "tests/small_preset.h"
 
 using namespace gridshell;
@@ -54,12 +55,11 @@ TEST_CASE("points are the same however many are computed at a time") {
 
 TEST_CASE(
     "a point that looks for states says how many of each class, the same whatever the threads") {
-  const auto presets = preset::read_preset_text(
+  const auto presets = value_of(preset::read_preset_text(
       "[footprint]\nrods = 4\n[actuation]\nratio = 0.75\n[accuracy]\nedges_per_segment = 8\n"
       "[jitter]\ntrials = 4\nconfined = 7\n[sweep.over]\nfootprint.longest_leg = [0.3, 4.0]\n",
-      "search.toml", "search");
-  REQUIRE(presets);
-  const preset::SweepGrid grid(*presets);
+      "search.toml", "search"));
+  const preset::SweepGrid grid(presets);
   const auto found_by = [&](int jobs) {
     std::map<std::size_t, record::PointResult> found;
     Watch watch;

@@ -7,6 +7,7 @@
 #include "render/canvas/canvas.h"
 #include "render/gl/image.h"
 #include "tests/render/canvas/ink.h"
+#include "tests/results.h"
 #include "tests/temporary_folder.h"
 
 using namespace gridshell;
@@ -157,10 +158,9 @@ TEST_CASE("a figure is written as PNG, SVG and PDF, whose words stay words") {
   };
   REQUIRE(write_figure(folder.path() / "figure", 144, 72, "energy & radius", draw));
   CHECK(folder.entries() == std::vector<std::string>{"figure.pdf", "figure.png", "figure.svg"});
-  const auto image = read_png(folder.path() / "figure.png");
-  REQUIRE(image);
-  CHECK(image->width == 600);
-  CHECK(image->height == 300);
+  const auto image = value_of(read_png(folder.path() / "figure.png"));
+  CHECK(image.width == 600);
+  CHECK(image.height == 300);
   const std::string svg = draw_svg(144, 72, "energy & radius", draw);
   CHECK(well_formed(svg));
   CHECK(svg.find("<title>energy &amp; radius</title>") != std::string::npos);
@@ -179,12 +179,11 @@ TEST_CASE("a figure is written as PNG, SVG and PDF, whose words stay words") {
   const auto wide = read_png(folder.path() / "wide.png");
   REQUIRE(wide);
   CHECK(wide->width == 1004);
-  const auto bytes = read_file(folder.path() / "wide.png");
-  REQUIRE(bytes);
+  const auto bytes = value_of(read_file(folder.path() / "wide.png"));
   // 300 dpi are 11811 pixels a metre
-  const std::size_t at = bytes->find("pHYs");
+  const std::size_t at = bytes.find("pHYs");
   REQUIRE(at != std::string::npos);
-  CHECK(bytes->substr(at + 4, 9) == std::string("\0\0\x2e\x23\0\0\x2e\x23\x01", 9));
+  CHECK(bytes.substr(at + 4, 9) == std::string("\0\0\x2e\x23\0\0\x2e\x23\x01", 9));
 
   const auto failed = write_figure(folder.path() / "absent" / "figure", 144, 72, "", draw);
   REQUIRE_FALSE(failed);
@@ -208,8 +207,7 @@ TEST_CASE("the font is chosen by name, and one that is not there is refused") {
   const double usual = width();
   const auto refused = use_font("No Such Font");
   REQUIRE_FALSE(refused);
-  CHECK(refused.error().message.find("\"No Such Font\": no font of that name") !=
-        std::string::npos);
+  CHECK_THAT(refused.error().message, Catch::Contains("\"No Such Font\": no font of that name"));
   CHECK(width() == usual);
   REQUIRE(use_font("DejaVu Sans Mono"));
   CHECK(width() > 1.5 * usual);

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <cmath>
 
 #include "render/canvas/legend.h"
 #include "tests/render/canvas/ink.h"

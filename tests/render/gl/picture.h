@@ -7,7 +7,6 @@
 
 #include "render/gl/context.h"
 #include "render/gl/renderer.h"
-#include "tests/render/synthetic.h"
 
 namespace gridshell::render::test {
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "render/gl/image.h"
+#include "tests/results.h"
 #include "tests/temporary_folder.h"
 
 using namespace gridshell;
@@ -53,11 +54,10 @@ TEST_CASE("a picture survives being a PNG, with and without transparency") {
     const Image image = colourful(37, 21, transparent);
     const fs::path path = folder.path() / "a.png";
     REQUIRE(write_png(image, path));
-    const auto back = read_png(path);
-    REQUIRE(back);
-    CHECK(back->width == 37);
-    CHECK(back->height == 21);
-    CHECK(back->rgba == image.rgba);
+    const auto back = value_of(read_png(path));
+    CHECK(back.width == 37);
+    CHECK(back.height == 21);
+    CHECK(back.rgba == image.rgba);
   }
   // nothing but the final name is left
   CHECK(folder.entries() == std::vector<std::string>{"a.png"});
@@ -67,10 +67,9 @@ TEST_CASE("any colour type and bit depth is read as 8-bit RGBA") {
   const TemporaryFolder folder;
   const fs::path path = folder.path() / "b.png";
   const auto pixel = [&](int x) {
-    const auto image = read_png(path);
-    REQUIRE(image);
-    REQUIRE(image->width == 4);
-    const std::uint8_t* p = image->pixel(x, 1);
+    const auto image = value_of(read_png(path));
+    REQUIRE(image.width == 4);
+    const std::uint8_t* p = image.pixel(x, 1);
     return std::vector<int>{p[0], p[1], p[2], p[3]};
   };
   write_raw(path, PNG_COLOR_TYPE_GRAY, 1, std::string("\xA0", 1));
@@ -88,10 +87,7 @@ TEST_CASE("any colour type and bit depth is read as 8-bit RGBA") {
 TEST_CASE("what cannot be written or read says so, with its path and the reason") {
   const TemporaryFolder folder;
   const fs::path absent = folder.path() / "absent" / "a.png";
-  const auto written = write_png(colourful(4, 4, false), absent);
-  REQUIRE_FALSE(written);
-  CHECK(written.error().fault == Fault::io);
-  CHECK(written.error().message ==
+  CHECK(refusal(write_png(colourful(4, 4, false), absent), Fault::io) ==
         "cannot write '" + absent.string() + "': No such file or directory");
 
   const auto read = read_png(absent);
@@ -106,14 +102,10 @@ TEST_CASE("what cannot be written or read says so, with its path and the reason"
 TEST_CASE("a damaged file is bad input, not a crash") {
   const TemporaryFolder folder;
   const fs::path path = folder.path() / "c.png";
-  const auto bytes = encode_png(colourful(64, 64, false));
-  REQUIRE(bytes);
-  std::ofstream(path, std::ios::binary) << bytes->substr(0, bytes->size() / 2);
-  const auto half = read_png(path);
-  REQUIRE_FALSE(half);
-  CHECK(half.error().fault == Fault::bad_input);
-  CHECK(half.error().message.rfind(fmt::format("'{}' is not a readable PNG: ", path.string()), 0) ==
-        0);
+  const auto bytes = value_of(encode_png(colourful(64, 64, false)));
+  std::ofstream(path, std::ios::binary) << bytes.substr(0, bytes.size() / 2);
+  CHECK(refusal(read_png(path))
+            .rfind(fmt::format("'{}' is not a readable PNG: ", path.string()), 0) == 0);
   std::ofstream(path, std::ios::binary) << "GIF89a and so on";
   CHECK_FALSE(read_png(path));
   std::ofstream(path, std::ios::binary | std::ios::trunc);

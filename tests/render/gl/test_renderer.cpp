@@ -4,23 +4,28 @@
 #include <cmath>
 
 #include "tests/render/gl/picture.h"
+#include "tests/render/synthetic.h"
+#include "tests/results.h"
 
 using namespace gridshell;
 using namespace gridshell::render;
 
 namespace {
 
-test::Studio open_studio() {
-  auto studio = test::studio();
-  REQUIRE(studio);
-  return std::move(*studio);
-}
+test::Studio open_studio() { return value_of(test::studio()); }
+
+/// The made-up shell, drawn as it stands at the end of so many frames.
+struct Dome {
+  explicit Dome(int frames) : run(synthetic::dome(2, frames)) {}
+
+  test::Studio studio = open_studio();
+  record::Trajectory run;
+  Drawing drawing = test::dome_drawing(run);
+};
 
 Image drawn(test::Studio& studio, const Drawing& drawing, const Camera& camera = {},
             const DrawQuality& quality = {}, int width = 320, int height = 180) {
-  auto image = studio.renderer->draw(drawing, camera, quality, width, height);
-  REQUIRE(image);
-  return std::move(*image);
+  return value_of(studio.renderer->draw(drawing, camera, quality, width, height));
 }
 
 /// The largest difference of a channel between a pixel and a colour, of 255.
@@ -52,9 +57,7 @@ TEST_CASE("a rod that is missing changes the picture", "[draw][draw][standard]")
 }
 
 TEST_CASE("background, ground and cells show the colours they were given", "[draw]") {
-  auto studio = open_studio();
-  const auto run = synthetic::dome(2, 4);
-  Drawing drawing = test::dome_drawing(run);
+  auto [studio, run, drawing] = Dome(4);
   drawing.ground = false;
   drawing.background = {0.8f, 0.9f, 1};
   const Colour tint{0.25f, 0.45f, 0.8f};
@@ -87,9 +90,7 @@ TEST_CASE("background, ground and cells show the colours they were given", "[dra
 }
 
 TEST_CASE("a ring shows its colour, and rods take those of their nodes", "[draw]") {
-  auto studio = open_studio();
-  const auto run = synthetic::dome(2, 4);
-  Drawing drawing = test::dome_drawing(run);
+  auto [studio, run, drawing] = Dome(4);
   drawing.rings[0].diameter_mm = 8;
   drawing.ground = false;
   Camera above;
@@ -115,9 +116,7 @@ TEST_CASE("a ring shows its colour, and rods take those of their nodes", "[draw]
 }
 
 TEST_CASE("the shell throws a shadow on the ground, and none when not asked", "[draw]") {
-  auto studio = open_studio();
-  const auto run = synthetic::dome(2, 4);
-  const Drawing drawing = test::dome_drawing(run);
+  auto [studio, run, drawing] = Dome(4);
   const Image with = drawn(studio, drawing, {}, {2, true, 1});
   const Image without = drawn(studio, drawing, {}, {2, false, 1});
   CHECK(changed(with, without) > 2000);
@@ -131,9 +130,7 @@ TEST_CASE("the shell throws a shadow on the ground, and none when not asked", "[
 }
 
 TEST_CASE("translucent ghosts lie behind nothing but what is nearer", "[draw]") {
-  auto studio = open_studio();
-  const auto run = synthetic::dome(2, 4);
-  Drawing drawing = test::dome_drawing(run);
+  auto [studio, run, drawing] = Dome(4);
   const Image without = drawn(studio, drawing);
   drawing.ghosts.push_back({run.frames[0].nodes, run.layout.rods, 0.8, {0.2f, 0.4f, 0.9f, 0.4f}});
   const Image with = drawn(studio, drawing);
@@ -142,9 +139,7 @@ TEST_CASE("translucent ghosts lie behind nothing but what is nearer", "[draw]") 
 }
 
 TEST_CASE("odd sizes, a pixel and many passes are drawn", "[draw][draw][standard]") {
-  auto studio = open_studio();
-  const auto run = synthetic::dome(2, 2);
-  const Drawing drawing = test::dome_drawing(run);
+  auto [studio, run, drawing] = Dome(2);
   for (const auto& [width, height] : {std::pair{1, 1}, {7, 3}, {333, 211}, {64, 640}}) {
     const Image image = drawn(studio, drawing, {}, {3, true, 1}, width, height);
     CHECK(image.width == width);
@@ -161,9 +156,7 @@ TEST_CASE("odd sizes, a pixel and many passes are drawn", "[draw][draw][standard
 }
 
 TEST_CASE("a picture in tiles is the picture in one piece", "[draw]") {
-  auto studio = open_studio();
-  const auto run = synthetic::dome(2, 2);
-  const Drawing drawing = test::dome_drawing(run);
+  auto [studio, run, drawing] = Dome(2);
   // 16 samples a side of 400 x 300 pixels take four tiles of 256
   const Image tiled = drawn(studio, drawing, {}, {16, true, 1}, 400, 300);
   const Image whole = drawn(studio, drawing, {}, {8, true, 1}, 400, 300);
@@ -176,9 +169,7 @@ TEST_CASE("a picture in tiles is the picture in one piece", "[draw]") {
 }
 
 TEST_CASE("a still of 3840 x 2160 pixels", "[draw][draw][standard]") {
-  auto studio = open_studio();
-  const auto run = synthetic::dome(2, 4);
-  const Drawing drawing = test::dome_drawing(run);
+  auto [studio, run, drawing] = Dome(4);
   const Image large = drawn(studio, drawing, {}, {2, true, 1}, 3840, 2160);
   const Image small = drawn(studio, drawing, {}, {8, true, 1}, 960, 540);
   // the means of 4 x 4 pixels are the smaller picture's pixels
@@ -193,14 +184,9 @@ TEST_CASE("a still of 3840 x 2160 pixels", "[draw][draw][standard]") {
 }
 
 TEST_CASE("what cannot be drawn is refused with its reason", "[draw]") {
-  auto studio = open_studio();
-  const auto run = synthetic::dome(2, 2);
-  const Drawing drawing = test::dome_drawing(run);
+  auto [studio, run, drawing] = Dome(2);
   const auto message = [&](const Drawing& d, const DrawQuality& quality, int width, int height) {
-    const auto image = studio.renderer->draw(d, {}, quality, width, height);
-    REQUIRE_FALSE(image);
-    CHECK(image.error().fault == Fault::bad_input);
-    return image.error().message;
+    return refusal(studio.renderer->draw(d, {}, quality, width, height));
   };
   CHECK(message(drawing, {}, 0, 100) == "a picture of 0 x 100 pixels: each must be 1 to 65536");
   CHECK(message(drawing, {0, true, 1}, 9, 9) == "supersample = 0: 1 to 16");

@@ -8,6 +8,7 @@
 #include "render/gl/mesh.h"
 #include "render/gl/renderer.h"
 #include "tests/render/gl/square_shell.h"
+#include "tests/results.h"
 
 using namespace gridshell::render;
 
@@ -25,9 +26,8 @@ struct View {
   View(int rods, int edges, double elevation_deg)
       : shell(test::square_shell(rods, edges)), drawing(test::square_drawing(shell)) {
     camera.elevation_deg = elevation_deg;
-    auto made = make_scene(drawing, camera, 0.3);
-    REQUIRE(made);
-    scene = std::move(*made);
+    auto made = value_of(make_scene(drawing, camera, 0.3));
+    scene = std::move(made);
   }
 
   test::SquareShell shell;
@@ -123,10 +123,9 @@ TEST_CASE("rods of other diameters are drawn thicker and thinner in proportion",
   drawing.layout = &layout;
   drawing.rod_diameter_mm = 3;
   drawing.rings.clear();
-  const auto scene = make_scene(drawing, Camera{}, 0.3);
-  REQUIRE(scene);
+  const auto scene = value_of(make_scene(drawing, Camera{}, 0.3));
   std::map<int, int> widths;  // in tenths of a millimetre of the radius
-  for (const Vertex& v : scene->ribbons.vertices)
+  for (const Vertex& v : scene.ribbons.vertices)
     ++widths[int(std::lround(10 * std::abs(v.normal[3]) * widest_radius_mm / 32767.0))];
   const int points = int(layout.rods[1].size());
   CHECK(widths[30] == 2 * points);

@@ -12,6 +12,7 @@
 #include "tests/render/canvas/ink.h"
 #include "tests/render/movie/fake_renderer.h"
 #include "tests/render/synthetic.h"
+#include "tests/results.h"
 
 using namespace gridshell;
 using namespace gridshell::render;
@@ -251,12 +252,11 @@ TEST_CASE("zoom is about the shell's own panel, and nothing of the shell leaves 
     CHECK(at.x() == Approx(view.middle().x).margin(0.01));
     CHECK(at.y() == Approx(view.middle().y).margin(0.01));
     test::FakeRenderer renderer;
-    const auto picture = stage.draw_views(renderer, {run.frames[2], 2});
-    REQUIRE(picture);
+    const auto picture = value_of(stage.draw_views(renderer, {run.frames[2], 2}));
     for (int y = 0; y < 360; ++y)
       for (int x = 0; x < 640; ++x)
         if (!view.inset(-1).contains({double(x), double(y), 1, 1}))
-          REQUIRE(picture->pixel(x, y)[0] != 40);
+          REQUIRE(picture.pixel(x, y)[0] != 40);
   }
 }
 
@@ -265,11 +265,10 @@ TEST_CASE("several views stand beside one another") {
   MovieStyle style = titled(900, 400);
   style.views = {{-90, 0}, {-90, 90}};
   test::FakeRenderer renderer;
-  const auto picture = Stage(run, style).draw(renderer, {run.frames[2], 2});
-  REQUIRE(picture);
+  const auto picture = value_of(Stage(run, style).draw(renderer, {run.frames[2], 2}));
   CHECK(renderer.drawn == 3);
   CHECK(renderer.outside == 0);
-  CHECK(picture->width == 900);
+  CHECK(picture.width == 900);
 }
 
 TEST_CASE("the colour range is fixed over the movie and symmetric") {
@@ -344,10 +343,7 @@ TEST_CASE("the boundary moves evenly from the original to the actuated one") {
 
 TEST_CASE("a run that cannot be shown is refused with its reason") {
   const auto message = [](const record::Trajectory& run, const MovieStyle& style) {
-    const auto checked = check_showable(run, style);
-    REQUIRE_FALSE(checked);
-    CHECK(checked.error().fault == Fault::bad_input);
-    return checked.error().message;
+    return refusal(check_showable(run, style));
   };
   record::Trajectory run = synthetic::dome(3, 2);
   CHECK(check_showable(run, {}));

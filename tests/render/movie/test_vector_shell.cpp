@@ -1,10 +1,11 @@
-#include "render/movie/shell_lines.h"
+#include "render/movie/stage.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "render/gl/renderer.h"
 #include "tests/render/gl/picture.h"
+#include "tests/render/synthetic.h"
 
 using namespace gridshell;
 using namespace gridshell::render;
