@@ -217,6 +217,23 @@ void add_bar(const ModelBar& bar, const State& state, bool with_hessian, Assembl
   out.hessian.add(bar.slot, -m);
 }
 
+__attribute__((noinline)) void add_link(const ModelLink& link, const Model& model,
+                                        const State& state, bool with_hessian, Assembly& out) {
+  const LinkEnergy energy = energy_of(link, model, state.x);
+  out.energies[Term::joint] += energy.value;
+  for (std::size_t a = 0; a < energy.nodes.size(); ++a) {
+    const auto row = 3 * Eigen::Index(a);
+    out.gradient.col(energy.nodes[a]) += energy.gradient.segment<3>(row);
+    for (std::size_t b = 0; with_hessian && b <= a; ++b) {
+      const Eigen::Matrix3d block = energy.hessian.block<3, 3>(row, 3 * Eigen::Index(b));
+      if (a == b)
+        out.hessian.diagonal[std::size_t(energy.nodes[a])].matrix() += block;
+      else
+        out.hessian.add(model.pattern.find(energy.nodes[a], energy.nodes[b]), block);
+    }
+  }
+}
+
 /// d(y x z) = [y] dz - [z] dy, likewise round; nodes of a face need not be neighbours on a rod.
 void add_action_hessian(const NodeAction& action, double factor, const Eigen::Matrix3Xd& x,
                         BlockHessian& h) {
@@ -259,6 +276,7 @@ void add_others(const Model& model, const State& state, const ExternalLoads& out
     out.hessian.diagonal[std::size_t(spring.law.b)].matrix() += m;
     out.hessian.add(spring.slot, -m);
   }
+  for (const ModelLink& link : model.links) add_link(link, model, state, with_hessian, out);
   for (const ModelBar& bar : model.bars) add_bar(bar, state, with_hessian, out);
   each_action(model, outside, [&](const NodeAction& action, double factor) {
     out.energies[action.term] += factor * action.value(state.x);

@@ -117,6 +117,135 @@ void add_joint_spin(Model& model, const Crossing& at, double stiffness, int side
   }
 }
 
+void add_joint_link(Model& model, const Crossing& at, double eccentricity) {
+  const auto beside = [&](int rod, int node) {
+    const std::vector<int> edges = edges_beside(model, rod, node);
+    const std::vector<double> share = shares_of(model, edges);
+    std::vector<std::pair<int, double>> counted;
+    for (std::size_t k = 0; k < edges.size(); ++k) counted.emplace_back(edges[k], share[k]);
+    return counted;
+  };
+  ModelLink& link = model.links.emplace_back();
+  link = {at.node_a, at.node_b, beside(at.rod_a, at.node_a), beside(at.rod_b, at.node_b),
+          eccentricity};
+  double EA = std::numeric_limits<double>::infinity();
+  for (const auto* edges : {&link.beside_a, &link.beside_b})
+    for (const auto& [edge, share] : *edges)
+      if (const double own = model.edges[std::size_t(edge)].EA; own > 0) EA = std::min(EA, own);
+  link.across = EA / std::abs(eccentricity);
+  // a force along a rod bends it by eccentricity times that
+  const auto along = [&](int rod, int node) {
+    const double arm2 = eccentricity * eccentricity;
+    return in_series(link.across, arm2 * turn_between(model, rod, node, Turn::out));
+  };
+  link.along_a = along(at.rod_a, at.node_a);
+  link.along_b = along(at.rod_b, at.node_b);
+}
+
+std::vector<int> nodes_of(const ModelLink& link, const Model& model) {
+  std::vector<int> nodes{link.a, link.b};
+  for (const auto* edges : {&link.beside_a, &link.beside_b})
+    for (const auto& [edge, share] : *edges)
+      for (const int node :
+           {model.edges[std::size_t(edge)].from, model.edges[std::size_t(edge)].to})
+        if (std::ranges::find(nodes, node) == nodes.end()) nodes.push_back(node);
+  return nodes;
+}
+
+namespace {
+
+/// f = u.y, u = w/|w|, and its derivatives: by y u, by both (I - u u^T)/|w|.
+struct UnitDot {
+  double value;
+  Eigen::Vector3d unit, by_w;
+  Eigen::Matrix3d by_both, by_ww;
+
+  UnitDot(const Eigen::Vector3d& w, const Eigen::Vector3d& y)
+      : value(w.dot(y) / w.norm()), unit(w.normalized()) {
+    by_both = (Eigen::Matrix3d::Identity() - unit * unit.transpose()) / w.norm();
+    by_w = by_both * y;
+    by_ww = -2 / w.norm() * symmetric_product(by_w, unit) - value / w.norm() * by_both;
+  }
+};
+
+using NineVector = Eigen::Matrix<double, 9, 1>;
+using NineMatrix = Eigen::Matrix<double, 9, 9>;
+
+/// k/2 r^2 with the slopes of r, added to value, gradient and Hessian by (d, t_a, t_b).
+void add_square(double k, double r, const NineVector& slope, const NineMatrix& bend, double& value,
+                NineVector& gradient, NineMatrix& hessian) {
+  value += 0.5 * k * r * r;
+  gradient += k * r * slope;
+  hessian += k * (slope * slope.transpose() + r * bend);
+}
+
+}  // namespace
+
+LinkEnergy energy_of(const ModelLink& link, const Model& model, const Eigen::Matrix3Xd& x) {
+  LinkEnergy out;
+  out.nodes = nodes_of(link, model);
+  const Eigen::Index size = 3 * Eigen::Index(out.nodes.size());
+  const auto place = [&](int node) {
+    return 3 * (std::ranges::find(out.nodes, node) - out.nodes.begin());
+  };
+  // (d, t_a, t_b), and how they change with the nodes
+  const Eigen::Vector3d d = x.col(link.b) - x.col(link.a);
+  Eigen::Matrix<double, 9, Eigen::Dynamic> by_nodes(9, size);
+  by_nodes.setZero();
+  by_nodes.block<3, 3>(0, 0) = -Eigen::Matrix3d::Identity();
+  by_nodes.block<3, 3>(0, 3).setIdentity();
+  Eigen::Vector3d mean[2];
+  const auto each_edge = [&](auto visit) {
+    for (const int rod : {0, 1})
+      for (const auto& [edge, share] : rod == 0 ? link.beside_a : link.beside_b) {
+        const ModelEdge& one = model.edges[std::size_t(edge)];
+        visit(rod, one, share, Eigen::Vector3d(x.col(one.to) - x.col(one.from)));
+      }
+  };
+  mean[0].setZero(), mean[1].setZero();
+  each_edge([&](int rod, const ModelEdge& edge, double share, const Eigen::Vector3d& along) {
+    const UnitDot unit(along, d);
+    mean[rod] += share * unit.unit;
+    by_nodes.block<3, 3>(3 + 3 * rod, place(edge.from)) -= share * unit.by_both;
+    by_nodes.block<3, 3>(3 + 3 * rod, place(edge.to)) += share * unit.by_both;
+  });
+  NineVector gradient = NineVector::Zero(), slope;
+  NineMatrix hessian = NineMatrix::Zero(), bend = NineMatrix::Zero();
+  // across: w = t_a x t_b
+  const UnitDot off(mean[0].cross(mean[1]), d);
+  slope << off.unit, mean[1].cross(off.by_w), off.by_w.cross(mean[0]);
+  Eigen::Matrix<double, 3, 9> w;
+  w << Eigen::Matrix3d::Zero(), -cross_matrix(mean[1]), cross_matrix(mean[0]);
+  bend = w.transpose() * off.by_ww * w;
+  bend.topRows<3>() += off.by_both * w;
+  bend.leftCols<3>() += w.transpose() * off.by_both;
+  bend.block<3, 3>(3, 6) -= cross_matrix(off.by_w);
+  bend.block<3, 3>(6, 3) += cross_matrix(off.by_w);
+  add_square(link.across, off.value - link.eccentricity, slope, bend, out.value, gradient, hessian);
+  for (const int rod : {0, 1}) {
+    const UnitDot along(mean[rod], d);
+    const int at = 3 + 3 * rod;
+    slope.setZero(), bend.setZero();
+    slope.head<3>() = along.unit;
+    slope.segment<3>(at) = along.by_w;
+    bend.block<3, 3>(0, at) = bend.block<3, 3>(at, 0) = along.by_both;
+    bend.block<3, 3>(at, at) = along.by_ww;
+    add_square(rod == 0 ? link.along_a : link.along_b, along.value, slope, bend, out.value,
+               gradient, hessian);
+  }
+  out.gradient = by_nodes.transpose() * gradient;
+  out.hessian = by_nodes.transpose() * hessian * by_nodes;
+  each_edge([&](int rod, const ModelEdge& edge, double share, const Eigen::Vector3d& along) {
+    const Eigen::Matrix3d own = UnitDot(along, share * gradient.segment<3>(3 + 3 * rod)).by_ww;
+    const Eigen::Index from = place(edge.from), to = place(edge.to);
+    out.hessian.block<3, 3>(from, from) += own;
+    out.hessian.block<3, 3>(to, to) += own;
+    out.hessian.block<3, 3>(from, to) -= own;
+    out.hessian.block<3, 3>(to, from) -= own;
+  });
+  return out;
+}
+
 Eigen::Vector3d JointDirections::at(double mm) const {
   const double between = before_mm + after_mm;
   if (std::isinf(between)) return mm < 0 ? before : mm > 0 ? after : 0.5 * (before + after);
@@ -125,7 +254,9 @@ Eigen::Vector3d JointDirections::at(double mm) const {
 
 std::vector<double> joint_torques(const RodMesh& mesh, const Model& model, const State& state) {
   std::vector<double> torques(std::size_t(mesh.joints), 0);
-  const auto joint_of = [&](int node) { return node < mesh.nodes() ? node : node - mesh.nodes(); };
+  const auto joint_of = [&](int node) {
+    return node < mesh.nodes() ? mesh.joint_of(node) : node - mesh.nodes();
+  };
   for (const ModelShear& shear : model.shears) {
     const ModelEdge &e = model.edges[std::size_t(shear.pairs.front().e)],
                     &f = model.edges[std::size_t(shear.pairs.front().f)];

@@ -84,6 +84,8 @@ Energies energies_of(const Model& model, const State& state, const ExternalLoads
   });
   for (const ModelSpring& spring : model.springs)
     sum[spring.law.term] += spring.law.value(gap_of(state, spring.law));
+  for (const ModelLink& link : model.links)
+    sum[Term::joint] += energy_of(link, model, state.x).value;
   for (const ModelBar& bar : model.bars)
     sum[Term::stretch] +=
         bar.law.value(bar.law.strain(geometry_between(state.x, bar.law.a, bar.law.b).length));

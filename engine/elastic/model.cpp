@@ -299,6 +299,12 @@ void finish(Model& model) {
                                    model.edges[std::size_t(bend.f)].to);
   for (ModelSpring& spring : model.springs)
     spring.slot = model.pattern.slot(spring.law.a, spring.law.b);
+  for (const ModelLink& link : model.links) {
+    const std::vector<int> nodes = nodes_of(link, model);
+    for (const int row : nodes)
+      for (const int column : nodes)
+        if (row != column) model.pattern.slot(row, column);
+  }
   for (ModelBar& bar : model.bars) bar.slot = model.pattern.slot(bar.law.a, bar.law.b);
   std::apply(
       [&](auto&... lists) {

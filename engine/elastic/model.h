@@ -146,6 +146,19 @@ using ModelShear = ModelMean<JointAngle>;
 /// Of one of two rods: its spin beside the joint's normal.
 using ModelSpin = ModelMean<JointSpin>;
 
+/// A bolt between the axes of two rods, a and b, that lie `eccentricity` apart at their joint,
+/// along the normal n = t_a x t_b/|t_a x t_b| to the rods' tangents there. With d = x_b - x_a,
+///   E = k/2 (n.d - eccentricity)^2 + k_a/2 (t_a.d)^2 + k_b/2 (t_b.d)^2.
+/// So a force F across the bolt puts the couple eccentricity n x F on the rods, each bearing the
+/// bending that the part of F along it asks for. t are the means of the tangents of the edges
+/// beside; what these turn less than the rod at the joint itself is in series with k as k_a, k_b.
+struct ModelLink {
+  int a = 0, b = 0;                                        ///< nodes
+  std::vector<std::pair<int, double>> beside_a, beside_b;  ///< edges, and what each counts
+  double eccentricity = 0;                                 ///< mm
+  double across = 0, along_a = 0, along_b = 0;             ///< k, k_a, k_b, N/mm
+};
+
 /// A rod: its nodes and their arc lengths at rest. A closed rod has one arc length more than nodes.
 /// Ends that hold a direction (`tangent`, `clamped`) hold it at the end point itself, by a ghost
 /// edge beyond it: its bend counts over half an edge, as EndBending says, so the hold is second
@@ -173,7 +186,8 @@ struct Model {
   std::vector<ModelEdge> edges;
   std::vector<ModelBend> bends;  ///< in the order of their edges, those that close a ring last
   std::vector<ModelSpring> springs;
-  std::vector<ModelBar> bars;  ///< braces
+  std::vector<ModelBar> bars;    ///< braces
+  std::vector<ModelLink> links;  ///< of eccentric joints
   PairLists pairs;
   std::vector<ModelShear> shears;
   std::vector<ModelSpin> joint_spins;
@@ -275,6 +289,21 @@ void add_joint_shear(Model& model, const Crossing& at, double stiffness,
 /// out of the surface, `a` by M_a cot(angle), `b` by M_a/sin(angle).
 void add_joint_spin(Model& model, const Crossing& at, double stiffness, int side = 1,
                     double share = 1, double angle = M_PI / 2);
+
+/// Adds the bolt of two rods that lie apart where they cross, `eccentricity` along t_a x t_b: as
+/// stiff as so long a piece of the softer rod. finish() afterwards.
+void add_joint_link(Model& model, const Crossing& at, double eccentricity);
+
+/// What a link stores, and its derivatives by the places of its nodes.
+struct LinkEnergy {
+  double value = 0;
+  std::vector<int> nodes;
+  Eigen::VectorXd gradient;  ///< three numbers a node, N
+  Eigen::MatrixXd hessian;   ///< N/mm
+};
+/// Its own two nodes first, then those of the edges beside them.
+std::vector<int> nodes_of(const ModelLink& link, const Model& model);
+LinkEnergy energy_of(const ModelLink& link, const Model& model, const Eigen::Matrix3Xd& x);
 
 /// Works out pattern and numbering after elements were added or unknowns held.
 void finish(Model& model);

@@ -263,11 +263,16 @@ class Reader {
     auto [shear, twist] = law->second;
     for (const auto& [key, inner] : value.items()) {
       if (key == "law" || key == "point" || key == "points") continue;
+      if (key == "eccentricity_mm") {
+        if (!inner.is_number() || !(std::abs(inner.get<double>()) <= 1000))
+          return wrong("eccentricity_mm must be a number from -1000 to 1000");
+        continue;
+      }
       const bool stiffness = key == "shear_Nmm" || key == "twist_Nmm";
       if (!stiffness || law->first != "spring")
         return wrong(
             "must be {\"point\" or \"points\", \"law\"}, of a \"spring\" with "
-            "\"shear_Nmm\" and \"twist_Nmm\"");
+            "\"shear_Nmm\" and \"twist_Nmm\", and may have \"eccentricity_mm\"");
       if (!inner.is_number() || !(inner.get<double>() >= 0 && inner.get<double>() <= 1e9))
         return wrong("shear_Nmm and twist_Nmm must be numbers from 0 to 1e9");
       (key == "shear_Nmm" ? shear : twist) = inner.get<double>();
@@ -275,7 +280,9 @@ class Reader {
     if (value.contains("point") == value.contains("points"))
       return wrong("a law must be of a \"point\", or of \"points\" that are one joint");
     TRY(point, value.contains("point") ? point_of(value["point"]) : merged(value["points"]));
-    draft_.add_law(*point, shear, twist);
+    std::vector<double> row{double(*point), shear, twist};
+    if (value.contains("eccentricity_mm")) row.push_back(value["eccentricity_mm"].get<double>());
+    draft_.add_law(std::move(row));
     return {};
   }
 

@@ -59,7 +59,7 @@ class ShapeContacts {
     }
   };
 
-  int node(int point) const { return of_.points_[point]; }
+  int node(int point) const { return of_.places_[point]; }
   const Segment& segment(int k) const { return of_.segments_[k]; }
   double length(const Segment& s) const { return along_[s.end] - along_[s.begin]; }
   /// Of edges begin to end - 1 of a segment with a tree.
@@ -67,6 +67,11 @@ class ShapeContacts {
     return end - begin == 1 ? edge_[begin + tree_at_[k]] : tree_[(begin + end) / 2 + tree_at_[k]];
   }
   void lay_out(std::size_t k);
+  Vector3d normal_of(const ContactSearch::Axis& at) const;
+  Vector3d normal_at(const Segment& s, double along) const;
+  double beside(int rod) const;
+  double gap_of_laths(const Search& search, int edge_a, int edge_b,
+                      const NearestPoints& near) const;
   void grow_tree(int k);
   Box grown(int k, int begin, int end);
   bool apart(int a, int b) const;
@@ -111,8 +116,8 @@ void ShapeContacts::lay_out(std::size_t k) {
                     end = std::size_t(of_.segments_[k].end);
   Chord& chord = chord_[k];
   chord.along = (x_[end] - x_[begin]).stableNormalized();
-  chord.node[0] = of_.points_[begin];
-  chord.node[1] = of_.points_[end];
+  chord.node[0] = of_.places_[begin];
+  chord.node[1] = of_.places_[end];
   // the least dot / |edge|, as a fraction that is not divided
   double dot2 = 1, edge2 = 1;
   bool back = false;
@@ -191,7 +196,7 @@ bool ShapeContacts::apart_but_at_joint(int a, int b) const {
 void ShapeContacts::add_joint(Search& search, int point_a, int point_b) const {
   const Segment &a = segment(search.a), &b = segment(search.b);
   const auto ends = [](const Segment& s, int point) {
-    return point == s.begin ? !s.from_joint : !s.to_joint;
+    return (point == s.begin ? s.from : s.to) < 0;
   };
   const auto apart = [&] { return (x_[point_a] - x_[point_b]).norm(); };
   const bool one_place =
@@ -205,7 +210,8 @@ void ShapeContacts::add_joint(Search& search, int point_a, int point_b) const {
   // twice the sine of half the angle
   const double spread = (away(a, point_a) - away(b, point_b)).norm();
   const double half = 0.5 * std::min(length(a), length(b));
-  const double straight = std::min(half, 2 * search.radii / std::max(spread, 1e-12));
+  const double across = beside(a.rod) + beside(b.rod);
+  const double straight = std::min(half, 2 * across / std::max(spread, 1e-12));
   search.joint[search.joints++] = {along_[point_a], along_[point_b],
                                    std::max(0.5 * of_.joint_diameter_mm_, straight)};
 }
@@ -228,10 +234,63 @@ ShapeContacts::Search ShapeContacts::between(int a, int b) const {
   return search;
 }
 
+Vector3d ShapeContacts::normal_of(const ContactSearch::Axis& at) const {
+  const auto& beside = at.beside;
+  if (beside[0] < 0) return Vector3d::Zero();
+  return (nodes_.col(beside[1]) - nodes_.col(beside[0]))
+      .cross(nodes_.col(beside[3]) - nodes_.col(beside[2]))
+      .stableNormalized();
+}
+
+/// Of a lath: linear between the joints of its segment, to one side.
+Vector3d ShapeContacts::normal_at(const Segment& s, double along) const {
+  const auto of = [&](int joint) {
+    return joint < 0 ? Vector3d(0, 0, 0) : normal_of(of_.axes_[std::size_t(joint)]);
+  };
+  const Vector3d first = of(s.from), last = of(s.to);
+  if (first.isZero(0) || last.isZero(0)) return first + last;
+  const double share = (along - along_[std::size_t(s.begin)]) / length(s);
+  return ((1 - share) * first + (first.dot(last) < 0 ? -share : share) * last).stableNormalized();
+}
+
+/// How far a rod reaches from its axis across the normal.
+double ShapeContacts::beside(int rod) const {
+  const bool lath = !of_.half_mm_.empty() && of_.half_mm_[std::size_t(rod)][0] > 0;
+  return lath ? of_.half_mm_[std::size_t(rod)][0] : of_.radius_mm_[std::size_t(rod)];
+}
+
+double ShapeContacts::gap_of_laths(const Search& search, int edge_a, int edge_b,
+                                   const NearestPoints& near) const {
+  Vector3d at[2], tangent[2], normal[2];
+  const Segment* of[2] = {&segment(search.a), &segment(search.b)};
+  for (const int k : {0, 1}) {
+    const std::size_t p = std::size_t(k == 0 ? edge_a : edge_b);
+    const double part = k == 0 ? near.s : near.t;
+    at[k] = x_[p] + part * (x_[p + 1] - x_[p]);
+    tangent[k] = (x_[p + 1] - x_[p]).stableNormalized();
+    normal[k] = normal_at(*of[k], along_[p] + part * (along_[p + 1] - along_[p]));
+  }
+  const Vector3d apart = at[1] - at[0];
+  const Vector3d n =
+      (normal[0] + (normal[0].dot(normal[1]) < 0 ? -1 : 1) * normal[1]).stableNormalized();
+  if (n.isZero(0)) return apart.norm() - search.radii;
+  const Vector3d in_plane = apart - apart.dot(n) * n, e = in_plane.stableNormalized();
+  double along = std::abs(apart.dot(n)), across = in_plane.norm();
+  for (const int k : {0, 1}) {
+    const auto& [width, thickness] = of_.half_mm_[std::size_t(of[k]->rod)];
+    const double radius = of_.radius_mm_[std::size_t(of[k]->rod)];
+    along -= width > 0 ? thickness : radius;
+    across -= width > 0 ? width * std::abs(e.dot(tangent[k].cross(n))) : radius;
+  }
+  return std::max(along, across);
+}
+
 void ShapeContacts::look_at_edges(Search& search, int edge_a, int edge_b) const {
   const std::size_t a = std::size_t(edge_a), b = std::size_t(edge_b);
   const NearestPoints near = nearest_points(x_[a], x_[a + 1], x_[b], x_[b + 1]);
-  const double gap = std::sqrt(near.distance2) - search.radii;
+  double gap = std::sqrt(near.distance2) - search.radii;
+  if (!(gap < search.gap)) return;
+  if (!of_.half_mm_.empty()) gap = gap_of_laths(search, edge_a, edge_b, near);
   if (!(gap < search.gap)) return;
   const double at_a = along_[a] + near.s * (along_[a + 1] - along_[a]);
   const double at_b = along_[b] + near.t * (along_[b + 1] - along_[b]);
@@ -323,12 +382,8 @@ void ShapeContacts::joints(bool by_all_pairs) {
   std::vector<Vector3d> foot(count), top(count);
   std::vector<Box> boxes(count);
   for (std::size_t k = 0; k < count; ++k) {
-    const auto& [node, beside] = of_.axes_[k];
-    foot[k] = top[k] = nodes_.col(node);
-    if (beside[0] >= 0)
-      top[k] += of_.joint_height_mm_ * (nodes_.col(beside[1]) - nodes_.col(beside[0]))
-                                           .cross(nodes_.col(beside[3]) - nodes_.col(beside[2]))
-                                           .stableNormalized();
+    foot[k] = top[k] = nodes_.col(of_.axes_[k].node);
+    top[k] += of_.joint_height_mm_ * normal_of(of_.axes_[k]);
     boxes[k].extend(foot[k]);
     boxes[k].extend(top[k]);
   }
@@ -383,16 +438,26 @@ ContactSearch::ContactSearch(const Layout& layout)
     axis[joint.node] = int(axes_.size());
     axes_.push_back({joint.node});
   }
+  for (std::size_t k = 0; k < layout.above.size(); ++k) axis[std::size_t(layout.above[k])] = int(k);
   for (std::size_t r = 0; r < layout.rods.size(); ++r) {
     const auto& rod = layout.rods[r];
     radius_mm_.push_back(0.5 * diameter_of(layout, r));
+    if (!layout.laths_mm.empty()) {
+      half_mm_.push_back({0.5 * layout.laths_mm[2 * r], 0.5 * layout.laths_mm[2 * r + 1]});
+      const double corner = std::hypot(half_mm_[r][0], half_mm_[r][1]);
+      if (corner > 0) radius_mm_.back() = corner;
+    }
     const int first = int(points_.size()), last = int(rod.size()) - 1;
     points_.insert(points_.end(), rod.begin(), rod.end());
+    for (const int node : rod) {
+      const int joint = axis[std::size_t(node)];
+      places_.push_back(joint < 0 ? node : axes_[std::size_t(joint)].node);
+    }
     for (int k = 0, begin = 0; k <= last; ++k) {
       const int joint = axis[std::size_t(rod[k])];
       if (k > begin && (joint >= 0 || k == last)) {
-        const bool from_joint = axis[std::size_t(rod[begin])] >= 0;
-        segments_.push_back({int(r), first + begin, first + k, from_joint, joint >= 0});
+        segments_.push_back(
+            {int(r), first + begin, first + k, axis[std::size_t(rod[begin])], joint});
         begin = k;
       }
       if (joint < 0) continue;
