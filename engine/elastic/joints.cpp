@@ -83,31 +83,22 @@ void add_joint_shear(Model& model, const Crossing& at, double stiffness,
   });
 }
 
-void add_joint_spin(Model& model, const Crossing& at, double stiffness, int side, double share,
-                    double angle) {
-  const Crossing back{at.rod_b, at.node_b, at.rod_a, at.node_a};
-  const double c = std::cos(angle), ss = std::pow(std::sin(angle), 2);
+void add_joint_spin(Model& model, const Crossing& at, double stiffness, int side, double share) {
   const double out_a = turn_between(model, at.rod_a, at.node_a, Turn::out),
                out_b = turn_between(model, at.rod_b, at.node_b, Turn::out);
-  // how far both rods spin by a couple about each, rad/(N mm)
-  const auto own = [&](int rod, int node, double out, double other) {
-    return 1 / stiffness + turn_between(model, rod, node, Turn::spin) + (other + c * c * out) / ss;
+  const auto own = [&](int rod, int node, double out) {
+    return 1 / stiffness + turn_between(model, rod, node, Turn::spin) - out;
   };
-  const double a = own(at.rod_a, at.node_a, out_a, out_b),
-               b = own(at.rod_b, at.node_b, out_b, out_a), both = c * (out_a + out_b) / ss;
-  const auto add = [&](ModelSpin& spin, const Crossing& of, int to, double weight) {
-    at_crossing(model, of, [&](int e, int f, double part) {
-      spin.pairs.push_back({e, f, -1, {weight * part, to}});
-    });
-  };
-  // its inverse in squares: phi_b^2/b + (phi_a - both/b phi_b)^2/(a - both^2/b)
-  ModelSpin& first = model.joint_spins.emplace_back();
-  first.stiffness = share / (a - both * both / b);
-  add(first, at, side, 1);
-  if (std::abs(both) > 1e-12 * b) add(first, back, -side, -both / b);
-  ModelSpin& second = model.joint_spins.emplace_back();
-  second.stiffness = share / b;
-  add(second, back, -side, 1);
+  ModelSpin& spin = model.joint_spins.emplace_back();
+  spin.own_a = own(at.rod_a, at.node_a, out_a);
+  spin.own_b = own(at.rod_b, at.node_b, out_b);
+  spin.out = out_a + out_b;
+  spin.share = share;
+  at_crossing(model, at, [&](int e, int f, double part) {
+    spin.spins[0].push_back({e, f, -1, {part, side}});
+    spin.spins[1].push_back({f, e, -1, {part, -side}});
+    spin.angle.push_back({e, f, -1, {part, 0}});
+  });
   // a spin that cost nothing and was held does now
   for (int rod : {at.rod_a, at.rod_b}) {
     int& held = model.rods[std::size_t(rod)].held_spin;
@@ -152,100 +143,6 @@ std::vector<int> nodes_of(const ModelLink& link, const Model& model) {
   return nodes;
 }
 
-namespace {
-
-/// f = u.y, u = w/|w|, and its derivatives: by y u, by both (I - u u^T)/|w|.
-struct UnitDot {
-  double value;
-  Eigen::Vector3d unit, by_w;
-  Eigen::Matrix3d by_both, by_ww;
-
-  UnitDot(const Eigen::Vector3d& w, const Eigen::Vector3d& y)
-      : value(w.dot(y) / w.norm()), unit(w.normalized()) {
-    by_both = (Eigen::Matrix3d::Identity() - unit * unit.transpose()) / w.norm();
-    by_w = by_both * y;
-    by_ww = -2 / w.norm() * symmetric_product(by_w, unit) - value / w.norm() * by_both;
-  }
-};
-
-using NineVector = Eigen::Matrix<double, 9, 1>;
-using NineMatrix = Eigen::Matrix<double, 9, 9>;
-
-/// k/2 r^2 with the slopes of r, added to value, gradient and Hessian by (d, t_a, t_b).
-void add_square(double k, double r, const NineVector& slope, const NineMatrix& bend, double& value,
-                NineVector& gradient, NineMatrix& hessian) {
-  value += 0.5 * k * r * r;
-  gradient += k * r * slope;
-  hessian += k * (slope * slope.transpose() + r * bend);
-}
-
-}  // namespace
-
-LinkEnergy energy_of(const ModelLink& link, const Model& model, const Eigen::Matrix3Xd& x) {
-  LinkEnergy out;
-  out.nodes = nodes_of(link, model);
-  const Eigen::Index size = 3 * Eigen::Index(out.nodes.size());
-  const auto place = [&](int node) {
-    return 3 * (std::ranges::find(out.nodes, node) - out.nodes.begin());
-  };
-  // (d, t_a, t_b), and how they change with the nodes
-  const Eigen::Vector3d d = x.col(link.b) - x.col(link.a);
-  Eigen::Matrix<double, 9, Eigen::Dynamic> by_nodes(9, size);
-  by_nodes.setZero();
-  by_nodes.block<3, 3>(0, 0) = -Eigen::Matrix3d::Identity();
-  by_nodes.block<3, 3>(0, 3).setIdentity();
-  Eigen::Vector3d mean[2];
-  const auto each_edge = [&](auto visit) {
-    for (const int rod : {0, 1})
-      for (const auto& [edge, share] : rod == 0 ? link.beside_a : link.beside_b) {
-        const ModelEdge& one = model.edges[std::size_t(edge)];
-        visit(rod, one, share, Eigen::Vector3d(x.col(one.to) - x.col(one.from)));
-      }
-  };
-  mean[0].setZero(), mean[1].setZero();
-  each_edge([&](int rod, const ModelEdge& edge, double share, const Eigen::Vector3d& along) {
-    const UnitDot unit(along, d);
-    mean[rod] += share * unit.unit;
-    by_nodes.block<3, 3>(3 + 3 * rod, place(edge.from)) -= share * unit.by_both;
-    by_nodes.block<3, 3>(3 + 3 * rod, place(edge.to)) += share * unit.by_both;
-  });
-  NineVector gradient = NineVector::Zero(), slope;
-  NineMatrix hessian = NineMatrix::Zero(), bend = NineMatrix::Zero();
-  // across: w = t_a x t_b
-  const UnitDot off(mean[0].cross(mean[1]), d);
-  slope << off.unit, mean[1].cross(off.by_w), off.by_w.cross(mean[0]);
-  Eigen::Matrix<double, 3, 9> w;
-  w << Eigen::Matrix3d::Zero(), -cross_matrix(mean[1]), cross_matrix(mean[0]);
-  bend = w.transpose() * off.by_ww * w;
-  bend.topRows<3>() += off.by_both * w;
-  bend.leftCols<3>() += w.transpose() * off.by_both;
-  bend.block<3, 3>(3, 6) -= cross_matrix(off.by_w);
-  bend.block<3, 3>(6, 3) += cross_matrix(off.by_w);
-  add_square(link.across, off.value - link.eccentricity, slope, bend, out.value, gradient, hessian);
-  for (const int rod : {0, 1}) {
-    const UnitDot along(mean[rod], d);
-    const int at = 3 + 3 * rod;
-    slope.setZero(), bend.setZero();
-    slope.head<3>() = along.unit;
-    slope.segment<3>(at) = along.by_w;
-    bend.block<3, 3>(0, at) = bend.block<3, 3>(at, 0) = along.by_both;
-    bend.block<3, 3>(at, at) = along.by_ww;
-    add_square(rod == 0 ? link.along_a : link.along_b, along.value, slope, bend, out.value,
-               gradient, hessian);
-  }
-  out.gradient = by_nodes.transpose() * gradient;
-  out.hessian = by_nodes.transpose() * hessian * by_nodes;
-  each_edge([&](int rod, const ModelEdge& edge, double share, const Eigen::Vector3d& along) {
-    const Eigen::Matrix3d own = UnitDot(along, share * gradient.segment<3>(3 + 3 * rod)).by_ww;
-    const Eigen::Index from = place(edge.from), to = place(edge.to);
-    out.hessian.block<3, 3>(from, from) += own;
-    out.hessian.block<3, 3>(to, to) += own;
-    out.hessian.block<3, 3>(from, to) -= own;
-    out.hessian.block<3, 3>(to, from) -= own;
-  });
-  return out;
-}
-
 Eigen::Vector3d JointDirections::at(double mm) const {
   const double between = before_mm + after_mm;
   if (std::isinf(between)) return mm < 0 ? before : mm > 0 ? after : 0.5 * (before + after);
@@ -255,7 +152,9 @@ Eigen::Vector3d JointDirections::at(double mm) const {
 std::vector<double> joint_torques(const RodMesh& mesh, const Model& model, const State& state) {
   std::vector<double> torques(std::size_t(mesh.joints), 0);
   const auto joint_of = [&](int node) {
-    return node < mesh.nodes() ? mesh.joint_of(node) : node - mesh.nodes();
+    if (node >= mesh.nodes()) return node - mesh.nodes();
+    const int joint = mesh.joint_of(node);
+    return joint < 0 ? node : joint;
   };
   for (const ModelShear& shear : model.shears) {
     const ModelEdge &e = model.edges[std::size_t(shear.pairs.front().e)],

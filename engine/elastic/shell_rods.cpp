@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
 
 namespace gridshell {
@@ -192,16 +191,6 @@ double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-/// the angle that a joint is opened to, if it is
-std::optional<double> opened_angle(const ShellRods& shell, int joint) {
-  if (!shell.bolts || shell.bolts->opening.empty()) return std::nullopt;
-  const auto& held = shell.bolts->rods[std::size_t(joint)];
-  const double to = shell.bolts->opening[std::size_t(joint)];
-  const auto& before = shell.bolts->opened;
-  if (held.size() != 2) return std::nullopt;
-  return gridshell::angle_between(held) + (before.empty() ? 0 : before[std::size_t(joint)]) + to;
-}
-
 /// +1: the normal as drawn is that from the direction of the first rod to that of the second
 int side_of(const RodMesh& mesh, const RodAt& a, const RodAt& b, const Eigen::Vector3d& normal) {
   return direction_at(mesh, a).cross(direction_at(mesh, b)).dot(normal) < 0 ? -1 : 1;
@@ -238,11 +227,9 @@ void add_joints(const RodMesh& mesh, const ShellRods& shell, const Crossings& cr
         return angle_between(along(rods[k], e), along(rods[m], f));
       };
       if (law.shear_Nmm > 0) add_joint_shear(model, at, law.shear_Nmm, rest, share);
-      const double drawn = angle_between(direction_at(mesh, rods[k]), direction_at(mesh, rods[m]));
       if (law.twist_Nmm > 0)
         add_joint_spin(model, at, law.twist_Nmm,
-                       side_of(mesh, rods[k], rods[m], normals[std::size_t(joint)]), share,
-                       opened_angle(shell, joint).value_or(drawn));
+                       side_of(mesh, rods[k], rods[m], normals[std::size_t(joint)]), share);
     });
   }
 }

@@ -38,7 +38,7 @@ Model sample_model() {
   model.springs.push_back({{3, 9, {40, 40, 40}}});
   model.springs.push_back({{10, 8, {3, 0, 5}, Term::support}});
   add_joint_shear(model, {0, 2, 1, 2}, 7.5, [](int, int) { return 1.4; });
-  add_joint_spin(model, {0, 2, 1, 2}, 3.5, 1, 1, 1.2);
+  add_joint_spin(model, {0, 2, 1, 2}, 3.5);
   add_joint_link(model, {1, 7, 2, 10}, 0.8);
   for (int node = 0; node < 12; ++node) model.loads.push_back({node, {0, 0, -0.1}});
   // pressures on a triangle and on a plane curve

@@ -179,6 +179,25 @@ TEST_CASE("rods of a cell that bend onto each other touch, on any mesh in the sa
   }
 }
 
+TEST_CASE("laths that stand on edge side by side touch by their widths, not as round rods do") {
+  Grid grid(2, 8);
+  grid.layout.joint_diameter_mm = 1;
+  const Eigen::Matrix3Xd x = grid.sheared(8 * degree);  // 2.78 mm between parallel rods
+  const auto places = [&](double width, double thickness) {
+    grid.layout.laths_mm.clear();
+    for (std::size_t rod = 0; rod < grid.layout.rods.size(); ++rod)
+      grid.layout.laths_mm.insert(grid.layout.laths_mm.end(), {width, thickness});
+    const ContactSearch search(grid.layout);
+    CHECK(search.in(x).places.size() == search.by_all_pairs(x).places.size());
+    return search.in(x).places.size();
+  };
+  CHECK(places(1, 6) == 0);
+  CHECK(places(6, 1) > 0);
+  grid.layout.laths_mm.clear();
+  grid.layout.rod_diameter_mm = std::sqrt(4 * 6 / std::numbers::pi);  // of their area
+  CHECK(ContactSearch(grid.layout).in(x).places.size() > 0);
+}
+
 TEST_CASE("rods that are held at one place of the boundary are near there, and cross beyond it") {
   Layout layout = lone_rod(6);
   layout.rods.push_back({6, 7, 8, 9, 10, 11});
