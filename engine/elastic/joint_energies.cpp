@@ -28,85 +28,64 @@ using Vector1 = Eigen::Matrix<double, 1, 1>;
 using NineVector = Eigen::Matrix<double, 9, 1>;
 using NineMatrix = Eigen::Matrix<double, 9, 9>;
 
-/// k/2 r^2 with the slopes of r, added to value, gradient and Hessian by (d, t_a, t_b).
-void add_square(double k, double r, const NineVector& slope, const NineMatrix& bend, double& value,
-                NineVector& gradient, NineMatrix& hessian) {
-  value += 0.5 * k * r * r;
-  gradient += k * r * slope;
-  hessian += k * (slope * slope.transpose() + r * bend);
-}
-
-/// What a link stores, and its derivatives by the places of its nodes.
+/// What a link stores by d = x_b - x_a and the mean tangents t_a, t_b.
 struct LinkEnergy {
   double value = 0;
-  std::vector<int> nodes;
-  Eigen::VectorXd gradient;  // three numbers a node, N
-  Eigen::MatrixXd hessian;   // N/mm
+  NineVector slope = NineVector::Zero();
+  NineMatrix bend = NineMatrix::Zero();
+
+  /// k/2 r^2
+  void add(double k, double r, const NineVector& by, const NineMatrix& by_two) {
+    value += 0.5 * k * r * r;
+    slope += k * r * by;
+    bend += k * (by * by.transpose() + r * by_two);
+  }
 };
 
-LinkEnergy energy_of(const ModelLink& link, const Model& model, const Eigen::Matrix3Xd& x) {
+LinkEnergy energy_of(const ModelLink& link, const Eigen::Vector3d& d, const Eigen::Vector3d& ta,
+                     const Eigen::Vector3d& tb) {
   LinkEnergy out;
-  out.nodes = nodes_of(link, model);
-  const Eigen::Index size = 3 * Eigen::Index(out.nodes.size());
-  const auto place = [&](int node) {
-    return 3 * (std::ranges::find(out.nodes, node) - out.nodes.begin());
-  };
-  // (d, t_a, t_b), and how they change with the nodes
-  const Eigen::Vector3d d = x.col(link.b) - x.col(link.a);
-  Eigen::Matrix<double, 9, Eigen::Dynamic> by_nodes(9, size);
-  by_nodes.setZero();
-  by_nodes.block<3, 3>(0, 0) = -Eigen::Matrix3d::Identity();
-  by_nodes.block<3, 3>(0, 3).setIdentity();
-  Eigen::Vector3d mean[2];
-  const auto each_edge = [&](auto visit) {
-    for (const int rod : {0, 1})
-      for (const auto& [edge, share] : rod == 0 ? link.beside_a : link.beside_b) {
-        const ModelEdge& one = model.edges[std::size_t(edge)];
-        visit(rod, one, share, Eigen::Vector3d(x.col(one.to) - x.col(one.from)));
-      }
-  };
-  mean[0].setZero(), mean[1].setZero();
-  each_edge([&](int rod, const ModelEdge& edge, double share, const Eigen::Vector3d& along) {
-    const UnitDot unit(along, d);
-    mean[rod] += share * unit.unit;
-    by_nodes.block<3, 3>(3 + 3 * rod, place(edge.from)) -= share * unit.by_both;
-    by_nodes.block<3, 3>(3 + 3 * rod, place(edge.to)) += share * unit.by_both;
-  });
-  NineVector gradient = NineVector::Zero(), slope;
-  NineMatrix hessian = NineMatrix::Zero(), bend = NineMatrix::Zero();
+  NineVector by;
   // across: w = t_a x t_b
-  const UnitDot off(mean[0].cross(mean[1]), d);
-  slope << off.unit, mean[1].cross(off.by_w), off.by_w.cross(mean[0]);
+  const UnitDot off(ta.cross(tb), d);
+  by << off.unit, tb.cross(off.by_w), off.by_w.cross(ta);
   Eigen::Matrix<double, 3, 9> w;
-  w << Eigen::Matrix3d::Zero(), -cross_matrix(mean[1]), cross_matrix(mean[0]);
-  bend = w.transpose() * off.by_ww * w;
-  bend.topRows<3>() += off.by_both * w;
-  bend.leftCols<3>() += w.transpose() * off.by_both;
-  bend.block<3, 3>(3, 6) -= cross_matrix(off.by_w);
-  bend.block<3, 3>(6, 3) += cross_matrix(off.by_w);
-  add_square(link.across, off.value - link.eccentricity, slope, bend, out.value, gradient, hessian);
+  w << Eigen::Matrix3d::Zero(), -cross_matrix(tb), cross_matrix(ta);
+  NineMatrix by_two = w.transpose() * off.by_ww * w;
+  by_two.topRows<3>() += off.by_both * w;
+  by_two.leftCols<3>() += w.transpose() * off.by_both;
+  by_two.block<3, 3>(3, 6) -= cross_matrix(off.by_w);
+  by_two.block<3, 3>(6, 3) += cross_matrix(off.by_w);
+  out.add(link.across, off.value - link.eccentricity, by, by_two);
   for (const int rod : {0, 1}) {
-    const UnitDot along(mean[rod], d);
+    const UnitDot along(rod == 0 ? ta : tb, d);
     const int at = 3 + 3 * rod;
-    slope.setZero(), bend.setZero();
-    slope.head<3>() = along.unit;
-    slope.segment<3>(at) = along.by_w;
-    bend.block<3, 3>(0, at) = bend.block<3, 3>(at, 0) = along.by_both;
-    bend.block<3, 3>(at, at) = along.by_ww;
-    add_square(rod == 0 ? link.along_a : link.along_b, along.value, slope, bend, out.value,
-               gradient, hessian);
+    by.setZero(), by_two.setZero();
+    by.head<3>() = along.unit;
+    by.segment<3>(at) = along.by_w;
+    by_two.block<3, 3>(0, at) = by_two.block<3, 3>(at, 0) = along.by_both;
+    by_two.block<3, 3>(at, at) = along.by_ww;
+    out.add(rod == 0 ? link.along_a : link.along_b, along.value, by, by_two);
   }
-  out.gradient = by_nodes.transpose() * gradient;
-  out.hessian = by_nodes.transpose() * hessian * by_nodes;
-  each_edge([&](int rod, const ModelEdge& edge, double share, const Eigen::Vector3d& along) {
-    const Eigen::Matrix3d own = UnitDot(along, share * gradient.segment<3>(3 + 3 * rod)).by_ww;
-    const Eigen::Index from = place(edge.from), to = place(edge.to);
-    out.hessian.block<3, 3>(from, from) += own;
-    out.hessian.block<3, 3>(to, to) += own;
-    out.hessian.block<3, 3>(from, to) -= own;
-    out.hessian.block<3, 3>(to, from) -= own;
-  });
   return out;
+}
+
+/// visit(rod, edge, share, vector) for the edges beside a link
+template <class Visit>
+void beside(const ModelLink& link, const Model& model, const Eigen::Matrix3Xd& x, Visit visit) {
+  for (const int rod : {0, 1})
+    for (const auto& [edge, share] : rod == 0 ? link.beside_a : link.beside_b) {
+      const ModelEdge& one = model.edges[std::size_t(edge)];
+      visit(rod, one, share, Eigen::Vector3d(x.col(one.to) - x.col(one.from)));
+    }
+}
+
+LinkEnergy energy_of(const ModelLink& link, const Model& model, const Eigen::Matrix3Xd& x) {
+  Eigen::Vector3d mean[2] = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  beside(link, model, x, [&](int rod, const ModelEdge&, double share, const Eigen::Vector3d& way) {
+    mean[rod] += share * way.normalized();
+  });
+  return energy_of(link, x.col(link.b) - x.col(link.a), mean[0], mean[1]);
 }
 
 /// What a joint's spins store by the spins a, b and the angle theta of its rods: with the moments
@@ -150,41 +129,50 @@ SpinEnergy energy_of(const ModelSpin& spin, const Model& model, const State& sta
 template <int n>
 using Slopes = std::vector<std::pair<int, Eigen::Matrix<double, 3, n>>>;
 
+template <int n>
+Eigen::Matrix<double, 3, n>& at(Slopes<n>& slopes, int column) {
+  const auto known = std::ranges::find(slopes, column, &Slopes<n>::value_type::first);
+  if (known != slopes.end()) return known->second;
+  return slopes.emplace_back(column, Eigen::Matrix<double, 3, n>::Zero()).second;
+}
+
 /// Puts the slope of a mean, the `k`-th, into `slopes`; `each` takes every pair's share.
 template <int n, class Law, class Each>
 void put_slope(const Model& model, const State& state, const std::vector<Pair<Law>>& pairs, int k,
                Slopes<n>& slopes, Each each) {
-  const auto add = [&](int column, const Eigen::Vector3d& by) {
-    auto known = std::ranges::find(slopes, column, &Slopes<n>::value_type::first);
-    if (known == slopes.end())
-      known = slopes.insert(slopes.end(), {column, Eigen::Matrix<double, 3, n>::Zero()});
-    known->second.col(k) += by;
-  };
   for (const Pair<Law>& pair : pairs) {
     PairEnergy mean;
     pair.law.add(pair_geometry(model, state, pair), mean);
     for (const auto& [edge, by] : {std::pair(pair.e, 0), std::pair(pair.f, 3)}) {
       const Eigen::Vector3d part = mean.gradient.template segment<3>(by);
-      add(model.edges[std::size_t(edge)].from, -part);
-      add(model.edges[std::size_t(edge)].to, part);
+      at(slopes, model.edges[std::size_t(edge)].from).col(k) -= part;
+      at(slopes, model.edges[std::size_t(edge)].to).col(k) += part;
     }
     if (mean.gradient[6] != 0) {
       const int place = model.spin[std::size_t(pair.e)];
-      add(place / 3, mean.gradient[6] / model.spin_length * Eigen::Vector3d::Unit(place % 3));
+      at(slopes, place / 3)(place % 3, k) += mean.gradient[6] / model.spin_length;
     }
     each(pair, mean);
   }
 }
 
-void add_between(const Model& model, int row, int column, const Eigen::Matrix3d& block,
-                 BlockHessian& h) {
-  if (row == column)
-    h.diagonal[std::size_t(row)].matrix() += block;
-  else
-    h.add(model.pattern.find(row, column), block);
+/// E_i s_i and the sum of E_ij s_i s_j^T.
+template <int n>
+void add_slopes(const Model& model, const Slopes<n>& slopes, const Eigen::Matrix<double, n, 1>& by,
+                const Eigen::Matrix<double, n, n>& bend, bool with_hessian, Assembly& out) {
+  for (const auto& [column, slope] : slopes) out.gradient.col(column) += slope * by;
+  for (std::size_t a = 0; with_hessian && a < slopes.size(); ++a)
+    for (std::size_t b = 0; b <= a; ++b) {
+      const int row = slopes[a].first, column = slopes[b].first;
+      const Eigen::Matrix3d block = slopes[a].second * bend * slopes[b].second.transpose();
+      if (a == b)
+        out.hessian.diagonal[std::size_t(row)].matrix() += block;
+      else
+        out.hessian.add(model.pattern.find(row, column), block);
+    }
 }
 
-/// Of an energy E of n means with slopes s: E_i s_i and sum of E_i s_i' + E_ij s_i s_j^T.
+/// Of an energy E of n means with slopes s: E_i s_i and the sum of E_i s_i' + E_ij s_i s_j^T.
 template <int n, class... Pairs>
 void add_means(const Model& model, const State& state, const Eigen::Matrix<double, n, 1>& by,
                const Eigen::Matrix<double, n, n>& bend, bool with_hessian, Assembly& out,
@@ -198,24 +186,24 @@ void add_means(const Model& model, const State& state, const Eigen::Matrix<doubl
     });
   };
   (put(lists), ...);
-  for (const auto& [column, slope] : slopes) out.gradient.col(column) += slope * by;
-  for (std::size_t a = 0; with_hessian && a < slopes.size(); ++a)
-    for (std::size_t b = 0; b <= a; ++b)
-      add_between(model, slopes[a].first, slopes[b].first,
-                  slopes[a].second * bend * slopes[b].second.transpose(), out.hessian);
+  add_slopes(model, slopes, by, bend, with_hessian, out);
 }
 
-void add(const ModelLink& link, const Model& model, const State& state, bool with_hessian,
+void add(const ModelLink& link, const Model& model, const Eigen::Matrix3Xd& x, bool with_hessian,
          Assembly& out) {
-  const LinkEnergy energy = energy_of(link, model, state.x);
+  const LinkEnergy energy = energy_of(link, model, x);
   out.energies[Term::joint] += energy.value;
-  for (std::size_t a = 0; a < energy.nodes.size(); ++a) {
-    const auto row = 3 * Eigen::Index(a);
-    out.gradient.col(energy.nodes[a]) += energy.gradient.segment<3>(row);
-    for (std::size_t b = 0; with_hessian && b <= a; ++b)
-      add_between(model, energy.nodes[a], energy.nodes[b],
-                  energy.hessian.block<3, 3>(row, 3 * Eigen::Index(b)), out.hessian);
-  }
+  Slopes<9> slopes;
+  at(slopes, link.a).leftCols<3>() -= Eigen::Matrix3d::Identity();
+  at(slopes, link.b).leftCols<3>() += Eigen::Matrix3d::Identity();
+  beside(link, model, x, [&](int rod, const ModelEdge& edge, double share, const auto& way) {
+    const int from = 3 + 3 * rod;
+    const UnitDot unit(way, share * energy.slope.segment<3>(from));
+    at(slopes, edge.from).middleCols<3>(from) -= share * unit.by_both;
+    at(slopes, edge.to).middleCols<3>(from) += share * unit.by_both;
+    if (with_hessian) add_edge_block(edge, unit.by_ww, out.hessian);
+  });
+  add_slopes(model, slopes, energy.slope, energy.bend, with_hessian, out);
 }
 
 }  // namespace
@@ -233,7 +221,7 @@ void add_joints(const Model& model, const State& state, double opening, bool wit
     add_means<3>(model, state, energy.slope, energy.bend, with_hessian, out, spin.spins[0],
                  spin.spins[1], spin.angle);
   }
-  for (const ModelLink& link : model.links) add(link, model, state, with_hessian, out);
+  for (const ModelLink& link : model.links) add(link, model, state.x, with_hessian, out);
 }
 
 void add_joint_energies(const Model& model, const State& state, double opening, Energies& sum) {

@@ -119,11 +119,10 @@ void add_joint_link(Model& model, const Crossing& at, double eccentricity) {
   ModelLink& link = model.links.emplace_back();
   link = {at.node_a, at.node_b, beside(at.rod_a, at.node_a), beside(at.rod_b, at.node_b),
           eccentricity};
-  double EA = std::numeric_limits<double>::infinity();
-  for (const auto* edges : {&link.beside_a, &link.beside_b})
-    for (const auto& [edge, share] : *edges)
-      if (const double own = model.edges[std::size_t(edge)].EA; own > 0) EA = std::min(EA, own);
-  link.across = EA / std::abs(eccentricity);
+  const auto EA = [&](const auto& edges) {
+    return model.edges[std::size_t(edges.front().first)].EA;
+  };
+  link.across = std::min(EA(link.beside_a), EA(link.beside_b)) / std::abs(eccentricity);
   // a force along a rod bends it by eccentricity times that
   const auto along = [&](int rod, int node) {
     const double arm2 = eccentricity * eccentricity;
