@@ -68,7 +68,8 @@ class ShapeContacts {
   }
   void lay_out(std::size_t k);
   Vector3d normal_of(const ContactSearch::Axis& at) const;
-  Vector3d normal_at(const Segment& s, double along) const;
+  void lay_sections(const Segment& s);
+  bool side_by_side(int a, int b) const;
   double beside(int rod) const;
   double gap_of_laths(const Search& search, int edge_a, int edge_b,
                       const NearestPoints& near) const;
@@ -87,12 +88,13 @@ class ShapeContacts {
   void table();
 
   const ContactSearch& of_;
-  std::vector<Vector3d> x_;    // of the points
-  std::vector<double> along_;  // the rods
-  std::vector<Box> edge_;      // of segments with a tree, one after another, by its first point
-  std::vector<Box> tree_;      // of edges begin to end - 1, at the point in the middle
-  std::vector<int> tree_at_;   // what is added to a segment's points for it; no_tree
-  std::vector<Box> box_;       // of the segments
+  std::vector<Vector3d> x_;              // of the points
+  std::vector<double> along_;            // the rods
+  std::vector<Vector3d> normal_, side_;  // of the edges' sections, of laths
+  std::vector<Box> edge_;     // of segments with a tree, one after another, by its first point
+  std::vector<Box> tree_;     // of edges begin to end - 1, at the point in the middle
+  std::vector<int> tree_at_;  // what is added to a segment's points for it; no_tree
+  std::vector<Box> box_;      // of the segments
   std::vector<Chord> chord_;
   const Eigen::Matrix3Xd& nodes_;
   Contacts all_;
@@ -108,6 +110,10 @@ ShapeContacts::ShapeContacts(const ContactSearch& search, const Eigen::Matrix3Xd
   chord_.resize(segments);
   tree_at_.assign(segments, no_tree);
   for (std::size_t k = 0; k < segments; ++k) lay_out(k);
+  if (search.half_mm_.empty()) return;
+  normal_.resize(points, Vector3d::Zero());
+  side_.resize(points, Vector3d::Zero());
+  for (const Segment& s : search.segments_) lay_sections(s);
 }
 
 /// Box and chord of a segment.
@@ -242,15 +248,21 @@ Vector3d ShapeContacts::normal_of(const ContactSearch::Axis& at) const {
       .stableNormalized();
 }
 
-/// Of a lath: linear between the joints of its segment, to one side.
-Vector3d ShapeContacts::normal_at(const Segment& s, double along) const {
+/// How the sections of a segment lie: normals linear between those of its joints, to one side.
+void ShapeContacts::lay_sections(const Segment& s) {
   const auto of = [&](int joint) {
     return joint < 0 ? Vector3d(0, 0, 0) : normal_of(of_.axes_[std::size_t(joint)]);
   };
-  const Vector3d first = of(s.from), last = of(s.to);
-  if (first.isZero(0) || last.isZero(0)) return first + last;
-  const double share = (along - along_[std::size_t(s.begin)]) / length(s);
-  return ((1 - share) * first + (first.dot(last) < 0 ? -share : share) * last).stableNormalized();
+  Vector3d first = of(s.from), last = of(s.to);
+  if (first.isZero(0)) first = last;
+  if (last.isZero(0)) last = first;
+  if (first.dot(last) < 0) last *= -1;
+  for (int k = s.begin; k < s.end; ++k) {
+    const std::size_t p = std::size_t(k);
+    const double share = (along_[p] - along_[std::size_t(s.begin)]) / length(s);
+    normal_[p] = ((1 - share) * first + share * last).stableNormalized();
+    side_[p] = (x_[p + 1] - x_[p]).cross(normal_[p]).stableNormalized();
+  }
 }
 
 /// How far a rod reaches from its axis across the normal.
@@ -259,28 +271,42 @@ double ShapeContacts::beside(int rod) const {
   return lath ? of_.half_mm_[std::size_t(rod)][0] : of_.radius_mm_[std::size_t(rod)];
 }
 
-double ShapeContacts::gap_of_laths(const Search& search, int edge_a, int edge_b,
-                                   const NearestPoints& near) const {
-  Vector3d at[2], tangent[2], normal[2];
-  const Segment* of[2] = {&segment(search.a), &segment(search.b)};
-  for (const int k : {0, 1}) {
-    const std::size_t p = std::size_t(k == 0 ? edge_a : edge_b);
-    const double part = k == 0 ? near.s : near.t;
-    at[k] = x_[p] + part * (x_[p + 1] - x_[p]);
-    tangent[k] = (x_[p + 1] - x_[p]).stableNormalized();
-    normal[k] = normal_at(*of[k], along_[p] + part * (along_[p + 1] - along_[p]));
-  }
-  const Vector3d apart = at[1] - at[0];
-  const Vector3d n =
-      (normal[0] + (normal[0].dot(normal[1]) < 0 ? -1 : 1) * normal[1]).stableNormalized();
-  if (n.isZero(0)) return apart.norm() - search.radii;
-  const Vector3d in_plane = apart - apart.dot(n) * n, e = in_plane.stableNormalized();
-  double along = std::abs(apart.dot(n)), across = in_plane.norm();
+/// Whether all rectangles of two segments of laths lie apart, seen along the width of the first.
+bool ShapeContacts::side_by_side(int a, int b) const {
+  if (of_.half_mm_.empty()) return false;
+  const Segment* of[2] = {&segment(a), &segment(b)};
+  const Vector3d& view = side_[std::size_t((of[0]->begin + of[0]->end) / 2)];
+  double low[2], high[2];
   for (const int k : {0, 1}) {
     const auto& [width, thickness] = of_.half_mm_[std::size_t(of[k]->rod)];
-    const double radius = of_.radius_mm_[std::size_t(of[k]->rod)];
-    along -= width > 0 ? thickness : radius;
-    across -= width > 0 ? width * std::abs(e.dot(tangent[k].cross(n))) : radius;
+    low[k] = infinity, high[k] = -infinity;
+    for (int point = of[k]->begin; point <= of[k]->end; ++point) {
+      const std::size_t p = std::size_t(point), edge = std::size_t(std::min(point, of[k]->end - 1));
+      const double at = view.dot(x_[p]),
+                   reach = width > 0 ? width * std::abs(view.dot(side_[edge])) +
+                                           thickness * std::abs(view.dot(normal_[edge]))
+                                     : of_.radius_mm_[std::size_t(of[k]->rod)];
+      low[k] = std::min(low[k], at - reach), high[k] = std::max(high[k], at + reach);
+    }
+  }
+  return std::max(low[0] - high[1], low[1] - high[0]) > beside(of[0]->rod) + beside(of[1]->rod);
+}
+
+double ShapeContacts::gap_of_laths(const Search& search, int edge_a, int edge_b,
+                                   const NearestPoints& near) const {
+  const std::size_t p[2] = {std::size_t(edge_a), std::size_t(edge_b)};
+  const Vector3d apart =
+      x_[p[1]] + near.t * (x_[p[1] + 1] - x_[p[1]]) - x_[p[0]] - near.s * (x_[p[0] + 1] - x_[p[0]]);
+  const double same = normal_[p[0]].dot(normal_[p[1]]) < 0 ? -1 : 1;
+  const Vector3d n = (normal_[p[0]] + same * normal_[p[1]]).normalized();
+  if (n.isZero(0)) return apart.norm() - search.radii;
+  double along = std::abs(apart.dot(n)), across = (apart - apart.dot(n) * n).norm();
+  const double whole = std::max(across, 1e-300);
+  for (const int k : {0, 1}) {
+    const auto rod = std::size_t(segment(k == 0 ? search.a : search.b).rod);
+    const auto& [width, thickness] = of_.half_mm_[rod];
+    along -= width > 0 ? thickness : of_.radius_mm_[rod];
+    across -= width > 0 ? width * std::abs(apart.dot(side_[p[k]])) / whole : of_.radius_mm_[rod];
   }
   return std::max(along, across);
 }
@@ -367,7 +393,7 @@ void ShapeContacts::rods(bool by_all_pairs) {
     take(search);
   }
   each_near_pair(box_, 4 * widest, [&](int a, int b) {
-    if (apart_but_at_joint(a, b) || apart(a, b)) return;
+    if (apart_but_at_joint(a, b) || apart(a, b) || side_by_side(a, b)) return;
     grow_tree(a);
     grow_tree(b);
     Search search = between(a, b);
