@@ -1,104 +1,14 @@
 #include "engine/record/contacts.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <tuple>
 #include <utility>
 
-#include "engine/core/proximity.h"
+#include "engine/record/shape_contacts.h"
 
 namespace gridshell::record {
-namespace {
-
-using Eigen::Vector3d;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr int no_tree = std::numeric_limits<int>::min();
-
-}  // namespace
-
-/// One shape of the layout of a search.
-class ShapeContacts {
- public:
-  ShapeContacts(const ContactSearch& search, const Eigen::Matrix3Xd& nodes);
-  Contacts found(bool by_all_pairs);
-
- private:
-  using Box = Eigen::AlignedBox3d;
-  using Segment = ContactSearch::Segment;
-  /// Points of two segments so near to a joint that they share, along the rods, are not told.
-  struct Joint {
-    double at_a = 0, at_b = 0, within = 0;
-  };
-  /// A segment's chord, from its begin to its end, and the largest angle of an edge with it.
-  struct Chord {
-    Vector3d along{0, 0, 0};  ///< unit vector
-    double cosine = 1, sine = 0;
-    int node[2] = {-1, -1};  ///< at begin and end
-  };
-  /// What is looked for between two segments.
-  struct Search {
-    int a = 0, b = 0;
-    double radii = 0;  ///< sum
-    double gap = 0;    ///< above is not looked for
-    double apart = 0;  ///< of one segment: nearer points along it are not told
-    int joints = 0;
-    Joint joint[2];
-    Contact found;
-    bool any = false;
-
-    bool told(double at_a, double at_b) const {
-      if (at_b - at_a < apart) return false;
-      for (int k = 0; k < joints; ++k)
-        if (std::abs(at_a - joint[k].at_a) <= joint[k].within &&
-            std::abs(at_b - joint[k].at_b) <= joint[k].within)
-          return false;
-      return true;
-    }
-  };
-
-  int node(int point) const { return of_.places_[point]; }
-  const Segment& segment(int k) const { return of_.segments_[k]; }
-  double length(const Segment& s) const { return along_[s.end] - along_[s.begin]; }
-  /// Of edges begin to end - 1 of a segment with a tree.
-  const Box& box_of(int k, int begin, int end) const {
-    return end - begin == 1 ? edge_[begin + tree_at_[k]] : tree_[(begin + end) / 2 + tree_at_[k]];
-  }
-  void lay_out(std::size_t k);
-  Vector3d normal_of(const ContactSearch::Axis& at) const;
-  void lay_sections(const Segment& s);
-  bool side_by_side(int a, int b) const;
-  double beside(int rod) const;
-  double gap_of_laths(const Search& search, int edge_a, int edge_b,
-                      const NearestPoints& near) const;
-  void grow_tree(int k);
-  Box grown(int k, int begin, int end);
-  bool apart(int a, int b) const;
-  bool apart_but_at_joint(int a, int b) const;
-  Search between(int a, int b) const;
-  void add_joint(Search& search, int point_a, int point_b) const;
-  void look(Search& search, int begin_a, int end_a, int begin_b, int end_b) const;
-  void look_within(Search& search, int begin, int end) const;
-  void look_at_edges(Search& search, int edge_a, int edge_b) const;
-  void take(const Search& search);
-  void rods(bool by_all_pairs);
-  void joints(bool by_all_pairs);
-  void table();
-
-  const ContactSearch& of_;
-  std::vector<Vector3d> x_;              // of the points
-  std::vector<double> along_;            // the rods
-  std::vector<Vector3d> normal_, side_;  // of the edges' sections, of laths
-  std::vector<Box> edge_;     // of segments with a tree, one after another, by its first point
-  std::vector<Box> tree_;     // of edges begin to end - 1, at the point in the middle
-  std::vector<int> tree_at_;  // what is added to a segment's points for it; no_tree
-  std::vector<Box> box_;      // of the segments
-  std::vector<Chord> chord_;
-  const Eigen::Matrix3Xd& nodes_;
-  Contacts all_;
-};
 
 ShapeContacts::ShapeContacts(const ContactSearch& search, const Eigen::Matrix3Xd& nodes)
     : of_(search), nodes_(nodes) {
@@ -228,7 +138,7 @@ ShapeContacts::Search ShapeContacts::between(int a, int b) const {
   search.b = b;
   const Segment &one = segment(a), &other = segment(b);
   search.radii = of_.radius_mm_[one.rod] + of_.radius_mm_[other.rod];
-  search.gap = search.radii;
+  search.gap = beside(one.rod) + beside(other.rod);
   if (a == b) {
     search.apart = std::numbers::pi * search.radii;
     add_joint(search, one.begin, one.end);  // of a ring
@@ -238,77 +148,6 @@ ShapeContacts::Search ShapeContacts::between(int a, int b) const {
   for (const int point : {one.begin, one.end})
     for (const int beside : {other.begin, other.end}) add_joint(search, point, beside);
   return search;
-}
-
-Vector3d ShapeContacts::normal_of(const ContactSearch::Axis& at) const {
-  const auto& beside = at.beside;
-  if (beside[0] < 0) return Vector3d::Zero();
-  return (nodes_.col(beside[1]) - nodes_.col(beside[0]))
-      .cross(nodes_.col(beside[3]) - nodes_.col(beside[2]))
-      .stableNormalized();
-}
-
-/// How the sections of a segment lie: normals linear between those of its joints, to one side.
-void ShapeContacts::lay_sections(const Segment& s) {
-  const auto of = [&](int joint) {
-    return joint < 0 ? Vector3d(0, 0, 0) : normal_of(of_.axes_[std::size_t(joint)]);
-  };
-  Vector3d first = of(s.from), last = of(s.to);
-  if (first.isZero(0)) first = last;
-  if (last.isZero(0)) last = first;
-  if (first.dot(last) < 0) last *= -1;
-  for (int k = s.begin; k < s.end; ++k) {
-    const std::size_t p = std::size_t(k);
-    const double share = (along_[p] - along_[std::size_t(s.begin)]) / length(s);
-    normal_[p] = ((1 - share) * first + share * last).stableNormalized();
-    side_[p] = (x_[p + 1] - x_[p]).cross(normal_[p]).stableNormalized();
-  }
-}
-
-/// How far a rod reaches from its axis across the normal.
-double ShapeContacts::beside(int rod) const {
-  const bool lath = !of_.half_mm_.empty() && of_.half_mm_[std::size_t(rod)][0] > 0;
-  return lath ? of_.half_mm_[std::size_t(rod)][0] : of_.radius_mm_[std::size_t(rod)];
-}
-
-/// Whether all rectangles of two segments of laths lie apart, seen along the width of the first.
-bool ShapeContacts::side_by_side(int a, int b) const {
-  if (of_.half_mm_.empty()) return false;
-  const Segment* of[2] = {&segment(a), &segment(b)};
-  const Vector3d& view = side_[std::size_t((of[0]->begin + of[0]->end) / 2)];
-  double low[2], high[2];
-  for (const int k : {0, 1}) {
-    const auto& [width, thickness] = of_.half_mm_[std::size_t(of[k]->rod)];
-    low[k] = infinity, high[k] = -infinity;
-    for (int point = of[k]->begin; point <= of[k]->end; ++point) {
-      const std::size_t p = std::size_t(point), edge = std::size_t(std::min(point, of[k]->end - 1));
-      const double at = view.dot(x_[p]),
-                   reach = width > 0 ? width * std::abs(view.dot(side_[edge])) +
-                                           thickness * std::abs(view.dot(normal_[edge]))
-                                     : of_.radius_mm_[std::size_t(of[k]->rod)];
-      low[k] = std::min(low[k], at - reach), high[k] = std::max(high[k], at + reach);
-    }
-  }
-  return std::max(low[0] - high[1], low[1] - high[0]) > beside(of[0]->rod) + beside(of[1]->rod);
-}
-
-double ShapeContacts::gap_of_laths(const Search& search, int edge_a, int edge_b,
-                                   const NearestPoints& near) const {
-  const std::size_t p[2] = {std::size_t(edge_a), std::size_t(edge_b)};
-  const Vector3d apart =
-      x_[p[1]] + near.t * (x_[p[1] + 1] - x_[p[1]]) - x_[p[0]] - near.s * (x_[p[0] + 1] - x_[p[0]]);
-  const double same = normal_[p[0]].dot(normal_[p[1]]) < 0 ? -1 : 1;
-  const Vector3d n = (normal_[p[0]] + same * normal_[p[1]]).normalized();
-  if (n.isZero(0)) return apart.norm() - search.radii;
-  double along = std::abs(apart.dot(n)), across = (apart - apart.dot(n) * n).norm();
-  const double whole = std::max(across, 1e-300);
-  for (const int k : {0, 1}) {
-    const auto rod = std::size_t(segment(k == 0 ? search.a : search.b).rod);
-    const auto& [width, thickness] = of_.half_mm_[rod];
-    along -= width > 0 ? thickness : of_.radius_mm_[rod];
-    across -= width > 0 ? width * std::abs(apart.dot(side_[p[k]])) / whole : of_.radius_mm_[rod];
-  }
-  return std::max(along, across);
 }
 
 void ShapeContacts::look_at_edges(Search& search, int edge_a, int edge_b) const {
