@@ -62,13 +62,18 @@ void each_pair_list(const Model& model, Visit visit) {
   std::apply([&](const auto&... lists) { (visit(lists), ...); }, model.pairs);
 }
 
-/// Mean angle at a joint beyond that at rest, so much of its opening having come, rad.
+/// The mean of what pairs of edges have their parts of, rad.
 template <class Law>
-double excess_of(const Model& model, const State& state, const ModelMean<Law>& mean,
-                 double opening) {
-  double sum = -opening * mean.opening;
-  for (const auto& pair : mean.pairs) sum += pair.law.excess(pair_geometry(model, state, pair));
+double mean_of(const Model& model, const State& state, const std::vector<Pair<Law>>& pairs,
+               double sum = 0) {
+  for (const auto& pair : pairs) sum += pair.law.excess(pair_geometry(model, state, pair));
   return sum;
+}
+
+/// Mean angle at a joint beyond that at rest, so much of its opening having come, rad.
+inline double excess_of(const Model& model, const State& state, const ModelShear& shear,
+                        double opening) {
+  return mean_of(model, state, shear.pairs, -opening * shear.opening);
 }
 
 inline Eigen::Vector3d gap_of(const State& state, const NodeSpring& spring) {

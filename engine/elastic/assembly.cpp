@@ -8,6 +8,7 @@
 #include "engine/core/block3.h"
 #include "engine/elastic/along_rods.h"
 #include "engine/elastic/edge_energies.h"
+#include "engine/elastic/pair_blocks.h"
 
 namespace gridshell {
 namespace {
@@ -81,60 +82,6 @@ void add_pair_gradient(const Model& model, const Pair<Law>& pair, const PairEner
   out.gradient.data()[model.spin[std::size_t(pair.f)]] += energy.gradient[7] / model.spin_length;
 }
 
-/// m stands at (a, b) and transposed at (b, a)
-void add_block(int a, int b, BlockSlot slot, const Eigen::Matrix3d& m, BlockHessian& h) {
-  if (a == b)
-    h.diagonal[std::size_t(a)].matrix() += m + m.transpose();
-  else
-    h.add(slot, m);
-}
-
-/// An edge vector's own stiffness at its two nodes.
-void add_edge_block(const ModelEdge& edge, const Eigen::Matrix3d& m, BlockHessian& h) {
-  h.diagonal[std::size_t(edge.from)].matrix() += m;
-  h.diagonal[std::size_t(edge.to)].matrix() += m;
-  h.add(edge.slot, -m);
-}
-
-template <class Law>
-void add_spin_hessian(const Model& model, const Pair<Law>& pair, const PairMatrix& H,
-                      BlockHessian& h) {
-  const int place[2] = {model.spin[std::size_t(pair.e)], model.spin[std::size_t(pair.f)]};
-  const double scale = 1 / model.spin_length;
-  for (int k = 0; k < 2; ++k)
-    for (int end = 0; end < 4; ++end) {
-      const double side = end % 2 == 0 ? -scale : scale;
-      Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
-      block.col(place[k] % 3) = side * H.block<3, 1>(end < 2 ? 0 : 3, 6 + k);
-      h.add(pair.slots.spin[end][k], block);
-    }
-  for (int k = 0; k < 2; ++k)
-    h.diagonal[std::size_t(place[k] / 3)].matrix()(place[k] % 3, place[k] % 3) +=
-        scale * scale * H(6 + k, 6 + k);
-  const double across = scale * scale * H(6, 7);
-  if (place[0] / 3 == place[1] / 3) {
-    auto own = h.diagonal[std::size_t(place[0] / 3)].matrix();
-    own(place[0] % 3, place[1] % 3) += across;
-    own(place[1] % 3, place[0] % 3) += across;
-  } else {
-    h.add_entry(pair.slots.spins, place[0] % 3, place[1] % 3, across);
-  }
-}
-
-template <class Law>
-void add_pair_hessian(const Model& model, const Pair<Law>& pair, const PairMatrix& H,
-                      BlockHessian& h) {
-  const ModelEdge &e = model.edges[std::size_t(pair.e)], &f = model.edges[std::size_t(pair.f)];
-  add_edge_block(e, H.block<3, 3>(0, 0), h);
-  add_edge_block(f, H.block<3, 3>(3, 3), h);
-  const Eigen::Matrix3d ef = H.block<3, 3>(0, 3);
-  const int of_e[2] = {e.from, e.to}, of_f[2] = {f.from, f.to};
-  for (int a = 0; a < 2; ++a)
-    for (int b = 0; b < 2; ++b)
-      add_block(of_e[a], of_f[b], pair.slots.across[a][b], a == b ? ef : Eigen::Matrix3d(-ef), h);
-  if (model.has_spins()) add_spin_hessian(model, pair, H, h);
-}
-
 void add_contact_hessian(const Model& model, const EdgeContact& contact, BlockHessian& h) {
   const auto block = [&](int i, int j) { return contact.hessian.block<3, 3>(3 * i, 3 * j); };
   for (int i = 0; i < 4; ++i)
@@ -145,59 +92,6 @@ void add_contact_hessian(const Model& model, const EdgeContact& contact, BlockHe
     for (int j = 2; j < 4; ++j) {
       h.beyond.push_back({contact.node[std::size_t(i)], contact.node[std::size_t(j)], {}});
       h.beyond.back().block.matrix() = block(i, j);
-    }
-}
-
-// What joints add is not inlined: how this file's hot loops round hangs on what stands in them.
-
-/// How the mean angle at a joint changes with the columns; `each` takes every pair's share.
-template <class Law, class Each>
-__attribute__((noinline)) std::vector<std::pair<int, Eigen::Vector3d>> mean_slope(
-    const Model& model, const State& state, const ModelMean<Law>& mean, Each each) {
-  std::vector<std::pair<int, Eigen::Vector3d>> slope;
-  const auto add = [&](int column, const Eigen::Vector3d& by) {
-    const auto known = std::ranges::find(slope, column, &std::pair<int, Eigen::Vector3d>::first);
-    if (known == slope.end())
-      slope.emplace_back(column, by);
-    else
-      known->second += by;
-  };
-  for (const Pair<Law>& pair : mean.pairs) {
-    PairEnergy angle;
-    pair.law.add(pair_geometry(model, state, pair), angle);
-    for (const auto& [edge, by] : {std::pair(pair.e, 0), std::pair(pair.f, 3)}) {
-      const Eigen::Vector3d part = angle.gradient.template segment<3>(by);
-      add(model.edges[std::size_t(edge)].from, -part);
-      add(model.edges[std::size_t(edge)].to, part);
-    }
-    if (angle.gradient[6] != 0) {
-      const int place = model.spin[std::size_t(pair.e)];
-      add(place / 3, angle.gradient[6] / model.spin_length * Eigen::Vector3d::Unit(place % 3));
-    }
-    each(pair, angle);
-  }
-  return slope;
-}
-
-/// With s the slope of the mean angle by the columns: k (s s^T + excess s').
-template <class Law>
-__attribute__((noinline)) void add_mean(const Model& model, const State& state,
-                                        const ModelMean<Law>& mean, double opening,
-                                        bool with_hessian, Assembly& out) {
-  const double excess = excess_of(model, state, mean, opening), moment = mean.stiffness * excess;
-  out.energies[Law::term] += 0.5 * moment * excess;
-  const auto slope =
-      mean_slope(model, state, mean, [&](const Pair<Law>& pair, const PairEnergy& angle) {
-        if (with_hessian) add_pair_hessian(model, pair, moment * angle.hessian, out.hessian);
-      });
-  for (const auto& [column, by] : slope) out.gradient.col(column) += moment * by;
-  for (std::size_t a = 0; with_hessian && a < slope.size(); ++a)
-    for (std::size_t b = 0; b <= a; ++b) {
-      const Eigen::Matrix3d m = mean.stiffness * slope[a].second * slope[b].second.transpose();
-      if (a == b)
-        out.hessian.diagonal[std::size_t(slope[a].first)].matrix() += m;
-      else
-        out.hessian.add(model.pattern.find(slope[a].first, slope[b].first), m);
     }
 }
 
@@ -245,9 +139,7 @@ void add_others(const Model& model, const State& state, const ExternalLoads& out
       if (with_hessian) add_pair_hessian(model, pair, energy.hessian, out.hessian);
     }
   });
-  each_joint_list(model, [&](const auto& list) {
-    for (const auto& mean : list) add_mean(model, state, mean, outside.opening, with_hessian, out);
-  });
+  add_joints(model, state, outside.opening, with_hessian, out);
   for (const ModelSpring& spring : model.springs) {
     const Eigen::Vector3d gap = gap_of(state, spring.law), pull = spring.law.gradient(gap);
     out.energies[spring.law.term] += spring.law.value(gap);
@@ -357,15 +249,6 @@ void assemble_gradient(const Model& model, const State& state, const ExternalLoa
                        Assembly& out) {
   rod_gradient(model, state.x, out);
   add_others(model, state, outside, false, out);
-}
-
-Eigen::Matrix3Xd opening_rate(const Model& model, const State& state) {
-  Eigen::Matrix3Xd rate = Eigen::Matrix3Xd::Zero(3, model.columns());
-  for (const ModelShear& shear : model.shears)
-    if (shear.opening != 0)
-      for (const auto& [node, by] : mean_slope(model, state, shear, [](const auto&...) {}))
-        rate.col(node) -= shear.stiffness * shear.opening * by;
-  return rate;
 }
 
 void assemble_mixed_residual(const Model& model, const State& state, const ExternalLoads& outside,

@@ -52,6 +52,12 @@ Eigen::VectorXd bending_strain_of(const Model& model, const State& state);
 void assemble_gradient(const Model& model, const State& state, const ExternalLoads& outside,
                        Assembly& out);
 
+/// What joints store, so much of their opening having come: their part of an assembly, and of
+/// energies alone.
+void add_joints(const Model& model, const State& state, double opening, bool with_hessian,
+                Assembly& out);
+void add_joint_energies(const Model& model, const State& state, double opening, Energies& sum);
+
 /// How the gradient changes with the opening of the joints, N.
 Eigen::Matrix3Xd opening_rate(const Model& model, const State& state);
 

@@ -66,6 +66,7 @@ namespace {
 std::vector<int> places_of(const RodMesh& mesh, const std::vector<double>& radius_mm) {
   std::vector<int> place(std::size_t(mesh.nodes()));
   for (int k = 0; k < mesh.nodes(); ++k) place[std::size_t(k)] = k;
+  for (const EccentricJoint& at : mesh.eccentric) place[std::size_t(at.node)] = at.joint;
   const auto at = [&](int k) {
     const Eigen::Vector2d flat = mesh.flat.col(k);
     return Vector3d(flat.x(), flat.y(), mesh.height.size() > 0 ? mesh.height[k] : 0);
@@ -96,7 +97,7 @@ ContactPairs contact_pairs(const RodMesh& mesh, const Model& model, const Contac
                                          : 0);
     for (int begin = first, end = first; begin < last; begin = end) {
       do ++end;
-      while (end < last && node[std::size_t(end)] >= mesh.joints);
+      while (end < last && mesh.joint_of(node[std::size_t(end)]) < 0);
       const auto at = [&](int k) { return s[std::size_t(k)]; };
       const auto place_of = [&](int k) { return place[std::size_t(node[std::size_t(k)])]; };
       for (int k = begin; k < end; ++k)

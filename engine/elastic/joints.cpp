@@ -83,31 +83,22 @@ void add_joint_shear(Model& model, const Crossing& at, double stiffness,
   });
 }
 
-void add_joint_spin(Model& model, const Crossing& at, double stiffness, int side, double share,
-                    double angle) {
-  const Crossing back{at.rod_b, at.node_b, at.rod_a, at.node_a};
-  const double c = std::cos(angle), ss = std::pow(std::sin(angle), 2);
+void add_joint_spin(Model& model, const Crossing& at, double stiffness, int side, double share) {
   const double out_a = turn_between(model, at.rod_a, at.node_a, Turn::out),
                out_b = turn_between(model, at.rod_b, at.node_b, Turn::out);
-  // how far both rods spin by a couple about each, rad/(N mm)
-  const auto own = [&](int rod, int node, double out, double other) {
-    return 1 / stiffness + turn_between(model, rod, node, Turn::spin) + (other + c * c * out) / ss;
+  const auto own = [&](int rod, int node, double out) {
+    return 1 / stiffness + turn_between(model, rod, node, Turn::spin) - out;
   };
-  const double a = own(at.rod_a, at.node_a, out_a, out_b),
-               b = own(at.rod_b, at.node_b, out_b, out_a), both = c * (out_a + out_b) / ss;
-  const auto add = [&](ModelSpin& spin, const Crossing& of, int to, double weight) {
-    at_crossing(model, of, [&](int e, int f, double part) {
-      spin.pairs.push_back({e, f, -1, {weight * part, to}});
-    });
-  };
-  // its inverse in squares: phi_b^2/b + (phi_a - both/b phi_b)^2/(a - both^2/b)
-  ModelSpin& first = model.joint_spins.emplace_back();
-  first.stiffness = share / (a - both * both / b);
-  add(first, at, side, 1);
-  if (std::abs(both) > 1e-12 * b) add(first, back, -side, -both / b);
-  ModelSpin& second = model.joint_spins.emplace_back();
-  second.stiffness = share / b;
-  add(second, back, -side, 1);
+  ModelSpin& spin = model.joint_spins.emplace_back();
+  spin.own_a = own(at.rod_a, at.node_a, out_a);
+  spin.own_b = own(at.rod_b, at.node_b, out_b);
+  spin.out = out_a + out_b;
+  spin.share = share;
+  at_crossing(model, at, [&](int e, int f, double part) {
+    spin.spins[0].push_back({e, f, -1, {part, side}});
+    spin.spins[1].push_back({f, e, -1, {part, -side}});
+    spin.angle.push_back({e, f, -1, {part, 0}});
+  });
   // a spin that cost nothing and was held does now
   for (int rod : {at.rod_a, at.rod_b}) {
     int& held = model.rods[std::size_t(rod)].held_spin;
@@ -115,6 +106,40 @@ void add_joint_spin(Model& model, const Crossing& at, double stiffness, int side
     const int place = model.spin[std::size_t(std::exchange(held, -1))];
     model.held[std::size_t(place / 3)] &= (unsigned char)~(1 << place % 3);
   }
+}
+
+void add_joint_link(Model& model, const Crossing& at, double eccentricity) {
+  const auto beside = [&](int rod, int node) {
+    const std::vector<int> edges = edges_beside(model, rod, node);
+    const std::vector<double> share = shares_of(model, edges);
+    std::vector<std::pair<int, double>> counted;
+    for (std::size_t k = 0; k < edges.size(); ++k) counted.emplace_back(edges[k], share[k]);
+    return counted;
+  };
+  ModelLink& link = model.links.emplace_back();
+  link = {at.node_a, at.node_b, beside(at.rod_a, at.node_a), beside(at.rod_b, at.node_b),
+          eccentricity};
+  const auto EA = [&](const auto& edges) {
+    return model.edges[std::size_t(edges.front().first)].EA;
+  };
+  link.across = std::min(EA(link.beside_a), EA(link.beside_b)) / std::abs(eccentricity);
+  // a force along a rod bends it by eccentricity times that
+  const auto along = [&](int rod, int node) {
+    const double arm2 = eccentricity * eccentricity;
+    return in_series(link.across, arm2 * turn_between(model, rod, node, Turn::out));
+  };
+  link.along_a = along(at.rod_a, at.node_a);
+  link.along_b = along(at.rod_b, at.node_b);
+}
+
+std::vector<int> nodes_of(const ModelLink& link, const Model& model) {
+  std::vector<int> nodes{link.a, link.b};
+  for (const auto* edges : {&link.beside_a, &link.beside_b})
+    for (const auto& [edge, share] : *edges)
+      for (const int node :
+           {model.edges[std::size_t(edge)].from, model.edges[std::size_t(edge)].to})
+        if (std::ranges::find(nodes, node) == nodes.end()) nodes.push_back(node);
+  return nodes;
 }
 
 Eigen::Vector3d JointDirections::at(double mm) const {
@@ -125,7 +150,11 @@ Eigen::Vector3d JointDirections::at(double mm) const {
 
 std::vector<double> joint_torques(const RodMesh& mesh, const Model& model, const State& state) {
   std::vector<double> torques(std::size_t(mesh.joints), 0);
-  const auto joint_of = [&](int node) { return node < mesh.nodes() ? node : node - mesh.nodes(); };
+  const auto joint_of = [&](int node) {
+    if (node >= mesh.nodes()) return node - mesh.nodes();
+    const int joint = mesh.joint_of(node);
+    return joint < 0 ? node : joint;
+  };
   for (const ModelShear& shear : model.shears) {
     const ModelEdge &e = model.edges[std::size_t(shear.pairs.front().e)],
                     &f = model.edges[std::size_t(shear.pairs.front().f)];

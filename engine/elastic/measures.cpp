@@ -77,11 +77,7 @@ Energies energies_of(const Model& model, const State& state, const ExternalLoads
     for (const Pair<Law>& pair : list)
       sum[Law::term] += pair.law.value(pair_geometry(model, state, pair));
   });
-  each_joint_list(model, [&]<class Law>(const std::vector<ModelMean<Law>>& list) {
-    for (const ModelMean<Law>& mean : list)
-      sum[Law::term] +=
-          0.5 * mean.stiffness * std::pow(excess_of(model, state, mean, outside.opening), 2);
-  });
+  add_joint_energies(model, state, outside.opening, sum);
   for (const ModelSpring& spring : model.springs)
     sum[spring.law.term] += spring.law.value(gap_of(state, spring.law));
   for (const ModelBar& bar : model.bars)

@@ -265,6 +265,12 @@ void place_pair(Model& model, Pair<Law>& pair) {
   slots.spins = slot(angle[0], angle[1]);
 }
 
+void place_all(const std::vector<int>& columns, Model& model) {
+  for (const int row : columns)
+    for (const int column : columns)
+      if (row != column) model.pattern.slot(row, column);
+}
+
 }  // namespace
 
 double length_between(const Model& model, int e, int f) {
@@ -299,6 +305,7 @@ void finish(Model& model) {
                                    model.edges[std::size_t(bend.f)].to);
   for (ModelSpring& spring : model.springs)
     spring.slot = model.pattern.slot(spring.law.a, spring.law.b);
+  for (const ModelLink& link : model.links) place_all(nodes_of(link, model), model);
   for (ModelBar& bar : model.bars) bar.slot = model.pattern.slot(bar.law.a, bar.law.b);
   std::apply(
       [&](auto&... lists) {
@@ -308,9 +315,8 @@ void finish(Model& model) {
         (place(lists), ...);
       },
       model.pairs);
-  each_joint_list(model, [&](auto& list) {
-    for (auto& mean : list)
-      for (auto& pair : mean.pairs) place_pair(model, pair);
+  each_joint_list(model, [&](auto& pairs) {
+    for (auto& pair : pairs) place_pair(model, pair);
   });
   model.free_index.assign(std::size_t(model.columns()), -1);
   model.free_columns.clear();

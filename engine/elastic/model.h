@@ -132,19 +132,40 @@ struct Pair {
 using PairLists = std::tuple<std::vector<Pair<Torsion>>, std::vector<Pair<SectionBending>>,
                              std::vector<Pair<EndBending>>>;
 
-/// The resistance of a joint: E = k/2 (sum of w (angle - rest) over its pairs of edges)^2, less, of
-/// a joint that is opened, what has come of its opening.
-/// It acts on the rods' tangents and directors at the joint alone; a sum of the squares would
-/// resist their bending and twisting there too, over an edge of each.
-template <class Law>
-struct ModelMean {
+/// The resistance of a joint to shear: E = k/2 (sum of w (angle - rest) over its pairs of edges)^2,
+/// less, of a joint that is opened, what has come of its opening.
+/// It acts on the rods' tangents at the joint alone; a sum of the squares would resist their
+/// bending there too, over an edge of each.
+struct ModelShear {
   double stiffness = 0;  ///< k, N mm/rad
   double opening = 0;    ///< in all, rad
-  std::vector<Pair<Law>> pairs;
+  std::vector<Pair<JointAngle>> pairs;
 };
-using ModelShear = ModelMean<JointAngle>;
-/// Of one of two rods: its spin beside the joint's normal.
-using ModelSpin = ModelMean<JointSpin>;
+
+/// The resistance of a joint to the spins a, b of two rods beside its normal, means over its pairs
+/// of edges as the angle theta between the rods is: E = share/2 (a, b) C^-1 (a, b)^T,
+///   C = diag(own_a, own_b) + out/sin^2 theta [[1, cos theta], [cos theta, 1]],
+/// how far both rods spin by a couple about each, rad/(N mm): own the joint's own and what the
+/// edges twist less than the joint, less what the rod itself bends out of the surface, out what
+/// both do.
+struct ModelSpin {
+  std::array<std::vector<Pair<JointSpin>>, 2> spins;
+  std::vector<Pair<JointAngle>> angle;
+  double own_a = 0, own_b = 0, out = 0, share = 1;
+};
+
+/// A bolt between the axes of two rods, a and b, that lie `eccentricity` apart at their joint,
+/// along the normal n = t_a x t_b/|t_a x t_b| to the rods' tangents there. With d = x_b - x_a,
+///   E = k/2 (n.d - eccentricity)^2 + k_a/2 (t_a.d)^2 + k_b/2 (t_b.d)^2.
+/// So a force F across the bolt puts the couple eccentricity n x F on the rods, each bearing the
+/// bending that the part of F along it asks for. t are the means of the tangents of the edges
+/// beside; what these turn less than the rod at the joint itself is in series with k as k_a, k_b.
+struct ModelLink {
+  int a = 0, b = 0;                                        ///< nodes
+  std::vector<std::pair<int, double>> beside_a, beside_b;  ///< edges, and what each counts
+  double eccentricity = 0;                                 ///< mm
+  double across = 0, along_a = 0, along_b = 0;             ///< k, k_a, k_b, N/mm
+};
 
 /// A rod: its nodes and their arc lengths at rest. A closed rod has one arc length more than nodes.
 /// Ends that hold a direction (`tangent`, `clamped`) hold it at the end point itself, by a ghost
@@ -173,7 +194,8 @@ struct Model {
   std::vector<ModelEdge> edges;
   std::vector<ModelBend> bends;  ///< in the order of their edges, those that close a ring last
   std::vector<ModelSpring> springs;
-  std::vector<ModelBar> bars;  ///< braces
+  std::vector<ModelBar> bars;    ///< braces
+  std::vector<ModelLink> links;  ///< of eccentric joints
   PairLists pairs;
   std::vector<ModelShear> shears;
   std::vector<ModelSpin> joint_spins;
@@ -222,11 +244,14 @@ struct Model {
   }
 };
 
-/// visit(list) for every kind of resistance of joints
+/// visit(pairs) for every list of pairs of edges by which joints resist
 template <class AnyModel, class Visit>
 void each_joint_list(AnyModel& model, Visit visit) {
-  visit(model.shears);
-  visit(model.joint_spins);
+  for (auto& shear : model.shears) visit(shear.pairs);
+  for (auto& spin : model.joint_spins) {
+    for (auto& pairs : spin.spins) visit(pairs);
+    visit(spin.angle);
+  }
 }
 
 /// What bends between two edges, mm: the mean of their rest lengths; a ghost has none.
@@ -270,11 +295,18 @@ void add_joint_shear(Model& model, const Crossing& at, double stiffness,
 
 /// Adds the resistance to spin `stiffness` (N mm/rad) of both rods where they cross: their first
 /// directors stay near the joint's normal, `side` times that from the direction of `a` to that of
-/// `b`. What the edges turn less than the joint is in series with it, as of the shear, at the
-/// `angle` between the rods as drawn: a couple M_a about `a` that keeps it to the normal bends both
-/// out of the surface, `a` by M_a cot(angle), `b` by M_a/sin(angle).
+/// `b`. What the edges turn less than the joint is in series with it, as of the shear: a couple M_a
+/// about `a` that keeps it to the normal bends both out of the surface, `a` by M_a cot(theta), `b`
+/// by M_a/sin(theta).
 void add_joint_spin(Model& model, const Crossing& at, double stiffness, int side = 1,
-                    double share = 1, double angle = M_PI / 2);
+                    double share = 1);
+
+/// Adds the bolt of two rods that lie apart where they cross, `eccentricity` along t_a x t_b: as
+/// stiff as so long a piece of the softer rod. finish() afterwards.
+void add_joint_link(Model& model, const Crossing& at, double eccentricity);
+
+/// The link's own two nodes first, then those of the edges beside them.
+std::vector<int> nodes_of(const ModelLink& link, const Model& model);
 
 /// Works out pattern and numbering after elements were added or unknowns held.
 void finish(Model& model);

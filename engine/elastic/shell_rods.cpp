@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
 
 namespace gridshell {
@@ -67,19 +66,28 @@ ModelRod rod_of(const RodMesh& mesh, std::size_t r, const RodMaterial& material,
   return rod;
 }
 
+/// A rod and its node at a joint.
+struct RodAt {
+  int rod = 0, node = 0;
+};
+using Crossings = std::vector<std::vector<RodAt>>;
+
 /// the rods of every joint in order: of a grid the u rod and the v rod
-std::vector<std::vector<int>> crossings_of(const RodMesh& mesh) {
-  std::vector<std::vector<int>> rods(std::size_t(mesh.joints));
+Crossings crossings_of(const RodMesh& mesh) {
+  Crossings rods(std::size_t(mesh.joints));
   for (std::size_t r = 0; r < mesh.rods.size(); ++r)
-    for (int node : mesh.rods[r])
-      if (node < mesh.joints &&
-          (rods[std::size_t(node)].empty() || rods[std::size_t(node)].back() != int(r)))
-        rods[std::size_t(node)].push_back(int(r));
+    for (int node : mesh.rods[r]) {
+      const int joint = mesh.joint_of(node);
+      if (joint < 0) continue;
+      auto& there = rods[std::size_t(joint)];
+      if (there.empty() || there.back().rod != int(r)) there.push_back({int(r), node});
+    }
   return rods;
 }
 
 /// how a rod runs through one of its nodes as drawn, unit
-Eigen::Vector3d direction_at(const RodMesh& mesh, int rod, int node) {
+Eigen::Vector3d direction_at(const RodMesh& mesh, const RodAt& of) {
+  const auto [rod, node] = of;
   const std::vector<int>& nodes = mesh.rods[std::size_t(rod)];
   const auto at = std::find(nodes.begin(), nodes.end(), node);
   const auto before = at == nodes.begin() ? at : at - 1,
@@ -96,15 +104,13 @@ void each_two(std::size_t rods, Visit visit) {
 }
 
 /// where two of a joint's rods cross; with spring joints all but the first have nodes of their own
-Crossing crossing(const RodMesh& mesh, const std::vector<int>& rods, int joint, bool springs,
+Crossing crossing(const RodMesh& mesh, const std::vector<RodAt>& rods, int joint, bool springs,
                   std::size_t k, std::size_t m) {
   const auto node = [&](std::size_t rod) {
-    return springs && rod > 0 ? mesh.nodes() + joint : joint;
+    return springs && rod > 0 ? mesh.nodes() + joint : rods[rod].node;
   };
-  return {rods[k], node(k), rods[m], node(m)};
+  return {rods[k].rod, node(k), rods[m].rod, node(m)};
 }
-
-using Crossings = std::vector<std::vector<int>>;
 
 /// Unit normals of the joints as drawn: up in the flat, in space across the rods there, all of a
 /// piece to one side, the upper one of the whole; zero where no two rods cross.
@@ -115,8 +121,8 @@ std::vector<Eigen::Vector3d> normals_of(const RodMesh& mesh, const Crossings& cr
   for (std::size_t joint = 0; joint < crossings.size(); ++joint) {
     std::vector<Eigen::Vector3d> across;
     each_two(crossings[joint].size(), [&](std::size_t k, std::size_t m, double) {
-      across.push_back(direction_at(mesh, crossings[joint][k], int(joint))
-                           .cross(direction_at(mesh, crossings[joint][m], int(joint))));
+      across.push_back(
+          direction_at(mesh, crossings[joint][k]).cross(direction_at(mesh, crossings[joint][m])));
     });
     const auto longest = std::ranges::max_element(across, {}, &Eigen::Vector3d::squaredNorm);
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -126,12 +132,13 @@ std::vector<Eigen::Vector3d> normals_of(const RodMesh& mesh, const Crossings& cr
   for (const std::vector<int>& rod : mesh.rods) {
     int before = -1;
     for (const int node : rod) {
-      if (node >= mesh.joints || normals[std::size_t(node)].isZero(0)) continue;
+      const int joint = mesh.joint_of(node);
+      if (joint < 0 || normals[std::size_t(joint)].isZero(0)) continue;
       if (before >= 0) {
-        beside[std::size_t(before)].push_back(node);
-        beside[std::size_t(node)].push_back(before);
+        beside[std::size_t(before)].push_back(joint);
+        beside[std::size_t(joint)].push_back(before);
       }
-      before = node;
+      before = joint;
     }
   }
   std::vector<char> seen(crossings.size(), 0);
@@ -170,10 +177,10 @@ Eigen::Vector3d director_of(const RodMesh& mesh, std::size_t r,
       m1 = carried_director(m1, t, s);
       t = s;
     }
-    const int node = nodes[k];
-    if (node >= mesh.joints || normals[std::size_t(node)].isZero(0)) continue;
+    const int joint = mesh.joint_of(nodes[k]);
+    if (joint < 0 || normals[std::size_t(joint)].isZero(0)) continue;
     const Eigen::Vector3d normal =
-        transport(normals[std::size_t(node)], direction_at(mesh, int(r), node), t);
+        transport(normals[std::size_t(joint)], direction_at(mesh, {int(r), nodes[k]}), t);
     sum += Eigen::Vector2d(normal.dot(m1), normal.dot(t.cross(m1)));
   }
   if (sum.norm() < 1e-6) return Eigen::Vector3d::UnitZ();
@@ -184,14 +191,18 @@ double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-/// the angle that a joint is opened to, if it is
-std::optional<double> opened_angle(const ShellRods& shell, int joint) {
-  if (!shell.bolts || shell.bolts->opening.empty()) return std::nullopt;
-  const auto& held = shell.bolts->rods[std::size_t(joint)];
-  const double to = shell.bolts->opening[std::size_t(joint)];
-  const auto& before = shell.bolts->opened;
-  if (held.size() != 2) return std::nullopt;
-  return gridshell::angle_between(held) + (before.empty() ? 0 : before[std::size_t(joint)]) + to;
+/// +1: the normal as drawn is that from the direction of the first rod to that of the second
+int side_of(const RodMesh& mesh, const RodAt& a, const RodAt& b, const Eigen::Vector3d& normal) {
+  return direction_at(mesh, a).cross(direction_at(mesh, b)).dot(normal) < 0 ? -1 : 1;
+}
+
+void add_links(const RodMesh& mesh, const Crossings& crossings,
+               const std::vector<Eigen::Vector3d>& normals, Model& model) {
+  for (const EccentricJoint& at : mesh.eccentric) {
+    const std::vector<RodAt>& rods = crossings[std::size_t(at.joint)];
+    const int side = side_of(mesh, rods[0], rods[1], normals[std::size_t(at.joint)]);
+    add_joint_link(model, crossing(mesh, rods, at.joint, false, 0, 1), side * at.eccentricity);
+  }
 }
 
 /// every two of the rods of every joint, by the law there
@@ -201,27 +212,24 @@ void add_joints(const RodMesh& mesh, const ShellRods& shell, const Crossings& cr
   for (int joint = 0; joint < mesh.joints; ++joint) {
     const auto own = shell.own_joints.find(joint);
     const JointLaw& law = own == shell.own_joints.end() ? shell.joints : own->second;
-    const std::vector<int>& rods = crossings[std::size_t(joint)];
+    const std::vector<RodAt>& rods = crossings[std::size_t(joint)];
     if (spring > 0)
       model.springs.push_back({{joint, mesh.nodes() + joint, Eigen::Vector3d::Constant(spring)}});
     // at rest as drawn: of a rod that is straight at rest by how it runs through the joint
-    const auto along = [&](int rod, int edge) {
+    const auto along = [&](const RodAt& of, int edge) {
       const ModelEdge& one = model.edges[std::size_t(edge)];
-      return shell.material(std::size_t(rod)).as_drawn ? way(mesh, one.from, one.to)
-                                                       : direction_at(mesh, rod, joint);
+      return shell.material(std::size_t(of.rod)).as_drawn ? way(mesh, one.from, one.to)
+                                                          : direction_at(mesh, of);
     };
     each_two(rods.size(), [&](std::size_t k, std::size_t m, double share) {
       const Crossing at = crossing(mesh, rods, joint, spring > 0, k, m);
       const auto rest = [&](int e, int f) {
-        return angle_between(along(at.rod_a, e), along(at.rod_b, f));
+        return angle_between(along(rods[k], e), along(rods[m], f));
       };
       if (law.shear_Nmm > 0) add_joint_shear(model, at, law.shear_Nmm, rest, share);
-      const Eigen::Vector3d a = direction_at(mesh, at.rod_a, joint),
-                            b = direction_at(mesh, at.rod_b, joint);
-      const int side = a.cross(b).dot(normals[std::size_t(joint)]) < 0 ? -1 : 1;
       if (law.twist_Nmm > 0)
-        add_joint_spin(model, at, law.twist_Nmm, side, share,
-                       opened_angle(shell, joint).value_or(angle_between(a, b)));
+        add_joint_spin(model, at, law.twist_Nmm,
+                       side_of(mesh, rods[k], rods[m], normals[std::size_t(joint)]), share);
     });
   }
 }
@@ -234,7 +242,7 @@ double beyond(const ModelEdge& edge, int node) {
 void add_bolts(const RodMesh& mesh, const Bolts& bolts, bool springs, const Crossings& crossings,
                Model& model) {
   for (int joint = 0; joint < mesh.joints; ++joint) {
-    const std::vector<int>& rods = crossings[std::size_t(joint)];
+    const std::vector<RodAt>& rods = crossings[std::size_t(joint)];
     const auto& held = bolts.rods[std::size_t(joint)];
     const auto of = [&](const std::vector<double>& angles) {
       return angles.empty() ? 0 : angles[std::size_t(joint)];
@@ -342,8 +350,8 @@ Bolts tightened(const RodMesh& mesh, const Model& model, const Eigen::Matrix3Xd&
   const bool springs = model.nodes >= mesh.nodes() + mesh.joints;
   for (int joint = 0; joint < mesh.joints; ++joint) {
     auto& held = bolts.rods.emplace_back();
-    for (const int rod : crossings[std::size_t(joint)]) {
-      const int node = springs && !held.empty() ? mesh.nodes() + joint : joint;
+    for (const auto& [rod, own] : crossings[std::size_t(joint)]) {
+      const int node = springs && !held.empty() ? mesh.nodes() + joint : own;
       JointDirections& one = held.emplace_back();
       const std::vector<int> beside = edges_beside(model, rod, node);
       for (const int k : beside) {
@@ -384,8 +392,10 @@ Result<Model> build_model(const RodMesh& mesh, const ShellRods& shell, RodModel 
     crossings[std::size_t(joint)] = 1;
     if (springs) crossings[std::size_t(mesh.nodes() + joint)] = 1;
   }
+  for (const EccentricJoint& at : mesh.eccentric) crossings[std::size_t(at.node)] = 1;
   auto model = build_model(nodes, rods, rung, crossings);
   if (!model) return model;
+  add_links(mesh, at_joints, normals, *model);
   if (rung == RodModel::twist) add_joints(mesh, shell, at_joints, normals, *model);
   for (const MeshSpring& spring : mesh.springs)
     model->springs.push_back({{spring.support, spring.node, spring.N_per_mm, Term::support}});
@@ -394,7 +404,9 @@ Result<Model> build_model(const RodMesh& mesh, const ShellRods& shell, RodModel 
   if (bolts) add_bolts(mesh, *bolts, springs, at_joints, *model);
   for (const Brace& brace : braces)
     model->bars.push_back({{brace.a, brace.b, brace.rest_length_mm, brace.EA, brace.cable}});
-  if (rung == RodModel::twist || !pinned.empty() || bolts || !braces.empty()) finish(*model);
+  if (rung == RodModel::twist || !pinned.empty() || bolts || !braces.empty() ||
+      !model->links.empty())
+    finish(*model);
   model->loads = dead_loads(mesh, shell);
   if (contact.barrier.acts()) model->contact = contact_pairs(mesh, *model, contact);
   lay_flat(mesh, *model);

@@ -79,6 +79,9 @@ struct FootprintJoint {
   int i = 0, j = 0;
   double u = 0, v = 0;  ///< mm
   double height = 0;    ///< above their plane, mm; of a network that is drawn in space
+  /// How far the axis of its second rod lies above that of the first along the normal, mm; 0: they
+  /// meet. Of joints of two rods alone.
+  double eccentricity = 0;
 };
 
 /// A complete cell: joints (i,j), (i+1,j), (i+1,j+1), (i,j+1), all four rods between them present.

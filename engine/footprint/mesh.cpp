@@ -18,9 +18,23 @@ namespace {
 struct Stop {
   int node;
   double at;
+  bool joint = false;
 };
 
-std::vector<Stop> stops_of(const Footprint& footprint, std::size_t r, int& next, RodMesh& mesh) {
+/// The node of rod `r` at a joint: its own, where another rod came before it and lies apart.
+int node_at(const FootprintJoint& joint, int number, int r, std::vector<int>& first_rod, int& next,
+            RodMesh& mesh) {
+  int& first = first_rod[std::size_t(number)];
+  if (first < 0) first = r;
+  if (joint.eccentricity == 0 || first == r) return number;
+  const auto known = std::ranges::find(mesh.eccentric, number, &EccentricJoint::joint);
+  if (known != mesh.eccentric.end()) return known->node;
+  mesh.eccentric.push_back({number, next, joint.eccentricity});
+  return next++;
+}
+
+std::vector<Stop> stops_of(const Footprint& footprint, std::size_t r, std::vector<int>& first_rod,
+                           int& next, RodMesh& mesh) {
   const FootprintRod& rod = footprint.rods[r];
   const int first = mesh.joints + 2 * int(r);
   std::vector<Stop> stops;
@@ -31,8 +45,12 @@ std::vector<Stop> stops_of(const Footprint& footprint, std::size_t r, int& next,
   };
   if (rod.tail_begin > 0) far_end(first, rod.span.begin - rod.tail_begin);
   if (rod.begin != RodEnd::joined) stops.push_back({first, rod.span.begin});
-  for (std::size_t k = 0; k < rod.joints.size(); ++k)
-    stops.push_back({rod.joints[k], rod.marks[k]});
+  for (std::size_t k = 0; k < rod.joints.size(); ++k) {
+    const int joint = rod.joints[k];
+    const int node =
+        node_at(footprint.joints[std::size_t(joint)], joint, int(r), first_rod, next, mesh);
+    stops.push_back({node, rod.marks[k], true});
+  }
   if (rod.end != RodEnd::joined) stops.push_back({first + 1, rod.span.end});
   if (rod.tail_end > 0) far_end(first + 1, rod.span.end + rod.tail_end);
   return stops;
@@ -40,8 +58,7 @@ std::vector<Stop> stops_of(const Footprint& footprint, std::size_t r, int& next,
 
 /// Legs and tails shorter than d/4 have fewer edges than a segment.
 int edges_between(const Stop& a, const Stop& b, const Footprint& footprint, const RodMesh& mesh) {
-  const bool segment = a.node < mesh.joints && b.node < mesh.joints;
-  if (segment || !(b.at - a.at < footprint.spacing / 4)) return mesh.edges_per_segment;
+  if ((a.joint && b.joint) || !(b.at - a.at < footprint.spacing / 4)) return mesh.edges_per_segment;
   return std::max(1, int(std::lround(mesh.edges_per_segment / 4.0)));
 }
 
@@ -96,11 +113,12 @@ RodMesh mesh_rods(const Footprint& footprint, int edges_per_segment) {
   mesh.edge_points = 2 * int(footprint.rods.size());
   mesh.held_joints = footprint.held_joints;
   int next = mesh.joints + mesh.edge_points;
+  std::vector<int> first_rod(footprint.joints.size(), -1);
 
   for (int r = 0; r < int(footprint.rods.size()); ++r) {
     const FootprintRod& rod = footprint.rods[r];
     mesh.ends.insert(mesh.ends.end(), {rod.begin, rod.end});
-    const std::vector<Stop> stops = stops_of(footprint, std::size_t(r), next, mesh);
+    const std::vector<Stop> stops = stops_of(footprint, std::size_t(r), first_rod, next, mesh);
     std::vector<int> nodes{stops.front().node};
     std::vector<double> position{stops.front().at};
     for (std::size_t k = 1; k < stops.size(); ++k) {
@@ -138,6 +156,12 @@ RodMesh mesh_rods(const Footprint& footprint, int edges_per_segment) {
     mesh.flat.col(spring.support) = mesh.flat.col(spring.node);
   if (footprint.in_space()) lay_heights(footprint, mesh);
   return mesh;
+}
+
+int RodMesh::joint_of(int node) const {
+  if (node < joints) return node;
+  const auto at = std::ranges::lower_bound(eccentric, node, {}, &EccentricJoint::node);
+  return at != eccentric.end() && at->node == node ? at->joint : -1;
 }
 
 Eigen::Matrix3Xd drawn_nodes(const RodMesh& mesh, const FlatFrame& flat) {

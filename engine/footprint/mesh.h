@@ -27,6 +27,12 @@ struct MeshSpring {
   Eigen::Vector3d N_per_mm{0, 0, 0};  ///< along x, y, z
 };
 
+/// A joint whose second rod has a node of its own there, above the first's.
+struct EccentricJoint {
+  int joint = 0, node = 0;
+  double eccentricity = 0;  ///< mm
+};
+
 /// Nodes of all rods. An end whose direction is held has one node more, a *ghost* beyond its edge
 /// point, pinned where the direction asks for it: ghosts come after the nodes of the rods and are
 /// the first or last of their rod, `ghost_length` from the edge point on every mesh. The last nodes
@@ -45,6 +51,7 @@ struct RodMesh {
   std::vector<int> far_ends;     ///< of every edge point, -1: no tail; empty: none has one
   std::vector<int> held_joints;  ///< that the boundary holds, some by springs
   std::vector<MeshSpring> springs;
+  std::vector<EccentricJoint> eccentric;  ///< in the order of their second nodes
   int ghosts = 0;
   double ghost_length = 0;                    ///< mm
   std::vector<std::vector<int>> rods;         ///< nodes of each rod from end to end
@@ -55,6 +62,8 @@ struct RodMesh {
   int nodes() const { return int(flat.cols()); }
   int beside_rods() const { return ghosts + int(springs.size()); }  ///< ghosts and supports
   int rod_nodes() const { return nodes() - beside_rods(); }
+  /// The joint at a node, of an eccentric one at either; else -1.
+  int joint_of(int node) const;
   bool is_ghost(int node) const { return node >= rod_nodes(); }
   RodEnd end_of(int edge_point) const {
     return ends.empty() ? RodEnd::pinned : ends[std::size_t(edge_point)];

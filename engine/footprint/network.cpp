@@ -86,7 +86,8 @@ class Roles {
  public:
   explicit Roles(const RodNetwork& network) : network_(network), visits_(visits_of(network)) {
     for (const std::vector<int>& rod : network.rods) {
-      if (is_straight(network.points, rod)) continue;
+      // a rod that is alone has no joints but its inner points
+      if (network.rods.size() > 1 && is_straight(network.points, rod)) continue;
       corners_.insert(rod.begin() + 1, rod.end() - 1);
       if (is_ring(rod)) corners_.insert(rod.front());
     }
@@ -185,7 +186,9 @@ Result<FootprintRod> rod_of(const RodNetwork& network, std::size_t r, const Role
   rod.span = {0, position};
   if (rod.joints.empty())
     return fail(Fault::bad_input,
-                "rods[{}]: is joined to no other rod, must share a point with one", r);
+                "rods[{}]: is joined to no other rod, must share a point with one, or be the only "
+                "rod and have points inside",
+                r);
   TRY(begin, hold_of(network, roles, int(2 * r)));
   TRY(end, hold_of(network, roles, int(2 * r) + 1));
   rod.begin = *begin;

@@ -31,7 +31,7 @@ inline constexpr double softest_spring = 1e-6, stiffest_spring = 1e6;
 ///          out (as the preset says), and "spring_N_per_mm": k or [kx, ky, kz] puts it on a spring;
 ///          "joints": [[a, b, ...], ...] lists points that are one joint though they lie apart; or
 ///          {"point": number or place, or "points": list, "law": "free", "hinge", "rigid" or
-///          "spring" of "shear_Nmm" and "twist_Nmm"}
+///          "spring" of "shear_Nmm" and "twist_Nmm", and "eccentricity_mm"}
 ///   .obj   "v x y z" and polylines "l a b c ..."
 ///   .dxf   LINE, LWPOLYLINE and POLYLINE, where there is a layer "rods" of that one alone
 /// In the drawings of the last two rods are joined wherever they cross or touch, in JSON where they
@@ -77,10 +77,8 @@ class NetworkBuilder {
     network_.springs.push_back({double(point), k[0], k[1], k[2]});
   }
   void add_free(int point) { network_.free.push_back(point); }
-  /// The law of a joint, N mm/rad, below 0: rigid.
-  void add_law(int point, double shear, double twist) {
-    network_.joint_laws.push_back({double(point), shear, twist});
-  }
+  /// A row of NetworkData::joint_laws.
+  void add_law(std::vector<double> row) { network_.joint_laws.push_back(std::move(row)); }
   /// Points that are to be one joint, as `at` lists them. Errors (bad_input): one that another
   /// joint has too.
   Result<void> add_joint(std::vector<int> points, const std::string& at);

@@ -141,7 +141,7 @@ class Reader {
     return {};
   }
 
-  tl::unexpected<Error> wrong(const char* what) const {
+  tl::unexpected<Error> wrong(const std::string& what) const {
     return fail(Fault::bad_input, "{}: {}", at_, what);
   }
 
@@ -160,10 +160,9 @@ class Reader {
       const long number = value.get<long>();
       TRY(point, draft_.point(number, at_));
       if (*point != number && !in_joint && !is_listed(value))
-        return wrong(fmt::format("point {} lies where point {} does, must be named by that number, "
-                                 "or moved away",
-                                 number, *point)
-                         .c_str());
+        return wrong(fmt::format(
+            "point {} lies where point {} does, must be named by that number, or moved away",
+            number, *point));
       return *point;
     }
     const auto xyz = numbers_in(value);
@@ -196,10 +195,8 @@ class Reader {
           const auto kind =
               inner.is_string() ? find_word<EndKind>(inner.get<std::string>()) : std::nullopt;
           if (!kind)
-            return wrong(fmt::format("\"{}\" must be \"{}\"{}", key,
-                                     fmt::join(all_words<EndKind>(), "\", \""),
-                                     ", how the rod is held there")
-                             .c_str());
+            return wrong(fmt::format("\"{}\" must be \"{}\", how the rod is held there", key,
+                                     fmt::join(all_words<EndKind>(), "\", \"")));
           holds.emplace_back(key == "end", *kind);
         } else if (key == "diameter_mm" && inner.is_number() && inner.get<double>() > 0) {
           diameter = inner.get<double>();
@@ -263,11 +260,16 @@ class Reader {
     auto [shear, twist] = law->second;
     for (const auto& [key, inner] : value.items()) {
       if (key == "law" || key == "point" || key == "points") continue;
+      if (key == "eccentricity_mm") {
+        if (!inner.is_number() || !(std::abs(inner.get<double>()) <= 1000))
+          return wrong("eccentricity_mm must be a number from -1000 to 1000");
+        continue;
+      }
       const bool stiffness = key == "shear_Nmm" || key == "twist_Nmm";
       if (!stiffness || law->first != "spring")
         return wrong(
             "must be {\"point\" or \"points\", \"law\"}, of a \"spring\" with "
-            "\"shear_Nmm\" and \"twist_Nmm\"");
+            "\"shear_Nmm\" and \"twist_Nmm\", and may have \"eccentricity_mm\"");
       if (!inner.is_number() || !(inner.get<double>() >= 0 && inner.get<double>() <= 1e9))
         return wrong("shear_Nmm and twist_Nmm must be numbers from 0 to 1e9");
       (key == "shear_Nmm" ? shear : twist) = inner.get<double>();
@@ -275,7 +277,9 @@ class Reader {
     if (value.contains("point") == value.contains("points"))
       return wrong("a law must be of a \"point\", or of \"points\" that are one joint");
     TRY(point, value.contains("point") ? point_of(value["point"]) : merged(value["points"]));
-    draft_.add_law(*point, shear, twist);
+    std::vector<double> row{double(*point), shear, twist};
+    if (value.contains("eccentricity_mm")) row.push_back(value["eccentricity_mm"].get<double>());
+    draft_.add_law(std::move(row));
     return {};
   }
 
@@ -311,7 +315,7 @@ class Reader {
     const auto k = value.is_number() ? std::vector<double>(3, value.get<double>())
                                      : numbers_in(value).value_or(std::vector<double>());
     if (k.size() != 3) return wrong("spring_N_per_mm must be a number, or [kx, ky, kz]");
-    if (const auto fault = spring_fault(k); !fault.empty()) return wrong(fault.c_str());
+    if (const auto fault = spring_fault(k); !fault.empty()) return wrong(fault);
     draft_.add_spring(point, k);
     return {};
   }

@@ -270,9 +270,9 @@ class Reader {
 }  // namespace
 
 std::string assign(const Field& field, const toml::node& value, Preset& preset,
-                   const FileContext& beside) {
+                   const FileContext& beside, int item) {
   Reader reader(field, value, beside);
-  const auto wrong = std::visit(reader, field.in(preset, -1));
+  const auto wrong = std::visit(reader, field.in(preset, item));
   if (wrong.empty() || reader.told_in_full()) return wrong;
   std::string text = wrong + ", must be " + allowed(field);
   if (field.as_word(preset) && value.is_string())

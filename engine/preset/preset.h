@@ -47,6 +47,7 @@ struct Joints {
   double stiffness_N_per_mm = 0;  ///< of springs
   double shear_Nmm = 0;           ///< per rad of shear
   double twist_Nmm = 0;           ///< per rad of spin beside the joint's normal
+  double eccentricity_mm = 0;     ///< how far the second rod's axis lies above the first's
   double diameter_mm = 3;         ///< of the joint's cylinder, of which a scan sees the top
   double height_mm = 5;           ///< and how far its top lies above the rods' crossing
   double mass_g = 0;              ///< of each, beside that of its rods

@@ -109,6 +109,16 @@ void add_joints(FieldList<Joints> joints) {
           "resistance to a rod's spin beside the joint's normal; 0: joints pass no "
           "twist")
       .needs_twist("the joints pass twist", [](const Joints& of) { return of.twist_Nmm > 0; });
+  const auto eccentric = [](const Joints& of) { return of.eccentricity_mm != 0; };
+  joints
+      .add<&Joints::eccentricity_mm>(
+          between(-1000, 1000),
+          "how far the axis of a joint's second rod (of a grid the v-rod, of a network the one "
+          "that is listed later) lies above the first's along the joint's normal; below 0: below")
+      .refused({"kind"},
+               "axes that lie apart are held by a bolt, must be 0, or [joints] kind = \"shared\"",
+               [=](const Joints& of) { return eccentric(of) && of.kind == JointKind::spring; })
+      .needs_equilibrium("a net's rods cross in a point", eccentric);
   joints.add<&Joints::diameter_mm>(above(0),
                                    "of the joint's cylinder, of which a scan sees the top");
   joints.add<&Joints::height_mm>(

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -75,6 +76,11 @@ void TomlReader::apply(const toml::table& root, const std::string& apart, Preset
 
 void TomlReader::apply_override(const Override& change, PresetBuilder& draft) {
   override_ = change.source;
+  for (const Table& list : tables())
+    if (list.list && change.key.starts_with(list.name + ".")) {
+      override_item(list.name, change, draft);
+      return override_.clear();
+    }
   const auto dot = change.key.find('.');
   const bool top = dot == std::string::npos;
   const auto table = top ? "" : change.key.substr(0, dot);
@@ -87,6 +93,24 @@ void TomlReader::apply_override(const Override& change, PresetBuilder& draft) {
   else
     assign_key(table, toml::key(name), *value.get("x"), draft);
   override_.clear();
+}
+
+/// Of a list of tables the number of an item, as messages have it: step.2.depth_mm.
+void TomlReader::override_item(const std::string& list, const Override& change,
+                               PresetBuilder& draft) {
+  const std::string rest = change.key.substr(list.size() + 1);
+  const auto dot = std::min(rest.find('.'), rest.size());
+  const int items = items_of(draft.preset, list).value_or(0);
+  int item = 0;
+  const auto [end, wrong] = std::from_chars(rest.data(), rest.data() + dot, item);
+  if (wrong != std::errc() || end != rest.data() + dot || item < 1 || item > items)
+    return faults_.add({override_},
+                       fmt::format("{}: of {} [[{}]] must name one by its number, as "
+                                   "{}.1.{}",
+                                   change.key, items, list, list, keys_of(list).front()));
+  const auto value = override_value(change.value);
+  assign_key(list, toml::key(dot < rest.size() ? rest.substr(dot + 1) : ""), *value.get("x"), draft,
+             item - 1);
 }
 
 // the items of a list of tables, each with defaults of its own; those of a case stand in place of
@@ -156,7 +180,7 @@ void TomlReader::assign_key(const std::string& table, const toml::key& key, cons
     return;
   }
   const auto wrong =
-      assign(*field, value, draft.preset, override_.empty() ? beside_ : FileContext{});
+      assign(*field, value, draft.preset, override_.empty() ? beside_ : FileContext{}, item);
   draft.set_at[full] = place;
   if (wrong.empty()) {
     draft.faulty.erase(full);

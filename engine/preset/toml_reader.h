@@ -20,10 +20,11 @@ struct FileContext {
   const std::map<std::string, std::string>* built_in = nullptr;  ///< texts by name
 };
 
-/// Empty when `value` was put into `preset`; else what is wrong and what is allowed, and `preset`
-/// is as it was. Files are looked for `beside` the preset.
+/// Empty when `value` was put into `preset` (of a list of tables into an item, below 0: the last);
+/// else what is wrong and what is allowed, and `preset` is as it was. Files are looked for `beside`
+/// the preset.
 std::string assign(const Field& field, const toml::node& value, Preset& preset,
-                   const FileContext& beside);
+                   const FileContext& beside, int item = -1);
 
 /// The value as a fault shows it: TOML on one line, shortened when long.
 std::string toml_text(const toml::node& value);
@@ -66,6 +67,7 @@ class TomlReader {
  private:
   void read_items(const std::string& name, const toml::key& key, const toml::node& value,
                   PresetBuilder& draft);
+  void override_item(const std::string& list, const Override& change, PresetBuilder& draft);
   void read_table(const toml::key& key, const toml::node& value, PresetBuilder& draft);
   void assign_key(const std::string& table, const toml::key& key, const toml::node& value,
                   PresetBuilder& draft, int item = -1);

@@ -1,97 +1,14 @@
 #include "engine/record/contacts.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <tuple>
 #include <utility>
 
-#include "engine/core/proximity.h"
+#include "engine/record/shape_contacts.h"
 
 namespace gridshell::record {
-namespace {
-
-using Eigen::Vector3d;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr int no_tree = std::numeric_limits<int>::min();
-
-}  // namespace
-
-/// One shape of the layout of a search.
-class ShapeContacts {
- public:
-  ShapeContacts(const ContactSearch& search, const Eigen::Matrix3Xd& nodes);
-  Contacts found(bool by_all_pairs);
-
- private:
-  using Box = Eigen::AlignedBox3d;
-  using Segment = ContactSearch::Segment;
-  /// Points of two segments so near to a joint that they share, along the rods, are not told.
-  struct Joint {
-    double at_a = 0, at_b = 0, within = 0;
-  };
-  /// A segment's chord, from its begin to its end, and the largest angle of an edge with it.
-  struct Chord {
-    Vector3d along{0, 0, 0};  ///< unit vector
-    double cosine = 1, sine = 0;
-    int node[2] = {-1, -1};  ///< at begin and end
-  };
-  /// What is looked for between two segments.
-  struct Search {
-    int a = 0, b = 0;
-    double radii = 0;  ///< sum
-    double gap = 0;    ///< above is not looked for
-    double apart = 0;  ///< of one segment: nearer points along it are not told
-    int joints = 0;
-    Joint joint[2];
-    Contact found;
-    bool any = false;
-
-    bool told(double at_a, double at_b) const {
-      if (at_b - at_a < apart) return false;
-      for (int k = 0; k < joints; ++k)
-        if (std::abs(at_a - joint[k].at_a) <= joint[k].within &&
-            std::abs(at_b - joint[k].at_b) <= joint[k].within)
-          return false;
-      return true;
-    }
-  };
-
-  int node(int point) const { return of_.points_[point]; }
-  const Segment& segment(int k) const { return of_.segments_[k]; }
-  double length(const Segment& s) const { return along_[s.end] - along_[s.begin]; }
-  /// Of edges begin to end - 1 of a segment with a tree.
-  const Box& box_of(int k, int begin, int end) const {
-    return end - begin == 1 ? edge_[begin + tree_at_[k]] : tree_[(begin + end) / 2 + tree_at_[k]];
-  }
-  void lay_out(std::size_t k);
-  void grow_tree(int k);
-  Box grown(int k, int begin, int end);
-  bool apart(int a, int b) const;
-  bool apart_but_at_joint(int a, int b) const;
-  Search between(int a, int b) const;
-  void add_joint(Search& search, int point_a, int point_b) const;
-  void look(Search& search, int begin_a, int end_a, int begin_b, int end_b) const;
-  void look_within(Search& search, int begin, int end) const;
-  void look_at_edges(Search& search, int edge_a, int edge_b) const;
-  void take(const Search& search);
-  void rods(bool by_all_pairs);
-  void joints(bool by_all_pairs);
-  void table();
-
-  const ContactSearch& of_;
-  std::vector<Vector3d> x_;    // of the points
-  std::vector<double> along_;  // the rods
-  std::vector<Box> edge_;      // of segments with a tree, one after another, by its first point
-  std::vector<Box> tree_;      // of edges begin to end - 1, at the point in the middle
-  std::vector<int> tree_at_;   // what is added to a segment's points for it; no_tree
-  std::vector<Box> box_;       // of the segments
-  std::vector<Chord> chord_;
-  const Eigen::Matrix3Xd& nodes_;
-  Contacts all_;
-};
 
 ShapeContacts::ShapeContacts(const ContactSearch& search, const Eigen::Matrix3Xd& nodes)
     : of_(search), nodes_(nodes) {
@@ -103,6 +20,10 @@ ShapeContacts::ShapeContacts(const ContactSearch& search, const Eigen::Matrix3Xd
   chord_.resize(segments);
   tree_at_.assign(segments, no_tree);
   for (std::size_t k = 0; k < segments; ++k) lay_out(k);
+  if (search.half_mm_.empty()) return;
+  normal_.resize(points, Vector3d::Zero());
+  side_.resize(points, Vector3d::Zero());
+  for (const Segment& s : search.segments_) lay_sections(s);
 }
 
 /// Box and chord of a segment.
@@ -111,8 +32,8 @@ void ShapeContacts::lay_out(std::size_t k) {
                     end = std::size_t(of_.segments_[k].end);
   Chord& chord = chord_[k];
   chord.along = (x_[end] - x_[begin]).stableNormalized();
-  chord.node[0] = of_.points_[begin];
-  chord.node[1] = of_.points_[end];
+  chord.node[0] = of_.places_[begin];
+  chord.node[1] = of_.places_[end];
   // the least dot / |edge|, as a fraction that is not divided
   double dot2 = 1, edge2 = 1;
   bool back = false;
@@ -191,7 +112,7 @@ bool ShapeContacts::apart_but_at_joint(int a, int b) const {
 void ShapeContacts::add_joint(Search& search, int point_a, int point_b) const {
   const Segment &a = segment(search.a), &b = segment(search.b);
   const auto ends = [](const Segment& s, int point) {
-    return point == s.begin ? !s.from_joint : !s.to_joint;
+    return (point == s.begin ? s.from : s.to) < 0;
   };
   const auto apart = [&] { return (x_[point_a] - x_[point_b]).norm(); };
   const bool one_place =
@@ -205,7 +126,8 @@ void ShapeContacts::add_joint(Search& search, int point_a, int point_b) const {
   // twice the sine of half the angle
   const double spread = (away(a, point_a) - away(b, point_b)).norm();
   const double half = 0.5 * std::min(length(a), length(b));
-  const double straight = std::min(half, 2 * search.radii / std::max(spread, 1e-12));
+  const double across = beside(a.rod) + beside(b.rod);
+  const double straight = std::min(half, 2 * across / std::max(spread, 1e-12));
   search.joint[search.joints++] = {along_[point_a], along_[point_b],
                                    std::max(0.5 * of_.joint_diameter_mm_, straight)};
 }
@@ -216,7 +138,7 @@ ShapeContacts::Search ShapeContacts::between(int a, int b) const {
   search.b = b;
   const Segment &one = segment(a), &other = segment(b);
   search.radii = of_.radius_mm_[one.rod] + of_.radius_mm_[other.rod];
-  search.gap = search.radii;
+  search.gap = beside(one.rod) + beside(other.rod);
   if (a == b) {
     search.apart = std::numbers::pi * search.radii;
     add_joint(search, one.begin, one.end);  // of a ring
@@ -231,7 +153,9 @@ ShapeContacts::Search ShapeContacts::between(int a, int b) const {
 void ShapeContacts::look_at_edges(Search& search, int edge_a, int edge_b) const {
   const std::size_t a = std::size_t(edge_a), b = std::size_t(edge_b);
   const NearestPoints near = nearest_points(x_[a], x_[a + 1], x_[b], x_[b + 1]);
-  const double gap = std::sqrt(near.distance2) - search.radii;
+  double gap = std::sqrt(near.distance2) - search.radii;
+  if (!(gap < search.gap)) return;
+  if (!of_.half_mm_.empty()) gap = gap_of_laths(search, edge_a, edge_b, near);
   if (!(gap < search.gap)) return;
   const double at_a = along_[a] + near.s * (along_[a + 1] - along_[a]);
   const double at_b = along_[b] + near.t * (along_[b + 1] - along_[b]);
@@ -308,7 +232,7 @@ void ShapeContacts::rods(bool by_all_pairs) {
     take(search);
   }
   each_near_pair(box_, 4 * widest, [&](int a, int b) {
-    if (apart_but_at_joint(a, b) || apart(a, b)) return;
+    if (apart_but_at_joint(a, b) || apart(a, b) || side_by_side(a, b)) return;
     grow_tree(a);
     grow_tree(b);
     Search search = between(a, b);
@@ -323,12 +247,8 @@ void ShapeContacts::joints(bool by_all_pairs) {
   std::vector<Vector3d> foot(count), top(count);
   std::vector<Box> boxes(count);
   for (std::size_t k = 0; k < count; ++k) {
-    const auto& [node, beside] = of_.axes_[k];
-    foot[k] = top[k] = nodes_.col(node);
-    if (beside[0] >= 0)
-      top[k] += of_.joint_height_mm_ * (nodes_.col(beside[1]) - nodes_.col(beside[0]))
-                                           .cross(nodes_.col(beside[3]) - nodes_.col(beside[2]))
-                                           .stableNormalized();
+    foot[k] = top[k] = nodes_.col(of_.axes_[k].node);
+    top[k] += of_.joint_height_mm_ * normal_of(of_.axes_[k]);
     boxes[k].extend(foot[k]);
     boxes[k].extend(top[k]);
   }
@@ -383,16 +303,26 @@ ContactSearch::ContactSearch(const Layout& layout)
     axis[joint.node] = int(axes_.size());
     axes_.push_back({joint.node});
   }
+  for (std::size_t k = 0; k < layout.above.size(); ++k) axis[std::size_t(layout.above[k])] = int(k);
   for (std::size_t r = 0; r < layout.rods.size(); ++r) {
     const auto& rod = layout.rods[r];
     radius_mm_.push_back(0.5 * diameter_of(layout, r));
+    if (!layout.laths_mm.empty()) {
+      half_mm_.push_back({0.5 * layout.laths_mm[2 * r], 0.5 * layout.laths_mm[2 * r + 1]});
+      const double corner = std::hypot(half_mm_[r][0], half_mm_[r][1]);
+      if (corner > 0) radius_mm_.back() = corner;
+    }
     const int first = int(points_.size()), last = int(rod.size()) - 1;
     points_.insert(points_.end(), rod.begin(), rod.end());
+    for (const int node : rod) {
+      const int joint = axis[std::size_t(node)];
+      places_.push_back(joint < 0 ? node : axes_[std::size_t(joint)].node);
+    }
     for (int k = 0, begin = 0; k <= last; ++k) {
       const int joint = axis[std::size_t(rod[k])];
       if (k > begin && (joint >= 0 || k == last)) {
-        const bool from_joint = axis[std::size_t(rod[begin])] >= 0;
-        segments_.push_back({int(r), first + begin, first + k, from_joint, joint >= 0});
+        segments_.push_back(
+            {int(r), first + begin, first + k, axis[std::size_t(rod[begin])], joint});
         begin = k;
       }
       if (joint < 0) continue;

@@ -44,6 +44,11 @@ struct Contacts {
 /// Ends of two rods that are nearer than S are held at one place, which counts as a joint. Points
 /// of one rod are told that are more than pi S apart along it.
 ///
+/// Laths whose sections keep to the joints' normals are rectangles: of the way between two nearest
+/// points the part along the normal (between two joints along the mean of theirs) is held against
+/// their thickness, the part across it against their width as it lies across; the larger gap
+/// counts.
+///
 /// The cylinder of a joint stands on the rods' crossing, along t_u x t_v, as high as the layout
 /// says, with rounded ends. A rod touches the table where its middle is more than its radius below
 /// the plane.
@@ -63,7 +68,7 @@ class ContactSearch {
   struct Segment {
     int rod = 0;
     int begin = 0, end = 0;  ///< points, both among them
-    bool from_joint = false, to_joint = false;
+    int from = -1, to = -1;  ///< joints at them; -1: an end
   };
   /// The node of a joint, and nodes beside it on two of its rods; -1: fewer than two rods.
   struct Axis {
@@ -71,8 +76,11 @@ class ContactSearch {
     std::array<int, 4> beside{-1, -1, -1, -1};
   };
   std::vector<int> points_;  ///< nodes, rod after rod
+  std::vector<int> places_;  ///< of the points: their nodes, of joints those of their first rod
   std::vector<Segment> segments_;
-  std::vector<double> radius_mm_;  ///< of each rod
+  std::vector<double> radius_mm_;  ///< of each rod; of a lath as far as its corners reach
+  /// Half the width and half the thickness of each rod that is a lath, along the normal; else 0.
+  std::vector<std::array<double, 2>> half_mm_;
   std::vector<Axis> axes_;
   double joint_diameter_mm_ = 0, joint_height_mm_ = 0, table_mm_ = unknown;
 };

@@ -82,11 +82,13 @@ enum Presence { always, where_known };
 template <RecordOf<Layout> LayoutType, class Visit>
 void each_dataset(LayoutType& layout, const Visit& visit) {
   visit("/layout/diameters", layout.diameters_mm, "mm", where_known);
+  visit("/layout/laths", layout.laths_mm, "mm", where_known);
   visit("/layout/strength", layout.strength_MPa, "MPa", where_known);
   visit("/rods", layout.rods, "1", always);
   visit("/layout/families", layout.families, "", where_known);
   visit("/layout/supports", layout.supports, "1", where_known);
   visit("/joints", layout.joints, "mm", always);
+  visit("/layout/above", layout.above, "1", where_known);
   visit("/cells", layout.cells, "mm", always);
   visit("/layout/edge_points", layout.edge_points, "1", always);
   visit("/layout/original_boundary", layout.original_boundary, "mm", always);

@@ -115,18 +115,19 @@ JointTangents joint_tangents(const Footprint& footprint, const RodMesh& mesh,
     const std::vector<int>& node = mesh.rods[r];
     const Family family = footprint.rods[r].family;
     for (std::size_t k = 1; k + 1 < node.size(); ++k) {
-      if (node[k] >= mesh.joints) continue;
+      const int joint = mesh.joint_of(node[k]);
+      if (joint < 0) continue;
       const Eigen::Vector3d before = x.col(node[k]) - x.col(node[k - 1]);
       const Eigen::Vector3d after = x.col(node[k + 1]) - x.col(node[k]);
       const double l1 = before.norm(), l2 = after.norm();
       const Eigen::Vector3d along = (before * (l2 / l1) + after * (l1 / l2)).normalized();
       if (family != Family::other) {
-        (family == Family::u ? tangents.u : tangents.v).col(node[k]) = along;
+        (family == Family::u ? tangents.u : tangents.v).col(joint) = along;
         continue;
       }
       first.resize(std::size_t(mesh.joints));
-      put_other(along, mesh.flat.col(node[k + 1]) - mesh.flat.col(node[k - 1]), node[k],
-                first[std::size_t(node[k])], tangents);
+      put_other(along, mesh.flat.col(node[k + 1]) - mesh.flat.col(node[k - 1]), joint,
+                first[std::size_t(joint)], tangents);
     }
   }
   return tangents;

@@ -111,6 +111,7 @@ Result<void> check_indices(const Layout& layout, Eigen::Index nodes) {
   TRY_DO(check("joint", layout.joints, node, "node", nodes));
   TRY_DO(check("edge point", layout.edge_points, itself, "node", nodes));
   TRY_DO(check("support", layout.supports, itself, "node", nodes));
+  TRY_DO(check("joint's second rod", layout.above, itself, "node", nodes));
   TRY_DO(check("cell", layout.cells, corners, "joint", joints));
   TRY_DO(check("loaded joint", layout.loaded_joints, pushed, "joint", joints));
   for (const Part& part : layout.parts) {
@@ -137,6 +138,8 @@ Result<void> check_numbers(const Layout& layout) {
     if (!(length >= 0 && length <= largest_mm)) return refuse("/layout");
   for (const double diameter : layout.diameters_mm)
     if (!(diameter >= 0 && diameter <= largest_mm)) return refuse("a rod's diameter");
+  for (const double side : layout.laths_mm)
+    if (!(side >= 0 && side <= largest_mm)) return refuse("a lath's side");
   if (!computable(layout.original_boundary) || !computable(layout.actuated_boundary))
     return refuse("a boundary");
   if (!computable(layout.net_nodes) || !computable(layout.flat_nodes)) return refuse("the net");
@@ -170,6 +173,12 @@ Result<void> check_sizes(const Layout& layout, Eigen::Index nodes) {
   if (!layout.diameters_mm.empty() && layout.diameters_mm.size() != layout.rods.size())
     return fail(Fault::bad_input, "{} diameters are given for {} rods", layout.diameters_mm.size(),
                 layout.rods.size());
+  if (!layout.laths_mm.empty() && layout.laths_mm.size() != 2 * layout.rods.size())
+    return fail(Fault::bad_input, "{} widths and thicknesses are given for {} rods",
+                layout.laths_mm.size(), layout.rods.size());
+  if (!layout.above.empty() && layout.above.size() != layout.joints.size())
+    return fail(Fault::bad_input, "{} second nodes are named for {} joints", layout.above.size(),
+                layout.joints.size());
   for (const auto* net : {&layout.net_nodes, &layout.flat_nodes})
     if (net->cols() > 0 && net->cols() < most)
       return fail(Fault::bad_input, "the net has {} nodes, the shell {}", net->cols(), most);

@@ -149,11 +149,15 @@ struct Layout {
   double table_mm = unknown;  ///< height of the plane that no rod passes; NaN: there is none
   /// Of each rod, that of a round section of its area; empty: all of rod_diameter_mm.
   std::vector<double> diameters_mm;
+  /// Width and thickness of each rod, one after the other, 0 of a round one, where all joints keep
+  /// sections to their normal, the thickness along it; empty: none, or they may turn.
+  std::vector<double> laths_mm;
   std::vector<double> strength_MPa;  ///< of each rod; empty: not known
   double length_scale_mm = 0;  ///< R_o for a circle, rho for a net: what errors are relative to
   std::vector<std::vector<int>> rods;  ///< nodes of each rod from edge point to edge point
   std::vector<std::string> families;   ///< of each rod: "u" or "v"; empty: not known
   std::vector<Joint> joints;
+  std::vector<int> above;  ///< of every joint the node of its second rod there; empty: the same
   std::vector<Cell> cells;
   std::vector<int> edge_points;  ///< nodes pinned on the boundary
   /// Nodes that something may hold: joints, edge points, far ends of tails. Empty: not known.

@@ -113,6 +113,9 @@ Result<void> put_rods(const preset::Preset& preset, Scene& scene) {
   for (const preset::Rod& rod : *rods) {
     scene.diameters_mm.push_back(rod.diameter_mm);
     scene.drawn_diameters_mm.push_back(2 * std::sqrt(area_of(rod) / M_PI));
+    const bool lath = rod.rectangular();
+    scene.laths_mm.insert(scene.laths_mm.end(),
+                          {lath ? rod.width_mm : 0, lath ? rod.thickness_mm : 0});
     const double mass = 1e-12 * rod.density_kg_m3 * area_of(rod);  // 1 kg/m^3 = 1e-12 t/mm^3
     scene.rods.materials.push_back(material_of(rod));
     scene.mass_t_per_mm.push_back(mass);
@@ -275,9 +278,10 @@ Eigen::Vector3d way_through(const FootprintRod& rod, int joint) {
          rod.way(std::min(mark + near, rod.span.end));
 }
 
-/// Rods that hold on to one another at a joint cross there.
-Result<void> check_crossings(const Scene& scene) {
-  const Footprint& footprint = scene.footprint;
+/// Rods that hold on to one another at a joint cross there; and an eccentricity is of two, from the
+/// one that is listed first in the file.
+Result<void> check_crossings(Scene& scene) {
+  Footprint& footprint = scene.footprint;
   std::vector<std::vector<const FootprintRod*>> rods(footprint.joints.size());
   for (const FootprintRod& rod : footprint.rods)
     for (const int joint : std::set<int>(rod.joints.begin(), rod.joints.end()))
@@ -285,7 +289,14 @@ Result<void> check_crossings(const Scene& scene) {
   for (int joint = 0; joint < int(rods.size()); ++joint) {
     const auto own = scene.rods.own_joints.find(joint);
     const JointLaw& law = own == scene.rods.own_joints.end() ? scene.rods.joints : own->second;
-    if (law.shear_Nmm == 0 && law.twist_Nmm == 0) continue;
+    FootprintJoint& here = footprint.joints[std::size_t(joint)];
+    if (law.shear_Nmm == 0 && law.twist_Nmm == 0 && here.eccentricity == 0) continue;
+    if (here.eccentricity != 0 && rods[std::size_t(joint)].size() > 2)
+      return fail(Fault::bad_input,
+                  "joint [{}, {}]: {} rods cross there, an eccentricity must be of two", here.i,
+                  here.j, rods[std::size_t(joint)].size());
+    if (rods[std::size_t(joint)].front()->number > rods[std::size_t(joint)].back()->number)
+      here.eccentricity *= -1;
     for (const FootprintRod* a : rods[std::size_t(joint)])
       for (const FootprintRod* b : rods[std::size_t(joint)]) {
         const Eigen::Vector3d t = way_through(*a, joint).normalized(),
@@ -294,8 +305,7 @@ Result<void> check_crossings(const Scene& scene) {
           return fail(Fault::bad_input,
                       "joint [{}, {}]: rods[{}] and rods[{}] run alike there, must cross, as the "
                       "joint holds them by the angle between them",
-                      footprint.joints[std::size_t(joint)].i,
-                      footprint.joints[std::size_t(joint)].j, a->number, b->number);
+                      here.i, here.j, a->number, b->number);
       }
   }
   return {};
@@ -306,6 +316,8 @@ Result<void> put_laws(const preset::Preset& preset, Scene& scene) {
   const auto stiffness = [](double given) {
     return given < 0 ? std::numeric_limits<double>::infinity() : given;
   };
+  for (FootprintJoint& joint : scene.footprint.joints)
+    joint.eccentricity = preset.joints.eccentricity_mm;
   if (preset.footprint.kind != preset::FootprintKind::network) return {};
   for (std::size_t r = 0; scene.drawn_in_space && r < scene.rods.materials.size(); ++r)
     if (scene.rods.materials[r].as_drawn && scene.footprint.rods[r].closed())
@@ -322,6 +334,13 @@ Result<void> put_laws(const preset::Preset& preset, Scene& scene) {
                   row[0]);
     scene.rods.own_joints[joint] = {scene.rods.joints.spring_N_per_mm, stiffness(row[1]),
                                     stiffness(row[2])};
+    if (row.size() < 4) continue;
+    if (row[3] != 0 && scene.rods.joints.spring_N_per_mm > 0)
+      return fail(Fault::bad_input,
+                  "[footprint] file: joints: the axes at point {:g} lie apart and are held by a "
+                  "bolt, [joints] kind must be \"shared\"",
+                  row[0]);
+    scene.footprint.joints[std::size_t(joint)].eccentricity = row[3];
   }
   return scene.footprint.rods.front().number < 0 ? Result<void>() : check_crossings(scene);
 }
@@ -336,6 +355,14 @@ int joint_at(const Footprint& footprint, int i, int j) {
   const auto found = std::ranges::find_if(
       footprint.joints, [&](const FootprintJoint& joint) { return joint.i == i && joint.j == j; });
   return found == footprint.joints.end() ? -1 : int(found - footprint.joints.begin());
+}
+
+/// Whether all joints keep rods' sections to their normal.
+bool holds_sections(const Scene& scene) {
+  const auto holds = [](const JointLaw& law) { return law.twist_Nmm > 0; };
+  const auto& own = scene.rods.own_joints;
+  return std::ranges::all_of(own, [&](const auto& at) { return holds(at.second); }) &&
+         (holds(scene.rods.joints) || own.size() == scene.footprint.joints.size());
 }
 
 Result<Scene> scene_of(const preset::Preset& preset) {
@@ -354,6 +381,8 @@ Result<Scene> scene_of(const preset::Preset& preset) {
   TRY_DO(put_rods(preset, scene));
   scene.rung = preset::rod_model_of(preset);
   TRY_DO(put_laws(preset, scene));
+  const bool round = std::ranges::count(scene.laths_mm, 0) == long(scene.laths_mm.size());
+  if (round || !holds_sections(scene)) scene.laths_mm.clear();
   scene.seed.up = preset.actuation.seed == preset::Seed::up ? 1 : -1;
   scene.seed.diagonal = preset.actuation.seed_diagonal == preset::SeedDiagonal::y_eq_x ? 1 : -1;
   scene.imperfection = {preset.imperfection.size * scene.footprint.spacing,

@@ -39,6 +39,7 @@ struct Scene {
   double joint_mass_t = 0;                 ///< of each joint, beside that of its rods
   double rod_diameter_mm = 0;              ///< as it is drawn
   std::vector<double> drawn_diameters_mm;  ///< one a rod, of round sections of their areas
+  std::vector<double> laths_mm;            ///< record::Layout's
   std::vector<double> diameters_mm;        ///< one a rod; of no meaning where it is rectangular
   BoundaryMotion motion;
   double length_scale_mm = 0;                ///< R_o, rho or half a diagonal: what errors are over

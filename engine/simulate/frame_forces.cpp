@@ -137,15 +137,15 @@ std::string place_on_rod(const Footprint& footprint, const RodMesh& mesh, std::s
   const std::size_t first = mesh.is_ghost(nodes.front()) ? 1 : 0, k = first + point;
   const auto joint_from = [&](std::size_t from, int step) {
     for (std::size_t n = from; n < nodes.size(); n += std::size_t(step))
-      if (nodes[n] < mesh.joints) {
-        const FootprintJoint& joint = footprint.joints[std::size_t(nodes[n])];
+      if (const int at = mesh.joint_of(nodes[n]); at >= 0) {
+        const FootprintJoint& joint = footprint.joints[std::size_t(at)];
         return fmt::format("[{}, {}]", joint.i, joint.j);
       }
     return std::string("its end");
   };
   std::string text = fmt::format("{}, {:.2f} mm from its begin, ", name_of(footprint.rods[r]),
                                  position[k] - position[first]);
-  if (nodes[k] < mesh.joints) return text + "at joint " + joint_from(k, 1);
+  if (mesh.joint_of(nodes[k]) >= 0) return text + "at joint " + joint_from(k, 1);
   return text + fmt::format("between {} and {}", joint_from(k, -1), joint_from(k, 1));
 }
 

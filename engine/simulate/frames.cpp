@@ -142,6 +142,7 @@ record::Layout parts_of(const Scene& scene, const RodMesh& mesh) {
   const auto other = [&](double diameter) { return diameter != scene.rod_diameter_mm; };
   if (std::ranges::any_of(scene.drawn_diameters_mm, other))
     layout.diameters_mm = scene.drawn_diameters_mm;
+  layout.laths_mm = scene.laths_mm;
   layout.strength_MPa = scene.strength_MPa;
   layout.length_scale_mm = scene.length_scale_mm;
   for (const std::vector<int>& nodes : mesh.rods) {
@@ -152,7 +153,9 @@ record::Layout parts_of(const Scene& scene, const RodMesh& mesh) {
   for (int k = 0; k < mesh.joints; ++k) {
     const FootprintJoint& joint = scene.footprint.joints[k];
     layout.joints.push_back({joint.i, joint.j, joint.u, joint.v, k});
+    if (!mesh.eccentric.empty()) layout.above.push_back(k);
   }
+  for (const EccentricJoint& at : mesh.eccentric) layout.above[std::size_t(at.joint)] = at.node;
   layout.joint_diameter_mm = scene.joint_diameter_mm;
   layout.joint_height_mm = scene.joint_height_mm;
   if (scene.table) layout.table_mm = scene.flat.origin.z();

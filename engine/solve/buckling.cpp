@@ -38,7 +38,7 @@ double mean_shortening(const RodMesh& mesh, const PinnedMotion& motion, double t
     std::size_t before = none;
     for (std::size_t k = 0; k < node.size(); ++k) {
       const bool end = k == 0 || k + 1 == node.size();
-      if (!(end && node[k] >= mesh.joints) && !held.contains(node[k])) continue;
+      if (!(end && mesh.joint_of(node[k]) < 0) && !held.contains(node[k])) continue;
       if (before != none) {
         chords += (x.col(node[k]) - x.col(node[before])).norm();
         lengths += flat_chord(mesh, r, before, k);

@@ -246,6 +246,8 @@ ScanTarget form_of(const record::Layout& layout, const record::Frame& frame) {
   std::vector<int> joint_of(std::size_t(frame.nodes.cols()), -1);
   for (Eigen::Index k = 0; k < joints; ++k)
     joint_of[std::size_t(layout.joints[std::size_t(k)].node)] = int(k);
+  for (std::size_t k = 0; k < layout.above.size(); ++k)
+    joint_of[std::size_t(layout.above[k])] = int(k);
   Eigen::Matrix3Xd u = Eigen::Matrix3Xd::Zero(3, joints), v = u;
   for (std::size_t r = 0; r < layout.rods.size(); ++r) {
     const auto& rod = layout.rods[r];

@@ -29,7 +29,7 @@ const RodMaterial wire{700, 6, 6, 3, {0, 0}, 0};
 const ExternalLoads outside{.load = 0.7};
 
 /// Two rods that share a node, one of them clamped, with axes and a shape at rest, sheared at the
-/// joint; a third hung on by a spring; loads, pressures and ground.
+/// joint; a third hung on by a spring and bolted above the second; loads, pressures and ground.
 Model sample_model() {
   const ModelRod a{{0, 1, 2, 3, 4}, {0, 4, 9, 13, 18}, strip, {}, RodEnd::clamped, RodEnd::pinned};
   const ModelRod b{{5, 6, 2, 7, 8}, {0, 5, 9, 14, 18}, wire, {}, RodEnd::tangent, RodEnd::free};
@@ -38,7 +38,8 @@ Model sample_model() {
   model.springs.push_back({{3, 9, {40, 40, 40}}});
   model.springs.push_back({{10, 8, {3, 0, 5}, Term::support}});
   add_joint_shear(model, {0, 2, 1, 2}, 7.5, [](int, int) { return 1.4; });
-  add_joint_spin(model, {0, 2, 1, 2}, 3.5, 1, 1, 1.2);
+  add_joint_spin(model, {0, 2, 1, 2}, 3.5);
+  add_joint_link(model, {1, 7, 2, 10}, 0.8);
   for (int node = 0; node < 12; ++node) model.loads.push_back({node, {0, 0, -0.1}});
   // pressures on a triangle and on a plane curve
   model.loads.push_back({.node = 1, .pressure = 0.05, .beside = {6, 3}});

@@ -49,6 +49,26 @@ TEST_CASE("written steps read back to the bit, without the keys that they do not
   CHECK(to_toml(again) == text);
 }
 
+TEST_CASE("an override names an item of a list of tables by its number") {
+  const auto read = [](const std::string& set) {
+    return read_preset_text(two_steps, "good.toml", "good", {parse_override(set).value()});
+  };
+  const auto moved = read("step.2.progress=0.25");
+  REQUIRE(moved);
+  CHECK(moved->base.step[1].progress == 0.25);
+  CHECK(moved->base.step[0].progress == 1);
+  for (const auto& [set, reason] :
+       {std::pair("step.3.progress=0.5", "step.3.progress: of 2 [[step]] must name one"),
+        {"step.progress=0.5", "must name one by its number, as step.1."},
+        {"step.2=1", "[[step]] 2  = 1: unknown key"},
+        {"step.2.progress=-1", "--set: [[step]] 2 progress = -1: "},
+        {"loads.case.1.snow=2", "loads.case.1.snow: of 0 [[loads.case]] must name one"}}) {
+    const auto refused = read(set);
+    REQUIRE(!refused);
+    CHECK_THAT(refused.error().message, Catch::Contains(reason));
+  }
+}
+
 TEST_CASE("load cases stand in [loads], are written there and read back") {
   const std::string text = R"(
 [loads]

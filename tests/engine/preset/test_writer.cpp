@@ -72,6 +72,8 @@ Preset all_changed() {
   preset.accuracy.leading_edges = 0;
   // a strength is said once
   preset.rod.yield_strain = preset.rod_v.yield_strain = 0;
+  // axes that lie apart are held by bolts
+  preset.joints.eccentricity_mm = 0;
   // only pinned ends have tails
   preset.ends.second_ring_mm = 0;
   preset.footprint.kind = FootprintKind::net;
@@ -221,6 +223,7 @@ std::vector<Preset> samples() {
   network.footprint.kind = FootprintKind::network;
   network.rod.as_drawn = true;
   network.rod.shear_GPa = 30;
+  network.joints.eccentricity_mm = -0.4;
   network.footprint.file = {{{0, 0, 0}, {1e2 / 3, 0, 0}, {0, 20, 0}},
                             {{0, 1, 2}},
                             {0.25},
@@ -228,7 +231,7 @@ std::vector<Preset> samples() {
                             {{0}, {1, 30, 0, 2}},
                             {{1, 1e2 / 3, 0, 5}},
                             {2},
-                            {{1, 2.5, -1}},
+                            {{1, 2.5, -1, 0.3}},
                             {{0, 1, 2}}};
   all.push_back(network);
   for (Preset& preset : stepped()) all.push_back(std::move(preset));

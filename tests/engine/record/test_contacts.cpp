@@ -102,7 +102,10 @@ TEST_CASE("contacts are those that every pair of edges has, in 200 random states
   const Grid grid(4, 8);
   Layout layout = grid.layout;
   layout.table_mm = -2;
-  const ContactSearch search(layout);
+  const ContactSearch round(layout);
+  for (std::size_t rod = 0; rod < layout.rods.size(); ++rod)
+    layout.laths_mm.insert(layout.laths_mm.end(), {0.2, 0.6});
+  const ContactSearch laths(layout);
   int rods = 0, joints = 0, table = 0, itself = 0;
   for (int trial = 0; trial < 200; ++trial) {
     Eigen::Matrix3Xd x = grid.sheared((2 + 60 * draw(random) * draw(random)) * degree);
@@ -118,6 +121,7 @@ TEST_CASE("contacts are those that every pair of edges has, in 200 random states
       if (trial % 4 == 3)
         for (int c = 0; c < 3; ++c) x(c, k) += 1.5 * draw(random);
     }
+    const ContactSearch& search = trial % 5 == 0 ? laths : round;
     const Contacts found = search.in(x), all = search.by_all_pairs(x);
     INFO("state " << trial);
     REQUIRE(found.places.size() == all.places.size());
@@ -177,6 +181,25 @@ TEST_CASE("rods of a cell that bend onto each other touch, on any mesh in the sa
     CHECK(found.rod_gap_mm < -0.1);
     CHECK(found.places[0].at.head<2>().norm() == Approx(10).margin(1.5));
   }
+}
+
+TEST_CASE("laths that stand on edge side by side touch by their widths, not as round rods do") {
+  Grid grid(2, 8);
+  grid.layout.joint_diameter_mm = 1;
+  const Eigen::Matrix3Xd x = grid.sheared(8 * degree);  // 2.78 mm between parallel rods
+  const auto places = [&](double width, double thickness) {
+    grid.layout.laths_mm.clear();
+    for (std::size_t rod = 0; rod < grid.layout.rods.size(); ++rod)
+      grid.layout.laths_mm.insert(grid.layout.laths_mm.end(), {width, thickness});
+    const ContactSearch search(grid.layout);
+    CHECK(search.in(x).places.size() == search.by_all_pairs(x).places.size());
+    return search.in(x).places.size();
+  };
+  CHECK(places(1, 6) == 0);
+  CHECK(places(6, 1) > 0);
+  grid.layout.laths_mm.clear();
+  grid.layout.rod_diameter_mm = std::sqrt(4 * 6 / std::numbers::pi);  // of their area
+  CHECK(ContactSearch(grid.layout).in(x).places.size() > 0);
 }
 
 TEST_CASE("rods that are held at one place of the boundary are near there, and cross beyond it") {

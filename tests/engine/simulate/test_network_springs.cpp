@@ -160,4 +160,17 @@ TEST_CASE("the cantilever of a public code comes to the elastica, and near what 
   CHECK(1000 - nodes.row(0).maxCoeff() == Approx(in).epsilon(2e-4));
   CHECK(std::abs(outcome.summary.height_mm - up) < 2 * outcome.summary.error_estimate_mm);
   CHECK(outcome.summary.height_mm == Approx(theirs).epsilon(2e-3));  // ten elements
+  // one alone, clamped; a little of it beyond its load
+  preset::Preset alone = shipped("lit_drm_cantilever");
+  preset::NetworkData& file = alone.footprint.file;
+  file = {};
+  file.points = {{0, 0, 0}, {1000, 0, 0}, {1010, 0, 0}};
+  file.rods = {{0, 1, 2}};
+  file.free = {2};
+  file.holds = {{0, 0, double(preset::EndKind::clamped)}};
+  alone.loads.points = {{1, 0, 0, 0, 5}};
+  const auto one = run_stills(alone);
+  CHECK(one.summary.stable);
+  CHECK(one.summary.height_mm == Approx(up).epsilon(5e-5));
+  CHECK(1000 - last_frame(one).nodes(0, 0) == Approx(in).epsilon(2e-4));
 }

@@ -1,0 +1,97 @@
+// Contacts in one shape of a layout: what a search for them keeps of it.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <limits>
+#include <vector>
+
+#include "engine/core/proximity.h"
+#include "engine/record/contacts.h"
+
+namespace gridshell::record {
+
+/// One shape of the layout of a search.
+class ShapeContacts {
+ public:
+  ShapeContacts(const ContactSearch& search, const Eigen::Matrix3Xd& nodes);
+  Contacts found(bool by_all_pairs);
+
+ private:
+  using Vector3d = Eigen::Vector3d;
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  static constexpr int no_tree = std::numeric_limits<int>::min();
+  using Box = Eigen::AlignedBox3d;
+  using Segment = ContactSearch::Segment;
+  /// Points of two segments so near to a joint that they share, along the rods, are not told.
+  struct Joint {
+    double at_a = 0, at_b = 0, within = 0;
+  };
+  /// A segment's chord, from its begin to its end, and the largest angle of an edge with it.
+  struct Chord {
+    Vector3d along{0, 0, 0};  ///< unit vector
+    double cosine = 1, sine = 0;
+    int node[2] = {-1, -1};  ///< at begin and end
+  };
+  /// What is looked for between two segments.
+  struct Search {
+    int a = 0, b = 0;
+    double radii = 0;  ///< sum
+    double gap = 0;    ///< above is not looked for
+    double apart = 0;  ///< of one segment: nearer points along it are not told
+    int joints = 0;
+    Joint joint[2];
+    Contact found;
+    bool any = false;
+
+    bool told(double at_a, double at_b) const {
+      if (at_b - at_a < apart) return false;
+      for (int k = 0; k < joints; ++k)
+        if (std::abs(at_a - joint[k].at_a) <= joint[k].within &&
+            std::abs(at_b - joint[k].at_b) <= joint[k].within)
+          return false;
+      return true;
+    }
+  };
+
+  int node(int point) const { return of_.places_[point]; }
+  const Segment& segment(int k) const { return of_.segments_[k]; }
+  double length(const Segment& s) const { return along_[s.end] - along_[s.begin]; }
+  /// Of edges begin to end - 1 of a segment with a tree.
+  const Box& box_of(int k, int begin, int end) const {
+    return end - begin == 1 ? edge_[begin + tree_at_[k]] : tree_[(begin + end) / 2 + tree_at_[k]];
+  }
+  void lay_out(std::size_t k);
+  Vector3d normal_of(const ContactSearch::Axis& at) const;
+  void lay_sections(const Segment& s);
+  bool side_by_side(int a, int b) const;
+  double beside(int rod) const;
+  double gap_of_laths(const Search& search, int edge_a, int edge_b,
+                      const NearestPoints& near) const;
+  void grow_tree(int k);
+  Box grown(int k, int begin, int end);
+  bool apart(int a, int b) const;
+  bool apart_but_at_joint(int a, int b) const;
+  Search between(int a, int b) const;
+  void add_joint(Search& search, int point_a, int point_b) const;
+  void look(Search& search, int begin_a, int end_a, int begin_b, int end_b) const;
+  void look_within(Search& search, int begin, int end) const;
+  void look_at_edges(Search& search, int edge_a, int edge_b) const;
+  void take(const Search& search);
+  void rods(bool by_all_pairs);
+  void joints(bool by_all_pairs);
+  void table();
+
+  const ContactSearch& of_;
+  std::vector<Vector3d> x_;              // of the points
+  std::vector<double> along_;            // the rods
+  std::vector<Vector3d> normal_, side_;  // of the edges' sections, of laths
+  std::vector<Box> edge_;     // of segments with a tree, one after another, by its first point
+  std::vector<Box> tree_;     // of edges begin to end - 1, at the point in the middle
+  std::vector<int> tree_at_;  // what is added to a segment's points for it; no_tree
+  std::vector<Box> box_;      // of the segments
+  std::vector<Chord> chord_;
+  const Eigen::Matrix3Xd& nodes_;
+  Contacts all_;
+};
+
+}  // namespace gridshell::record
