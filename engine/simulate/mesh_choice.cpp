@@ -220,8 +220,6 @@ Result<SharedPath> confirm_on_finer_meshes(const Scene& scene, SharedPath path,
       (*fine)->simulation.charge(path->simulation.effort());
       (*fine)->seconds_setup += path->seconds_setup;
       before.push_back(std::exchange(path, std::move(*fine)));
-      // its meshes may be guided along the way that is confirmed; its own way is not needed again
-      before.back()->segments.clear();
     };
     auto differs = mesh_disagreement(*path, **fine);
     if (!differs) differs = only_on_leaders(*path, **fine, watch);
