@@ -154,11 +154,12 @@ Result<Vibrations> vibrations_of(FormedShell& formed, int count, const Watch& wa
     meshes.push_back(std::move(*modes));
   }
   const auto lambdas = lambdas_of(meshes);
-  const bool pressing = shell.energies(shell.levels() - 1)[Term::contact] > 0;
+  const int last = shell.levels() - 1;
+  const bool no_order = order_unknown(shell.model(last), shell.energies(last), meshes.size());
   std::vector<std::pair<record::ModeRow, Eigen::Matrix3Xd>> modes;
   for (std::size_t k = 0; k < lambdas.size(); ++k)
     modes.emplace_back(
-        row_of(certify_vectors(lambdas[k], shell.plan().extrapolate_forces, pressing),
+        row_of(certify_vectors(lambdas[k], shell.plan().extrapolate_forces, no_order),
                meshes.back().found.residuals[k]),
         meshes.back().shapes[k]);
   // what is extrapolated may stand in another order
