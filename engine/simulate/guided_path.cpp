@@ -151,13 +151,37 @@ bool stable(const PathSegment& segment) {
                              [](const LoadStep& step) { return step.certificate.stable(); });
 }
 
+namespace {
+
+/// Whether what finer meshes add to the leader goes on from one load step to the next. Where it
+/// leaps the finer ones went over to another branch, which the leader was on before or never is.
+bool corrections_go_on(const Simulation& simulation, const PathSegment& segment) {
+  constexpr double leap = 0.5, least = 1e-3;  // of itself, of d
+  const Eigen::Index joints = simulation.shell().finest().joints;
+  const double seen = least * simulation.scene().footprint.spacing;
+  for (std::size_t k = 1; k < segment.load_steps.size(); ++k) {
+    const auto &before = segment.load_steps[k - 1].point.beyond,
+               &after = segment.load_steps[k].point.beyond;
+    for (std::size_t level = 0; level < std::min(before.size(), after.size()); ++level) {
+      const auto size = [&](const Eigen::Matrix3Xf& x) {
+        return double(x.leftCols(joints).colwise().norm().maxCoeff());
+      };
+      const auto &a = before[level].x, &b = after[level].x;
+      if (size(b - a) > std::max(seen, leap * std::max(size(a), size(b)))) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
 bool has_states_of(Simulation& simulation, const EquilibriumPath& path, const Watch& watch) {
   if (path.segments.empty()) return true;  // the flat itself
   const StateTransfer carried = between_leaders(path.simulation, simulation);
   const PathSegment& segment = path.segments.back();
   GuidedSegment guided(simulation, segment, carried, watch);
   const std::size_t last = segment.load_steps.size() - 1;
-  return stable(segment) &&
+  return stable(segment) && corrections_go_on(path.simulation, segment) &&
          std::ranges::all_of(std::initializer_list<std::size_t>{0, last / 2, last},
                              [&](std::size_t step) { return guided.begin(step); });
 }

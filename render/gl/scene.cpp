@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "render/gl/image.h"
@@ -174,15 +175,19 @@ class Weaver {
     const auto normals = shell_normals(drawing_);
     const float radius = radius_of(drawing_.joint_diameter_mm, mm_per_sample_);
     const Eigen::Vector4f colour = opaque(drawing_.joint_colour);
-    for (const auto& joint : drawing_.layout->joints) {
-      const float length = normals[joint.node].norm();
+    const auto& [joints, above] = std::tie(drawing_.layout->joints, drawing_.layout->above);
+    for (std::size_t k = 0; k < joints.size(); ++k) {
+      const int joint = joints[k].node;
+      const float length = normals[joint].norm();
       const Eigen::Vector3f axis =
-          length > 1e-6f ? Eigen::Vector3f(normals[joint.node] / length) : Eigen::Vector3f::UnitZ();
-      const Eigen::Vector3f at = drawing_.nodes.col(joint.node).cast<float>();
-      const double depth =
-          std::min(node_depth_[joint.node], forward_.dot(drawing_.nodes.col(joint.node)));
-      beads_.push_back({depth, add_bead(scene_.beads, at, axis, radius, BeadShape::flat, colour)});
-      if (quality_.shadow) add_bead_shadow(at, axis, radius);
+          length > 1e-6f ? Eigen::Vector3f(normals[joint] / length) : Eigen::Vector3f::UnitZ();
+      // where rods lie above one another the bolt's two ends
+      for (const int node : std::set{joint, above.empty() ? joint : above[k]}) {
+        const Eigen::Vector3f at = drawing_.nodes.col(node).cast<float>();
+        const double depth = std::min(node_depth_[node], forward_.dot(drawing_.nodes.col(node)));
+        beads_.push_back({depth, add_bead(scene_.beads, at, axis, radius, BeadShape::flat, colour)});
+        if (quality_.shadow) add_bead_shadow(at, axis, radius);
+      }
     }
   }
 
