@@ -185,7 +185,8 @@ class Weaver {
       for (const int node : std::set{joint, above.empty() ? joint : above[k]}) {
         const Eigen::Vector3f at = drawing_.nodes.col(node).cast<float>();
         const double depth = std::min(node_depth_[node], forward_.dot(drawing_.nodes.col(node)));
-        beads_.push_back({depth, add_bead(scene_.beads, at, axis, radius, BeadShape::flat, colour)});
+        beads_.push_back(
+            {depth, add_bead(scene_.beads, at, axis, radius, BeadShape::flat, colour)});
         if (quality_.shadow) add_bead_shadow(at, axis, radius);
       }
     }
