@@ -174,9 +174,12 @@ std::string model_reason(const Preset& preset) {
     case RodModel::bend:
       break;
   }
-  return "bend: the rods are round and naturally straight, their ends spin freely and the "
-         "joints pass no twist, so the twist energy is zero at rest and leaving it out changes "
-         "nothing; joints are shared nodes, the limit of stiff springs";
+  return fmt::format(
+      "bend: the rods are round and naturally straight, their ends spin freely and the joints pass "
+      "no twist, so the twist energy is zero at rest and leaving it out changes nothing; joints "
+      "are {}",
+      preset.joints.eccentricity_mm == 0 ? "shared nodes, the limit of stiff springs"
+                                         : "bolts between the axes of rods that lie apart");
 }
 
 std::vector<KeyFault> model_conflicts(const Preset& preset) {

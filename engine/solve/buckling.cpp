@@ -107,10 +107,14 @@ Result<State> first_buckled(Linearisation& system, const RodMesh& mesh, const Pi
   State state = flat_state(model, mesh, motion, flat);
   move_to(model, columns_of(mesh, model, dome), state);
   motion.impose(system, t, state);
+  const auto rise = [&](const State& at) { return seed.up * at.x.row(2).head(model.nodes).sum(); };
+  const State seeded = state;
   // soft rods first: they come near the rest of the rods as they are without stretching
   if (minimise(system, state, {.tolerance_mm = 1e-2, .EA_scale = 0.01}, watch).outcome ==
       Outcome::not_finite)
     return fail(Fault::no_equilibrium, "no equilibrium: a position was not finite");
+  // thick ones do not buckle when soft, and would leave the flat to a side by chance
+  if (!(rise(state) > 0.1 * rise(seeded))) state = seeded;
   return minimise_from(system, std::move(state), watch);
 }
 

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/simulate/simulation.h"
+#include "tests/engine/simulate/network_preset.h"
 #include "tests/presets.h"
 
 using namespace gridshell;
@@ -37,5 +38,22 @@ TEST_CASE("the first buckled state is the same one on meshes of every family") {
     const double expected =
         fine + (coarse - fine) * (1.0 / (edges * edges) - 0.01) / (1.0 / 16 - 0.01);
     CHECK(first_energies(scene, edges).total() == Approx(expected).epsilon(2e-3));
+  }
+}
+
+TEST_CASE("rods too thick to buckle while they are soft go to the side of the seed") {
+  preset::NetworkData cross;
+  cross.points = {{-50, 0, 0}, {50, 0, 0}, {0, -50, 0}, {0, 50, 0}, {0, 0, 0}};
+  cross.rods = {{0, 4, 1}, {2, 4, 3}};
+  preset::Preset p = network(cross, 4);
+  p.actuation.scale = 0.88;
+  p.rod.diameter_mm = 2;
+  for (const auto seed : {preset::Seed::up, preset::Seed::down}) {
+    p.actuation.seed = seed;
+    const auto scene = std::make_shared<const Scene>(value_of(scene_of(p)));
+    Simulation simulation = value_of(Simulation::open(scene, {.edges_per_segment = {4}}));
+    REQUIRE(value_of(simulation.begin_buckled(0.02, unwatched)).end == Outcome::reached);
+    const double joint = simulation.nodes()(2, 0);
+    CHECK((seed == preset::Seed::up ? joint : -joint) > 5);
   }
 }
