@@ -41,6 +41,13 @@ double left_by_order(const Eigen::Matrix3Xd& step, const Eigen::Matrix3Xd& befor
   return std::min(std::abs(1 / (ratio - 1) - 1.0 / 3), 1.0) * max_column_norm(step);
 }
 
+/// What extrapolation at second order leaves of a part of first order, as where joints resist the
+/// spins of laths: of errors a + b of the finest mesh, b the first order's, steps are 3a + b and
+/// 12a + 2b, and 2b/3 is left.
+double left_of_first_order(const Eigen::Matrix3Xd& step, const Eigen::Matrix3Xd& before) {
+  return max_column_norm((4 * step - before) / 3);
+}
+
 Eigen::VectorXd weights_of(std::span<const LevelCorrection> known, double t) {
   std::vector<double> at;
   for (const LevelCorrection& one : known) at.push_back(one.t);
@@ -273,6 +280,8 @@ void NestedShell::estimate() {
       std::max(margin_extrapolated * max_column_norm((4 * step - before) / 3) / 15,
                margin * left_by_order(step, before)) +
       options_.tolerance_mm;  // corrections stop there
+  if (!finest.model.joint_spins.empty())
+    state_.error_estimate_mm = std::max(state_.error_estimate_mm, left_of_first_order(step, before));
   // the correction is known at the coarser nodes; between them it is interpolated
   Eigen::Matrix3Xd on_coarser, correction;
   finest.to_coarser->nodes(state_.x, on_coarser);
@@ -334,6 +343,9 @@ void NestedShell::take_reactions() {
   state_.reactions.clear();
   for (const auto& on : force.value.colwise()) state_.reactions.emplace_back(on);
   state_.reaction_error_N = force.error;
+  if (const std::size_t n = forces.size(); n == 3 && !levels_.back()->model.joint_spins.empty())
+    state_.reaction_error_N =
+        std::max(force.error, left_of_first_order(forces[2] - forces[1], forces[1] - forces[0]));
   state_.held_stiffness.reshaped() = growth.value.row(0).transpose();
   state_.stiffness_error_N_per_mm = growth.error + stale_stiffness * max_column_norm(growth.value);
 }
