@@ -281,7 +281,8 @@ void NestedShell::estimate() {
                margin * left_by_order(step, before)) +
       options_.tolerance_mm;  // corrections stop there
   if (!finest.model.joint_spins.empty())
-    state_.error_estimate_mm = std::max(state_.error_estimate_mm, left_of_first_order(step, before));
+    state_.error_estimate_mm =
+        std::max(state_.error_estimate_mm, left_of_first_order(step, before));
   // the correction is known at the coarser nodes; between them it is interpolated
   Eigen::Matrix3Xd on_coarser, correction;
   finest.to_coarser->nodes(state_.x, on_coarser);
