@@ -203,19 +203,16 @@ void write_frames(hdf5::Writer& file, const Layout& layout, const FrameList& fra
   file.dataset("/cell_K", H5T_NATIVE_DOUBLE, {count, hsize_t(layout.cells.size())}, nullptr, "rad");
   // loads and braces may come late: frames before have none
   std::set<std::string> known;
-  const auto begin_field = [&]<class Values>(const char* name, const char* unit, Eigen::Index size,
-                                             const char* meaning, Values Frame::*, hsize_t from) {
-    if (!known.insert(name).second) return;
-    file.dataset(name, H5T_NATIVE_DOUBLE, dims_of<Values>(count, size), nullptr, unit);
-    file.attribute(name, "meaning", std::string(meaning) + "; NaN: unknown");
-    const Values none = sized<Values>(size);
-    for (hsize_t k = 0; k < from; ++k) file.write_slice(name, H5T_NATIVE_DOUBLE, k, none.data());
-  };
-  const auto begin_fields = [&](const Frame& frame, hsize_t k) {
-    each_rod_field(
-        [&](const char* name, const char* unit, SizeOf size, const char* meaning, auto field) {
-          if ((frame.*field).size() > 0) begin_field(name, unit, size(layout), meaning, field, k);
-        });
+  const auto begin_fields = [&](const Frame& frame, hsize_t from) {
+    each_rod_field([&]<class Values>(const char* name, const char* unit, SizeOf size_of,
+                                     const char* meaning, Values Frame::*field) {
+      if ((frame.*field).size() == 0 || !known.insert(name).second) return;
+      const Eigen::Index size = size_of(layout);
+      file.dataset(name, H5T_NATIVE_DOUBLE, dims_of<Values>(count, size), nullptr, unit);
+      file.attribute(name, "meaning", std::string(meaning) + "; NaN: unknown");
+      const Values none = sized<Values>(size);
+      for (hsize_t k = 0; k < from; ++k) file.write_slice(name, H5T_NATIVE_DOUBLE, k, none.data());
+    });
   };
   std::vector<Frame> heads;
   for (const Frame& frame : frames) {

@@ -64,17 +64,6 @@ Eigen::Matrix3Xd columns_of(const Energies& energies) {
   return columns;
 }
 
-/// Of joints that resist spin three meshes count what a part of first order would leave of their
-/// extrapolation, as the joints' places do (nested_certificate.cpp).
-CertifiedVectors certified(const Model& model, const std::vector<Eigen::Matrix3Xd>& levels,
-                           bool extrapolate, bool no_order) {
-  CertifiedVectors found = certify_vectors(levels, extrapolate, no_order);
-  if (levels.size() < 3 || model.joint_spins.empty()) return found;
-  const Eigen::Matrix3Xd left = (4 * (levels[2] - levels[1]) - (levels[1] - levels[0])) / 3;
-  found.error = std::max(found.error, max_column_norm(left));
-  return found;
-}
-
 /// Reactions and energies of the last meshes; what lies along the rods is of the finest itself.
 void put_forces(const Simulation& simulation, record::Frame& frame) {
   const NestedShell& shell = simulation.shell();
@@ -92,7 +81,7 @@ void put_forces(const Simulation& simulation, record::Frame& frame) {
   }
   const bool extrapolate = shell.plan().extrapolate_forces;
   const bool no_order = order_unknown(shell.model(last), by_term.back(), by_term.size());
-  CertifiedVectors force = certified(shell.model(last), reactions, extrapolate, no_order);
+  CertifiedVectors force = certify_vectors(shell.model(last), reactions, extrapolate, no_order);
   put_reactions(std::move(force.value), frame);
   frame.force_error_N = force.error;
   frame.loads_N = loads_on(shell.finest(), shell.model(last), shell.state().levels.back().x,
@@ -102,7 +91,7 @@ void put_forces(const Simulation& simulation, record::Frame& frame) {
   frame.energies = by_term.back();
   if (extrapolate && by_term.size() > 1)
     frame.energies = extrapolated(by_term.back(), by_term[by_term.size() - 2]);
-  frame.energy_error_mJ = certified(shell.model(last), energies, extrapolate, no_order).error;
+  frame.energy_error_mJ = certify_vectors(shell.model(last), energies, extrapolate, no_order).error;
 }
 
 /// Adds the blocks on their own nets and the rods across their seams to a layout.

@@ -312,6 +312,15 @@ CertifiedVectors certify_vectors(const std::vector<Eigen::Matrix3Xd>& levels, bo
   return found;
 }
 
+CertifiedVectors certify_vectors(const Model& model, const std::vector<Eigen::Matrix3Xd>& levels,
+                                 bool extrapolate, bool no_order) {
+  CertifiedVectors found = certify_vectors(levels, extrapolate, no_order);
+  if (levels.size() == 3 && !model.joint_spins.empty())
+    found.error =
+        std::max(found.error, left_of_first_order(levels[2] - levels[1], levels[1] - levels[0]));
+  return found;
+}
+
 /// What each level says of its held joints. The stiffness is that of its last factorisation, which
 /// on finer meshes stands a correction away.
 void NestedShell::take_reactions() {
@@ -339,14 +348,12 @@ void NestedShell::take_reactions() {
   }
   const bool no_order =
       order_unknown(levels_.back()->model, finest.assembly().energies, forces.size());
-  const CertifiedVectors force = certify_vectors(forces, plan_.extrapolate_forces, no_order),
+  const CertifiedVectors force = certify_vectors(levels_.back()->model, forces,
+                                                 plan_.extrapolate_forces, no_order),
                          growth = certify_vectors(stiffness, plan_.extrapolate_forces, no_order);
   state_.reactions.clear();
   for (const auto& on : force.value.colwise()) state_.reactions.emplace_back(on);
   state_.reaction_error_N = force.error;
-  if (const std::size_t n = forces.size(); n == 3 && !levels_.back()->model.joint_spins.empty())
-    state_.reaction_error_N =
-        std::max(force.error, left_of_first_order(forces[2] - forces[1], forces[1] - forces[0]));
   state_.held_stiffness.reshaped() = growth.value.row(0).transpose();
   state_.stiffness_error_N_per_mm = growth.error + stale_stiffness * max_column_norm(growth.value);
 }

@@ -49,6 +49,10 @@ bool order_unknown(const Model& model, const Energies& energies, std::size_t mes
 /// the whole step between the last two.
 CertifiedVectors certify_vectors(const std::vector<Eigen::Matrix3Xd>& levels, bool extrapolate,
                                  bool no_order);
+/// The same of a model: where its joints resist spin, three meshes count what a part of first order
+/// would leave of their extrapolation.
+CertifiedVectors certify_vectors(const Model& model, const std::vector<Eigen::Matrix3Xd>& levels,
+                                 bool extrapolate, bool no_order);
 
 /// What a finer mesh adds to the state of the one before it, interpolated: where its state is
 /// looked for nearby. A guess, so in single precision.
