@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/core/try.h"
 #include "engine/simulate/expected_cost.h"
@@ -120,7 +121,17 @@ Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follo
   LevelPlan plan = initial_levels(scene);
   const double allowed = scene.tolerance * scene.length_scale_mm;
   const bool asked = scene.edges_per_segment > 0;
+  // the finer path that settles nothing confirms the leader's own
+  SharedPath finer_path;
+  const Follow once = [&](const LevelPlan& wanted, const Watch& w) -> Result<SharedPath> {
+    if (finer_path && finer_path->asked.edges_per_segment == wanted.edges_per_segment &&
+        finer_path->asked.extrapolate == wanted.extrapolate)
+      return std::exchange(finer_path, nullptr);
+    return follow(wanted, w);
+  };
   const auto located = [&](Result<SharedPath> path, const Watch& watch) {
+    if (path && finer_path) (*path)->simulation.charge(finer_path->simulation.effort());
+    finer_path = nullptr;
     if (path) locate_on_meshes(**path, follow, watch);
     return path;
   };
@@ -129,7 +140,7 @@ Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follo
   double setup = 0;
   for (;;) {
     TRY_DO(fits_memory(scene, plan));
-    auto path = follow(plan, watch);
+    auto path = once(plan, watch);
     if (!path || watch.cancelled()) return path;
     (*path)->asked = plan;
     // whoever confirms it follows its ways to their ends
@@ -137,8 +148,12 @@ Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follo
     (*path)->seconds_setup += setup;
     (*path)->simulation.charge(spent);
     if (lost_by_leader(**path)) {
-      auto settled = settled_by_finer(scene, *path, follow, watch);
-      if (!settled || *settled) return located(settled, watch);
+      TRY(fine, led_by_twice_the_edges(scene, **path, follow, watch));
+      if (*fine && settles(**fine, **path)) {
+        take_over(**fine, **path);
+        return located(std::move(fine), watch);
+      }
+      finer_path = std::move(*fine);
       // else the leader's way is followed to its end, and confirmed
       plan.finest_decides = false;
       spent = (*path)->simulation.effort();
@@ -148,12 +163,12 @@ Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follo
     const double worst = worst_estimate_mm(**path);
     if (asked) return located(led_by_finer(std::move(*path), follow, watch), watch);
     if (!(worst > allowed))
-      return located(confirm_on_finer_meshes(scene, std::move(*path), follow, watch, one_motion),
+      return located(confirm_on_finer_meshes(scene, std::move(*path), once, watch, one_motion),
                      watch);
     // twice the edges leave a quarter, and may lose no stability where the leader does alone
     if (stays_beyond_event(**path) && !plan.extrapolate && !scene.leader_asked &&
         worst <= 4 * allowed) {
-      path = confirm_on_finer_meshes(scene, std::move(*path), follow, watch, one_motion);
+      path = confirm_on_finer_meshes(scene, std::move(*path), once, watch, one_motion);
       if (!path) return path;
       if (uneventful(**path) && worst_estimate_mm(**path) <= allowed)
         return located(std::move(path), watch);

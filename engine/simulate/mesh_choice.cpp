@@ -172,23 +172,26 @@ std::optional<std::string> mesh_disagreement(const EquilibriumPath& coarse,
   return std::nullopt;
 }
 
-Result<SharedPath> settled_by_finer(const Scene& scene, SharedPath path, const Follow& follow,
-                                    const Watch& watch) {
-  const auto plan = with_finer_leader(path->asked);
+void take_over(EquilibriumPath& path, const EquilibriumPath& from) {
+  path.simulation.charge(from.simulation.effort());
+  path.seconds_setup += from.seconds_setup;
+}
+
+Result<SharedPath> led_by_twice_the_edges(const Scene& scene, const EquilibriumPath& path,
+                                          const Follow& follow, const Watch& watch) {
+  const auto plan = with_finer_leader(path.asked);
   if (!plan || !fits_memory(scene, *plan)) return SharedPath();
   auto fine = follow(*plan, watch);
   if (watch.cancelled()) return stopped();
   if (!fine) return SharedPath();
   (*fine)->asked = *plan;
-  const double worst = worst_estimate_mm(**fine);
-  if (begin_alike(*path, **fine) && uneventful(**fine) &&
-      worst <= scene.tolerance * scene.length_scale_mm) {
-    (*fine)->simulation.charge(path->simulation.effort());
-    (*fine)->seconds_setup += path->seconds_setup;
-    return fine;
-  }
-  path->simulation.charge((*fine)->simulation.effort());
-  return SharedPath();
+  return fine;
+}
+
+bool settles(const EquilibriumPath& fine, const EquilibriumPath& path) {
+  const Scene& scene = fine.simulation.scene();
+  return begin_alike(path, fine) && uneventful(fine) &&
+         worst_estimate_mm(fine) <= scene.tolerance * scene.length_scale_mm;
 }
 
 Result<SharedPath> confirm_on_finer_meshes(const Scene& scene, SharedPath path,
@@ -217,8 +220,7 @@ Result<SharedPath> confirm_on_finer_meshes(const Scene& scene, SharedPath path,
     }
     (*fine)->asked = *plan;
     const auto keep_fine = [&] {
-      (*fine)->simulation.charge(path->simulation.effort());
-      (*fine)->seconds_setup += path->seconds_setup;
+      take_over(**fine, *path);
       before.push_back(std::exchange(path, std::move(*fine)));
     };
     auto differs = mesh_disagreement(*path, **fine);
@@ -275,8 +277,7 @@ SharedPath led_by_finer(SharedPath path, const Follow& follow, const Watch& watc
     auto fine = follow(plan, watch);
     if (!fine || !whole(**fine)) continue;
     (*fine)->asked = plan;
-    (*fine)->simulation.charge(path->simulation.effort());
-    (*fine)->seconds_setup += path->seconds_setup;
+    take_over(**fine, *path);
     (*fine)->mesh_disagreement = fmt::format(
         "meshes coarser than {} edges a segment did not come so far", leading_edges_of(**fine));
     return *fine;

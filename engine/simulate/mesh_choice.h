@@ -14,11 +14,18 @@ namespace gridshell::simulate {
 std::optional<std::string> mesh_disagreement(const EquilibriumPath& coarse,
                                              const EquilibriumPath& fine);
 
-/// Of a path that ended where its leader alone loses the branch, the one with leading meshes of
-/// twice the edges, where it begins alike, meets nothing on its whole way, stable on its finest
-/// mesh, and is within the tolerance; else nothing. Errors: cancelled.
-Result<SharedPath> settled_by_finer(const Scene& scene, SharedPath path, const Follow& follow,
-                                    const Watch& watch);
+/// Counts what `from`, which led to a path, took as the path's own.
+void take_over(EquilibriumPath& path, const EquilibriumPath& from);
+
+/// The way of a path followed with leading meshes of twice the edges; nothing: there is none, or
+/// they do not fit the memory. Errors: cancelled.
+Result<SharedPath> led_by_twice_the_edges(const Scene& scene, const EquilibriumPath& path,
+                                          const Follow& follow, const Watch& watch);
+
+/// Whether a finer path takes the place of one that ended where its leader alone loses the branch:
+/// it begins alike, meets nothing on its whole way, stable on its finest mesh, and is within the
+/// tolerance.
+bool settles(const EquilibriumPath& fine, const EquilibriumPath& path);
 
 /// A path that began in a buckled state out of the flat, or on which something happened, followed
 /// once more with leading meshes of twice the edges; `one_motion`, where nothing happened on it,

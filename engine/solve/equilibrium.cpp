@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace gridshell {
 namespace {
@@ -80,17 +81,25 @@ class GradientFlow {
   Eigen::Matrix3Xd dx_;
 };
 
-}  // namespace
-
-Outcome gradient_flow(Linearisation& system, State& state, double step_mm, const Watch& watch) {
+/// As gradient_flow(); `seen`, after every step, ends it where it says so.
+template <class Seen>
+Outcome flow_down(Linearisation& system, State& state, double step_mm, const Seen& seen,
+                  const Watch& watch) {
   GradientFlow drift(system, state, step_mm, watch);
   for (int step = 0; step < most_steps; ++step) {
     if (watch.cancelled()) return Outcome::cancelled;
     const std::optional<bool> arrived = drift.step();
     if (!arrived) return watch.cancelled() ? Outcome::cancelled : Outcome::not_finite;
-    if (*arrived) return Outcome::reached;
+    if (*arrived || seen(state)) return Outcome::reached;
   }
   return Outcome::not_converged;
+}
+
+}  // namespace
+
+Outcome gradient_flow(Linearisation& system, State& state, double step_mm, const Watch& watch) {
+  return flow_down(
+      system, state, step_mm, [](const State&) { return false; }, watch);
 }
 
 namespace {
@@ -347,14 +356,51 @@ bool sides_equivalent(Linearisation& system, const State& unstable, const Eigen:
   });
 }
 
-/// To rest from beside an unstable state, pushed `along`, whose largest column is 1.
+/// A way down to a rest, and whether another one comes upon it.
+class WayDown {
+ public:
+  explicit WayDown(double step_mm) : near_mm_(0.02 * step_mm) {}
+
+  void begin(const Eigen::Matrix3Xd& x) {
+    passed_.clear();
+    pass(x);
+  }
+  void pass(const Eigen::Matrix3Xd& x) { passed_.push_back(x.cast<float>()); }
+  /// Of a state further down another way than those that were asked for before.
+  bool leads_by(const Eigen::Matrix3Xd& x) {
+    for (; at_ + 1 < passed_.size(); ++at_) {
+      const Eigen::Matrix3Xf along = passed_[at_ + 1] - passed_[at_];
+      const Eigen::Matrix3Xf from = x.cast<float>() - passed_[at_];
+      const float share = from.cwiseProduct(along).sum() / along.squaredNorm();
+      if (share > 1) continue;
+      return share >= 0 && (from - share * along).colwise().norm().maxCoeff() < near_mm_;
+    }
+    return false;
+  }
+
+ private:
+  const double near_mm_;
+  std::vector<Eigen::Matrix3Xf> passed_;
+  std::size_t at_ = 0;
+};
+
+/// To rest from beside an unstable state, pushed `along`, whose largest column is 1; nothing where
+/// there is none. `way` is the way down, or, where it is `known`, another one, on which this one
+/// ends if it comes upon it.
 std::optional<State> rest_beside(Linearisation& system, const State& unstable,
                                  const Eigen::Matrix3Xd& along, const BranchSwitch& departure,
-                                 const Watch& watch) {
+                                 WayDown& way, bool known, const Watch& watch) {
   constexpr double most_mm = 1;
   for (double push = departure.amplitude_mm; push <= most_mm && !watch.cancelled(); push *= 4) {
     State state = pushed(system.model(), unstable, push * along);
-    if (gradient_flow(system, state, departure.step_mm, watch) != Outcome::reached) continue;
+    bool met = false;
+    if (!known) way.begin(state.x);
+    const auto seen = [&](const State& now) {
+      if (!known) way.pass(now.x);
+      return met = known && way.leads_by(now.x);
+    };
+    if (flow_down(system, state, departure.step_mm, seen, watch) != Outcome::reached) continue;
+    if (met) break;
     if (minimise(system, state, {}, watch).outcome == Outcome::reached) return state;
   }
   return std::nullopt;
@@ -369,9 +415,11 @@ Result<State> leave_saddle(Linearisation& system, const State& unstable,
   const bool one = sides_equivalent(system, unstable, departure.amplitude_mm * unit, departure);
   Result<State> best = fail(Fault::no_equilibrium, "no rest found beside an unstable state");
   double lowest = 0;
+  WayDown down(departure.step_mm);
   for (double way : {1.0, -1.0}) {
     if (departure.side == (way > 0 ? BranchSide::against : BranchSide::along)) continue;
-    auto state = rest_beside(system, unstable, way * unit, departure, watch);
+    auto state =
+        rest_beside(system, unstable, way * unit, departure, down, best.has_value(), watch);
     if (watch.cancelled()) return fail(Fault::cancelled, "stopped while looking for a rest");
     if (!state) continue;
     if (one) return *state;

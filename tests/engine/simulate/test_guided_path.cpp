@@ -106,12 +106,12 @@ TEST_CASE("where its leader alone loses the branch a path ends, and a finer lead
       return std::make_shared<EquilibriumPath>(std::move(path));
     });
   };
-  const auto settled = settled_by_finer(*scene, ended, follow, unwatched);
-  REQUIRE(settled);
-  REQUIRE(*settled);
-  CHECK(uneventful(**settled));
-  CHECK((*settled)->asked.edges_per_segment.front() == 8);
-  check_same_end(**settled, actuated(p, fine));
+  const auto finer = value_of(led_by_twice_the_edges(*scene, *ended, follow, unwatched));
+  REQUIRE(finer);
+  CHECK(settles(*finer, *ended));
+  CHECK_FALSE(settles(*ended, *finer));
+  CHECK(finer->asked.edges_per_segment.front() == 8);
+  check_same_end(*finer, actuated(p, fine));
 }
 
 TEST_CASE("finer meshes confirm a path without events by three of its states") {

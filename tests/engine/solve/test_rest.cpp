@@ -78,13 +78,14 @@ TEST_CASE("beyond a fold one way down is gone, and every side asked for ends the
   Eigen::Matrix3Xd down = Eigen::Matrix3Xd::Zero(3, model.nodes);
   down.row(2) = arch.x.row(2);
   BranchSwitch departure;
-  departure.amplitude_mm = 1e-3;
+  // a push so small that the slope leads to one side from both, and one after which both ways meet
+  departure.amplitude_mm = GENERATE(1e-3, 0.4);
   const Rest any = settled(system, arch, down, departure);
   CHECK(any.state.x(2, 0) < -5);
   for (const BranchSide side : {BranchSide::along, BranchSide::against}) {
     departure.side = side;
     const Rest asked = settled(system, arch, down, departure);
     CHECK(max_column_norm(asked.state.x - any.state.x) < 1e-6);
-    CHECK(any.factorizations < asked.factorizations + 10);
+    CHECK(any.factorizations < 1.6 * asked.factorizations);
   }
 }
