@@ -4,7 +4,6 @@
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -128,7 +127,7 @@ class Bench {
   }
 
   TemporaryFolder folder;
-  fs::path at = folder.path();
+  fs::path at = folder;
 };
 
 void check_answer(const Ended& ended, std::initializer_list<int> codes) {

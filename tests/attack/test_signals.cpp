@@ -1,6 +1,5 @@
 // Signals at any moment of every command: an answer, an exit code of the table, and nothing lost.
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <map>
 
 #include "app/cli/staged_folder.h"
@@ -36,7 +35,7 @@ void check_left(const fs::path& folder, bool killed) {
 
 TEST_CASE("signals at any moment are answered, and nothing is lost", "[standard][signals]") {
   const TemporaryFolder folder;
-  const auto& at = folder.path();
+  const auto& at = folder;
   REQUIRE(write_file(at / "small.toml", small));
   REQUIRE(gridshell_program({"run", "small.toml", "-o", "old", "--quiet"}, at).code == 0);
   const std::vector<std::vector<std::string>> commands{

@@ -1,15 +1,15 @@
 // What the window knows: actions, recorded input, and what is kept until the next visit.
-#include <catch2/catch.hpp>
-#include <cstdlib>
 #include <set>
 
 #include "app/window/actions.h"
 #include "app/window/input_event.h"
 #include "app/window/viewer_state.h"
 #include "tests/results.h"
+#include "tests/temporary_folder.h"
 
 using namespace gridshell;
 using namespace gridshell::window;
+namespace fs = std::filesystem;
 
 TEST_CASE("no two actions share a name or a key") {
   std::set<std::string> names, keys;
@@ -262,14 +262,8 @@ TEST_CASE("what a workspace says wrongly stays as it is") {
 }
 
 TEST_CASE("the workspace's file is below the folder of states") {
-  const char* old = std::getenv("XDG_STATE_HOME");
-  const std::string kept = old ? old : "";
-  setenv("XDG_STATE_HOME", "/tmp/states", 1);
-  CHECK(workspace_file() == "/tmp/states/gridshell/workspace.json");
-  setenv("XDG_STATE_HOME", "relative", 1);
-  CHECK(workspace_file() != "relative/gridshell/workspace.json");
-  if (old)
-    setenv("XDG_STATE_HOME", kept.c_str(), 1);
-  else
-    unsetenv("XDG_STATE_HOME");
+  for (const auto& [states, below] : {std::pair("/tmp/states", true), {"relative", false}}) {
+    const Environment home("XDG_STATE_HOME", states);
+    CHECK((workspace_file() == fs::path(states) / "gridshell/workspace.json") == below);
+  }
 }

@@ -1,12 +1,8 @@
 // Shells from networks of rods: the circle of Fig. 1 as one, and those that are no square grid.
 #include <Eigen/Geometry>
-#include <catch2/catch.hpp>
 
 #include "engine/formats/drawing.h"
 #include "engine/formats/network_file.h"
-#include "engine/preset/consistency.h"
-#include "engine/record/fabrication.h"
-#include "engine/simulate/fabrication_plan.h"
 #include "tests/engine/simulate/run.h"
 
 using namespace gridshell;

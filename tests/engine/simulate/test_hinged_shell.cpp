@@ -1,12 +1,10 @@
 // An X-shell whose laths are hinged, against energies written and minimised by themselves.
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
-#include <catch2/catch.hpp>
 #include <numeric>
 #include <random>
 #include <unsupported/Eigen/AutoDiff>
 
-#include "tests/engine/simulate/network_preset.h"
 #include "tests/engine/simulate/run.h"
 
 using namespace gridshell;

@@ -3,7 +3,6 @@
 #include "engine/simulate/steps.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 
 #include "tests/engine/simulate/run.h"
 #include "tests/small_shell.h"

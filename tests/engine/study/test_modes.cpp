@@ -1,7 +1,6 @@
 // Frequencies of formed shells: their errors, masses, what is not stable and what is refused.
 #include "engine/study/modes.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "tests/presets.h"
