@@ -93,6 +93,14 @@ inline preset::Preset spool(preset::Start start = preset::Start::net) {
   return p;
 }
 
+/// A circle of six rods, small enough to be formed in a moment.
+inline preset::Preset small_shell() {
+  preset::Preset preset = circle(6, 66, 54);
+  preset.name = preset.title = "small";
+  preset.imperfection.size = 0;
+  return preset;
+}
+
 /// A network, on meshes chosen by the tolerance where no edges are said.
 inline preset::Preset network(preset::NetworkData file, int edges = 0, int frames = 2) {
   preset::Preset p;

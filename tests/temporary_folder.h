@@ -7,10 +7,13 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "engine/core/file_io.h"
 
 /// Names of what lies in a folder, hidden files too, sorted.
 inline std::vector<std::string> names_in(const std::filesystem::path& folder) {
@@ -19,6 +22,19 @@ inline std::vector<std::string> names_in(const std::filesystem::path& folder) {
     names.push_back(entry.path().filename().string());
   std::sort(names.begin(), names.end());
   return names;
+}
+
+/// Every file's bytes, by its path in the folder; of folders, links and pipes their kind.
+inline std::map<std::string, std::string> contents(const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  std::map<std::string, std::string> all;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const auto kind = entry.symlink_status().type();
+    all[entry.path().lexically_relative(folder)] = kind == fs::file_type::regular
+                                                       ? gridshell::read_file(entry.path()).value()
+                                                       : std::to_string(int(kind));
+  }
+  return all;
 }
 
 /// A new empty folder, removed with all it holds.

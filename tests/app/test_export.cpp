@@ -36,8 +36,7 @@ TEST_CASE("export of a preset needs no run, of cases one is chosen") {
 }
 
 TEST_CASE("what cannot be exported is refused with what would do, and writes nothing", "[s1]") {
-  const TemporaryFolder folder;
-  const fs::path& at = folder;
+  const TemporaryFolder at;
   copy_shared_run("s1_actuation", at / "run");
   const auto refused = [&](std::vector<std::string> arguments, const char* why) {
     arguments.insert(arguments.begin(), "export");
@@ -54,5 +53,5 @@ TEST_CASE("what cannot be exported is refused with what would do, and writes not
   refused({"run", "--to", "run"}, "is no file");
   refused({"s1_actuation", "--to", "a.obj"}, "s1_actuation");
   refused({"nowhere", "--to", "a.svg"}, "nowhere");
-  CHECK(folder.entries() == std::vector<std::string>{"run"});
+  CHECK(at.entries() == std::vector<std::string>{"run"});
 }

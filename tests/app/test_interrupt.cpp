@@ -5,7 +5,6 @@
 #include "engine/record/journal.h"
 #include "render/gl/image.h"
 #include "tests/app/bench.h"
-#include "tests/folder_contents.h"
 
 namespace {
 

@@ -30,8 +30,7 @@ void form(const std::string& radius_mm, const std::string& name, const fs::path&
 
 TEST_CASE("a scan of a run shows that run, with its joints, its picture and what overlays take",
           "[standard]") {
-  const TemporaryFolder folder;
-  const fs::path& at = folder;
+  const TemporaryFolder at;
   form("48", "run", at);
   form("52", "wide", at);
   const auto run = record::read_trajectory(at / "run" / "trajectory.h5");

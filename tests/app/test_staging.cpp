@@ -156,6 +156,17 @@ TEST_CASE("whether a folder is a run is seen from its top, whatever lies below")
   }
 }
 
+TEST_CASE("a run of version 0.1, which has no list of its files, may be replaced") {
+  const TemporaryFolder folder;
+  const auto run = folder / "run";
+  REQUIRE(make_folder(run / "frames"));
+  REQUIRE(write_file(run / "summary.json", R"({"preset": "a/x", "negative_pivots": 0})"));
+  for (const char* name : {"frames.csv", "trajectory.h5", "movie.mp4", "x_1.png", "x_K.svg",
+                           "frames/frame_00000.png", ".partial-77-frames.csv"})
+    REQUIRE(write_file(run / name, "old"));
+  CHECK(StagedFolder::create(run));
+}
+
 TEST_CASE("what appears under the final name meanwhile is not destroyed") {
   const TemporaryFolder folder;
   const auto run = folder / "run";

@@ -35,8 +35,7 @@ TEST_CASE("a search for states: tables, pictures, and the same pictures again fr
 }
 
 TEST_CASE("states and a finished sweep's phase diagram stand on one page", "[standard]") {
-  const TemporaryFolder folder;
-  const fs::path& at = folder;
+  const TemporaryFolder at;
   const std::string shell =
       "[footprint]\nkind = \"circle\"\n{}[actuation]\nratio = 0.75\n"
       "[accuracy]\nedges_per_segment = 8\n[jitter]\ntrials = 3\nconfined = 7\n";

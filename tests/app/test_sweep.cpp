@@ -111,8 +111,7 @@ TEST_CASE("shards merge to the same bytes as the whole") {
 
 TEST_CASE("a sweep of searches is the same killed, stopped, in shards and on two jobs",
           "[standard]") {
-  const TemporaryFolder folder;
-  const fs::path at = folder;
+  const TemporaryFolder at;
   REQUIRE(write_file(at / "small.toml", R"([footprint]
 kind = "circle"
 [actuation]
@@ -132,7 +131,7 @@ footprint.rods = [4, 6]
     return products(at / run, {"sweep.csv", "preset.toml", "classes.png", "classes.svg",
                                "classes.pdf", "classes_by_leg.csv", "states.png"});
   };
-  done(folder, {"-o", "whole", "--jobs", "1"});
+  done(at, {"-o", "whole", "--jobs", "1"});
   for (const auto& text : found("whole")) CHECK_FALSE(text.empty());
   // four times -9 at random moments, then Ctrl-C once a point is there
   const auto log = at / "cut/sweep.jsonl";
@@ -145,10 +144,10 @@ footprint.rods = [4, 6]
     const int code = running.wait().code;
     CHECK((code == 130 || lines_in(log) == 5));
   }
-  done(folder, {"-o", "cut", "--jobs", "2"});
+  done(at, {"-o", "cut", "--jobs", "2"});
   CHECK(found("cut") == found("whole"));
-  for (const char* shard : {"2/2", "1/2"}) done(folder, {"-o", "parts", "--shard", shard});
-  done(folder, {"-o", "parts", "--merge"});
+  for (const char* shard : {"2/2", "1/2"}) done(at, {"-o", "parts", "--shard", shard});
+  done(at, {"-o", "parts", "--merge"});
   CHECK(found("parts") == found("whole"));
 }
 

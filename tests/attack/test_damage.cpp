@@ -11,7 +11,6 @@
 #include "tests/app/unfinished_run.h"
 #include "tests/attack/answers.h"
 #include "tests/attack/trials.h"
-#include "tests/folder_contents.h"
 #include "tests/small_preset.h"
 
 namespace fs = std::filesystem;

@@ -60,7 +60,7 @@ void measure_read_back(Context& context, int width, int height, int frames, Figu
   Image image(width, height);
   std::vector<double> ms;
   for (int frame = 0; frame < frames; ++frame) {
-    target.bind(width, height, GL_SRGB8_ALPHA8).value();
+    if (!target.bind(width, height, GL_SRGB8_ALPHA8)) std::exit(1);
     gl.ClearColor(0.1f * float(frame % 10), 0.5f, 0.5f, 1);
     gl.Clear(GL_COLOR_BUFFER_BIT);
     gl.Finish();

@@ -18,7 +18,6 @@
 #include "engine/record/trajectory_file.h"
 #include "render/gl/image.h"
 #include "tests/faults/faults.h"
-#include "tests/folder_contents.h"
 #include "tests/small_preset.h"
 #include "tests/temporary_folder.h"
 

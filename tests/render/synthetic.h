@@ -34,24 +34,17 @@ inline double cell_curvature(double u, double v, double scale) {
   return (zxx * zyy - zxy * zxy) / std::pow(metric, 1.5) * spacing * spacing * s * s;
 }
 
-/// The layout of the default preset's footprint in the flat; `flat` receives the nodes' (u, v). Of
-/// what a run tells besides, it has nothing.
-inline record::Layout make_layout(int edges_per_segment, Eigen::Matrix2Xd& flat) {
-  const Scene scene = scene_of(preset::Preset{}).value();
-  const RodMesh mesh = mesh_rods(scene.footprint, edges_per_segment);
-  record::Layout layout = simulate::layout_of(scene, mesh).value();
-  layout.joint_diameter_mm = layout.joint_height_mm = 0;
-  layout.families.clear(), layout.supports.clear();
-  flat = mesh.flat;
-  return layout;
-}
-
 /// The trajectory, `frames` evenly spaced states from flat to drawn in; frame 2/3 of the way names
 /// an event.
 inline record::Trajectory dome(int frames = 24, int edges_per_segment = 8) {
   record::Trajectory run;
-  Eigen::Matrix2Xd flat;
-  run.layout = make_layout(edges_per_segment, flat);
+  // that of the default preset; of what a run tells besides, it has nothing
+  const Scene scene = scene_of(preset::Preset{}).value();
+  const RodMesh mesh = mesh_rods(scene.footprint, edges_per_segment);
+  run.layout = simulate::layout_of(scene, mesh).value();
+  run.layout.joint_diameter_mm = run.layout.joint_height_mm = 0;
+  run.layout.families.clear(), run.layout.supports.clear();
+  const Eigen::Matrix2Xd& flat = mesh.flat;
   for (int k = 0; k < frames; ++k) {
     const double t = frames > 1 ? double(k) / (frames - 1) : 1;
     record::Frame frame;

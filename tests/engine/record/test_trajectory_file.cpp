@@ -22,6 +22,36 @@ std::string bytes_of(const Trajectory& run) {
   return read_file(folder / "a.h5").value();
 }
 
+/// Bit for bit, by every member.
+void check_same(const Layout& a, const Layout& b) {
+  const auto numbers = [](const Layout& of) {
+    Eigen::VectorXd all(6);
+    all << of.spacing_mm, of.rod_diameter_mm, of.length_scale_mm, of.joint_diameter_mm,
+        of.joint_height_mm, of.table_mm;
+    return all;
+  };
+  const auto lists = [](const Layout& of) {
+    return std::tie(of.diameters_mm, of.strength_MPa, of.rods, of.families, of.supports,
+                    of.edge_points, of.joints, of.cells, of.seam_rods);
+  };
+  CHECK(same_bits(numbers(a), numbers(b)));
+  CHECK((lists(a) == lists(b)));
+  CHECK(same_bits(a.original_boundary, b.original_boundary));
+  CHECK(same_bits(a.actuated_boundary, b.actuated_boundary));
+  REQUIRE(a.parts.size() == b.parts.size());
+  for (std::size_t k = 0; k < a.parts.size(); ++k) {
+    CHECK((a.parts[k].name == b.parts[k].name && a.parts[k].rods == b.parts[k].rods));
+    CHECK(same_bits(a.parts[k].net, b.parts[k].net));
+    CHECK(same_bits(a.parts[k].flat, b.parts[k].flat));
+  }
+  REQUIRE(a.loaded_joints.size() == b.loaded_joints.size());
+  for (std::size_t k = 0; k < a.loaded_joints.size(); ++k) {
+    CHECK(a.loaded_joints[k].joint == b.loaded_joints[k].joint);
+    CHECK(a.loaded_joints[k].direction == b.loaded_joints[k].direction);
+    CHECK(a.loaded_joints[k].at_times == b.loaded_joints[k].at_times);
+  }
+}
+
 }  // namespace
 
 TEST_CASE("a trajectory comes back bit for bit") {
@@ -31,7 +61,7 @@ TEST_CASE("a trajectory comes back bit for bit") {
   REQUIRE(write_trajectory(path, run));
   CHECK(folder.entries() == std::vector<std::string>{"trajectory.h5"});
   const auto back = value_of(read_trajectory(path));
-  CHECK(packed_head({}, back.layout) == packed_head({}, run.layout));
+  check_same(back.layout, run.layout);
   CHECK(back.origin.title == run.origin.title);
   CHECK(back.origin.preset == run.origin.preset);
   CHECK(back.origin.program == run.origin.program);
@@ -47,7 +77,7 @@ TEST_CASE("a trajectory without frames, joints or cells comes back too") {
   run.layout.spacing_mm = 3;
   REQUIRE(write_trajectory(path, run));
   const auto back = value_of(read_trajectory(path));
-  CHECK(packed_head({}, back.layout) == packed_head({}, run.layout));
+  check_same(back.layout, run.layout);
   CHECK(back.frames.empty());
 }
 

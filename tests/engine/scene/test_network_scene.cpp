@@ -104,20 +104,6 @@ TEST_CASE("the circle of Fig. 1 as a network comes to the circle's states", "[st
   }
 }
 
-TEST_CASE("the shipped networks come to certified rest", "[standard]") {
-  for (const char* name : {"network_triaxial", "network_cut", "network_ring", "network_kagome",
-                           "network_rosette", "network_space"}) {
-    const auto outcome = run_stills(shipped(name));
-    CAPTURE(name, outcome.summary.limit_reason);
-    // a branch that is left on the way is told, and the rest is one of its own
-    const auto limit = outcome.summary.limit;
-    CHECK((limit == record::Limit::none || limit == record::Limit::snap));
-    CHECK(outcome.summary.stable);
-    CHECK(outcome.summary.residual_N < 1e-3);
-    CHECK(outcome.summary.height_mm > 10);
-  }
-}
-
 TEST_CASE("a footprint drawn as DXF reads back as the same network") {
   preset::Preset p = shipped("network_triaxial");
   const auto scene = scene_of(p);

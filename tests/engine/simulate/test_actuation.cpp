@@ -5,7 +5,6 @@
 #include <random>
 
 #include "tests/engine/simulate/run.h"
-#include "tests/small_shell.h"
 
 using namespace gridshell;
 

@@ -1,7 +1,6 @@
 #include <cmath>
 
 #include "tests/engine/simulate/run.h"
-#include "tests/small_shell.h"
 
 using namespace gridshell;
 

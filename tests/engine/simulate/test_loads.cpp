@@ -245,8 +245,7 @@ TEST_CASE("a cable net hangs as its lengths allow") {
   p.rod.diameter_mm = d;
   p.limits.max_strain = 0.05;
   p.loads.points = {{4, 0, 0, 0, -P}};
-  const auto outcome = run(p);
-  CHECK(outcome.summary.limit == record::Limit::none);
+  const auto outcome = run_to_end(p);
   // four straight halves carry it
   const double angle =
       zero_of([&](double of) { return 4 * EA * (1 / std::cos(of) - 1) * std::sin(of) - P; }, 0, 1);

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "tests/engine/simulate/run.h"
-#include "tests/small_shell.h"
 
 using namespace gridshell;
 using preset::StepKind;

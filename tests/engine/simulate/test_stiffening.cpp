@@ -8,7 +8,6 @@
 
 #include "engine/footprint/faces.h"
 #include "tests/engine/simulate/run.h"
-#include "tests/small_shell.h"
 
 using namespace gridshell;
 using namespace gridshell::simulate;

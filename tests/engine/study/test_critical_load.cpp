@@ -2,7 +2,6 @@
 #include "engine/elastic/along_rods.h"
 #include "tests/engine/solve/rod_cases.h"
 #include "tests/presets.h"
-#include "tests/small_shell.h"
 
 using namespace gridshell;
 using namespace gridshell::study;

@@ -5,7 +5,6 @@
 
 #include "tests/presets.h"
 #include "tests/results.h"
-#include "tests/small_shell.h"
 
 using namespace gridshell;
 using namespace gridshell::study;

@@ -1,5 +1,6 @@
-#include <cctype>
+#include <regex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/core/file_io.h"
@@ -15,30 +16,14 @@ using gridshell::test::ink_box;
 
 namespace {
 
-// every tag is closed, in order, and there is one root
+// every tag is closed, in order, and there is one root: elements become a dot, the innermost first
 bool well_formed(const std::string& xml) {
-  std::vector<std::string> open;
-  int roots = 0;
-  for (std::size_t k = xml.find('<'); k != std::string::npos; k = xml.find('<', k + 1)) {
-    const std::size_t end = xml.find('>', k);
-    if (end == std::string::npos) return false;
-    const std::string tag = xml.substr(k + 1, end - k - 1);
-    if (tag.empty() || tag.find('<') != std::string::npos) return false;
-    if (tag[0] == '?' || tag[0] == '!') continue;
-    std::size_t letters = tag[0] == '/' ? 1 : 0;
-    std::string name;
-    while (letters < tag.size() && !std::isspace(static_cast<unsigned char>(tag[letters])) &&
-           tag[letters] != '/')
-      name += tag[letters++];
-    if (tag[0] == '/') {
-      if (open.empty() || open.back() != name) return false;
-      open.pop_back();
-    } else {
-      roots += open.empty();
-      if (tag.back() != '/') open.push_back(name);
-    }
-  }
-  return open.empty() && roots == 1;
+  static const std::regex alone("<[?!][^>]*>"), empty("<[^<>]*/>"),
+      innermost("<([^\\s<>/]+)[^<>]*>[^<>]*</\\1>");
+  std::string left = std::regex_replace(std::regex_replace(xml, alone, ""), empty, "."), before;
+  while (left != std::exchange(before, left)) left = std::regex_replace(left, innermost, ".");
+  std::erase(left, '\n');
+  return left == ".";
 }
 
 }  // namespace

@@ -123,7 +123,12 @@ TEST_CASE("nothing to show beside one another is refused, a stopped movie keeps 
     return refusal(write_side_by_side(runs, small(480, 270), renderer, folder, watch), fault);
   };
   CHECK(beside({}, Fault::bad_input) != "none");
-  const record::Trajectory run = synthetic::dome(3, 2);
+  // the longest run decides
+  const record::Trajectory run = synthetic::dome(3, 2), shorter = synthetic::dome(2, 2);
+  CHECK(beside({{&shorter, "a"}, {&run, "b"}}, Fault::io) == "none");
+  CHECK(names_in(folder).size() == 3);
+  CHECK(value_of(read_png(folder / frame_name(2))).width == 480);
+  CHECK(renderer.outside == 0);
   watch.cancel();
   CHECK(beside({{&run, "a"}}, Fault::cancelled) != "none");
 }

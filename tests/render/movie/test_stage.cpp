@@ -154,22 +154,6 @@ TEST_CASE("what touches wears a mark, and words beside the bar and as the event"
   }
 }
 
-TEST_CASE("a pushed joint wears a mark and an arrow that points at it, a pulled one away") {
-  record::Trajectory run = synthetic::dome(3, 2);
-  run.layout.loaded_joints = {{3, -Eigen::Vector3d::UnitZ()}};
-  const Eigen::Vector3d at = run.frames[2].nodes.col(run.layout.joints[3].node);
-  const Drawing push = Stage(run, MovieStyle{}).drawing(run.frames[2]);
-  REQUIRE(push.arrows.size() == 1);
-  REQUIRE(push.marks.size() == 1);
-  CHECK((push.marks[0].at - at).norm() < 1e-9);
-  CHECK((push.arrows[0].to - at).norm() < 4);
-  CHECK(push.arrows[0].from.z() > at.z() + 20);
-  run.layout.loaded_joints[0].direction *= -1;
-  const Drawing pull = Stage(run, MovieStyle{}).drawing(run.frames[2]);
-  CHECK((pull.arrows[0].from - at).norm() < 4);
-  CHECK(pull.arrows[0].to.z() > at.z() + 20);
-}
-
 TEST_CASE("loads are arrows as long as they are large, braces are bars, and a key says how large") {
   record::Trajectory run = synthetic::dome(3, 2);
   run.layout.supports = {run.layout.joints[0].node, run.layout.joints[3].node};
@@ -315,22 +299,6 @@ TEST_CASE("the drawing shows both boundaries, thick enough rods and a ground bel
   record::Trajectory hanging = run;
   for (record::Frame& frame : hanging.frames.edit()) frame.nodes.row(2) *= -1;
   CHECK(Stage(hanging, MovieStyle{}).drawing(hanging.frames[0]).ground_z_mm < -65);
-}
-
-TEST_CASE("the top view shows cells, rods and joints where they are") {
-  const record::Trajectory run = synthetic::dome(3, 4);
-  const Image image = draw_picture(300, 300, 1, {1, 1, 1, 1}, [&](Canvas& canvas) {
-    draw_top_view(canvas, {0, 0, 300, 300}, run.layout, run.frames[2], {0, 0, 126}, {});
-  });
-  const auto redness = [&](double x_mm, double y_mm) {
-    const double scale = 300.0 / 2 / 131;  // the box less the joints' radius, about
-    const std::uint8_t* p = image.pixel(int(150 + scale * x_mm), int(150 - scale * y_mm));
-    return int(p[0]) - int(p[1]);
-  };
-  const double s = 0.75 * 10;  // joints at 10, 30, 50 mm drawn in to three quarters
-  CHECK(redness(s, s) > 60);
-  CHECK(redness(5 * s, s) > 60);
-  CHECK(redness(2 * s, 2 * s) < 10);
 }
 
 TEST_CASE("the boundary moves evenly from the original to the actuated one") {
