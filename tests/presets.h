@@ -3,7 +3,6 @@
 
 #include <string>
 
-#include "engine/preset/preset_file.h"
 #include "tests/results.h"
 
 namespace gridshell {
@@ -13,6 +12,20 @@ inline preset::Preset shipped(const std::string& name) {
   const auto file = std::filesystem::path(GRIDSHELL_SOURCE_DIR) / "presets" / (name + ".toml");
   return value_of(preset::read_preset_file(file)).base;
 }
+
+namespace preset {
+
+/// What is written in good.toml.
+inline Presets good(const std::string& text, const std::vector<Override>& overrides = {}) {
+  return value_of(read_preset_text(text, "good.toml", "good", overrides));
+}
+
+/// What is wrong with bad.toml; "none" where nothing is.
+inline std::string faults_of(const std::string& text, const std::vector<Override>& overrides = {}) {
+  return refusal(read_preset_text(text, "bad.toml", "bad", overrides));
+}
+
+}  // namespace preset
 
 /// So many rods a direction inside a circle that is drawn in to another.
 inline preset::Preset circle(int rods, double radius_mm, double to_mm, int frames = 2) {
@@ -25,15 +38,29 @@ inline preset::Preset circle(int rods, double radius_mm, double to_mm, int frame
   return p;
 }
 
-/// A superellipse |x/a|^n + |y/b|^n = 1 that is drawn in to so much of its size.
-inline preset::Preset superellipse(double a_mm, double b_mm, double n, double scale) {
+/// So many rods a direction, their longest leg 0.8 of the spacing of 20 mm, as the paper's circle
+/// has them, drawn in to that share of its radius.
+inline preset::Preset paper_circle(int rods, double ratio = 0.75) {
+  const double radius = 20 * (0.5 * (rods - 1) + 0.8);
+  return circle(rods, radius, ratio * radius);
+}
+
+/// A closed curve that is drawn in to so much of its size.
+inline preset::Preset curve(preset::CurveKind kind, double half_x_mm, double half_y_mm,
+                            double scale) {
   preset::Preset p;
   p.footprint.kind = preset::FootprintKind::curve;
-  p.footprint.boundary.kind = preset::CurveKind::superellipse;
-  p.footprint.boundary.half_x_mm = a_mm;
-  p.footprint.boundary.half_y_mm = b_mm;
-  p.footprint.boundary.exponent = n;
+  p.footprint.boundary.kind = kind;
+  p.footprint.boundary.half_x_mm = half_x_mm;
+  p.footprint.boundary.half_y_mm = half_y_mm;
   p.actuation.scale = scale;
+  return p;
+}
+
+/// A superellipse |x/a|^n + |y/b|^n = 1 that is drawn in to so much of its size.
+inline preset::Preset superellipse(double a_mm, double b_mm, double n, double scale) {
+  preset::Preset p = curve(preset::CurveKind::superellipse, a_mm, b_mm, scale);
+  p.footprint.boundary.exponent = n;
   return p;
 }
 
@@ -64,6 +91,33 @@ inline preset::Preset spool(preset::Start start = preset::Start::net) {
   p.net.waist = 0.6;
   p.actuation.start = start;
   return p;
+}
+
+/// A circle of six rods, small enough to be formed in a moment.
+inline preset::Preset small_shell() {
+  preset::Preset preset = circle(6, 66, 54);
+  preset.name = preset.title = "small";
+  preset.imperfection.size = 0;
+  return preset;
+}
+
+/// A network, on meshes chosen by the tolerance where no edges are said.
+inline preset::Preset network(preset::NetworkData file, int edges = 0, int frames = 2) {
+  preset::Preset p;
+  p.footprint.kind = preset::FootprintKind::network;
+  p.footprint.file = std::move(file);
+  p.accuracy.edges_per_segment = edges;
+  p.movie.frames = frames;
+  return p;
+}
+
+/// Two rods along x and y that cross in their middles, point 4, ends 0 to 3 so far from there and
+/// so far below.
+inline preset::NetworkData cross(double half_x, double half_y, double height = 0) {
+  preset::NetworkData file;
+  file.points = {{-half_x, 0, 0}, {half_x, 0, 0}, {0, -half_y, 0}, {0, half_y, 0}, {0, 0, height}};
+  file.rods = {{0, 4, 1}, {2, 4, 3}};
+  return file;
 }
 
 }  // namespace gridshell

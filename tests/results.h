@@ -1,11 +1,12 @@
-// What calls that may fail came to: their value, or why there is none.
+// What calls that may fail came to: their value, or why there is none; and the library in one
+// header, which the tests' precompiled one holds.
 #pragma once
 
 #include <catch2/catch.hpp>
 #include <optional>
 #include <string>
 
-#include "engine/core/result.h"
+#include "engine/gridshell.h"
 
 namespace gridshell {
 
@@ -27,6 +28,14 @@ std::string refusal(const Result<T>& result, Fault fault = Fault::bad_input) {
   if (result) return "none";
   CHECK(result.error().fault == fault);
   return result.error().message;
+}
+
+/// What is asked to stop before it begins does so.
+template <class Work>
+void check_stops(const Work& work) {
+  Watch watch;
+  watch.cancel();
+  CHECK(refusal(work(watch), Fault::cancelled) != "none");
 }
 
 }  // namespace gridshell

@@ -7,9 +7,35 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "engine/core/file_io.h"
+
+/// Names of what lies in a folder, hidden files too, sorted.
+inline std::vector<std::string> names_in(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// Every file's bytes, by its path in the folder; of folders, links and pipes their kind.
+inline std::map<std::string, std::string> contents(const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  std::map<std::string, std::string> all;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const auto kind = entry.symlink_status().type();
+    all[entry.path().lexically_relative(folder)] = kind == fs::file_type::regular
+                                                       ? gridshell::read_file(entry.path()).value()
+                                                       : std::to_string(int(kind));
+  }
+  return all;
+}
 
 /// A new empty folder, removed with all it holds.
 class TemporaryFolder {
@@ -27,18 +53,31 @@ class TemporaryFolder {
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
-
-  /// names of what lies in it, hidden files too, sorted
-  std::vector<std::string> entries() const {
-    std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(path_))
-      names.push_back(entry.path().filename().string());
-    std::sort(names.begin(), names.end());
-    return names;
+  operator const std::filesystem::path&() const { return path_; }
+  friend std::filesystem::path operator/(const TemporaryFolder& folder, const std::string& name) {
+    return folder.path_ / name;
   }
+
+  std::vector<std::string> entries() const { return names_in(path_); }
 
  private:
   std::filesystem::path path_;
+};
+
+/// While it lives, a variable of the environment has that value.
+class Environment {
+ public:
+  Environment(const char* name, const std::string& value) : name_(name) {
+    if (const char* before = std::getenv(name)) before_ = before;
+    setenv(name, value.c_str(), 1);
+  }
+  ~Environment() { before_ ? setenv(name_, before_->c_str(), 1) : unsetenv(name_); }
+  Environment(const Environment&) = delete;
+  Environment& operator=(const Environment&) = delete;
+
+ private:
+  const char* name_;
+  std::optional<std::string> before_;
 };
 
 /// While it lives, a write beyond `bytes` into any file of this process fails, as on a full disk.

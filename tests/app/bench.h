@@ -41,6 +41,15 @@ void check_refused(const Arguments& arguments, const fs::path& at, const Matcher
   CHECK_THAT(ended.err, why);
 }
 
+/// A signal that it answers at once, as one that was stopped.
+inline Ended interrupted(const Running& running, int number) {
+  const auto ended = running.interrupt(number);
+  CAPTURE(ended.wall_seconds, ended.cpu_seconds, ended.err);
+  CHECK(ended.prompt());
+  CHECK(ended.code == 130);
+  return ended;
+}
+
 /// Runs the program there, and shows why when it does not end well.
 inline Ended good(const Arguments& arguments, const fs::path& at) {
   const auto ended = gridshell_program(arguments, at);

@@ -1,7 +1,6 @@
 // The commands from end to end on a shell small enough for seconds.
 #include <nlohmann/json.hpp>
 
-#include "engine/record/trajectory_file.h"
 #include "render/gl/image.h"
 #include "tests/app/bench.h"
 #include "tests/results.h"
@@ -24,11 +23,9 @@ std::vector<std::string> listed(std::vector<std::string> names) {
 }
 
 // but for movie.mp4, which is there where ffmpeg is
-std::vector<std::string> names_in(const fs::path& folder) {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (entry.path().filename() != "movie.mp4") names.push_back(entry.path().filename().string());
-  std::sort(names.begin(), names.end());
+std::vector<std::string> files_in(const fs::path& folder) {
+  auto names = names_in(folder);
+  std::erase(names, "movie.mp4");
   return names;
 }
 
@@ -36,17 +33,11 @@ nlohmann::json json_of(const fs::path& file) { return nlohmann::json::parse(text
 
 // the frames of a run, read back
 gridshell::record::FrameList frames_of(const fs::path& run) {
-  const auto trajectory = gridshell::record::read_trajectory(run / "trajectory.h5");
-  if (!trajectory) FAIL(trajectory.error().message);
-  return trajectory->frames;
+  return value_of(gridshell::record::read_trajectory(run / "trajectory.h5")).frames;
 }
 
 // of a picture
-int width_of(const fs::path& file) {
-  const auto picture = gridshell::render::read_png(file);
-  if (!picture) FAIL(picture.error().message);
-  return picture->width;
-}
+int width_of(const fs::path& file) { return value_of(gridshell::render::read_png(file)).width; }
 
 }  // namespace
 
@@ -54,8 +45,8 @@ TEST_CASE("run writes a whole run folder and replaces the one before") {
   const Bench bench(small);
   bench.good("run small.toml");
   const auto run = bench.at / "out/small";
-  CHECK(names_in(run) == listed(data_files));
-  CHECK(names_in(bench.at / "out") == std::vector<std::string>{"small"});
+  CHECK(files_in(run) == listed(data_files));
+  CHECK(files_in(bench.at / "out") == std::vector<std::string>{"small"});
   CHECK(json_of(run / "summary.json")["preset"] == "small");
   CHECK(frames_of(run).size() == 3);
   CHECK(json_of(run / "summary.json")["kind"] == "run");
@@ -65,9 +56,9 @@ TEST_CASE("run writes a whole run folder and replaces the one before") {
   CHECK(json_of(run / "summary.json")["kind"] == "movie");
   CHECK(fs::exists(run / "frames"));
   bench.good("run small.toml --frames 4");
-  CHECK(names_in(run) == listed(data_files));
+  CHECK(files_in(run) == listed(data_files));
   CHECK(frames_of(run).size() == 4);
-  CHECK(names_in(bench.at / "out") == std::vector<std::string>{"small"});
+  CHECK(files_in(bench.at / "out") == std::vector<std::string>{"small"});
 }
 
 TEST_CASE("the same preset gives the same frames, from the run's own preset.toml too") {
@@ -109,17 +100,16 @@ TEST_CASE("movie draws a frame each, and render draws them again without simulat
   CHECK(text_of(bench.at / "same/frames.csv") == states);
   bench.good("render run --size 80x60 --quiet");
   CHECK(width_of(frames[2]) == 80);
-  const auto refused = bench.run("render run --set rod.diameter_mm=0.3");
-  CHECK(refused.code == 2);
-  CHECK(refused.err ==
-        "--set: rod.diameter_mm cannot change once a run is finished; what can are keys of "
-        "[movie], [style], [figure] and [page] that only show it\n");
+  check_refused("render run --set rod.diameter_mm=0.3", bench.at,
+                Catch::Equals("--set: rod.diameter_mm cannot change once a run is finished; what "
+                              "can are keys of [movie], [style], [figure] and [page] that only "
+                              "show it\n"));
 }
 
-TEST_CASE("pictures do not depend on the number of threads") {
+TEST_CASE("pictures do not depend on the number of threads", "[standard]") {
   const Bench bench(small);
-  bench.good("movie small.toml -o one --threads 1");
-  bench.good("movie small.toml -o three --threads 3");
+  bench.good("movie small.toml -o one --threads 1 --quality figure");
+  bench.good("movie small.toml -o three --threads 3 --quality figure");
   for (const char* frame : {"frames/frame_00000.png", "frames/frame_00002.png"})
     CHECK(text_of(bench.at / "one" / frame) == text_of(bench.at / "three" / frame));
   CHECK(text_of(bench.at / "one/frames.csv") == text_of(bench.at / "three/frames.csv"));
@@ -141,54 +131,30 @@ TEST_CASE("figure draws a still a radius and all in one", "[standard]") {
   CHECK_FALSE(fs::exists(bench.at / "again/frames"));
 }
 
-TEST_CASE("figures of building blocks, drawn again from the run", "[standard]") {
-  const Bench bench(small);
-  REQUIRE(write_file(bench.at / "dome.toml", R"(
-[footprint]
-kind = "blocks"
-[[block]]
-name = "a"
-radius_mm = 60.0
-east = 0
-[[block]]
-name = "b"
-radius_mm = 60.0
-west = 0
-[[join]]
-first = "a.east"
-second = "b.west"
-[actuation]
-start = "net"
-[movie]
-size = [160, 120]
-quality = "draft"
-)"));
-  const auto said = bench.good("figure dome.toml -o run");
-  CHECK_THAT(said.out, Contains("mm from its blocks at most; seams: gap 0.00 mm"));
-  CHECK(text_of(bench.at / "run/seams.csv").starts_with("seam,family,line_mm,gap_mm,kink_deg\n"));
-  const std::vector<std::string> pictures{
-      "dome.png",        "dome_1.png",         "dome_K.png",
-      "dome_blocks.png", "dome_deviation.png", "dome_footprint.png",
-      "dome_net.png",    "dome_quantiles.png", "dome_seams.png"};
-  bench.good("render run -o again");
-  for (const auto& name : pictures) {
-    INFO(name);
-    REQUIRE(fs::exists(bench.at / "run" / name));
-    REQUIRE(fs::exists(bench.at / "again" / name));
-    CHECK(text_of(bench.at / "run" / name) == text_of(bench.at / "again" / name));
+TEST_CASE("figures of building blocks, drawn again from the run", "[shared]") {
+  const fs::path run = shared_run("fig5_peanut");
+  CHECK_THAT(text_of(fs::path(run) += ".txt"),
+             Contains("mm from its blocks at most; seams: gap 5.38 mm"));
+  const TemporaryFolder at;
+  good({"render", run.string(), "-o", "again", "--quiet"}, at);
+  CHECK(files_in(at / "again") == files_in(run));
+  const auto pictures = files_under(run, ".png");
+  CHECK(pictures.size() == 9);
+  for (const fs::path& picture : pictures) {
+    INFO(picture);
+    CHECK(text_of(at / "again" / picture.filename().string()) == text_of(picture));
   }
-  CHECK(names_in(bench.at / "run") == names_in(bench.at / "again"));
 }
 
 TEST_CASE("every case is a whole run folder, and summary.json on top lists them") {
   const Bench bench(two_cases);
   bench.good("movie small.toml -o run --set movie.beside=false");
-  CHECK(names_in(bench.at / "run") == listed({"far", "near", "preset.toml", "summary.json"}));
+  CHECK(files_in(bench.at / "run") == listed({"far", "near", "preset.toml", "summary.json"}));
   auto movie_files = data_files;
   movie_files.push_back("frames");
   std::sort(movie_files.begin(), movie_files.end());
   for (const char* name : {"near", "far"}) {
-    CHECK(names_in(bench.at / "run" / name) == movie_files);
+    CHECK(files_in(bench.at / "run" / name) == movie_files);
     CHECK(files_under(bench.at / "run" / name / "frames", ".png").size() == 3);
   }
   const auto top = json_of(bench.at / "run/summary.json");
@@ -204,18 +170,18 @@ TEST_CASE("every case is a whole run folder, and summary.json on top lists them"
 TEST_CASE("cases are shown beside one another in one movie, drawn again by render") {
   const Bench bench(two_cases);
   bench.good({"movie", "small.toml", "-o", "run", "--set", "title=Two shells"});
-  CHECK(names_in(bench.at / "run") ==
+  CHECK(files_in(bench.at / "run") ==
         listed({"far", "frames", "near", "preset.toml", "summary.json"}));
   // the title over all of them too
   bench.good("render run -o again");
   CHECK(text_of(bench.at / "run/frames/frame_00002.png") ==
         text_of(bench.at / "again/frames/frame_00002.png"));
-  CHECK(names_in(bench.at / "run/near") == data_files);
+  CHECK(files_in(bench.at / "run/near") == data_files);
   CHECK(files_under(bench.at / "run/frames", ".png").size() == 3);
   bench.good("render run --size 120x90");
   CHECK(files_under(bench.at / "run/frames", ".png").size() == 3);
   CHECK(width_of(bench.at / "run/frames/frame_00000.png") == 120);
-  CHECK(names_in(bench.at / "run/near") == data_files);
+  CHECK(files_in(bench.at / "run/near") == data_files);
 }
 
 TEST_CASE("a path that ends early is written as far as it is certified, and exits with 1") {
@@ -244,27 +210,24 @@ TEST_CASE("check explains what would run and writes nothing") {
 
 TEST_CASE("list has a line a preset, and every one of them is sound", "[standard]") {
   const TemporaryFolder folder;
-  const auto said = gridshell_program("list", folder.path());
-  CHECK(said.code == 0);
+  const auto said = good("list", folder);
   CHECK_THAT(said.out, Contains("s1_actuation") && Contains("fig1_actuation"));
   std::istringstream lines(said.out);
   int presets = 0;
   for (std::string line; std::getline(lines, line); ++presets) {
     const auto name = line.substr(0, line.find(' '));
     INFO(name);
-    CHECK(gridshell_program({"check", name}, folder.path()).code == 0);
+    CHECK(gridshell_program({"check", name}, folder).code == 0);
   }
   CHECK(presets == int(files_under(fs::path(GRIDSHELL_SOURCE_DIR) / "presets", ".toml").size()));
 }
 
 TEST_CASE("chart trust judges random scenes and keeps what was silently wrong", "[standard]") {
   const TemporaryFolder folder;
-  const auto said = gridshell_program("chart trust --scenes 2 --seed 20", folder.path());
-  INFO(said.err);
-  CHECK(said.code == 0);
+  const auto said = good("chart trust --scenes 2 --seed 20", folder);
   CHECK_THAT(said.out, Contains("2 scenes, 0 silently wrong"));
-  const auto trust = folder.path() / "out/trust";
-  CHECK(names_in(trust) == listed({"errors.pdf", "errors.png", "errors.svg", "summary.json",
+  const auto trust = folder / "out/trust";
+  CHECK(files_in(trust) == listed({"errors.pdf", "errors.png", "errors.svg", "summary.json",
                                    "trust.csv", "trust.pdf", "trust.png", "trust.svg"}));
 }
 
@@ -273,15 +236,15 @@ TEST_CASE("compare tells the same from the different by its exit code") {
   gridshell::render::Image plain(64, 64), rod = plain;
   for (std::size_t k = 3; k < plain.rgba.size(); k += 4) plain.rgba[k] = rod.rgba[k] = 255;
   for (int x = 0; x < 64; ++x) rod.pixel(x, 30)[0] = 200;
-  REQUIRE(gridshell::render::write_png(plain, folder.path() / "a.png"));
-  REQUIRE(gridshell::render::write_png(rod, folder.path() / "b.png"));
-  CHECK(gridshell_program("compare a.png a.png", folder.path()).code == 0);
-  const auto said = gridshell_program("compare a.png b.png --difference d.png", folder.path());
+  REQUIRE(gridshell::render::write_png(plain, folder / "a.png"));
+  REQUIRE(gridshell::render::write_png(rod, folder / "b.png"));
+  CHECK(gridshell_program("compare a.png a.png", folder).code == 0);
+  const auto said = gridshell_program("compare a.png b.png --difference d.png", folder);
   CHECK(said.code == 3);
   // one row of eight differs by 200
   CHECK_THAT(said.out, Catch::StartsWith("different: ") && Contains("differs by 25.00"));
-  CHECK(gridshell::render::read_png(folder.path() / "d.png"));
-  CHECK(gridshell_program("compare a.png b.png --threshold 26", folder.path()).code == 0);
+  CHECK(gridshell::render::read_png(folder / "d.png"));
+  CHECK(gridshell_program("compare a.png b.png --threshold 26", folder).code == 0);
 }
 
 TEST_CASE("usage errors exit with 2, help with 0") {
@@ -291,11 +254,11 @@ TEST_CASE("usage errors exit with 2, help with 0") {
         "movie s1_actuation --context x", "chart speed s1_actuation", "chart accuracy",
         "chart accuracy s1_actuation --limit 0", "chart trust s1_actuation"}) {
     INFO(wrong);
-    CHECK(gridshell_program(wrong, folder.path()).code == 2);
+    CHECK(gridshell_program(wrong, folder).code == 2);
   }
-  check_refused({"run", "s1_actuation", "-o", ""}, folder.path(), Contains("must name a folder"));
-  good("--help", folder.path());
-  good("movie --help", folder.path());
+  check_refused({"run", "s1_actuation", "-o", ""}, folder, Contains("must name a folder"));
+  good("--help", folder);
+  good("movie --help", folder);
   CHECK(folder.entries().empty());
 }
 
@@ -317,7 +280,7 @@ TEST_CASE("chart accuracy writes tables and pictures and says how auto stands", 
   const auto said = bench.good("chart accuracy small.toml --limit 0.05 --edges 4");
   CHECK_THAT(said.out, Contains("auto at 1e-06: error"));
   const auto folder = bench.at / "out/small_accuracy";
-  CHECK(names_in(folder) ==
+  CHECK(files_in(folder) ==
         listed({"accuracy.csv", "accuracy.pdf", "accuracy.png", "accuracy.svg", "preset.toml",
                 "scaling.csv", "scaling.pdf", "scaling.png", "scaling.svg", "summary.json",
                 "unknowns.pdf", "unknowns.png", "unknowns.svg"}));
@@ -325,7 +288,7 @@ TEST_CASE("chart accuracy writes tables and pictures and says how auto stands", 
   // maps go beside it, and the next chart takes their place
   const auto maps = bench.good("chart stability small.toml --limit 0.05");
   CHECK_THAT(maps.out, Contains("default: ") && Contains(" 0 silently wrong"));
-  CHECK(names_in(bench.at / "out/small_stability") ==
+  CHECK(files_in(bench.at / "out/small_stability") ==
         listed({"preset.toml", "stability.csv", "stability.pdf", "stability.png", "stability.svg",
                 "summary.json"}));
   bench.good("chart stability small.toml --limit 0.01 --quiet");
@@ -353,13 +316,13 @@ TEST_CASE("modes writes a table, shapes and a picture a mode", "[standard]") {
   const auto said = bench.good("modes small.toml --count 3");
   CHECK_THAT(said.out, Catch::Contains("Hz"));
   const auto folder = bench.at / "out/small_modes";
-  CHECK(names_in(folder) == listed({"modes.csv", "preset.toml", "shapes.csv", "small.png",
+  CHECK(files_in(folder) == listed({"modes.csv", "preset.toml", "shapes.csv", "small.png",
                                     "small_1.png", "small_2.png", "small_3.png", "summary.json"}));
   CHECK_THAT(text_of(folder / "modes.csv"),
              Catch::StartsWith("mode,frequency_Hz,error_Hz,residual\n1,"));
   CHECK_THAT(text_of(folder / "shapes.csv"), Catch::StartsWith("mode,i,j,dx,dy,dz\n1,"));
   bench.good("modes small.toml --count 1 --movies");
-  CHECK(names_in(folder / "mode_01/frames").size() == 24);
+  CHECK(files_in(folder / "mode_01/frames").size() == 24);
   check_refused("modes small.toml --set rod.density_kg_m3=0", bench.at,
                 Catch::Contains("[rod] density_kg_m3"));
 }

@@ -15,15 +15,6 @@ constexpr Scene scenes[] = {{"circle", "s1_actuation"},    {"curve", "curve_elli
                             {"assemblage", "fig5_peanut"}, {"push", "s3_pole_inward"},
                             {"twist", "model_clamped"},    {"loads", "model_loads"}};
 
-// the C library's functions as they are on every x86-64, whichever this is
-class PlainLibrary {
- public:
-  PlainLibrary() { setenv("GLIBC_TUNABLES", "glibc.cpu.hwcaps=-AVX2,-AVX512F,-FMA,-FMA4", 1); }
-  ~PlainLibrary() { unsetenv("GLIBC_TUNABLES"); }
-  PlainLibrary(const PlainLibrary&) = delete;
-  PlainLibrary& operator=(const PlainLibrary&) = delete;
-};
-
 fs::path run(const Scene& scene, const fs::path& at, const std::string& name,
              std::vector<std::string> more = {}, const char* program = GRIDSHELL_PROGRAM) {
   std::vector<std::string> arguments{"run",     scene.preset, "--frames",
@@ -89,27 +80,27 @@ TEST_CASE("pictures have the same bits in every context", "[standard]") {
     return gridshell_program({"movie", "s1_actuation", "--frames", "2", "--size", "160x90",
                               "--quiet", "--set", "accuracy.edges_per_segment=4", "--set",
                               "movie.title_s=0", "--context", context, "-o", context},
-                             folder.path());
+                             folder);
   };
   REQUIRE(draw("osmesa").code == 0);
   if (const auto other = draw("egl"); other.code != 0) {
     WARN("no EGL here: " << other.err);
     return;
   }
-  const auto pictures = files_under(folder.path() / "osmesa", ".png");
+  const auto pictures = files_under(folder / "osmesa", ".png");
   REQUIRE(pictures.size() == 2);
   for (const auto& picture : pictures) {
     INFO(picture);
-    const auto other = folder.path() / "egl/frames" / picture.filename();
+    const auto other = folder / "egl/frames" / picture.filename();
     CHECK(text_of(picture) == text_of(other));
   }
-  CHECK(hash_of(folder.path() / "osmesa") == hash_of(folder.path() / "egl"));
+  CHECK(hash_of(folder / "osmesa") == hash_of(folder / "egl"));
 }
 
 TEST_CASE("golden hashes of all kinds of runs, the same on any number of threads", "[standard]") {
-  const TemporaryFolder folder;
-  const fs::path& at = folder.path();
-  const PlainLibrary library;
+  const TemporaryFolder at;
+  // the C library's functions as they are on every x86-64, whichever this is
+  const Environment library("GLIBC_TUNABLES", "glibc.cpu.hwcaps=-AVX2,-AVX512F,-FMA,-FMA4");
   std::string now;
   for (const Scene& scene : scenes) {
     INFO(scene.kind);

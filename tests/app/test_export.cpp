@@ -2,8 +2,7 @@
 #include "tests/app/bench.h"
 
 TEST_CASE("export writes a run in every format, and what is for the workshop", "[s1]") {
-  const TemporaryFolder folder;
-  const fs::path& at = folder.path();
+  const TemporaryFolder at;
   copy_shared_run("s1_actuation", at / "run");
   const auto before = files_under(at / "run", "");
   const std::vector<std::pair<std::string, std::string>> wanted{
@@ -29,8 +28,7 @@ TEST_CASE("export writes a run in every format, and what is for the workshop", "
 }
 
 TEST_CASE("export of a preset needs no run, of cases one is chosen") {
-  const TemporaryFolder folder;
-  const fs::path& at = folder.path();
+  const TemporaryFolder at;
   CHECK(gridshell_program("export ring_hemisphere --what plate --to pins.csv", at).code == 0);
   CHECK_THAT(text_of(at / "pins.csv"), Contains("far") && Contains(",second,"));
   check_refused("export fig3_caps --what cutlist --to a.csv", at,
@@ -38,8 +36,7 @@ TEST_CASE("export of a preset needs no run, of cases one is chosen") {
 }
 
 TEST_CASE("what cannot be exported is refused with what would do, and writes nothing", "[s1]") {
-  const TemporaryFolder folder;
-  const fs::path& at = folder.path();
+  const TemporaryFolder at;
   copy_shared_run("s1_actuation", at / "run");
   const auto refused = [&](std::vector<std::string> arguments, const char* why) {
     arguments.insert(arguments.begin(), "export");
@@ -56,5 +53,5 @@ TEST_CASE("what cannot be exported is refused with what would do, and writes not
   refused({"run", "--to", "run"}, "is no file");
   refused({"s1_actuation", "--to", "a.obj"}, "s1_actuation");
   refused({"nowhere", "--to", "a.svg"}, "nowhere");
-  CHECK(folder.entries() == std::vector<std::string>{"run"});
+  CHECK(at.entries() == std::vector<std::string>{"run"});
 }

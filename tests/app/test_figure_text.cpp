@@ -5,7 +5,6 @@
 
 #include "app/cli/paper_page.h"
 #include "app/cli/produce.h"
-#include "engine/formats/csv.h"
 #include "render/canvas/colour_map.h"
 #include "render/gl/image.h"
 #include "tests/app/bench.h"
@@ -281,7 +280,7 @@ TEST_CASE("on a page no words lie over others, nor over what is drawn", "[shared
   auto maker = value_of(app::PictureMaker::create("auto", ""));
   for (int k = 1; k <= 5; ++k) {
     const TemporaryFolder folder;
-    const fs::path stem = folder.path() / page_of(k);
+    const fs::path stem = folder / page_of(k);
     // as it is printed
     const std::vector<preset::Override> print{{"--width", "figure.width_mm", "178"},
                                               {"--dpi", "figure.dpi", "200"}};
@@ -329,7 +328,7 @@ TEST_CASE("a page's PDF has its words as text and is small", "[shared]") {
                                          "peanut"};
   for (int k = 1; k <= 5; ++k) {
     const TemporaryFolder folder;
-    const fs::path text = folder.path() / "page.txt";
+    const fs::path text = folder / "page.txt";
     const fs::path pdf = shared_run(page_of(k)) / (page_of(k) + "_page.pdf");
     REQUIRE(std::system(("pdftotext '" + pdf.string() + "' '" + text.string() + "'").c_str()) == 0);
     CHECK_THAT(text_of(text), Contains(words[std::size_t(k - 1)]));

@@ -16,9 +16,7 @@ std::string frame_name(int frame) { return "frame_0000" + std::to_string(frame) 
 render::Image picture(const fs::path& path) { return value_of(render::read_png(path)); }
 
 double worst(const render::Image& a, const render::Image& b) {
-  const auto comparison = render::compare(a, b);
-  if (!comparison) FAIL(comparison.error().message);
-  return comparison->difference;
+  return value_of(render::compare(a, b)).difference;
 }
 
 /// The lines of the list: a name, and the program's arguments.
@@ -34,7 +32,7 @@ std::map<std::string, std::string> list() {
 void check_kept(const std::string& name, const fs::path& drawn) {
   const TemporaryFolder folder;
   const Ended ended =
-      gridshell_program({"compare", (images / name).string(), drawn.string()}, folder.path());
+      gridshell_program({"compare", (images / name).string(), drawn.string()}, folder);
   INFO(drawn << "\n" << ended.out << ended.err);
   CHECK(ended.code == 0);
 }
@@ -64,8 +62,7 @@ TEST_CASE("every preset, figure and visit of the window looks as its kept pictur
 }
 
 TEST_CASE("every picture is the same in either context", "[full][shared]") {
-  const TemporaryFolder folder;
-  const fs::path& at = folder.path();
+  const TemporaryFolder at;
   // by the processor too
   setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
   for (const std::string context : {"osmesa", "egl"}) {
@@ -78,7 +75,7 @@ TEST_CASE("every picture is the same in either context", "[full][shared]") {
     }
     const std::string visits = "OPTIONS='--context " + context + "' '" +
                                (images / "draw.sh").string() + "' '" + GRIDSHELL_PROGRAM + "' '" +
-                               at.string() + "' window";
+                               at.path().string() + "' window";
     REQUIRE(std::system(visits.c_str()) == 0);
     check_kept("window", at / "window");
   }
@@ -89,7 +86,7 @@ TEST_CASE("every panel of the window looks as kept at twice the density", "[full
   const std::string draw = "'" + (images / "draw.sh").string() + "' '" + GRIDSHELL_PROGRAM + "' '" +
                            folder.path().string() + "' window_double";
   REQUIRE(std::system(draw.c_str()) == 0);
-  check_kept("window_double", folder.path() / "window_double");
+  check_kept("window_double", folder / "window_double");
 }
 
 TEST_CASE("another rasteriser's width, another processor, a finer tolerance look the same",
@@ -107,7 +104,7 @@ TEST_CASE("another rasteriser's width, another processor, a finer tolerance look
     if (finer) command += " --set accuracy.tolerance=1e-6";
     REQUIRE(std::system(command.c_str()) == 0);
     INFO(variation);
-    check_kept("s1_actuation", folder.path() / "s1");
+    check_kept("s1_actuation", folder / "s1");
   }
 }
 
@@ -132,7 +129,7 @@ TEST_CASE("folders of pictures are compared, shown on a sheet, and replaced with
       image.rgba[k] = k % 4 == 3 ? 255 : std::uint8_t(grey);
     return image;
   };
-  const fs::path kept = folder.path() / "kept", now = folder.path() / "now";
+  const fs::path kept = folder / "kept", now = folder / "now";
   for (const auto& [file, grey] : {std::pair{kept / "same.png", 90},
                                    {now / "same.png", 91},
                                    {kept / "in/other.png", 90},
@@ -144,7 +141,7 @@ TEST_CASE("folders of pictures are compared, shown on a sheet, and replaced with
   }
   const auto compare = [&](std::vector<std::string> more) {
     more.insert(more.begin(), {"compare", "kept", "now"});
-    return gridshell_program(more, folder.path());
+    return gridshell_program(more, folder);
   };
   const Ended first = compare({"--difference", "sheet.png"});
   CHECK(first.code == 3);
@@ -152,7 +149,7 @@ TEST_CASE("folders of pictures are compared, shown on a sheet, and replaced with
              Contains("in/other.png: differs by 110.00") && Contains("gone.png: is gone"));
   CHECK_THAT(first.out, Contains("new.png: is new") && !Contains("same.png") &&
                             Contains("3 of 4 pictures differ"));
-  const auto sheet = value_of(render::read_png(folder.path() / "sheet.png"));
+  const auto sheet = value_of(render::read_png(folder / "sheet.png"));
   CHECK(sheet.width > 1400);
 
   CHECK(compare({"--update"}).code == 2);
@@ -162,5 +159,5 @@ TEST_CASE("folders of pictures are compared, shown on a sheet, and replaced with
   CHECK_FALSE(fs::exists(kept / "gone.png"));
   const auto why = value_of(read_file(kept / "WHY.md"));
   CHECK(why.find("a lighter grey (gone.png, in, new.png)") != std::string::npos);
-  CHECK(gridshell_program("compare kept now/same.png", folder.path()).code == 2);
+  CHECK(gridshell_program("compare kept now/same.png", folder).code == 2);
 }

@@ -34,7 +34,7 @@ std::set<std::string> offered(const std::vector<std::string>& words, const fs::p
 
 TEST_CASE("list --json has every command, preset and key") {
   const TemporaryFolder folder;
-  const auto printed = good("list --json", folder.path());
+  const auto printed = good("list --json", folder);
   CHECK(printed.out == app::listing_json().value());
   const auto json = parsed(printed.out);
   REQUIRE(json.is_object());
@@ -61,9 +61,7 @@ TEST_CASE("list --json has every command, preset and key") {
 
 TEST_CASE("bash completes commands, options, their words, presets and keys") {
   const TemporaryFolder folder;
-  const auto of = [&](const std::vector<std::string>& words) {
-    return offered(words, folder.path());
-  };
+  const auto of = [&](const std::vector<std::string>& words) { return offered(words, folder); };
   CHECK(of({"gridshell", "mo"}) == std::set<std::string>{"modes", "movie"});
   CHECK(of({"gridshell", "movie", "s1_a"}) == std::set<std::string>{"s1_actuation"});
   CHECK(of({"gridshell", "movie", "s1_actuation", "--con"}) == std::set<std::string>{"--context"});
@@ -87,11 +85,11 @@ TEST_CASE("the manual page names all commands, options, presets and keys, and ro
   for (const auto& key : preset::key_texts()) CHECK_THAT(page, Contains("\\fB" + key.key + "\\fR"));
   if (std::system("command -v groff > /dev/null") != 0) return;
   const TemporaryFolder folder;
-  std::ofstream(folder.path() / "gridshell.1") << page;
+  std::ofstream(folder / "gridshell.1") << page;
   REQUIRE(std::system(("cd '" + folder.path().string() +
                        "' && groff -man -Kutf8 -Tutf8 -ww gridshell.1 > out 2> faults")
                           .c_str()) == 0);
-  CHECK(text_of(folder.path() / "faults").empty());
+  CHECK(text_of(folder / "faults").empty());
 }
 
 TEST_CASE("the bar counts evenly over phases by their expected time") {

@@ -32,7 +32,7 @@ std::set<std::string> commands_in(const std::string& text) {
 
 TEST_CASE("presets/README.md holds the reference of all keys, word for word") {
   const TemporaryFolder folder;
-  const auto printed = gridshell_program("list --keys markdown", folder.path()).out;
+  const auto printed = gridshell_program("list --keys markdown", folder).out;
   CHECK(printed == gridshell::preset::reference_markdown());
   // to mend it: paste what 'gridshell list --keys markdown' prints
   CHECK_THAT(text_of(root / "presets/README.md"), Contains(printed));
@@ -40,7 +40,7 @@ TEST_CASE("presets/README.md holds the reference of all keys, word for word") {
 
 TEST_CASE("the READMEs name every command of the program, and no other") {
   const TemporaryFolder folder;
-  const auto help = gridshell_program("--help", folder.path()).out;
+  const auto help = gridshell_program("--help", folder).out;
   std::set<std::string> in_help;
   std::istringstream lines(help.substr(help.find("Subcommands:") + 13));
   for (std::string line; std::getline(lines, line);)
@@ -70,8 +70,8 @@ TEST_CASE("the presets shown in the READMEs run", "[standard]") {
     std::string preset;
     for (std::string line; std::getline(lines, line) && (line.empty() || line[0] == ' ');)
       preset += line.empty() ? "\n" : line.substr(4) + "\n";
-    REQUIRE(write_file(folder.path() / "shown.toml", preset));
-    const auto ended = gridshell_program("run shown.toml --quiet", folder.path());
+    REQUIRE(write_file(folder / "shown.toml", preset));
+    const auto ended = gridshell_program("run shown.toml --quiet", folder);
     INFO(document << ":\n" << preset << ended.err);
     CHECK(ended.code == 0);
   }

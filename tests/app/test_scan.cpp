@@ -30,8 +30,7 @@ void form(const std::string& radius_mm, const std::string& name, const fs::path&
 
 TEST_CASE("a scan of a run shows that run, with its joints, its picture and what overlays take",
           "[standard]") {
-  const TemporaryFolder folder;
-  const fs::path& at = folder.path();
+  const TemporaryFolder at;
   form("48", "run", at);
   form("52", "wide", at);
   const auto run = record::read_trajectory(at / "run" / "trajectory.h5");
@@ -79,8 +78,7 @@ TEST_CASE("a scan of a run shows that run, with its joints, its picture and what
 }
 
 TEST_CASE("clouds and runs that are none leave a sentence and no folder") {
-  const TemporaryFolder folder;
-  const fs::path& at = folder.path();
+  const TemporaryFolder at;
   form("48", "run", at);
   const auto refused = [&](const std::string& name, const std::string& text) {
     write_text(at / name, text);

@@ -1,6 +1,5 @@
 // A search for states from end to end, on a shell small enough for seconds.
 #include "app/cli/preset_library.h"
-#include "engine/record/states.h"
 #include "tests/app/bench.h"
 #include "tests/results.h"
 
@@ -16,8 +15,7 @@ const std::string search =
 
 TEST_CASE("a search for states: tables, pictures, and the same pictures again from the run",
           "[standard]") {
-  const TemporaryFolder folder;
-  const fs::path& at = folder.path();
+  const TemporaryFolder at;
   REQUIRE(write_file(at / "shell.toml", search));
   good("figure shell.toml --threads 1", at);
   const fs::path run = at / "out" / "shell";
@@ -37,8 +35,7 @@ TEST_CASE("a search for states: tables, pictures, and the same pictures again fr
 }
 
 TEST_CASE("states and a finished sweep's phase diagram stand on one page", "[standard]") {
-  const TemporaryFolder folder;
-  const fs::path& at = folder.path();
+  const TemporaryFolder at;
   const std::string shell =
       "[footprint]\nkind = \"circle\"\n{}[actuation]\nratio = 0.75\n"
       "[accuracy]\nedges_per_segment = 8\n[jitter]\ntrials = 3\nconfined = 7\n";
@@ -98,12 +95,12 @@ TEST_CASE("points of the shipped phase diagram come out again", "[standard]") {
     preset.resize(preset.find("[sweep.over]"));
     preset += fmt::format("[sweep.over]\n{} = [{}]\n{} = [{}]\n", shipped.axes[0],
                           row.keys.values[0], shipped.axes[1], row.keys.values[1]);
-    REQUIRE(write_file(folder.path() / "point.toml", preset));
+    REQUIRE(write_file(folder / "point.toml", preset));
     good({"sweep", "point.toml", "-o", std::to_string(k), "--quiet", "--set",
           fmt::format("jitter.seed={}", figure(row.result, "jitter_seed"))},
-         folder.path());
+         folder);
     const auto again =
-        value_of(record::read_sweep_csv(text_of(folder.path() / std::to_string(k) / "sweep.csv")));
+        value_of(record::read_sweep_csv(text_of(folder / std::to_string(k) / "sweep.csv")));
     for (const char* name : {"states", "at_rest", "states_i", "met_i", "states_ii", "met_ii",
                              "met_confined_ii", "states_iv", "states_other", "met_other"})
       CHECK(figure(again.rows.front().result, name) == figure(row.result, name));
@@ -113,8 +110,7 @@ TEST_CASE("points of the shipped phase diagram come out again", "[standard]") {
 }
 
 TEST_CASE("joints measured lie over a state of a page of states", "[standard]") {
-  const TemporaryFolder folder;
-  const fs::path& at = folder.path();
+  const TemporaryFolder at;
   REQUIRE(write_file(
       at / "page.toml",
       "[footprint]\nkind = \"circle\"\nrods = 6\nlongest_leg = 0.4\n[actuation]\nratio = 0.75\n"
@@ -129,8 +125,7 @@ TEST_CASE("joints measured lie over a state of a page of states", "[standard]") 
 }
 
 TEST_CASE("a search for states has no movie, and damaged tables are refused") {
-  const TemporaryFolder folder;
-  const fs::path& at = folder.path();
+  const TemporaryFolder at;
   REQUIRE(write_file(at / "shell.toml", search));
   check_refused("movie shell.toml", at, Contains("gridshell figure"));
   good("run shell.toml", at);
@@ -140,6 +135,6 @@ TEST_CASE("a search for states has no movie, and damaged tables are refused") {
 
 TEST_CASE("keys of a search that its mode does not use are refused with the reason") {
   const TemporaryFolder folder;
-  REQUIRE(write_file(folder.path() / "shell.toml", search + "field_N_per_mm = 0.5\n"));
-  check_refused("check shell.toml", folder.path(), Contains("gravity"));
+  REQUIRE(write_file(folder / "shell.toml", search + "field_N_per_mm = 0.5\n"));
+  check_refused("check shell.toml", folder, Contains("gravity"));
 }

@@ -4,7 +4,6 @@
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -12,7 +11,6 @@
 #include "tests/app/unfinished_run.h"
 #include "tests/attack/answers.h"
 #include "tests/attack/trials.h"
-#include "tests/folder_contents.h"
 #include "tests/small_preset.h"
 
 namespace fs = std::filesystem;
@@ -128,7 +126,7 @@ class Bench {
   }
 
   TemporaryFolder folder;
-  fs::path at = folder.path();
+  fs::path at = folder;
 };
 
 void check_answer(const Ended& ended, std::initializer_list<int> codes) {

@@ -2,7 +2,6 @@
 // sentence that names the file, memory under its budget, nothing left behind.
 #include <sys/stat.h>
 
-#include <catch2/catch.hpp>
 #include <map>
 
 #include "engine/core/file_io.h"
@@ -26,8 +25,7 @@ constexpr double allowed_MB = 500;
 }  // namespace
 
 TEST_CASE("hostile presets are answered", "[standard][presets]") {
-  const TemporaryFolder folder;
-  const auto& at = folder.path();
+  const TemporaryFolder at;
   REQUIRE(mkfifo((at / "fifo").c_str(), 0600) == 0);
   std::map<int, int> checked, ran;
   for (int trial = 0; trial < trials(12); ++trial) {
@@ -61,7 +59,7 @@ TEST_CASE("hostile presets are answered", "[standard][presets]") {
     if (seen.code == 2) CHECK(run.code == 2);
     if (seen.code == 0 && run.code == 2) CHECK(run.err.find("memory_GB") != std::string::npos);
     CHECK((run.code == 0 || run.code == 1 || !fs::exists(at / "out")));
-    clear(folder, {"fifo", "hostile.toml"},
+    clear(at, {"fifo", "hostile.toml"},
           [](const auto& name) { return name == "out" || name.starts_with("out.partial-"); });
   }
   tell(checked, "check");

@@ -1,6 +1,5 @@
 // Signals at any moment of every command: an answer, an exit code of the table, and nothing lost.
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <map>
 
 #include "app/cli/staged_folder.h"
@@ -9,7 +8,6 @@
 #include "render/gl/image.h"
 #include "tests/attack/answers.h"
 #include "tests/attack/trials.h"
-#include "tests/folder_contents.h"
 #include "tests/small_preset.h"
 
 namespace fs = std::filesystem;
@@ -35,8 +33,7 @@ void check_left(const fs::path& folder, bool killed) {
 }  // namespace
 
 TEST_CASE("signals at any moment are answered, and nothing is lost", "[standard][signals]") {
-  const TemporaryFolder folder;
-  const auto& at = folder.path();
+  const TemporaryFolder at;
   REQUIRE(write_file(at / "small.toml", small));
   REQUIRE(gridshell_program({"run", "small.toml", "-o", "old", "--quiet"}, at).code == 0);
   const std::vector<std::vector<std::string>> commands{
@@ -73,7 +70,7 @@ TEST_CASE("signals at any moment are answered, and nothing is lost", "[standard]
     CHECK(gridshell::app::why_not_a_run(at / "old").empty());
     if (ended.code != 0 && !killed) CHECK(contents(at / "old") == before);
     check_left(at, killed);
-    clear(folder, {"small.toml", "old"}, [](const auto& name) {
+    clear(at, {"small.toml", "old"}, [](const auto& name) {
       return name == "new" || name.find(".partial-") != name.npos ||
              name.find(".old-") != name.npos;
     });

@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <memory>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -19,19 +18,6 @@ using namespace gridshell;
 using namespace gridshell::render;
 
 namespace {
-
-/// What a result holds; the end of the program when it holds an error.
-template <class T>
-T value(Result<T> result) {
-  if (result) {
-    if constexpr (std::is_void_v<T>)
-      return;
-    else
-      return std::move(*result);
-  }
-  fmt::print(stderr, "{}\n", result.error().message);
-  std::exit(1);
-}
 
 struct Case {
   const char* name;
@@ -50,13 +36,13 @@ void measure(Context& context, int width, int height, int frames, Figures& figur
                   {"2x2", {2, false, 1}},
                   {"2x2 + shadow", {2, true, 1}},
                   {"movie", {1, true, 1}}};
-  for (Case& c : cases) c.renderer = value(Renderer::create(context));
+  for (Case& c : cases) c.renderer = Renderer::create(context).value();
   // in turns, so that whatever else runs on the machine falls on all of them alike
   for (int frame = -1; frame < frames; ++frame)
     for (Case& c : cases) {
       camera.azimuth_deg = 30 + 0.5 * frame;
       const double before = cpu_ms();
-      value(c.renderer->draw(drawing, camera, c.quality, width, height));
+      c.renderer->draw(drawing, camera, c.quality, width, height).value();
       if (frame >= 0) c.ms.push_back(cpu_ms() - before);
     }
   const double plain = median(cases[0].ms);
@@ -69,12 +55,12 @@ void measure(Context& context, int width, int height, int frames, Figures& figur
 
 /// The way of a drawn frame into memory alone.
 void measure_read_back(Context& context, int width, int height, int frames, Figures& figures) {
-  const Gl gl = value(Gl::load(context));
+  const Gl gl = Gl::load(context).value();
   Target target(gl, Target::Depth::none);
   Image image(width, height);
   std::vector<double> ms;
   for (int frame = 0; frame < frames; ++frame) {
-    value(target.bind(width, height, GL_SRGB8_ALPHA8));
+    if (!target.bind(width, height, GL_SRGB8_ALPHA8)) std::exit(1);
     gl.ClearColor(0.1f * float(frame % 10), 0.5f, 0.5f, 1);
     gl.Clear(GL_COLOR_BUFFER_BIT);
     gl.Finish();
@@ -93,9 +79,10 @@ int main(int count, char** arguments) {
   const std::string kind = words.empty() ? "auto" : words[0];
   const int frames = words.size() > 1 ? std::max(1, std::atoi(words[1].c_str())) : 15;
   keep_compiled_shaders();
-  const auto context = value(Context::create(kind == "egl"      ? ContextKind::egl
-                                             : kind == "osmesa" ? ContextKind::osmesa
-                                                                : ContextKind::automatic));
+  const auto context = Context::create(kind == "egl"      ? ContextKind::egl
+                                       : kind == "osmesa" ? ContextKind::osmesa
+                                                          : ContextKind::automatic)
+                           .value();
   figures.say("{}: 4896 rod segments, 289 joints, 256 cells; median CPU time of {} frames\n",
               context->kind_name(), frames);
   measure(*context, 1280, 720, frames, figures);

@@ -38,20 +38,13 @@ struct Case {
 
 /// n rods a direction, longest leg 0.8 d, actuated to 0.75 R_o.
 Case circle(int rods) {
+  preset::Preset preset;
+  preset.footprint.rods = rods;
+  preset.footprint.placement = rods % 2 ? Placement::on_axis : Placement::half;
   const double radius = 20 * ((rods - 1) / 2.0 + 0.8);
-  Case c{
-      circular_footprint(radius, rods, 20, rods % 2 ? Placement::on_axis : Placement::half).value(),
-      {},
-      radius};
-  c.motion.begin = Eigen::Matrix3Xd::Zero(3, 2 * Eigen::Index(c.footprint.rods.size()));
-  for (std::size_t r = 0; r < c.footprint.rods.size(); ++r) {
-    const FootprintRod& rod = c.footprint.rods[r];
-    for (int e : {0, 1})
-      c.motion.begin.col(Eigen::Index(2 * r) + e).head<2>() =
-          rod.at(e == 0 ? rod.span.begin : rod.span.end);
-  }
-  c.motion.end = 0.75 * c.motion.begin;
-  return c;
+  preset.set_radii(radius, 0.75 * radius);
+  Scene scene = scene_of(preset).value();
+  return {std::move(scene.footprint), std::move(scene.motion), radius};
 }
 
 double parameter(double ratio) { return std::sqrt((1 - ratio) / 0.25); }

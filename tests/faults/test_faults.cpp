@@ -3,7 +3,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -19,7 +18,6 @@
 #include "engine/record/trajectory_file.h"
 #include "render/gl/image.h"
 #include "tests/faults/faults.h"
-#include "tests/folder_contents.h"
 #include "tests/small_preset.h"
 #include "tests/temporary_folder.h"
 

@@ -137,9 +137,9 @@ void look_at(const Trajectory& run) {
 const std::string& sample_file() {
   static const std::string bytes = [] {
     const TemporaryFolder folder;
-    (void)write_trajectory(folder.path() / "a.h5", sample_trajectory());
+    (void)write_trajectory(folder / "a.h5", sample_trajectory());
     std::ostringstream text;
-    text << std::ifstream(folder.path() / "a.h5", std::ios::binary).rdbuf();
+    text << std::ifstream(folder / "a.h5", std::ios::binary).rdbuf();
     return text.str().substr(512);
   }();
   return bytes;

@@ -29,12 +29,12 @@ void states(std::string_view bytes) {
   static const TemporaryFolder folder;
   for (const char* name : std::array{states_name, search_name, transitions_name, barriers_name}) {
     const auto part = taken(bytes, "=====\n");
-    std::filesystem::remove(folder.path() / name);
-    if (!part.empty()) (void)write_file(folder.path() / name, std::string(part));
+    std::filesystem::remove(folder / name);
+    if (!part.empty()) (void)write_file(folder / name, std::string(part));
   }
-  if (const auto tables = read_state_tables(folder.path())) {
+  if (const auto tables = read_state_tables(folder)) {
     (void)states_to_draw(tables->rows, 5);
-    (void)write_state_tables(folder.path(), *tables);
+    (void)write_state_tables(folder, *tables);
   }
 }
 

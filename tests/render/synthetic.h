@@ -1,15 +1,13 @@
 // A made-up actuation for tests of pictures: the paper's circular footprint (R_o 126 mm, 12 + 12
 // rods, d 20 mm) drawn in to 94.5 mm as a smooth dome with two dimples. Geometry alone: no
-// equilibrium, no engine.
+// equilibrium.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <numbers>
-#include <utility>
 
 #include "engine/record/trajectory.h"
+#include "engine/simulate/frames.h"
 
 namespace gridshell::synthetic {
 
@@ -36,76 +34,17 @@ inline double cell_curvature(double u, double v, double scale) {
   return (zxx * zyy - zxy * zxy) / std::pow(metric, 1.5) * spacing * spacing * s * s;
 }
 
-/// The flat footprint's layout; `flat` receives the nodes' (u, v).
-inline record::Layout make_layout(int edges_per_segment,
-                                  std::vector<std::pair<double, double>>& flat) {
-  record::Layout layout;
-  layout.spacing_mm = spacing;
-  layout.rod_diameter_mm = 0.254;
-  layout.length_scale_mm = original_radius;
-  std::map<std::pair<int, int>, int> joint_at;
-  const auto add_node = [&](double u, double v) {
-    flat.emplace_back(u, v);
-    return int(flat.size()) - 1;
-  };
-  for (int i = -6; i < 6; ++i)
-    for (int j = -6; j < 6; ++j) {
-      const double u = (i + 0.5) * spacing, v = (j + 0.5) * spacing;
-      if (std::hypot(u, v) >= original_radius) continue;
-      joint_at[{i, j}] = int(layout.joints.size());
-      layout.joints.push_back({i, j, u, v, add_node(u, v)});
-    }
-  // a rod: edge point, joints, edge point, with `edges_per_segment` edges between
-  const auto add_rod = [&](bool along_u, int index) {
-    const double across = (index + 0.5) * spacing;
-    const double end = std::sqrt(original_radius * original_radius - across * across);
-    std::vector<std::pair<double, int>> stops;
-    const auto at = [&](double s) { return along_u ? add_node(s, across) : add_node(across, s); };
-    stops.emplace_back(-end, at(-end));
-    for (int k = -6; k < 6; ++k)
-      if (const auto found = joint_at.find(along_u ? std::pair{k, index} : std::pair{index, k});
-          found != joint_at.end())
-        stops.emplace_back((k + 0.5) * spacing, layout.joints[found->second].node);
-    stops.emplace_back(end, at(end));
-    layout.edge_points.push_back(stops.front().second);
-    layout.edge_points.push_back(stops.back().second);
-    std::vector<int> rod{stops.front().second};
-    for (std::size_t s = 1; s < stops.size(); ++s) {
-      for (int k = 1; k < edges_per_segment; ++k)
-        rod.push_back(
-            at(stops[s - 1].first + (stops[s].first - stops[s - 1].first) * k / edges_per_segment));
-      rod.push_back(stops[s].second);
-    }
-    layout.rods.push_back(rod);
-  };
-  for (bool along_u : {true, false})
-    for (int index = -6; index < 6; ++index) add_rod(along_u, index);
-
-  for (const auto& [key, corner] : joint_at) {
-    const auto [i, j] = key;
-    const auto b = joint_at.find({i + 1, j}), c = joint_at.find({i + 1, j + 1}),
-               d = joint_at.find({i, j + 1});
-    if (b == joint_at.end() || c == joint_at.end() || d == joint_at.end()) continue;
-    layout.cells.push_back(
-        {i, j, (i + 1) * spacing, (j + 1) * spacing, {corner, b->second, c->second, d->second}});
-  }
-  const int points = 240;
-  layout.original_boundary.resize(3, points);
-  for (int k = 0; k < points; ++k) {
-    const double angle = 2 * std::numbers::pi * k / points;
-    layout.original_boundary.col(k) =
-        original_radius * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0);
-  }
-  layout.actuated_boundary = layout.original_boundary * (actuated_radius / original_radius);
-  return layout;
-}
-
 /// The trajectory, `frames` evenly spaced states from flat to drawn in; frame 2/3 of the way names
 /// an event.
 inline record::Trajectory dome(int frames = 24, int edges_per_segment = 8) {
   record::Trajectory run;
-  std::vector<std::pair<double, double>> flat;
-  run.layout = make_layout(edges_per_segment, flat);
+  // that of the default preset; of what a run tells besides, it has nothing
+  const Scene scene = scene_of(preset::Preset{}).value();
+  const RodMesh mesh = mesh_rods(scene.footprint, edges_per_segment);
+  run.layout = simulate::layout_of(scene, mesh).value();
+  run.layout.joint_diameter_mm = run.layout.joint_height_mm = 0;
+  run.layout.families.clear(), run.layout.supports.clear();
+  const Eigen::Matrix2Xd& flat = mesh.flat;
   for (int k = 0; k < frames; ++k) {
     const double t = frames > 1 ? double(k) / (frames - 1) : 1;
     record::Frame frame;
@@ -113,10 +52,9 @@ inline record::Trajectory dome(int frames = 24, int edges_per_segment = 8) {
     frame.progress = frame.actuation = t;
     frame.boundary_radius_mm = original_radius + t * (actuated_radius - original_radius);
     const double scale = frame.boundary_radius_mm / original_radius;
-    frame.nodes.resize(3, long(flat.size()));
-    for (std::size_t n = 0; n < flat.size(); ++n)
-      frame.nodes.col(long(n)) << scale * flat[n].first, scale * flat[n].second,
-          height(flat[n].first, flat[n].second, scale);
+    frame.nodes.resize(3, flat.cols());
+    for (long n = 0; n < flat.cols(); ++n)
+      frame.nodes.col(n) << scale * flat.col(n), height(flat(0, n), flat(1, n), scale);
     for (const record::Joint& joint : run.layout.joints)
       frame.height_mm = std::max(frame.height_mm, frame.nodes(2, joint.node));
     frame.cell_K.resize(long(run.layout.cells.size()));

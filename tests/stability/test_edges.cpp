@@ -1,10 +1,7 @@
 // Every method on either side of the edge of its stability, as the maps draw it, on a shell small
 // enough for every build.
-#include <catch2/catch.hpp>
-
 #include "engine/study/benchmark_methods.h"
-#include "engine/study/stability_study.h"
-#include "tests/engine/study/small_scene.h"
+#include "tests/presets.h"
 
 using namespace gridshell;
 using namespace gridshell::study;
@@ -16,7 +13,7 @@ std::shared_ptr<BenchmarkProblem> small_case() {
   static const std::shared_ptr<BenchmarkProblem> made = [] {
     Watch watch;
     return std::shared_ptr<BenchmarkProblem>(
-        BenchmarkProblem::create(small_scene(), 64, watch).value());
+        BenchmarkProblem::create(paper_circle(4, 0.85), 64, watch).value());
   }();
   return made;
 }
@@ -96,12 +93,12 @@ TEST_CASE(
 
 TEST_CASE(
     "stability: stiff rods and legs of a hundredth of a cell stop full steps, not the default") {
-  const Map stiff(stiffness_map(small_scene(), {1, 1e4}, {3}, 2));
+  const Map stiff(stiffness_map(paper_circle(4, 0.85), {1, 1e4}, {3}, 2));
   CHECK(stiff.right(default_solver, 1, 3));
   CHECK(stiff.right(default_solver, 1e4, 3));
   CHECK(stiff.right("shifted", 1, 3));
   CHECK_FALSE(stiff.right("full steps", 1e4, 3));
-  const Map legs(leg_map(small_scene(), {1e-2}, {10}, 4));
+  const Map legs(leg_map(paper_circle(4, 0.85), {1e-2}, {10}, 4));
   CHECK(legs.right(default_solver, 1e-2, 10));
   CHECK(legs.right("shifted", 1e-2, 10));
   CHECK_FALSE(legs.right("full steps", 1e-2, 10));

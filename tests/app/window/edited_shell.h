@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "app/window/edit_session.h"
-#include "tests/small_shell.h"
+#include "tests/presets.h"
 
 namespace gridshell::window {
 

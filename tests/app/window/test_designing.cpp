@@ -1,10 +1,10 @@
 // A shell that is designed: seen step by step, stopped, kept, put back.
-#include <catch2/catch.hpp>
 #include <chrono>
 #include <thread>
 
 #include "app/window/worker_threads.h"
 #include "tests/app/window/edited_shell.h"
+#include "tests/presets.h"
 
 using namespace gridshell;
 using namespace gridshell::window;
@@ -12,13 +12,9 @@ using namespace gridshell::window;
 namespace {
 
 preset::Preset small_cap() {
-  preset::Preset p;
+  preset::Preset p = cap(0.5);
   p.name = "cap";
-  p.footprint.kind = preset::FootprintKind::net;
-  p.footprint.placement = Placement::on_axis;
   p.net.radius_mm = 80;
-  p.net.cut_height = 0.5;
-  p.actuation.start = preset::Start::net;
   return p;
 }
 

@@ -1,8 +1,6 @@
 // What commands do to a shell.
-
 #include "app/window/viewer_state.h"
 #include "app/window/worker_threads.h"
-#include "engine/simulate/run.h"
 #include "tests/app/window/edited_shell.h"
 #include "tests/results.h"
 
@@ -71,22 +69,6 @@ TEST_CASE("a drag of the boundary is coarse, then refined, and one step to undo"
   CHECK(difference(shell, after) == 0);
 }
 
-TEST_CASE("a joint pushed along its normal resists, and lets go to where it was") {
-  EditedShell shell;
-  const ShellView before = shell.view();
-  const int joint = shell.joint(0, 0);
-  const Eigen::Vector3d normal = before.normals.col(joint), from = before.frame.nodes.col(joint);
-  shell.act(Push{joint, from - 4 * normal, normal});
-  REQUIRE(shell.view().held.size() == 1);
-  const HeldJoint held = shell.view().held[0];
-  CHECK(held.moved_mm.dot(normal) == Approx(-4));
-  CHECK(held.force_N.dot(normal) < 0);
-  shell.act(Release{});
-  shell.refine();
-  CHECK(shell.view().held.empty());
-  CHECK(difference(shell, before) < 1e-4);
-}
-
 TEST_CASE("a push that begins with a long way tells the equilibria on it, and is one step") {
   EditedShell shell;
   const int joint = shell.joint(0, 0);
@@ -142,18 +124,6 @@ TEST_CASE("steps that are put aside into a file are undone and done again to the
       stands(seen[k]);
     }
   }
-}
-
-TEST_CASE("the boundary moves in a drag while a joint is held, which stays in its place") {
-  EditedShell shell;
-  const int joint = shell.joint(0, 0);
-  const Eigen::Vector3d to = shell.node(joint) - Eigen::Vector3d(0, 0, 3);
-  shell.act(Push{joint, to});
-  shell.drag(Move{0.9}, 5);
-  shell.end_drag(5);
-  CHECK(shell.view().refined);
-  CHECK(shell.view().progress == Approx(0.9));
-  CHECK((shell.node(joint) - to).norm() < 1e-6);
 }
 
 TEST_CASE("a shell that was shaken is kept with its leading mesh, and a run comes to it",

@@ -1,5 +1,4 @@
 // Numbers put aside for steps to undo, and work beside the window.
-#include <catch2/catch.hpp>
 #include <chrono>
 #include <cmath>
 

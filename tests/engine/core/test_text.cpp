@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "engine/core/enum_words.h"
 #include "engine/core/text.h"
 
 using namespace gridshell;
@@ -27,4 +28,22 @@ TEST_CASE("only a near name is suggested") {
   CHECK(nearest(std::string(std::size_t(16) << 20, 'x'), known).empty());
   CHECK(did_you_mean("rdos", known) == "; did you mean 'rods'?");
   CHECK(did_you_mean("elephant", known).empty());
+}
+
+namespace {
+
+enum class Fruit { apple, pear_tree };
+constexpr auto words(Fruit) { return names_except<Fruit>({{Fruit::pear_tree, "pear tree"}}); }
+
+}  // namespace
+
+// what is forgotten or out of order does not compile; this is what that stands on
+static_assert(is_enumerator<Fruit::pear_tree>());
+static_assert(!is_enumerator<Fruit(2)>());
+
+TEST_CASE("an enumerator has a word, and the word leads back") {
+  CHECK(word_of(Fruit::pear_tree) == "pear tree");
+  CHECK(find_word<Fruit>("pear tree") == Fruit::pear_tree);
+  CHECK_FALSE(find_word<Fruit>("pear_tree"));
+  CHECK(all_words<Fruit>() == std::vector<std::string>{"apple", "pear tree"});
 }

@@ -2,7 +2,6 @@
 #include "engine/elastic/assembly.h"
 
 #include <Eigen/Geometry>
-#include <catch2/catch.hpp>
 #include <random>
 
 #include "tests/engine/elastic/bent_dome.h"

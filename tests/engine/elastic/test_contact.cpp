@@ -1,7 +1,6 @@
 // The barrier between edges: its law, its derivatives, what may touch, and moves that keep clear.
 #include "engine/elastic/contact.h"
 
-#include <catch2/catch.hpp>
 #include <random>
 
 #include "engine/core/proximity.h"

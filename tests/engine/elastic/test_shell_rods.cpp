@@ -1,14 +1,12 @@
 // Rods of two kinds, dead loads on them, and supports on springs.
 #include "engine/elastic/shell_rods.h"
 
-#include <catch2/catch.hpp>
 #include <random>
 
-#include "engine/solve/buckling.h"
 #include "engine/solve/nested_shell.h"
 #include "tests/engine/elastic/differences.h"
 #include "tests/engine/solve/single_rod.h"
-#include "tests/results.h"
+#include "tests/presets.h"
 
 using namespace gridshell;
 
@@ -19,25 +17,16 @@ const Eigen::Vector3d k{50, 4, 0.3};
 const RodSection section = circular_section(0.254, 83);
 const ShellRods rods{round_material(section, 0.3)};
 
-const Footprint& circle() {
-  static const Footprint net = circular_footprint(126, 12, 20, Placement::half).value();
-  return net;
+const Scene& fig1() {
+  static const Scene scene = value_of(scene_of(circle(12, 126, 0.9 * 126)));
+  return scene;
 }
 
 /// The circle drawn in to 0.9 of its size, begun at t.
 NestedShell formed(const ShellRods& of, double t, const std::vector<int>& edges) {
-  const Footprint& net = circle();
-  BoundaryMotion motion;
-  motion.begin = Eigen::Matrix3Xd::Zero(3, 2 * Eigen::Index(net.rods.size()));
-  for (std::size_t r = 0; r < net.rods.size(); ++r)
-    for (int end : {0, 1}) {
-      const FootprintRod& rod = net.rods[r];
-      motion.begin.col(2 * Eigen::Index(r) + end).head<2>() =
-          rod.at(end == 0 ? rod.span.begin : rod.span.end);
-    }
-  motion.end = 0.9 * motion.begin;
   NestedShell shell =
-      NestedShell::make(net, of, RodModel::bend, motion, {edges, false}, {}).value();
+      NestedShell::make(fig1().footprint, of, RodModel::bend, fig1().motion, {edges, false}, {})
+          .value();
   const State first = value_of(
       first_buckled(shell.system(0), shell.mesh(0), shell.motion(0), t, {}, {}, unwatched));
   REQUIRE(shell.start(t, first, unwatched).end == Outcome::reached);
@@ -97,13 +86,13 @@ struct Rested {
 }  // namespace
 
 TEST_CASE("dead loads: the weight of all rods and the point loads come to the nodes whole") {
-  const RodMesh mesh = mesh_rods(circle(), 4);
+  const RodMesh mesh = mesh_rods(fig1().footprint, 4);
   ShellRods loaded(section);
   double weight = 0;
   for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
     loaded.weight_N_per_mm.push_back(r % 2 == 0 ? 1e-6 : 3e-6);
-    weight +=
-        loaded.weight_N_per_mm.back() * (circle().rods[r].span.end - circle().rods[r].span.begin);
+    const Interval& span = fig1().footprint.rods[r].span;
+    weight += loaded.weight_N_per_mm.back() * (span.end - span.begin);
   }
   loaded.points.push_back({7, {0.1, 0, -0.3}});
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -114,26 +103,9 @@ TEST_CASE("dead loads: the weight of all rods and the point loads come to the no
   CHECK(dead_loads(mesh, ShellRods(section)).empty());
 }
 
-TEST_CASE("dead loads: a pinned rod bends by P L^3/(48 EI) in the middle, in proportion") {
-  // so little that it does not stretch
-  const double load = 1e-6;
-  Model model = build_model(single_rod(40, length), section).value();
-  const int middle = 21;  // s = L/2
-  REQUIRE(model.flat(0, middle) == Approx(length / 2));
-  model.loads.push_back({middle, {0, 0, -load}});
-  Linearisation system(model);
-  State state = start_state(model, straight(model));
-  for (double factor : {1.0, 0.5}) {
-    system.outside.load = factor;
-    REQUIRE(newton(system, state, {.tolerance_mm = 1e-9}).outcome == Outcome::reached);
-    CHECK(-state.x(2, middle) ==
-          Approx(factor * load * std::pow(length, 3) / (48 * section.EI)).epsilon(2e-3));
-  }
-}
-
 TEST_CASE("dead loads come on with the path: its tangent and the states agree") {
   ShellRods loaded(section);
-  loaded.weight_N_per_mm.assign(circle().rods.size(), 3.2e-6);
+  loaded.weight_N_per_mm.assign(fig1().footprint.rods.size(), 3.2e-6);
   loaded.points.push_back({0, {0, 0, -2e-3}});
   NestedShell shell = formed(loaded, 0.6, {4, 8});
   REQUIRE(shell.advance(1, unwatched).end == Outcome::reached);
@@ -162,7 +134,7 @@ TEST_CASE("rods of two kinds: a circle's state turns with its families") {
   const RodSection thick = circular_section(0.3, 83);
   const auto with_thick = [&](Family family) {
     ShellRods two;
-    for (const FootprintRod& rod : circle().rods)
+    for (const FootprintRod& rod : fig1().footprint.rods)
       two.materials.push_back(round_material(rod.family == family ? thick : section, 0));
     NestedShell shell = formed(two, 0.8, {4});
     return energy(shell);

@@ -1,5 +1,4 @@
 // Bars between joints and bolts that keep an angle, against differences of their energy.
-#include <catch2/catch.hpp>
 #include <limits>
 #include <random>
 

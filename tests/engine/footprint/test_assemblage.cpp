@@ -1,5 +1,4 @@
 // Building blocks: seams that fit and seams that do not, rods that run on, footprints side by side.
-#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "engine/footprint/assemblage.h"

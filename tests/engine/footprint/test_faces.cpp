@@ -1,7 +1,6 @@
 // Faces that rods and boundary enclose: none is lost, none counts twice.
 #include "engine/footprint/faces.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numeric>
 

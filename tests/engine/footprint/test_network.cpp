@@ -1,7 +1,6 @@
 // Footprints from networks of rods: what points become, and what does not hang together.
 #include "engine/footprint/network.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "engine/footprint/mesh.h"

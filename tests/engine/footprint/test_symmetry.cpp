@@ -1,9 +1,6 @@
 // The maps of the square that a footprint has.
 #include "engine/footprint/symmetry.h"
 
-#include <catch2/catch.hpp>
-
-#include "engine/scene/scene.h"
 #include "engine/solve/equilibrium_path.h"
 #include "tests/presets.h"
 
@@ -36,13 +33,7 @@ TEST_CASE("mesh symmetries: a circle has all sixteen, on every mesh, the identit
 }
 
 TEST_CASE("mesh symmetries: an ellipse has eight, a cap of a net does not turn over") {
-  preset::Preset ellipse;
-  ellipse.footprint.kind = preset::FootprintKind::curve;
-  ellipse.footprint.boundary.kind = preset::CurveKind::ellipse;
-  ellipse.footprint.boundary.half_x_mm = 90;
-  ellipse.footprint.boundary.half_y_mm = 65;
-  ellipse.actuation.scale = 0.8;
-  const auto oval = found(ellipse, 2);
+  const auto oval = found(curve(preset::CurveKind::ellipse, 90, 65, 0.8), 2);
   CHECK(oval.size() == 8);
   for (const MeshSymmetry& one : oval) CHECK(one.map(0, 0) != 0);
   // the hemisphere's boundary is level: what is known of its ends alone does not tell up from down

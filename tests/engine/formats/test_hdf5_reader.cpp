@@ -9,7 +9,7 @@ namespace fs = std::filesystem;
 
 TEST_CASE("an HDF5 file of something else is refused") {
   TemporaryFolder folder;
-  const fs::path path = folder.path() / "other.h5";
+  const fs::path path = folder / "other.h5";
   H5Fclose(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
   CHECK(refusal(read_file(path).value(), true) == "it does not say \"gridshell trajectory 1\"");
 }
@@ -30,74 +30,66 @@ TEST_CASE("objects that are not what they should be are refused before anything 
     H5Sclose(space);
   };
   const auto after = [&](auto change) { return refusal(changed(change), true); };
-  SECTION("an attribute of many numbers") {
-    CHECK(after([](hid_t file) {
-            std::vector<double> many(2000, 1.0);
-            H5Adelete_by_name(file, "/layout", "spacing_mm", H5P_DEFAULT);
-            const hsize_t size = many.size();
-            const hid_t space = H5Screate_simple(1, &size, nullptr);
-            const hid_t made = H5Acreate_by_name(file, "/layout", "spacing_mm", H5T_NATIVE_DOUBLE,
-                                                 space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-            H5Awrite(made, H5T_NATIVE_DOUBLE, many.data());
-            H5Aclose(made), H5Sclose(space);
-          }) == "/layout has no number spacing_mm");
-  }
-  SECTION("a text of many elements") {
-    CHECK(after([](hid_t file) {
-            H5Adelete(file, "format");
-            const hid_t type = H5Tcopy(H5T_C_S1);
-            H5Tset_size(type, 22);
-            const hsize_t size = 100;
-            const hid_t space = H5Screate_simple(1, &size, nullptr);
-            H5Aclose(H5Acreate2(file, "format", type, space, H5P_DEFAULT, H5P_DEFAULT));
-            H5Sclose(space), H5Tclose(type);
-          }) == "it does not say \"gridshell trajectory 1\"");
-  }
-  SECTION("text where numbers are due") {
-    CHECK(after([&](hid_t file) {
-            const hid_t type = H5Tcopy(H5T_C_S1);
-            H5Tset_size(type, 8);
-            put(file, "/nodes", type, {3, 12, 3});
-          }) == "/nodes is of another type");
-  }
-  SECTION("another number of dimensions") {
-    CHECK(after([&](hid_t file) {
-            const hid_t how = H5Pcreate(H5P_DATASET_CREATE);
-            H5Pset_alloc_time(how, H5D_ALLOC_TIME_EARLY);
-            put(file, "/nodes", H5T_NATIVE_DOUBLE, {3, 36}, how);
-          }) == "/nodes has 2 dimensions, expected 3");
-  }
-  SECTION("more rows than the file has bytes") {
-    CHECK(after([&](hid_t file) {
-            put(file, "/nodes", H5T_NATIVE_DOUBLE, {hsize_t(1) << 50, 12, 3});
-          }) == "/nodes claims to hold more than the file does");
-  }
-  SECTION("numbers in another file") {
-    CHECK(after([&](hid_t file) {
-            const hid_t how = H5Pcreate(H5P_DATASET_CREATE);
-            H5Pset_external(how, "/etc/hostname", 0, H5F_UNLIMITED);
-            put(file, "/nodes", H5T_NATIVE_DOUBLE, {3, 12, 3}, how);
-          }) == "/nodes is not stored plainly in this file");
-  }
-  SECTION("a link to another file") {
-    CHECK(after([](hid_t file) {
-            H5Ldelete(file, "/nodes", H5P_DEFAULT);
-            H5Lcreate_external("/tmp/other.h5", "/nodes", file, "/nodes", H5P_DEFAULT, H5P_DEFAULT);
-          }) == "/nodes is missing, or a link");
-  }
-  SECTION("a rod of three million nodes") {
-    CHECK_THAT(after([](hid_t file) {
-                 std::vector<int> nodes(3000000, 1);
-                 hvl_t list{nodes.size(), nodes.data()};
-                 const hid_t type = H5Tvlen_create(H5T_NATIVE_INT);
-                 const hsize_t one = 1;
-                 const hid_t space = H5Screate_simple(1, &one, nullptr);
-                 H5Ldelete(file, "/rods", H5P_DEFAULT);
-                 const hid_t set =
-                     H5Dcreate2(file, "/rods", type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-                 H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, &list);
-                 H5Dclose(set), H5Sclose(space), H5Tclose(type);
-               }),
-               Catch::Contains("nodes of 12"));
-  }
+  // an attribute of many numbers
+  CHECK(after([](hid_t file) {
+          std::vector<double> many(2000, 1.0);
+          H5Adelete_by_name(file, "/layout", "spacing_mm", H5P_DEFAULT);
+          const hsize_t size = many.size();
+          const hid_t space = H5Screate_simple(1, &size, nullptr);
+          const hid_t made = H5Acreate_by_name(file, "/layout", "spacing_mm", H5T_NATIVE_DOUBLE,
+                                               space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+          H5Awrite(made, H5T_NATIVE_DOUBLE, many.data());
+          H5Aclose(made), H5Sclose(space);
+        }) == "/layout has no number spacing_mm");
+  // a text of many elements
+  CHECK(after([](hid_t file) {
+          H5Adelete(file, "format");
+          const hid_t type = H5Tcopy(H5T_C_S1);
+          H5Tset_size(type, 22);
+          const hsize_t size = 100;
+          const hid_t space = H5Screate_simple(1, &size, nullptr);
+          H5Aclose(H5Acreate2(file, "format", type, space, H5P_DEFAULT, H5P_DEFAULT));
+          H5Sclose(space), H5Tclose(type);
+        }) == "it does not say \"gridshell trajectory 1\"");
+  // text where numbers are due
+  CHECK(after([&](hid_t file) {
+          const hid_t type = H5Tcopy(H5T_C_S1);
+          H5Tset_size(type, 8);
+          put(file, "/nodes", type, {3, 12, 3});
+        }) == "/nodes is of another type");
+  // another number of dimensions
+  CHECK(after([&](hid_t file) {
+          const hid_t how = H5Pcreate(H5P_DATASET_CREATE);
+          H5Pset_alloc_time(how, H5D_ALLOC_TIME_EARLY);
+          put(file, "/nodes", H5T_NATIVE_DOUBLE, {3, 36}, how);
+        }) == "/nodes has 2 dimensions, expected 3");
+  // more rows than the file has bytes
+  CHECK(after([&](hid_t file) {
+          put(file, "/nodes", H5T_NATIVE_DOUBLE, {hsize_t(1) << 50, 12, 3});
+        }) == "/nodes claims to hold more than the file does");
+  // numbers in another file
+  CHECK(after([&](hid_t file) {
+          const hid_t how = H5Pcreate(H5P_DATASET_CREATE);
+          H5Pset_external(how, "/etc/hostname", 0, H5F_UNLIMITED);
+          put(file, "/nodes", H5T_NATIVE_DOUBLE, {3, 12, 3}, how);
+        }) == "/nodes is not stored plainly in this file");
+  // a link to another file
+  CHECK(after([](hid_t file) {
+          H5Ldelete(file, "/nodes", H5P_DEFAULT);
+          H5Lcreate_external("/tmp/other.h5", "/nodes", file, "/nodes", H5P_DEFAULT, H5P_DEFAULT);
+        }) == "/nodes is missing, or a link");
+  // a rod of three million nodes
+  CHECK_THAT(after([](hid_t file) {
+               std::vector<int> nodes(3000000, 1);
+               hvl_t list{nodes.size(), nodes.data()};
+               const hid_t type = H5Tvlen_create(H5T_NATIVE_INT);
+               const hsize_t one = 1;
+               const hid_t space = H5Screate_simple(1, &one, nullptr);
+               H5Ldelete(file, "/rods", H5P_DEFAULT);
+               const hid_t set =
+                   H5Dcreate2(file, "/rods", type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+               H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, &list);
+               H5Dclose(set), H5Sclose(space), H5Tclose(type);
+             }),
+             Catch::Contains("nodes of 12"));
 }

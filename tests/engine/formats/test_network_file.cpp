@@ -1,10 +1,7 @@
 // Networks of rods in files: three formats, and all that may be wrong.
 #include "engine/formats/network_file.h"
 
-#include <catch2/catch.hpp>
-
-#include "engine/preset/preset_file.h"
-#include "tests/results.h"
+#include "tests/presets.h"
 
 using namespace gridshell;
 using namespace gridshell::preset;
@@ -49,36 +46,32 @@ std::string with(const std::string& from, const std::string& to) {
 }  // namespace
 
 TEST_CASE("a network in JSON: points by number or place, nearby ones are one") {
-  const auto read = read_network(crossed, "net.json");
-  if (!read) FAIL(read.error().message);
-  CHECK(read->points.size() == 6);
-  CHECK(read->rods == std::vector<std::vector<int>>{{0, 4, 1}, {2, 4, 3}});
-  CHECK(read->diameters == std::vector<double>{0, 0.5});
-  REQUIRE(read->own.size() == 2);
-  CHECK((read->own[1].rod == 1 && read->own[1].key == "young_GPa" && read->own[1].value == 70));
-  CHECK(read->supports == Points{{0, -8, 0, 1}, {1}});
-  CHECK(read->springs == Points{{0, 2, 0.125, 0}, {1, 3, 3, 3}});
-  CHECK(read->free == std::vector<int>{3});
+  const auto read = value_of(read_network(crossed, "net.json"));
+  CHECK(read.points.size() == 6);
+  CHECK(read.rods == std::vector<std::vector<int>>{{0, 4, 1}, {2, 4, 3}});
+  CHECK(read.diameters == std::vector<double>{0, 0.5});
+  REQUIRE(read.own.size() == 2);
+  CHECK((read.own[1].rod == 1 && read.own[1].key == "young_GPa" && read.own[1].value == 70));
+  CHECK(read.supports == Points{{0, -8, 0, 1}, {1}});
+  CHECK(read.springs == Points{{0, 2, 0.125, 0}, {1, 3, 3, 3}});
+  CHECK(read.free == std::vector<int>{3});
 }
 
 TEST_CASE("a network comes through a preset's text unchanged") {
   Preset p;
   p.footprint.kind = FootprintKind::network;
-  p.footprint.file = read_network(crossed, "net.json").value();
-  const auto read = read_preset_text(to_toml(p), "net.toml", "net");
-  if (!read) FAIL(read.error().message);
-  same(read->base.footprint.file, p.footprint.file);
+  p.footprint.file = value_of(read_network(crossed, "net.json"));
+  const auto read = good(to_toml(p));
+  same(read.base.footprint.file, p.footprint.file);
 }
 
 TEST_CASE("drawings: rods are joined where they cross or touch, a ring ends where it begins") {
   const std::string obj =
       "# square\nv -10 0 0\nv 10 0 0\nv 0 -10 0\nv 0 10 0\nl 1 2\nl 3 4\nf 1 2 3\n"
       "v 5 0 0\nv 5 5 0\nl -2 -1\nv 20 0 0\nv 30 0 0\nv 30 9 0\nl 7 8 9 7\n";
-  const auto lines = read_network(obj, "net.obj");
-  if (!lines) FAIL(lines.error().message);
-  CHECK(lines->rods ==
-        std::vector<std::vector<int>>{{0, 9, 4, 1}, {2, 9, 3}, {4, 5}, {6, 7, 8, 6}});
-  CHECK(lines->points.back() == std::vector<double>{0, 0, 0});
+  const auto lines = value_of(read_network(obj, "net.obj"));
+  CHECK(lines.rods == std::vector<std::vector<int>>{{0, 9, 4, 1}, {2, 9, 3}, {4, 5}, {6, 7, 8, 6}});
+  CHECK(lines.points.back() == std::vector<double>{0, 0, 0});
 
   const std::string dxf =
       "0\nSECTION\n2\nENTITIES\n0\nLINE\n8\nrods\n10\n-10\n20\n0\n30\n0\n11\n10\n21\n0\n31\n0\n"
@@ -86,23 +79,22 @@ TEST_CASE("drawings: rods are joined where they cross or touch, a ring ends wher
       "0\nPOLYLINE\n8\nrods\n66\n1\n70\n1\n10\n0\n20\n0\n30\n0\n0\nVERTEX\n8\nrods\n10\n20\n20\n0\n"
       "0\nVERTEX\n8\nrods\n10\n30\n20\n0\n0\nVERTEX\n8\nrods\n10\n30\n20\n9\n0\nSEQEND\n"
       "0\nLINE\n8\nlabels\n10\n0\n20\n0\n11\n99\n21\n99\n0\nENDSEC\n0\nEOF\n";
-  const auto drawn = read_network(dxf, "net.dxf");
-  if (!drawn) FAIL(drawn.error().message);
-  CHECK(drawn->rods == std::vector<std::vector<int>>{{0, 7, 1}, {2, 7, 3}, {4, 5, 6, 4}});
+  const auto drawn = value_of(read_network(dxf, "net.dxf"));
+  CHECK(drawn.rods == std::vector<std::vector<int>>{{0, 7, 1}, {2, 7, 3}, {4, 5, 6, 4}});
 }
 
 TEST_CASE("drawings in space: rods that pass over one another are not joined") {
   // two lines of an upright plane, one that crosses both, and one that passes them 1 mm off
-  const auto read = read_network(
-      "v 0 0 0\nv 0 4 4\nv 0 0 4\nv 0 4 0\nl 1 2\nl 3 4\nv -5 2 2\nv 5 2 2\nl 5 6\n"
-      "v -5 2 3\nv 5 2 3\nl 7 8\n",
-      "net.obj");
-  if (!read) FAIL(read.error().message);
-  REQUIRE(read->points.size() == 9);
-  CHECK(read->points[8] == std::vector<double>{0, 2, 2});
-  CHECK(read->rods == std::vector<std::vector<int>>{{0, 8, 1}, {2, 8, 3}, {4, 8, 5}, {6, 7}});
+  const auto read = value_of(
+      read_network("v 0 0 0\nv 0 4 4\nv 0 0 4\nv 0 4 0\nl 1 2\nl 3 4\nv -5 2 2\nv 5 2 2\nl 5 6\n"
+                   "v -5 2 3\nv 5 2 3\nl 7 8\n",
+                   "net.obj"));
+  REQUIRE(read.points.size() == 9);
+  CHECK(read.points[8] == std::vector<double>{0, 2, 2});
+  CHECK(read.rods == std::vector<std::vector<int>>{{0, 8, 1}, {2, 8, 3}, {4, 8, 5}, {6, 7}});
 }
 
+// more of JSON: scene/test_network_damage.cpp
 TEST_CASE("files of networks that are broken say where") {
   const auto changed = [](const char* here, const char* to, const char* reason) {
     wrong(with(here, to), "n.json", reason);
@@ -112,13 +104,9 @@ TEST_CASE("files of networks that are broken say where") {
   wrong("[1, 2]", "n.json", "must be an object");
   wrong("{}", "n.json", "holds no rods");
   changed("\"rods\"", "\"rod\"", "did you mean 'rods'");
-  changed("[-10, 0]", "[-10, NaN]", "n.json:2: is no JSON");
-  changed("[-10, 0]", "[-10, 1e999]", "n.json:2: is no JSON");
   changed("[-10, 0]", "[-10, 1e10]", "n.json:2: points_mm[0]: a coordinate");
   changed("[-10, 0]", "[-10, \"0\"]", "n.json:2: points_mm[0]: must be a point");
-  changed("[-10, 0]", "[-10]", "a point of 1 coordinates");
   changed("[0, 4, 1]", "[0, 4, 1000000000]", "n.json:4: rods[0]: names a point");
-  changed("[0, 4, 1]", "[0, 4, 6]", "n.json:4: rods[0]: point 6, must be from 0 to 5");
   changed("[0, 4, 1]", "[0, -1]", "point -1, must be from 0");
   changed("[0, 4, 1]", "[0]", "n.json:4: rods[0]: a rod of one point");
   changed("[0, 4, 1]", "[4, [0, 0.0005]]", "a rod of one point");
@@ -133,11 +121,8 @@ TEST_CASE("files of networks that are broken say where") {
   changed("0.5,", "1e300,", "a diameter of 1e+300");
   changed("\"point\": 0,", "\"point\": 9,", "n.json:8: supports[0]: names a point");
   changed("\"point\": 0,", "", "n.json:8: supports[0]: must be");
-  changed("\"point\": [10, 0]", "\"point\": 0", "point 0 is named as a support twice");
   changed("[-8, 0, 1]", "[-8, 0]", "to_mm must be [x, y, z]");
-  changed("\"free\"", "\"fre\"", "to_mm must be");
   changed("mm\": 3", "mm\": 0", "n.json:9: supports[1]: a spring of 0 N/mm");
-  changed("mm\": 3", "mm\": -3", "a spring of -3 N/mm, must be 0 or from 1e-06 to");
   changed("mm\": 3", "mm\": 1e7", "a spring of 1e+07 N/mm");
   changed("mm\": 3", "mm\": [3, 3]", "spring_N_per_mm must be a number, or [kx");
   changed("mm\": 3", "mm\": \"soft\"", "spring_N_per_mm must be a number");
@@ -164,8 +149,7 @@ TEST_CASE("files of networks that are broken say where") {
 
 TEST_CASE("a network is needed, and what names rods of a square grid is refused") {
   const auto message = [](const std::string& keys) {
-    const auto read = read_preset_text("[footprint]\nkind = \"network\"\n" + keys, "p.toml", "p");
-    return read ? std::string("none") : read.error().message;
+    return faults_of("[footprint]\nkind = \"network\"\n" + keys);
   };
   const std::string file =
       "file = {points_mm = [[-9, 0, 0], [9, 0, 0], [0, 9, 0], [0, 0, 0]], "

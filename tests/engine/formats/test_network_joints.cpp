@@ -1,7 +1,6 @@
 // Joints that a file of a network lists: what becomes one, where it stands, and what is refused.
-#include <catch2/catch.hpp>
-
 #include "engine/formats/network_file.h"
+#include "tests/results.h"
 
 using namespace gridshell;
 using namespace gridshell::preset;
@@ -28,17 +27,11 @@ std::string with(const std::string& from, const std::string& to) {
   return text.replace(text.find(from), from.size(), to);
 }
 
-NetworkData read(const std::string& text) {
-  const auto network = read_network(text, "n.json");
-  if (!network) FAIL(network.error().message);
-  return *network;
-}
+NetworkData read(const std::string& text) { return value_of(read_network(text, "n.json")); }
 
 void wrong(const std::string& joints, const std::string& reason) {
-  const auto network = read_network(with("[4, 1],\n    [2, 6]", joints), "n.json");
-  const auto fault = network ? "none" : network.error().message;
-  INFO(fault);
-  CHECK(fault.find("n.json:9: joints[0]: " + reason) != std::string::npos);
+  CHECK_THAT(refusal(read_network(with("[4, 1],\n    [2, 6]", joints), "n.json")),
+             Catch::Contains("n.json:9: joints[0]: " + reason));
 }
 
 }  // namespace

@@ -1,24 +1,16 @@
 // Surfaces in files: heights over a grid, meshes of three formats, and all that may be wrong.
-#include <catch2/catch.hpp>
 #include <cstring>
 
 #include "engine/formats/surface_file.h"
-#include "engine/preset/preset_file.h"
+#include "tests/presets.h"
 
 using namespace gridshell;
 using namespace gridshell::preset;
 
 namespace {
 
-std::string fault_of(const std::string& bytes, const std::string& name) {
-  const auto read = read_surface(bytes, name);
-  return read ? "none" : read.error().message;
-}
-
 void wrong(const std::string& bytes, const std::string& name, const std::string& reason) {
-  const auto fault = fault_of(bytes, name);
-  INFO(fault);
-  CHECK(fault.find(reason) != std::string::npos);
+  CHECK_THAT(refusal(read_surface(bytes, name)), Catch::Contains(reason));
 }
 
 std::string heights() {
@@ -96,10 +88,9 @@ TEST_CASE("the same square comes out of every format") {
                                     {"a.stl", stl_text()},
                                     {"b.stl", stl_bytes()}}) {
     INFO(name);
-    const auto mesh = read_surface(bytes, name);
-    if (!mesh) FAIL(mesh.error().message);
-    CHECK(mesh->vertices == Points{{0, 0, 0}, {1, 0, 0}, {1, 1, 0.5}, {0, 1, 0}});
-    CHECK(mesh->triangles == std::vector<std::array<int, 3>>{{0, 1, 2}, {0, 2, 3}});
+    const auto mesh = value_of(read_surface(bytes, name));
+    CHECK(mesh.vertices == Points{{0, 0, 0}, {1, 0, 0}, {1, 1, 0.5}, {0, 1, 0}});
+    CHECK(mesh.triangles == std::vector<std::array<int, 3>>{{0, 1, 2}, {0, 2, 3}});
   }
 }
 
@@ -155,22 +146,18 @@ TEST_CASE("a preset holds the surface of its file, and its text reads back as th
   for (const auto& file : files) {
     auto named = text;
     named.replace(named.find("NAME"), 4, file.first);
-    const auto read = read_preset_text(named, "built-in p", "p", {}, files);
-    if (!read) FAIL(read.error().message);
-    CHECK_FALSE(read->base.net.file.empty());
-    const auto again = read_preset_text(to_toml(*read), "p.toml", "p");
-    if (!again) FAIL(again.error().message);
-    CHECK(to_toml(*again) == to_toml(*read));
-    CHECK(again->base.net.file.vertices == read->base.net.file.vertices);
-    CHECK(again->base.net.file.z == read->base.net.file.z);
+    const auto read = value_of(read_preset_text(named, "built-in p", "p", {}, files));
+    CHECK_FALSE(read.base.net.file.empty());
+    const auto again = value_of(read_preset_text(to_toml(read), "p.toml", "p"));
+    CHECK(to_toml(again) == to_toml(read));
+    CHECK(again.base.net.file.vertices == read.base.net.file.vertices);
+    CHECK(again.base.net.file.z == read.base.net.file.z);
   }
   const auto refused = [&](const std::string& value, const char* reason) {
-    const auto read = read_preset_text(
-        "[footprint]\nkind = \"net\"\n[net]\nkind = \"surface\"\nfile = " + value + "\n",
-        "/nonexistent/p.toml", "p");
-    REQUIRE_FALSE(read.has_value());
-    INFO(read.error().message);
-    CHECK(read.error().message.find(reason) != std::string::npos);
+    CHECK_THAT(refusal(read_preset_text(
+                   "[footprint]\nkind = \"net\"\n[net]\nkind = \"surface\"\nfile = " + value + "\n",
+                   "/nonexistent/p.toml", "p")),
+               Catch::Contains(reason));
   };
   refused("\"a.obj\"", "/nonexistent/a.obj");
   refused("\"\"", "needs an expression");

@@ -1,5 +1,4 @@
 // Surfaces through heights and meshes, against the surfaces that these were taken from.
-#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "engine/geometry/spline.h"

@@ -1,5 +1,4 @@
 // Nets on surfaces that are given by an expression, against nets that are known.
-#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "engine/geometry/chebyshev_net.h"

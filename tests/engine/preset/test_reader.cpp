@@ -1,31 +1,9 @@
-#include <catch2/catch.hpp>
-
 #include "engine/core/file_io.h"
-#include "engine/preset/preset.h"
-#include "engine/preset/preset_file.h"
-#include "tests/results.h"
+#include "tests/presets.h"
 #include "tests/temporary_folder.h"
 
 using namespace gridshell;
 using namespace gridshell::preset;
-
-namespace {
-
-// the sentences of what is wrong with `text`, as bad.toml
-std::string faults_of(const std::string& text, const std::vector<Override>& overrides = {}) {
-  const auto presets = read_preset_text(text, "bad.toml", "bad", overrides);
-  if (presets) return "";
-  CHECK(presets.error().fault == Fault::bad_input);
-  return presets.error().message;
-}
-
-Presets good(const std::string& text, const std::vector<Override>& overrides = {}) {
-  const auto presets = read_preset_text(text, "good.toml", "good", overrides);
-  if (!presets) FAIL(presets.error().message);
-  return *presets;
-}
-
-}  // namespace
 
 TEST_CASE("an empty preset is the default one, with the name of its file") {
   const auto presets = good("");
@@ -64,12 +42,11 @@ radii_mm = [126, 110.5]
   CHECK(preset.figure.radii_mm == std::vector<double>{126.0, 110.5});
 }
 
+// more of them, through the whole program: app/test_bad_input.cpp
 TEST_CASE("a fault names its place, key, value, what is wrong and what is right") {
   using Row = std::pair<std::string, std::string>;
   const auto [text, sentence] = GENERATE(values<Row>({
       {"title = 12", "bad.toml:1:9: title = 12: is an integer, must be a string"},
-      {"[footprint]\nradus_mm = 126.0",
-       "bad.toml:2:1: [footprint] radus_mm = 126.0: unknown key; did you mean 'radius_mm'?"},
       {"[movie]\nelephant = true",
        "bad.toml:2:1: [movie] elephant = true: unknown key, must be one of frames, size, fps, "
        "quality, colour_by, azimuth_deg, elevation_deg, turn_deg, zoom, inset, bins, captions, "
@@ -83,8 +60,6 @@ TEST_CASE("a fault names its place, key, value, what is wrong and what is right"
        "bad.toml:1:1: footprint = 3: is a table, must hold keys: kind, file, rods, "
        "radius_mm, longest_leg, "
        "spacing_mm, placement, boundary, half_x_mm, half_y_mm, exponent, points_mm"},
-      {"[footprint]\nradius_mm = -126.0",
-       "bad.toml:2:13: [footprint] radius_mm = -126.0: out of range, must be a number > 0"},
       {"[footprint]\nradius_mm = nan",
        "bad.toml:2:13: [footprint] radius_mm = nan: is not finite, must be a number > 0"},
       {"[footprint]\nradius_mm = inf",
@@ -101,8 +76,6 @@ TEST_CASE("a fault names its place, key, value, what is wrong and what is right"
        "\"on_axis\"; did you mean 'half'?"},
       {"[accuracy]\ntolerance = 0",
        "bad.toml:2:13: [accuracy] tolerance = 0: out of range, must be a number from 1e-09 to 1"},
-      {"[movie]\nframes = 0",
-       "bad.toml:2:10: [movie] frames = 0: out of range, must be an integer from 2 to 100000"},
       {"[movie]\nsize = [1280]",
        "bad.toml:2:8: [movie] size = [ 1280 ]: is a list of 1, must be two integers, each from 16 "
        "to 16384"},
@@ -111,9 +84,6 @@ TEST_CASE("a fault names its place, key, value, what is wrong and what is right"
       {"[figure]\nradii_mm = [100.0, \"x\"]",
        "bad.toml:2:12: [figure] radii_mm = [ 100.0, \"x\" ]: is a list with a string, must be a "
        "list of numbers, each > 0"},
-      {"[actuation]\nradius_mm = 130.0",
-       "bad.toml:2:13: [actuation] radius_mm = 130.0: larger than the footprint, must be at most "
-       "[footprint] radius_mm = 126"},
       {"[rod]\ndiameter_mm = 20.0",
        "bad.toml:2:15: [rod] diameter_mm = 20.0: neighbouring rods would touch, must be less than "
        "[footprint] spacing_mm = 20"},
@@ -313,9 +283,9 @@ TEST_CASE("a case's list of tables stands in the place of the file's") {
 
 TEST_CASE("points stand in the preset or in a file beside it") {
   const TemporaryFolder folder;
-  const auto file = folder.path() / "shell.toml";
+  const auto file = folder / "shell.toml";
   const auto with = [&](const std::string& points, const std::string& csv) {
-    REQUIRE(write_file(folder.path() / "edge.csv", csv));
+    REQUIRE(write_file(folder / "edge.csv", csv));
     REQUIRE(write_file(
         file, "[footprint]\nkind = \"curve\"\nboundary = \"polygon\"\npoints_mm = " + points));
     return read_preset_file(file);
@@ -328,7 +298,7 @@ TEST_CASE("points stand in the preset or in a file beside it") {
     return with(points, csv).error().message;
   };
   const auto place = file.string() + ":4:13: [footprint] points_mm = ";
-  const auto csv = (folder.path() / "edge.csv").string();
+  const auto csv = (folder / "edge.csv").string();
   CHECK(wrong("\"edge.csv\"", "0 0\n1 2 3\n") ==
         place + "\"edge.csv\": " + csv + ":2: holds 3 values, must be 2 numbers: x, y");
   CHECK(wrong("\"edge.csv\"", "0 0\n1 nan\n") ==
@@ -343,15 +313,15 @@ TEST_CASE("points stand in the preset or in a file beside it") {
 
 TEST_CASE("a file is read under its own name") {
   const TemporaryFolder folder;
-  const auto file = folder.path() / "small.toml";
+  const auto file = folder / "small.toml";
   REQUIRE(write_file(file, "[footprint]\nrods = 6\n"));
   const auto presets = value_of(read_preset_file(file));
   CHECK(presets.base.name == "small");
   CHECK(presets.base.footprint.rods == 6);
-  const auto missing = folder.path() / "none.toml";
+  const auto missing = folder / "none.toml";
   CHECK(read_preset_file(missing).error().message ==
         "cannot read '" + missing.string() + "': No such file or directory");
   CHECK(read_preset_file(missing).error().fault == Fault::bad_input);
-  CHECK(read_preset_file(folder.path()).error().message ==
+  CHECK(read_preset_file(folder).error().message ==
         "cannot read '" + folder.path().string() + "': Is a directory");
 }

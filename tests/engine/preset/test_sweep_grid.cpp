@@ -1,9 +1,6 @@
 #include "engine/preset/sweep_grid.h"
 
-#include <catch2/catch.hpp>
-
-#include "engine/preset/preset_file.h"
-#include "tests/results.h"
+#include "tests/presets.h"
 
 using namespace gridshell;
 using namespace gridshell::preset;
@@ -11,21 +8,12 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-Result<Presets> read(const std::string& text, const std::vector<Override>& overrides = {}) {
-  return read_preset_text(text, "sweep.toml", "sweep", overrides);
-}
-
-std::string fault(const std::string& text, const std::vector<Override>& overrides = {}) {
-  const auto presets = read(text, overrides);
-  return presets ? "" : presets.error().message;
-}
-
 std::string over(const std::string& text) { return "[sweep.over]\n" + text + "\n"; }
 
 }  // namespace
 
 TEST_CASE("a grid of cases, values and seeds, in the order of the file") {
-  const auto presets = value_of(read(R"(
+  const auto presets = good(R"(
 [sweep]
 seeds = 2
 [sweep.over]
@@ -36,7 +24,7 @@ name = "a"
 [[case]]
 name = "b"
 footprint.rods = 10
-)"));
+)");
   const SweepGrid grid(presets);
   REQUIRE(grid.size() == 2u * 2 * 3 * 2);
   // written first changes slower, whatever the alphabet says
@@ -56,7 +44,7 @@ footprint.rods = 10
 
 TEST_CASE("searches for states shake otherwise at every point, and as before when asked again") {
   const auto seeds_of = [](const std::string& text) {
-    const auto presets = value_of(read(text));
+    const auto presets = good(text);
     const SweepGrid grid(presets);
     std::vector<int> seeds;
     for (std::size_t k = 0; k < grid.size(); ++k) seeds.push_back(grid.at(k).preset.jitter.seed);
@@ -76,11 +64,11 @@ TEST_CASE("searches for states shake otherwise at every point, and as before whe
 }
 
 TEST_CASE("values of every kind, ranges of integers, even factors") {
-  const auto presets = value_of(read(over(R"(actuation.seed = ["up", "down"]
+  const auto presets = good(over(R"(actuation.seed = ["up", "down"]
 footprint.rods = { from = 8, to = 16, count = 5 }
 rod.diameter_mm = { from = 0.1, to = 10, count = 3, log = true }
 indentation.unload = [true, false]
-indentation.depth_mm = [1])")));
+indentation.depth_mm = [1])"));
   const auto& axes = presets.base.sweep.over;
   CHECK(axes[0].values == std::vector<std::string>{"\"up\"", "\"down\""});
   CHECK(axes[1].values == std::vector<std::string>{"8", "10", "12", "14", "16"});
@@ -89,9 +77,9 @@ indentation.depth_mm = [1])")));
 }
 
 TEST_CASE("a sweep is printed as a preset that sweeps the same") {
-  const auto presets = value_of(read("[sweep]\nseeds = 3\nplot = [\"total_K\"]\n" +
-                                     over("rod.young_GPa = { from = 70, to = 90, count = 3 }")));
-  const auto again = value_of(read(to_toml(presets)));
+  const auto presets = good("[sweep]\nseeds = 3\nplot = [\"total_K\"]\n" +
+                            over("rod.young_GPa = { from = 70, to = 90, count = 3 }"));
+  const auto again = good(to_toml(presets));
   CHECK(to_toml(again) == to_toml(presets));
   CHECK(again.base.sweep.over[0].values == presets.base.sweep.over[0].values);
   // what sweeps nothing says nothing about it
@@ -100,50 +88,50 @@ TEST_CASE("a sweep is printed as a preset that sweeps the same") {
 
 TEST_CASE("a sweep is laid over by the command line") {
   const Override change{"--set", "sweep.over", "{rod.diameter_mm=[0.2,0.3]}"};
-  const auto presets = value_of(read("", {change}));
+  const auto presets = good("", {change});
   CHECK(SweepGrid(presets).size() == 2);
-  CHECK(SweepGrid(*read("")).size() == 0);
+  CHECK(SweepGrid(good("")).size() == 0);
 }
 
 TEST_CASE("hostile sweeps are told with file, line and key") {
-  CHECK_THAT(fault(over("rod.diametre_mm = [0.2]")),
-             Contains("sweep.toml:2:") && Contains("[sweep.over] rod.diametre_mm = ") &&
+  CHECK_THAT(faults_of(over("rod.diametre_mm = [0.2]")),
+             Contains("bad.toml:2:") && Contains("[sweep.over] rod.diametre_mm = ") &&
                  Contains("did you mean 'rod.diameter_mm'?"));
-  CHECK_THAT(fault(over("rod.diameter_mm = []")),
-             Contains("sweep.toml:2:") && Contains("is empty, must hold values"));
+  CHECK_THAT(faults_of(over("rod.diameter_mm = []")),
+             Contains("bad.toml:2:") && Contains("is empty, must hold values"));
   CHECK_THAT(
-      fault(over("rod.diameter_mm = [0.2,\n\"thick\"]")),
-      Contains("sweep.toml:3:1") &&
+      faults_of(over("rod.diameter_mm = [0.2,\n\"thick\"]")),
+      Contains("bad.toml:3:1") &&
           Contains("[sweep.over] rod.diameter_mm = \"thick\": is a string, must be a number"));
-  CHECK_THAT(fault(over("rod.diameter_mm = [0.2, -1, nan]")),
+  CHECK_THAT(faults_of(over("rod.diameter_mm = [0.2, -1, nan]")),
              Contains("-1: out of range") && Contains("nan: is not finite"));
-  CHECK_THAT(fault(over("rod.diameter_mm = 0.2")),
+  CHECK_THAT(faults_of(over("rod.diameter_mm = 0.2")),
              Contains("must be a list of values or { from, to, count }"));
-  CHECK_THAT(fault(over("rod.diameter_mm = [0.2, 0.20]")), Contains("stands there twice"));
-  CHECK_THAT(fault(over("rod.diameter_mm = {from = 1, to = 2, cuont = 3}")),
+  CHECK_THAT(faults_of(over("rod.diameter_mm = [0.2, 0.20]")), Contains("stands there twice"));
+  CHECK_THAT(faults_of(over("rod.diameter_mm = {from = 1, to = 2, cuont = 3}")),
              Contains("has no 'cuont'; did you mean 'count'?"));
-  CHECK_THAT(fault(over("rod.diameter_mm = {from = -1, to = 2, count = 3, log = true}")),
+  CHECK_THAT(faults_of(over("rod.diameter_mm = {from = -1, to = 2, count = 3, log = true}")),
              Contains("even factors need numbers > 0"));
-  CHECK_THAT(fault(over("footprint.rods = {from = 4, to = 9, count = 3}")),
+  CHECK_THAT(faults_of(over("footprint.rods = {from = 4, to = 9, count = 3}")),
              Contains("comes to 6.5, must be an integer"));
-  CHECK_THAT(fault(over("movie.frames = [3]")), Contains("changes no number of a run"));
-  CHECK_THAT(fault("[sweep]\nover = 3"), Contains("sweep.toml:2:") && Contains("is an integer"));
-  CHECK_THAT(fault("[sweep]\nover = {rod = {diameter_mm = {from = 1}}}"),
+  CHECK_THAT(faults_of(over("movie.frames = [3]")), Contains("changes no number of a run"));
+  CHECK_THAT(faults_of("[sweep]\nover = 3"), Contains("bad.toml:2:") && Contains("is an integer"));
+  CHECK_THAT(faults_of("[sweep]\nover = {rod = {diameter_mm = {from = 1}}}"),
              Contains("must be { from"));
-  CHECK_THAT(fault(over("net.waist = [0.2]")),
+  CHECK_THAT(faults_of(over("net.waist = [0.2]")),
              Contains("[net] waist counts for nothing in any of the runs"));
-  CHECK_THAT(fault(over("actuation.radius_mm = [90, 200]")),
-             Contains("sweep.toml:1:") && Contains("at actuation.radius_mm = 200.0") &&
+  CHECK_THAT(faults_of(over("actuation.radius_mm = [90, 200]")),
+             Contains("bad.toml:1:") && Contains("at actuation.radius_mm = 200.0") &&
                  Contains("larger than the footprint"));
-  CHECK_THAT(fault("[[case]]\nname = \"a\"\nsweep.seeds = 3"),
-             Contains("sweep.toml:3:") && Contains("stands outside of cases"));
-  CHECK_THAT(fault(over("rod.young_GPa = [1]") + "[[case]]\nname = \"a\"\nrod.young_GPa = 2"),
+  CHECK_THAT(faults_of("[[case]]\nname = \"a\"\nsweep.seeds = 3"),
+             Contains("bad.toml:3:") && Contains("stands outside of cases"));
+  CHECK_THAT(faults_of(over("rod.young_GPa = [1]") + "[[case]]\nname = \"a\"\nrod.young_GPa = 2"),
              Contains("is swept by [sweep] over, must not be set by a case"));
-  CHECK_THAT(fault(over("rod.young_GPa = [1]"), {{"--set", "rod.young_GPa", "2"}}),
+  CHECK_THAT(faults_of(over("rod.young_GPa = [1]"), {{"--set", "rod.young_GPa", "2"}}),
              Contains("must not be set by the command line"));
-  CHECK_THAT(fault("[imperfection]\nsize = 0.0\n[sweep]\nseeds = 3"),
+  CHECK_THAT(faults_of("[imperfection]\nsize = 0.0\n[sweep]\nseeds = 3"),
              Contains("counts for nothing"));
-  CHECK_THAT(fault("[sweep]\nseeds = 100000\n" +
-                   over("rod.young_GPa = {from = 1, to = 2, count = 100000}")),
+  CHECK_THAT(faults_of("[sweep]\nseeds = 100000\n" +
+                       over("rod.young_GPa = {from = 1, to = 2, count = 100000}")),
              Contains("must be at most 100000"));
 }

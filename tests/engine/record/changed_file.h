@@ -8,8 +8,8 @@
 #include <string>
 
 #include "engine/core/file_io.h"
-#include "engine/record/trajectory_file.h"
 #include "tests/engine/record/sample_run.h"
+#include "tests/results.h"
 #include "tests/temporary_folder.h"
 
 namespace gridshell::record {
@@ -19,12 +19,10 @@ inline std::string refusal(const std::string& bytes, bool unsealed = false) {
   TemporaryFolder folder;
   const std::filesystem::path path = folder.path() / "trajectory.h5";
   REQUIRE(write_file(path, bytes));
-  const auto read = read_trajectory(path, {.unsealed = unsealed});
-  REQUIRE_FALSE(read);
-  CHECK(read.error().fault == Fault::bad_input);
-  const std::string start = "'" + path.string() + "' is no trajectory of a run: ";
-  CHECK(read.error().message.substr(0, start.size()) == start);
-  return read.error().message.substr(start.size());
+  const std::string start = "'" + path.string() + "' is no trajectory of a run: ",
+                    why = gridshell::refusal(read_trajectory(path, {.unsealed = unsealed}));
+  CHECK_THAT(why, Catch::StartsWith(start));
+  return why.substr(start.size());
 }
 
 /// A trajectory as another program would leave it, without a seal, changed by `change(file)`

@@ -1,11 +1,12 @@
 #include "engine/record/contacts.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 #include <random>
 
 #include "engine/core/proximity.h"
+#include "engine/simulate/frames.h"
+#include "tests/presets.h"
 
 using namespace gridshell;
 using namespace gridshell::record;
@@ -20,33 +21,23 @@ struct Grid {
   Eigen::Matrix2Xd flat;
 
   Grid(int rods, int edges) {
-    layout.spacing_mm = 20;
+    preset::NetworkData file;
+    file.rods.resize(2 * std::size_t(rods));
+    for (int i = -1; i <= rods; ++i)
+      for (int j = -1; j <= rods; ++j) {
+        const auto point = int(file.points.size());
+        file.points.push_back({20.0 * i, 20.0 * j, 0});
+        if (j >= 0 && j < rods) file.rods[std::size_t(j)].push_back(point);
+        if (i >= 0 && i < rods) file.rods[std::size_t(rods + i)].push_back(point);
+      }
+    const Scene scene = value_of(scene_of(network(std::move(file))));
+    const RodMesh mesh = mesh_rods(scene.footprint, edges);
+    layout = value_of(simulate::layout_of(scene, mesh));
     layout.rod_diameter_mm = 0.254;
     layout.joint_diameter_mm = 3;
     layout.joint_height_mm = 5;
-    std::vector<Eigen::Vector2d> at;
-    for (int i = 0; i < rods; ++i)
-      for (int j = 0; j < rods; ++j) {
-        layout.joints.push_back({i, j, 20.0 * i, 20.0 * j, int(at.size())});
-        at.emplace_back(20 * i, 20 * j);
-      }
-    for (const bool along_u : {true, false})
-      for (int line = 0; line < rods; ++line) {
-        auto& rod = layout.rods.emplace_back();
-        for (int k = -edges; k <= rods * edges; ++k) {
-          const bool joint = k % edges == 0 && k >= 0 && k < rods * edges;
-          const double along = 20.0 * k / edges, across = 20.0 * line;
-          if (joint) {
-            const int place = k / edges;
-            rod.push_back(along_u ? place * rods + line : line * rods + place);
-            continue;
-          }
-          rod.push_back(int(at.size()));
-          at.emplace_back(along_u ? along : across, along_u ? across : along);
-        }
-      }
-    flat.resize(2, long(at.size()));
-    for (std::size_t k = 0; k < at.size(); ++k) flat.col(long(k)) = at[k];
+    // from the first joint, not from the middle
+    flat = mesh.flat.colwise() - mesh.flat.col(mesh.rods[0][std::size_t(edges)]);
   }
 
   /// Straight rods that cross at an angle.

@@ -79,3 +79,20 @@ TEST_CASE("a value is told in the digits that its error lets hold") {
   CHECK(with_error(0.25, 0, "N") == "0.25 N");
   CHECK(with_error(0.123456, unknown, "N") == "0.1235 N (error not known)");
 }
+
+TEST_CASE("a cell lies off its net by the mean of its joints, over the length scale") {
+  Trajectory run = sample_trajectory();
+  Frame frame = run.frames[0];
+  CHECK_FALSE(has_net(run.layout));
+  CHECK(deviation_of_nodes(run.layout, frame).size() == 0);
+  CHECK(deviation_of_cells(run.layout, frame).size() == 0);
+  run.layout.net_nodes = frame.nodes;
+  for (int joint = 0; joint < 4; ++joint) frame.nodes(2, joint) += 1.26 * (joint + 1);
+  const Eigen::VectorXd of_nodes = deviation_of_nodes(run.layout, frame);
+  REQUIRE(of_nodes.size() == 12);
+  CHECK(of_nodes[3] == Approx(0.04));
+  CHECK(of_nodes[4] == 0);
+  const Eigen::VectorXd of_cells = deviation_of_cells(run.layout, frame);
+  REQUIRE(of_cells.size() == 1);
+  CHECK(of_cells[0] == Approx(0.025));
+}

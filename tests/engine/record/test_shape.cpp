@@ -1,13 +1,11 @@
 // Tubes and the files of a shape.
 #include <Eigen/Geometry>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
 #include <map>
 #include <sstream>
 
 #include "engine/core/json.h"
-#include "engine/record/shape_export.h"
 #include "tests/engine/record/sample_run.h"
 #include "tests/results.h"
 

@@ -1,6 +1,5 @@
 #include "engine/record/sweep_results.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <fstream>
 
@@ -38,11 +37,17 @@ void write(const std::filesystem::path& file, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;
 }
 
+/// In which the first three points stand.
+void three_points(const std::filesystem::path& file) {
+  auto log = value_of(open(file));
+  for (std::size_t point = 0; point < 3; ++point) REQUIRE(log.append(result(point)));
+}
+
 }  // namespace
 
 TEST_CASE("a log gives back what was put into it, to the bit") {
   const TemporaryFolder folder;
-  const auto file = folder.path() / "sweep.jsonl";
+  const auto file = folder / "sweep.jsonl";
   {
     auto log = value_of(open(file));
     for (const std::size_t point : {3u, 1u}) REQUIRE(log.append(result(point)));
@@ -64,11 +69,8 @@ TEST_CASE("a log gives back what was put into it, to the bit") {
 
 TEST_CASE("a log that was cut anywhere keeps every whole line, and goes on") {
   const TemporaryFolder folder;
-  const auto file = folder.path() / "sweep.jsonl";
-  {
-    auto log = open(file);
-    for (std::size_t point = 0; point < 3; ++point) REQUIRE(log->append(result(point)));
-  }
+  const auto file = folder / "sweep.jsonl";
+  three_points(file);
   const std::string whole = text_of(file);
   for (std::size_t length = 0; length <= whole.size();
        length += length + 40 < whole.size() ? 37 : 1) {
@@ -86,11 +88,8 @@ TEST_CASE("a log that was cut anywhere keeps every whole line, and goes on") {
 
 TEST_CASE("a line that was changed is not believed") {
   const TemporaryFolder folder;
-  const auto file = folder.path() / "sweep.jsonl";
-  {
-    auto log = open(file);
-    for (std::size_t point = 0; point < 3; ++point) REQUIRE(log->append(result(point)));
-  }
+  const auto file = folder / "sweep.jsonl";
+  three_points(file);
   std::string text = text_of(file);
   text[text.find("\"point\":1") + 8] = '7';
   write(file, text);
@@ -102,19 +101,15 @@ TEST_CASE("a line that was changed is not believed") {
 
 TEST_CASE("a log is of one sweep and in one hand") {
   const TemporaryFolder folder;
-  const auto file = folder.path() / "sweep.jsonl";
+  const auto file = folder / "sweep.jsonl";
   {
     auto log = open(file);
     REQUIRE(log);
-    const auto second = open(file);
-    REQUIRE_FALSE(second);
-    CHECK_THAT(second.error().message, Contains("another sweep is writing it"));
+    CHECK_THAT(refusal(open(file)), Contains("another sweep is writing it"));
   }
   SweepIdentity other = name;
   other.config = 1;
-  const auto refused = open(file, other);
-  REQUIRE_FALSE(refused);
-  CHECK_THAT(refused.error().message, Contains("of another preset"));
+  CHECK_THAT(refusal(open(file, other)), Contains("of another preset"));
   // what is none is left as it is
   for (const char* text : {"my notes", "my notes\n", "{\"sweep\":1}\n"}) {
     write(file, text);
@@ -125,7 +120,7 @@ TEST_CASE("a log is of one sweep and in one hand") {
 
 TEST_CASE("a full disk loses the point, not the log") {
   const TemporaryFolder folder;
-  const auto file = folder.path() / "sweep.jsonl";
+  const auto file = folder / "sweep.jsonl";
   auto log = open(file);
   REQUIRE(log->append(result(0)));
   {

@@ -1,9 +1,6 @@
 // Damaged files of networks: each is answered by its place and by what would be right.
-#include <catch2/catch.hpp>
-
 #include "engine/formats/network_file.h"
-#include "engine/preset/consistency.h"
-#include "engine/scene/scene.h"
+#include "tests/presets.h"
 
 using namespace gridshell;
 
@@ -28,17 +25,14 @@ const std::string whole = R"({
   ]
 })";
 
-/// What the program says of a file, or "": nothing.
+/// What the program says of a file; "none" where nothing.
 std::string told(const std::string& text) {
   const auto file = preset::read_network(text, "n.json");
-  if (!file) return file.error().message;
-  preset::Preset p;
-  p.footprint.kind = preset::FootprintKind::network;
-  p.footprint.file = *file;
+  if (!file) return refusal(file);
+  preset::Preset p = network(*file);
   p.rod.shear_GPa = 31;
   for (const auto& fault : preset::conflicts(p)) return fault.what;
-  const auto scene = scene_of(p);
-  return scene ? "" : scene.error().message;
+  return refusal(scene_of(p));
 }
 
 struct Damage {
@@ -48,7 +42,7 @@ struct Damage {
 }  // namespace
 
 TEST_CASE("damaged files of networks are answered by their place and what would be right") {
-  CHECK(told(whole) == "");
+  CHECK(told(whole) == "none");
   const Damage all[] = {
       {"[20, 0]", "[20, NaN]", "n.json:2: is no JSON here"},
       {"[20, 0]", "[20, 1e400]", "n.json:2: "},

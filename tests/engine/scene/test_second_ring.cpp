@@ -1,5 +1,4 @@
 // Tails beyond the boundary whose far ends keep the net's tangents.
-#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "engine/scene/rod_ends.h"
@@ -102,7 +101,7 @@ TEST_CASE("a cap with a second ring comes to one state from the flat, from the n
 
 TEST_CASE("a second ring is refused where there is no net, or where directions are held already") {
   const auto refused = [](const std::string& text, const char* reason) {
-    CHECK_THAT(refusal(preset::read_preset_text(text, "p.toml", "p")), Catch::Contains(reason));
+    CHECK_THAT(preset::faults_of(text), Catch::Contains(reason));
   };
   refused("[ends]\nsecond_ring_mm = 10.0\n", "this footprint has none");
   refused("[footprint]\nkind = \"net\"\n[ends]\nkind = \"tangent\"\nsecond_ring_mm = 10.0\n",

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "engine/simulate/run.h"
-#include "engine/simulate/simulation.h"
 #include "tests/presets.h"
 
 namespace gridshell {
@@ -11,6 +10,15 @@ namespace gridshell {
 inline simulate::ExperimentResult run(const preset::Preset& preset, bool stills = false) {
   Watch watch;
   return value_of(simulate::run(preset, stills, watch));
+}
+
+/// To its end, in a stable state.
+inline simulate::ExperimentResult run_to_end(const preset::Preset& preset, bool stills = false) {
+  auto outcome = run(preset, stills);
+  INFO(outcome.summary.limit_reason);
+  CHECK(outcome.summary.limit == record::Limit::none);
+  CHECK(outcome.summary.stable);
+  return outcome;
 }
 
 /// With the frames of a figure.
@@ -40,6 +48,19 @@ inline double distance(const simulate::ExperimentResult& a, const simulate::Expe
 
 inline std::shared_ptr<const Scene> shared_scene(const preset::Preset& preset) {
   return std::make_shared<const Scene>(value_of(scene_of(preset)));
+}
+
+/// At the end of its actuation, on these meshes, begun at that shortening.
+inline Simulation formed(const preset::Preset& preset, const LevelPlan& plan,
+                         double shortening = 0.02) {
+  Simulation simulation = value_of(Simulation::open(shared_scene(preset), plan));
+  REQUIRE(value_of(simulation.begin_buckled(shortening, unwatched)).end == Outcome::reached);
+  REQUIRE(simulation.move_to(1, unwatched).end == Outcome::reached);
+  CHECK(simulation.certificate().stable());
+  return simulation;
+}
+inline Simulation formed(const preset::Preset& preset) {
+  return formed(preset, plan_levels(preset.accuracy.tolerance));
 }
 
 /// A shell at rest beside its net, on one mesh and those that nest in it.

@@ -1,8 +1,6 @@
-#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "tests/engine/simulate/run.h"
-#include "tests/small_shell.h"
 
 using namespace gridshell;
 
@@ -18,10 +16,7 @@ preset::Preset crowded(double radius_mm) {
 
 /// The shell of Fig. 1 with two mirrors, which dips below its boundary's plane.
 preset::Preset with_two_mirrors() {
-  preset::Preset preset;
-  preset.footprint.rods = 12;
-  preset.footprint.radius_mm = 126;
-  preset.actuation.radius_mm = 94.5;
+  preset::Preset preset = circle(12, 126, 94.5);
   preset.imperfection.size = 0;
   preset.accuracy.edges_per_segment = 4;
   return preset;
@@ -152,14 +147,13 @@ TEST_CASE("shells of the paper do not touch themselves: a rod near its joint is 
   CHECK(outcome.summary.contact.empty());
 }
 
-namespace {
-
-void check_apart_on_the_whole_path(RodModel model) {
+TEST_CASE("a barrier keeps rods apart on the whole path, of wires and of rods that twist",
+          "[full]") {
   // further in, at 12 mm, meshes that the tolerance chooses go on for minutes
   auto preset = crowded(17);
   preset.accuracy.tolerance = 5e-3;
   preset.imperfection.size = 1e-4;  // the symmetric branch ends unstable
-  preset.accuracy.model = model;
+  preset.accuracy.model = GENERATE(RodModel::bend, RodModel::twist);
   preset.rod.shear_GPa = 31;
   const auto through = run(preset);
   CHECK(through.summary.rod_gap_mm < 0);
@@ -180,14 +174,4 @@ void check_apart_on_the_whole_path(RodModel model) {
     CHECK(frame.residual_N < 1e-5);
     CHECK(frame.negative_pivots == 0);
   }
-}
-
-}  // namespace
-
-TEST_CASE("a barrier keeps rods apart on the whole path", "[full]") {
-  check_apart_on_the_whole_path(RodModel::bend);
-}
-
-TEST_CASE("a barrier keeps rods that twist apart on the whole path", "[full]") {
-  check_apart_on_the_whole_path(RodModel::twist);
 }

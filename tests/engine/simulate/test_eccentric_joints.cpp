@@ -1,7 +1,4 @@
 // Rods whose axes lie above one another at their joints.
-#include <catch2/catch.hpp>
-
-#include "tests/engine/simulate/network_preset.h"
 #include "tests/engine/simulate/run.h"
 
 using namespace gridshell;
@@ -13,9 +10,7 @@ constexpr double length = 200, EA = 1e4 * M_PI, EI = EA / 4;  // of 2 mm and 10 
 /// Two pinned beams that cross in their middles, the second `apart` above the first, ends and all;
 /// the first is pushed along the second there.
 preset::Preset layers(double apart, double push_N, int edges) {
-  preset::NetworkData file;
-  file.points = {{-100, 0, 0}, {100, 0, 0}, {0, -100, 0}, {0, 100, 0}, {0, 0, 0}};
-  file.rods = {{0, 4, 1}, {2, 4, 3}};
+  preset::NetworkData file = cross(length / 2, length / 2);
   file.supports = {{2, 0, -100, apart}, {3, 0, 100, apart}};
   preset::Preset p = network(file, edges);
   p.rod.diameter_mm = 2, p.rod.young_GPa = 10, p.rod.shear_GPa = 4;
@@ -35,10 +30,7 @@ simulate::ExperimentResult layered(double eccentricity_mm, int edges, bool hinge
   p.joints.eccentricity_mm = eccentricity_mm;
   p.accuracy.edges_per_segment = edges;
   p.movie.frames = 3;
-  auto outcome = run(p);
-  CHECK(outcome.summary.stable);
-  CHECK(outcome.summary.limit == record::Limit::none);
-  return outcome;
+  return run_to_end(p);
 }
 
 }  // namespace

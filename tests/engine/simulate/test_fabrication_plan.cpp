@@ -1,8 +1,5 @@
 // What is built by hand has the model's own lengths and places.
-#include <catch2/catch.hpp>
-
 #include "engine/footprint/mesh.h"
-#include "engine/record/fabrication.h"
 #include "engine/simulate/fabrication_plan.h"
 #include "tests/engine/simulate/run.h"
 

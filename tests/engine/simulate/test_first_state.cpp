@@ -1,22 +1,12 @@
-// The first buckled state: the one that the seed asks for, whatever mesh is asked for.
+// The first buckled state: the one that the seed asks for, whatever mesh is asked for, and states
+// that nearly coincide with their own images.
 #include "engine/simulate/first_state.h"
 
-#include <catch2/catch.hpp>
-
-#include "engine/simulate/simulation.h"
-#include "tests/engine/simulate/network_preset.h"
-#include "tests/presets.h"
+#include "tests/engine/simulate/run.h"
 
 using namespace gridshell;
 
 namespace {
-
-/// A superellipse whose dome has several states of rest close to one another: brought to rest on
-/// each mesh by itself, it came to states 0.6 mm apart in height.
-Scene many_states() {
-  return value_of(scene_of(superellipse(123.26901689171791, 102.08232879638672, 3.0916969776153564,
-                                        0.8719519721716642)));
-}
 
 Energies first_energies(const std::shared_ptr<const Scene>& scene, int edges) {
   Simulation session = Simulation::open(scene, {.edges_per_segment = {edges}}).value();
@@ -30,7 +20,10 @@ Energies first_energies(const std::shared_ptr<const Scene>& scene, int edges) {
 }  // namespace
 
 TEST_CASE("the first buckled state is the same one on meshes of every family") {
-  const auto scene = std::make_shared<const Scene>(many_states());
+  // a superellipse whose dome has several states of rest close to one another: brought to rest on
+  // each mesh by itself, it came to states 0.6 mm apart in height
+  const auto scene = shared_scene(
+      superellipse(123.26901689171791, 102.08232879638672, 3.0916969776153564, 0.8719519721716642));
   // second order: 4 edges are the furthest off
   const double coarse = first_energies(scene, 4).total(), fine = first_energies(scene, 10).total();
   for (int edges : {5, 6, 7, 8}) {
@@ -42,18 +35,69 @@ TEST_CASE("the first buckled state is the same one on meshes of every family") {
 }
 
 TEST_CASE("rods too thick to buckle while they are soft go to the side of the seed") {
-  preset::NetworkData cross;
-  cross.points = {{-50, 0, 0}, {50, 0, 0}, {0, -50, 0}, {0, 50, 0}, {0, 0, 0}};
-  cross.rods = {{0, 4, 1}, {2, 4, 3}};
-  preset::Preset p = network(cross, 4);
+  preset::Preset p = network(cross(50, 50), 4);
   p.actuation.scale = 0.88;
   p.rod.diameter_mm = 2;
   for (const auto seed : {preset::Seed::up, preset::Seed::down}) {
     p.actuation.seed = seed;
-    const auto scene = std::make_shared<const Scene>(value_of(scene_of(p)));
-    Simulation simulation = value_of(Simulation::open(scene, {.edges_per_segment = {4}}));
+    Simulation simulation = value_of(Simulation::open(shared_scene(p), {.edges_per_segment = {4}}));
     REQUIRE(value_of(simulation.begin_buckled(0.02, unwatched)).end == Outcome::reached);
     const double joint = simulation.nodes()(2, 0);
     CHECK((seed == preset::Seed::up ? joint : -joint) > 5);
   }
+}
+
+TEST_CASE("a state next to its own image is told as doubtful", "[standard]") {
+  // legs of a sixth of the spacing give way sideways, each to either side by 0.006 mm
+  preset::Preset p = circle(5, 18.288596114, 12.958769254);
+  p.footprint.spacing_mm = 8.419622877;
+  p.actuation.seed = preset::Seed::down;
+  p.rod.shear_GPa = 31;
+  p.joints.shear_Nmm = 0.065755932;
+  for (const double tolerance : {1e-3, 1e-5}) {
+    p.accuracy.tolerance = tolerance;
+    const record::Summary s = run(p).summary;
+    CAPTURE(tolerance, s.limit_reason);
+    CHECK_FALSE(s.doubt.empty());
+    if (tolerance > 1e-4)
+      CHECK_THAT(s.doubt, Catch::Contains("mm from its own image under a symmetry of the shell"));
+  }
+}
+
+TEST_CASE("symmetric states, and those that are clearly not, are not doubtful") {
+  const auto doubt = [](const preset::Preset& p) { return run(p).summary.doubt; };
+  CHECK(doubt(on_net()).empty());
+  preset::Preset dome = circle(4, 42, 36);
+  CHECK(doubt(dome).empty());
+  // a load of its own leaves it no symmetry
+  dome.loads.points = {{0, 0, 0, 0, -1e-4}};
+  CHECK(doubt(dome).empty());
+}
+
+TEST_CASE("of a shell's mirror images it is the seed's, whichever mesh leads") {
+  // rods of nearly one length, which buckle in many ways at once: next to the flat each leader
+  // comes to an image of its own
+  preset::Preset p = superellipse(97.549340278, 104.313228855, 4.331419192, 0.9545160727);
+  p.accuracy.tolerance = 3.6e-3;
+  p.movie.frames = 2;
+  const auto led = run(p);
+  p.accuracy.leading_edges = 8;
+  const auto by_finer = run(p);
+  CHECK(distance(led, by_finer) <
+        led.summary.error_estimate_mm + by_finer.summary.error_estimate_mm);
+  // 9.6 mm apart where the seed is the other
+  p.actuation.seed_diagonal = preset::SeedDiagonal::y_eq_minus_x;
+  CHECK(distance(run(p), by_finer) > 5);
+}
+
+TEST_CASE("a branch on which states are found late is doubtful", "[full]") {
+  // at each of two corners rods give way to either side, all at nearly the same radius, which a
+  // leader of 4 or 8 edges does not see there
+  preset::Preset p = circle(14, 168.50041607, 151.962336432, 2);
+  p.ends.kind = preset::EndKind::tangent;
+  p.imperfection.seed = 930;
+  p.accuracy.tolerance = 1e-2;
+  const record::Summary s = run(p).summary;
+  CHECK_THAT(s.limit_reason, Catch::Contains("branches at progress 0.4077"));
+  CHECK_THAT(s.doubt, Catch::StartsWith("of the branch that leaves the path at progress 0.4077"));
 }

@@ -2,12 +2,7 @@
 // that it is told with.
 #include "engine/simulate/frames_between.h"
 
-#include <catch2/catch.hpp>
-
 #include "engine/core/team.h"
-#include "engine/simulate/actuation.h"
-#include "engine/simulate/frames.h"
-#include "engine/simulate/indentation.h"
 #include "tests/engine/simulate/run.h"
 
 using namespace gridshell;

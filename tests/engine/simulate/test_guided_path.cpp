@@ -1,11 +1,9 @@
 // What finer meshes choose, followed on coarser ones.
 #include "engine/simulate/guided_path.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <memory>
 
-#include "engine/simulate/actuation.h"
 #include "engine/simulate/mesh_choice.h"
 #include "tests/engine/simulate/run.h"
 #include "tests/results.h"

@@ -1,9 +1,6 @@
 // The paper's point loads on hemispheres, and pushes to their end.
-#include <catch2/catch.hpp>
 #include <cmath>
 
-#include "engine/footprint/symmetry.h"
-#include "tests/engine/record/corner_curvature.h"
 #include "tests/engine/simulate/run.h"
 
 using namespace gridshell;
@@ -57,20 +54,6 @@ TEST_CASE("three point loads: certified frames, depth as asked, the force does t
     const double gained = energy_of(frames.back()) - energy_of(frames.front());
     CHECK(work_of(frames) == Approx(gained).epsilon(5e-3));
   }
-}
-
-TEST_CASE("total K equals the sum over the corner joints in every frame") {
-  for (const auto placement : {Placement::half, Placement::on_axis})
-    for (const Case which : {Case::pole_inward, Case::pole_outward, Case::oblique_inward}) {
-      const preset::Preset p = hemisphere(which, 120, placement, 0.1, 4);
-      const auto outcome = run(p);
-      const Footprint footprint = scene_of(p)->footprint;
-      const RodMesh mesh = mesh_rods(footprint, outcome.summary.edges_per_segment);
-      for (const record::Frame& frame : outcome.trajectory.frames)
-        CHECK(
-            total_curvature_from_corners(footprint, joint_tangents(footprint, mesh, frame.nodes)) ==
-            Approx(frame.total_K).margin(1e-9));
-    }
 }
 
 TEST_CASE("the pushed joint goes straight down its normal, held, it does not go sideways") {

@@ -1,14 +1,11 @@
 // A run that is stopped goes on from what it kept of its path.
 #include "engine/simulate/kept_segments.h"
 
-#include <catch2/catch.hpp>
-
 #include <algorithm>
 #include <atomic>
 #include <thread>
 
 #include "engine/core/file_io.h"
-#include "engine/simulate/run.h"
 #include "tests/engine/simulate/run.h"
 #include "tests/temporary_folder.h"
 
@@ -76,26 +73,26 @@ TEST_CASE("a run that is stopped on its path goes on from there, to the same sta
           "[standard]") {
   const TemporaryFolder folder;
   const Run whole = run_with({});
-  const Run stopped = run_with(folder.path(), 0.3);
+  const Run stopped = run_with(folder, 0.3);
   if (stopped.summary) return;  // it was over before anybody looked
-  const auto kept = files_in(folder.path());
+  const auto kept = files_in(folder);
   REQUIRE(kept.size() >= 2);
   // as near as corrections go
-  check_same(whole, run_with(folder.path()), 1e-3 * 1e-3 * 126);
+  check_same(whole, run_with(folder), 1e-3 * 1e-3 * 126);
 }
 
 TEST_CASE("a path that was kept whole gives the same bits, and what is damaged is followed again",
           "[standard]") {
   const TemporaryFolder folder;
-  const Run first = run_with(folder.path());
-  const auto kept = files_in(folder.path());
+  const Run first = run_with(folder);
+  const auto kept = files_in(folder);
   REQUIRE(kept.size() >= 4);
-  check_same(first, run_with(folder.path()), 0);
+  check_same(first, run_with(folder), 0);
   std::string bytes = read_file(kept[1]).value();
   bytes[bytes.size() / 2] ^= 1;
   REQUIRE(write_file(kept[1], bytes));
   REQUIRE(write_file(kept[2], "segment"));
-  check_same(first, run_with(folder.path()), 0);
+  check_same(first, run_with(folder), 0);
 }
 
 TEST_CASE("a segment that begins elsewhere is none of the run") {
@@ -103,10 +100,10 @@ TEST_CASE("a segment that begins elsewhere is none of the run") {
   KeptSegment segment;
   segment.begin = {7, 0, 1, {4, 8}};
   segment.end = Outcome::reached;
-  KeptSegments segments(folder.path(), 0);
+  KeptSegments segments(folder, 0);
   CHECK_FALSE(segments.next(segment.begin));
   segments.keep(segment);
-  CHECK(KeptSegments(folder.path()).next(segment.begin)->end == Outcome::reached);
-  CHECK_FALSE(KeptSegments(folder.path()).next({8, 0, 1, {4, 8}}));
-  CHECK_FALSE(KeptSegments(folder.path()).next({7, 0, 1, {4, 8, 16}}));
+  CHECK(KeptSegments(folder).next(segment.begin)->end == Outcome::reached);
+  CHECK_FALSE(KeptSegments(folder).next({8, 0, 1, {4, 8}}));
+  CHECK_FALSE(KeptSegments(folder).next({7, 0, 1, {4, 8, 16}}));
 }

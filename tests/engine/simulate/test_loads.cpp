@@ -1,13 +1,10 @@
 // Equilibria under loads: a column that buckles under its own weight, a pinched ring, beams, a
 // grillage and a cable net formed by loads alone, each beside a closed form or an elastica.
-#include <array>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <functional>
 #include <numbers>
 #include <regex>
 
 #include "tests/engine/simulate/run.h"
+#include "tests/engine/solve/elastica.h"
 
 using namespace gridshell;
 
@@ -16,14 +13,6 @@ namespace {
 constexpr double EI = 83e3 * std::numbers::pi * 0.254 * 0.254 * 0.254 * 0.254 / 64;  // N mm^2
 constexpr double L = 200;                                                            // mm
 constexpr double stiff = 1000;                                                       // N/mm
-
-preset::Preset network(preset::NetworkData file) {
-  preset::Preset p;
-  p.footprint.kind = preset::FootprintKind::network;
-  p.footprint.file = std::move(file);
-  p.movie.frames = 2;
-  return p;
-}
 
 /// A rod from a held crossing of two others to `tip`, which is sprung.
 preset::NetworkData rod_on_cross(const std::vector<double>& tip, const Eigen::Vector3d& spring) {
@@ -48,40 +37,19 @@ Eigen::Vector3d tip_of(const record::Trajectory& trajectory, std::size_t frame) 
   return trajectory.frames[frame].nodes.col(Eigen::Index(trajectory.layout.joints.size()) + 5);
 }
 
-/// Angle, its slope and the place of a rod: d/ds of them is (slope, turn(s, angle)/EI, direction).
-using Elastica = std::array<double, 4>;
-Elastica elastica(double angle, double length, const std::function<double(double, double)>& turn) {
-  constexpr int steps = 1000;
-  const double h = length / steps;
-  const auto rate = [&](double s, const Elastica& y) -> Elastica {
-    return {y[1], turn(s, y[0]) / EI, std::sin(y[0]), std::cos(y[0])};
-  };
-  const auto on = [](const Elastica& y, double way, const Elastica& by) {
-    Elastica next = y;
-    for (int k = 0; k < 4; ++k) next[std::size_t(k)] += way * by[std::size_t(k)];
-    return next;
-  };
-  Elastica y{angle, 0, 0, 0};
-  for (int k = 0; k < steps; ++k) {
-    const double s = k * h;
-    const Elastica a = rate(s, y), b = rate(s + h / 2, on(y, h / 2, a)),
-                   c = rate(s + h / 2, on(y, h / 2, b)), d = rate(s + h, on(y, h, c));
-    for (int i = 0; i < 4; ++i) {
-      const auto n = std::size_t(i);
-      y[n] += h / 6 * (a[n] + 2 * b[n] + 2 * c[n] + d[n]);
-    }
-  }
-  return y;
+/// The elastica of a rod of this bending stiffness.
+template <class Turn>
+Eigen::Vector4d elastica(double angle, double length, const Turn& turn) {
+  return shot(angle, 0, length, [&](double s, double theta) { return turn(s, theta) / EI; });
 }
 
-/// Where a function that changes its sign between two places is zero.
-double zero_of(const std::function<double(double)>& f, double low, double high) {
-  const bool rises = f(high) > 0;
-  for (int k = 0; k < 60; ++k) {
-    const double middle = 0.5 * (low + high);
-    ((f(middle) > 0) == rises ? high : low) = middle;
-  }
-  return low;
+/// How far half a beam sags that ends at right angles to the vertical in its middle, where `turn`
+/// is the moment's slope; its angle at the end lies between `least` and a right one.
+template <class Turn>
+double sag_of_half(double least, const Turn& turn) {
+  const auto half = [&](double angle) { return elastica(angle, L / 2, turn); };
+  return half(zero_of([&](double angle) { return half(angle)[0] - std::numbers::pi / 2; }, least,
+                      std::numbers::pi / 2))[3];
 }
 
 /// How high the top of the buckled column stands: a moment without a horizontal force H would bring
@@ -120,10 +88,8 @@ double bend(const simulate::ExperimentResult& outcome) {
 
 TEST_CASE("a heavy column branches at its critical weight and is the elastica beyond") {
   for (const double times : {1.02, 1.1}) {
-    const auto outcome = run(column(times));
-    CAPTURE(times, outcome.summary.limit_reason);
-    CHECK(outcome.summary.limit == record::Limit::none);
-    CHECK(outcome.summary.stable);
+    CAPTURE(times);
+    const auto outcome = run_to_end(column(times));
     const auto places = places_of(outcome.summary.limit_reason);
     REQUIRE(places.size() == 1);
     CHECK(std::abs(places[0].at - 1 / times) <= places[0].error);
@@ -178,10 +144,8 @@ TEST_CASE("a column buckles to any side, each as stable as the others") {
     preset::Preset p = column(1.1);
     p.accuracy.edges_per_segment = 16;
     p.imperfection.seed = seed;
-    const auto outcome = run(p);
-    CAPTURE(seed, outcome.summary.limit_reason);
-    CHECK(outcome.summary.limit == record::Limit::none);
-    CHECK(outcome.summary.stable);
+    CAPTURE(seed);
+    const auto outcome = run_to_end(p);
     if (seed == 1) first = bend(outcome);
     CHECK(bend(outcome) == Approx(first).epsilon(1e-7));
     const auto& x = last_frame(outcome).nodes;
@@ -209,10 +173,8 @@ TEST_CASE("a pinched ring goes on past its double mode on every mesh", "[standar
   REQUIRE(place.size() == 1);
   for (const int edges : {4, 8, 16}) {
     p.accuracy.edges_per_segment = edges;
-    const auto outcome = run(p);
-    CAPTURE(edges, outcome.summary.limit_reason);
-    CHECK(outcome.summary.limit == record::Limit::none);
-    CHECK(outcome.summary.stable);
+    CAPTURE(edges);
+    const auto outcome = run_to_end(p);
     CHECK(bend(outcome) == Approx(bend(usual)).epsilon(3e-3));
     const auto found = places_of(outcome.summary.limit_reason);
     REQUIRE(found.size() == 1);
@@ -226,19 +188,12 @@ TEST_CASE("beams bend under transverse loads as their closed forms and elasticas
     preset::Preset p = network(rod_on_cross({L, 0, 0}, {0, stiff, stiff}));
     p.loads.field_N_per_mm = q;
     p.accuracy.edges_per_segment = 64;
-    const auto outcome = run(p);
-    CAPTURE(q, outcome.summary.limit_reason);
-    CHECK(outcome.summary.limit == record::Limit::none);
-    CHECK(outcome.summary.stable);
+    CAPTURE(q);
+    const double sag = -last_frame(run_to_end(p)).nodes.row(2).minCoeff();
     // the angle is that with the vertical, pointing down
-    const auto half = [&](double angle) {
-      return elastica(angle, L / 2,
-                      [&](double s, double theta) { return q * (L / 2 - s) * std::sin(theta); });
-    };
-    const double angle = zero_of([&](double of) { return half(of)[0] - std::numbers::pi / 2; }, 0.3,
-                                 std::numbers::pi / 2);
-    const double sag = -last_frame(outcome).nodes.row(2).minCoeff();
-    CHECK(sag == Approx(half(angle)[3]).epsilon(1e-3));
+    CHECK(sag == Approx(sag_of_half(0.3, [&](double s, double theta) {
+                   return q * (L / 2 - s) * std::sin(theta);
+                 })).epsilon(1e-3));
     const double linear = 5 * q * std::pow(L, 4) / 384 / EI;
     if (q < 1e-6)
       CHECK(sag == Approx(linear).epsilon(1e-3));
@@ -249,38 +204,26 @@ TEST_CASE("beams bend under transverse loads as their closed forms and elasticas
 
 TEST_CASE("a grillage shares the force at its joint as its beams are stiff, at any deflection") {
   const auto sag_of = [](double a, double b, double P) {
-    preset::NetworkData file;
-    file.points = {{-a / 2, 0, 0}, {a / 2, 0, 0}, {0, -b / 2, 0}, {0, b / 2, 0}, {0, 0, 0}};
-    file.rods = {{0, 4, 1}, {2, 4, 3}};
+    preset::NetworkData file = cross(a / 2, b / 2);
     file.supports = {{0}, {1}, {2}, {3}};
     file.springs = {
         {0, 0, stiff, stiff}, {1, 0, stiff, stiff}, {2, stiff, 0, stiff}, {3, stiff, 0, stiff}};
     preset::Preset p = network(file);
     p.loads.points = {{4, 0, 0, 0, -P}};
     p.accuracy.edges_per_segment = 32;
-    const auto outcome = run(p);
-    CAPTURE(P, outcome.summary.limit_reason);
-    CHECK(outcome.summary.limit == record::Limit::none);
-    CHECK(outcome.summary.stable);
-    return -last_frame(outcome).nodes(2, 0);
+    return -last_frame(run_to_end(p)).nodes(2, 0);
   };
   const auto beam = [](double length) { return 48 * EI / std::pow(length, 3); };
   CHECK(sag_of(200, 160, 1e-5) == Approx(1e-5 / (beam(200) + beam(160))).epsilon(1e-3));
   // of two alike each carries a half, and each support a quarter
   constexpr double P = 8e-3;
-  const auto half = [&](double angle) {
-    return elastica(angle, L / 2, [&](double, double theta) { return P / 4 * std::sin(theta); });
-  };
-  const double angle = zero_of([&](double of) { return half(of)[0] - std::numbers::pi / 2; }, 0.1,
-                               std::numbers::pi / 2);
-  CHECK(sag_of(L, L, P) == Approx(half(angle)[3]).epsilon(1e-3));
-  CHECK(sag_of(L, L, P) > 0.1 * L);
+  const double sag = sag_of_half(0.1, [](double, double theta) { return P / 4 * std::sin(theta); });
+  CHECK(sag_of(L, L, P) == Approx(sag).epsilon(1e-3));
+  CHECK(sag > 0.1 * L);
 }
 
 TEST_CASE("beams of a grillage have sections of their own") {
-  preset::NetworkData file;
-  file.points = {{-100, 0, 0}, {100, 0, 0}, {0, -100, 0}, {0, 100, 0}, {0, 0, 0}};
-  file.rods = {{0, 4, 1}, {2, 4, 3}};
+  preset::NetworkData file = cross(100, 100);
   // a lath on its flat side beside a round rod
   file.own = {
       {0, "shear_GPa", 4}, {0, "thickness_mm", 0.5}, {0, "width_mm", 3}, {0, "young_GPa", 10}};
@@ -296,77 +239,15 @@ TEST_CASE("beams of a grillage have sections of their own") {
         Approx(1e-4 * L * L * L / (192 * (EI + lath))).epsilon(1e-3));
 }
 
-TEST_CASE("rods cut as they are drawn lie in the flat without stress, however they turn") {
-  // a ring of 24 corners beside a bow, both of laths on edge
-  preset::NetworkData file;
-  for (int k = 0; k < 24; ++k)
-    file.points.push_back(
-        {50 * std::cos(k * std::numbers::pi / 12), 50 * std::sin(k * std::numbers::pi / 12), 0});
-  file.points.insert(file.points.end(), {{0, 20, 0}, {-50.0 - 40, 0, 0}});
-  file.rods.emplace_back();
-  for (int k = 0; k <= 24; ++k) file.rods[0].push_back(k % 24);
-  file.rods.push_back({0, 24, 12, 25});
-  file.supports = {{6, 0, 50, 0}, {18, 0, -50, 0}, {0, 50, 0, 0}, {25}};
-  preset::Preset p = network(file);
-  p.rod.width_mm = 1;
-  p.rod.thickness_mm = 3;
-  p.rod.shear_GPa = 31;
-  p.rod.as_drawn = true;
-  p.accuracy.edges_per_segment = 4;
-  const auto model_of = [&] {
-    const Scene scene = value_of(scene_of(p));
-    const RodMesh mesh = mesh_rods(scene.footprint, 4);
-    const Model model = value_of(build_model(mesh, scene.rods, RodModel::twist));
-    Eigen::Matrix3Xd nodes = Eigen::Matrix3Xd::Zero(3, mesh.nodes());
-    nodes.topRows(2) = mesh.flat;
-    return energies_of(model, start_state(model, columns_of(mesh, model, nodes)));
-  };
-  CHECK(model_of().total() < 1e-20);
-  p.rod.as_drawn = false;
-  CHECK(model_of().total() > 1);
-}
-
 TEST_CASE("a cable net hangs as its lengths allow") {
   constexpr double d = 0.05, P = 0.1, EA = 83e3 * std::numbers::pi * d * d / 4;
-  preset::NetworkData file;
-  file.points = {{-100, 0, 0}, {100, 0, 0}, {0, -100, 0}, {0, 100, 0}, {0, 0, 0}};
-  file.rods = {{0, 4, 1}, {2, 4, 3}};
-  preset::Preset p = network(file);
+  preset::Preset p = network(cross(100, 100));
   p.rod.diameter_mm = d;
   p.limits.max_strain = 0.05;
   p.loads.points = {{4, 0, 0, 0, -P}};
-  const auto outcome = run(p);
-  CHECK(outcome.summary.limit == record::Limit::none);
+  const auto outcome = run_to_end(p);
   // four straight halves carry it
   const double angle =
       zero_of([&](double of) { return 4 * EA * (1 / std::cos(of) - 1) * std::sin(of) - P; }, 0, 1);
   CHECK(-last_frame(outcome).nodes(2, 0) == Approx(100 * std::tan(angle)).epsilon(1e-3));
-}
-
-TEST_CASE("a grillage of clamped rods, with their torsion in it, is four times as stiff") {
-  preset::NetworkData file;
-  file.points = {{-100, 0, 0}, {100, 0, 0}, {0, -100, 0}, {0, 100, 0}, {0, 0, 0}};
-  file.rods = {{0, 4, 1}, {2, 4, 3}};
-  preset::Preset p = network(file);
-  p.ends.kind = preset::EndKind::clamped;
-  p.rod.shear_GPa = 31;
-  p.loads.points = {{4, 0, 0, 0, -1e-5}};
-  p.accuracy.edges_per_segment = 32;
-  const auto outcome = run(p);
-  CHECK(outcome.summary.stable);
-  CHECK(-last_frame(outcome).nodes(2, 0) ==
-        Approx(1e-5 * L * L * L / (2 * 192 * EI)).epsilon(1e-3));
-}
-
-TEST_CASE("a state under loads is the same however many frames come before it") {
-  // the last frame stands where the path's last load step does
-  preset::Preset p = circle(5, 50, 42);
-  p.accuracy.edges_per_segment = 4;
-  p.loads.points = {{0, 0, 0, 0, -0.02}};
-  p.movie.frames = 2;
-  const auto few = run(p);
-  p.movie.frames = 5;
-  const auto more = run(p);
-  CHECK(distance(few, more) < 1e-9);
-  CHECK(last_frame(more).residual_N < 1e-6);
 }

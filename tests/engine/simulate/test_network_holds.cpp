@@ -1,8 +1,5 @@
 // Ends of a network that are held each in its own way.
-#include <Eigen/Geometry>
-#include <catch2/catch.hpp>
-
-#include "tests/engine/simulate/network_preset.h"
+#include "tests/engine/simulate/mixed_network.h"
 #include "tests/engine/simulate/run.h"
 
 using namespace gridshell;
@@ -17,9 +14,7 @@ struct Cross {
   std::array<Hold, 4> ends;  ///< begin and end of the first, of the second
 
   preset::Preset preset(int edges) const {
-    preset::NetworkData file;
-    file.points = {{-100, 0, 0}, {100, 0, 0}, {0, -100, 0}, {0, 100, 0}, {0, 0, 0}};
-    file.rods = {{0, 4, 1}, {2, 4, 3}};
+    preset::NetworkData file = cross(length / 2, length / 2);
     for (int end = 0; end < 4; ++end) {
       const Hold hold = ends[std::size_t(end)];
       if (hold == let_go)
@@ -51,45 +46,12 @@ double sunk(const preset::Preset& p) {
   return -joints_of(outcome.trajectory)(2, 0);
 }
 
-/// A shallow vault of three rods each way, laws and holds mixed, which its supports press by a
-/// little.
-preset::NetworkData mixed() {
-  preset::NetworkData file;
-  const auto at = [&](double u, double v) {
-    return std::vector<double>{20 * u, 24 * v, 12 - 0.8 * u * u - 0.9 * v * v};
-  };
-  for (const double u : {-2.0, -1.0, 0.1, 1.0, 2.2})
-    for (const double v : {-2.0, -1.1, 0.0, 1.0, 2.0}) file.points.push_back(at(u, v));
-  for (const int k : {1, 2, 3}) {
-    file.rods.push_back({5 * k, 5 * k + 1, 5 * k + 2, 5 * k + 3, 5 * k + 4});
-    file.rods.push_back({k, 5 + k, 10 + k, 15 + k, 20 + k});
-  }
-  for (const int point : {5, 9, 10, 14, 15, 19, 1, 21, 2, 22, 3, 23}) {
-    const auto& from = file.points[std::size_t(point)];
-    file.supports.push_back({double(point), 0.99 * from[0], 0.99 * from[1], from[2]});
-  }
-  file.holds = {{0, 0, 2}, {0, 1, 1}, {1, 1, 1}, {2, 0, 2}, {3, 0, 0}, {5, 0, 2}, {5, 1, 2}};
-  file.springs = {{1, 2, 2, 2}, {14, 3, 3, 3}};
-  file.joint_laws = {{6, 3, -1}, {12, -1, -1, 0.4}, {18, 0, 5}, {8, 0, -1, -0.3}, {7, 0, 0, 0.5}};
-  return file;
-}
-
-/// The energies of its rest, every place moved by `map`.
-template <class Map>
-Energies at_rest(preset::NetworkData file, Map map) {
-  const auto move = [&](std::vector<double>& row, std::size_t first) {
-    const Eigen::Vector3d to = map(Eigen::Vector3d(row[first], row[first + 1], row[first + 2]));
-    std::copy(to.begin(), to.end(), row.begin() + std::ptrdiff_t(first));
-  };
-  for (auto& point : file.points) move(point, 0);
-  for (auto& row : file.supports) move(row, 1);
+/// The energies of its rest.
+Energies at_rest(const preset::NetworkData& file) {
   preset::Preset p = network(file, 2);
   p.rod.width_mm = 2, p.rod.thickness_mm = 1, p.rod.young_GPa = 10, p.rod.shear_GPa = 4;
   p.limits.max_strain = 0.02;
-  const auto outcome = run(p);
-  CHECK(outcome.summary.stable);
-  CHECK(outcome.summary.limit == record::Limit::none);
-  return outcome.summary.energies;
+  return run_to_end(p).summary.energies;
 }
 
 }  // namespace
@@ -118,42 +80,21 @@ TEST_CASE("a hold for all ends is of those that the file says nothing of") {
 }
 
 TEST_CASE("a network of mixed laws and holds rests alike turned, moved and listed otherwise") {
-  const preset::NetworkData file = mixed();
-  const auto same = [](const Eigen::Vector3d& x) { return x; };
-  const Energies upright = at_rest(file, same);
-  for (const Term term : {Term::bend, Term::joint, Term::shear, Term::twist, Term::support})
-    CHECK(upright[term] > 1e-3);
-  const auto check = [&](const Energies& other) {
-    for (const Term term : {Term::bend, Term::joint, Term::shear, Term::twist, Term::support})
-      CHECK(other[term] == Approx(upright[term]).epsilon(1e-9));
-    CHECK(other.total() == Approx(upright.total()).epsilon(1e-12));
-  };
-  const Eigen::Matrix3d by =
-      Eigen::AngleAxisd(0.8, Eigen::Vector3d(1, 2, -0.5).normalized()).toRotationMatrix();
+  const preset::NetworkData file = mixed_network();
+  const Energies upright = at_rest(file);
+  constexpr std::array terms{Term::bend, Term::joint, Term::shear, Term::twist, Term::support};
+  for (const Term term : terms) CHECK(upright[term] > 1e-3);
   // springs pull alike along all axes, so that they turn with the rest
-  check(at_rest(file, [&](const Eigen::Vector3d& x) { return Eigen::Vector3d(by * x); }));
-  check(at_rest(file, [](const Eigen::Vector3d& x) { return Eigen::Vector3d(x.array() + 40.0); }));
-  check(at_rest(file,
-                [](const Eigen::Vector3d& x) { return Eigen::Vector3d(-x.x(), x.y(), x.z()); }));
-  preset::NetworkData other = file;
-  std::ranges::reverse(other.points);
-  std::ranges::reverse(other.rods);
-  for (auto& rod : other.rods) {
-    for (int& point : rod) point = 24 - point;
-    std::ranges::reverse(rod);
+  for (const preset::NetworkData& same : same_otherwise(file, 0.8)) {
+    const Energies other = at_rest(same);
+    for (const Term term : terms) CHECK(other[term] == Approx(upright[term]).epsilon(1e-9));
+    CHECK(other.total() == Approx(upright.total()).epsilon(1e-12));
   }
-  for (auto* rows : {&other.joint_laws, &other.supports, &other.springs})
-    for (auto& row : *rows) row[0] = 24 - row[0];
-  // the rod that was listed later lies above
-  for (auto& row : other.joint_laws)
-    if (row.size() > 3) row[3] *= -1;
-  for (auto& row : other.holds) row = {5 - row[0], 1 - row[1], row[2]};
-  check(at_rest(other, same));
 }
 
 TEST_CASE("holds of ends that have no support of their own are refused by rod and end") {
   const auto told = [](const char* reason, const auto& change) {
-    preset::NetworkData file = mixed();
+    preset::NetworkData file = mixed_network();
     change(file);
     CHECK_THAT(refusal(scene_of(network(file, 4))), Catch::Contains(reason));
   };

@@ -1,10 +1,6 @@
 // Networks whose supports are on springs, from the file to certified states.
 #include <Eigen/Geometry>
-#include <catch2/catch.hpp>
 
-#include "engine/footprint/symmetry.h"
-#include "engine/simulate/frames.h"
-#include "engine/simulate/simulation.h"
 #include "tests/engine/simulate/run.h"
 
 using namespace gridshell;
@@ -24,15 +20,6 @@ preset::Preset on_springs(const Eigen::Vector3d& k) {
       file.springs.push_back({double(end), k.x(), k.y(), k.z()});
     }
   return p;
-}
-
-Simulation formed(const preset::Preset& p, const LevelPlan& plan, double shortening = 0.02) {
-  Simulation session = value_of(Simulation::open(shared_scene(p), plan));
-  REQUIRE(value_of(session.begin_buckled(shortening, unwatched)).end == Outcome::reached);
-  REQUIRE(session.move_to(1, unwatched).end == Outcome::reached);
-  CHECK(session.certificate().stable());
-  CHECK(session.certificate().residual_N < 1e-6);
-  return session;
 }
 
 Eigen::Matrix3Xd joints_of(const Simulation& session) {

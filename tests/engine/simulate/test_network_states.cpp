@@ -1,9 +1,7 @@
 // The states of shells that are no square grid: shaken, pushed and judged as those of grids.
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <set>
 
-#include "engine/study/state_library.h"
 #include "tests/engine/simulate/run.h"
 
 using namespace gridshell;

@@ -1,8 +1,6 @@
 // What broke earlier solvers: each ends in the right answer or in a reason, never in a wrong state.
-#include <catch2/catch.hpp>
 #include <cmath>
 
-#include "engine/simulate/actuation.h"
 #include "tests/engine/simulate/run.h"
 #include "tests/results.h"
 
@@ -54,20 +52,6 @@ bool certified_or_named(const Result<Run>& outcome, double residual_N = 1e-8) {
 }
 
 }  // namespace
-
-TEST_CASE("one single step asked for, and many, end in one state") {
-  const auto scene = fig1();
-  const auto one = end_of(scene);
-  REQUIRE(certified_or_named(one));
-  std::vector<double> many;
-  for (int k = 1; k <= 50; ++k) many.push_back(k / 50.0);
-  const auto steps = value_of(run(scene, many));
-  CHECK(steps.trajectory.frames.back().nodes == one->trajectory.frames.back().nodes);
-  // no joint jumps between frames
-  for (std::size_t k = 1; k < steps.trajectory.frames.size(); ++k)
-    CHECK(max_column_norm(steps.trajectory.frames[k].nodes - steps.trajectory.frames[k - 1].nodes) <
-          15);
-}
 
 TEST_CASE("EA from a hundredth to ten thousand times: the same state, or a reason", "[standard]") {
   const double reference = end_of(fig1())->trajectory.frames.back().energies[Term::bend];

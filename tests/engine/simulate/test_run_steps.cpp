@@ -3,10 +3,8 @@
 #include "engine/simulate/steps.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 
 #include "tests/engine/simulate/run.h"
-#include "tests/small_shell.h"
 
 using namespace gridshell;
 using preset::StepKind;

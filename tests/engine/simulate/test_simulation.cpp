@@ -3,11 +3,9 @@
 
 #include <pthread.h>
 
-#include <catch2/catch.hpp>
 #include <chrono>
 #include <thread>
 
-#include "engine/core/system_info.h"
 #include "tests/engine/simulate/run.h"
 
 using namespace gridshell;
@@ -15,7 +13,7 @@ using namespace gridshell;
 namespace {
 
 preset::Preset six_rods(double tolerance, RodModel model = RodModel::bend) {
-  preset::Preset p = circle(6, 66, 0.8 * 66);
+  preset::Preset p = paper_circle(6, 0.8);
   p.accuracy.model = model;
   if (model == RodModel::twist) p.rod.shear_GPa = 31;
   p.rod.density_kg_m3 = 6450;
@@ -23,19 +21,8 @@ preset::Preset six_rods(double tolerance, RodModel model = RodModel::bend) {
   return p;
 }
 
-std::shared_ptr<const Scene> scene(double tolerance = 1e-3, RodModel model = RodModel::bend) {
-  return shared_scene(six_rods(tolerance, model));
-}
-
 Simulation open(const std::shared_ptr<const Scene>& scene) {
   return Simulation::open(scene, plan_levels(scene->tolerance)).value();
-}
-
-Simulation actuated(const std::shared_ptr<const Scene>& scene) {
-  Simulation session = open(scene);
-  REQUIRE(session.begin_buckled(0.02, unwatched).value().end == Outcome::reached);
-  REQUIRE(session.move_to(1, unwatched).end == Outcome::reached);
-  return session;
 }
 
 void certified(const Simulation& session, const Report& report) {
@@ -65,7 +52,7 @@ double shell_progress(const Scene& scene, double ratio) {
 TEST_CASE("a session goes through all that a hand does, and back by its checkpoints to the bit") {
   const auto model = GENERATE(RodModel::bend, RodModel::twist);
   CAPTURE(word_of(model));
-  const auto shell = scene(1e-3, model);
+  const auto shell = shared_scene(six_rods(1e-3, model));
   Simulation session = open(shell);
   std::vector<Checkpoint> kept;
   std::vector<Eigen::Matrix3Xd> nodes;
@@ -115,8 +102,7 @@ TEST_CASE("a session goes through all that a hand does, and back by its checkpoi
 }
 
 TEST_CASE("a session refines on request and takes other rods from where it is") {
-  const auto shell = scene(1e-2);
-  Simulation session = actuated(shell);
+  Simulation session = formed(six_rods(1e-2));
   const double coarse = session.certificate().error_estimate_mm;
   const Checkpoint before = session.save();
   certified(session, session.refine(1e-2 * coarse, unwatched));
@@ -132,8 +118,7 @@ TEST_CASE("a session refines on request and takes other rods from where it is") 
 }
 
 TEST_CASE("what fails leaves the last certified state, what is cancelled says so") {
-  const auto shell = scene();
-  Simulation session = actuated(shell);
+  Simulation session = formed(six_rods(1e-3));
   Watch watch;
   const Eigen::Matrix3Xd before = session.nodes();
   watch.cancel();
@@ -145,12 +130,11 @@ TEST_CASE("what fails leaves the last certified state, what is cancelled says so
   CHECK(pulled.end == Outcome::locked);
   CHECK(pulled.t < 1);
   CHECK(pulled.certificate.stable());
-  CHECK(pulled.certificate.largest_strain < 1.1 * shell->max_strain);
+  CHECK(pulled.certificate.largest_strain < 1.1 * session.scene().max_strain);
 }
 
 TEST_CASE("a shell in motion comes to rest where the static solver finds it") {
-  const auto shell = scene();
-  Simulation session = actuated(shell);
+  Simulation session = formed(six_rods(1e-3));
   const Eigen::Matrix3Xd before = session.nodes();
   certified(session, session.set_field({{3, {0, 0, -0.15}}}, unwatched));
   CHECK(max_column_norm(session.nodes() - before) > 0.3);
@@ -170,20 +154,19 @@ TEST_CASE("a shell in motion comes to rest where the static solver finds it") {
 TEST_CASE("a session begins flat, on other meshes, holds a joint where it is and takes more load") {
   preset::Preset p = six_rods(1e-3);
   p.loads.gravity_m_s2 = 9.81;
-  const auto light = shared_scene(p);
-  p.loads.gravity_m_s2 *= 40;
-  const auto heavy = shared_scene(p);
-  Simulation session = open(light);
+  preset::Preset heavy = p;
+  heavy.loads.gravity_m_s2 *= 40;
+  Simulation session = open(shared_scene(p));
   const Report flat = session.begin_flat();
   CHECK(flat.end == Outcome::reached);
   CHECK(session.nodes().row(2).cwiseAbs().maxCoeff() == 0);
   CHECK(session.energies()[Term::bend] == Approx(0).margin(1e-9));
 
-  session = actuated(light);
+  session = formed(p);
   const Eigen::Matrix3Xd plain = session.nodes();
   certified(session, session.load(40, unwatched));
   CHECK(max_column_norm(session.nodes() - plain) > 1e-2);
-  CHECK(max_column_norm(session.nodes() - actuated(heavy).nodes()) < 1e-3);
+  CHECK(max_column_norm(session.nodes() - formed(heavy).nodes()) < 1e-3);
   certified(session, session.load(1, unwatched));
   CHECK(max_column_norm(session.nodes() - plain) < 1e-3);
 
@@ -199,7 +182,7 @@ TEST_CASE("a session begins flat, on other meshes, holds a joint where it is and
   const Eigen::Vector3d place = session.nodes().col(5);
   certified(session, session.push(5, {0, 0, 0}, Across::held, unwatched));
   CHECK(session.force(0).norm() < 1e-5);
-  certified(session, session.move_to(shell_progress(*light, 0.805), unwatched));
+  certified(session, session.move_to(shell_progress(session.scene(), 0.805), unwatched));
   CHECK((session.nodes().col(5) - place).norm() < 1e-6);
   CHECK(session.force(0).norm() > 1e-4);
   certified(session, session.release(5, unwatched));
@@ -210,8 +193,7 @@ TEST_CASE("a session begins flat, on other meshes, holds a joint where it is and
 TEST_CASE("a session of 24 rods answers a wish to stop within 0.2 s on both rungs", "[standard]") {
   const auto model = GENERATE(RodModel::bend, RodModel::twist);
   preset::Preset p = six_rods(1e-3, model);
-  p.footprint.rods = 24;
-  p.footprint.radius_mm = 20 * (11.5 + 0.8);
+  p.footprint = paper_circle(24).footprint;
   p.actuation.radius_mm = 0.8 * p.footprint.radius_mm;
   const auto shell = shared_scene(p);
   Simulation session = open(shell);

@@ -3,15 +3,11 @@
 #include "engine/simulate/stiffening.h"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numeric>
 
 #include "engine/footprint/faces.h"
-#include "engine/simulate/frames.h"
-#include "engine/simulate/steps.h"
 #include "tests/engine/simulate/run.h"
-#include "tests/small_shell.h"
 
 using namespace gridshell;
 using namespace gridshell::simulate;
@@ -42,15 +38,6 @@ preset::Step step(StepKind kind) {
   one.kind = kind;
   one.EA_N = 5000;
   return one;
-}
-
-/// The shell of a preset at the end of its actuation.
-Simulation formed(const preset::Preset& preset) {
-  const auto scene = shared_scene(preset);
-  Simulation simulation = value_of(Simulation::open(scene, plan_levels(scene->tolerance)));
-  REQUIRE(value_of(simulation.begin_buckled(0.02, unwatched)).end == Outcome::reached);
-  REQUIRE(simulation.move_to(1, unwatched).end == Outcome::reached);
-  return simulation;
 }
 
 Report done(Simulation& simulation, const preset::Step& one) {

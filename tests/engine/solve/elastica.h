@@ -9,6 +9,36 @@
 
 namespace gridshell {
 
+/// Angle, its slope and the place, at the end of a rod shot with an angle and a slope, by steps of
+/// Runge and Kutta: d/ds of them is (slope, turn(s, angle), (sin, cos) of the angle).
+template <class Turn>
+Eigen::Vector4d shot(double angle, double slope, double length, const Turn& turn) {
+  constexpr int steps = 1000;
+  const double h = length / steps;
+  const auto rate = [&](double s, const Eigen::Vector4d& y) {
+    return Eigen::Vector4d(y[1], turn(s, y[0]), std::sin(y[0]), std::cos(y[0]));
+  };
+  Eigen::Vector4d y(angle, slope, 0, 0);
+  for (int k = 0; k < steps; ++k) {
+    const double s = k * h;
+    const Eigen::Vector4d a = rate(s, y), b = rate(s + h / 2, y + h / 2 * a),
+                          c = rate(s + h / 2, y + h / 2 * b), d = rate(s + h, y + h * c);
+    y += h / 6 * (a + 2 * b + 2 * c + d);
+  }
+  return y;
+}
+
+/// Where a function that changes its sign between two places is zero.
+template <class Function>
+double zero_of(const Function& f, double low, double high) {
+  const bool rises = f(high) > 0;
+  for (int k = 0; k < 60; ++k) {
+    const double middle = 0.5 * (low + high);
+    ((f(middle) > 0) == rises ? high : low) = middle;
+  }
+  return low;
+}
+
 /// Between its ends a rod of one arch is made of equal quarters, each from a point without
 /// curvature to one where it runs level: two where its ends are pinned, four where they are held
 /// level.

@@ -3,7 +3,6 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <random>
 
 #include "engine/solve/equilibrium.h"
 
@@ -49,13 +48,6 @@ double critical(double low, double high, Stable stable) {
 /// The angle of an edge, rad.
 inline void set_angle(const Model& model, State& state, int edge, double angle) {
   state.x.data()[model.spin[std::size_t(edge)]] = angle * model.spin_length;
-}
-
-/// Turns every edge at random, by up to one radian.
-template <class Random>
-void turn_edges(const Model& model, Random& random, State& state) {
-  std::uniform_real_distribution<double> radian(-1, 1);
-  for (int k = 0; k < int(model.edges.size()); ++k) set_angle(model, state, k, radian(random));
 }
 
 /// At rest, or the test fails.

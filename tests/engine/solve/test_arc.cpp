@@ -2,7 +2,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "engine/solve/equilibrium.h"
 #include "engine/solve/equilibrium_path.h"
 #include "tests/engine/solve/crossing_rods.h"
 

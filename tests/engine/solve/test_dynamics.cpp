@@ -1,18 +1,14 @@
-// Motion in time: frequency, order, damping, mass, the snap of a shallow arch of two crossing rods,
-// and the baselines.
+// Motion in time: frequency, order, damping, mass and the snap of a shallow arch of two crossing
+// rods.
 #include "engine/solve/dynamics.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 
-#include "engine/solve/equilibrium.h"
-#include "engine/study/benchmark_methods.h"
 #include "tests/engine/solve/crossing_rods.h"
 #include "tests/engine/solve/single_rod.h"
 #include "tests/results.h"
 
 using namespace gridshell;
-using namespace gridshell::study;
 
 namespace {
 
@@ -20,17 +16,6 @@ constexpr double diameter = 0.254, density = 6450;
 
 Result<Eigen::Matrix3Xd> mass_of(const Model& model, double kg_m3 = density) {
   return lumped_mass(model, {round_mass_t_per_mm(kg_m3, diameter)});
-}
-
-/// A pinned rod along a circular arc of its own length: no strain, chord 0.9 of the length.
-MovingState arc_at_rest(const Model& model, double length) {
-  const double half = 0.786683, R = length / (2 * half);  // sin(half)/half = 0.9
-  Eigen::Matrix3Xd x(3, model.nodes);
-  for (int k = 0; k < model.nodes; ++k) {
-    const double a = half * (2 * model.flat(0, k) / length - 1);
-    x.col(k) << R * (std::sin(a) + std::sin(half)), 0, R * (std::cos(a) - std::cos(half));
-  }
-  return MovingState::at_rest(start_state(model, x));
 }
 
 }  // namespace
@@ -156,29 +141,4 @@ TEST_CASE("dynamics: a rod without mass is refused") {
   const Model model = build_model(single_rod(4, 20), circular_section(diameter, 83)).value();
   for (double bad : {0.0, -1.0, std::nan("")})
     CHECK_THAT(refusal(mass_of(model, bad)), Catch::Contains("density"));
-}
-
-TEST_CASE("baselines: both come to the rest that Newton's method finds, too long a step blows up") {
-  const double length = 40;
-  const Model model = build_model(single_rod(8, length), circular_section(diameter, 83)).value();
-  const Eigen::Matrix3Xd mass = mass_of(model).value();
-  const MovingState start = arc_at_rest(model, length);
-  State state = start.state;
-  Linearisation system(model);
-  REQUIRE(minimise(system, state, {}, unwatched).outcome == Outcome::reached);
-
-  BaselineOptions options;
-  options.tolerance_N = 1e-6;
-  options.damping_per_s = 3000;
-  for (const bool inertia : {false, true})
-    for (const double step : {0.5, 3.0}) {
-      options.step = step;
-      MovingState motion = start;
-      const BaselineReport report =
-          inertia ? explicit_to_rest(model, mass, motion, options, unwatched)
-                  : dynamic_relaxation(model, motion.state, options, unwatched);
-      CAPTURE(inertia, step, report.steps, report.residual_N);
-      REQUIRE(report.end == (step < 1 ? Outcome::reached : Outcome::not_finite));
-      if (step < 1) CHECK(max_column_norm(motion.state.x - state.x) < 1e-3);
-    }
 }

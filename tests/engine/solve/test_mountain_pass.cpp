@@ -1,8 +1,5 @@
 #include "engine/solve/mountain_pass.h"
 
-#include <catch2/catch.hpp>
-
-#include "engine/solve/equilibrium.h"
 #include "tests/engine/solve/rod_cases.h"
 #include "tests/results.h"
 

@@ -1,24 +1,18 @@
 // Rests from rough states over meshes that grow finer, and how stiff they are.
 #include "engine/solve/multilevel_relaxation.h"
 
-#include <catch2/catch.hpp>
 #include <random>
 
-#include "engine/record/shape_symmetry.h"
-#include "engine/scene/scene.h"
 #include "engine/solve/newton.h"
 #include "tests/engine/solve/single_rod.h"
-#include "tests/results.h"
+#include "tests/presets.h"
 
 using namespace gridshell;
 
 namespace {
 
-MultilevelRelaxation cascade_of(int rods, preset::Preset p = {}) {
-  p.footprint.rods = rods;
-  p.footprint.radius_mm = 20 * (0.5 * (rods - 1) + 0.8);
-  p.actuation.radius_mm = 0.75 * p.footprint.radius_mm;
-  const Scene scene = scene_of(p).value();
+MultilevelRelaxation cascade_of(int rods) {
+  const Scene scene = value_of(scene_of(paper_circle(rods)));
   return MultilevelRelaxation::make(scene.footprint, scene.rods, scene.solved_model(), scene.motion,
                                     scene.flat, 4)
       .value();
@@ -50,9 +44,7 @@ TEST_CASE("cascade: nineteen of twenty rough states of eight rods come to a stab
 TEST_CASE("cascade: nodes that are no numbers are an error, a cancel is answered") {
   MultilevelRelaxation cascade = cascade_of(4);
   Eigen::Matrix3Xd nodes = cascade.stretched_flat(1);
-  Watch cancelled;
-  cancelled.cancel();
-  CHECK(refusal(cascade.rest(1, nodes, cancelled), Fault::cancelled) != "none");
+  check_stops([&](const Watch& watch) { return cascade.rest(1, nodes, watch); });
   nodes.setConstant(std::numeric_limits<double>::quiet_NaN());
   CHECK(refusal(cascade.rest(1, nodes, unwatched), Fault::no_equilibrium) != "none");
 }

@@ -1,10 +1,7 @@
 // Finer meshes beside a path, and how little they cost there.
 #include "engine/solve/nested_shell.h"
 
-#include <catch2/catch.hpp>
-
-#include "engine/scene/scene.h"
-#include "engine/solve/buckling.h"
+#include "tests/presets.h"
 
 using namespace gridshell;
 
@@ -12,14 +9,6 @@ namespace {
 
 constexpr double tolerance_mm = 1e-4;
 const Watch watch;
-
-Scene eight_rods() {
-  preset::Preset asked;
-  asked.footprint.rods = 8;
-  asked.footprint.radius_mm = 86;
-  asked.actuation.radius_mm = 64.5;
-  return scene_of(asked).value();
-}
 
 NestedShell shell_of(const Scene& scene, double tolerance) {
   PathOptions options;
@@ -34,7 +23,7 @@ double parameter(double ratio) { return std::sqrt((1 - ratio) / 0.25); }
 }  // namespace
 
 TEST_CASE("along a path finer meshes take one correction a state, and it is the exact state") {
-  const Scene scene = eight_rods();
+  const Scene scene = value_of(scene_of(paper_circle(8)));
   NestedShell shell = shell_of(scene, tolerance_mm), exact = shell_of(scene, 1e-9);
   const double first = parameter(0.95);
   const State begin =

@@ -1,7 +1,4 @@
 // Leaving a state that is not stable: which ways down are gone.
-#include <catch2/catch.hpp>
-
-#include "engine/solve/equilibrium.h"
 #include "tests/engine/solve/crossing_rods.h"
 #include "tests/results.h"
 

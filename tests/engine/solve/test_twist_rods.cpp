@@ -1,7 +1,7 @@
 // Twisted rods with known answers: shapes at rest (the elastica, a cantilever, a helix, the
-// localised helix), loads at which they buckle (Euler, Greenhill, Michell), a joint's shear and
-// gravity.
+// localised helix), loads at which they buckle (Euler, Greenhill, Michell), and a joint's shear.
 #include "engine/elastic/rod_frame.h"
+#include "tests/engine/solve/elastica.h"
 #include "tests/engine/solve/rod_cases.h"
 
 using namespace gridshell;
@@ -42,30 +42,13 @@ Eigen::Vector2d cantilever(int edges, double load) {
   return {state.x(0, edges) / length, -state.x(2, edges) / length};
 }
 
-/// The same by the elastica's first integral: theta'' = -a cos theta, theta(0) = 0, theta'(1) = 0,
-/// shooting for theta'(0) with Runge-Kutta steps.
+/// The same, shooting for the slope at its root: theta'' = -a cos theta, theta(0) = 0, theta'(1) =
+/// 0.
 Eigen::Vector2d cantilever_exact(double a) {
-  const auto shoot = [&](double kappa) {
-    const int n = 4000;
-    const double h = 1.0 / n;
-    using Y = Eigen::Vector4d;  // theta, theta', x, y
-    const auto slope = [&](const Y& y) {
-      return Y(y[1], -a * std::cos(y[0]), std::cos(y[0]), std::sin(y[0]));
-    };
-    Y y(0, kappa, 0, 0);
-    for (int k = 0; k < n; ++k) {
-      const Y k1 = slope(y), k2 = slope(y + h / 2 * k1), k3 = slope(y + h / 2 * k2),
-              k4 = slope(y + h * k3);
-      y += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
-    }
-    return y;
+  const auto end = [&](double slope) {
+    return shot(0, slope, 1, [&](double, double theta) { return -a * std::cos(theta); });
   };
-  double low = 0, high = a + 1;
-  for (int k = 0; k < 60; ++k) {
-    const double middle = 0.5 * (low + high);
-    (shoot(middle)[1] > 0 ? high : low) = middle;
-  }
-  return shoot(high).tail<2>();
+  return end(zero_of([&](double slope) { return end(slope)[1]; }, 0, a + 1)).tail<2>().reverse();
 }
 
 /// The axial force at which a straight rod between these ends buckles, over EI/L^2.
@@ -283,19 +266,4 @@ TEST_CASE("joint shear: two rigid crossing rods turn by moment over stiffness") 
   const Eigen::Vector3d along = state.x.col(4) - state.x.col(3);
   const double turn = std::atan2(std::abs(along.x()), along.y());
   CHECK(turn == Approx(couple * std::cos(turn) / stiffness).epsilon(1e-3));
-}
-
-TEST_CASE("gravity: a cantilever under its own weight sags by q L^4/(8 EI)") {
-  const double length = 100, q = 1e-6;  // N/mm, small deflection
-  const int edges = 40;
-  const SingleRod single(edges, length, wire, RodEnd::clamped, RodEnd::free);
-  Model model = single.model();
-  for (int k = 0; k <= edges; ++k)
-    model.loads.push_back({k, {0, 0, -q * length / edges * (k == 0 || k == edges ? 0.5 : 1)}});
-  Linearisation system(model);
-  State state = start_state(model, single.line());
-  settle(system, state, 1e-8);
-  CHECK(-state.x(2, edges) == Approx(q * std::pow(length, 4) / (8 * wire.EI1)).epsilon(1e-3));
-  // the hold takes the whole weight
-  CHECK(system.assembly().energies[Term::load] < 0);
 }

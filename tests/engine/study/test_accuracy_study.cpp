@@ -1,13 +1,11 @@
 // Speed against accuracy on a small shell: what the chart promises.
 #include "engine/study/accuracy_study.h"
 
-#include <catch2/catch.hpp>
 #include <set>
 
 #include "engine/study/benchmark_methods.h"
 #include "engine/study/time_limit.h"
-#include "tests/engine/study/small_scene.h"
-#include "tests/results.h"
+#include "tests/presets.h"
 
 using namespace gridshell;
 using namespace gridshell::study;
@@ -25,9 +23,8 @@ const record::AccuracyRow* find(const AccuracyStudy& study, const std::string& m
 
 TEST_CASE("a case starts and ends every mesh on the branch of its reference") {
   Watch watch;
-  auto made = BenchmarkProblem::create(small_scene(), 64, watch);
-  REQUIRE(made);
-  BenchmarkProblem& study = **made;
+  const auto made = value_of(BenchmarkProblem::create(paper_circle(4, 0.85), 64, watch));
+  BenchmarkProblem& study = *made;
   CHECK(study.reference_error() < 1e-6);
   double before = 0;
   for (int edges : {2, 4, 8, 16}) {
@@ -51,7 +48,7 @@ TEST_CASE("every method comes to the same state of its mesh, the error falls wit
   options.most_edges = 4;
   options.runs = 1;
   options.scaling = false;
-  const auto study = value_of(accuracy_study(small_scene(), options, watch));
+  const auto study = value_of(accuracy_study(paper_circle(4, 0.85), options, watch));
   std::set<std::string> methods;
   for (const auto& row : study.rows) {
     CAPTURE(row.method, row.edges_per_segment, row.error, word_of(row.outcome));
@@ -76,10 +73,10 @@ TEST_CASE("every method comes to the same state of its mesh, the error falls wit
 
 TEST_CASE("a run beyond its time is stopped and said to be too slow") {
   Watch watch;
-  auto made = value_of(BenchmarkProblem::create(small_scene(), 16, watch));
+  auto made = value_of(BenchmarkProblem::create(paper_circle(4, 0.85), 16, watch));
   const TimeLimit limit(0.05, watch);
   RelaxationOptions forever{.kind = Relaxation::explicit_damped, .tolerance_N = 0};
-  const auto arrival = relax(*(made)->problem(4, watch).value(), forever, limit.watch());
+  const auto arrival = relax(*made->problem(4, watch).value(), forever, limit.watch());
   CHECK(arrival.claim == RunOutcome::too_slow);
   CHECK(limit.ran_out());
   CHECK(arrival.seconds < 2);
@@ -87,9 +84,6 @@ TEST_CASE("a run beyond its time is stopped and said to be too slow") {
 
 TEST_CASE("a study of what has no path to compare with is refused with the reason") {
   Watch watch;
-  auto preset = small_scene();
-  preset.actuation.radius_mm = 0.99 * preset.footprint.radius_mm;
-  const auto made = BenchmarkProblem::create(preset, 16, watch);
-  REQUIRE_FALSE(made);
-  CHECK(made.error().fault == Fault::bad_input);
+  const auto preset = paper_circle(4, 0.99);
+  CHECK(refusal(BenchmarkProblem::create(preset, 16, watch)) != "none");
 }

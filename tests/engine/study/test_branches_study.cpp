@@ -1,10 +1,8 @@
 #include "engine/study/bifurcation_diagram.h"
 
-#include <catch2/catch.hpp>
 #include <map>
 
-#include "engine/preset/preset_file.h"
-#include "tests/results.h"
+#include "tests/presets.h"
 
 using namespace gridshell;
 using namespace gridshell::study;
@@ -15,8 +13,7 @@ namespace {
 
 Result<BranchDiagram> diagram_of(const std::string& text) {
   Watch watch;
-  return branches_study(preset::read_preset_text(text, "a.toml", "a").value().base,
-                        {.most_branches = 40}, watch);
+  return branches_study(preset::good(text).base, {.most_branches = 40}, watch);
 }
 
 double ratio(const BranchPoint& point) { return point.boundary_radius_mm / 126; }
@@ -53,10 +50,9 @@ TEST_CASE("the shell of Fig. 1 loses its two mirrors near the flat", "[standard]
 }
 
 TEST_CASE("a diagram that there is no path for is refused with the reason") {
-  const auto net = diagram_of(
-      "[footprint]\nkind = \"net\"\n[actuation]\nstart = \"net\"\n[accuracy]\nmodel = \"net\"\n"
-      "tolerance = 0.1\n");
-  REQUIRE_FALSE(net);
-  CHECK(net.error().fault == Fault::bad_input);
-  CHECK_THAT(net.error().message, Catch::Matchers::Contains("not the net itself"));
+  CHECK_THAT(
+      refusal(diagram_of(
+          "[footprint]\nkind = \"net\"\n[actuation]\nstart = \"net\"\n[accuracy]\nmodel = \"net\"\n"
+          "tolerance = 0.1\n")),
+      Catch::Contains("not the net itself"));
 }

@@ -1,10 +1,7 @@
 // Critical loads with known answers, by arc length and linearised.
-
 #include "engine/elastic/along_rods.h"
-#include "engine/study/load_study.h"
 #include "tests/engine/solve/rod_cases.h"
-#include "tests/results.h"
-#include "tests/small_shell.h"
+#include "tests/presets.h"
 
 using namespace gridshell;
 using namespace gridshell::study;
@@ -215,17 +212,11 @@ TEST_CASE("a portal frame sways and a ring turns oval where their closed forms s
 
 TEST_CASE("a beam comes to its strength where M c/I says") {
   constexpr double span = 200, diameter = 0.254, strength = 2;
-  preset::NetworkData file;
-  file.points = {
-      {-span / 2, 0, 0}, {span / 2, 0, 0}, {0, -span / 2, 0}, {0, span / 2, 0}, {0, 0, 0}};
-  file.rods = {{0, 4, 1}, {2, 4, 3}};
+  preset::NetworkData file = cross(span / 2, span / 2);
   file.supports = {{0}, {1}, {2}, {3}};
   file.springs = {{0, 0, 1000, 1000}, {1, 0, 1000, 1000}, {2, 1000, 0, 1000}, {3, 1000, 0, 1000}};
-  preset::Preset p;
-  p.footprint.kind = preset::FootprintKind::network;
-  p.footprint.file = file;
+  preset::Preset p = network(file, 16);
   p.rod.strength_MPa = strength;
-  p.accuracy.edges_per_segment = 16;
   // each beam bears a half of the force
   const double unit = strength * M_PI * std::pow(diameter, 3) / 32 / (span / 8);
   p.load_case = {{.name = "force", .points = {{4, 0, 0, 0, -unit}}}};
@@ -238,13 +229,11 @@ TEST_CASE("a beam comes to its strength where M c/I says") {
 }
 
 TEST_CASE("pressure on faces whose edge is free is refused by the key, with the joint") {
-  preset::Preset p;
-  p.footprint.kind = preset::FootprintKind::network;
   preset::NetworkData file;
   file.points = {{0, 0, 0}, {100, 0, 0}, {100, 100, 0}, {0, 100, 0}};
   file.rods = {{0, 1, 2, 3, 0}};
   file.supports = {{0}, {1}, {2}};
-  p.footprint.file = file;
+  preset::Preset p = network(file);
   p.loads.pressure_N_m2 = 1;
   p.load_case = {{.name = "inside", .pressure = 1, .points = {}}};
   Watch watch;

@@ -1,12 +1,10 @@
 // Frequencies of formed shells: their errors, masses, what is not stable and what is refused.
 #include "engine/study/modes.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "tests/presets.h"
 #include "tests/results.h"
-#include "tests/small_shell.h"
 
 using namespace gridshell;
 using namespace gridshell::study;

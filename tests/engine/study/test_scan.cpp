@@ -1,7 +1,5 @@
-// Scans made of simulated shells, with a known pose.
+// Clusters of points, points laid on places, and scans made of simulated shells, with a known pose.
 #include "engine/study/scan.h"
-
-#include <catch2/catch.hpp>
 
 #include "tests/engine/simulate/run.h"
 #include "tests/engine/study/synthetic_scan.h"
@@ -27,10 +25,8 @@ const ScanTarget& circle() {
 
 const ScanTarget& hemisphere() {
   static const ScanTarget form = [] {
-    preset::Preset p;
-    p.footprint.kind = preset::FootprintKind::net;
-    p.net.radius_mm = 120;
-    p.actuation.start = preset::Start::net;
+    preset::Preset p = on_net();
+    p.footprint.placement = Placement::half;
     p.accuracy.edges_per_segment = 4;
     const simulate::ExperimentResult outcome = run_stills(p);
     return form_of(outcome.trajectory.layout, outcome.trajectory.frames.back());
@@ -108,4 +104,128 @@ TEST_CASE("tops that all lie further out along the normals tell by how much") {
   // of the height known nothing is left
   const auto known = value_of(laid(make_scan(hemisphere(), {}), hemisphere()));
   CHECK(std::abs(beyond_height(known, hemisphere())) < 0.05);
+}
+
+namespace {
+
+/// points on a level disc, evenly
+void add_disc(const Eigen::Vector3d& middle, double radius, int points, unsigned seed,
+              std::vector<Eigen::Vector3d>& cloud) {
+  std::mt19937_64 draw(seed);
+  std::uniform_real_distribution<double> share(0, 1);
+  for (int k = 0; k < points; ++k) {
+    const double r = radius * std::sqrt(share(draw)), angle = 2 * M_PI * share(draw);
+    cloud.push_back(middle + Eigen::Vector3d(r * std::cos(angle), r * std::sin(angle), 0));
+  }
+}
+
+Eigen::Matrix3Xd matrix_of(const std::vector<Eigen::Vector3d>& points) {
+  Eigen::Matrix3Xd matrix(3, Eigen::Index(points.size()));
+  for (std::size_t k = 0; k < points.size(); ++k) matrix.col(Eigen::Index(k)) = points[k];
+  return matrix;
+}
+
+}  // namespace
+
+TEST_CASE("discs apart are clusters, each with its middle, whatever part of it is seen more") {
+  std::vector<Eigen::Vector3d> cloud;
+  const Eigen::Vector3d a(0, 0, 1), b(6, 0, 2), c(0, 7, -3);
+  add_disc(a, 1.5, 400, 1, cloud);
+  add_disc(b, 1.5, 400, 2, cloud);
+  add_disc(c, 1.5, 150, 3, cloud);
+  // one half of c is seen twice as well
+  std::vector<Eigen::Vector3d> more;
+  add_disc(c, 1.5, 300, 4, more);
+  for (const auto& p : more)
+    if (p.x() > 0) cloud.push_back(p);
+  const auto found = value_of(cluster_joint_tops(matrix_of(cloud), 3));
+  REQUIRE(found.tops.cols() == 3);
+  CHECK(found.specks == 0);
+  CHECK(found.others == 0);
+  for (const Eigen::Vector3d& middle : {a, b, c})
+    CHECK((found.tops.colwise() - middle).colwise().norm().minCoeff() < 0.06);
+}
+
+TEST_CASE("single points are specks among discs, joints where there is nothing else") {
+  std::vector<Eigen::Vector3d> cloud;
+  add_disc({0, 0, 0}, 1.5, 100, 1, cloud);
+  add_disc({20, 0, 0}, 1.5, 100, 2, cloud);
+  cloud.emplace_back(10, 10, 10);
+  cloud.emplace_back(-10, 10, 10);
+  auto found = cluster_joint_tops(matrix_of(cloud), 3);
+  REQUIRE(found);
+  CHECK(found->tops.cols() == 2);
+  CHECK(found->specks == 2);
+  // a table, wider than any joint
+  for (int k = 0; k < 60; ++k) cloud.emplace_back(-40, 0.5 * k, 0);
+  found = cluster_joint_tops(matrix_of(cloud), 3);
+  REQUIRE(found);
+  CHECK(found->tops.cols() == 2);
+  CHECK(found->others == 1);
+
+  Eigen::Matrix3Xd single(3, 4);
+  single << 0, 20, 0, 20, 0, 0, 20, 20, 0, 0, 0, 5;
+  found = cluster_joint_tops(single, 3);
+  REQUIRE(found);
+  CHECK(found->tops.cols() == 4);
+}
+
+TEST_CASE("points that no shell of such joints could hold are refused") {
+  Eigen::Matrix3Xd far(3, 2);
+  far << 0, 1e9, 0, 0, 0, 0;
+  CHECK(refusal(cluster_joint_tops(far, 3)) ==
+        "the points reach over 1e+09 mm, joints of 3 mm are not to be found among them");
+}
+
+namespace {
+
+/// a bump without symmetry
+Eigen::Matrix3Xd bump() {
+  Eigen::Matrix3Xd places(3, 49);
+  for (int k = 0; k < 49; ++k) {
+    const int column = k % 7 - 3, row = k / 7 - 3;
+    const double x = 20 * column, y = 20 * row;
+    places.col(k) << x, y, 40 * std::exp(-(x * x + 2 * y * y + x * y) / 3000) + 0.1 * x;
+  }
+  return places;
+}
+
+const Pose tilted{Eigen::AngleAxisd(2.1, Eigen::Vector3d(1, 2, -2) / 3).toRotationMatrix(),
+                  {500, -20, 7}};
+
+}  // namespace
+
+TEST_CASE("places find their points again in any pose, exactly") {
+  const Eigen::Matrix3Xd places = bump(), points = tilted.of(places);
+  const auto found = value_of(register_points(points, places, {}));
+  CHECK(found.found == 49);
+  for (int k = 0; k < 49; ++k) CHECK(found.point_of[std::size_t(k)] == k);
+  CHECK(found.distance.maxCoeff() < 1e-9);
+  CHECK((found.pose.of(points) - places).cwiseAbs().maxCoeff() < 1e-9);
+  CHECK(found.cost < 1e-15);
+}
+
+TEST_CASE("a third missing and as many that belong nowhere mislead nobody") {
+  const Eigen::Matrix3Xd places = bump();
+  Eigen::Matrix3Xd points(3, 49);
+  std::mt19937_64 draw(3);
+  std::uniform_real_distribution<double> share(-1, 1);
+  for (int k = 0; k < 49; ++k)
+    points.col(k) = k % 3 == 0
+                        ? Eigen::Vector3d(90 * share(draw), 90 * share(draw), 60 + 40 * share(draw))
+                        : Eigen::Vector3d(places.col(k));
+  const auto found = value_of(register_points(tilted.of(points), places, {}));
+  CHECK(found.found == 32);
+  for (int k = 0; k < 49; ++k) CHECK(found.point_of[std::size_t(k)] == (k % 3 == 0 ? -1 : k));
+  CHECK(found.cost == Approx(17 * 9));
+}
+
+TEST_CASE("a mirror image is another shape, and too few points tell no pose") {
+  const Eigen::Matrix3Xd places = bump();
+  const Eigen::Matrix3Xd mirrored = Eigen::Vector3d(-1, 1, 1).asDiagonal() * places;
+  const auto found = value_of(register_points(tilted.of(mirrored), places, {}));
+  CHECK(found.cost > 49);
+  CHECK(found.pose.turn.determinant() == Approx(1));
+  CHECK_FALSE(register_points(places.leftCols(3), places, {}));
+  CHECK_FALSE(register_points(Eigen::Matrix3Xd::Zero(3, 10), places, {}));
 }

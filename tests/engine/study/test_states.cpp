@@ -1,10 +1,7 @@
 // The states that a shell is found in.
 #include "engine/study/state_library.h"
 
-#include <catch2/catch.hpp>
-
-#include "engine/formats/csv.h"
-#include "tests/results.h"
+#include "tests/presets.h"
 
 using namespace gridshell;
 using study::find_states;
@@ -13,11 +10,7 @@ using study::StateLibrary;
 namespace {
 
 preset::Preset shell(int rods) {
-  preset::Preset p;
-  p.name = "shell";
-  p.footprint.rods = rods;
-  p.footprint.radius_mm = 20 * (0.5 * (rods - 1) + 0.8);
-  p.actuation.radius_mm = 0.75 * p.footprint.radius_mm;
+  preset::Preset p = paper_circle(rods);
   p.accuracy.edges_per_segment = 8;
   return p;
 }
@@ -79,17 +72,11 @@ TEST_CASE("states: a search that cannot be is an error with its reason") {
   preset::Preset p = shell(4);
   p.jitter.trials = 2;
   const auto scene = std::make_shared<const Scene>(scene_of(p).value());
-  Watch watch;
-  watch.cancel();
-  const auto stopped = find_states(scene, p.jitter, {}, watch);
-  REQUIRE(!stopped);
-  CHECK(stopped.error().fault == Fault::cancelled);
+  check_stops([&](Watch& watch) { return find_states(scene, p.jitter, {}, watch); });
   p.limits.max_strain = 1e-12;
   const auto strained = std::make_shared<const Scene>(scene_of(p).value());
   Watch other;
-  const auto none = find_states(strained, p.jitter, {}, other);
-  REQUIRE(!none);
-  CHECK(none.error().fault == Fault::no_equilibrium);
+  CHECK(refusal(find_states(strained, p.jitter, {}, other), Fault::no_equilibrium) != "none");
 }
 
 TEST_CASE("states tell all that their energy is made of") {
@@ -132,4 +119,31 @@ TEST_CASE("states: the three of the paper at twelve rods, in their order", "[sta
   CHECK(ii->z_max_mm == Approx(49.3).margin(0.1));
   CHECK(iii->z_max_mm == Approx(66.4).margin(0.1));
   CHECK(ii->z_min_mm == Approx(-4.2).margin(0.1));
+}
+
+TEST_CASE("barriers: passes lie above the states that their two sides lead to") {
+  preset::Preset p = shell(6);
+  p.jitter.trials = 12;
+  p.jitter.confined = 7;
+  p.jitter.drawn = 3;
+  const auto scene = std::make_shared<const Scene>(scene_of(p).value());
+  Watch watch;
+  auto library = value_of(find_states(scene, p.jitter, {.threads = 1, .lives = false}, watch));
+  REQUIRE(library.states.size() > 1);
+  StateLibrary again = library;
+  const auto found = value_of(study::barriers_between(library, scene, p.jitter, 1, 0, 1, watch));
+  CHECK(library.search.paths_followed > 0);
+  REQUIRE(library.search.passes_found > 0);
+  CHECK(int(found.size()) <= library.search.passes_found);
+  for (const record::Barrier& one : found) {
+    CHECK(one.from > 0);
+    CHECK(one.barrier_mJ > 0);
+    CHECK(one.back_mJ > 0);
+    CHECK(one.residual_N < 1e-7);
+    const study::ShellState& from = library.states[std::size_t(one.from) - 1];
+    CHECK(one.energy_mJ - one.barrier_mJ == Approx(from.energy_mJ).epsilon(1e-6));
+    CHECK(from.row.barrier_mJ <= one.barrier_mJ);
+  }
+  const auto same = value_of(study::barriers_between(again, scene, p.jitter, 2, 0, 1, watch));
+  CHECK(record::csv_table(same) == record::csv_table(found));
 }

@@ -1,10 +1,9 @@
 #include "engine/study/sweep_study.h"
 
-#include <catch2/catch.hpp>
 #include <map>
 #include <set>
 
-#include "tests/results.h"
+#include "tests/presets.h"
 #include "tests/small_preset.h"
 
 using namespace gridshell;
@@ -13,11 +12,9 @@ using namespace gridshell::study;
 namespace {
 
 preset::Presets small_sweep() {
-  return preset::read_preset_text(small_preset({}) +
-                                      "[sweep.over]\nactuation.radius_mm = [44, 42, 40]\n"
-                                      "rod.diameter_mm = [0.25, 0.3]\n",
-                                  "small.toml", "small")
-      .value();
+  return preset::good(small_preset({}) +
+                      "[sweep.over]\nactuation.radius_mm = [44, 42, 40]\n"
+                      "rod.diameter_mm = [0.25, 0.3]\n");
 }
 
 std::map<std::size_t, record::Figures> figures_with(int jobs) {
@@ -55,10 +52,9 @@ TEST_CASE("points are the same however many are computed at a time") {
 
 TEST_CASE(
     "a point that looks for states says how many of each class, the same whatever the threads") {
-  const auto presets = value_of(preset::read_preset_text(
+  const auto presets = preset::good(
       "[footprint]\nrods = 4\n[actuation]\nratio = 0.75\n[accuracy]\nedges_per_segment = 8\n"
-      "[jitter]\ntrials = 4\nconfined = 7\n[sweep.over]\nfootprint.longest_leg = [0.3, 4.0]\n",
-      "search.toml", "search"));
+      "[jitter]\ntrials = 4\nconfined = 7\n[sweep.over]\nfootprint.longest_leg = [0.3, 4.0]\n");
   const preset::SweepGrid grid(presets);
   const auto found_by = [&](int jobs) {
     std::map<std::size_t, record::PointResult> found;
@@ -98,12 +94,9 @@ TEST_CASE(
 
 TEST_CASE("a path that ends early counts as far as it came, whatever the movie's frames") {
   const auto figures = [](int frames) {
-    auto preset =
-        preset::read_preset_text(small_preset({.rods = 8, .radius_mm = 82, .actuated_mm = 40}) +
-                                     "[rod]\ndiameter_mm = 0.5\n",
-                                 "thick.toml", "thick")
-            .value()
-            .base;
+    auto preset = preset::good(small_preset({.rods = 8, .radius_mm = 82, .actuated_mm = 40}) +
+                               "[rod]\ndiameter_mm = 0.5\n")
+                      .base;
     preset.movie.frames = frames;
     Watch watch;
     return figures_of(preset, watch).value();
@@ -147,7 +140,6 @@ TEST_CASE("an error of whoever takes the points ends the work") {
         return {};
       },
       watch);
-  REQUIRE_FALSE(done);
-  CHECK(done.error().message == "the disk is full");
+  CHECK(refusal(done, Fault::io) == "the disk is full");
   CHECK(taken == 2);
 }

@@ -21,16 +21,21 @@ struct CanvasObserver {
   CanvasObserver& operator=(const CanvasObserver&) = delete;
 };
 
-/// All words lie on the canvas, and no two over one another.
-inline void check_apart(const render::Canvas& canvas) {
+/// All words lie on the canvas, and no two over one another, nor, where that is asked for, over a
+/// marker.
+inline void check_apart(const render::Canvas& canvas, bool off_markers = false) {
   const std::vector<render::Box>& boxes = canvas.text_boxes();
   for (std::size_t a = 0; a < boxes.size(); ++a) {
     INFO(canvas.texts()[a]);
-    CHECK(render::Box{0, 0, canvas.width(), canvas.height()}.contains(boxes[a]));
+    CHECK((boxes[a].empty() ||
+           render::Box{0, 0, canvas.width(), canvas.height()}.contains(boxes[a])));
     for (std::size_t b = a + 1; b < boxes.size(); ++b) {
       INFO(canvas.texts()[b]);
       CHECK_FALSE(boxes[a].overlaps(boxes[b]));
     }
+    if (off_markers)
+      for (const render::Box& marker : canvas.marker_boxes())
+        CHECK_FALSE(boxes[a].overlaps(marker));
   }
 }
 

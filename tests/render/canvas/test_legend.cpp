@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <catch2/catch.hpp>
 
 #include "render/canvas/legend.h"
 #include "tests/render/canvas/ink.h"

@@ -36,11 +36,4 @@ inline Drawing dome_drawing(const record::Trajectory& run) {
   return drawing;
 }
 
-/// FNV-1a [Fowler, Noll, Vo] over the pixels.
-inline std::uint64_t hash(const Image& image) {
-  std::uint64_t h = 14695981039346656037u;
-  for (std::uint8_t byte : image.rgba) h = (h ^ byte) * 1099511628211u;
-  return h;
-}
-
 }  // namespace gridshell::render::test

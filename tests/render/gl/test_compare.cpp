@@ -1,5 +1,3 @@
-#include <catch2/catch.hpp>
-
 #include "render/gl/image.h"
 #include "tests/results.h"
 

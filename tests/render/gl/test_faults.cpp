@@ -1,7 +1,6 @@
 // The metric on real pictures: it must see everything that a person would call broken, and nothing
 // that another machine does to a good picture.
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <functional>
 #include <map>
 #include <random>

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <png.h>
 
-#include <catch2/catch.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -52,7 +51,7 @@ TEST_CASE("a picture survives being a PNG, with and without transparency") {
   const TemporaryFolder folder;
   for (bool transparent : {false, true}) {
     const Image image = colourful(37, 21, transparent);
-    const fs::path path = folder.path() / "a.png";
+    const fs::path path = folder / "a.png";
     REQUIRE(write_png(image, path));
     const auto back = value_of(read_png(path));
     CHECK(back.width == 37);
@@ -65,7 +64,7 @@ TEST_CASE("a picture survives being a PNG, with and without transparency") {
 
 TEST_CASE("any colour type and bit depth is read as 8-bit RGBA") {
   const TemporaryFolder folder;
-  const fs::path path = folder.path() / "b.png";
+  const fs::path path = folder / "b.png";
   const auto pixel = [&](int x) {
     const auto image = value_of(read_png(path));
     REQUIRE(image.width == 4);
@@ -86,7 +85,7 @@ TEST_CASE("any colour type and bit depth is read as 8-bit RGBA") {
 
 TEST_CASE("what cannot be written or read says so, with its path and the reason") {
   const TemporaryFolder folder;
-  const fs::path absent = folder.path() / "absent" / "a.png";
+  const fs::path absent = folder / "absent" / "a.png";
   CHECK(refusal(write_png(colourful(4, 4, false), absent), Fault::io) ==
         "cannot write '" + absent.string() + "': No such file or directory");
 
@@ -95,13 +94,13 @@ TEST_CASE("what cannot be written or read says so, with its path and the reason"
   CHECK(read.error().fault == Fault::io);
   CHECK(read.error().message == "cannot read '" + absent.string() + "': No such file or directory");
 
-  CHECK_FALSE(write_png(Image(), folder.path() / "empty.png"));
+  CHECK_FALSE(write_png(Image(), folder / "empty.png"));
   CHECK(folder.entries().empty());
 }
 
 TEST_CASE("a damaged file is bad input, not a crash") {
   const TemporaryFolder folder;
-  const fs::path path = folder.path() / "c.png";
+  const fs::path path = folder / "c.png";
   const auto bytes = value_of(encode_png(colourful(64, 64, false)));
   std::ofstream(path, std::ios::binary) << bytes.substr(0, bytes.size() / 2);
   CHECK(refusal(read_png(path))

@@ -1,8 +1,8 @@
 #include "render/gl/renderer.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 
+#include "render/gl/lighting.h"
 #include "tests/render/gl/picture.h"
 #include "tests/render/synthetic.h"
 #include "tests/results.h"
@@ -46,16 +46,6 @@ int changed(const Image& a, const Image& b) {
 
 }  // namespace
 
-TEST_CASE("a rod that is missing changes the picture", "[draw][draw][standard]") {
-  auto studio = open_studio();
-  auto run = synthetic::dome(2, 4);
-  const Image whole = drawn(studio, test::dome_drawing(run));
-  CHECK(changed(whole, drawn(studio, test::dome_drawing(run))) == 0);
-  run.layout.rods.erase(run.layout.rods.begin() + 5);
-  const Image less = drawn(studio, test::dome_drawing(run));
-  CHECK(changed(whole, less) > 100);
-}
-
 TEST_CASE("background, ground and cells show the colours they were given", "[draw]") {
   auto [studio, run, drawing] = Dome(4);
   drawing.ground = false;
@@ -87,46 +77,6 @@ TEST_CASE("background, ground and cells show the colours they were given", "[dra
   grounded.elevation_deg = 60;
   const Image with_ground = drawn(studio, drawing, grounded);
   CHECK(off(with_ground, {160, 172}, drawing.ground_colour) <= 2);
-}
-
-TEST_CASE("a ring shows its colour, and rods take those of their nodes", "[draw]") {
-  auto [studio, run, drawing] = Dome(4);
-  drawing.rings[0].diameter_mm = 8;
-  drawing.ground = false;
-  Camera above;
-  above.elevation_deg = 90;
-  above.field_of_view_deg = 0;
-  const DrawQuality fine{4, false, 1};
-  const Image image = drawn(studio, drawing, above, fine);
-  // lighter where it faces the light and darker where not: near the colour all around
-  const auto& points = drawing.rings[0].points;
-  double mean = 0;
-  for (int k = 0; k < points.cols(); ++k)
-    mean += off(image, to_pixel(above, 320, 180, points.col(k)), drawing.rings[0].colour);
-  CHECK(mean / double(points.cols()) < 32);
-
-  drawing.rings.clear();
-  drawing.cell_colours.clear();
-  drawing.joint_diameter_mm = 0;
-  drawing.rod_diameter_mm = 4;
-  drawing.node_colours.assign(std::size_t(drawing.nodes.cols()), {0.1f, 0.7f, 0.2f});
-  const Image green = drawn(studio, drawing, above, fine);
-  const Eigen::Vector3d on_rod = drawing.nodes.col(run.layout.joints[60].node);
-  CHECK(off(green, to_pixel(above, 320, 180, on_rod), {0.1f, 0.7f, 0.2f}) < 60);
-}
-
-TEST_CASE("the shell throws a shadow on the ground, and none when not asked", "[draw]") {
-  auto [studio, run, drawing] = Dome(4);
-  const Image with = drawn(studio, drawing, {}, {2, true, 1});
-  const Image without = drawn(studio, drawing, {}, {2, false, 1});
-  CHECK(changed(with, without) > 2000);
-  long darker = 0, lighter = 0;
-  for (std::size_t k = 0; k < with.rgba.size(); ++k) {
-    darker += with.rgba[k] + 2 < without.rgba[k];
-    lighter += with.rgba[k] > without.rgba[k] + 2;
-  }
-  CHECK(darker > 2000);
-  CHECK(lighter == 0);
 }
 
 TEST_CASE("translucent ghosts lie behind nothing but what is nearer", "[draw]") {
@@ -201,4 +151,78 @@ TEST_CASE("what cannot be drawn is refused with its reason", "[draw]") {
   wrong = drawing;
   wrong.nodes.conservativeResize(3, 4);
   CHECK_THAT(message(wrong, {}, 9, 9), Catch::Matchers::Contains("beyond its 4 nodes"));
+}
+
+namespace {
+
+void check_pixel(const Camera& camera, const Eigen::Vector3d& point, double x, double y) {
+  const Eigen::Vector2d pixel = to_pixel(camera, 400, 200, point);
+  CHECK(pixel.x() == Approx(x).margin(1e-9));
+  CHECK(pixel.y() == Approx(y).margin(1e-9));
+}
+
+}  // namespace
+
+TEST_CASE("from straight above +y is up, whatever the azimuth", "[draw]") {
+  for (double azimuth : {0.0, 30.0, 200.0}) {
+    Camera camera;
+    camera.azimuth_deg = azimuth;
+    camera.elevation_deg = 90;
+    camera.half_extent_mm = 100;
+    check_pixel(camera, {0, 50, 0}, 200, 50);
+    check_pixel(camera, {50, 0, 0}, 250, 100);
+  }
+}
+
+TEST_CASE("what is nearer than the target looks larger, but not to an orthographic camera",
+          "[draw]") {
+  Camera camera;
+  camera.azimuth_deg = camera.elevation_deg = 0;
+  const auto above_middle = [&](double nearer) {
+    return 100 - to_pixel(camera, 400, 200, {nearer, 0, 50}).y();
+  };
+  CHECK(above_middle(40) > above_middle(0) + 0.5);
+  camera.field_of_view_deg = 0;
+  CHECK(above_middle(40) == Approx(above_middle(0)));
+}
+
+namespace {
+
+/// Mean irradiance on a surface of unit normal n.
+double light_on(const std::vector<Lighting>& passes, const Eigen::Vector3d& n) {
+  double sum = 0;
+  for (const Lighting& l : passes)
+    sum += l.key * std::max(0.0, n.dot(l.direction)) + l.sky * 0.5 * (1 + n.z()) +
+           l.bounce * 0.5 * (1 - n.z());
+  return sum / double(passes.size());
+}
+
+}  // namespace
+
+TEST_CASE("level ground in the open receives 1", "[draw]") {
+  for (int passes : {1, 2, 7, 64})
+    CHECK(light_on(lighting_passes({}, passes), Eigen::Vector3d::UnitZ()) ==
+          Approx(1).epsilon(1e-12));
+}
+
+TEST_CASE("many passes tend to the light of a single one", "[draw]") {
+  const auto one = lighting_passes({}, 1), many = lighting_passes({}, 512);
+  for (const Eigen::Vector3d& n :
+       {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(0.6, 0, 0.8),
+        Eigen::Vector3d(0, -0.8, 0.6), Eigen::Vector3d(0, 0, -1)})
+    CHECK(light_on(many, n) == Approx(light_on(one, n)).margin(0.04));
+  for (const Lighting& l : many) {
+    CHECK(l.direction.norm() == Approx(1));
+    CHECK(l.direction.z() > 0);
+    CHECK(l.pixel_shift.cwiseAbs().maxCoeff() <= 0.5);
+  }
+}
+
+TEST_CASE("the light turns with the camera", "[draw]") {
+  Camera camera;
+  camera.azimuth_deg = 0;
+  const auto a = lighting_passes(camera, 1)[0].direction;
+  camera.azimuth_deg = 90;
+  const auto b = lighting_passes(camera, 1)[0].direction;
+  CHECK(b.isApprox(Eigen::Vector3d(-a.y(), a.x(), a.z()), 1e-12));
 }

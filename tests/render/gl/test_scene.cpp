@@ -1,7 +1,6 @@
 #include "render/gl/scene.h"
 
 #include <Eigen/Geometry>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
 

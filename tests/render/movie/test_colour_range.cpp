@@ -1,7 +1,5 @@
 #include "render/movie/run_summary.h"
 
-#include <catch2/catch.hpp>
-
 #include "tests/render/synthetic.h"
 #include "tests/results.h"
 

@@ -1,4 +1,3 @@
-#include <catch2/catch.hpp>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
@@ -29,22 +28,52 @@ preset::Movie of_size(int width, int height) {
   return timing;
 }
 
+/// Pictures of one size that differ.
+Image shade(int k) {
+  Image image(64, 49);
+  for (std::size_t n = 0; n < image.rgba.size(); ++n)
+    image.rgba[n] = n % 4 == 3 ? 255 : std::uint8_t(40 * k + int(n / 64) % 7);
+  return image;
+}
+
+/// Six of them as frames, and the title's card, in a folder.
+fs::path six_frames(const fs::path& folder, const std::string& title = "") {
+  MovieStyle style;
+  style.size = {64, 49};
+  style.title = title;
+  REQUIRE(make_folder(folder / "frames"));
+  REQUIRE(write_png(title_card(style), folder / "title.png"));
+  for (int k = 0; k < 6; ++k) REQUIRE(write_png(shade(k), folder / "frames" / frame_name(k)));
+  return folder / "frames";
+}
+
+/// Cancels what `work` waits for after a moment; it must not take as long as it would have.
+template <class Work>
+void check_cancelled(Work work) {
+  Watch watch;
+  const auto start = std::chrono::steady_clock::now();
+  std::thread stopper([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(150));
+    watch.cancel();
+  });
+  const auto ended = work(watch);
+  stopper.join();
+  CHECK(refusal(ended, Fault::cancelled) != "none");
+  CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(10));
+}
+
 // a PATH of one folder, with a made-up ffmpeg in it or none
 class FakeFfmpeg {
  public:
-  explicit FakeFfmpeg(const std::string& script) : before_(std::getenv("PATH")) {
-    if (!script.empty()) {
-      const fs::path program = folder_.path() / "ffmpeg";
-      std::ofstream(program) << "#!/bin/sh\n" << script;
-      fs::permissions(program, fs::perms::owner_all);
-    }
-    setenv("PATH", folder_.path().c_str(), 1);
+  explicit FakeFfmpeg(const std::string& script) : path_("PATH", folder_.path().string()) {
+    if (script.empty()) return;
+    std::ofstream(folder_ / "ffmpeg") << "#!/bin/sh\n" << script;
+    fs::permissions(folder_ / "ffmpeg", fs::perms::owner_all);
   }
-  ~FakeFfmpeg() { setenv("PATH", before_.c_str(), 1); }
 
  private:
   TemporaryFolder folder_;
-  std::string before_;
+  Environment path_;
 };
 
 }  // namespace
@@ -52,7 +81,7 @@ class FakeFfmpeg {
 TEST_CASE("without ffmpeg the command line is told instead, ready for a shell") {
   const FakeFfmpeg none("");
   const TemporaryFolder folder;
-  REQUIRE(encode_movie("out/my run/frames", {}, folder.path() / "movie.mp4", {}));
+  REQUIRE(encode_movie("out/my run/frames", {}, folder / "movie.mp4", {}));
   CHECK(folder.entries().empty());
   const auto line = shell_line(encode_arguments("out/my run/frames", {}, "movie.mp4"));
   CHECK(line.find("ffmpeg -nostdin -y") == 0);
@@ -66,9 +95,9 @@ TEST_CASE("with ffmpeg the movie appears whole, under its name") {
   const TemporaryFolder folder;
   preset::Movie slow;
   slow.fps = 25;
-  REQUIRE(encode_movie("frames of 100%", slow, folder.path() / "movie.mp4", {}));
+  REQUIRE(encode_movie("frames of 100%", slow, folder / "movie.mp4", {}));
   CHECK(folder.entries() == std::vector<std::string>{"movie.mp4"});
-  const auto arguments = value_of(read_file(folder.path() / "movie.mp4"));
+  const auto arguments = value_of(read_file(folder / "movie.mp4"));
   CHECK(arguments.find("\nfile:frames of 100%%/frame_%05d.png\n") != std::string::npos);
   CHECK(arguments.find("\n-framerate\n25\n") != std::string::npos);
 }
@@ -78,7 +107,7 @@ TEST_CASE("a failing ffmpeg is an error with its last words and leaves nothing")
       "for last; do :; done\necho half > \"${last#file:}\"\n"
       "echo 'first line' >&2\necho 'Unknown encoder libx264' >&2\nexit 8\n");
   const TemporaryFolder folder;
-  CHECK_THAT(refusal(encode_movie("frames", {}, folder.path() / "movie.mp4", {}), Fault::io),
+  CHECK_THAT(refusal(encode_movie("frames", {}, folder / "movie.mp4", {}), Fault::io),
              Catch::Contains("failed with exit code 8: Unknown encoder libx264"));
   CHECK(folder.entries().empty());
 }
@@ -86,24 +115,15 @@ TEST_CASE("a failing ffmpeg is an error with its last words and leaves nothing")
 TEST_CASE("a cancel ends ffmpeg before its time") {
   const FakeFfmpeg ffmpeg("exec /bin/sleep 30\n");
   const TemporaryFolder folder;
-  Watch watch;
-  const auto start = std::chrono::steady_clock::now();
-  std::thread stopper([&] {
-    std::this_thread::sleep_for(std::chrono::milliseconds(150));
-    watch.cancel();
-  });
-  const auto encoding = encode_movie("frames", {}, folder.path() / "movie.mp4", watch);
-  stopper.join();
-  REQUIRE_FALSE(encoding);
-  CHECK(encoding.error().fault == Fault::cancelled);
-  CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(10));
+  check_cancelled(
+      [&](Watch& watch) { return encode_movie("frames", {}, folder / "movie.mp4", watch); });
   CHECK(folder.entries().empty());
 }
 
 TEST_CASE("a shell reads the words back as they were") {
   const std::vector<std::string> words = {"plain", "two words", "it's", "", "$HOME", "a=b", "é"};
   const TemporaryFolder folder;
-  const std::string out = (folder.path() / "out").string();
+  const std::string out = (folder / "out").string();
   REQUIRE(std::system(("printf '%s\\n' " + shell_line(words) + " > " + out).c_str()) == 0);
   std::string expected;
   for (const std::string& word : words) expected += word + "\n";
@@ -138,32 +158,19 @@ TEST_CASE("a real ffmpeg makes movies of the length asked for", "[standard]") {
     return;
   }
   const TemporaryFolder folder;
-  const fs::path frames = folder.path() / "frames";
-  REQUIRE(make_folder(frames));
-  MovieStyle style;
-  style.size = {64, 49};
-  style.title = "a title";
-  REQUIRE(write_png(title_card(style), folder.path() / "title.png"));
-  for (int k = 0; k < 6; ++k) {
-    Image image(64, 49);
-    for (std::size_t n = 0; n < image.rgba.size(); ++n)
-      image.rgba[n] = n % 4 == 3 ? 255 : std::uint8_t(40 * k);
-    REQUIRE(write_png(image, frames / frame_name(k)));
-  }
+  const fs::path frames = six_frames(folder, "a title");
   preset::Movie timing = of_size(64, 49);
   timing.seconds = 1;
   timing.pace = Pace::eased;
   for (const char* name : {"movie.mp4", "movie.webm", "movie.gif"}) {
     INFO(name);
-    const auto made = encode_movie(frames, timing, folder.path() / name, {});
-    if (!made) FAIL(made.error().message);
+    REQUIRE(encode_movie(frames, timing, folder / name, {}));
     const std::string probe =
         "ffprobe -v error -show_entries format=duration:stream=color_primaries "
         "-of default=nk=1:nw=1 " +
-        shell_line({(folder.path() / name).string()}) + " > " +
-        shell_line({(folder.path() / "probe").string()});
+        shell_line({(folder / name).string()}) + " > " + shell_line({(folder / "probe").string()});
     REQUIRE(std::system(probe.c_str()) == 0);
-    const auto said = value_of(read_file(folder.path() / "probe"));
+    const auto said = value_of(read_file(folder / "probe"));
     const bool gif = std::string(name) == "movie.gif";
     if (!gif) CHECK(said.find("bt709") != std::string::npos);
     std::istringstream lines(said);
@@ -175,40 +182,21 @@ TEST_CASE("a real ffmpeg makes movies of the length asked for", "[standard]") {
   }
 }
 
-namespace {
-
-/// Pictures of one size that differ.
-Image shade(int k) {
-  Image image(64, 49);
-  for (std::size_t n = 0; n < image.rgba.size(); ++n)
-    image.rgba[n] = n % 4 == 3 ? 255 : std::uint8_t(40 * k + int(n / 64) % 7);
-  return image;
-}
-
-}  // namespace
-
 TEST_CASE("a movie made while its frames are drawn is that of the frames, to the bit") {
   if (find_program("ffmpeg").empty()) {
     WARN("no ffmpeg, skipped");
     return;
   }
   const TemporaryFolder folder;
-  const fs::path frames = folder.path() / "frames";
-  REQUIRE(make_folder(frames));
-  MovieStyle style;
-  style.size = {64, 49};
-  REQUIRE(write_png(title_card(style), folder.path() / "title.png"));
+  const fs::path frames = six_frames(folder);
   const preset::Movie timing = of_size(64, 49);
-  auto movie = value_of(MovieEncoder::begin(frames, timing, folder.path() / "a.mp4"));
+  auto movie = value_of(MovieEncoder::begin(frames, timing, folder / "a.mp4"));
   REQUIRE(movie);
-  for (int k = 0; k < 6; ++k) {
-    REQUIRE(write_png(shade(k), frames / frame_name(k)));
-    (movie)->put(shade(k), unwatched);
-  }
-  CHECK_FALSE(fs::exists(folder.path() / "a.mp4"));
-  REQUIRE((movie)->finish(unwatched));
-  REQUIRE(encode_movie(frames, timing, folder.path() / "b.mp4", unwatched));
-  CHECK(read_file(folder.path() / "a.mp4").value() == read_file(folder.path() / "b.mp4").value());
+  for (int k = 0; k < 6; ++k) movie->put(shade(k), unwatched);
+  CHECK_FALSE(fs::exists(folder / "a.mp4"));
+  REQUIRE(movie->finish(unwatched));
+  REQUIRE(encode_movie(frames, timing, folder / "b.mp4", unwatched));
+  CHECK(read_file(folder / "a.mp4").value() == read_file(folder / "b.mp4").value());
 }
 
 TEST_CASE("without ffmpeg no movie is in the making, and one that stops reading is an error") {
@@ -216,14 +204,13 @@ TEST_CASE("without ffmpeg no movie is in the making, and one that stops reading 
   const Image large(800, 600);  // more than a socket holds
   {
     const FakeFfmpeg none("");
-    const auto movie =
-        value_of(MovieEncoder::begin("frames", of_size(800, 600), folder.path() / "m.mp4"));
+    const auto movie = value_of(MovieEncoder::begin("frames", of_size(800, 600), folder / "m.mp4"));
     CHECK_FALSE(movie);
   }
   const FakeFfmpeg broken("echo 'No space left on device' >&2\nexit 3\n");
-  auto movie = value_of(MovieEncoder::begin("frames", of_size(800, 600), folder.path() / "m.mp4"));
-  for (int k = 0; k < 3; ++k) (movie)->put(large, unwatched);
-  CHECK_THAT(refusal((movie)->finish(unwatched), Fault::io),
+  auto movie = value_of(MovieEncoder::begin("frames", of_size(800, 600), folder / "m.mp4"));
+  for (int k = 0; k < 3; ++k) movie->put(large, unwatched);
+  CHECK_THAT(refusal(movie->finish(unwatched), Fault::io),
              Catch::Contains("exit code 3: No space left on device"));
   CHECK(folder.entries().empty());
 }
@@ -231,22 +218,13 @@ TEST_CASE("without ffmpeg no movie is in the making, and one that stops reading 
 TEST_CASE("a movie that is given up, or cancelled while ffmpeg takes nothing, leaves nothing") {
   const TemporaryFolder folder;
   const FakeFfmpeg slow("exec /bin/sleep 30\n");
-  const auto start = std::chrono::steady_clock::now();
-  {
-    auto movie = MovieEncoder::begin("frames", of_size(800, 600), folder.path() / "m.mp4");
-    REQUIRE(movie);
-  }
-  auto movie = value_of(MovieEncoder::begin("frames", of_size(800, 600), folder.path() / "m.mp4"));
-  Watch watch;
-  std::thread stopper([&] {
-    std::this_thread::sleep_for(std::chrono::milliseconds(150));
-    watch.cancel();
+  const auto begun = [&] {
+    return value_of(MovieEncoder::begin("frames", of_size(800, 600), folder / "m.mp4"));
+  };
+  REQUIRE(begun());
+  check_cancelled([movie = begun()](Watch& watch) mutable {
+    movie->put(Image(800, 600), watch);
+    return movie->finish(watch);
   });
-  (movie)->put(Image(800, 600), watch);
-  stopper.join();
-  const auto ended = (movie)->finish(watch);
-  REQUIRE_FALSE(ended);
-  CHECK(ended.error().fault == Fault::cancelled);
-  CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(10));
   CHECK(folder.entries().empty());
 }

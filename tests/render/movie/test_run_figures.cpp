@@ -4,10 +4,7 @@
 
 #include "render/movie/run_figures.h"
 #include "render/movie/run_plots.h"
-#include "tests/render/movie/fake_renderer.h"
 #include "tests/render/synthetic.h"
-#include "tests/results.h"
-#include "tests/temporary_folder.h"
 
 using namespace gridshell;
 using namespace gridshell::render;
@@ -113,26 +110,6 @@ TEST_CASE("seams are plotted about their middles, gap and kink") {
   CHECK(plots[1].y.label == "kink (°)");
 }
 
-TEST_CASE("footprints of blocks are written as PNG and SVG") {
-  const TemporaryFolder folder;
-  record::Trajectory run = one_cell();
-  run.layout.parts = {{"a", run.layout.rods, run.layout.net_nodes, run.layout.flat_nodes},
-                      {"b", run.layout.rods, run.layout.net_nodes, run.layout.flat_nodes}};
-  run.layout.parts[1].flat.row(0).array() += 200;
-  REQUIRE(write_block_footprints(folder.path() / "blocks", run).has_value());
-  CHECK(std::filesystem::file_size(folder.path() / "blocks.png") > 1000);
-  CHECK(std::filesystem::file_size(folder.path() / "blocks.svg") > 1000);
-}
-
-TEST_CASE("footprints are written as PNG and SVG") {
-  const TemporaryFolder folder;
-  const record::Trajectory run = one_cell();
-  REQUIRE(write_footprints(folder.path() / "boundaries", {{&run, "a"}, {&run, "b"}}, "Two")
-              .has_value());
-  CHECK(std::filesystem::file_size(folder.path() / "boundaries.png") > 1000);
-  CHECK(std::filesystem::file_size(folder.path() / "boundaries.svg") > 1000);
-}
-
 namespace {
 
 record::Trajectory pushed() {
@@ -190,20 +167,4 @@ TEST_CASE("a snap is a dashed line from the state before to the one after, with 
   CHECK((snap.y[0] == Approx(0.1) && snap.y[1] == Approx(0.4)));
   CHECK(snap.name == "snap to another state");
   CHECK(plot.series[3].name.empty());
-}
-
-TEST_CASE(
-    "pushed shells stand beside one another, and their bins are written where they are known") {
-  const TemporaryFolder folder;
-  const record::Trajectory run = pushed();
-  test::FakeRenderer renderer;
-  Watch watch;
-  MovieStyle style;
-  style.size = {160, 120};
-  const auto image = value_of(
-      draw_pushes({{&run, "a"}, {&run, "b"}}, style, renderer, watch).and_then(draw_panels));
-  CHECK(image.width > 240);
-  REQUIRE(write_push_bins(folder.path() / "bins", {{&run, "a"}, {&run, "b"}}, "Two pushes"));
-  CHECK(std::filesystem::exists(folder.path() / "bins.png"));
-  CHECK(std::filesystem::exists(folder.path() / "bins.svg"));
 }

@@ -1,6 +1,4 @@
 // Charts of branches and of states.
-#include <catch2/catch.hpp>
-
 #include "engine/record/phase_diagram.h"
 #include "render/movie/state_charts.h"
 #include "tests/render/canvas/ink.h"
@@ -97,7 +95,7 @@ TEST_CASE("a diagram with a close-up: all that is written fits") {
     // four panels
     CHECK(std::ranges::count(canvas.texts(), "height (mm)") == 2);
   });
-  REQUIRE(write_branches(folder.path() / "branches", points(), "A diagram"));
+  REQUIRE(write_branches(folder / "branches", points(), "A diagram"));
   CHECK(drawn == 3);
 }
 
@@ -211,10 +209,10 @@ TEST_CASE(
         CHECK(test::has(canvas.texts(), text));
       test::check_apart(canvas);
     });
-    REQUIRE(write_transition_graph(folder.path() / "graph", tables(), run(), "Some states", {}));
+    REQUIRE(write_transition_graph(folder / "graph", tables(), run(), "Some states", {}));
   }
   for (const char* kind : {".png", ".svg", ".pdf"})
-    CHECK(std::filesystem::exists(folder.path() / (std::string("graph") + kind)));
+    CHECK(std::filesystem::exists(folder / (std::string("graph") + kind)));
 }
 
 TEST_CASE("barriers are drawn between known states, as high as they are") {

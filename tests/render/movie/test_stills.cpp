@@ -1,5 +1,3 @@
-#include <catch2/catch.hpp>
-
 #include "render/canvas/panels.h"
 #include "render/gl/image.h"
 #include "render/movie/stills.h"
@@ -21,8 +19,7 @@ TEST_CASE("stills are one picture a frame and one of them all") {
   style.size = {400, 300};
   style.scale_bar_mm = 20;
   style.quality = Quality::figure;
-  const auto files =
-      value_of(write_stills(run, style, {}, renderer, folder.path() / "fig1", watch));
+  const auto files = value_of(write_stills(run, style, {}, renderer, folder / "fig1", watch));
   CHECK(files.size() == 4);
   CHECK(folder.entries() ==
         std::vector<std::string>{"fig1.png", "fig1_1.png", "fig1_2.png", "fig1_3.png"});
@@ -30,9 +27,9 @@ TEST_CASE("stills are one picture a frame and one of them all") {
   CHECK(renderer.drawn == 3);
   CHECK(renderer.outside == 0);
   CHECK(renderer.last_quality.jittered_passes > 1);
-  const auto still = value_of(read_png(folder.path() / "fig1_2.png"));
+  const auto still = value_of(read_png(folder / "fig1_2.png"));
   CHECK(still.width == 400);
-  const auto whole = value_of(read_png(folder.path() / "fig1.png"));
+  const auto whole = value_of(read_png(folder / "fig1.png"));
   CHECK(whole.width > 900);
   CHECK(whole.width < 1400);
   CHECK(test::rim_is_white(whole));
@@ -41,12 +38,9 @@ TEST_CASE("stills are one picture a frame and one of them all") {
 TEST_CASE("stills stop when asked to") {
   const TemporaryFolder folder;
   test::FakeRenderer renderer;
-  Watch watch;
-  watch.cancel();
-  const auto files =
-      write_stills(synthetic::dome(3, 2), {}, {}, renderer, folder.path() / "fig1", watch);
-  REQUIRE_FALSE(files);
-  CHECK(files.error().fault == Fault::cancelled);
+  check_stops([&](Watch& watch) {
+    return write_stills(synthetic::dome(3, 2), {}, {}, renderer, folder / "fig1", watch);
+  });
   CHECK(folder.entries().empty());
 }
 
@@ -73,7 +67,6 @@ TEST_CASE("panels of different size, or none, are refused") {
   PanelFigure figure;
   CHECK_FALSE(draw_panels(figure));
   figure.panels = {{Image(20, 10), "", ""}, {Image(20, 12), "", ""}};
-  const auto image = draw_panels(figure);
-  REQUIRE_FALSE(image);
-  CHECK(image.error().message == "panels of a figure must be of one size: 20 x 10 and 20 x 12");
+  CHECK(refusal(draw_panels(figure)) ==
+        "panels of a figure must be of one size: 20 x 10 and 20 x 12");
 }

@@ -1,7 +1,5 @@
 #include "render/movie/sweep_chart.h"
 
-#include <catch2/catch.hpp>
-
 #include "tests/render/canvas/ink.h"
 #include "tests/temporary_folder.h"
 
@@ -108,7 +106,6 @@ TEST_CASE("a map: all that is written fits, cells without a state are told") {
     CHECK(test::has(canvas.texts(), "no state found"));
     CHECK(test::has(canvas.texts(), "ended early"));
   });
-  REQUIRE(write_sweep_map(folder.path() / "height_mm", table,
-                          {.figure = "height_mm", .title = "A map"}));
+  REQUIRE(write_sweep_map(folder / "height_mm", table, {.figure = "height_mm", .title = "A map"}));
   CHECK(drawn == 3);
 }

@@ -1,6 +1,4 @@
 // Charts of methods: what is drawn, in which colours, and that all of it fits.
-#include <catch2/catch.hpp>
-
 #include "render/movie/validation_charts.h"
 #include "tests/render/canvas/ink.h"
 

@@ -1,26 +1,96 @@
-// Keys that a kind does not use are refused where they are set, and left out where a preset is
-// written.
-#include <catch2/catch.hpp>
-
+// Which rung a preset runs on, what is refused with its reason, and keys that a kind does not use:
+// refused where they are set, and left out where a preset is written.
 #include "engine/preset/consistency.h"
-#include "engine/preset/preset_file.h"
-#include "tests/results.h"
+#include "tests/presets.h"
 
 using namespace gridshell;
 using namespace gridshell::preset;
 
-namespace {
-
-std::string faults_of(const std::string& text, const std::vector<Override>& overrides = {}) {
-  const auto presets = read_preset_text(text, "bad.toml", "bad", overrides);
-  return presets ? "" : presets.error().message;
+TEST_CASE("auto takes the lowest rung that is exact") {
+  using Row = std::pair<std::string, std::string>;
+  const auto [text, rung] = GENERATE(values<Row>({
+      {"", "bend"},
+      {"[loads]\nfield_N_per_mm = 1e-6\npoints = [[0, 0, 0, 0, -0.1]]", "bend"},
+      {"[rod_v]\ndiffers = true\ndiameter_mm = 0.3", "bend"},
+      {"[rod]\nwidth_mm = 0.2\nthickness_mm = 0.2", "bend"},
+      {"[rod]\ntwist_rad_per_mm = 0.1", "bend"},
+      {"[ends]\nkind = \"tangent\"\n[footprint]\nkind = \"net\"", "bend"},
+      {"[rod]\nshear_GPa = 31\n[ends]\nkind = \"clamped\"", "twist"},
+      {"[rod]\nshear_GPa = 31\nwidth_mm = 0.2\nthickness_mm = 0.3", "twist"},
+      {"[rod]\nshear_GPa = 31\ncurvature_per_mm = 0.001", "twist"},
+      {"[rod]\nshear_GPa = 31\ncurvature_sideways_per_mm = 0.001", "twist"},
+      {"[rod]\nshear_GPa = 31\n[joints]\ntwist_Nmm = 1", "twist"},
+      {"[rod]\nshear_GPa = 31\n[joints]\nshear_Nmm = 1", "twist"},
+      {"[rod]\nshear_GPa = 31\n[joints]\nkind = \"spring\"\nstiffness_N_per_mm = 1", "twist"},
+      {"[rod]\nshear_GPa = 31\n[accuracy]\nmodel = \"twist\"", "twist"},
+      {"[footprint]\nkind = \"net\"\n[accuracy]\ntolerance = 0.05", "net"},
+      {"[footprint]\nkind = \"net\"\n[accuracy]\ntolerance = 0.04", "bend"},
+      {"[footprint]\nkind = \"net\"\n[net]\nkind = \"cylinder\"\n[accuracy]\ntolerance = 0.05",
+       "bend"},
+      {"[footprint]\nkind = \"net\"\n[accuracy]\ntolerance = 0.05\n[indentation]\ndepth = 0.1",
+       "bend"},
+      {"[footprint]\nkind = \"net\"\n[accuracy]\ntolerance = 0.05\n[loads]\nfield_N_per_mm = 1e-6",
+       "bend"},
+      {"[footprint]\nkind = \"net\"\n[accuracy]\ntolerance = 0.05\n[movie]\ncolour_by = "
+       "\"axial_force\"",
+       "bend"},
+  }));
+  CAPTURE(text);
+  const Preset preset = good(text).base;
+  CHECK(word_of(rod_model_of(preset)) == rung);
+  CHECK(model_reason(preset).starts_with(rung));
 }
 
-}  // namespace
+TEST_CASE("a rung that cannot serve the scene, and physics that lacks something, are refused") {
+  using Row = std::pair<std::string, std::string>;
+  const auto [text, sentence] = GENERATE(values<Row>({
+      {"[rod]\nshear_GPa = 31\n[ends]\nkind = \"clamped\"\n[accuracy]\nmodel = \"bend\"",
+       "bad.toml:6:9: [accuracy] model = \"bend\": cannot serve [ends] kind: clamped ends hold the "
+       "rods' spin"},
+      {"[accuracy]\nmodel = \"net\"\ntolerance = 0.1",
+       "bad.toml:2:9: [accuracy] model = \"net\": cannot serve [footprint] kind: a footprint that "
+       "was not designed on a net has none"},
+      {"[footprint]\nkind = \"net\"\n[accuracy]\nmodel = \"net\"\ntolerance = 0.05\n[movie]\n"
+       "colour_by = \"energy\"",
+       "bad.toml:4:9: [accuracy] model = \"net\": cannot serve [movie] colour_by: a net's rods "
+       "bear "
+       "no forces"},
+      {"[movie]\ncolour_by = \"deviation\"",
+       "bad.toml:2:13: [movie] colour_by = \"deviation\": \"deviation\" is from the net that a "
+       "footprint was designed on, must be another, or [footprint] kind = \"net\" or \"blocks\""},
+      {"[ends]\nkind = \"clamped\"",
+       "bad.toml:2:8: [ends] kind = \"clamped\": twists the rods (clamped ends hold the rods' "
+       "spin), and their torsional stiffness is not known: [rod] shear_GPa must be above 0"},
+      {"[accuracy]\nmodel = \"twist\"",
+       "bad.toml:2:9: [accuracy] model = \"twist\": twists the rods (it is asked for), and their "
+       "torsional stiffness is not known: [rod] shear_GPa must be above 0"},
+      {"[loads]\ngravity_m_s2 = 9.81",
+       "bad.toml:2:16: [loads] gravity_m_s2 = 9.81: gravity needs a mass, [rod] density_kg_m3 must "
+       "be above 0"},
+      {"[dynamics]\nsnap = true",
+       "bad.toml:2:8: [dynamics] snap = true: motion needs a mass, [rod] density_kg_m3 must be "
+       "above "
+       "0"},
+      {"[rod]\nyoung_GPa = -83",
+       "bad.toml:2:13: [rod] young_GPa = -83: out of range, must be a number > 0"},
+      {"[rod]\nwidth_mm = 0.3",
+       "bad.toml:2:12: [rod] width_mm = 0.3: a rectangular section has both, [rod] thickness_mm "
+       "must be above 0 too"},
+      {"[rod_v]\ndiameter_mm = 0.3",
+       "[rod_v] differs = false: the other keys of [rod_v] would count for nothing, must be true"},
+      {"[joints]\nkind = \"spring\"\n[rod]\nshear_GPa = 31",
+       "bad.toml:2:8: [joints] kind = \"spring\": springs without stiffness hold nothing, [joints] "
+       "stiffness_N_per_mm must be above 0"},
+      {"[loads]\npoints = [[0, 0, 1]]",
+       "bad.toml:2:10: [loads] points = [ [ 0, 0, 1 ] ]: holds a point of 3 coordinates, must be a "
+       "list of points [i, j, F_x, F_y, F_z]"},
+  }));
+  CHECK_THAT(faults_of(text), Catch::Contains(sentence));
+}
 
 TEST_CASE("a circle is as large as its radius says, or its longest leg, and not both") {
-  const auto presets = value_of(read_preset_text(
-      "[footprint]\nrods = 10\nlongest_leg = 1.5\n[actuation]\nratio = 0.75\n", "leg.toml", "leg"));
+  const auto presets =
+      good("[footprint]\nrods = 10\nlongest_leg = 1.5\n[actuation]\nratio = 0.75\n");
   // R_o = d (L_d + (n - 1)/2)
   CHECK(presets.base.original_radius_mm() == Approx(120));
   CHECK(presets.base.actuated_radius_mm() == Approx(90));
@@ -65,14 +135,14 @@ TEST_CASE("pictures have keys that others put out of use") {
   CHECK_THAT(faults_of("[movie]\nview = \"top\"\nazimuth_deg = 10.0\n"),
              Catch::Contains("[movie] view takes its place"));
   CHECK_THAT(faults_of("[page]\nphoto = \"a.png\"\n"), Catch::Contains("no page is made"));
-  CHECK(faults_of("[movie]\nazimuth_deg = 10.0\n", {{"--set", "movie.view", "top"}}) == "");
+  CHECK(faults_of("[movie]\nazimuth_deg = 10.0\n", {{"--set", "movie.view", "top"}}) == "none");
 }
 
 TEST_CASE("a default that is written out is no fault, nor is what another kind uses") {
-  CHECK(faults_of("[net]\nwaist = 0.5\n") == "");
-  CHECK(faults_of("[footprint]\nkind = \"net\"\n[net]\nkind = \"spool\"\nwaist = 0.4\n") == "");
+  CHECK(faults_of("[net]\nwaist = 0.5\n") == "none");
+  CHECK(faults_of("[footprint]\nkind = \"net\"\n[net]\nkind = \"spool\"\nwaist = 0.4\n") == "none");
   CHECK(faults_of("[footprint]\nkind = \"curve\"\nradius_mm = 90.0\n[actuation]\nscale = 0.8\n") ==
-        "");
+        "none");
 }
 
 TEST_CASE("one fault is told once: what a wrong kind would leave idle is not") {
@@ -83,10 +153,10 @@ TEST_CASE("one fault is told once: what a wrong kind would leave idle is not") {
 
 TEST_CASE("what a case or --set lays over a kind leaves the keys below in peace") {
   const std::string spool = "[footprint]\nkind = \"net\"\n[net]\nkind = \"spool\"\nwaist = 0.4\n";
-  CHECK(faults_of(spool, {{"--set", "net.kind", "sphere"}}) == "");
+  CHECK(faults_of(spool, {{"--set", "net.kind", "sphere"}}) == "none");
   CHECK_THAT(faults_of(spool, {{"--set", "net.cut_height", "0.3"}}),
              Catch::StartsWith("--set: [net] cut_height = 0.3: "));
-  CHECK(faults_of(spool + "[[case]]\nname = \"a\"\nnet.kind = \"sphere\"\n") == "");
+  CHECK(faults_of(spool + "[[case]]\nname = \"a\"\nnet.kind = \"sphere\"\n") == "none");
   CHECK_THAT(faults_of(spool + "[[case]]\nname = \"a\"\nnet.cut_height = 0.3\n"),
              Catch::StartsWith("bad.toml:8:18: [net] cut_height = 0.3: "));
 }
@@ -95,7 +165,7 @@ TEST_CASE("a key of the base may be for one of the cases") {
   const std::string base = "[footprint]\nkind = \"net\"\n[net]\nwaist = 0.4\n";
   const std::string cap = "[[case]]\nname = \"cap\"\n";
   const std::string saddle = "[[case]]\nname = \"saddle\"\nnet.kind = \"spool\"\n";
-  CHECK(faults_of(base + cap + saddle) == "");
+  CHECK(faults_of(base + cap + saddle) == "none");
   CHECK_THAT(faults_of(base + cap), Catch::Contains("[net] waist = 0.4: counts for nothing"));
 }
 
@@ -103,14 +173,13 @@ TEST_CASE("a preset is written without the keys that count for nothing, and read
   const std::string text =
       "[footprint]\nkind = \"net\"\n[net]\nwaist = 0.4\n[[case]]\nname = \"cap\"\n"
       "[[case]]\nname = \"saddle\"\nnet.kind = \"spool\"\n";
-  const auto presets = value_of(read_preset_text(text, "a.toml", "a"));
+  const auto presets = good(text);
   const auto written = to_toml(presets);
   CHECK_THAT(written, Catch::Contains("net.waist = 0.4") && !Catch::Contains("\nwaist") &&
                           !Catch::Contains("[blocks]") && !Catch::Contains("curve_u"));
-  const auto again = read_preset_text(written, "b.toml", "a");
-  if (!again) FAIL(again.error().message);
-  CHECK(to_toml(*again) == written);
-  CHECK(again->cases[1].preset.net.waist == 0.4);
+  const auto again = good(written);
+  CHECK(to_toml(again) == written);
+  CHECK(again.cases[1].preset.net.waist == 0.4);
 }
 
 TEST_CASE("utilisation needs a strength, which is said once") {
