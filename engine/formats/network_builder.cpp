@@ -67,10 +67,10 @@ Result<void> NetworkBuilder::add_joint(std::vector<int> points, const std::strin
   std::erase_if(points, [&](int point) { return !once.insert(point).second; });
   for (const int point : points)
     if (!listed_.insert(point).second)
-      return fail(Fault::bad_input,
-                  "{}: point {} is of another joint too, must be of one: list all points of a "
-                  "joint together",
-                  at, point);
+      return invalid(
+          "{}: point {} is of another joint too, must be of one: list all points of a "
+          "joint together",
+          at, point);
   joints_.push_back({std::move(points), at});
   return {};
 }
@@ -88,17 +88,16 @@ Result<void> NetworkBuilder::check_rods(const std::vector<int>& joint_of) const 
       const auto [there, is_new] = first.try_emplace(joint, k);
       const bool closes = there->second == 0 && k + 1 == rod.size() && k > 2;
       if (!is_new && !closes && rod[there->second] != rod[k])
-        return fail(Fault::bad_input,
-                    "{}: rods[{}] has both point {} and point {}, the points of a joint must be of "
-                    "different rods, or the two ends of a ring",
-                    joints_[std::size_t(joint)].at, r, rod[there->second], rod[k]);
+        return invalid(
+            "{}: rods[{}] has both point {} and point {}, the points of a joint must be of "
+            "different rods, or the two ends of a ring",
+            joints_[std::size_t(joint)].at, r, rod[there->second], rod[k]);
     }
   }
   for (const Joint& joint : joints_)
     for (const int point : joint.points)
       if (!on_rods.contains(point))
-        return fail(Fault::bad_input, "{}: no rod has point {}, must be a point of a rod", joint.at,
-                    point);
+        return invalid("{}: no rod has point {}, must be a point of a rod", joint.at, point);
   return {};
 }
 
@@ -110,10 +109,10 @@ Result<void> NetworkBuilder::check_reach(const std::vector<int>& joint_of) const
     for (const int point : joints_[j].points) {
       const double way = distance(network_.points[std::size_t(point)], mean);
       if (!(way <= farthest * shortest[j]))
-        return fail(Fault::bad_input,
-                    "{}: point {} lies {:.4g} mm from the middle of the joint's points, must be at "
-                    "most {:.4g} mm, a quarter of the shortest stretch of rod beside them",
-                    joints_[j].at, point, way, farthest * shortest[j]);
+        return invalid(
+            "{}: point {} lies {:.4g} mm from the middle of the joint's points, must be at "
+            "most {:.4g} mm, a quarter of the shortest stretch of rod beside them",
+            joints_[j].at, point, way, farthest * shortest[j]);
     }
   }
   return {};
@@ -235,8 +234,7 @@ void put(std::vector<Cut> cuts, std::vector<std::vector<int>>& rods) {
 Result<void> NetworkBuilder::join_crossings(const std::string& name) {
   const std::vector<Stretch> all = stretches_of(network_);
   if (all.size() > most_stretches)
-    return fail(
-        Fault::bad_input,
+    return invalid(
         "{}: holds {} stretches of rods, must be at most {} for their crossings to be found", name,
         all.size(), most_stretches);
   std::vector<Cut> cuts;

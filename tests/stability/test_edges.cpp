@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/study/benchmark_methods.h"
-#include "engine/study/stability_study.h"
+#include "engine/study/method_studies.h"
 #include "tests/engine/study/small_scene.h"
 
 using namespace gridshell;

@@ -1,4 +1,4 @@
-#include "engine/record/shape_symmetry.h"
+#include "engine/record/shape_measures.h"
 
 #include <catch2/catch.hpp>
 

@@ -6,7 +6,7 @@
 #include "engine/formats/network_file.h"
 #include "engine/preset/consistency.h"
 #include "engine/record/fabrication.h"
-#include "engine/simulate/fabrication_plan.h"
+#include "engine/simulate/run.h"
 #include "tests/engine/simulate/run.h"
 
 using namespace gridshell;

@@ -3,7 +3,7 @@
 
 #include "engine/footprint/mesh.h"
 #include "engine/record/fabrication.h"
-#include "engine/simulate/fabrication_plan.h"
+#include "engine/simulate/run.h"
 #include "tests/engine/simulate/run.h"
 
 using namespace gridshell;

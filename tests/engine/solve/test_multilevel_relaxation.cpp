@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "engine/record/shape_symmetry.h"
+#include "engine/record/shape_measures.h"
 #include "engine/scene/scene.h"
 #include "engine/solve/newton.h"
 #include "tests/engine/solve/single_rod.h"

@@ -1,11 +1,11 @@
 // Speed against accuracy on a small shell: what the chart promises.
-#include "engine/study/accuracy_study.h"
+#include "engine/study/method_studies.h"
 
 #include <catch2/catch.hpp>
 #include <set>
 
+#include "engine/core/team.h"
 #include "engine/study/benchmark_methods.h"
-#include "engine/study/time_limit.h"
 #include "tests/engine/study/small_scene.h"
 #include "tests/results.h"
 

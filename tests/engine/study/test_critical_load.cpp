@@ -1,7 +1,7 @@
 // Critical loads with known answers, by arc length and linearised.
 
 #include "engine/elastic/along_rods.h"
-#include "engine/study/load_study.h"
+#include "engine/study/formed_shell.h"
 #include "tests/engine/solve/rod_cases.h"
 #include "tests/results.h"
 #include "tests/small_shell.h"
