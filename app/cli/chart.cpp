@@ -169,9 +169,7 @@ Result<ChartReport> draw_accuracy(const preset::Preset& preset, const ChartOptio
 
 /// "shifted: 40 cells, 36 right, 4 silently wrong (4 other_state)", a line a method.
 void count_silent(const std::vector<record::StabilityRow>& rows, ChartReport& findings) {
-  std::vector<std::string> methods;
-  for (const auto& row : rows)
-    if (std::ranges::find(methods, row.method) == methods.end()) methods.push_back(row.method);
+  const auto methods = render::distinct(rows, &record::StabilityRow::method);
   for (const auto& method : methods) {
     std::map<std::string, int> count;
     int cells = 0, silent = 0;

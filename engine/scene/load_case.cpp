@@ -170,7 +170,7 @@ std::vector<Face> faces_of(const Footprint& footprint) {
         keep(way, false);
         continue;
       }
-      std::ranges::rotate(way, first);
+      std::rotate(way.begin(), first, way.end());
       way.push_back(way.front());
       for (std::size_t from = 0, k = 1; k < way.size(); ++k) {
         if (!is_edge_point(way[k])) continue;

@@ -240,7 +240,8 @@ Plot branches_plot(const std::vector<BranchPoint>& points, BranchAxis axis) {
   plot.font_size = 8;
   plot.series = pieces_of(points, place);
   // the path itself on top
-  std::ranges::stable_partition(plot.series, [](const Series& s) { return s.line_width < 1.2; });
+  std::stable_partition(plot.series.begin(), plot.series.end(),
+                        [](const Series& s) { return s.line_width < 1.2; });
   for (const EventMark& mark : marks) plot.add(marks_of(points, place, mark));
   return plot;
 }
