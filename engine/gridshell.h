@@ -23,7 +23,6 @@
 #include "engine/record/run_folder.h"          // IWYU pragma: export
 #include "engine/record/shape_export.h"        // IWYU pragma: export
 #include "engine/record/shape_measures.h"      // IWYU pragma: export
-#include "engine/record/shape_symmetry.h"      // IWYU pragma: export
 #include "engine/record/states.h"              // IWYU pragma: export
 #include "engine/record/summary.h"             // IWYU pragma: export
 #include "engine/record/sweep_results.h"       // IWYU pragma: export
@@ -33,7 +32,6 @@
 #include "engine/scene/scene.h"                // IWYU pragma: export
 #include "engine/simulate/actuation.h"         // IWYU pragma: export
 #include "engine/simulate/equilibrium_path.h"  // IWYU pragma: export
-#include "engine/simulate/fabrication_plan.h"  // IWYU pragma: export
 #include "engine/simulate/frames.h"            // IWYU pragma: export
 #include "engine/simulate/indentation.h"       // IWYU pragma: export
 #include "engine/simulate/kept_segments.h"     // IWYU pragma: export
@@ -42,12 +40,10 @@
 #include "engine/simulate/steps.h"             // IWYU pragma: export
 #include "engine/solve/buckling.h"             // IWYU pragma: export
 #include "engine/solve/equilibrium.h"          // IWYU pragma: export
-#include "engine/study/accuracy_study.h"       // IWYU pragma: export
 #include "engine/study/bifurcation_diagram.h"  // IWYU pragma: export
-#include "engine/study/load_study.h"           // IWYU pragma: export
-#include "engine/study/modes.h"                // IWYU pragma: export
+#include "engine/study/formed_shell.h"         // IWYU pragma: export
+#include "engine/study/method_studies.h"       // IWYU pragma: export
 #include "engine/study/scan.h"                 // IWYU pragma: export
-#include "engine/study/stability_study.h"      // IWYU pragma: export
 #include "engine/study/state_library.h"        // IWYU pragma: export
 #include "engine/study/sweep_study.h"          // IWYU pragma: export
 #include "engine/study/trust_study.h"          // IWYU pragma: export

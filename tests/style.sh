@@ -16,7 +16,7 @@ cd "$(dirname "$0")/.." || exit 1
 build=${BUILD:-build}
 limit=${LIMIT:-10}
 without_git="engine/core/file_io.cpp engine/footprint/mesh.cpp engine/preset/field_values.cpp
-  render/gl/png.cpp app/cli/staged_folder.cpp"
+  render/gl/image.cpp app/cli/staged_folder.cpp"
 
 need() {
   command -v "$1" >/dev/null && return

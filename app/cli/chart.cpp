@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <map>
-#include <memory>
 
 #include "app/cli/commands.h"
 #include "app/cli/console.h"
@@ -105,8 +104,7 @@ Result<std::vector<int>> sizes_in(const std::string& text) {
   for (const std::string_view word : words_in(text, ",")) {
     const auto rods = parse_number<int>(word);
     if (!rods || *rods < 4 || *rods > 400)
-      return fail(Fault::bad_input, "--sizes {}: '{}' is no number of rods from 4 to 400", text,
-                  word);
+      return invalid("--sizes {}: '{}' is no number of rods from 4 to 400", text, word);
     sizes.push_back(*rods);
   }
   return sizes;
@@ -171,10 +169,7 @@ Result<ChartReport> draw_accuracy(const preset::Preset& preset, const ChartOptio
 
 /// "shifted: 40 cells, 36 right, 4 silently wrong (4 other_state)", a line a method.
 void count_silent(const std::vector<record::StabilityRow>& rows, ChartReport& findings) {
-  std::vector<std::string> methods;
-  for (const auto& row : rows)
-    if (std::find(methods.begin(), methods.end(), row.method) == methods.end())
-      methods.push_back(row.method);
+  const auto methods = render::distinct(rows, &record::StabilityRow::method);
   for (const auto& method : methods) {
     std::map<std::string, int> count;
     int cells = 0, silent = 0;
@@ -307,8 +302,8 @@ Result<int> chart(const ChartOptions& options) {
   const bool trust = options.kind == "trust";
   if (trust == options.common.input.empty())
     return trust ? chart_trust(options) : chart_preset(options);
-  return fail(Fault::bad_input, trust ? "chart trust takes no PRESET: its scenes are random"
-                                      : "chart " + options.kind + " needs a PRESET");
+  return invalid(trust ? "chart trust takes no PRESET: its scenes are random"
+                       : "chart " + options.kind + " needs a PRESET");
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include "app/cli/console.h"
 #include "app/cli/pictures.h"
@@ -61,7 +60,7 @@ Result<int> check(const Options& options) {
   // what `run` would say after it
   const auto folder = output_of(options, presets->base);
   if (const auto because = refusal_to_write(folder); !because.empty())
-    return fail(Fault::bad_input, "cannot write the folder '{}': {}", folder.string(), because);
+    return invalid("cannot write the folder '{}': {}", folder.string(), because);
   for (const auto& run : runs_of(*presets)) {
     const auto plan = plan_of(run.preset);
     if (!plan) {

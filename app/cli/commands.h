@@ -1,4 +1,4 @@
-// The commands of the program, a file each: add_x declares the arguments of `gridshell x` and what
+// The commands of the program: add_x declares the arguments of `gridshell x` and what
 // it does.
 #pragma once
 
@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/cli/options.h"
+#include "app/cli/command_line.h"
 
 namespace gridshell::window {
 struct ExportFormat;

@@ -7,7 +7,6 @@
 #include <ctime>
 #include <filesystem>
 #include <map>
-#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -31,8 +30,7 @@ Result<std::set<fs::path>> names_in(const fs::path& folder) {
   for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end;
        at.increment(error))
     if (at->path().extension() == ".png") names.insert(at->path().lexically_relative(folder));
-  if (error)
-    return fail(Fault::bad_input, "'{}' cannot be read: {}", folder.string(), error.message());
+  if (error) return invalid("'{}' cannot be read: {}", folder.string(), error.message());
   return names;
 }
 
@@ -134,13 +132,11 @@ Result<bool> compare_folders(const CompareOptions& options) {
 Result<int> compare(const CompareOptions& options) {
   const bool a = fs::is_directory(options.a), b = fs::is_directory(options.b);
   if (a != b)
-    return fail(Fault::bad_input,
-                "'{}' is a folder and '{}' is none: compare two pictures or two folders",
-                a ? options.a : options.b, a ? options.b : options.a);
+    return invalid("'{}' is a folder and '{}' is none: compare two pictures or two folders",
+                   a ? options.a : options.b, a ? options.b : options.a);
   if (options.update && (!a || options.why.empty()))
-    return fail(Fault::bad_input,
-                a ? "--update needs --why \"...\": the reason is kept beside the pictures"
-                  : "--update is of folders of kept pictures");
+    return invalid(a ? "--update needs --why \"...\": the reason is kept beside the pictures"
+                     : "--update is of folders of kept pictures");
   TRY(same, a ? compare_folders(options) : compare_pictures(options));
   return *same ? ExitCode::done : ExitCode::different;
 }

@@ -45,6 +45,14 @@ constexpr const char* out_of_memory =
   _exit(code);
 }
 
+// a signal handler can reach nothing but what is static
+volatile std::sig_atomic_t came = 0, guarded = 0;
+
+void on_signal(int) {
+  if (came || !guarded) end_at_once("stopped\n", ExitCode::interrupted);
+  came = 1;
+}
+
 }  // namespace
 
 void install_terminate_handler() {
@@ -65,18 +73,6 @@ void install_terminate_handler() {
     for (const int refused : {SIGSEGV, SIGTRAP, SIGABRT})
       std::signal(refused, [](int) { end_at_once(out_of_memory, ExitCode::failed); });
 }
-
-namespace {
-
-// a signal handler can reach nothing but what is static
-volatile std::sig_atomic_t came = 0, guarded = 0;
-
-void on_signal(int) {
-  if (came || !guarded) end_at_once("stopped\n", ExitCode::interrupted);
-  came = 1;
-}
-
-}  // namespace
 
 void install_signal_handlers() {
   struct sigaction action {};

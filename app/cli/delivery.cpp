@@ -30,6 +30,98 @@ std::string left_text(const ProgressState& at) {
              : fmt::format(", {} left", time_text(at.seconds_left));
 }
 
+constexpr double place_every_s = 5, first_place_s = 1;  // of a path that is followed, on lines
+
+/// Where a path stands that is still followed, and for how long yet on these meshes.
+std::string place_text(const Watch& watch, PathPace& pace) {
+  const Watch::Place place = watch.place();
+  if (place.edges == 0 || watch.progress() >= 0.5) return "";
+  const double left = pace.seconds_left(place, seconds_now());
+  return fmt::format(": the path at {:.3f}, led by {} edges a segment, time left on them {}",
+                     place.t, place.edges, std::isnan(left) ? "unknown" : time_text(left));
+}
+
+// what is whole in a folder that was not finished
+struct Left {
+  std::size_t pictures = 0, runs = 0, frames = 0;  // frames: of runs cut short
+  bool path = false;                               // what was followed of one
+};
+
+constexpr const char* goes_on = "the same command with --resume goes on from there";
+
+Left left_in(const fs::path& folder) {
+  Left left;
+  std::error_code error;
+  left.frames = record::frames_in_journal(folder);
+  for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end;
+       at.increment(error)) {
+    left.pictures += at->path().extension() == ".png";
+    left.runs += at->path().filename() == "summary.json";
+    left.path |= at->path().filename().string().starts_with("segment_");
+    if (at->is_directory(error)) left.frames += record::frames_in_journal(at->path());
+  }
+  return left;
+}
+
+std::string near_name(const fs::path& folder) {
+  std::error_code error;
+  return fs::proximate(folder, error).string();
+}
+
+// what others left beside the folder to be written, and what may be done with it
+void report_left_behind(const fs::path& final_folder) {
+  for (const auto& folder : left_behind(final_folder)) {
+    const auto name = near_name(folder);
+    const auto left = left_in(folder);
+    const auto removes = render::shell_line({"rm", "-r", name});
+    const bool old = folder.filename().string().find(".old-") != std::string::npos;
+    std::string draws;
+    if (!old && left.runs + left.frames > 0)
+      draws = fmt::format("\n  {}    draws it", render::shell_line({"gridshell", "render", name}));
+    if (!old && left.path) draws += fmt::format("\n  {}", goes_on);
+    std::fprintf(
+        stderr, "'%s' is %s:%s\n  %s    removes it\n", name.c_str(),
+        old ? "what is left of a run that was replaced" : "left of a run that was not finished",
+        draws.c_str(), removes.c_str());
+  }
+}
+
+Result<void> attempt(const Work& work, const fs::path& partial, Progress& progress) {
+  try {
+    return work(partial, progress);
+  } catch (const std::exception& error) {
+    return tl::unexpected(error_of(error));
+  }
+}
+
+/// What of a folder is whole.
+std::string whole_files(const Left& left, const std::string& name) {
+  const auto whole = count_text(left.runs, "run") + " and " + count_text(left.pictures, "picture");
+  if (left.frames == 0) return fmt::format("{}, each whole, are in '{}'", whole, name);
+  std::string others;
+  if (left.runs + left.pictures > 0) others = ", " + whole;
+  return fmt::format("{} of an unfinished run{}, each whole, are in '{}'; this draws them:\n  {}",
+                     count_text(left.frames, "frame"), others, name,
+                     render::shell_line({"gridshell", "render", name}));
+}
+
+/// Cleans a folder that will not be finished: half-written files go, whole pictures and runs stay;
+/// without any the folder goes too. A sentence that says what is left.
+std::string keep_finished_files(const fs::path& partial) {
+  remove_unfinished(partial);
+  const auto left = left_in(partial);
+  const auto name = near_name(partial);
+  std::string text = left.pictures + left.runs + left.frames > 0 ? whole_files(left, name) : "";
+  if (left.path) {
+    text += text.empty() ? fmt::format("its path so far is in '{}'; ", name) : "\n";
+    return text + goes_on;
+  }
+  if (!text.empty()) return text;
+  std::error_code error;
+  fs::remove_all(partial, error);
+  return "nothing was finished, so nothing is left behind";
+}
+
 }  // namespace
 
 ProgressState standing(const std::vector<Phase>& phases, std::size_t current, double fraction,
@@ -67,21 +159,6 @@ std::string bar_text(const ProgressState& at, const std::string& label, int widt
   bar.resize(std::size_t(width), ' ');
   return fmt::format("[{}] {:3d} %  {}{}", bar, int(at.fraction * 100), label, left_text(at));
 }
-
-namespace {
-
-constexpr double place_every_s = 5, first_place_s = 1;  // of a path that is followed, on lines
-
-/// Where a path stands that is still followed, and for how long yet on these meshes.
-std::string place_text(const Watch& watch, PathPace& pace) {
-  const Watch::Place place = watch.place();
-  if (place.edges == 0 || watch.progress() >= 0.5) return "";
-  const double left = pace.seconds_left(place, seconds_now());
-  return fmt::format(": the path at {:.3f}, led by {} edges a segment, time left on them {}",
-                     place.t, place.edges, std::isnan(left) ? "unknown" : time_text(left));
-}
-
-}  // namespace
 
 Progress::Show Progress::show_for(bool quiet) {
   return quiet ? Show::nothing : isatty(STDERR_FILENO) ? Show::bar : Show::lines;
@@ -162,89 +239,6 @@ void Progress::show_now() {
     std::fprintf(stderr, "%s\n", label.c_str());
     place_shown_at_ = seconds_now();
   }
-}
-
-namespace {
-
-// what is whole in a folder that was not finished
-struct Left {
-  std::size_t pictures = 0, runs = 0, frames = 0;  // frames: of runs cut short
-  bool path = false;                               // what was followed of one
-};
-
-constexpr const char* goes_on = "the same command with --resume goes on from there";
-
-Left left_in(const fs::path& folder) {
-  Left left;
-  std::error_code error;
-  left.frames = record::frames_in_journal(folder);
-  for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end;
-       at.increment(error)) {
-    left.pictures += at->path().extension() == ".png";
-    left.runs += at->path().filename() == "summary.json";
-    left.path |= at->path().filename().string().starts_with("segment_");
-    if (at->is_directory(error)) left.frames += record::frames_in_journal(at->path());
-  }
-  return left;
-}
-
-std::string near_name(const fs::path& folder) {
-  std::error_code error;
-  return fs::proximate(folder, error).string();
-}
-
-// what others left beside the folder to be written, and what may be done with it
-void report_left_behind(const fs::path& final_folder) {
-  for (const auto& folder : left_behind(final_folder)) {
-    const auto name = near_name(folder);
-    const auto left = left_in(folder);
-    const auto removes = render::shell_line({"rm", "-r", name});
-    const bool old = folder.filename().string().find(".old-") != std::string::npos;
-    std::string draws;
-    if (!old && left.runs + left.frames > 0)
-      draws = fmt::format("\n  {}    draws it", render::shell_line({"gridshell", "render", name}));
-    if (!old && left.path) draws += fmt::format("\n  {}", goes_on);
-    std::fprintf(
-        stderr, "'%s' is %s:%s\n  %s    removes it\n", name.c_str(),
-        old ? "what is left of a run that was replaced" : "left of a run that was not finished",
-        draws.c_str(), removes.c_str());
-  }
-}
-
-Result<void> attempt(const Work& work, const fs::path& partial, Progress& progress) {
-  try {
-    return work(partial, progress);
-  } catch (const std::exception& error) {
-    return tl::unexpected(error_of(error));
-  }
-}
-
-/// What of a folder is whole.
-std::string whole_files(const Left& left, const std::string& name) {
-  const auto whole = count_text(left.runs, "run") + " and " + count_text(left.pictures, "picture");
-  if (left.frames == 0) return fmt::format("{}, each whole, are in '{}'", whole, name);
-  std::string others;
-  if (left.runs + left.pictures > 0) others = ", " + whole;
-  return fmt::format("{} of an unfinished run{}, each whole, are in '{}'; this draws them:\n  {}",
-                     count_text(left.frames, "frame"), others, name,
-                     render::shell_line({"gridshell", "render", name}));
-}
-
-}  // namespace
-
-std::string keep_finished_files(const fs::path& partial) {
-  remove_unfinished(partial);
-  const auto left = left_in(partial);
-  const auto name = near_name(partial);
-  std::string text = left.pictures + left.runs + left.frames > 0 ? whole_files(left, name) : "";
-  if (left.path) {
-    text += text.empty() ? fmt::format("its path so far is in '{}'; ", name) : "\n";
-    return text + goes_on;
-  }
-  if (!text.empty()) return text;
-  std::error_code error;
-  fs::remove_all(partial, error);
-  return "nothing was finished, so nothing is left behind";
 }
 
 Result<void> deliver(const fs::path& final_folder, const std::vector<Phase>& phases, bool quiet,

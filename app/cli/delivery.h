@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-#include "app/cli/options.h"
+#include "app/cli/command_line.h"
 
 namespace gridshell::app {
 
@@ -106,9 +106,5 @@ Result<void> deliver(const std::filesystem::path& final_folder, const std::vecto
 
 /// In a partial folder: what of a run's path was followed, and the version that did.
 inline constexpr const char *segments_name = "segments", *version_name = "version";
-
-/// Cleans a folder that will not be finished: half-written files go, whole pictures and runs stay;
-/// without any the folder goes too. A sentence that says what is left.
-std::string keep_finished_files(const std::filesystem::path& partial);
 
 }  // namespace gridshell::app

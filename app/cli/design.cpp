@@ -271,8 +271,7 @@ constexpr double same_state = 4;  // tolerances of the run: how far apart two ru
 Result<preset::Preset> one_of(const Options& options) {
   TRY(presets, load(options));
   if (presets->cases.empty()) return presets->base;
-  return fail(Fault::bad_input, "{}: a preset of several cases; design takes one shell",
-              presets->base.name);
+  return invalid("{}: a preset of several cases; design takes one shell", presets->base.name);
 }
 
 /// Whether the patient way from the flat ends in the same state.

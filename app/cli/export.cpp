@@ -1,12 +1,11 @@
 #include <fmt/format.h>
 #include <functional>
 #include <map>
-#include <memory>
 #include <tuple>
 
+#include "app/cli/command_line.h"
 #include "app/cli/commands.h"
 #include "app/cli/console.h"
-#include "app/cli/options.h"
 #include "app/cli/preset_library.h"
 #include "app/cli/produce.h"
 #include "app/cli/staged_folder.h"
@@ -67,8 +66,7 @@ Result<std::string> xdmf_of(const Source& source, const ExportOptions& options) 
   const fs::path trajectory =
       fs::relative(source.folder / "trajectory.h5", fs::absolute(options.to).parent_path(), error);
   if (error || !fs::exists(source.folder / "trajectory.h5", error))
-    return fail(Fault::bad_input, "'{}' has no trajectory.h5, which .xdmf speaks of",
-                source.folder.string());
+    return invalid("'{}' has no trajectory.h5, which .xdmf speaks of", source.folder.string());
   return exports::to_xdmf(source.run.trajectory.layout, source.run.trajectory.frames,
                           trajectory.string());
 }
@@ -81,19 +79,17 @@ Result<One> chosen(std::vector<One> cases, const ExportOptions& options) {
     if (one.name == options.case_name) return std::move(one);
     names += (names.empty() ? "" : ", ") + one.name;
   }
-  return fail(Fault::bad_input,
-              names.empty()
-                  ? fmt::format("'{}' has no cases, so no '{}'", options.input, options.case_name)
-                  : fmt::format("'{}' has several cases: choose one with --case: {}", options.input,
-                                names));
+  return invalid(
+      names.empty() ? fmt::format("'{}' has no cases, so no '{}'", options.input, options.case_name)
+                    : fmt::format("'{}' has several cases: choose one with --case: {}",
+                                  options.input, names));
 }
 
 Result<std::size_t> frame_of(const record::Trajectory& run, const std::string& asked) {
   if (asked.empty()) return run.frames.size() - 1;
   const auto frame = parse_number<std::size_t>(asked);
   if (!frame || *frame >= run.frames.size())
-    return fail(Fault::bad_input, "--frame {}: must be a number from 0 to {}", asked,
-                run.frames.size() - 1);
+    return invalid("--frame {}: must be a number from 0 to {}", asked, run.frames.size() - 1);
   return *frame;
 }
 
@@ -147,9 +143,9 @@ TextOf of_plan(auto text) {
 TextOf of_flat(auto text) {
   return of_plan([text](const exports::FabricationPlan& plan) -> Result<std::string> {
     if (plan.in_space)
-      return fail(Fault::bad_input,
-                  "a network that is drawn in space has no flat footprint to be cut from; its cut "
-                  "list and the pins of its plate are there: --what cutlist, plate");
+      return invalid(
+          "a network that is drawn in space has no flat footprint to be cut from; its cut "
+          "list and the pins of its plate are there: --what cutlist, plate");
     return text(plan);
   });
 }
@@ -235,10 +231,10 @@ Result<std::string> text_of(const ExportOptions& options) {
     if (name != what) continue;
     if (const auto text = texts.find(extension); text != texts.end())
       return text->second.text(options);
-    return fail(Fault::bad_input, "--to {}: a {} is written as {}", options.to.string(), what,
-                extensions_of(texts));
+    return invalid("--to {}: a {} is written as {}", options.to.string(), what,
+                   extensions_of(texts));
   }
-  return fail(Fault::bad_input, "--what {}: must be one of\n{}", what, exported_formats());
+  return invalid("--what {}: must be one of\n{}", what, exported_formats());
 }
 
 /// Writes the file, whole or not at all, and says so.

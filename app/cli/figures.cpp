@@ -10,7 +10,6 @@
 #include "engine/core/file_io.h"
 #include "engine/core/try.h"
 #include "render/gl/image.h"
-#include "render/movie/encode.h"
 #include "render/movie/movie_writer.h"
 #include "render/movie/run_figures.h"
 #include "render/movie/run_plots.h"
@@ -58,56 +57,6 @@ std::string caption_of(const record::Trajectory& run, const std::string& name, b
     return fmt::format("{}: at most {:.2f} {}", name, joints, word);
   return fmt::format("{}: joints at most {:.2f}, rods {:.2f} {}", name, joints, rods, word);
 }
-
-}  // namespace
-
-Result<void> save_panels(const Result<render::PanelFigure>& figure, const fs::path& file,
-                         double dpi) {
-  TRY(picture, figure.and_then(render::draw_panels));
-  TRY_DO(render::write_png(*picture, file, dpi));
-  if (!figure->panels.front().lines) return {};
-  const double width = figure->print.width_pt(0.5 * picture->width);
-  return render::write_figure(
-      fs::path(file).replace_extension() += "_lines", width,
-      width * picture->height / picture->width, figure->title, [&](render::Canvas& canvas) {
-        render::draw_panels_on(canvas, {0, 0, canvas.width(), canvas.height()}, *figure, true);
-      });
-}
-
-Result<void> draw_net_pictures(const Runs& runs, render::Renderer& renderer, const fs::path& stem,
-                               Watch& watch) {
-  const auto style = style_of(runs.front()->preset, Pictures::stills);
-  const record::Trajectory& first = runs.front()->trajectory;
-  const bool alone = runs.size() == 1;
-  std::vector<render::NetRun> shells, shades;
-  std::vector<render::NamedRun> named;
-  for (const Run* run : runs) {
-    const std::string name = run->label.empty() ? name_of(run->preset) : run->label;
-    shells.push_back({&run->trajectory, name, scan_of(run->preset)});
-    shades.push_back({&run->trajectory, caption_of(run->trajectory, name, alone)});
-    named.push_back({&run->trajectory, name});
-  }
-  const auto write = [&](const char* suffix, render::Plot plot) {
-    plot.title = render::plain(style.title);
-    return render::write_plot(with_suffix(stem, suffix), plot, style.print);
-  };
-  const double dpi = style.print.width_mm > 0 ? style.print.dpi : 0;
-  TRY_DO(save_panels(render::draw_over_nets(shells, style, renderer, watch),
-                     with_suffix(stem, "_net.png"), dpi));
-  TRY_DO(save_panels(render::draw_deviations(shades, style, renderer, watch),
-                     with_suffix(stem, "_deviation.png"), dpi));
-  if (alone && !first.layout.parts.empty())
-    TRY_DO(draw_block_pictures(first, style, renderer, stem, watch));
-  else
-    TRY_DO(
-        render::write_footprints(with_suffix(stem, "_footprint"), named, style.title, style.print));
-  TRY_DO(write("_K", render::curvature_plot(named)));
-  TRY_DO(write("_quantiles", render::quantile_plot(named)));
-  if (!alone || !render::on_sphere(first.layout)) return {};
-  return write("_latitude", render::latitude_plot(named.front(), shells.front().scanned));
-}
-
-namespace {
 
 bool is_still(const Run& run) { return run.pictures == Pictures::stills; }
 /// Whether its movie shows it beside the other cases.
@@ -189,6 +138,52 @@ Result<void> draw_together(const std::vector<Run>& runs, const std::string& titl
 }
 
 }  // namespace
+
+Result<void> save_panels(const Result<render::PanelFigure>& figure, const fs::path& file,
+                         double dpi) {
+  TRY(picture, figure.and_then(render::draw_panels));
+  TRY_DO(render::write_png(*picture, file, dpi));
+  if (!figure->panels.front().lines) return {};
+  const double width = figure->print.width_pt(0.5 * picture->width);
+  return render::write_figure(
+      fs::path(file).replace_extension() += "_lines", width,
+      width * picture->height / picture->width, figure->title, [&](render::Canvas& canvas) {
+        render::draw_panels_on(canvas, {0, 0, canvas.width(), canvas.height()}, *figure, true);
+      });
+}
+
+Result<void> draw_net_pictures(const Runs& runs, render::Renderer& renderer, const fs::path& stem,
+                               Watch& watch) {
+  const auto style = style_of(runs.front()->preset, Pictures::stills);
+  const record::Trajectory& first = runs.front()->trajectory;
+  const bool alone = runs.size() == 1;
+  std::vector<render::NetRun> shells, shades;
+  std::vector<render::NamedRun> named;
+  for (const Run* run : runs) {
+    const std::string name = run->label.empty() ? name_of(run->preset) : run->label;
+    shells.push_back({&run->trajectory, name, scan_of(run->preset)});
+    shades.push_back({&run->trajectory, caption_of(run->trajectory, name, alone)});
+    named.push_back({&run->trajectory, name});
+  }
+  const auto write = [&](const char* suffix, render::Plot plot) {
+    plot.title = render::plain(style.title);
+    return render::write_plot(with_suffix(stem, suffix), plot, style.print);
+  };
+  const double dpi = style.print.width_mm > 0 ? style.print.dpi : 0;
+  TRY_DO(save_panels(render::draw_over_nets(shells, style, renderer, watch),
+                     with_suffix(stem, "_net.png"), dpi));
+  TRY_DO(save_panels(render::draw_deviations(shades, style, renderer, watch),
+                     with_suffix(stem, "_deviation.png"), dpi));
+  if (alone && !first.layout.parts.empty())
+    TRY_DO(draw_block_pictures(first, style, renderer, stem, watch));
+  else
+    TRY_DO(
+        render::write_footprints(with_suffix(stem, "_footprint"), named, style.title, style.print));
+  TRY_DO(write("_K", render::curvature_plot(named)));
+  TRY_DO(write("_quantiles", render::quantile_plot(named)));
+  if (!alone || !render::on_sphere(first.layout)) return {};
+  return write("_latitude", render::latitude_plot(named.front(), shells.front().scanned));
+}
 
 std::vector<Phase> drawing_phases(const std::vector<Run>& runs) {
   std::vector<Phase> phases;

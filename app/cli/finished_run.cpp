@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 namespace {
 
 tl::unexpected<Error> no_run(const fs::path& folder, const std::string& because) {
-  return fail(Fault::bad_input, "'{}' is no run: {}", folder.string(), because);
+  return invalid("'{}' is no run: {}", folder.string(), because);
 }
 
 bool holds_run(const fs::path& folder) {
@@ -61,9 +61,9 @@ Result<std::vector<std::string>> case_names(const fs::path& folder) {
     const auto name = one["name"].get<std::string>();
     // it becomes the name of a folder that is written
     if (const auto wrong = preset::case_name_fault(name); !wrong.empty())
-      return fail(Fault::bad_input, "'{}': case {}: {}", file.string(), shown(name), wrong);
-    if (std::find(names.begin(), names.end(), name) != names.end())
-      return fail(Fault::bad_input, "'{}': case \"{}\" is listed twice", file.string(), name);
+      return invalid("'{}': case {}: {}", file.string(), shown(name), wrong);
+    if (std::ranges::find(names, name) != names.end())
+      return invalid("'{}': case \"{}\" is listed twice", file.string(), name);
     names.push_back(name);
   }
   if (names.empty()) return no_run(folder, "its summary.json lists no cases");
@@ -77,8 +77,7 @@ Result<void> check_name(const fs::path& file, const std::string& name) {
   if (!stem.empty() && stem.size() <= 200 && stem.front() != '.' &&
       std::ranges::all_of(name, plain))
     return {};
-  return fail(Fault::bad_input, "'{}': its preset's name cannot be the name of a picture",
-              file.string());
+  return invalid("'{}': its preset's name cannot be the name of a picture", file.string());
 }
 
 // version 0.1 did not say: what has its stills came from `figure`
@@ -138,10 +137,10 @@ Result<void> check_memory(const fs::path& folder, const Run& run) {
   const double given =
       run.preset.accuracy.memory_GB > 0 ? run.preset.accuracy.memory_GB : default_memory_GB();
   if (given == 0 || wanted <= given) return {};
-  return fail(Fault::bad_input,
-              "'{}': drawing its {} nodes takes about {:.2g} GB, more than the {:.2g} GB of "
-              "[accuracy] memory_GB (by default half of the machine's)",
-              folder.string(), frames.front().nodes.cols(), wanted, given);
+  return invalid(
+      "'{}': drawing its {} nodes takes about {:.2g} GB, more than the {:.2g} GB of "
+      "[accuracy] memory_GB (by default half of the machine's)",
+      folder.string(), frames.front().nodes.cols(), wanted, given);
 }
 
 Result<record::StateTables> read_states_of(const fs::path& folder, const Run& run) {
@@ -174,33 +173,6 @@ Result<Run> read_run(const fs::path& folder, const std::string& name,
   run.preset.movie.frames = int(run.trajectory.frames.size());
   return run;
 }
-
-}  // namespace
-
-Result<std::vector<Run>> read_runs(const fs::path& folder,
-                                   const std::vector<preset::Override>& overrides, bool unsealed) {
-  TRY(names, case_names(folder));
-  std::vector<Run> runs;
-  for (const auto& name : *names) {
-    // of cases cut short the last one begun may hold no frame yet
-    if (!name.empty() && !holds_run(folder / name)) continue;
-    TRY(run, read_run(folder_of(folder, name), name, overrides, unsealed));
-    runs.push_back(std::move(*run));
-  }
-  if (runs.empty()) return no_run(folder, "none of its cases is there");
-  return runs;
-}
-
-std::string progress_text(const Run& run) {
-  const record::FrameList& frames = run.trajectory.frames;
-  double furthest = 0;
-  for (const record::Frame& frame : frames) furthest = std::max(furthest, frame.progress);
-  return fmt::format("{}, up to progress {:.3g}", count_text(frames.size(), "frame"), furthest);
-}
-
-// `gridshell render RUN`: pictures of a finished run, without simulating again.
-
-namespace {
 
 bool is_picture(const fs::path& path) {
   const auto kind = path.extension();
@@ -276,6 +248,29 @@ Result<int> render(const Options& options, bool unsealed) {
 }
 
 }  // namespace
+
+Result<std::vector<Run>> read_runs(const fs::path& folder,
+                                   const std::vector<preset::Override>& overrides, bool unsealed) {
+  TRY(names, case_names(folder));
+  std::vector<Run> runs;
+  for (const auto& name : *names) {
+    // of cases cut short the last one begun may hold no frame yet
+    if (!name.empty() && !holds_run(folder / name)) continue;
+    TRY(run, read_run(folder_of(folder, name), name, overrides, unsealed));
+    runs.push_back(std::move(*run));
+  }
+  if (runs.empty()) return no_run(folder, "none of its cases is there");
+  return runs;
+}
+
+std::string progress_text(const Run& run) {
+  const record::FrameList& frames = run.trajectory.frames;
+  double furthest = 0;
+  for (const record::Frame& frame : frames) furthest = std::max(furthest, frame.progress);
+  return fmt::format("{}, up to progress {:.3g}", count_text(frames.size(), "frame"), furthest);
+}
+
+// `gridshell render RUN`: pictures of a finished run, without simulating again.
 
 void add_render(CommandLine& program) {
   const auto options = std::make_shared<Options>();

@@ -1,18 +1,51 @@
-#include "app/cli/formed_study.h"
+// Commands that find something out about a formed shell and show how it moves: `load`, `modes`.
 
 #include <fmt/format.h>
 #include <cmath>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "app/cli/command_line.h"
+#include "app/cli/commands.h"
 #include "app/cli/console.h"
+#include "app/cli/delivery.h"
+#include "app/cli/pictures.h"
 #include "app/cli/preset_library.h"
 #include "app/cli/produce.h"
 #include "engine/core/file_io.h"
+#include "engine/core/json.h"
 #include "engine/core/try.h"
+#include "engine/gridshell.h"
+#include "render/movie/state_charts.h"
 #include "render/movie/stills.h"
 
 namespace gridshell::app {
 namespace fs = std::filesystem;
 namespace {
+
+/// What was found about one run's shell.
+struct FormedStudy {
+  std::vector<std::pair<std::string, std::string>> files;  ///< names and texts
+  std::string text;                                        ///< for the terminal, indented lines
+  record::Trajectory state;                                ///< the shell, one frame
+  record::Summary summary;
+  record::FrameList moves;            ///< how it moves (moved_by), a still each
+  std::vector<std::string> captions;  ///< of these, marked text
+  /// Pictures more; may be empty.
+  std::function<Result<void>(render::Renderer&, const fs::path& folder, Progress&)> draw_more = {};
+};
+
+struct FormedCommand {
+  std::string folder_end, finds;  ///< "_modes", "natural frequencies"
+  std::function<Result<FormedStudy>(const preset::Preset&, Watch&)> find;
+  double paths = 1;                                  ///< it takes as long as so many
+  std::function<int(const preset::Preset&)> stills;  ///< that it may draw
+  std::function<std::vector<Phase>(const preset::Preset&)> drawn_more = {};  ///< phases of these
+};
 
 Result<void> draw(preset::Preset preset, const FormedStudy& found, const std::string& context,
                   const fs::path& folder, Progress& progress) {
@@ -51,8 +84,8 @@ Result<void> study_one(const preset::Case& run, const FormedCommand& command,
   return draw(run.preset, *found, context, folder, progress);
 }
 
-}  // namespace
-
+/// Does so for every run of a preset: its tables, preset and summary, then stills of its moves in
+/// OUT/<preset>_1.png ... Prints what was found; the exit code.
 Result<int> study_formed(const Options& options, const FormedCommand& command) {
   TRY(presets, load(options));
   if (options.print_config) return print_config(*presets);
@@ -79,6 +112,202 @@ Result<int> study_formed(const Options& options, const FormedCommand& command) {
   if (!options.quiet) fmt::print("{}: {}\n{}", folder.string(), command.finds, text);
   fmt::print(stderr, "{}", fault);
   return fault.empty() ? ExitCode::done : ExitCode::failed;
+}
+
+// `gridshell load PRESET`: what a formed shell carries, case by case, as tables and pictures.
+
+using record::BranchEvent;
+using study::LoadStudy;
+
+struct LoadOptions {
+  Options common;
+  int imperfections = 0;
+};
+
+/// "full snow: limit point at 3.42 ± 0.02 (linear 5.1); at its strength at 1.2 ± 0.01; 20 that are
+/// not perfect: 0.84 of it (0.71 to 0.93)"
+std::string text_of(const record::LoadRow& row) {
+  std::string text = row.load_case + ": ";
+  if (std::isfinite(row.critical_factor))
+    text += fmt::format("{} at a factor of {}",
+                        row.event == BranchEvent::turn ? "limit point" : "bifurcation",
+                        record::with_error(row.critical_factor, row.error, ""));
+  else
+    text += row.event == BranchEvent::locking ? "rods at their length before stability is lost"
+                                              : "stability is not lost on the way followed";
+  if (std::isfinite(row.linear_factor)) text += fmt::format(" (linear {:.4g})", row.linear_factor);
+  if (row.strength_factor == 0)
+    text += "; beyond its strength before any of it";
+  else if (std::isfinite(row.strength_factor))
+    text +=
+        "; at its strength at " + record::with_error(row.strength_factor, row.strength_error, "");
+  if (row.imperfections > 0)
+    text += fmt::format("; {} that are not perfect: {:.3g} of it ({:.3g} to {:.3g})",
+                        row.imperfections, row.knock_down_50, row.knock_down_5, row.knock_down_95);
+  return text;
+}
+
+std::string json_text(const LoadStudy& found) {
+  Json cases = Json::array();
+  for (const record::LoadRow& row : found.cases) cases.push_back(json_of(row));
+  Json json = Json::object();
+  json["cases"] = std::move(cases);
+  return gridshell::text_of(json);
+}
+
+Result<FormedStudy> find_loads(const preset::Preset& preset, int imperfections, Watch& watch) {
+  TRY(found, study::load_study(preset, imperfections, watch));
+  FormedStudy all{{{"load.csv", record::csv_table(found->points)},
+                   {"cases.csv", record::csv_table(found->cases)},
+                   {"load.json", json_text(*found)}},
+                  "",
+                  found->state,
+                  found->summary,
+                  {},
+                  {}};
+  for (std::size_t k = 0; k < found->cases.size(); ++k) {
+    const record::LoadRow& row = found->cases[k];
+    all.text += "  " + text_of(row) + "\n";
+    if (found->modes[k].size() == 0) continue;
+    record::Frame moved = moved_by(found->state, found->modes[k], 1, int(k));
+    moved.loads_N = row.critical_factor * found->loads[k];
+    all.moves.push_back(std::move(moved));
+    all.captions.push_back(fmt::format("{}: {:.4g}", row.load_case, row.critical_factor));
+  }
+  const auto plot = render::load_plot(found->points, found->cases, preset::title_or_name(preset));
+  all.draw_more = [plot, name = fs::path(preset.name).filename().string()](
+                      render::Renderer&, const fs::path& folder, Progress&) {
+    return render::write_plot((folder / name).string() + "_factors", plot, {.width_mm = 120});
+  };
+  return all;
+}
+
+Result<int> study_loads(const LoadOptions& options) {
+  return study_formed(
+      options.common,
+      {"_load", "load factors",
+       [&](const preset::Preset& preset, Watch& watch) {
+         return find_loads(preset, options.imperfections, watch);
+       },
+       4, [](const preset::Preset& preset) { return int(preset.load_case.size()); }});
+}
+
+// `gridshell modes PRESET`: how a formed shell vibrates, as a table and as pictures.
+
+using study::Vibrations;
+
+constexpr int frames_of_cycle = 24;
+
+struct ModesOptions {
+  Options common;
+  int count = 12;
+  bool movies = false;
+};
+
+std::string frequency_text(const record::ModeRow& mode) {
+  if (mode.frequency_Hz >= 0) return record::with_error(mode.frequency_Hz, mode.error_Hz, "Hz");
+  return fmt::format("no vibration: the state is not stable, it leaves as exp(t / {:.3g} s)",
+                     -1 / (2 * M_PI * mode.frequency_Hz));
+}
+
+/// "mode 3: 12.35 Hz", of a state that is not stable "mode 1: 0.82*i* Hz".
+std::string caption_of(const record::ModeRow& mode) {
+  return fmt::format("mode {}: {:.4g}{} Hz", mode.mode, std::abs(mode.frequency_Hz),
+                     mode.frequency_Hz < 0 ? "*i*" : "");
+}
+
+/// A line a joint and mode: how it moves, the node that moves furthest by 1.
+std::string shapes_csv(const Vibrations& found) {
+  record::CsvWriter csv;
+  csv.line("mode", "i", "j", "dx", "dy", "dz");
+  for (std::size_t k = 0; k < found.modes.size(); ++k)
+    for (const record::Joint& joint : found.state.layout.joints) {
+      const auto move = found.shapes[k].col(joint.node);
+      csv.line(found.modes[k].mode, joint.i, joint.j, move.x(), move.y(), move.z());
+    }
+  return std::move(csv).text();
+}
+
+/// One vibration, from rest to rest.
+Result<void> draw_movie(const preset::Preset& preset, const Vibrations& found, std::size_t k,
+                        render::Renderer& renderer, const fs::path& folder, Watch& watch) {
+  Run run{.preset = preset, .pictures = Pictures::movie};
+  run.preset.title = preset.title + ", " + render::plain(caption_of(found.modes[k]));
+  run.preset.movie.hold_s = run.preset.movie.title_s = 0;
+  run.preset.movie.captions = false;
+  run.preset.movie.colour_by = preset::ColourBy::displacement;
+  run.preset.movie.turn_deg = 0;
+  run.trajectory.layout = found.state.layout;
+  for (int n = 0; n < frames_of_cycle; ++n)
+    run.trajectory.frames.push_back(
+        moved_by(found.state, found.shapes[k], std::sin(2 * M_PI * n / frames_of_cycle), n));
+  return draw_run(run, bar_of_moves, renderer,
+                  folder / fmt::format("mode_{:02}", found.modes[k].mode), watch);
+}
+
+Result<FormedStudy> find_modes(const preset::Preset& preset, const ModesOptions& options,
+                               Watch& watch) {
+  TRY(of, study::vibrations_of(preset, options.count, watch));
+  const auto found = std::make_shared<const Vibrations>(std::move(*of));
+  FormedStudy all{
+      {{"modes.csv", record::csv_table(found->modes)}, {"shapes.csv", shapes_csv(*found)}},
+      "",
+      found->state,
+      found->summary,
+      {},
+      {}};
+  for (std::size_t k = 0; k < found->modes.size(); ++k) {
+    all.text += fmt::format("  {:>3}  {}\n", found->modes[k].mode, frequency_text(found->modes[k]));
+    all.moves.push_back(moved_by(found->state, found->shapes[k], 1, int(k)));
+    all.captions.push_back(caption_of(found->modes[k]));
+  }
+  if (options.movies)
+    all.draw_more = [preset, found](render::Renderer& renderer, const fs::path& folder,
+                                    Progress& progress) -> Result<void> {
+      for (std::size_t k = 0; k < found->modes.size(); ++k)
+        TRY_DO(draw_movie(preset, *found, k, renderer, folder, progress.next_phase()));
+      return {};
+    };
+  return all;
+}
+
+Result<int> study_modes(const ModesOptions& options) {
+  return study_formed(
+      options.common,
+      {"_modes", "natural frequencies",
+       [&](const preset::Preset& preset, Watch& watch) {
+         return find_modes(preset, options, watch);
+       },
+       1, [&](const preset::Preset&) { return options.count; },
+       [&](const preset::Preset& preset) {
+         const double frame = expected_seconds(Pictures::movie, preset) / preset.movie.frames;
+         return std::vector<Phase>(options.movies ? std::size_t(options.count) : 0,
+                                   drawing("drawing movies", frames_of_cycle * frame));
+       }});
+}
+
+}  // namespace
+
+void add_load(CommandLine& program) {
+  auto [command, options] = program.add<LoadOptions>(
+      "load", "how much of each load case the formed shell carries, and how it fails", study_loads);
+  add_preset_options(command, options.common);
+  add_work_options(command, options.common, "folder to write, by default out/<preset>_load");
+  add_picture_options(command, options.common);
+  command
+      .option("--imperfections", options.imperfections,
+              "shells more a case whose shape is off by loads.imperfection")
+      .in_range(0, 1000);
+}
+
+void add_modes(CommandLine& program) {
+  auto [command, options] = program.add<ModesOptions>(
+      "modes", "natural frequencies and shapes about the formed, loaded state", study_modes);
+  add_preset_options(command, options.common);
+  add_work_options(command, options.common, "folder to write, by default out/<preset>_modes");
+  add_picture_options(command, options.common);
+  command.option("--count", options.count, "how many, from the lowest on").in_range(1, 200);
+  command.flag("--movies", options.movies, "a movie a mode too, in mode_01/movie.mp4 ...");
 }
 
 }  // namespace gridshell::app

@@ -28,7 +28,7 @@ std::vector<std::string> contents(const fs::path& folder, std::error_code& error
         !at->is_symlink(error) && at->is_directory(error) && !fs::is_empty(at->path(), error);
     if (!inner) found.push_back(at->path().lexically_relative(folder).generic_string());
   }
-  std::sort(found.begin(), found.end());
+  std::ranges::sort(found);
   return found;
 }
 

@@ -4,6 +4,7 @@
 
 #include "engine/core/try.h"
 #include "render/gl/image.h"
+#include "render/movie/encode.h"
 #include "render/movie/run_summary.h"
 #include "render/movie/stage.h"
 #include "render/movie/stills.h"
@@ -31,7 +32,7 @@ Result<PictureMaker> PictureMaker::create(const std::string& context, const std:
 
 Result<PictureMaker> PictureMaker::create(const std::string& context) {
   const auto kind = find_word<render::ContextKind>(context);
-  if (!kind) return fail(Fault::bad_input, "--context " + context + ": no such context");
+  if (!kind) return invalid("--context " + context + ": no such context");
   TRY(made, render::Context::create(*kind));
   TRY(renderer, render::Renderer::create(**made));
   return PictureMaker(std::move(*made), std::move(*renderer));

@@ -12,7 +12,6 @@
 #include "render/canvas/legend.h"
 #include "render/gl/context.h"
 #include "render/gl/renderer.h"
-#include "render/movie/encode.h"
 #include "render/movie/movie_style.h"
 #include "render/movie/movie_writer.h"
 

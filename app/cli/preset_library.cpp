@@ -26,9 +26,8 @@ Result<preset::Presets> load_preset(const std::string& argument,
   }
   if (path.has_parent_path() || path.extension() == ".toml")
     return preset::read_preset_file(path, overrides);
-  return fail(Fault::bad_input,
-              "no preset '{}': neither a file nor a listed name{} ('gridshell list' lists them)",
-              argument, did_you_mean(argument, names));
+  return invalid("no preset '{}': neither a file nor a listed name{} ('gridshell list' lists them)",
+                 argument, did_you_mean(argument, names));
 }
 
 Result<std::string> title_of(const EmbeddedPreset& embedded) {
@@ -44,7 +43,7 @@ Result<preset::Presets> load_preset_or_run(const std::string& argument) {
   if (!folder.has_filename()) folder = folder.parent_path();
   const auto file = folder / "preset.toml";
   auto text = read_file(file, largest_text);
-  if (!text) return fail(Fault::bad_input, "'{}' is no run: {}", argument, text.error().message);
+  if (!text) return invalid("'{}' is no run: {}", argument, text.error().message);
   return preset::read_preset_text(*text, file.string(), folder.filename().string());
 }
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/cli/options.h"
+#include "app/cli/command_line.h"
 #include "engine/gridshell.h"
 
 namespace gridshell::app {

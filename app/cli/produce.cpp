@@ -27,11 +27,11 @@ Result<std::vector<Run>> planned(const preset::Presets& presets, Pictures pictur
   for (const preset::Case& one : runs_of(presets)) {
     const preset::Preset& preset = one.preset;
     if (preset.jitter.wanted() && pictures == Pictures::movie)
-      return fail(Fault::bad_input,
-                  "{}: a search for states ([jitter] trials or confined above 0) has no movie; "
-                  "'gridshell figure' draws the states, [jitter] trials = 0 and confined = 0 make "
-                  "the actuation's movie",
-                  preset.name);
+      return invalid(
+          "{}: a search for states ([jitter] trials or confined above 0) has no movie; "
+          "'gridshell figure' draws the states, [jitter] trials = 0 and confined = 0 make "
+          "the actuation's movie",
+          preset.name);
     TRY(plan, plan_of(preset));
     // where the engine does not say: the first equilibrium and some milliseconds a frame
     const double guess = std::isnan(plan->expected_seconds) ? 0.5 + 0.01 * preset.movie.frames
@@ -228,23 +228,6 @@ void print_result(const Run& run, const fs::path& folder) {
   fmt::print("{}", how_to_make_movie(folder_of(folder, run.name), run.preset));
 }
 
-}  // namespace
-
-std::string failure_of(const record::Summary& summary, bool allow_unstable) {
-  // a shell that snapped and came to rest went on to the end
-  if (summary.limit != record::Limit::none && summary.limit != record::Limit::snap)
-    return fmt::format("the path ended early, limit \"{}\": {}", word_of(summary.limit),
-                       summary.limit_reason);
-  if (summary.solved && !summary.stable && !allow_unstable)
-    return fmt::format(
-        "ends in an unstable state with {} negative pivots; 'allow_unstable = true' "
-        "accepts that",
-        summary.negative_pivots);
-  return "";
-}
-
-namespace {
-
 /// The folder that an ended run of these presets left. Errors (bad_input): there is none that can
 /// be gone on with.
 Result<fs::path> unfinished_run(const fs::path& folder, const std::string& presets) {
@@ -264,10 +247,23 @@ Result<fs::path> unfinished_run(const fs::path& folder, const std::string& prese
     else
       return left;
   }
-  return fail(Fault::bad_input, "--resume: {}: without it the run begins anew", why);
+  return invalid("--resume: {}: without it the run begins anew", why);
 }
 
 }  // namespace
+
+std::string failure_of(const record::Summary& summary, bool allow_unstable) {
+  // a shell that snapped and came to rest went on to the end
+  if (summary.limit != record::Limit::none && summary.limit != record::Limit::snap)
+    return fmt::format("the path ended early, limit \"{}\": {}", word_of(summary.limit),
+                       summary.limit_reason);
+  if (summary.solved && !summary.stable && !allow_unstable)
+    return fmt::format(
+        "ends in an unstable state with {} negative pivots; 'allow_unstable = true' "
+        "accepts that",
+        summary.negative_pivots);
+  return "";
+}
 
 Result<int> produce(const Options& options, Pictures pictures) {
   TRY(presets, load(options));

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/cli/options.h"
+#include "app/cli/command_line.h"
 #include "app/cli/pictures.h"
 #include "engine/gridshell.h"
 

@@ -39,32 +39,6 @@ Json json_of(const CommandEntry& command) {
           {"options", array_of(command.options, [](const auto& one) { return json_of(one); })}};
 }
 
-}  // namespace
-
-Result<std::string> listing_json() {
-  Json json{{"version", version()}};
-  json["commands"] = array_of(command_table(), [](const auto& one) { return json_of(one); });
-  json["presets"] = Json::array();
-  for (const EmbeddedPreset& embedded : embedded_presets()) {
-    TRY(presets, load_preset(embedded.name, {}));
-    const preset::Preset& base = presets->base;
-    json["presets"].push_back({{"name", embedded.name},
-                               {"title", base.title},
-                               {"description", base.description},
-                               {"source", base.source}});
-  }
-  json["tables"] = array_of(preset::tables(), [](const preset::Table& table) -> Json {
-    return {{"name", table.name}, {"meaning", table.meaning}, {"list", table.list}};
-  });
-  json["keys"] = array_of(preset::key_texts(), [](const preset::KeyText& key) -> Json {
-    return {{"table", key.table},   {"key", key.key},         {"unit", key.unit},
-            {"default", key.value}, {"allowed", key.allowed}, {"meaning", key.meaning}};
-  });
-  return text_of(json);
-}
-
-namespace {
-
 /// Text that roff prints as it stands.
 std::string plain(const std::string& text) {
   std::string safe;
@@ -174,7 +148,50 @@ std::string html_of(const std::string& roff) {
   return html;
 }
 
+/// "    movie) options='--set ...' ;;"
+std::string case_of(const CommandEntry& command) {
+  std::string options, names;
+  for (const CommandOption& option : command.options)
+    if (!option.argument)
+      options += (options.empty() ? "" : " ") + option.name;
+    else if (option.name == "PRESET" || option.meaning.find("preset") != std::string::npos)
+      names = " names=$presets";
+  return fmt::format("    {}) options='{}'{} ;;\n", command.name, options, names);
+}
+
+/// "    'render --context') words='auto ...' ;;" of every option that is one of a few words.
+std::string words_of(const CommandEntry& command) {
+  std::string text;
+  for (const CommandOption& option : command.options)
+    if (!option.argument && !option.words.empty())
+      text += fmt::format("    '{} {}') words='{}' ;;\n", command.name, option.name,
+                          fmt::join(option.words, " "));
+  return text;
+}
+
 }  // namespace
+
+Result<std::string> listing_json() {
+  Json json{{"version", version()}};
+  json["commands"] = array_of(command_table(), [](const auto& one) { return json_of(one); });
+  json["presets"] = Json::array();
+  for (const EmbeddedPreset& embedded : embedded_presets()) {
+    TRY(presets, load_preset(embedded.name, {}));
+    const preset::Preset& base = presets->base;
+    json["presets"].push_back({{"name", embedded.name},
+                               {"title", base.title},
+                               {"description", base.description},
+                               {"source", base.source}});
+  }
+  json["tables"] = array_of(preset::tables(), [](const preset::Table& table) -> Json {
+    return {{"name", table.name}, {"meaning", table.meaning}, {"list", table.list}};
+  });
+  json["keys"] = array_of(preset::key_texts(), [](const preset::KeyText& key) -> Json {
+    return {{"table", key.table},   {"key", key.key},         {"unit", key.unit},
+            {"default", key.value}, {"allowed", key.allowed}, {"meaning", key.meaning}};
+  });
+  return text_of(json);
+}
 
 Result<std::string> manual_html() {
   TRY(page, man_page());
@@ -217,31 +234,6 @@ Result<std::string> man_page() {
     text += entry(bold(code), meaning);
   return text;
 }
-
-namespace {
-
-/// "    movie) options='--set ...' ;;"
-std::string case_of(const CommandEntry& command) {
-  std::string options, names;
-  for (const CommandOption& option : command.options)
-    if (!option.argument)
-      options += (options.empty() ? "" : " ") + option.name;
-    else if (option.name == "PRESET" || option.meaning.find("preset") != std::string::npos)
-      names = " names=$presets";
-  return fmt::format("    {}) options='{}'{} ;;\n", command.name, options, names);
-}
-
-/// "    'render --context') words='auto ...' ;;" of every option that is one of a few words.
-std::string words_of(const CommandEntry& command) {
-  std::string text;
-  for (const CommandOption& option : command.options)
-    if (!option.argument && !option.words.empty())
-      text += fmt::format("    '{} {}') words='{}' ;;\n", command.name, option.name,
-                          fmt::join(option.words, " "));
-  return text;
-}
-
-}  // namespace
 
 std::string bash_completion() {
   std::vector<std::string> presets, keys;

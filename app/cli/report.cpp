@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include "app/cli/commands.h"
 #include "app/cli/console.h"
@@ -214,8 +213,7 @@ Result<void> add_vibrations(Sheets& sheets, study::FormedShell& shell, const Rep
 Result<void> add_run(Sheets& sheets, const Run& run, const ReportOptions& options,
                      render::Renderer& renderer, Progress& progress) {
   const preset::Preset& preset = run.preset;
-  if (run.trajectory.frames.empty())
-    return fail(Fault::bad_input, "'{}' has no frame", options.input);
+  if (run.trajectory.frames.empty()) return invalid("'{}' has no frame", options.input);
   TRY(plan, simulate::fabrication_plan_of(preset));
   sheets.heading(preset::title_or_name(preset), 15);
   if (!preset.description.empty()) sheets.text(preset.description);
@@ -264,7 +262,7 @@ Result<int> make_report(ReportOptions options) {
     options.to = (run_folder.has_filename() ? run_folder : run_folder.parent_path()).string() +
                  "_report.pdf";
   if (options.to.extension() != ".pdf")
-    return fail(Fault::bad_input, "--to {}: must end in .pdf", options.to.string());
+    return invalid("--to {}: must end in .pdf", options.to.string());
   TRY_DO(check_beside_runs(options.to));
   TRY(runs, read_runs(options.input, {}, options.unsealed));
   TRY(maker, PictureMaker::create(options.context, runs->front().preset.style.font));

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -193,7 +192,7 @@ Result<Scanned> read_all(const ScanOptions& options) {
     for (Candidate& one : candidates_of(scanned.runs[k], options.runs[k]))
       scanned.candidates.push_back(std::move(one));
   if (scanned.candidates.empty())
-    return fail(Fault::bad_input, "'{}' holds no state to compare with", options.runs.front());
+    return invalid("'{}' holds no state to compare with", options.runs.front());
   const preset::Joints& joints = scanned.candidates.front().run->preset.joints;
   scanned.cylinder = {joints.diameter_mm, joints.height_mm};
   return scanned;
@@ -228,15 +227,15 @@ std::optional<std::pair<double, std::string>> height_that_fits(const Scanned& sc
 /// state.
 Result<ComparedScan> compared(const Scanned& scanned, const std::string& file, Watch& watch) {
   auto clusters = study::cluster_joint_tops(scanned.cloud, scanned.cylinder.diameter_mm);
-  if (!clusters) return fail(Fault::bad_input, "{}: {}", file, clusters.error().message);
+  if (!clusters) return invalid("{}: {}", file, clusters.error().message);
   long most = 0;
   for (const Candidate& one : scanned.candidates)
     most = std::max(most, long(one.run->trajectory.layout.joints.size()));
   if (clusters->tops.cols() > most_clusters_a_joint * most)
-    return fail(Fault::bad_input,
-                "{}: {} clusters of points as wide as joints of {:g} mm ([joints] diameter_mm), "
-                "the shell has {} joints",
-                file, clusters->tops.cols(), scanned.cylinder.diameter_mm, most);
+    return invalid(
+        "{}: {} clusters of points as wide as joints of {:g} mm ([joints] diameter_mm), "
+        "the shell has {} joints",
+        file, clusters->tops.cols(), scanned.cylinder.diameter_mm, most);
   ComparedScan scan{file, std::move(*clusters), scanned.cylinder, {}, 0};
   double least = std::numeric_limits<double>::infinity();
   for (const Candidate& one : scanned.candidates) {
@@ -262,11 +261,11 @@ Result<ComparedScan> compared(const Scanned& scanned, const std::string& file, W
       scan.with_height = height_that_fits(scanned, scan);
     return scan;
   }
-  return fail(Fault::bad_input,
-              "{}: {} clusters of points as wide as joints of {:g} mm ([joints] diameter_mm), {} "
-              "specks and {} wider ones; they lie like the joints of no shell given",
-              file, scan.clusters.tops.cols(), scan.cylinder.diameter_mm, scan.clusters.specks,
-              scan.clusters.others);
+  return invalid(
+      "{}: {} clusters of points as wide as joints of {:g} mm ([joints] diameter_mm), {} "
+      "specks and {} wider ones; they lie like the joints of no shell given",
+      file, scan.clusters.tops.cols(), scan.cylinder.diameter_mm, scan.clusters.specks,
+      scan.clusters.others);
 }
 
 /// Red joints over the black shell [Baek 2018, Figs. 2A, 3C, 5E].

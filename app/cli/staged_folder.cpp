@@ -118,20 +118,18 @@ std::string refusal_to_write(const fs::path& folder) { return refusal(target_of(
 Result<void> check_beside_runs(const fs::path& to) {
   std::error_code error;
   if (fs::exists(to, error) && !fs::is_regular_file(to, error))
-    return fail(Fault::bad_input, "'{}' is no file that could be written", to.string());
+    return invalid("'{}' is no file that could be written", to.string());
   for (fs::path folder = fs::absolute(to, error).parent_path(); folder != folder.root_path();
        folder = folder.parent_path())
     if (fs::exists(folder / manifest_name, error))
-      return fail(Fault::bad_input,
-                  "'{}' would lie in the run folder '{}'; choose a place beside it", to.string(),
-                  folder.string());
+      return invalid("'{}' would lie in the run folder '{}'; choose a place beside it", to.string(),
+                     folder.string());
   return {};
 }
 
 Result<StagedFolder> StagedFolder::create(const fs::path& final_folder) {
   const auto refuse = [&](const std::string& because) {
-    return fail(Fault::bad_input, "cannot write the folder '{}': {}", final_folder.string(),
-                because);
+    return invalid("cannot write the folder '{}': {}", final_folder.string(), because);
   };
   const auto target = target_of(final_folder);
   if (const auto because = refusal(target); !because.empty()) return refuse(because);
@@ -254,7 +252,7 @@ std::vector<fs::path> left_behind(const fs::path& final_folder) {
     ::close(lock);
     found.push_back(at->path());
   }
-  std::sort(found.begin(), found.end());
+  std::ranges::sort(found);
   return found;
 }
 

@@ -98,83 +98,6 @@ render::Plot lives_plot(const record::StateTables& states) {
   return plot;
 }
 
-}  // namespace
-
-std::string group_text(const std::string& group) {
-  const std::string name = group.substr(0, group.find('_'));
-  if (name.size() < 2 || name == "flat") return name;
-  return fmt::format("*{}*_{{{}}}", name.substr(0, 1), name.substr(1));
-}
-
-record::Trajectory states_alone(const record::Trajectory& run,
-                                const std::vector<std::size_t>& which) {
-  record::Trajectory few;
-  few.layout = run.layout;
-  few.layout.original_boundary = run.layout.actuated_boundary;
-  for (const std::size_t k : which) few.frames.push_back(run.frames[k]);
-  return few;
-}
-
-std::string found_text(const record::StateTables& states) {
-  const record::StateSearch& search = states.search;
-  const RichnessEstimate& all = search.completeness;
-  std::string text = fmt::format(
-      "  {} of {} trials came to rest, in {} states ({} once, {} twice); Chao1: {:.0f} in all, 95 "
-      "%: "
-      "{:.0f} to {:.0f}\n",
-      search.at_rest, search.trials, all.seen, all.once, all.twice, all.estimate, all.low,
-      all.high);
-  if (search.confined_trials > 0)
-    text += fmt::format("  {} of {} begun in symmetric forms; {} states in all\n",
-                        search.confined_at_rest, search.confined_trials, states.rows.size());
-  if (search.finer_lost + search.finer_merged > 0)
-    text += fmt::format("  of {} on {} edges a segment, finer meshes lose {} and merge {}\n",
-                        search.found, search.judged_edges, search.finer_lost, search.finer_merged);
-  for (const auto& [why, count] : search.ended_otherwise)
-    text += fmt::format("  {} trials: {}\n", count, why);
-  for (const std::size_t k : record::states_to_draw(states.rows, 4)) {
-    const StateRow& row = states.rows[k];
-    text += fmt::format("  state {}: {}{}, {:.3f} mJ of bending, height {:.2f} mm, met {}\n",
-                        row.name(), row.group, dome_text(row), row.energies[Term::bend],
-                        row.height_mm, row.count);
-  }
-  if (search.paths_followed > 0)
-    text += fmt::format("  barriers: {} saddles found on {} paths from state to state\n",
-                        search.passes_found, search.paths_followed);
-  for (const record::Barrier& one : states.barriers)
-    if (one.to != 0)
-      text += fmt::format(
-          "  from state {} to {}: {:.4g} mJ, back {:.4g} mJ (on {} edges a segment)\n",
-          one.from.text(), one.to.text(), one.barrier_mJ, one.back_mJ, search.judged_edges);
-  return text;
-}
-
-Result<void> draw_states(const Run& one, render::Renderer& renderer, const fs::path& stem,
-                         Watch& watch) {
-  const auto style = style_of(one.preset, Pictures::stills);
-  const record::StateTables& states = one.states;
-  const auto which = record::states_to_draw(states.rows, one.preset.jitter.drawn);
-  std::vector<std::string> captions;
-  for (const std::size_t k : which) captions.push_back(caption_of(states.rows[k], states.search));
-  const auto plot_at = [&](const char* suffix, const render::Plot& plot) {
-    render::Plot titled = plot;
-    titled.title = render::plain(style.title) + (plot.title.empty() ? "" : "\n") + plot.title;
-    return render::write_plot(fs::path(stem) += suffix, titled, style.print, plot_height);
-  };
-  TRY_DO(render::write_stills(states_alone(one.trajectory, which), style, {}, renderer, stem, watch,
-                              captions));
-  TRY_DO(plot_at("_energies", energies_plot(states)));
-  TRY_DO(plot_at("_lives", lives_plot(states)));
-  if (!states.transitions.empty())
-    TRY_DO(render::write_transition_graph(fs::path(stem) += "_transitions", states, one.trajectory,
-                                          style.title, style.print));
-  const auto passes = render::barrier_plot(states);
-  return passes.series.empty() ? Result<void>{} : plot_at("_barriers", passes);
-}
-
-namespace {
-
-using record::StateClass;
 using render::Box;
 using render::Canvas;
 
@@ -319,10 +242,10 @@ Result<void> add_diagram(Page& page, const std::string& named) {
   }
   TRY(table, read_finished_sweep(named));
   if (!record::makes_phase_diagram(table->axes))
-    return fail(Fault::bad_input,
-                "[page] sweep = \"{}\": goes over other keys than footprint.longest_leg and "
-                "footprint.rods",
-                named);
+    return invalid(
+        "[page] sweep = \"{}\": goes over other keys than footprint.longest_leg and "
+        "footprint.rods",
+        named);
   const std::string& of_case = table->rows.front().keys.case_name;
   page.add_plot("B", diagram, render::phase_plot(record::phase_diagram_of(*table, of_case), ""));
   return {};
@@ -371,14 +294,86 @@ void add_maps(Page& page, const Runs& records) {
 
 }  // namespace
 
+std::string group_text(const std::string& group) {
+  const std::string name = group.substr(0, group.find('_'));
+  if (name.size() < 2 || name == "flat") return name;
+  return fmt::format("*{}*_{{{}}}", name.substr(0, 1), name.substr(1));
+}
+
+record::Trajectory states_alone(const record::Trajectory& run,
+                                const std::vector<std::size_t>& which) {
+  record::Trajectory few;
+  few.layout = run.layout;
+  few.layout.original_boundary = run.layout.actuated_boundary;
+  for (const std::size_t k : which) few.frames.push_back(run.frames[k]);
+  return few;
+}
+
+std::string found_text(const record::StateTables& states) {
+  const record::StateSearch& search = states.search;
+  const RichnessEstimate& all = search.completeness;
+  std::string text = fmt::format(
+      "  {} of {} trials came to rest, in {} states ({} once, {} twice); Chao1: {:.0f} in all, 95 "
+      "%: "
+      "{:.0f} to {:.0f}\n",
+      search.at_rest, search.trials, all.seen, all.once, all.twice, all.estimate, all.low,
+      all.high);
+  if (search.confined_trials > 0)
+    text += fmt::format("  {} of {} begun in symmetric forms; {} states in all\n",
+                        search.confined_at_rest, search.confined_trials, states.rows.size());
+  if (search.finer_lost + search.finer_merged > 0)
+    text += fmt::format("  of {} on {} edges a segment, finer meshes lose {} and merge {}\n",
+                        search.found, search.judged_edges, search.finer_lost, search.finer_merged);
+  for (const auto& [why, count] : search.ended_otherwise)
+    text += fmt::format("  {} trials: {}\n", count, why);
+  for (const std::size_t k : record::states_to_draw(states.rows, 4)) {
+    const StateRow& row = states.rows[k];
+    text += fmt::format("  state {}: {}{}, {:.3f} mJ of bending, height {:.2f} mm, met {}\n",
+                        row.name(), row.group, dome_text(row), row.energies[Term::bend],
+                        row.height_mm, row.count);
+  }
+  if (search.paths_followed > 0)
+    text += fmt::format("  barriers: {} saddles found on {} paths from state to state\n",
+                        search.passes_found, search.paths_followed);
+  for (const record::Barrier& one : states.barriers)
+    if (one.to != 0)
+      text += fmt::format(
+          "  from state {} to {}: {:.4g} mJ, back {:.4g} mJ (on {} edges a segment)\n",
+          one.from.text(), one.to.text(), one.barrier_mJ, one.back_mJ, search.judged_edges);
+  return text;
+}
+
+Result<void> draw_states(const Run& one, render::Renderer& renderer, const fs::path& stem,
+                         Watch& watch) {
+  const auto style = style_of(one.preset, Pictures::stills);
+  const record::StateTables& states = one.states;
+  const auto which = record::states_to_draw(states.rows, one.preset.jitter.drawn);
+  std::vector<std::string> captions;
+  for (const std::size_t k : which) captions.push_back(caption_of(states.rows[k], states.search));
+  const auto plot_at = [&](const char* suffix, const render::Plot& plot) {
+    render::Plot titled = plot;
+    titled.title = render::plain(style.title) + (plot.title.empty() ? "" : "\n") + plot.title;
+    return render::write_plot(fs::path(stem) += suffix, titled, style.print, plot_height);
+  };
+  TRY_DO(render::write_stills(states_alone(one.trajectory, which), style, {}, renderer, stem, watch,
+                              captions));
+  TRY_DO(plot_at("_energies", energies_plot(states)));
+  TRY_DO(plot_at("_lives", lives_plot(states)));
+  if (!states.transitions.empty())
+    TRY_DO(render::write_transition_graph(fs::path(stem) += "_transitions", states, one.trajectory,
+                                          style.title, style.print));
+  const auto passes = render::barrier_plot(states);
+  return passes.series.empty() ? Result<void>{} : plot_at("_barriers", passes);
+}
+
 Result<Page> states_page(const Runs& records, const render::MovieStyle& style,
                          render::Renderer& renderer, Watch& watch) {
   const Run& first = *records.front();
   if (first.states.rows.empty())
-    return fail(Fault::bad_input,
-                fmt::format("{}: [page] kind = \"fig2\" shows states: must have [jitter] trials or "
-                            "confined above 0",
-                            first.preset.name));
+    return invalid(
+        "{}: [page] kind = \"fig2\" shows states: must have [jitter] trials or "
+        "confined above 0",
+        first.preset.name);
   Page page{page_width, page_height};
   TRY_DO(add_states(page, records, style, renderer, watch));
   TRY_DO(add_diagram(page, first.preset.page.sweep));

@@ -4,14 +4,13 @@
 #include <fmt/ranges.h>
 #include <algorithm>
 #include <cstdio>
-#include <memory>
 #include <set>
 #include <string>
 
+#include "app/cli/command_line.h"
 #include "app/cli/commands.h"
 #include "app/cli/console.h"
 #include "app/cli/delivery.h"
-#include "app/cli/options.h"
 #include "app/cli/preset_library.h"
 #include "app/cli/staged_folder.h"
 #include "app/cli/sweep_folder.h"
@@ -72,18 +71,17 @@ std::vector<std::string> drawable(const preset::Presets& presets, const preset::
 /// What there is to sweep, and whether the figures asked for are some of a run.
 Result<void> check_asked(const preset::Presets& presets, const preset::SweepGrid& grid) {
   if (grid.size() == 0)
-    return fail(Fault::bad_input,
-                "{}: sweeps nothing: must have [sweep] over or seeds, for example --set "
-                "'sweep.over={{rod.diameter_mm=[0.2,0.3]}}'",
-                presets.base.name);
+    return invalid(
+        "{}: sweeps nothing: must have [sweep] over or seeds, for example --set "
+        "'sweep.over={{rod.diameter_mm=[0.2,0.3]}}'",
+        presets.base.name);
   const auto names = drawable(presets, grid);
   auto asked = plots_of(grid);
   if (!grid.sweep().x.empty()) asked.push_back(grid.sweep().x);
   for (const auto& name : asked)
     if (std::ranges::find(names, name) == names.end())
-      return fail(
-          Fault::bad_input, "{}: [sweep] plot or x = \"{}\": is no figure of a run{}",
-          presets.base.name, name,
+      return invalid(
+          "{}: [sweep] plot or x = \"{}\": is no figure of a run{}", presets.base.name, name,
           name == classes
               ? ", only of searches for states over footprint.longest_leg and footprint.rods alone"
               : did_you_mean(name, names));

@@ -43,16 +43,15 @@ Result<Shard> parse_shard(const std::string& text) {
   const auto part = two_numbers(text, "/").value_or(std::pair(0, 0));
   const Shard shard{part.first, part.second};
   if (shard.index < 1 || shard.index > shard.count)
-    return fail(Fault::bad_input, "--shard {}: must be i/N with i from 1 to N, for example 2/8",
-                text);
+    return invalid("--shard {}: must be i/N with i from 1 to N, for example 2/8", text);
   return shard;
 }
 
 Result<record::SweepLog> open_sweep(const fs::path& folder, const preset::Presets& presets,
                                     const preset::SweepGrid& grid) {
   const auto refuse = [&](const std::string& why) {
-    return fail(Fault::bad_input, "cannot write the folder '{}': {}; choose another folder with -o",
-                folder.string(), why);
+    return invalid("cannot write the folder '{}': {}; choose another folder with -o",
+                   folder.string(), why);
   };
   std::error_code error;
   if (fs::exists(folder, error) && !fs::is_directory(folder, error)) return refuse("it is a file");
@@ -95,11 +94,10 @@ Result<record::SweepTable> read_finished_sweep(const std::string& named) {
   const auto shipped = embedded_files().find(named);
   auto text = read_file(file);
   if (!text && shipped != embedded_files().end()) text = shipped->second;
-  if (!text) return fail(Fault::bad_input, "no finished sweep: {}", text.error().message);
+  if (!text) return invalid("no finished sweep: {}", text.error().message);
   auto table = record::read_sweep_csv(*text);
   if (!table)
-    return fail(Fault::bad_input, "'{}' is no table of a sweep: {}", file.string(),
-                table.error().message);
+    return invalid("'{}' is no table of a sweep: {}", file.string(), table.error().message);
   return table;
 }
 
@@ -110,18 +108,18 @@ Result<void> gather_shards(const fs::path& folder, record::SweepLog& log,
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
     if (is_shard_folder(*at)) shards.push_back(*at);
   if (shards.empty())
-    return fail(Fault::bad_input,
-                "'{}' holds no shard: they are written by 'gridshell sweep PRESET --shard i/N' "
-                "with the same -o",
-                folder.string());
+    return invalid(
+        "'{}' holds no shard: they are written by 'gridshell sweep PRESET --shard i/N' "
+        "with the same -o",
+        folder.string());
   std::ranges::sort(shards);
   std::map<std::size_t, record::PointResult> found;
   for (const auto& shard : shards) {
     auto contents = record::read_sweep_log(shard / record::sweep_log_name);
     if (!contents) return tl::unexpected(Error{Fault::bad_input, contents.error().message});
     if (!contents->name.same_sweep(name_of(presets, grid)))
-      return fail(Fault::bad_input, "'{}' is a shard of another preset ('{}'), or of other values",
-                  shard.string(), contents->name.preset);
+      return invalid("'{}' is a shard of another preset ('{}'), or of other values", shard.string(),
+                     contents->name.preset);
     found.merge(contents->found);
   }
   for (const auto& [point, result] : found)

@@ -8,14 +8,13 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
-#include <memory>
 #include <sstream>
 #include <thread>
 #include <tuple>
 
+#include "app/cli/command_line.h"
 #include "app/cli/commands.h"
 #include "app/cli/console.h"
-#include "app/cli/options.h"
 #include "app/cli/pictures.h"
 #include "app/cli/preset_library.h"
 #include "app/cli/produce.h"
@@ -110,7 +109,7 @@ Result<window::OtherShell> load_scan(const fs::path& file) {
     scan.joints.push_back(joint);
     places.emplace_back(x, y, z);
   }
-  if (places.empty()) return fail(Fault::bad_input, "'{}' has no joints", file.string());
+  if (places.empty()) return invalid("'{}' has no joints", file.string());
   for (const auto& [at, node] : nodes)
     for (const auto& beside : {std::pair(at.first + 1, at.second), {at.first, at.second + 1}})
       if (const auto other = nodes.find(beside); other != nodes.end())
@@ -294,9 +293,9 @@ Result<int> show(const ViewOptions& options, window::ViewerState& viewer) {
 
 Result<int> view(ViewOptions options) {
   if (options.bench > 0 && options.input.empty())
-    return fail(Fault::bad_input, "view --bench S takes a preset: gridshell view PRESET --bench S");
+    return invalid("view --bench S takes a preset: gridshell view PRESET --bench S");
   if (options.off_screen() && options.play.empty() && options.input.empty())
-    return fail(Fault::bad_input, "view --shot PNG and --picture PNG take a preset or --play FILE");
+    return invalid("view --shot PNG and --picture PNG take a preset or --play FILE");
   const bool off_screen = options.off_screen();
   // what is played is the same everywhere
   if (options.workspace.empty() && !off_screen && options.record.empty())

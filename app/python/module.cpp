@@ -39,6 +39,26 @@ void add_error(py::module_& module, const char* name, const char* doc, PyObject*
   module.attr(name) = py::reinterpret_steal<py::object>(made);
 }
 
+/// A number, string, path, bool, sequence of these or numpy array as TOML. Raises TypeError for
+/// anything else.
+std::string toml_of(const py::handle& value) {
+  if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
+  if (py::isinstance<py::int_>(value)) return py::str(value);
+  if (PyFloat_Check(value.ptr())) return py::str(py::float_(value.cast<double>()));
+  if (py::isinstance<py::str>(value))
+    return py::str(py::module_::import("json").attr("dumps")(value));
+  // of numpy, a number or a list of them
+  if (py::hasattr(value, "tolist")) return toml_of(value.attr("tolist")());
+  if (py::hasattr(value, "__fspath__")) return toml_of(value.attr("__fspath__")());
+  if (!py::isinstance<py::sequence>(value) || py::isinstance<py::bytes>(value))
+    throw py::type_error("a preset takes numbers, strings, bools and lists of them, not " +
+                         std::string(py::str(py::type::handle_of(value).attr("__name__"))));
+  std::string text = "[";
+  for (const py::handle item : py::reinterpret_borrow<py::sequence>(value))
+    text.append(text.size() > 1 ? ", " : "").append(toml_of(item));
+  return text + "]";
+}
+
 }  // namespace
 
 void add_errors(py::module_& module) {
@@ -56,24 +76,6 @@ void raise(const Error& error) {
     if (one.fault == error.fault) type = py::module_::import("gridshell").attr(one.name);
   PyErr_SetString(type.ptr(), error.message.c_str());
   throw py::error_already_set();
-}
-
-std::string toml_of(const py::handle& value) {
-  if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
-  if (py::isinstance<py::int_>(value)) return py::str(value);
-  if (PyFloat_Check(value.ptr())) return py::str(py::float_(value.cast<double>()));
-  if (py::isinstance<py::str>(value))
-    return py::str(py::module_::import("json").attr("dumps")(value));
-  // of numpy, a number or a list of them
-  if (py::hasattr(value, "tolist")) return toml_of(value.attr("tolist")());
-  if (py::hasattr(value, "__fspath__")) return toml_of(value.attr("__fspath__")());
-  if (!py::isinstance<py::sequence>(value) || py::isinstance<py::bytes>(value))
-    throw py::type_error("a preset takes numbers, strings, bools and lists of them, not " +
-                         std::string(py::str(py::type::handle_of(value).attr("__name__"))));
-  std::string text = "[";
-  for (const py::handle item : py::reinterpret_borrow<py::sequence>(value))
-    text.append(text.size() > 1 ? ", " : "").append(toml_of(item));
-  return text + "]";
 }
 
 std::vector<preset::Override> overrides_of(const py::dict& changes) {

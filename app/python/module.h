@@ -73,10 +73,6 @@ struct Judged {
   py::object value = py::none();
 };
 
-/// A number, string, path, bool, sequence of these or numpy array as TOML. Raises TypeError for
-/// anything else.
-std::string toml_of(const py::handle& value);
-
 /// {"footprint.rods": 14} as changes to a preset. Raises TypeError.
 std::vector<preset::Override> overrides_of(const py::dict& changes);
 

@@ -11,8 +11,8 @@ Result<Shell> Shell::open(const preset::Preset& preset) {
   TRY(made, shared_scene_of(preset));
   const std::shared_ptr<const Scene>& scene = *made;
   if (scene->rung == RodModel::net)
-    return fail(Fault::bad_input,
-                "[accuracy] model = \"net\": the net is geometry alone, there is nothing to hold");
+    return invalid(
+        "[accuracy] model = \"net\": the net is geometry alone, there is nothing to hold");
   Shell shell(std::make_shared<const preset::Preset>(preset), scene);
   TRY(session, Simulation::open(shell.scene_, simulate::initial_levels(*shell.scene_)));
   shell.session_ = std::move(*session);
@@ -77,17 +77,17 @@ Result<Done> Shell::move(const preset::Step& step, const Watch& watch) {
 }
 
 Result<Done> Shell::take(const preset::Step& step, const Watch& watch) {
-  if (!formed_) return fail(Fault::bad_input, "the shell is still flat: actuate it first");
+  if (!formed_) return invalid("the shell is still flat: actuate it first");
   as_drawn_ = false;
   TRY(report, simulate::apply_step(*session_, step, watch));
   return ended(simulate::text_of(step), std::move(*report));
 }
 
 Result<Done> Shell::refine(double tolerance_mm, const Watch& watch) {
-  if (!formed_) return fail(Fault::bad_input, "the shell is still flat: actuate it first");
+  if (!formed_) return invalid("the shell is still flat: actuate it first");
   const double wanted =
       std::isnan(tolerance_mm) ? scene_->tolerance * scene_->length_scale_mm : tolerance_mm;
-  if (!(wanted > 0)) return fail(Fault::bad_input, "tolerance_mm must be above 0");
+  if (!(wanted > 0)) return invalid("tolerance_mm must be above 0");
   auto done = ended("refine", session_->refine(wanted, watch));
   const double left = session_->certificate().error_estimate_mm;
   if (watch.cancelled()) return stopped();
@@ -101,7 +101,7 @@ Result<Done> Shell::refine(double tolerance_mm, const Watch& watch) {
 Kept Shell::save() const { return {scene_, session_->save(), formed_}; }
 
 Result<void> Shell::restore(const Kept& kept) {
-  if (kept.scene != scene_) return fail(Fault::bad_input, "the state was kept by another session");
+  if (kept.scene != scene_) return invalid("the state was kept by another session");
   session_->restore(kept.checkpoint);
   formed_ = kept.formed;
   as_drawn_ = false;

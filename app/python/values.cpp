@@ -186,17 +186,6 @@ void add_state(py::module_& module) {
            py::arg("context") = "auto", picture_doc);
 }
 
-}  // namespace
-
-void add_values(py::module_& module) {
-  add_certificate(module);
-  add_report(module);
-  add_layout(module);
-  add_state(module);
-}
-
-namespace {
-
 Result<void> draw_on(const State& state, const render::MovieStyle& style,
                      const std::filesystem::path& path, const std::string& context) {
   // OpenGL stays on the thread that began it, which is that of this call
@@ -209,6 +198,13 @@ Result<void> draw_on(const State& state, const render::MovieStyle& style,
 }
 
 }  // namespace
+
+void add_values(py::module_& module) {
+  add_certificate(module);
+  add_report(module);
+  add_layout(module);
+  add_state(module);
+}
 
 void draw(const State& state, const std::filesystem::path& path,
           const std::optional<std::pair<int, int>>& size, const std::string& context) {

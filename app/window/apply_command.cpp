@@ -54,6 +54,39 @@ bool goes_on(const preset::Step& before, const preset::Step& step) {
          before.along == step.along;
 }
 
+std::string text_of_design(const DesignProgress& course) {
+  const double percent = 100 / course.length_scale_mm;
+  const DesignPoint &first = course.points.front(), &last = course.points.back();
+  std::string message =
+      fmt::format("{} after {} iteration{}: largest {:.3f} %, before {:.3f} %",
+                  course.stopped ? "stopped" : "designed", course.iterations,
+                  course.iterations == 1 ? "" : "s", percent * last.max_mm, percent * first.max_mm);
+  if (course.inverse.round_mm > 0 && !course.stopped)
+    message += course.rounded_max_mm
+                   ? fmt::format(", rounded to {:g} mm {:.3f} %", course.inverse.round_mm,
+                                 percent * *course.rounded_max_mm)
+                   : fmt::format("; rounded to {:g} mm it is lost", course.inverse.round_mm);
+  return message;
+}
+
+bool varies_rods(const preset::Inverse& inverse) {
+  return std::ranges::find(inverse.vary, preset::Vary::diameters) != inverse.vary.end();
+}
+
+DesignPoint point_of(const CertifiedStep& now) {
+  DesignPoint point{now.step.iteration,
+                    now.step.max_mm,
+                    now.step.mean_mm,
+                    now.eigenvalue,
+                    now.step.largest_move_mm,
+                    0,
+                    0};
+  const Eigen::VectorXd& diameter = now.shell.ends().diameter;
+  if (diameter.size() > 0)
+    point.thinnest_mm = diameter.minCoeff(), point.thickest_mm = diameter.maxCoeff();
+  return point;
+}
+
 }  // namespace
 
 /// One step, as a preset would have it done.
@@ -121,7 +154,7 @@ Result<void> EditSession::act(const Move& command, const Watch& watch) {
 Result<void> EditSession::act(const DragEdge& command, const Watch& watch) {
   Eigen::Matrix3Xd dragged = session_->boundary.dragged;
   const Eigen::Index k = command.edge_point;
-  if (k < 0 || k >= dragged.cols()) return fail(Fault::bad_input, "no such edge point");
+  if (k < 0 || k >= dragged.cols()) return invalid("no such edge point");
   const BoundaryMotion& motion = now_.scene->motion;
   const double progress = session_->boundary.progress;
   dragged.col(k) = command.to - motion.begin.col(k) - progress * (motion.end - motion.begin).col(k);
@@ -135,15 +168,13 @@ Result<void> EditSession::act(const ResetEdgePoint& command, const Watch& watch)
     dragged.setZero();
   else if (command.edge_point < dragged.cols())
     dragged.col(command.edge_point).setZero();
-  if (dragged == session_->boundary.dragged)
-    return fail(Fault::bad_input, "no such edge point was dragged");
+  if (dragged == session_->boundary.dragged) return invalid("no such edge point was dragged");
   return move_boundary(session_->boundary.progress, dragged, watch);
 }
 
 Result<void> EditSession::act(const Push& command, const Watch& watch) {
   const auto& joints = now_.scene->footprint.joints;
-  if (command.joint < 0 || command.joint >= int(joints.size()))
-    return fail(Fault::bad_input, "no such joint");
+  if (command.joint < 0 || command.joint >= int(joints.size())) return invalid("no such joint");
   preset::Step step = step_of(preset::StepKind::push, joints[std::size_t(command.joint)]);
   step.to_mm = xyz_of(command.to);
   const bool free = !command.along.isZero(0);
@@ -175,7 +206,7 @@ bool EditSession::looks_between() const {
 }
 
 Result<void> EditSession::act(const Release& command, const Watch& watch) {
-  if (session_->holds().empty()) return fail(Fault::bad_input, "no joint is held");
+  if (session_->holds().empty()) return invalid("no joint is held");
   std::vector<int> joints{command.joint};
   if (command.joint < 0) {
     joints.clear();
@@ -212,43 +243,6 @@ Result<void> EditSession::act(const Jitter& command, const Watch& watch) {
 
 // The shell is designed: its steps are seen as they come, the last certified one stays.
 
-namespace {
-
-std::string text_of_design(const DesignProgress& course) {
-  const double percent = 100 / course.length_scale_mm;
-  const DesignPoint &first = course.points.front(), &last = course.points.back();
-  std::string message =
-      fmt::format("{} after {} iteration{}: largest {:.3f} %, before {:.3f} %",
-                  course.stopped ? "stopped" : "designed", course.iterations,
-                  course.iterations == 1 ? "" : "s", percent * last.max_mm, percent * first.max_mm);
-  if (course.inverse.round_mm > 0 && !course.stopped)
-    message += course.rounded_max_mm
-                   ? fmt::format(", rounded to {:g} mm {:.3f} %", course.inverse.round_mm,
-                                 percent * *course.rounded_max_mm)
-                   : fmt::format("; rounded to {:g} mm it is lost", course.inverse.round_mm);
-  return message;
-}
-
-bool varies_rods(const preset::Inverse& inverse) {
-  return std::ranges::find(inverse.vary, preset::Vary::diameters) != inverse.vary.end();
-}
-
-DesignPoint point_of(const CertifiedStep& now) {
-  DesignPoint point{now.step.iteration,
-                    now.step.max_mm,
-                    now.step.mean_mm,
-                    now.eigenvalue,
-                    now.step.largest_move_mm,
-                    0,
-                    0};
-  const Eigen::VectorXd& diameter = now.shell.ends().diameter;
-  if (diameter.size() > 0)
-    point.thinnest_mm = diameter.minCoeff(), point.thickest_mm = diameter.maxCoeff();
-  return point;
-}
-
-}  // namespace
-
 std::string why_not_designed(const ShellView& shell) {
   if (!shell.any()) return "there is no shell yet";
   if (shell.layout->net_nodes.cols() == 0)
@@ -262,8 +256,7 @@ std::string why_not_designed(const ShellView& shell) {
 }
 
 Result<void> EditSession::act(const Design& command, const Watch& watch) {
-  if (const std::string why = why_not_designed(view_); !why.empty())
-    return fail(Fault::bad_input, why);
+  if (const std::string why = why_not_designed(view_); !why.empty()) return invalid(why);
   preset::Preset preset = now_.preset;
   preset.inverse = command.inverse;
   TRY_DO(check_preset(preset));
@@ -365,16 +358,15 @@ void EditSession::accept_design() {
 }
 
 Result<void> EditSession::act(const AcceptDesign&, const Watch&) {
-  if (!now_.design) return fail(Fault::bad_input, "nothing was designed that could be kept");
+  if (!now_.design) return invalid("nothing was designed that could be kept");
   view_.message = "the designed shell is kept; Ctrl+S saves it with its tables";
   return {};
 }
 
 Result<void> EditSession::act(const DiscardDesign&, const Watch&) {
   if (undo_.empty() || !undo_.back().before_design)
-    return fail(Fault::bad_input, now_.design
-                                      ? "what was done since the design is to be undone first"
-                                      : "nothing was designed that could be put back");
+    return invalid(now_.design ? "what was done since the design is to be undone first"
+                               : "nothing was designed that could be put back");
   return travel(undo_, redo_, "");
 }
 

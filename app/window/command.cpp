@@ -14,8 +14,7 @@ namespace {
 
 ChangeKind kind_of_key(const preset::Preset& preset, const preset::Field& field) {
   const auto among = [&](std::initializer_list<const char*> tables) {
-    return std::any_of(tables.begin(), tables.end(),
-                       [&](const char* table) { return field.table == table; });
+    return std::ranges::any_of(tables, [&](const char* table) { return field.table == table; });
   };
   if (among({"", "movie", "style", "figure", "page", "sweep", "jitter", "inverse"}))
     return ChangeKind::looks;
@@ -31,9 +30,8 @@ ChangeKind kind_of_key(const preset::Preset& preset, const preset::Field& field)
 
 bool is_list(const preset::Field& field) {
   const auto& all = preset::tables();
-  return std::any_of(all.begin(), all.end(), [&](const preset::Table& table) {
-    return table.list && table.name == field.table;
-  });
+  return std::ranges::any_of(
+      all, [&](const preset::Table& table) { return table.list && table.name == field.table; });
 }
 
 /// The tables that stand once an item: building blocks, their seams, steps.

@@ -3,49 +3,43 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/core/packing.h"
 #include "engine/core/try.h"
 
 namespace gridshell::window {
 
-bool ScratchFile::write(const double* numbers, std::size_t count) {
-  if (count == 0) return true;
+std::optional<ScratchFile::Place> ScratchFile::put(std::string_view bytes) {
   if (!file_) file_.reset(std::tmpfile());
-  const bool written = file_ && ::fseeko(file_.get(), end_, SEEK_SET) == 0 &&
-                       std::fwrite(numbers, sizeof(double), count, file_.get()) == count &&
-                       std::fflush(file_.get()) == 0;
-  if (written) end_ += std::int64_t(count * sizeof(double));
-  return written;
+  if (!file_ || ::fseeko(file_.get(), end_, SEEK_SET) != 0 ||
+      std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size() ||
+      std::fflush(file_.get()) != 0)
+    return std::nullopt;
+  return Place{std::exchange(end_, end_ + std::int64_t(bytes.size())), bytes.size()};
 }
 
-bool ScratchFile::read(std::int64_t at, double* numbers, std::size_t count) const {
-  if (count == 0) return true;
-  return file_ && ::fseeko(file_.get(), at, SEEK_SET) == 0 &&
-         std::fread(numbers, sizeof(double), count, file_.get()) == count;
+std::string ScratchFile::take(const Place& place) const {
+  std::string bytes(place.size, 0);
+  const bool read = file_ && ::fseeko(file_.get(), place.at, SEEK_SET) == 0 &&
+                    std::fread(bytes.data(), 1, place.size, file_.get()) == place.size;
+  return read ? bytes : std::string();
 }
 
 namespace {
 
 constexpr std::int64_t most_bytes_aside = std::int64_t(8) << 30;
 
-/// Calls visit(array) for each of a checkpoint's arrays of numbers, as long as it returns true.
+/// Calls visit(array) for each of a checkpoint's arrays of numbers.
 template <class Kept, class Visit>
-bool each_array(Kept& kept, const Visit& visit) {
-  if (!visit(kept.state.x)) return false;
+void each_array(Kept& kept, const Visit& visit) {
+  visit(kept.state.x);
   for (auto& level : kept.state.levels)
-    if (!visit(level.x) || !visit(level.force) || !visit(level.director) ||
-        !visit(level.reference_twist))
-      return false;
-  for (auto& motion : kept.motions)
-    if (!visit(motion.begin) || !visit(motion.change)) return false;
-  return true;
+    visit(level.x), visit(level.force), visit(level.director), visit(level.reference_twist);
+  for (auto& motion : kept.motions) visit(motion.begin), visit(motion.change);
 }
 
 std::int64_t bytes_of(const Checkpoint& kept) {
   std::int64_t doubles = 0;
-  each_array(kept, [&](const auto& array) {
-    doubles += array.size();
-    return true;
-  });
+  each_array(kept, [&](const auto& array) { doubles += array.size(); });
   return doubles * std::int64_t(sizeof(double));
 }
 
@@ -80,7 +74,7 @@ void EditSession::execute(const Command& command, const Watch& watch) {
       is_any<Move, Push, Release, DragEdge, ResetEdgePoint, Rest, Jitter, Recall>(command.edit);
   const Result<void> done =
       moves && !session_
-          ? fail(Fault::bad_input, "there is no shell yet")
+          ? invalid("there is no shell yet")
           : std::visit([&](const auto& edit) { return act(edit, watch); }, command.edit);
   if (!done)
     view_.error = done.error().fault == Fault::cancelled ? "stopped" : done.error().message;
@@ -152,7 +146,7 @@ void EditSession::keep_within_memory(std::deque<UndoStep>& steps) {
   while (kept < steps.size() && bytes <= most_bytes_)
     bytes += bytes_of(steps[steps.size() - 1 - kept++].checkpoint);
   // those before are aside already but for the last few
-  for (std::size_t k = steps.size() - kept; k-- > 0 && steps[k].saved.empty();)
+  for (std::size_t k = steps.size() - kept; k-- > 0 && !steps[k].saved;)
     if (!save_to_scratch(steps[k])) {
       steps.erase(steps.begin(), steps.begin() + std::ptrdiff_t(k) + 1);
       return;
@@ -161,24 +155,27 @@ void EditSession::keep_within_memory(std::deque<UndoStep>& steps) {
 
 /// What nobody can go back to makes room.
 void EditSession::clear_scratch() {
-  const auto saved = [](const UndoStep& step) { return !step.saved.empty(); };
+  const auto saved = [](const UndoStep& step) { return step.saved.has_value(); };
   if (std::ranges::none_of(undo_, saved) && std::ranges::none_of(redo_, saved))
     scratch_ = ScratchFile();
 }
 
 bool EditSession::save_to_scratch(UndoStep& step) {
   if (scratch_.bytes() > most_bytes_aside) return false;
-  return each_array(step.checkpoint,
-                    [&](auto& array) { return scratch_.put(array, step.saved.emplace_back()); });
+  ByteWriter out;
+  each_array(step.checkpoint, [&](const auto& array) { out.matrix(array); });
+  step.saved = scratch_.put(out.bytes());
+  if (step.saved) each_array(step.checkpoint, []<class Array>(Array& array) { array = Array(); });
+  return step.saved.has_value();
 }
 
 bool EditSession::load_from_scratch(UndoStep& step) const {
-  auto at = step.saved.begin();
-  const bool back = at == step.saved.end() || each_array(step.checkpoint, [&](auto& array) {
-                      return scratch_.take(*at++, array);
-                    });
-  step.saved.clear();
-  return back;
+  if (!step.saved) return true;
+  const std::string bytes = scratch_.take(*step.saved);
+  step.saved.reset();
+  ByteReader in(bytes);
+  each_array(step.checkpoint, [&](auto& array) { in.matrix(array); });
+  return in.at_end();
 }
 
 Result<void> EditSession::restore(const UndoStep& step) {
@@ -195,7 +192,7 @@ Result<void> EditSession::restore(const UndoStep& step) {
 
 Result<void> EditSession::travel(std::deque<UndoStep>& from, std::deque<UndoStep>& to,
                                  const char* none) {
-  if (from.empty()) return fail(Fault::bad_input, none);
+  if (from.empty()) return invalid(none);
   UndoStep back = std::move(from.back());
   from.pop_back();
   if (!load_from_scratch(back))
@@ -236,7 +233,7 @@ Result<void> EditSession::form(const preset::Preset& preset, const Watch& watch)
   TRY(made, shared_scene_of(preset));
   const std::shared_ptr<const Scene>& scene = *made;
   if (scene->rung == RodModel::net)
-    return fail(Fault::bad_input, "the rung 'net' is geometry alone: there is nothing to push");
+    return invalid("the rung 'net' is geometry alone: there is nothing to push");
   TRY(course, simulate::follow_actuation(scene, coarse_plan(*scene), false, 1, watch));
   std::vector<PathMark> marks;
   for (const simulate::PathSegment& segment : course->segments)

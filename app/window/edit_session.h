@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/window/command.h"
@@ -17,37 +18,22 @@
 
 namespace gridshell::window {
 
-/// Where an array of numbers lies in the file, and its shape.
-struct SavedArray {
-  std::int64_t at = 0;
-  Eigen::Index rows = 0, columns = 0;
-};
-
 /// A file without a name, which goes with the program.
 class ScratchFile {
  public:
+  /// Where bytes lie in it.
+  struct Place {
+    std::int64_t at = 0;
+    std::size_t size = 0;
+  };
   /// How much of it is in use, bytes.
   std::int64_t bytes() const { return end_; }
-
-  /// Writes an array and empties it; false, and the array as it was, where there is no room.
-  template <class Array>
-  bool put(Array& array, SavedArray& saved) {
-    saved = {end_, array.rows(), array.cols()};
-    if (!write(array.data(), std::size_t(array.size()))) return false;
-    array = Array();
-    return true;
-  }
-  /// Reads it again, to the bit; false where the file does not give it.
-  template <class Array>
-  bool take(const SavedArray& saved, Array& array) const {
-    array.resize(saved.rows, saved.columns);
-    return read(saved.at, array.data(), std::size_t(array.size()));
-  }
+  /// Nothing where there is no room.
+  std::optional<Place> put(std::string_view bytes);
+  /// Read again; empty where the file does not give it.
+  std::string take(const Place& place) const;
 
  private:
-  bool write(const double* numbers, std::size_t count);
-  bool read(std::int64_t at, double* numbers, std::size_t count) const;
-
   struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
@@ -86,8 +72,8 @@ class EditSession {
   struct UndoStep {
     EditState state;
     Checkpoint checkpoint;
-    bool before_design = false;          ///< a design was asked for then
-    std::vector<SavedArray> saved = {};  ///< the checkpoint's arrays, where they are not in it
+    bool before_design = false;                    ///< a design was asked for then
+    std::optional<ScratchFile::Place> saved = {};  ///< the checkpoint's arrays, if not in it
   };
 
   Result<void> act(const Open& command, const Watch& watch);

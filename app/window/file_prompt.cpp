@@ -72,6 +72,38 @@ void endings(const Panel& panel, FileRequest& request) {
   }
 }
 
+/// What presets are about, by how their names begin; the last has all others.
+struct CardGroup {
+  const char* title;
+  std::vector<std::string_view> begins;
+};
+const CardGroup groups[] = {
+    {"Movies of the paper", {"s1_", "s2_", "s3_", "s4_", "s5_"}},
+    {"Figures of the paper", {"fig"}},
+    {"Pages of the paper", {"page_"}},
+    {"Designed to meet a surface", {"design_", "ring_"}},
+    {"Curves, nets and surfaces of your own", {"curve_", "net_", "surface_"}},
+    {"Networks of rods", {"network_"}},
+    {"Models, limits, loads, steps", {""}}};
+
+const CardGroup& group_of(const std::string& name) {
+  return *std::ranges::find_if(groups, [&](const CardGroup& group) {
+    return std::ranges::any_of(group.begins, [&](auto begin) { return name.starts_with(begin); });
+  });
+}
+
+constexpr double card_points = 216;             // the least width of a card
+constexpr float height_of_width = 160 / 256.f;  // of the pictures in presets/pictures/cards
+
+/// A title that is too long for its card ends in dots.
+std::string shortened(const std::string& title, float width) {
+  if (ImGui::CalcTextSize(title.c_str()).x <= width) return title;
+  std::string begin = title;
+  const auto too_long = [&] { return ImGui::CalcTextSize((begin + "…").c_str()).x > width; };
+  while (!begin.empty() && too_long()) begin.pop_back();
+  return begin + "…";
+}
+
 }  // namespace
 
 /// Looks into the folder where another one is shown, or where something came or went.
@@ -145,22 +177,6 @@ void FilePrompt::draw(const Panel& panel, const render::Box& box) {
 
 // All presets to choose from, as pictures.
 
-namespace {
-
-constexpr double card_points = 216;             // the least width of a card
-constexpr float height_of_width = 160 / 256.f;  // of the pictures in presets/pictures/cards
-
-/// A title that is too long for its card ends in dots.
-std::string shortened(const std::string& title, float width) {
-  if (ImGui::CalcTextSize(title.c_str()).x <= width) return title;
-  std::string begin = title;
-  const auto too_long = [&] { return ImGui::CalcTextSize((begin + "…").c_str()).x > width; };
-  while (!begin.empty() && too_long()) begin.pop_back();
-  return begin + "…";
-}
-
-}  // namespace
-
 void PresetPicker::load(const std::vector<PresetCard>& cards) {
   for (std::size_t k = pictures_.size(); k < cards.size(); ++k) {
     auto& picture = pictures_.emplace_back();
@@ -190,30 +206,6 @@ void PresetPicker::card(const Panel& panel, const PresetCard& card, std::size_t 
   ImGui::SetCursorPos({at.x, at.y + height + panel.px(6)});
   ImGui::PopID();
 }
-
-namespace {
-
-/// What presets are about, by how their names begin; the last has all others.
-struct CardGroup {
-  const char* title;
-  std::vector<std::string_view> begins;
-};
-const CardGroup groups[] = {
-    {"Movies of the paper", {"s1_", "s2_", "s3_", "s4_", "s5_"}},
-    {"Figures of the paper", {"fig"}},
-    {"Pages of the paper", {"page_"}},
-    {"Designed to meet a surface", {"design_", "ring_"}},
-    {"Curves, nets and surfaces of your own", {"curve_", "net_", "surface_"}},
-    {"Networks of rods", {"network_"}},
-    {"Models, limits, loads, steps", {""}}};
-
-const CardGroup& group_of(const std::string& name) {
-  return *std::ranges::find_if(groups, [&](const CardGroup& group) {
-    return std::ranges::any_of(group.begins, [&](auto begin) { return name.starts_with(begin); });
-  });
-}
-
-}  // namespace
 
 void PresetPicker::opened_last(const Panel& panel) const {
   if (panel.viewer.recent.empty() || !sought_.empty()) return;

@@ -1,15 +1,111 @@
 // What is known of a shell from the ways that it came: marks on them, and states to come back to.
-#include <fmt/format.h>
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "app/window/command.h"
 #include "app/window/edit_session.h"
+#include "app/window/shell_view.h"
 #include "engine/gridshell.h"
 
 namespace gridshell::window {
+namespace {
+
+/// Where between a load step that is not stable and one that is an event says that stability ends,
+/// else the first: of what lies between nothing is known.
+double edge_between(double unstable, double stable, const std::vector<Event>& events) {
+  for (const Event& event : events)
+    if (event.kind == Event::Kind::stability_lost && (event.t - unstable) * (event.t - stable) <= 0)
+      return event.t;
+  return unstable;
+}
+
+constexpr double touching = 1e-9;
+
+std::string text_of_event(const Event& event) {
+  switch (event.kind) {
+    case Event::Kind::stability_lost:
+      return !event.to    ? "stability lost"
+             : event.leap ? "stability lost: snapped to another state"
+                          : "the path branches";
+    case Event::Kind::turned_back:
+      return event.to ? "the path turned back: snapped to another state" : "path turned back";
+    case Event::Kind::locked:
+      return "the rods are at their length";
+    case Event::Kind::overbent:
+      return "a rod is strained as far as [limits] " + event.what + " allows";
+    case Event::Kind::contact:
+      return "beyond, there touch " + event.what;
+  }
+  return "";
+}
+
+constexpr std::size_t most_states = 24;
+
+bool nearly(double a, double b, double within) {
+  return std::abs(a - b) <= within * std::max({std::abs(a), std::abs(b), 1e-12});
+}
+
+}  // namespace
+
+std::vector<PathMark> marks_of(const PathRecord& path, const std::vector<Event>& events, int joint,
+                               const std::function<double(double)>& place) {
+  std::vector<PathMark> marks;
+  const auto add = [&](double from, double to, bool unstable, std::string what) {
+    const auto [low, high] = std::minmax({place(from), place(to)});
+    marks.push_back({low, high, joint, unstable, std::move(what)});
+  };
+  const auto& steps = path.load_steps;
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    if (steps[k].certificate.stable()) continue;
+    const double t = steps[k].point.t;
+    double from = t, to = t;
+    if (k > 0)
+      from = steps[k - 1].certificate.stable() ? edge_between(t, steps[k - 1].point.t, events)
+                                               : steps[k - 1].point.t;
+    if (k + 1 < steps.size() && steps[k + 1].certificate.stable())
+      to = edge_between(t, steps[k + 1].point.t, events);
+    add(from, to, true, "not stable");
+  }
+  std::vector<PathMark> joined;
+  add_marks(joined, marks);
+  marks = std::move(joined);
+  if (steps.empty()) return marks;
+  for (const Event& event : events) add(event.t, event.t, false, text_of_events({event}));
+  return marks;
+}
+
+void add_marks(std::vector<PathMark>& marks, const std::vector<PathMark>& more) {
+  for (PathMark mark : more) {
+    std::erase_if(marks, [&](const PathMark& other) {
+      if (other.unstable != mark.unstable || other.joint != mark.joint) return false;
+      if (mark.from > other.to + touching || other.from > mark.to + touching) return false;
+      mark.from = std::min(mark.from, other.from);
+      mark.to = std::max(mark.to, other.to);
+      return true;
+    });
+    marks.push_back(std::move(mark));
+  }
+}
+
+std::string text_of_events(const std::vector<Event>& events) {
+  std::string message, last;
+  for (const Event& event : events) {
+    const std::string text = text_of_event(event);
+    if (text == last) continue;
+    message += (message.empty() ? "" : "; ") + text;
+    last = text;
+  }
+  return message;
+}
+
+std::string text_of_place(const PathMark& mark, const std::function<double(double)>& shown) {
+  const double a = shown(mark.from), b = shown(mark.to);
+  return mark.unstable ? fmt::format("{:.5g} to {:.5g}", std::max(a, b), std::min(a, b))
+                       : fmt::format("{:.5g}", a);
+}
 
 /// How far the joint that a step pushes is from where it was taken.
 double EditSession::pushed_mm(const preset::Step& step) const {
@@ -66,16 +162,6 @@ std::string EditSession::note_way(const preset::Step& step, const simulate::Step
 
 // States that were found.
 
-namespace {
-
-constexpr std::size_t most_states = 24;
-
-bool nearly(double a, double b, double within) {
-  return std::abs(a - b) <= within * std::max({std::abs(a), std::abs(b), 1e-12});
-}
-
-}  // namespace
-
 /// Of the same shell on the same boundary.
 bool EditSession::RestState::beside(const RestState& other) const {
   return state.scene == other.state.scene && nearly(seen->progress, other.seen->progress, 1e-9) &&
@@ -111,7 +197,7 @@ void EditSession::note_state() {
 
 Result<void> EditSession::act(const Recall& command, const Watch&) {
   if (command.state < 0 || command.state >= int(found_.size()))
-    return fail(Fault::bad_input, "no other state of this shell was met yet");
+    return invalid("no other state of this shell was met yet");
   const RestState& state = found_[std::size_t(command.state)];
   return restore({state.state, state.checkpoint}).map([&] {
     view_.message = fmt::format("state {}", command.state + 1);

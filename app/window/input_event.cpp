@@ -95,7 +95,7 @@ Result<InputEvent> read_event(const std::string& line) {
   InputEvent event;
   reader(event.kind);
   if (!reader.right)
-    return fail(Fault::bad_input, "'{}': a line begins with one of {}", line, one_of<InputKind>());
+    return invalid("'{}': a line begins with one of {}", line, one_of<InputKind>());
   each_member(event, [&](auto& member) {
     if constexpr (!std::is_same_v<decltype(member), std::string&>) {
       reader(member);
@@ -109,7 +109,7 @@ Result<InputEvent> read_event(const std::string& line) {
     }
   });
   if (!reader.right || !in_range(event) || !reader.rest().empty())
-    return fail(Fault::bad_input, "'{}': expected {}", line, forms[std::size_t(event.kind)]);
+    return invalid("'{}': expected {}", line, forms[std::size_t(event.kind)]);
   return event;
 }
 
@@ -139,7 +139,7 @@ Result<std::vector<InputEvent>> read_events(const std::string& text, const std::
     if (begin == std::string::npos || line[begin] == '#') continue;
     line.erase(line.find_last_not_of(" \t\r") + 1);
     auto event = read_event(line);
-    if (!event) return fail(Fault::bad_input, "{}:{}: {}", source, number, event.error().message);
+    if (!event) return invalid("{}:{}: {}", source, number, event.error().message);
     events.push_back(std::move(*event));
   }
   return events;

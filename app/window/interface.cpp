@@ -126,7 +126,7 @@ Result<Eigen::Vector2d> Interface::place_of(const InputEvent& event) const {
       const render::Box& box = found->second;
       return Eigen::Vector2d(box.x + event.x * box.width, box.y + event.y * box.height);
     }
-  return fail(Fault::bad_input, "'{}': nothing of that name is shown", event.text);
+  return invalid("'{}': nothing of that name is shown", event.text);
 }
 
 Result<void> Interface::take(const InputEvent& event) {
@@ -139,7 +139,7 @@ Result<void> Interface::take(const InputEvent& event) {
     taken.text.clear();
   }
   if (event.kind == InputKind::act && !find_action(event.text))
-    return fail(Fault::bad_input, "'{}' is no action", event.text);
+    return invalid("'{}' is no action", event.text);
   events_.push_back(std::move(taken));
   return {};
 }

@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
+#include "app/window/actions.h"
 #include "app/window/imgui_painter.h"
 #include "app/window/input_event.h"
 #include "app/window/panel.h"
-#include "app/window/picker.h"
 #include "app/window/viewer_state.h"
 #include "render/gl/context.h"
 #include "render/gl/opengl.h"

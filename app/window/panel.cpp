@@ -13,6 +13,61 @@ namespace {
 
 constexpr float tip_after_s = 0.6f;
 
+constexpr float text_px = 14.f;
+// Latin, Greek, arrows, mathematical signs, □ ● ▶
+constexpr ImWchar letters[] = {0x20,   0xff,   0x391,  0x3c9,  0x2010, 0x2044, 0x2070, 0x209f,
+                               0x2190, 0x21ff, 0x2200, 0x22ff, 0x25a0, 0x25ff, 0};
+
+std::string file_of_font(const char* family) {
+  const auto free_pattern = [](FcPattern* pattern) { FcPatternDestroy(pattern); };
+  using Pattern = std::unique_ptr<FcPattern, decltype(free_pattern)>;
+  Pattern wanted(FcNameParse(reinterpret_cast<const FcChar8*>(family)), free_pattern);
+  FcConfigSubstitute(nullptr, wanted.get(), FcMatchPattern);
+  FcDefaultSubstitute(wanted.get());
+  FcResult result = FcResultMatch;
+  Pattern found(FcFontMatch(nullptr, wanted.get(), &result), free_pattern);
+  FcChar8* file = nullptr;
+  if (!found || FcPatternGetString(found.get(), FC_FILE, 0, &file) != FcResultMatch) return "";
+  return reinterpret_cast<const char*>(file);
+}
+
+ImVec4 rgb(int hex, float alpha = 1) {
+  return {float(hex >> 16 & 255) / 255, float(hex >> 8 & 255) / 255, float(hex & 255) / 255, alpha};
+}
+
+void row(const std::string& left, const std::string& right) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted(left.c_str());
+  ImGui::TableNextColumn();
+  ImGui::TextWrapped("%s", right.c_str());
+}
+
+bool begin_table(const Panel& panel, const char* name, double left) {
+  if (!ImGui::BeginTable(name, 2)) return false;
+  ImGui::TableSetupColumn("how", ImGuiTableColumnFlags_WidthFixed, panel.px(left));
+  ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthStretch);
+  return true;
+}
+
+/// The keys of some menus.
+void keys(const Panel& panel, const std::string& menus) {
+  if (!begin_table(panel, menus.c_str(), 104)) return;
+  for (const Action& action : actions())
+    if (action.key.key && menus.find(action.menu) != std::string::npos)
+      row(name_of(action.key), std::string(action.label) + ": " + action.help);
+  ImGui::EndTable();
+}
+
+/// A page over the window with its title and how it closes.
+void begin_sheet(const char* name, const render::Box& box, const char* title, const char* closes) {
+  begin_fixed(name, box, 0, Layer::over);
+  ImGui::TextUnformatted(title);
+  ImGui::SameLine();
+  ImGui::TextDisabled("%s", closes);
+  ImGui::Separator();
+}
+
 }  // namespace
 
 std::string help_of(const Action& action) {
@@ -120,32 +175,6 @@ void heading(const Panel& panel, const char* text) {
   ImGui::Separator();
 }
 
-namespace {
-
-constexpr float text_px = 14.f;
-// Latin, Greek, arrows, mathematical signs, □ ● ▶
-constexpr ImWchar letters[] = {0x20,   0xff,   0x391,  0x3c9,  0x2010, 0x2044, 0x2070, 0x209f,
-                               0x2190, 0x21ff, 0x2200, 0x22ff, 0x25a0, 0x25ff, 0};
-
-std::string file_of_font(const char* family) {
-  const auto free_pattern = [](FcPattern* pattern) { FcPatternDestroy(pattern); };
-  using Pattern = std::unique_ptr<FcPattern, decltype(free_pattern)>;
-  Pattern wanted(FcNameParse(reinterpret_cast<const FcChar8*>(family)), free_pattern);
-  FcConfigSubstitute(nullptr, wanted.get(), FcMatchPattern);
-  FcDefaultSubstitute(wanted.get());
-  FcResult result = FcResultMatch;
-  Pattern found(FcFontMatch(nullptr, wanted.get(), &result), free_pattern);
-  FcChar8* file = nullptr;
-  if (!found || FcPatternGetString(found.get(), FC_FILE, 0, &file) != FcResultMatch) return "";
-  return reinterpret_cast<const char*>(file);
-}
-
-ImVec4 rgb(int hex, float alpha = 1) {
-  return {float(hex >> 16 & 255) / 255, float(hex >> 8 & 255) / 255, float(hex & 255) / 255, alpha};
-}
-
-}  // namespace
-
 Result<void> load_fonts(double density) {
   static const std::string file = file_of_font("DejaVu Sans");
   ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
@@ -239,43 +268,6 @@ void menu_bar(const Panel& panel) {
 }
 
 // Every key and mouse action, from the tables that bind them.
-
-namespace {
-
-void row(const std::string& left, const std::string& right) {
-  ImGui::TableNextRow();
-  ImGui::TableNextColumn();
-  ImGui::TextUnformatted(left.c_str());
-  ImGui::TableNextColumn();
-  ImGui::TextWrapped("%s", right.c_str());
-}
-
-bool begin_table(const Panel& panel, const char* name, double left) {
-  if (!ImGui::BeginTable(name, 2)) return false;
-  ImGui::TableSetupColumn("how", ImGuiTableColumnFlags_WidthFixed, panel.px(left));
-  ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthStretch);
-  return true;
-}
-
-/// The keys of some menus.
-void keys(const Panel& panel, const std::string& menus) {
-  if (!begin_table(panel, menus.c_str(), 104)) return;
-  for (const Action& action : actions())
-    if (action.key.key && menus.find(action.menu) != std::string::npos)
-      row(name_of(action.key), std::string(action.label) + ": " + action.help);
-  ImGui::EndTable();
-}
-
-/// A page over the window with its title and how it closes.
-void begin_sheet(const char* name, const render::Box& box, const char* title, const char* closes) {
-  begin_fixed(name, box, 0, Layer::over);
-  ImGui::TextUnformatted(title);
-  ImGui::SameLine();
-  ImGui::TextDisabled("%s", closes);
-  ImGui::Separator();
-}
-
-}  // namespace
 
 void terms_sheet(const Panel& panel, const render::Box& box) {
   begin_sheet("terms", box, "What is this?", "(Esc closes)");

@@ -1,4 +1,4 @@
-#include "app/window/picker.h"
+#include "app/window/actions.h"
 
 #include <algorithm>
 #include <cmath>

@@ -186,16 +186,6 @@ class PlotBox {
   ImVec2 from_, to_;
 };
 
-}  // namespace
-
-void draw_curve(const Panel& panel, ImVec2 low, ImVec2 high, const Curve& curve) {
-  PlotBox(panel, low, high).draw(curve);
-}
-
-// Curves of what was done so far: height and energy over the radius, force over depth, K in bins.
-
-namespace {
-
 constexpr double jump = 0.2;  // of the boundary's way, between two equilibria
 
 /// What the curves run over where nothing else was chosen: the depth of the last push, else the
@@ -291,6 +281,12 @@ void plot_menu(const Panel& panel, PlotAxes& axes, const Curve& curve, const std
 }
 
 }  // namespace
+
+void draw_curve(const Panel& panel, ImVec2 low, ImVec2 high, const Curve& curve) {
+  PlotBox(panel, low, high).draw(curve);
+}
+
+// Curves of what was done so far: height and energy over the radius, force over depth, K in bins.
 
 void ViewerState::save_plots() {
   for (const PlotAxes& axes : plot_axes)

@@ -93,125 +93,6 @@ void take_value(const Field& field, preset::Preset& to, preset::Preset from) {
   }
 }
 
-}  // namespace
-
-void NumbersPanel::change(const Panel& panel, bool passing) {
-  panel.viewer.post(Change{edited_}, passing);
-  find_idle();
-}
-
-void NumbersPanel::edit(const Panel& panel, const Row& row) {
-  static const preset::Preset defaults;
-  const Field& field = *row.field;
-  const std::string id = "##" + row.name;
-  const bool changed_before = row.text != row.standard;
-  const float back = panel.px(26);
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(row.label.c_str());
-  ImGui::SameLine(std::max(panel.px(118), ImGui::CalcTextSize(row.label.c_str()).x + panel.px(16)));
-  ImGui::SetNextItemWidth(-back);
-  // a default is pale
-  if (!changed_before)
-    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetColorU32(ImGuiCol_TextDisabled));
-  const bool changed = std::visit(Control{panel.viewer, field, id.c_str()}, field.in(edited_, -1));
-  if (!changed_before) ImGui::PopStyleColor();
-  panel.named(field.table + "." + field.key, row.help);
-  if (ImGui::IsItemActive()) active_ = row.name;
-  // a number is meant when its last digit stands
-  const bool meant = is_typed_into() ? false : changed || (typed_ && ImGui::IsItemDeactivated());
-  if (changed && is_typed_into()) typed_ = true;
-  if (meant) {
-    typed_ = false;
-    change(panel, ImGui::IsItemActive());
-  }
-  if (ImGui::IsItemDeactivated()) {
-    if (active_ == row.name) panel.viewer.end_drag();
-    active_.clear();
-  }
-  if (!changed_before) return;
-  ImGui::SameLine(ImGui::GetContentRegionMax().x - back + panel.px(4));
-  if (ImGui::SmallButton(("↺##" + row.name).c_str())) {
-    take_value(field, edited_, defaults);
-    change(panel, false);
-  }
-  panel.named("default_" + field.table + "." + field.key, "back to the default, " + row.standard);
-}
-
-/// A change may take a number away or bring one.
-void NumbersPanel::list_rows() {
-  static const preset::Preset defaults;
-  if (std::exchange(listed_, true)) return;
-  rows_.clear();
-  for (const Field& field : preset::field_table()) {
-    if (std::ranges::find(shown_tables, field.table) == std::end(shown_tables) || !is_shown(field))
-      continue;
-    const std::string name = name_of(field), text = value_text(field, edited_);
-    rows_.push_back({&field, name, label_of(field), text, value_text(field, defaults),
-                     fmt::format("{} = {}: {}", name, text, help_of(field))});
-  }
-}
-
-void NumbersPanel::find_idle() {
-  listed_ = false;
-  idle_.clear();
-  for (const auto& key : preset::unused_keys(edited_))
-    if (key.item < 0) idle_.insert(key.table + "." + key.key);
-  // the second family has numbers of its own once it differs
-  if (edited_.rod_v.differs) return;
-  for (const Field& field : preset::field_table())
-    if (field.table == "rod_v" && field.key != "differs")
-      idle_.insert(field.table + "." + field.key);
-}
-
-/// While a number is being changed, the engine's answer may be older than its command.
-void NumbersPanel::look(const ViewerState& viewer) {
-  if (!active_.empty() || seen_ == viewer.shell) return;
-  seen_ = viewer.shell;
-  edited_ = seen_->preset;
-  find_idle();
-}
-
-bool NumbersPanel::is_shown(const Field& field) {
-  if (!has_control(field, edited_) || (!all_ && idle_.contains(field.table + "." + field.key)))
-    return false;
-  return contains_words(field.table + " " + field.key + " " + label_of(field) + " " + field.meaning,
-                        sought_);
-}
-
-void NumbersPanel::draw(const Panel& panel, const render::Box& box) {
-  begin_fixed("numbers", box);
-  heading(panel, "Numbers of the preset");
-  if (panel.viewer.shell->any()) {
-    look(panel.viewer);
-    ImGui::SetNextItemWidth(panel.px(160));
-    if (std::exchange(panel.viewer.find_number, false)) ImGui::SetKeyboardFocusHere();
-    const std::string sought = sought_;
-    text_input("##sought", sought_, "search (Ctrl+F)");
-    panel.named("search numbers", "words of a name, a table or what it means");
-    ImGui::SameLine();
-    const bool other = ImGui::Checkbox("all", &all_);
-    panel.named("all numbers", "also those that this scene does not use");
-    if (other || sought != sought_) listed_ = false;
-    list_rows();
-    for (const preset::Table& table : preset::tables()) {
-      const auto in_table = [&](const Row& row) { return row.field->table == table.name; };
-      if (std::ranges::none_of(rows_, in_table)) continue;
-      // rods of the second family
-      const char* title = table.name == "rod_v" ? "rods along v" : table.name.c_str();
-      const bool open = ImGui::CollapsingHeader(title, ImGuiTreeNodeFlags_DefaultOpen);
-      panel.named("table " + table.name, table.meaning);
-      if (!open) continue;
-      for (const Row& row : rows_)
-        if (in_table(row)) edit(panel, row);
-    }
-  }
-  ImGui::End();
-}
-
-// Inverse design: what may change so that the shell meets its surface, and how far it has come.
-
-namespace {
-
 /// What a key of [inverse] means, with unit and range.
 std::string tip_of(const char* key) {
   for (const preset::Field& field : preset::field_table())
@@ -348,6 +229,121 @@ void plot(const Panel& panel, const DesignProgress& course) {
 }
 
 }  // namespace
+
+void NumbersPanel::change(const Panel& panel, bool passing) {
+  panel.viewer.post(Change{edited_}, passing);
+  find_idle();
+}
+
+void NumbersPanel::edit(const Panel& panel, const Row& row) {
+  static const preset::Preset defaults;
+  const Field& field = *row.field;
+  const std::string id = "##" + row.name;
+  const bool changed_before = row.text != row.standard;
+  const float back = panel.px(26);
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(row.label.c_str());
+  ImGui::SameLine(std::max(panel.px(118), ImGui::CalcTextSize(row.label.c_str()).x + panel.px(16)));
+  ImGui::SetNextItemWidth(-back);
+  // a default is pale
+  if (!changed_before)
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetColorU32(ImGuiCol_TextDisabled));
+  const bool changed = std::visit(Control{panel.viewer, field, id.c_str()}, field.in(edited_, -1));
+  if (!changed_before) ImGui::PopStyleColor();
+  panel.named(field.table + "." + field.key, row.help);
+  if (ImGui::IsItemActive()) active_ = row.name;
+  // a number is meant when its last digit stands
+  const bool meant = is_typed_into() ? false : changed || (typed_ && ImGui::IsItemDeactivated());
+  if (changed && is_typed_into()) typed_ = true;
+  if (meant) {
+    typed_ = false;
+    change(panel, ImGui::IsItemActive());
+  }
+  if (ImGui::IsItemDeactivated()) {
+    if (active_ == row.name) panel.viewer.end_drag();
+    active_.clear();
+  }
+  if (!changed_before) return;
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - back + panel.px(4));
+  if (ImGui::SmallButton(("↺##" + row.name).c_str())) {
+    take_value(field, edited_, defaults);
+    change(panel, false);
+  }
+  panel.named("default_" + field.table + "." + field.key, "back to the default, " + row.standard);
+}
+
+/// A change may take a number away or bring one.
+void NumbersPanel::list_rows() {
+  static const preset::Preset defaults;
+  if (std::exchange(listed_, true)) return;
+  rows_.clear();
+  for (const Field& field : preset::field_table()) {
+    if (std::ranges::find(shown_tables, field.table) == std::end(shown_tables) || !is_shown(field))
+      continue;
+    const std::string name = name_of(field), text = value_text(field, edited_);
+    rows_.push_back({&field, name, label_of(field), text, value_text(field, defaults),
+                     fmt::format("{} = {}: {}", name, text, help_of(field))});
+  }
+}
+
+void NumbersPanel::find_idle() {
+  listed_ = false;
+  idle_.clear();
+  for (const auto& key : preset::unused_keys(edited_))
+    if (key.item < 0) idle_.insert(key.table + "." + key.key);
+  // the second family has numbers of its own once it differs
+  if (edited_.rod_v.differs) return;
+  for (const Field& field : preset::field_table())
+    if (field.table == "rod_v" && field.key != "differs")
+      idle_.insert(field.table + "." + field.key);
+}
+
+/// While a number is being changed, the engine's answer may be older than its command.
+void NumbersPanel::look(const ViewerState& viewer) {
+  if (!active_.empty() || seen_ == viewer.shell) return;
+  seen_ = viewer.shell;
+  edited_ = seen_->preset;
+  find_idle();
+}
+
+bool NumbersPanel::is_shown(const Field& field) {
+  if (!has_control(field, edited_) || (!all_ && idle_.contains(field.table + "." + field.key)))
+    return false;
+  return contains_words(field.table + " " + field.key + " " + label_of(field) + " " + field.meaning,
+                        sought_);
+}
+
+void NumbersPanel::draw(const Panel& panel, const render::Box& box) {
+  begin_fixed("numbers", box);
+  heading(panel, "Numbers of the preset");
+  if (panel.viewer.shell->any()) {
+    look(panel.viewer);
+    ImGui::SetNextItemWidth(panel.px(160));
+    if (std::exchange(panel.viewer.find_number, false)) ImGui::SetKeyboardFocusHere();
+    const std::string sought = sought_;
+    text_input("##sought", sought_, "search (Ctrl+F)");
+    panel.named("search numbers", "words of a name, a table or what it means");
+    ImGui::SameLine();
+    const bool other = ImGui::Checkbox("all", &all_);
+    panel.named("all numbers", "also those that this scene does not use");
+    if (other || sought != sought_) listed_ = false;
+    list_rows();
+    for (const preset::Table& table : preset::tables()) {
+      const auto in_table = [&](const Row& row) { return row.field->table == table.name; };
+      if (std::ranges::none_of(rows_, in_table)) continue;
+      // rods of the second family
+      const char* title = table.name == "rod_v" ? "rods along v" : table.name.c_str();
+      const bool open = ImGui::CollapsingHeader(title, ImGuiTreeNodeFlags_DefaultOpen);
+      panel.named("table " + table.name, table.meaning);
+      if (!open) continue;
+      for (const Row& row : rows_)
+        if (in_table(row)) edit(panel, row);
+    }
+  }
+  ImGui::End();
+}
+
+// Inverse design: what may change so that the shell meets its surface, and how far it has come.
 
 void design_panel(const Panel& panel, const render::Box& box) {
   const ShellView& shell = *panel.viewer.shell;

@@ -41,12 +41,48 @@ bool jumped(const ShellView& shell) {
          });
 }
 
+/// Of a file that is written, as a rule.
+const char* ending_of(FileUse use) {
+  switch (use) {
+    case FileUse::save_preset:
+      return ".toml";
+    case FileUse::save_picture:
+      return ".png";
+    case FileUse::export_shell:
+      return ".vtp";
+    case FileUse::open:
+    case FileUse::compare:
+      break;
+  }
+  return "";
+}
+
+/// Why no file of that name is written; empty: it is.
+std::string fault_of(FileUse use, const fs::path& file, const std::vector<ExportFormat>& formats) {
+  std::error_code error;
+  // one new folder is made
+  const fs::path folder = fs::absolute(file, error).parent_path();
+  if (!fs::is_directory(folder, error) && !fs::is_directory(folder.parent_path(), error))
+    return "there is no folder '" + folder.string() + "'";
+  const std::string ending = file.extension().string();
+  if (use != FileUse::export_shell)
+    return ending == ending_of(use)
+               ? ""
+               : fmt::format("'{}': it is written as {}", ending, ending_of(use));
+  std::string all;
+  for (const ExportFormat& format : formats) {
+    if (format.ending == ending) return "";
+    all += " " + format.ending;
+  }
+  return fmt::format("'{}' is no format: must be one of{}", ending, all);
+}
+
 }  // namespace
 
 Result<void> check_picture(int width, int height) {
   if (std::min(width, height) >= least_px && std::max(width, height) <= most_px) return {};
-  return fail(Fault::bad_input, "a picture of {} x {}: must be {} to {} pixels each way", width,
-              height, least_px, most_px);
+  return invalid("a picture of {} x {}: must be {} to {} pixels each way", width, height, least_px,
+                 most_px);
 }
 
 /// The first path in the folder, numbered, of which no file has one of the endings.
@@ -131,46 +167,6 @@ void ViewerState::draw_picture_as(const fs::path& file, const PictureFormat& for
 }
 
 // ---- files that are asked for ----
-
-namespace {
-
-/// Of a file that is written, as a rule.
-const char* ending_of(FileUse use) {
-  switch (use) {
-    case FileUse::save_preset:
-      return ".toml";
-    case FileUse::save_picture:
-      return ".png";
-    case FileUse::export_shell:
-      return ".vtp";
-    case FileUse::open:
-    case FileUse::compare:
-      break;
-  }
-  return "";
-}
-
-/// Why no file of that name is written; empty: it is.
-std::string fault_of(FileUse use, const fs::path& file, const std::vector<ExportFormat>& formats) {
-  std::error_code error;
-  // one new folder is made
-  const fs::path folder = fs::absolute(file, error).parent_path();
-  if (!fs::is_directory(folder, error) && !fs::is_directory(folder.parent_path(), error))
-    return "there is no folder '" + folder.string() + "'";
-  const std::string ending = file.extension().string();
-  if (use != FileUse::export_shell)
-    return ending == ending_of(use)
-               ? ""
-               : fmt::format("'{}': it is written as {}", ending, ending_of(use));
-  std::string all;
-  for (const ExportFormat& format : formats) {
-    if (format.ending == ending) return "";
-    all += " " + format.ending;
-  }
-  return fmt::format("'{}' is no format: must be one of{}", ending, all);
-}
-
-}  // namespace
 
 void ViewerState::ask_file(FileUse use) {
   if (use != FileUse::open && !shell->any()) return say("there is no shell yet", true);

@@ -1,8 +1,9 @@
 #include "app/window/shell_drawing.h"
 
 #include <fmt/format.h>
-
+#include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "render/canvas/text.h"
@@ -60,6 +61,78 @@ Eigen::VectorXd displacement(const ShellView& shell, const Eigen::Matrix3Xd& the
     }
   }
   return moved;
+}
+
+/// Along a rod from one of its nodes to another, mm; none: it has not both.
+std::optional<double> along_rod(const ShellView& shell, const std::vector<int>& rod, int from,
+                                int to) {
+  auto first = std::ranges::find(rod, from), last = std::ranges::find(rod, to);
+  if (first == rod.end() || last == rod.end()) return {};
+  if (last < first) std::swap(first, last);
+  double way = 0;
+  for (; first != last; ++first)
+    way += (shell.frame.nodes.col(first[1]) - shell.frame.nodes.col(first[0])).norm();
+  return way;
+}
+
+using render::Colour;
+
+/// What is drawn on light paper, and on dark.
+struct Palette {
+  Colour paper, ground, rod, ring, joint, arrow;
+};
+constexpr Palette light{{1, 1, 1, 1},
+                        {0.93f, 0.93f, 0.94f, 1},
+                        {0.16f, 0.17f, 0.20f, 1},
+                        {0.3f, 0.33f, 0.38f, 1},
+                        {0.45f, 0.47f, 0.51f, 1},
+                        {0.05f, 0.05f, 0.06f, 1}};
+constexpr Palette dark{{0.105f, 0.11f, 0.125f, 1}, {0.16f, 0.165f, 0.185f, 1},
+                       {0.80f, 0.82f, 0.86f, 1},   {0.55f, 0.58f, 0.64f, 1},
+                       {0.62f, 0.65f, 0.70f, 1},   {0.95f, 0.95f, 0.95f, 1}};
+constexpr Colour ghost_grey{0.62f, 0.66f, 0.74f, 1}, held_yellow{0.98f, 0.76f, 0.10f, 1},
+    other_green{0.05f, 0.58f, 0.42f, 1};
+
+const Palette& palette_of(const Show& show) { return show.dark ? dark : light; }
+
+void put_colours(const ShellView& shell, const Show& show, render::Drawing& drawing) {
+  const bool cells = render::of_cells(show.colour_by);
+  for (const double value : values_of(shell, show)) {
+    auto& colours = cells ? drawing.cell_colours : drawing.node_colours;
+    colours.push_back(show.scale(value));
+    if (cells) colours.back().a = 0.93f;
+  }
+  if (drawing.node_colours.empty()) return;
+  // colours need some width to be seen, and no shine
+  drawing.rod_diameter_mm *= 1.8;
+  drawing.sheen = 0.2;
+}
+
+/// The forces that hold joints, as arrows: the largest a sixth of the shell.
+void put_forces(const ShellView& shell, const Show& show, double thin_mm,
+                render::Drawing& drawing) {
+  double most = 0;
+  for (const HeldJoint& held : shell.held) most = std::max(most, held.force_N.norm());
+  for (const HeldJoint& held : shell.held) {
+    const Eigen::Vector3d at = place_of(shell, show, held.joint);
+    drawing.marks.push_back({at, std::max(5.0, 6 * thin_mm), held_yellow});
+    const double length = 0.35 * shell.layout->length_scale_mm * held.force_N.norm() / most;
+    if (!(length > 3 * thin_mm)) continue;
+    const Eigen::Vector3d way = length * held.force_N.normalized();
+    drawing.arrows.push_back({at - way, at, std::max(1.4, 1.6 * thin_mm), palette_of(show).arrow});
+  }
+}
+
+constexpr double degrees_a_pixel = 0.4, zoom_a_step = 0.88;
+constexpr double least_extent_mm = 0.1, most_extent_mm = 1e5;
+constexpr double steep_px = 0.15;  // of a pixel that an axis must move by a pixel of drag
+
+/// Where a displacement's picture goes, pixels right and down a millimetre.
+Eigen::Vector2d seen_px(const render::Camera& camera, const PictureSize& size,
+                        const Eigen::Vector3d& place, const Eigen::Vector3d& unit) {
+  const int w = int(size.width), h = int(size.height);
+  return render::to_pixel(camera, w, h, place + 0.5 * unit) -
+         render::to_pixel(camera, w, h, place - 0.5 * unit);
 }
 
 }  // namespace
@@ -140,22 +213,6 @@ render::ColourScale next_scale(const render::ColourScale& before, const render::
   return next;
 }
 
-namespace {
-
-/// Along a rod from one of its nodes to another, mm; none: it has not both.
-std::optional<double> along_rod(const ShellView& shell, const std::vector<int>& rod, int from,
-                                int to) {
-  auto first = std::ranges::find(rod, from), last = std::ranges::find(rod, to);
-  if (first == rod.end() || last == rod.end()) return {};
-  if (last < first) std::swap(first, last);
-  double way = 0;
-  for (; first != last; ++first)
-    way += (shell.frame.nodes.col(first[1]) - shell.frame.nodes.col(first[0])).norm();
-  return way;
-}
-
-}  // namespace
-
 std::string text_of_measure(const ShellView& shell, const std::vector<int>& joints) {
   const auto way = [&](std::size_t from, std::size_t to) -> Eigen::Vector3d {
     return shell.frame.nodes.col(joints[to]) - shell.frame.nodes.col(joints[from]);
@@ -171,58 +228,6 @@ std::string text_of_measure(const ShellView& shell, const std::vector<int>& join
       text += fmt::format(", {:.2f} mm along the rod", *along);
   return text;
 }
-
-namespace {
-
-using render::Colour;
-
-/// What is drawn on light paper, and on dark.
-struct Palette {
-  Colour paper, ground, rod, ring, joint, arrow;
-};
-constexpr Palette light{{1, 1, 1, 1},
-                        {0.93f, 0.93f, 0.94f, 1},
-                        {0.16f, 0.17f, 0.20f, 1},
-                        {0.3f, 0.33f, 0.38f, 1},
-                        {0.45f, 0.47f, 0.51f, 1},
-                        {0.05f, 0.05f, 0.06f, 1}};
-constexpr Palette dark{{0.105f, 0.11f, 0.125f, 1}, {0.16f, 0.165f, 0.185f, 1},
-                       {0.80f, 0.82f, 0.86f, 1},   {0.55f, 0.58f, 0.64f, 1},
-                       {0.62f, 0.65f, 0.70f, 1},   {0.95f, 0.95f, 0.95f, 1}};
-constexpr Colour ghost_grey{0.62f, 0.66f, 0.74f, 1}, held_yellow{0.98f, 0.76f, 0.10f, 1},
-    other_green{0.05f, 0.58f, 0.42f, 1};
-
-const Palette& palette_of(const Show& show) { return show.dark ? dark : light; }
-
-void put_colours(const ShellView& shell, const Show& show, render::Drawing& drawing) {
-  const bool cells = render::of_cells(show.colour_by);
-  for (const double value : values_of(shell, show)) {
-    auto& colours = cells ? drawing.cell_colours : drawing.node_colours;
-    colours.push_back(show.scale(value));
-    if (cells) colours.back().a = 0.93f;
-  }
-  if (drawing.node_colours.empty()) return;
-  // colours need some width to be seen, and no shine
-  drawing.rod_diameter_mm *= 1.8;
-  drawing.sheen = 0.2;
-}
-
-/// The forces that hold joints, as arrows: the largest a sixth of the shell.
-void put_forces(const ShellView& shell, const Show& show, double thin_mm,
-                render::Drawing& drawing) {
-  double most = 0;
-  for (const HeldJoint& held : shell.held) most = std::max(most, held.force_N.norm());
-  for (const HeldJoint& held : shell.held) {
-    const Eigen::Vector3d at = place_of(shell, show, held.joint);
-    drawing.marks.push_back({at, std::max(5.0, 6 * thin_mm), held_yellow});
-    const double length = 0.35 * shell.layout->length_scale_mm * held.force_N.norm() / most;
-    if (!(length > 3 * thin_mm)) continue;
-    const Eigen::Vector3d way = length * held.force_N.normalized();
-    drawing.arrows.push_back({at - way, at, std::max(1.4, 1.6 * thin_mm), palette_of(show).arrow});
-  }
-}
-
-}  // namespace
 
 Eigen::Vector3d place_of(const ShellView& shell, const Show& show, int node) {
   Eigen::Vector3d place = shell.frame.nodes.col(node);
@@ -271,6 +276,92 @@ render::Drawing drawing_of(const ShellView& shell, const Show& show, double thin
   drawing.background = palette.paper;
   drawing.far_fade = 0.25;
   return drawing;
+}
+
+double mm_per_pixel(const render::Camera& camera, const PictureSize& size) {
+  return 2 * camera.half_extent_mm / size.height;
+}
+
+void orbit(render::Camera& camera, double right_px, double down_px) {
+  camera.azimuth_deg = std::remainder(camera.azimuth_deg - degrees_a_pixel * right_px, 360.0);
+  camera.elevation_deg = std::clamp(camera.elevation_deg + degrees_a_pixel * down_px, -90.0, 90.0);
+}
+
+void pan(render::Camera& camera, const PictureSize& size, double right_px, double down_px) {
+  const render::CameraAxes axes = render::camera_axes(camera);
+  camera.target += mm_per_pixel(camera, size) * (down_px * axes.up - right_px * axes.right);
+}
+
+void zoom(render::Camera& camera, const PictureSize& size, double steps, double x, double y) {
+  const render::CameraAxes axes = render::camera_axes(camera);
+  const Eigen::Vector3d off = mm_per_pixel(camera, size) * ((x - 0.5 * size.width) * axes.right -
+                                                            (y - 0.5 * size.height) * axes.up);
+  const double before = camera.half_extent_mm;
+  camera.half_extent_mm =
+      std::clamp(before * std::pow(zoom_a_step, steps), least_extent_mm, most_extent_mm);
+  camera.target += off * (1 - camera.half_extent_mm / before);
+}
+
+void look_from(render::Camera& camera, const render::ViewDirection& view) {
+  camera.azimuth_deg = view.azimuth_deg;
+  camera.elevation_deg = view.elevation_deg;
+}
+
+void fit(render::Camera& camera, const PictureSize& size, const Eigen::Matrix3Xd& points) {
+  if (points.cols() == 0) return;
+  const render::CameraAxes axes = render::camera_axes(camera);
+  Eigen::Matrix3d frame;
+  frame << axes.right, axes.up, axes.forward;
+  const Eigen::Matrix3Xd seen = frame.transpose() * points;
+  const Eigen::Vector3d low = seen.rowwise().minCoeff(), high = seen.rowwise().maxCoeff();
+  camera.target = frame * (0.5 * (low + high));
+  const double half_width = 0.5 * (high.x() - low.x()), half_height = 0.5 * (high.y() - low.y());
+  camera.half_extent_mm =
+      std::max({half_height, half_width * size.height / size.width, least_extent_mm});
+  // what is nearer looks larger
+  for (int k = 0; k < 3; ++k) {
+    double most = 0;
+    for (const auto& point : points.colwise()) {
+      const Eigen::Vector2d at = render::to_pixel(camera, int(size.width), int(size.height), point);
+      most = std::max(
+          {most, std::abs(2 * at.x() / size.width - 1), std::abs(2 * at.y() / size.height - 1)});
+    }
+    camera.half_extent_mm =
+        std::clamp(1.06 * most * camera.half_extent_mm, least_extent_mm, most_extent_mm);
+  }
+}
+
+Eigen::Vector3d dragged_in_plane(const render::Camera& camera, const PictureSize& size,
+                                 const Eigen::Vector3d& place, double right_px, double down_px) {
+  const render::CameraAxes axes = render::camera_axes(camera);
+  const double mm_right = 1 / seen_px(camera, size, place, axes.right).norm();
+  const double mm_up = 1 / seen_px(camera, size, place, axes.up).norm();
+  return mm_right * right_px * axes.right - mm_up * down_px * axes.up;
+}
+
+double dragged_along(const render::Camera& camera, const PictureSize& size,
+                     const Eigen::Vector3d& place, const Eigen::Vector3d& axis, double right_px,
+                     double down_px) {
+  const Eigen::Vector2d px = seen_px(camera, size, place, axis);
+  const double scale = 1 / mm_per_pixel(camera, size);
+  // seen along itself it goes with the mouse up and down
+  if (px.norm() < steep_px * scale) return -down_px / scale;
+  return px.dot(Eigen::Vector2d(right_px, down_px)) / px.squaredNorm();
+}
+
+Eigen::Vector3d dragged_level(const render::Camera& camera, const PictureSize& size,
+                              const Eigen::Vector3d& place, double right_px, double down_px) {
+  Eigen::Matrix2d px;
+  px << seen_px(camera, size, place, Eigen::Vector3d::UnitX()),
+      seen_px(camera, size, place, Eigen::Vector3d::UnitY());
+  const double scale = 1 / mm_per_pixel(camera, size);
+  if (std::abs(px.determinant()) < steep_px * scale * scale) {
+    Eigen::Vector3d right = render::camera_axes(camera).right;
+    right.z() = 0;
+    return right.normalized() * right_px / scale;
+  }
+  const Eigen::Vector2d mm = px.inverse() * Eigen::Vector2d(right_px, down_px);
+  return {mm.x(), mm.y(), 0};
 }
 
 }  // namespace gridshell::window

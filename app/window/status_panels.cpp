@@ -164,6 +164,52 @@ void step_point(const Panel& panel, int k, ImVec2 at) {
     list.AddCircle(at, panel.px(9), ImGui::GetColorU32(ImGuiCol_Text), 0, panel.px(1.4));
 }
 
+/// "8 and 16 edges per segment".
+std::string meshes_of(const std::vector<int>& meshes) {
+  std::string text;
+  for (std::size_t k = 0; k < meshes.size(); ++k)
+    text += fmt::format("{}{}", k == 0 ? "" : k + 1 < meshes.size() ? ", " : " and ", meshes[k]);
+  return text + " edges per segment";
+}
+
+/// In a narrow window the error alone.
+std::string certificate_of(const ShellView& shell, bool timed, bool narrow) {
+  const Certificate& c = shell.certificate;
+  const std::string error = std::isfinite(c.error_estimate_mm)
+                                ? fmt::format("error ± {:.2g} mm", c.error_estimate_mm)
+                                : "error not known";
+  if (narrow) return error;
+  const std::string took = timed ? fmt::format("   {:.0f} ms", 1000 * shell.seconds) : "";
+  return fmt::format("{} ({})   residual {:.0e} N{}", error, meshes_of(shell.meshes), c.residual_N,
+                     took);
+}
+
+std::string standing_of(const DesignProgress& course) {
+  const double percent = 100 / course.length_scale_mm;
+  const DesignPoint& now = course.points.back();
+  return fmt::format("designing: iteration {}, largest {:.3f} %, mean {:.3f} % (Esc stops)",
+                     course.iterations, percent * now.max_mm, percent * now.mean_mm);
+}
+
+/// How far the movie is that is made beside the window, over what was said.
+void movie_standing(const Panel& panel) {
+  const std::string said = panel.viewer.movie_task.standing();
+  const std::string line = "movie " + (said.empty() ? "0 %" : said);
+  const char* stop = find_action("stop_movie")->label;
+  const float width = ImGui::CalcTextSize(line.c_str()).x + ImGui::CalcTextSize(stop).x +
+                      3 * ImGui::GetStyle().FramePadding.x + panel.px(18);
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - width);
+  const ImVec2 low = ImGui::GetCursorScreenPos();
+  ImGui::GetWindowDrawList()->AddRectFilled({low.x - panel.px(8), low.y},
+                                            {low.x + width, low.y + ImGui::GetFrameHeight()},
+                                            ImGui::GetColorU32(ImGuiCol_WindowBg));
+  ImGui::TextUnformatted(line.c_str());
+  ImGui::SameLine(0, panel.px(10));
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {panel.px(6), 0});
+  panel.button("stop_movie");
+  ImGui::PopStyleVar();
+}
+
 }  // namespace
 
 void timeline_panel(const Panel& panel, const render::Box& box) {
@@ -238,56 +284,6 @@ void why_popup(const Panel& panel) {
 }
 
 // The certificate of the state shown, what the engine is at, what was said last.
-
-namespace {
-
-/// "8 and 16 edges per segment".
-std::string meshes_of(const std::vector<int>& meshes) {
-  std::string text;
-  for (std::size_t k = 0; k < meshes.size(); ++k)
-    text += fmt::format("{}{}", k == 0 ? "" : k + 1 < meshes.size() ? ", " : " and ", meshes[k]);
-  return text + " edges per segment";
-}
-
-/// In a narrow window the error alone.
-std::string certificate_of(const ShellView& shell, bool timed, bool narrow) {
-  const Certificate& c = shell.certificate;
-  const std::string error = std::isfinite(c.error_estimate_mm)
-                                ? fmt::format("error ± {:.2g} mm", c.error_estimate_mm)
-                                : "error not known";
-  if (narrow) return error;
-  const std::string took = timed ? fmt::format("   {:.0f} ms", 1000 * shell.seconds) : "";
-  return fmt::format("{} ({})   residual {:.0e} N{}", error, meshes_of(shell.meshes), c.residual_N,
-                     took);
-}
-
-std::string standing_of(const DesignProgress& course) {
-  const double percent = 100 / course.length_scale_mm;
-  const DesignPoint& now = course.points.back();
-  return fmt::format("designing: iteration {}, largest {:.3f} %, mean {:.3f} % (Esc stops)",
-                     course.iterations, percent * now.max_mm, percent * now.mean_mm);
-}
-
-/// How far the movie is that is made beside the window, over what was said.
-void movie_standing(const Panel& panel) {
-  const std::string said = panel.viewer.movie_task.standing();
-  const std::string line = "movie " + (said.empty() ? "0 %" : said);
-  const char* stop = find_action("stop_movie")->label;
-  const float width = ImGui::CalcTextSize(line.c_str()).x + ImGui::CalcTextSize(stop).x +
-                      3 * ImGui::GetStyle().FramePadding.x + panel.px(18);
-  ImGui::SameLine(ImGui::GetContentRegionMax().x - width);
-  const ImVec2 low = ImGui::GetCursorScreenPos();
-  ImGui::GetWindowDrawList()->AddRectFilled({low.x - panel.px(8), low.y},
-                                            {low.x + width, low.y + ImGui::GetFrameHeight()},
-                                            ImGui::GetColorU32(ImGuiCol_WindowBg));
-  ImGui::TextUnformatted(line.c_str());
-  ImGui::SameLine(0, panel.px(10));
-  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {panel.px(6), 0});
-  panel.button("stop_movie");
-  ImGui::PopStyleVar();
-}
-
-}  // namespace
 
 void status_line(const Panel& panel, const render::Box& box) {
   const ViewerState& viewer = panel.viewer;

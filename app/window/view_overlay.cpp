@@ -219,24 +219,6 @@ void Overlay::draw_axes() {
   panel_.named("projection", help_of(*find_action("orthographic")));
 }
 
-}  // namespace
-
-void view_overlay(const Panel& panel, const render::Box& view) {
-  if (!panel.viewer.shell->any()) return;
-  Overlay overlay(panel, view);
-  overlay.mark_picked();
-  overlay.mark_under();
-  overlay.write_forces();
-  overlay.write_measure();
-  overlay.tell_other();
-  overlay.draw_scale();
-  overlay.draw_axes();
-}
-
-// What the colours of the view mean, over its right edge.
-
-namespace {
-
 /// Texts that end at given places, over a pale ground as large as they are.
 class Ground {
  public:
@@ -285,6 +267,20 @@ void bar(const render::ColourScale& scale, ImVec2 low, ImVec2 high) {
 }
 
 }  // namespace
+
+void view_overlay(const Panel& panel, const render::Box& view) {
+  if (!panel.viewer.shell->any()) return;
+  Overlay overlay(panel, view);
+  overlay.mark_picked();
+  overlay.mark_under();
+  overlay.write_forces();
+  overlay.write_measure();
+  overlay.tell_other();
+  overlay.draw_scale();
+  overlay.draw_axes();
+}
+
+// What the colours of the view mean, over its right edge.
 
 /// An end of the colours' range beside the bar, where it can be dragged or typed; its width.
 float range_end(const Panel& panel, const char* name, float left, float top) {

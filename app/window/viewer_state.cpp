@@ -18,6 +18,54 @@ constexpr double look_every_s = 0.5;  // at the preset's file
 constexpr double most_number = 1e9;   // in a workspace
 constexpr double earth_m_s2 = 9.81, nitinol_kg_m3 = 6450;
 
+/// Calls visit(key, value) for what is on or off.
+template <class AnyViewer, class Visit>
+void each_switch(AnyViewer& viewer, const Visit& visit) {
+  visit("joints", viewer.show.joints);
+  visit("boundaries", viewer.show.rings);
+  visit("ground", viewer.show.ground);
+  visit("net", viewer.show.net);
+  visit("footprint", viewer.show.footprint);
+  visit("dark", viewer.show.dark);
+  visit("loads", viewer.show.loads);
+  visit("braces", viewer.show.braces);
+  visit("numbers", viewer.numbers);
+  visit("plots", viewer.plots);
+  visit("design", viewer.design_panel);
+}
+
+/// The same for the camera's numbers.
+template <class AnyCamera, class Visit>
+void each_number(AnyCamera& camera, const Visit& visit) {
+  visit("azimuth_deg", camera.azimuth_deg);
+  visit("elevation_deg", camera.elevation_deg);
+  visit("half_extent_mm", camera.half_extent_mm);
+  visit("field_of_view_deg", camera.field_of_view_deg);
+  visit("target_x_mm", camera.target.x());
+  visit("target_y_mm", camera.target.y());
+  visit("target_z_mm", camera.target.z());
+}
+
+/// Takes a member of an object where it has one that such a value can be.
+template <class Value>
+bool take(const Json& object, const char* key, Value& value) {
+  if (!object.is_object() || !object.contains(key)) return false;
+  const Json& member = object[key];
+  if constexpr (std::is_enum_v<Value>) {
+    const auto found = find_word<Value>(member.is_string() ? member.get<std::string>() : "");
+    if (found) value = *found;
+    return found.has_value();
+  } else if constexpr (std::is_same_v<Value, double>) {
+    if (!member.is_number() || std::abs(member.get<double>()) > most_number) return false;
+  } else if constexpr (std::is_same_v<Value, bool>) {
+    if (!member.is_boolean()) return false;
+  } else if constexpr (std::is_same_v<Value, std::string>) {
+    if (!member.is_string()) return false;
+  }
+  value = member.get<Value>();
+  return true;
+}
+
 }  // namespace
 
 void ViewerState::say(const std::string& text, bool bad) {
@@ -262,58 +310,6 @@ void ViewerState::watch_file(double seconds) {
   post(Change{*preset}, false);
 }
 
-namespace {
-
-/// Calls visit(key, value) for what is on or off.
-template <class AnyViewer, class Visit>
-void each_switch(AnyViewer& viewer, const Visit& visit) {
-  visit("joints", viewer.show.joints);
-  visit("boundaries", viewer.show.rings);
-  visit("ground", viewer.show.ground);
-  visit("net", viewer.show.net);
-  visit("footprint", viewer.show.footprint);
-  visit("dark", viewer.show.dark);
-  visit("loads", viewer.show.loads);
-  visit("braces", viewer.show.braces);
-  visit("numbers", viewer.numbers);
-  visit("plots", viewer.plots);
-  visit("design", viewer.design_panel);
-}
-
-/// The same for the camera's numbers.
-template <class AnyCamera, class Visit>
-void each_number(AnyCamera& camera, const Visit& visit) {
-  visit("azimuth_deg", camera.azimuth_deg);
-  visit("elevation_deg", camera.elevation_deg);
-  visit("half_extent_mm", camera.half_extent_mm);
-  visit("field_of_view_deg", camera.field_of_view_deg);
-  visit("target_x_mm", camera.target.x());
-  visit("target_y_mm", camera.target.y());
-  visit("target_z_mm", camera.target.z());
-}
-
-/// Takes a member of an object where it has one that such a value can be.
-template <class Value>
-bool take(const Json& object, const char* key, Value& value) {
-  if (!object.is_object() || !object.contains(key)) return false;
-  const Json& member = object[key];
-  if constexpr (std::is_enum_v<Value>) {
-    const auto found = find_word<Value>(member.is_string() ? member.get<std::string>() : "");
-    if (found) value = *found;
-    return found.has_value();
-  } else if constexpr (std::is_same_v<Value, double>) {
-    if (!member.is_number() || std::abs(member.get<double>()) > most_number) return false;
-  } else if constexpr (std::is_same_v<Value, bool>) {
-    if (!member.is_boolean()) return false;
-  } else if constexpr (std::is_same_v<Value, std::string>) {
-    if (!member.is_string()) return false;
-  }
-  value = member.get<Value>();
-  return true;
-}
-
-}  // namespace
-
 std::string workspace_text(const ViewerState& viewer) {
   Json json = Json::object();
   json["preset"] = viewer.shell->preset.name;
@@ -335,7 +331,7 @@ std::string workspace_text(const ViewerState& viewer) {
 
 Result<void> take_workspace(ViewerState& viewer, const std::string& text) {
   const Json json = parsed(text);
-  if (!json.is_object()) return fail(Fault::bad_input, "the workspace is no JSON object");
+  if (!json.is_object()) return invalid("the workspace is no JSON object");
   Json shown, colour, camera;
   if (take(json, "shown", shown))
     each_switch(viewer, [&](const char* key, bool& on) { take(shown, key, on); });

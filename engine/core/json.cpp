@@ -10,16 +10,17 @@ std::string dumped(const Json& json, int indent, bool ascii) {
   return json.dump(indent, ' ', ascii, Json::error_handler_t::replace);
 }
 
-}  // namespace
-
-Json parsed(std::string_view text) { return Json::parse(text, nullptr, false); }
-
+/// A whole number that an int holds; nothing for any other value.
 std::optional<int> whole_number(const Json& json) {
   if (!json.is_number_integer()) return std::nullopt;
   const bool fits = json.is_number_unsigned() ? std::in_range<int>(json.get<std::uint64_t>())
                                               : std::in_range<int>(json.get<std::int64_t>());
   return fits ? std::optional(json.get<int>()) : std::nullopt;
 }
+
+}  // namespace
+
+Json parsed(std::string_view text) { return Json::parse(text, nullptr, false); }
 
 std::string text_of(const Json& json) { return dumped(json, 2, false) + "\n"; }
 

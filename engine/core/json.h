@@ -19,9 +19,6 @@ using Json = nlohmann::ordered_json;
 /// The value of a text; one that is_discarded() where the text is not JSON.
 Json parsed(std::string_view text);
 
-/// A whole number that an int holds; nothing for any other value.
-std::optional<int> whole_number(const Json& json);
-
 /// Indented, with a newline at its end. NaN becomes null, a broken UTF-8 sequence U+FFFD.
 std::string text_of(const Json& json);
 

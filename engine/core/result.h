@@ -36,6 +36,16 @@ tl::unexpected<Error> fail(Fault fault, fmt::format_string<First, More...> text,
   return fail(fault, fmt::format(text, std::forward<First>(first), std::forward<More>(more)...));
 }
 
+/// fail(Fault::bad_input, ...).
+inline tl::unexpected<Error> invalid(std::string message) {
+  return fail(Fault::bad_input, std::move(message));
+}
+template <class First, class... More>
+tl::unexpected<Error> invalid(fmt::format_string<First, More...> text, First&& first,
+                              More&&... more) {
+  return fail(Fault::bad_input, text, std::forward<First>(first), std::forward<More>(more)...);
+}
+
 /// The failure of all work that was cancelled.
 inline tl::unexpected<Error> stopped() { return fail(Fault::cancelled, "stopped"); }
 

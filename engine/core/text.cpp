@@ -1,6 +1,5 @@
 #include "engine/core/text.h"
 
-#include <algorithm>
 #include <cctype>
 
 namespace gridshell {

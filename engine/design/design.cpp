@@ -48,17 +48,16 @@ struct DesignProblem {
 /// Whether a shell has what a design needs.
 Result<void> can_be_designed(const preset::Preset& preset, const Scene& scene) {
   if (preset.inverse.vary.empty())
-    return fail(Fault::bad_input,
-                "nothing may change: [inverse] vary must name pins_radial, pins, pins_3d, legs, "
-                "directions or diameters");
+    return invalid(
+        "nothing may change: [inverse] vary must name pins_radial, pins, pins_3d, legs, "
+        "directions or diameters");
   if (!scene.net)
-    return fail(Fault::bad_input,
-                "the footprint was not designed on a net, so there is no surface to meet: "
-                "[footprint] kind must be \"net\"");
+    return invalid(
+        "the footprint was not designed on a net, so there is no surface to meet: "
+        "[footprint] kind must be \"net\"");
   if (scene.solved_model() != RodModel::bend)
-    return fail(Fault::bad_input,
-                "only shells of the bend rung can be designed; this one needs more: " +
-                    preset::model_reason(preset));
+    return invalid("only shells of the bend rung can be designed; this one needs more: " +
+                   preset::model_reason(preset));
   return {};
 }
 
@@ -84,8 +83,7 @@ Result<DesignProblem> begin_design(const preset::Preset& preset, const Scene& sc
   const double spacing = scene.footprint.spacing;
   const auto symmetries = symmetries_of(scene, coarse->joints(), same_place * spacing);
   DesignVariables variables(scene, preset.inverse.vary, symmetries);
-  if (variables.count() == 0)
-    return fail(Fault::bad_input, "[inverse] vary names nothing that these ends have");
+  if (variables.count() == 0) return invalid("[inverse] vary names nothing that these ends have");
   return DesignProblem{std::move(coarse),      std::move(*fine),     std::move(*target),
                        int(symmetries.size()), std::move(variables), options_of(preset.inverse),
                        0.1 * spacing};

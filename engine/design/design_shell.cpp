@@ -1,7 +1,5 @@
 #include "engine/design/design_shell.h"
 
-#include <cmath>
-
 #include "engine/core/try.h"
 #include "engine/elastic/edge_energies.h"
 #include "engine/elastic/state.h"

@@ -100,35 +100,6 @@ void add_distances(const Distances& distances, const Sensitivity& moved, double 
   sum.curvature += curvature + (2 - p) * std::pow(M, -2 / p) * gradient * gradient.transpose();
 }
 
-}  // namespace
-
-double objective_value(const Distances& distances, const Eigen::VectorXd& q,
-                       const Eigen::VectorXd& leg_forces, double p,
-                       const ObjectiveWeights& weights) {
-  return 0.5 * std::pow(mean_power(distances.size(), p), 2 / p) +
-         0.5 * weights.moves * (q / weights.scale).array().square().mean() +
-         0.5 * weights.forces * (leg_forces / weights.force_N).array().square().mean();
-}
-
-Objective objective(const Distances& distances, const Eigen::VectorXd& q,
-                    const Eigen::VectorXd& leg_forces, const Eigen::MatrixXd& basis,
-                    const Sensitivity& moved, double p, const ObjectiveWeights& weights) {
-  const Eigen::Index m = basis.cols();
-  Objective sum{0, Eigen::VectorXd::Zero(m), Eigen::MatrixXd::Zero(m, m)};
-  add_distances(distances, moved, p, sum);
-  const double mu = weights.moves / (double(q.size()) * weights.scale * weights.scale);
-  sum.gradient += mu * basis.transpose() * q;
-  sum.curvature += mu * basis.transpose() * basis;
-  const double eta =
-      weights.forces / (double(leg_forces.size()) * weights.force_N * weights.force_N);
-  sum.gradient += eta * moved.leg_force.transpose() * leg_forces;
-  sum.curvature += eta * moved.leg_force.transpose() * moved.leg_force;
-  sum.value = objective_value(distances, q, leg_forces, p, weights);
-  return sum;
-}
-
-namespace {
-
 constexpr double jump = 0.1;  // of d: Newton's way from a prediction that is believed
 /// A norm, from which damping (of the mean curvature) its steps begin, and at which relative fall
 /// of the objective it has done its work.
@@ -253,6 +224,31 @@ class Optimiser {
 };
 
 }  // namespace
+
+double objective_value(const Distances& distances, const Eigen::VectorXd& q,
+                       const Eigen::VectorXd& leg_forces, double p,
+                       const ObjectiveWeights& weights) {
+  return 0.5 * std::pow(mean_power(distances.size(), p), 2 / p) +
+         0.5 * weights.moves * (q / weights.scale).array().square().mean() +
+         0.5 * weights.forces * (leg_forces / weights.force_N).array().square().mean();
+}
+
+Objective objective(const Distances& distances, const Eigen::VectorXd& q,
+                    const Eigen::VectorXd& leg_forces, const Eigen::MatrixXd& basis,
+                    const Sensitivity& moved, double p, const ObjectiveWeights& weights) {
+  const Eigen::Index m = basis.cols();
+  Objective sum{0, Eigen::VectorXd::Zero(m), Eigen::MatrixXd::Zero(m, m)};
+  add_distances(distances, moved, p, sum);
+  const double mu = weights.moves / (double(q.size()) * weights.scale * weights.scale);
+  sum.gradient += mu * basis.transpose() * q;
+  sum.curvature += mu * basis.transpose() * basis;
+  const double eta =
+      weights.forces / (double(leg_forces.size()) * weights.force_N * weights.force_N);
+  sum.gradient += eta * moved.leg_force.transpose() * leg_forces;
+  sum.curvature += eta * moved.leg_force.transpose() * moved.leg_force;
+  sum.value = objective_value(distances, q, leg_forces, p, weights);
+  return sum;
+}
 
 std::vector<DesignStep> optimise(DesignShell& shell, DesignTarget& target,
                                  const DesignVariables& variables, const OptimiseOptions& options,

@@ -51,33 +51,6 @@ std::optional<Eigen::Matrix3d> motion_between(const Eigen::Matrix3Xd& from,
   return turn;
 }
 
-}  // namespace
-
-std::vector<ShellSymmetry> symmetries_of(const Scene& scene, const Eigen::Matrix3Xd& joints,
-                                         double near_mm) {
-  const Eigen::Matrix2Xd places = places_of(scene.footprint);
-  Eigen::Matrix3Xd points(3, places.cols());
-  points << joints, scene.motion.end;
-  std::vector<ShellSymmetry> found;
-  for (const Eigen::Matrix3d& map : square_symmetries()) {
-    if (map(2, 2) < 0) continue;  // it turns the shell over
-    const auto to = permutation_of(places, joints.cols(), map.topLeftCorner<2, 2>(), near_mm);
-    if (!to) continue;
-    Eigen::Matrix3Xd there(3, points.cols());
-    for (Eigen::Index k = 0; k < points.cols(); ++k)
-      there.col(k) = points.col((*to)[std::size_t(k)]);
-    const auto turn = motion_between(points, there, near_mm);
-    if (!turn) continue;
-    ShellSymmetry one{{}, *turn};
-    for (Eigen::Index k = joints.cols(); k < points.cols(); ++k)
-      one.to.push_back((*to)[std::size_t(k)] - int(joints.cols()));
-    found.push_back(std::move(one));
-  }
-  return found;
-}
-
-namespace {
-
 using preset::Vary;
 
 constexpr double per_unit = 0.1;  // of a diameter's logarithm: a tenth weighs as a millimetre does
@@ -153,6 +126,29 @@ Eigen::MatrixXd projector(const std::vector<DesignVariable>& all,
 }
 
 }  // namespace
+
+std::vector<ShellSymmetry> symmetries_of(const Scene& scene, const Eigen::Matrix3Xd& joints,
+                                         double near_mm) {
+  const Eigen::Matrix2Xd places = places_of(scene.footprint);
+  Eigen::Matrix3Xd points(3, places.cols());
+  points << joints, scene.motion.end;
+  std::vector<ShellSymmetry> found;
+  for (const Eigen::Matrix3d& map : square_symmetries()) {
+    if (map(2, 2) < 0) continue;  // it turns the shell over
+    const auto to = permutation_of(places, joints.cols(), map.topLeftCorner<2, 2>(), near_mm);
+    if (!to) continue;
+    Eigen::Matrix3Xd there(3, points.cols());
+    for (Eigen::Index k = 0; k < points.cols(); ++k)
+      there.col(k) = points.col((*to)[std::size_t(k)]);
+    const auto turn = motion_between(points, there, near_mm);
+    if (!turn) continue;
+    ShellSymmetry one{{}, *turn};
+    for (Eigen::Index k = joints.cols(); k < points.cols(); ++k)
+      one.to.push_back((*to)[std::size_t(k)] - int(joints.cols()));
+    found.push_back(std::move(one));
+  }
+  return found;
+}
 
 DesignVariables::DesignVariables(const Scene& scene, const std::vector<Vary>& vary,
                                  const std::vector<ShellSymmetry>& symmetries)

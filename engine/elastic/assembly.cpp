@@ -2,13 +2,11 @@
 // added after them, list by list.
 #include "engine/elastic/assembly.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "engine/core/block3.h"
 #include "engine/elastic/along_rods.h"
 #include "engine/elastic/edge_energies.h"
-#include "engine/elastic/pair_blocks.h"
 
 namespace gridshell {
 namespace {

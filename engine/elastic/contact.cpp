@@ -23,45 +23,6 @@ std::array<double, 3> log_barrier(double x) {
   return {-y * y * log, -2 * y * log - y * y / x, -2 * log - 4 * y / x + y * y / (x * x)};
 }
 
-}  // namespace
-
-ContactBarrier::Value ContactBarrier::at(double distance2, double radii, double thinness) const {
-  radii *= thinness;
-  const double gap = thinness * gap_mm, range = gap * (2 * radii + gap);  // (S + gap)^2 - S^2
-  const double x = (distance2 - radii * radii) / range;
-  if (!(x < 1)) return {};
-  auto [b, slope, curvature] = log_barrier(std::max(x, parabola_from));
-  if (x < parabola_from) {
-    const double beyond = x - parabola_from;
-    b += beyond * (slope + 0.5 * beyond * curvature);
-    slope += beyond * curvature;
-  }
-  const double k = stiffness_N_per_mm * gap * gap;
-  return {k * b, k * slope / range, k * curvature / (range * range)};
-}
-
-double ContactPairs::thinness(const ContactEdge& a, const ContactEdge& b) const {
-  const bool one_rod = a.rod == b.rod;
-  const double closed = closed_length_mm[std::size_t(a.rod)], range = radii(a, b) + barrier.gap_mm;
-  if (one_rod) {
-    double along = std::max(a.begin - b.end, b.begin - a.end);
-    if (closed > 0) along = std::min(along, closed - std::max(a.end - b.begin, b.end - a.begin));
-    if (along < std::numbers::pi * range) return 0;
-  }
-  double thinness = 1;
-  for (const ContactEdge::End& i : a.ends)
-    for (const ContactEdge::End& j : b.ends) {
-      if (i.node != j.node) continue;
-      // where a rod goes on through a joint its two sides are not near each other
-      const double between = std::abs(i.at - j.at);
-      if (one_rod && (between < 1e-9 || std::abs(between - closed) < 1e-9)) continue;
-      thinness = std::min(thinness, std::max(i.near, j.near) / std::max(joint_mm, 4 * range));
-    }
-  return thinness;
-}
-
-namespace {
-
 /// Of every node the first that lies at its place: of edge points, in the flat.
 std::vector<int> places_of(const RodMesh& mesh, const std::vector<double>& radius_mm) {
   std::vector<int> place(std::size_t(mesh.nodes()));
@@ -81,38 +42,6 @@ std::vector<int> places_of(const RodMesh& mesh, const std::vector<double>& radiu
     }
   return place;
 }
-
-}  // namespace
-
-ContactPairs contact_pairs(const RodMesh& mesh, const Model& model, const ContactLaw& law) {
-  ContactPairs pairs{law.barrier, {}, law.radius_mm, {}, law.joint_mm};
-  const std::vector<int> place = places_of(mesh, law.radius_mm);
-  for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
-    const std::vector<int>& node = mesh.rods[r];
-    const std::vector<double>& s = mesh.position[r];
-    const int first = mesh.is_ghost(node.front()) ? 1 : 0;
-    const int last = int(node.size()) - (mesh.is_ghost(node.back()) ? 2 : 1);
-    pairs.closed_length_mm.push_back(node[std::size_t(first)] == node[std::size_t(last)]
-                                         ? s[std::size_t(last)] - s[std::size_t(first)]
-                                         : 0);
-    for (int begin = first, end = first; begin < last; begin = end) {
-      do ++end;
-      while (end < last && mesh.joint_of(node[std::size_t(end)]) < 0);
-      const auto at = [&](int k) { return s[std::size_t(k)]; };
-      const auto place_of = [&](int k) { return place[std::size_t(node[std::size_t(k)])]; };
-      for (int k = begin; k < end; ++k)
-        pairs.edges.push_back({model.rods[r].edges[std::size_t(k)],
-                               int(r),
-                               at(k),
-                               at(k + 1),
-                               {{{place_of(begin), at(begin), at(k) - at(begin)},
-                                 {place_of(end), at(end), at(end) - at(k + 1)}}}});
-    }
-  }
-  return pairs;
-}
-
-namespace {
 
 /// Two edges p + s u and q + t v near each other, as each_contact() says.
 struct NearEdges {
@@ -193,6 +122,69 @@ double widest_of(const ContactPairs& contact) {
 }
 
 }  // namespace
+
+ContactBarrier::Value ContactBarrier::at(double distance2, double radii, double thinness) const {
+  radii *= thinness;
+  const double gap = thinness * gap_mm, range = gap * (2 * radii + gap);  // (S + gap)^2 - S^2
+  const double x = (distance2 - radii * radii) / range;
+  if (!(x < 1)) return {};
+  auto [b, slope, curvature] = log_barrier(std::max(x, parabola_from));
+  if (x < parabola_from) {
+    const double beyond = x - parabola_from;
+    b += beyond * (slope + 0.5 * beyond * curvature);
+    slope += beyond * curvature;
+  }
+  const double k = stiffness_N_per_mm * gap * gap;
+  return {k * b, k * slope / range, k * curvature / (range * range)};
+}
+
+double ContactPairs::thinness(const ContactEdge& a, const ContactEdge& b) const {
+  const bool one_rod = a.rod == b.rod;
+  const double closed = closed_length_mm[std::size_t(a.rod)], range = radii(a, b) + barrier.gap_mm;
+  if (one_rod) {
+    double along = std::max(a.begin - b.end, b.begin - a.end);
+    if (closed > 0) along = std::min(along, closed - std::max(a.end - b.begin, b.end - a.begin));
+    if (along < std::numbers::pi * range) return 0;
+  }
+  double thinness = 1;
+  for (const ContactEdge::End& i : a.ends)
+    for (const ContactEdge::End& j : b.ends) {
+      if (i.node != j.node) continue;
+      // where a rod goes on through a joint its two sides are not near each other
+      const double between = std::abs(i.at - j.at);
+      if (one_rod && (between < 1e-9 || std::abs(between - closed) < 1e-9)) continue;
+      thinness = std::min(thinness, std::max(i.near, j.near) / std::max(joint_mm, 4 * range));
+    }
+  return thinness;
+}
+
+ContactPairs contact_pairs(const RodMesh& mesh, const Model& model, const ContactLaw& law) {
+  ContactPairs pairs{law.barrier, {}, law.radius_mm, {}, law.joint_mm};
+  const std::vector<int> place = places_of(mesh, law.radius_mm);
+  for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
+    const std::vector<int>& node = mesh.rods[r];
+    const std::vector<double>& s = mesh.position[r];
+    const int first = mesh.is_ghost(node.front()) ? 1 : 0;
+    const int last = int(node.size()) - (mesh.is_ghost(node.back()) ? 2 : 1);
+    pairs.closed_length_mm.push_back(node[std::size_t(first)] == node[std::size_t(last)]
+                                         ? s[std::size_t(last)] - s[std::size_t(first)]
+                                         : 0);
+    for (int begin = first, end = first; begin < last; begin = end) {
+      do ++end;
+      while (end < last && mesh.joint_of(node[std::size_t(end)]) < 0);
+      const auto at = [&](int k) { return s[std::size_t(k)]; };
+      const auto place_of = [&](int k) { return place[std::size_t(node[std::size_t(k)])]; };
+      for (int k = begin; k < end; ++k)
+        pairs.edges.push_back({model.rods[r].edges[std::size_t(k)],
+                               int(r),
+                               at(k),
+                               at(k + 1),
+                               {{{place_of(begin), at(begin), at(k) - at(begin)},
+                                 {place_of(end), at(end), at(end) - at(k + 1)}}}});
+    }
+  }
+  return pairs;
+}
 
 void each_contact(const Model& model, const Eigen::Matrix3Xd& x, bool with_derivatives,
                   const std::function<void(const EdgeContact&)>& visit) {

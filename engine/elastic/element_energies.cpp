@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <complex>
 
 namespace gridshell {
@@ -76,6 +75,99 @@ Eigen::Matrix3d normal_projector(const Eigen::Vector3d& t) {
   return Eigen::Matrix3d::Identity() - t * t.transpose();
 }
 
+HalfwayFrame frame_of(const PairGeometry& at, double share) {
+  return halfway_frame(at.e.tangent, at.director_e, at.angle_e + share * at.twist());
+}
+
+/// s of EndBending, and how it grows with c.
+struct EndScale {
+  double s, by_c, by_cc;
+
+  explicit EndScale(double c) {
+    const double w = 1 / (1 + c);
+    s = (3 + c * c) * w * w;
+    by_c = (2 * c - 6) * w * w * w;
+    by_cc = (20 - 4 * c) * w * w * w * w;
+  }
+};
+
+/// By how much the curvature binormal counts.
+double scale_of(const MaterialBend& bend, const CurvatureBinormal& b) {
+  return bend.at_end() ? EndScale(b.chi - 1).s : 1;
+}
+
+/// Gradient (increments) and Hessian of chi = 1 + t.s
+PairVector chi_slope(const BinormalSlopes& b) {
+  PairVector slope = PairVector::Zero();
+  slope.head<3>() = b.P * b.s;
+  slope.segment<3>(3) = b.Q * b.t;
+  return slope;
+}
+
+PairMatrix chi_curvature(const BinormalSlopes& b) {
+  const PairVector slope = chi_slope(b);
+  const double c = b.chi - 1;
+  PairMatrix curvature = PairMatrix::Zero();
+  curvature.block<3, 3>(0, 0) = -2 * symmetric_product(slope.head<3>(), b.t) - c * b.P;
+  curvature.block<3, 3>(3, 3) = -2 * symmetric_product(slope.segment<3>(3), b.s) - c * b.Q;
+  curvature.block<3, 3>(0, 3) = b.P * b.Q;
+  curvature.block<3, 3>(3, 0) = b.Q * b.P;
+  return curvature;
+}
+
+/// Y.kb'' for a fixed Y normal to t, as a symmetric matrix (increments), added to `out`.
+void add_binormal_curvature(const Eigen::Vector3d& Y, const BinormalSlopes& b, PairMatrix& out) {
+  const double k = Y.dot(b.kb), i = 1 / b.chi;
+  const Eigen::Vector3d yp = b.by_p.transpose() * Y, yq = b.by_q.transpose() * Y;
+  const Eigen::Vector3d hp = b.P * b.s, hq = b.Q * b.t;  // slopes of chi
+  const Eigen::Vector3d wp = b.P * (2 * k * b.s - 4 * b.s.cross(Y)) * i;
+  const Eigen::Vector3d wq = b.Q * (2 * k * b.t - 4 * Y.cross(b.t)) * i;
+  out.block<3, 3>(0, 0) +=
+      -k * i * b.P + symmetric_product(b.t, wp) - 2 * i * symmetric_product(yp, hp);
+  out.block<3, 3>(3, 3) +=
+      -k * i * b.Q + symmetric_product(b.s, wq) - 2 * i * symmetric_product(yq, hq);
+  const Eigen::Matrix3d pq =
+      -i * (b.P * (2 * cross_matrix(Y) + k * Eigen::Matrix3d::Identity()) * b.Q +
+            yp * hq.transpose() + hp * yq.transpose());
+  out.block<3, 3>(0, 3) += pq;
+  out.block<3, 3>(3, 0) += pq.transpose();
+}
+
+/// Twist tau = theta_f - theta_e + m_ref. With the frames carried along straight lines, by
+/// increments p = de/|e|, q = df/|f|:
+///   tau'  = kb.(p + q)/2 + theta_f' - theta_e'.
+/// The printed second derivatives of m_ref are the derivative of kb/(2|e|); that is not symmetric,
+/// as carrying a frame round a loop turns it. The symmetric part is the Hessian: with m = (t +
+/// s)/chi and sym(a, b) = (a b^T + b a^T)/2,
+///   H_pp = -sym(t + m, kb)/2, H_qq = -sym(s + m, kb)/2, H_pq = ([m]x - sym(m, kb))/2.
+/// out += weight * tau'' (increments).
+void add_twist_curvature(double weight, const CurvatureBinormal& b, PairMatrix& out) {
+  const Eigen::Vector3d mean = (b.t + b.s) / b.chi;
+  const auto add_own = [&](int at, const Eigen::Vector3d& a) {
+    out.block<3, 3>(at, at) -= symmetric_product(0.5 * weight * a, b.kb);
+  };
+  add_own(0, b.t + mean);
+  add_own(3, b.s + mean);
+  const Eigen::Matrix3d across =
+      cross_matrix(0.5 * weight * mean) - symmetric_product(0.5 * weight * mean, b.kb);
+  out.block<3, 3>(0, 3) += across;
+  out.block<3, 3>(3, 0) += across.transpose();
+}
+
+/// phi = theta_e - alpha - side pi/2, in (-pi, pi]: the angle about t from the joint's normal to
+/// the rod's director m1. alpha is that of the other rod's tangent s in the reference frame d1, d2
+/// of e; the normal is side * t x s, `side` +1 or -1.
+double joint_spin(int side, double theta, const EdgeGeometry& e, const Eigen::Vector3d& director,
+                  const EdgeGeometry& f) {
+  const Eigen::Vector3d &t = e.tangent, &s = f.tangent;
+  const double alpha = std::atan2(s.dot(t.cross(director)), s.dot(director));
+  return std::remainder(theta - alpha - side * M_PI / 2, 2 * M_PI);
+}
+
+double material_bend_value(const MaterialBend& bend, const Eigen::Vector2d& w) {
+  return 0.5 * (bend.stiffness.array() * (w - bend.rest).array().square()).sum();
+}
+
 }  // namespace
 
 double NodeSpring::value(const Eigen::Vector3d& gap) const {
@@ -124,19 +216,6 @@ void add_cosine(double by_c, double by_cc, const EdgeGeometry& e, const EdgeGeom
   out.hessian.block<3, 3>(3, 0) += ef.transpose();
 }
 
-void add_twist_curvature(double weight, const CurvatureBinormal& b, PairMatrix& out) {
-  const Eigen::Vector3d mean = (b.t + b.s) / b.chi;
-  const auto add_own = [&](int at, const Eigen::Vector3d& a) {
-    out.block<3, 3>(at, at) -= symmetric_product(0.5 * weight * a, b.kb);
-  };
-  add_own(0, b.t + mean);
-  add_own(3, b.s + mean);
-  const Eigen::Matrix3d across =
-      cross_matrix(0.5 * weight * mean) - symmetric_product(0.5 * weight * mean, b.kb);
-  out.block<3, 3>(0, 3) += across;
-  out.block<3, 3>(3, 0) += across.transpose();
-}
-
 void add_twist(double stiffness, double excess, const CurvatureBinormal& b, PairEnergy& out) {
   PairVector slope;
   slope << 0.5 * b.kb, 0.5 * b.kb, -1, 1;
@@ -153,50 +232,6 @@ double Torsion::add(const PairGeometry& at, PairEnergy& out) const {
   return value(at);
 }
 
-namespace {
-
-HalfwayFrame frame_of(const PairGeometry& at, double share) {
-  return halfway_frame(at.e.tangent, at.director_e, at.angle_e + share * at.twist());
-}
-
-/// s of EndBending, and how it grows with c.
-struct EndScale {
-  double s, by_c, by_cc;
-
-  explicit EndScale(double c) {
-    const double w = 1 / (1 + c);
-    s = (3 + c * c) * w * w;
-    by_c = (2 * c - 6) * w * w * w;
-    by_cc = (20 - 4 * c) * w * w * w * w;
-  }
-};
-
-/// By how much the curvature binormal counts.
-double scale_of(const MaterialBend& bend, const CurvatureBinormal& b) {
-  return bend.at_end() ? EndScale(b.chi - 1).s : 1;
-}
-
-/// Gradient (increments) and Hessian of chi = 1 + t.s
-PairVector chi_slope(const BinormalSlopes& b) {
-  PairVector slope = PairVector::Zero();
-  slope.head<3>() = b.P * b.s;
-  slope.segment<3>(3) = b.Q * b.t;
-  return slope;
-}
-
-PairMatrix chi_curvature(const BinormalSlopes& b) {
-  const PairVector slope = chi_slope(b);
-  const double c = b.chi - 1;
-  PairMatrix curvature = PairMatrix::Zero();
-  curvature.block<3, 3>(0, 0) = -2 * symmetric_product(slope.head<3>(), b.t) - c * b.P;
-  curvature.block<3, 3>(3, 3) = -2 * symmetric_product(slope.segment<3>(3), b.s) - c * b.Q;
-  curvature.block<3, 3>(0, 3) = b.P * b.Q;
-  curvature.block<3, 3>(3, 0) = b.Q * b.P;
-  return curvature;
-}
-
-}  // namespace
-
 HalfwayFrame halfway_frame(const Eigen::Vector3d& tangent, const Eigen::Vector3d& director,
                            double angle) {
   const Eigen::Vector3d across = tangent.cross(director);
@@ -204,27 +239,6 @@ HalfwayFrame halfway_frame(const Eigen::Vector3d& tangent, const Eigen::Vector3d
   HalfwayFrame frame;
   frame << c * director + s * across, c * across - s * director;
   return frame;
-}
-
-double material_bend_value(const MaterialBend& bend, const Eigen::Vector2d& w) {
-  return 0.5 * (bend.stiffness.array() * (w - bend.rest).array().square()).sum();
-}
-
-void add_binormal_curvature(const Eigen::Vector3d& Y, const BinormalSlopes& b, PairMatrix& out) {
-  const double k = Y.dot(b.kb), i = 1 / b.chi;
-  const Eigen::Vector3d yp = b.by_p.transpose() * Y, yq = b.by_q.transpose() * Y;
-  const Eigen::Vector3d hp = b.P * b.s, hq = b.Q * b.t;  // slopes of chi
-  const Eigen::Vector3d wp = b.P * (2 * k * b.s - 4 * b.s.cross(Y)) * i;
-  const Eigen::Vector3d wq = b.Q * (2 * k * b.t - 4 * Y.cross(b.t)) * i;
-  out.block<3, 3>(0, 0) +=
-      -k * i * b.P + symmetric_product(b.t, wp) - 2 * i * symmetric_product(yp, hp);
-  out.block<3, 3>(3, 3) +=
-      -k * i * b.Q + symmetric_product(b.s, wq) - 2 * i * symmetric_product(yq, hq);
-  const Eigen::Matrix3d pq =
-      -i * (b.P * (2 * cross_matrix(Y) + k * Eigen::Matrix3d::Identity()) * b.Q +
-            yp * hq.transpose() + hp * yq.transpose());
-  out.block<3, 3>(0, 3) += pq;
-  out.block<3, 3>(3, 0) += pq.transpose();
 }
 
 double add_material_bend(const MaterialBend& bend, const HalfwayFrame& mu, const BinormalSlopes& b,
@@ -306,13 +320,6 @@ double JointAngle::add(const PairGeometry& at, PairEnergy& out) const {
   const double c = at.e.tangent.dot(at.f.tangent), slope = 1 / std::sqrt(1 - c * c);
   add_cosine(-weight * slope, -weight * c * slope * slope * slope, at.e, at.f, out);
   return excess(at);
-}
-
-double joint_spin(int side, double theta, const EdgeGeometry& e, const Eigen::Vector3d& director,
-                  const EdgeGeometry& f) {
-  const Eigen::Vector3d &t = e.tangent, &s = f.tangent;
-  const double alpha = std::atan2(s.dot(t.cross(director)), s.dot(director));
-  return std::remainder(theta - alpha - side * M_PI / 2, 2 * M_PI);
 }
 
 double JointSpin::excess(const PairGeometry& at) const {

@@ -125,16 +125,6 @@ void add_cosine(double by_c, double by_cc, const EdgeGeometry& e, const EdgeGeom
 
 // Twisting of a rod at a node between two edges [Bergou 2008, 2010].
 
-/// Twist tau = theta_f - theta_e + m_ref. With the frames carried along straight lines, by
-/// increments p = de/|e|, q = df/|f|:
-///   tau'  = kb.(p + q)/2 + theta_f' - theta_e'.
-/// The printed second derivatives of m_ref are the derivative of kb/(2|e|); that is not symmetric,
-/// as carrying a frame round a loop turns it. The symmetric part is the Hessian: with m = (t +
-/// s)/chi and sym(a, b) = (a b^T + b a^T)/2,
-///   H_pp = -sym(t + m, kb)/2, H_qq = -sym(s + m, kb)/2, H_pq = ([m]x - sym(m, kb))/2.
-/// out += weight * tau'' (increments).
-void add_twist_curvature(double weight, const CurvatureBinormal& b, PairMatrix& out);
-
 /// E = stiffness/2 (tau - tau_0)^2, `stiffness` = GJ/l (mJ), `excess` = tau - tau_0; in increments.
 void add_twist(double stiffness, double excess, const CurvatureBinormal& b, PairEnergy& out);
 
@@ -173,11 +163,6 @@ using HalfwayFrame = Eigen::Matrix<double, 3, 2>;
 /// The frame half way: e's reference director turned by its angle + share * tau about e's tangent.
 HalfwayFrame halfway_frame(const Eigen::Vector3d& tangent, const Eigen::Vector3d& director,
                            double angle);
-
-double material_bend_value(const MaterialBend& bend, const Eigen::Vector2d& w);
-
-/// Y.kb'' for a fixed Y normal to t, as a symmetric matrix (increments), added to `out`.
-void add_binormal_curvature(const Eigen::Vector3d& Y, const BinormalSlopes& b, PairMatrix& out);
 
 /// Adds gradient and Hessian in increments; returns the value. With phi' = theta_e' + share tau',
 ///   w'  = mu.kb' - i phi' w,
@@ -223,12 +208,6 @@ struct JointAngle {
 };
 
 // The spin of a rod at a joint that passes twist: its director beside the joint's normal.
-
-/// phi = theta_e - alpha - side pi/2, in (-pi, pi]: the angle about t from the joint's normal to
-/// the rod's director m1. alpha is that of the other rod's tangent s in the reference frame d1, d2
-/// of e; the normal is side * t x s, `side` +1 or -1.
-double joint_spin(int side, double theta, const EdgeGeometry& e, const Eigen::Vector3d& director,
-                  const EdgeGeometry& f);
 
 /// The spin of the first edge of a pair, one part w phi of the mean of its rod. With the complex
 /// director d = d1 + i d2 and z = d/(s.d), alpha = Im log(s.d), and d carried in time

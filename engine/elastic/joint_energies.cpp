@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "engine/elastic/along_rods.h"
-#include "engine/elastic/pair_blocks.h"
 
 namespace gridshell {
 namespace {

@@ -1,11 +1,8 @@
 #include "engine/elastic/model.h"
 
 #include <fmt/format.h>
-#include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
-#include <utility>
 
 #include "engine/core/try.h"
 
@@ -14,8 +11,8 @@ namespace gridshell {
 BlockSlot BlockPattern::find(int row, int column) const {
   const auto [low, high] = std::minmax(row, column);
   const auto& known = pairs_of_[std::size_t(low)];
-  const auto at = std::find_if(known.begin(), known.end(),
-                               [high = high](const auto& one) { return one.first == high; });
+  const auto at =
+      std::ranges::find_if(known, [high = high](const auto& one) { return one.first == high; });
   if (at == known.end()) return -1;
   return 2 * at->second + (pairs_[std::size_t(at->second)][0] != row);
 }
@@ -32,9 +29,7 @@ BlockSlot BlockPattern::slot(int row, int column) {
 namespace {
 
 Result<void> check(int index, int nodes, const ModelRod& rod, RodModel rung) {
-  const auto wrong = [&](const std::string& what) {
-    return fail(Fault::bad_input, "rod {}: {}", index, what);
-  };
+  const auto wrong = [&](const std::string& what) { return invalid("rod {}: {}", index, what); };
   const RodMaterial& m = rod.material;
   if (rod.position.size() != rod.nodes.size() && !rod.closed())
     return wrong(fmt::format("{} nodes and {} arc lengths", rod.nodes.size(), rod.position.size()));

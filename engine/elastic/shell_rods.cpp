@@ -89,7 +89,7 @@ Crossings crossings_of(const RodMesh& mesh) {
 Eigen::Vector3d direction_at(const RodMesh& mesh, const RodAt& of) {
   const auto [rod, node] = of;
   const std::vector<int>& nodes = mesh.rods[std::size_t(rod)];
-  const auto at = std::find(nodes.begin(), nodes.end(), node);
+  const auto at = std::ranges::find(nodes, node);
   const auto before = at == nodes.begin() ? at : at - 1,
              after = at + 1 == nodes.end() ? at : at + 1;
   return way(mesh, *before, *after);
@@ -292,6 +292,16 @@ void lay_flat(const RodMesh& mesh, Model& model) {
     model.flat.col(column) /= edges[std::size_t(column)];
 }
 
+/// whether a rod is cut with a corner at a node: it is drawn so, and bends there at rest
+bool has_corner(const RodMesh& mesh, const Model& model, int rod, const std::vector<int>& beside) {
+  const Model::Rod& one = model.rods[std::size_t(rod)];
+  const auto* law = law_of<SectionBending>(model, one.first_bend + beside[0] - one.edges.front());
+  const ModelEdge &e = model.edges[std::size_t(beside[0])],
+                  &f = model.edges[std::size_t(beside[1])];
+  return law && !law->bend.rest.isZero(0) &&
+         way(mesh, e.from, e.to).cross(way(mesh, f.from, f.to)).norm() > 1e-9;
+}
+
 }  // namespace
 
 ShellRods::ShellRods(const RodMaterial& material) : materials{material} {}
@@ -324,20 +334,6 @@ std::vector<NodeAction> dead_loads(const RodMesh& mesh, const ShellRods& rods) {
   for (const PointLoad& point : rods.points) loads.push_back({point.joint, point.force});
   return loads;
 }
-
-namespace {
-
-/// whether a rod is cut with a corner at a node: it is drawn so, and bends there at rest
-bool has_corner(const RodMesh& mesh, const Model& model, int rod, const std::vector<int>& beside) {
-  const Model::Rod& one = model.rods[std::size_t(rod)];
-  const auto* law = law_of<SectionBending>(model, one.first_bend + beside[0] - one.edges.front());
-  const ModelEdge &e = model.edges[std::size_t(beside[0])],
-                  &f = model.edges[std::size_t(beside[1])];
-  return law && !law->bend.rest.isZero(0) &&
-         way(mesh, e.from, e.to).cross(way(mesh, f.from, f.to)).norm() > 1e-9;
-}
-
-}  // namespace
 
 double angle_between(const std::vector<JointDirections>& rods) {
   return angle_between(rods[0].at(0), rods[1].at(0));

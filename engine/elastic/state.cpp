@@ -1,8 +1,11 @@
 #include "engine/elastic/state.h"
 
+#include <cmath>
+
 #include "engine/core/algorithms.h"
+#include "engine/elastic/along_rods.h"
+#include "engine/elastic/edge_energies.h"
 #include "engine/elastic/rod_frame.h"
-#include "engine/elastic/shell_rods.h"
 
 namespace gridshell {
 namespace {
@@ -50,6 +53,60 @@ void carry_reference_twist(const Model& model, const Eigen::Matrix3Xd& tangents,
   }
 }
 
+/// Where each edge of a rod stands along it: its middle, a ghost at the end point itself.
+std::vector<double> places_along(const Model& model, const Model::Rod& rod) {
+  std::vector<double> places;
+  double s = 0;
+  for (int edge : rod.edges) {
+    const bool ghost = edge == rod.ghost_begin || edge == rod.ghost_end;
+    const double length = ghost ? 0 : model.edges[std::size_t(edge)].rest_length;
+    places.push_back(s + 0.5 * length);
+    s += length;
+  }
+  return places;
+}
+
+/// Linear between known values, straight on beyond the ends.
+double interpolated(const std::vector<double>& at, const std::vector<double>& value, double s) {
+  if (at.size() == 1) return value.front();
+  const std::size_t k = piece_at(at, s);
+  const double share = (s - at[k]) / (at[k + 1] - at[k]);
+  return value[k] + share * (value[k + 1] - value[k]);
+}
+
+/// m1 of an edge.
+Eigen::Vector3d material_director(const Model& model, const State& state, int edge) {
+  return halfway_frame(tangent_of(model, state.x, edge), state.director.col(edge),
+                       model.angle(state.x, edge))
+      .col(0);
+}
+
+/// the angle from the material director of an edge of `to` to that of an edge of `from`
+double angle_between(const Model& from, const State& a, int edge_a, const Model& to, const State& b,
+                     int edge_b) {
+  const Eigen::Vector3d t = tangent_of(to, b.x, edge_b);
+  return signed_angle(
+      material_director(to, b, edge_b),
+      transport(material_director(from, a, edge_a), tangent_of(from, a.x, edge_a), t), t);
+}
+
+/// The rod of every bend; those that close rings come last, in the order of their rods.
+std::vector<const Model::Rod*> rods_of_bends(const Model& model) {
+  std::vector<const Model::Rod*> rods, closed;
+  for (const Model::Rod& rod : model.rods) {
+    rods.insert(rods.end(), rod.edges.size() - 1, &rod);
+    if (rod.closed) closed.push_back(&rod);
+  }
+  rods.insert(rods.end(), closed.begin(), closed.end());
+  return rods;
+}
+
+/// tau of a bend on the twist rung: from e's material frame to f's, rad.
+double twist_at(const Model& model, const State& state, int bend) {
+  const ModelBend& b = model.bends[std::size_t(bend)];
+  return model.angle(state.x, b.f) - model.angle(state.x, b.e) + state.reference_twist[bend];
+}
+
 }  // namespace
 
 State start_state(const Model& model, const Eigen::Matrix3Xd& x) {
@@ -94,51 +151,6 @@ void set_end_direction(const Model& model, int rod, bool at_end, const Eigen::Ve
   put_ghost(model, at_end ? r.ghost_end : r.ghost_begin, at_end, direction.normalized(), x);
   move_to(model, x, state);
 }
-
-Eigen::Vector3d material_director(const Model& model, const State& state, int edge) {
-  return halfway_frame(tangent_of(model, state.x, edge), state.director.col(edge),
-                       model.angle(state.x, edge))
-      .col(0);
-}
-
-double twist_at(const Model& model, const State& state, int bend) {
-  const ModelBend& b = model.bends[std::size_t(bend)];
-  return model.angle(state.x, b.f) - model.angle(state.x, b.e) + state.reference_twist[bend];
-}
-
-namespace {
-
-/// Where each edge of a rod stands along it: its middle, a ghost at the end point itself.
-std::vector<double> places_along(const Model& model, const Model::Rod& rod) {
-  std::vector<double> places;
-  double s = 0;
-  for (int edge : rod.edges) {
-    const bool ghost = edge == rod.ghost_begin || edge == rod.ghost_end;
-    const double length = ghost ? 0 : model.edges[std::size_t(edge)].rest_length;
-    places.push_back(s + 0.5 * length);
-    s += length;
-  }
-  return places;
-}
-
-/// Linear between known values, straight on beyond the ends.
-double interpolated(const std::vector<double>& at, const std::vector<double>& value, double s) {
-  if (at.size() == 1) return value.front();
-  const std::size_t k = piece_at(at, s);
-  const double share = (s - at[k]) / (at[k + 1] - at[k]);
-  return value[k] + share * (value[k + 1] - value[k]);
-}
-
-/// the angle from the material director of an edge of `to` to that of an edge of `from`
-double angle_between(const Model& from, const State& a, int edge_a, const Model& to, const State& b,
-                     int edge_b) {
-  const Eigen::Vector3d t = tangent_of(to, b.x, edge_b);
-  return signed_angle(
-      material_director(to, b, edge_b),
-      transport(material_director(from, a, edge_a), tangent_of(from, a.x, edge_a), t), t);
-}
-
-}  // namespace
 
 StateTransfer::StateTransfer(const RodMesh& from_mesh, const Model& from, const RodMesh& to_mesh,
                              const Model& to)
@@ -192,6 +204,77 @@ Eigen::Matrix3Xd nodes_of(const RodMesh& mesh, const Model& model,
     nodes.leftCols(mesh.joints) =
         0.5 * (nodes.leftCols(mesh.joints) + columns.middleCols(mesh.nodes(), mesh.joints));
   return nodes;
+}
+
+// What a state stores, and how far it bends its rods, without derivatives.
+
+Eigen::VectorXd bending_of(const Model& model, const State& state) {
+  Eigen::VectorXd energy(Eigen::Index(model.bends.size()));
+  Eigen::Index next = 0;
+  along_rods(
+      model, state.x, [](int, const ModelEdge&, const EdgeGeometry&) {},
+      [&](const ModelBend& bend, const EdgeGeometry& e, const EdgeGeometry& f) {
+        energy[next++] = bend_value(bend.stiffness, e, f);
+      });
+  each_pair_list(model, [&]<class Law>(const std::vector<Pair<Law>>& list) {
+    if constexpr (Law::term == Term::bend)
+      for (const Pair<Law>& pair : list)
+        energy[pair.bend] += pair.law.value(pair_geometry(model, state, pair));
+  });
+  return energy;
+}
+
+Eigen::VectorXd bending_strain_of(const Model& model, const State& state) {
+  Eigen::VectorXd strain(Eigen::Index(model.bends.size()));
+  const auto rods = rods_of_bends(model);
+  std::size_t next = 0;
+  along_rods(
+      model, state.x, [](int, const ModelEdge&, const EdgeGeometry&) {},
+      [&](const ModelBend& bend, const EdgeGeometry& e, const EdgeGeometry& f) {
+        const double turn = curvature_binormal(e.tangent, f.tangent).kb.norm();
+        strain[Eigen::Index(next)] =
+            rods[next]->fibres.strain(turn / length_between(model, bend.e, bend.f));
+        ++next;
+      });
+  const auto put = [&]<class Law>(const Pair<Law>& pair, const auto& bent) {
+    strain[pair.bend] =
+        rods[std::size_t(pair.bend)]->fibres.strain(bent / length_between(model, pair.e, pair.f));
+  };
+  for (const auto& pair : std::get<std::vector<Pair<SectionBending>>>(model.pairs))
+    put(pair, pair.law.excess(pair_geometry(model, state, pair)));
+  // 2 EI/l tan^2 of half the turn, as it counts at an end
+  for (const auto& pair : std::get<std::vector<Pair<EndBending>>>(model.pairs))
+    put(pair,
+        2 * std::sqrt(pair.law.value(pair_geometry(model, state, pair)) / pair.law.stiffness));
+  return strain;
+}
+
+Energies energies_of(const Model& model, const State& state, const ExternalLoads& outside) {
+  Energies sum;
+  along_rods(
+      model, state.x,
+      [&](int, const ModelEdge& edge, const EdgeGeometry& g) {
+        sum[Term::stretch] += stretch(edge.EA, edge.rest_length, g.length).value;
+      },
+      [&](const ModelBend& bend, const EdgeGeometry& e, const EdgeGeometry& f) {
+        sum[Term::bend] += bend_value(bend.stiffness, e, f);
+      });
+  each_pair_list(model, [&]<class Law>(const std::vector<Pair<Law>>& list) {
+    for (const Pair<Law>& pair : list)
+      sum[Law::term] += pair.law.value(pair_geometry(model, state, pair));
+  });
+  add_joint_energies(model, state, outside.opening, sum);
+  for (const ModelSpring& spring : model.springs)
+    sum[spring.law.term] += spring.law.value(gap_of(state, spring.law));
+  for (const ModelBar& bar : model.bars)
+    sum[Term::stretch] +=
+        bar.law.value(bar.law.strain(geometry_between(state.x, bar.law.a, bar.law.b).length));
+  each_action(model, outside, [&](const NodeAction& action, double factor) {
+    sum[action.term] += factor * action.value(state.x);
+  });
+  each_contact(model, state.x, false,
+               [&](const EdgeContact& contact) { sum[Term::contact] += contact.energy; });
+  return sum;
 }
 
 }  // namespace gridshell

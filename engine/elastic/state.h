@@ -30,12 +30,6 @@ void move_to(const Model& model, const Eigen::Matrix3Xd& x, State& state);
 void set_end_direction(const Model& model, int rod, bool at_end, const Eigen::Vector3d& direction,
                        State& state);
 
-/// m1 of an edge.
-Eigen::Vector3d material_director(const Model& model, const State& state, int edge);
-
-/// tau of a bend on the twist rung: from e's material frame to f's, rad.
-double twist_at(const Model& model, const State& state, int bend);
-
 // States between meshes of one footprint.
 
 /// Carries states from a model on one mesh to a model on another: positions by cubic interpolation

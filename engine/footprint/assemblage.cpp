@@ -15,7 +15,7 @@ namespace {
 constexpr double same = 1e-9;
 
 bool inside(const std::vector<Interval>& pieces, double at, double margin) {
-  return std::any_of(pieces.begin(), pieces.end(), [&](const Interval& piece) {
+  return std::ranges::any_of(pieces, [&](const Interval& piece) {
     return at > piece.begin + margin && at < piece.end - margin;
   });
 }
@@ -35,115 +35,6 @@ std::vector<Line> clipped(const Line& line, const Assemblage::PlacedBlock& block
   return kept;
 }
 
-}  // namespace
-
-double along_sides(Side side, const Eigen::Vector2d& uv) {
-  return side == Side::east || side == Side::west ? uv.x() + uv.y() : uv.y() - uv.x();
-}
-
-double outward(Side side) { return side == Side::east || side == Side::north ? 1 : -1; }
-
-Result<NetPoint> Assemblage::PlacedBlock::at(const Eigen::Vector2d& uv) const {
-  const Eigen::Vector2d own = uv - shift;
-  auto point = block.net->at(own.x(), own.y());
-  if (!point)
-    return fail(point.error().fault, "block \"{}\": {}", block.name, point.error().message);
-  point->position = block.pose * point->position + offset;
-  point->tangent_u = block.pose.linear() * point->tangent_u;
-  point->tangent_v = block.pose.linear() * point->tangent_v;
-  return point;
-}
-
-double Assemblage::PlacedBlock::depth(Side side, const Eigen::Vector2d& uv) const {
-  const auto& row = block.cut[std::size_t(side)];
-  if (!row) return std::numeric_limits<double>::infinity();
-  return outward(side) * (*row * block.spacing - along_sides(side, uv - shift));
-}
-
-bool Assemblage::PlacedBlock::within_cuts(const Eigen::Vector2d& uv) const {
-  return std::all_of(all_sides.begin(), all_sides.end(),
-                     [&](Side side) { return depth(side, uv) >= -same * block.spacing; });
-}
-
-bool Assemblage::PlacedBlock::within_boundary(const Eigen::Vector2d& uv) const {
-  const Eigen::Vector2d own = uv - shift;
-  const double margin = -same * block.spacing;
-  return inside(block.domain->intervals(Family::u, own.y()), own.x(), margin) ||
-         inside(block.domain->intervals(Family::v, own.x()), own.y(), margin);
-}
-
-std::vector<Interval> Assemblage::PlacedBlock::intervals(Family family, double c) const {
-  const int along = family == Family::u ? 0 : 1;
-  const double own = c - shift[1 - along];
-  std::vector<Interval> pieces;
-  for (Interval piece : block.domain->intervals(family, own)) {
-    for (const Side side : all_sides) {
-      const auto& row = block.cut[std::size_t(side)];
-      if (!row) continue;
-      // u + v grows along both families, v - u falls along u
-      const bool sum = side == Side::east || side == Side::west;
-      const double slope = sum || along == 1 ? 1 : -1;
-      const double rest = sum || along == 0 ? own : -own;
-      const double at = slope * (*row * block.spacing - rest);
-      if (outward(side) * slope > 0)
-        piece.end = std::min(piece.end, at);
-      else
-        piece.begin = std::max(piece.begin, at);
-    }
-    if (piece.begin < piece.end)
-      pieces.push_back({piece.begin + shift[along], piece.end + shift[along]});
-  }
-  return pieces;
-}
-
-std::vector<Eigen::Vector2d> Assemblage::PlacedBlock::row(Side side) const {
-  const auto& cut = block.cut[std::size_t(side)];
-  if (!cut) return {};
-  const double d = block.spacing, margin = 1e-6 * d;
-  const bool sum = side == Side::east || side == Side::west;
-  const int last = static_cast<int>(std::ceil(block.domain->reach() / d)) + 1;
-  std::vector<Eigen::Vector2d> joints;
-  for (int i = -last; i <= last; ++i) {
-    const double u = line_of(block.placement, i, d);
-    const double v = sum ? *cut * d - u : *cut * d + u;
-    // both rods of the joint reach it
-    if (inside(block.domain->intervals(Family::u, v), u, margin) &&
-        inside(block.domain->intervals(Family::v, u), v, margin) &&
-        within_cuts(Eigen::Vector2d(u, v) + shift))
-      joints.push_back(Eigen::Vector2d(u, v) + shift);
-  }
-  return joints;
-}
-
-std::vector<Eigen::Matrix2Xd> Assemblage::PlacedBlock::outline(int points) const {
-  const Eigen::Matrix2Xd ring = block.domain->boundary(points).colwise() + shift;
-  const auto cut_away = [&](Eigen::Index k) {
-    return std::any_of(all_sides.begin(), all_sides.end(),
-                       [&](Side side) { return depth(side, ring.col(k)) < 0; });
-  };
-  // once around, from a point that is cut away where there is one
-  Eigen::Index first = 0;
-  while (first + 1 < ring.cols() && !cut_away(first)) ++first;
-  Line around;
-  for (Eigen::Index k = 0; k <= ring.cols(); ++k)
-    around.emplace_back(ring.col((first + k) % ring.cols()));
-  std::vector<Line> lines{around};
-  for (const Side side : all_sides) {
-    std::vector<Line> kept;
-    for (const Line& line : lines)
-      for (Line& part : clipped(line, *this, side)) kept.push_back(std::move(part));
-    lines = std::move(kept);
-  }
-  std::vector<Eigen::Matrix2Xd> outlines;
-  for (const Line& line : lines) {
-    outlines.emplace_back(2, Eigen::Index(line.size()));
-    for (std::size_t k = 0; k < line.size(); ++k) outlines.back().col(Eigen::Index(k)) = line[k];
-  }
-  return outlines;
-}
-
-namespace {
-
 using Places = Assemblage::Places;
 using PlacedBlock = Assemblage::PlacedBlock;
 
@@ -156,7 +47,7 @@ std::string name_of(const Places& places, const Join& join) {
 }
 
 tl::unexpected<Error> refuse(const Places& places, const Join& join, const std::string& why) {
-  return fail(Fault::bad_input, "seam {}: {}", name_of(places, join), why);
+  return invalid("seam {}: {}", name_of(places, join), why);
 }
 
 bool face(Side a, Side b) {
@@ -190,8 +81,8 @@ Result<void> check_sides(const Places& places, const std::vector<Join>& joins) {
   for (int k = 0; k < int(places.size()); ++k)
     for (const Side side : all_sides)
       if (places[k].block.cut[std::size_t(side)] && !used[k][std::size_t(side)])
-        return fail(Fault::bad_input, "{} is cut and not joined: its rods would end in the air",
-                    name_of(places, BlockSide{k, side}));
+        return invalid("{} is cut and not joined: its rods would end in the air",
+                       name_of(places, BlockSide{k, side}));
   return {};
 }
 
@@ -259,8 +150,8 @@ Result<void> place_all(Places& places, const std::vector<Join>& joins) {
   }
   for (std::size_t k = 0; k < places.size(); ++k)
     if (!placed[k])
-      return fail(Fault::bad_input, "no join holds block \"{}\" to block \"{}\"",
-                  places[k].block.name, places.front().block.name);
+      return invalid("no join holds block \"{}\" to block \"{}\"", places[k].block.name,
+                     places.front().block.name);
   return {};
 }
 
@@ -306,8 +197,7 @@ Result<void> check_apart(const Places& places) {
           for (const Interval& one : places[a].intervals(family, line))
             for (const Interval& two : places[b].intervals(family, line))
               if (std::min(one.end, two.end) - std::max(one.begin, two.begin) > 1e-6 * d)
-                return fail(
-                    Fault::bad_input,
+                return invalid(
                     "blocks \"{}\" and \"{}\" overlap in the footprint, on the {}-rod at {:g} mm",
                     places[a].block.name, places[b].block.name, family == Family::u ? "u" : "v",
                     line);
@@ -316,7 +206,112 @@ Result<void> check_apart(const Places& places) {
   return {};
 }
 
+/// How far a point lies along the direction of `side`'s pair: u + v, or v - u.
+double along_sides(Side side, const Eigen::Vector2d& uv) {
+  return side == Side::east || side == Side::west ? uv.x() + uv.y() : uv.y() - uv.x();
+}
+
 }  // namespace
+
+double outward(Side side) { return side == Side::east || side == Side::north ? 1 : -1; }
+
+Result<NetPoint> Assemblage::PlacedBlock::at(const Eigen::Vector2d& uv) const {
+  const Eigen::Vector2d own = uv - shift;
+  auto point = block.net->at(own.x(), own.y());
+  if (!point)
+    return fail(point.error().fault, "block \"{}\": {}", block.name, point.error().message);
+  point->position = block.pose * point->position + offset;
+  point->tangent_u = block.pose.linear() * point->tangent_u;
+  point->tangent_v = block.pose.linear() * point->tangent_v;
+  return point;
+}
+
+double Assemblage::PlacedBlock::depth(Side side, const Eigen::Vector2d& uv) const {
+  const auto& row = block.cut[std::size_t(side)];
+  if (!row) return std::numeric_limits<double>::infinity();
+  return outward(side) * (*row * block.spacing - along_sides(side, uv - shift));
+}
+
+bool Assemblage::PlacedBlock::within_cuts(const Eigen::Vector2d& uv) const {
+  return std::ranges::all_of(all_sides,
+                             [&](Side side) { return depth(side, uv) >= -same * block.spacing; });
+}
+
+bool Assemblage::PlacedBlock::within_boundary(const Eigen::Vector2d& uv) const {
+  const Eigen::Vector2d own = uv - shift;
+  const double margin = -same * block.spacing;
+  return inside(block.domain->intervals(Family::u, own.y()), own.x(), margin) ||
+         inside(block.domain->intervals(Family::v, own.x()), own.y(), margin);
+}
+
+std::vector<Interval> Assemblage::PlacedBlock::intervals(Family family, double c) const {
+  const int along = family == Family::u ? 0 : 1;
+  const double own = c - shift[1 - along];
+  std::vector<Interval> pieces;
+  for (Interval piece : block.domain->intervals(family, own)) {
+    for (const Side side : all_sides) {
+      const auto& row = block.cut[std::size_t(side)];
+      if (!row) continue;
+      // u + v grows along both families, v - u falls along u
+      const bool sum = side == Side::east || side == Side::west;
+      const double slope = sum || along == 1 ? 1 : -1;
+      const double rest = sum || along == 0 ? own : -own;
+      const double at = slope * (*row * block.spacing - rest);
+      if (outward(side) * slope > 0)
+        piece.end = std::min(piece.end, at);
+      else
+        piece.begin = std::max(piece.begin, at);
+    }
+    if (piece.begin < piece.end)
+      pieces.push_back({piece.begin + shift[along], piece.end + shift[along]});
+  }
+  return pieces;
+}
+
+std::vector<Eigen::Vector2d> Assemblage::PlacedBlock::row(Side side) const {
+  const auto& cut = block.cut[std::size_t(side)];
+  if (!cut) return {};
+  const double d = block.spacing, margin = 1e-6 * d;
+  const bool sum = side == Side::east || side == Side::west;
+  const int last = static_cast<int>(std::ceil(block.domain->reach() / d)) + 1;
+  std::vector<Eigen::Vector2d> joints;
+  for (int i = -last; i <= last; ++i) {
+    const double u = line_of(block.placement, i, d);
+    const double v = sum ? *cut * d - u : *cut * d + u;
+    // both rods of the joint reach it
+    if (inside(block.domain->intervals(Family::u, v), u, margin) &&
+        inside(block.domain->intervals(Family::v, u), v, margin) &&
+        within_cuts(Eigen::Vector2d(u, v) + shift))
+      joints.push_back(Eigen::Vector2d(u, v) + shift);
+  }
+  return joints;
+}
+
+std::vector<Eigen::Matrix2Xd> Assemblage::PlacedBlock::outline(int points) const {
+  const Eigen::Matrix2Xd ring = block.domain->boundary(points).colwise() + shift;
+  const auto cut_away = [&](Eigen::Index k) {
+    return std::ranges::any_of(all_sides, [&](Side side) { return depth(side, ring.col(k)) < 0; });
+  };
+  // once around, from a point that is cut away where there is one
+  Eigen::Index first = 0;
+  while (first + 1 < ring.cols() && !cut_away(first)) ++first;
+  Line around;
+  for (Eigen::Index k = 0; k <= ring.cols(); ++k)
+    around.emplace_back(ring.col((first + k) % ring.cols()));
+  std::vector<Line> lines{around};
+  for (const Side side : all_sides) {
+    std::vector<Line> kept;
+    for (const Line& line : lines)
+      for (Line& part : clipped(line, *this, side)) kept.push_back(std::move(part));
+    lines = std::move(kept);
+  }
+  std::vector<Eigen::Matrix2Xd> outlines;
+  for (const Line& line : lines) {
+    outlines.emplace_back(2, Eigen::Index(line.size()));
+    for (std::size_t k = 0; k < line.size(); ++k) outlines.back().col(Eigen::Index(k)) = line[k];
+  }
+  return outlines;
+}
 
 double Seam::max_gap_mm() const { return std::ranges::max(rods, {}, &SeamRod::gap_mm).gap_mm; }
 
@@ -326,7 +321,7 @@ double Seam::max_kink_deg() const {
 
 Result<Assemblage> Assemblage::make(std::vector<Block> blocks, const std::vector<Join>& joins,
                                     double max_gap) {
-  if (blocks.empty()) return fail(Fault::bad_input, "there is no block to assemble");
+  if (blocks.empty()) return invalid("there is no block to assemble");
   auto places = std::make_shared<Places>();
   for (Block& block : blocks) places->push_back({std::move(block)});
   TRY_DO(check_sides(*places, joins));

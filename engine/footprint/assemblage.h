@@ -107,9 +107,6 @@ class Assemblage {
 
 // A building block where it lies in an assemblage.
 
-/// How far a point lies along the direction of `side`'s pair: u + v, or v - u.
-double along_sides(Side side, const Eigen::Vector2d& uv);
-
 /// +1 where a cut keeps what lies below its row (east, north), else -1.
 double outward(Side side);
 

@@ -30,8 +30,7 @@ class AssembledNet final : public ChebyshevNet {
   Result<NetPoint> at(double u, double v) const override {
     const Eigen::Vector2d uv(u, v);
     const auto held = holders(*places_, uv);
-    if (held.empty())
-      return fail(Fault::bad_input, "no block holds (u, v) = ({:g}, {:g}) mm", u, v);
+    if (held.empty()) return invalid("no block holds (u, v) = ({:g}, {:g}) mm", u, v);
     NetPoint middle{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
     for (const auto* place : held) {
       const auto point = place->at(uv);
@@ -60,7 +59,7 @@ std::vector<Eigen::Vector2d> linked(std::vector<Eigen::Matrix2Xd> pieces) {
   while (!pieces.empty()) {
     auto next = pieces.begin();
     if (!ring.empty())
-      next = std::min_element(pieces.begin(), pieces.end(), [&](const auto& a, const auto& b) {
+      next = std::ranges::min_element(pieces, [&](const auto& a, const auto& b) {
         return (a.col(0) - ring.back()).norm() < (b.col(0) - ring.back()).norm();
       });
     for (Eigen::Index k = 0; k < next->cols(); ++k) ring.emplace_back(next->col(k));
@@ -93,8 +92,8 @@ class AssembledDomain final : public Domain {
     std::vector<Interval> pieces;
     for (const auto& place : *places_)
       for (const Interval& piece : place.intervals(family, c)) pieces.push_back(piece);
-    std::sort(pieces.begin(), pieces.end(),
-              [](const Interval& a, const Interval& b) { return a.begin < b.begin; });
+    std::ranges::sort(pieces,
+                      [](const Interval& a, const Interval& b) { return a.begin < b.begin; });
     // a rod that ends on a seam goes on in the next block
     std::vector<Interval> rods;
     const double near = 1e-9 * places_->front().block.spacing;

@@ -24,7 +24,7 @@ std::vector<Interval> CurveDomain::intervals(Family family, double c) const {
   std::vector<double> places;
   for (const double t : curve_.crossings(1 - along, c))
     places.push_back(curve_.at(t).position[along]);
-  std::sort(places.begin(), places.end());
+  std::ranges::sort(places);
   std::vector<Interval> pieces;
   for (std::size_t k = 0; k + 1 < places.size(); k += 2)
     if (places[k] < places[k + 1]) pieces.push_back({places[k], places[k + 1]});
@@ -179,36 +179,6 @@ std::unique_ptr<Domain> half_between(const RevolutionNet& net, double first, dou
                                       {Eigen::Vector2d(-1, 1), -quarter_turn, quarter_turn}}});
 }
 
-}  // namespace
-
-Result<std::unique_ptr<Domain>> cap_of(const SphereNet& net, double cut_height) {
-  if (!(cut_height >= 0 && cut_height < 1))
-    return fail(Fault::bad_input,
-                "the cap's cut height is {:g} of the radius, it must lie in [0, 1)", cut_height);
-  return std::make_unique<Cap>(net, cut_height);
-}
-
-Result<std::unique_ptr<Domain>> half_of(const RevolutionNet& net, double length) {
-  if (!(length > 0))
-    return fail(Fault::bad_input, "the length is {:g} mm, it must be positive", length);
-  const auto first = net.x_at_axial(-length / 2), last = net.x_at_axial(length / 2);
-  for (const auto* end : {&first, &last})
-    if (!*end) return tl::unexpected(end->error());
-  return half_between(net, *first, *last);
-}
-
-std::unique_ptr<Domain> half_of_all(const RevolutionNet& net) {
-  return half_between(net, net.first_x(), net.last_x());
-}
-
-std::unique_ptr<Domain> all_of(const TranslationNet& net) {
-  return std::make_unique<Rectangle>(
-      std::array<Rectangle::Side, 2>{{{Eigen::Vector2d(1, 0), -net.half_u(), net.half_u()},
-                                      {Eigen::Vector2d(0, 1), -net.half_v(), net.half_v()}}});
-}
-
-namespace {
-
 class Part final : public Domain {
  public:
   Part(std::shared_ptr<const SurfaceNet> net, Surface::Function outside)
@@ -304,16 +274,40 @@ class Part final : public Domain {
 
 }  // namespace
 
+Result<std::unique_ptr<Domain>> cap_of(const SphereNet& net, double cut_height) {
+  if (!(cut_height >= 0 && cut_height < 1))
+    return invalid("the cap's cut height is {:g} of the radius, it must lie in [0, 1)", cut_height);
+  return std::make_unique<Cap>(net, cut_height);
+}
+
+Result<std::unique_ptr<Domain>> half_of(const RevolutionNet& net, double length) {
+  if (!(length > 0)) return invalid("the length is {:g} mm, it must be positive", length);
+  const auto first = net.x_at_axial(-length / 2), last = net.x_at_axial(length / 2);
+  for (const auto* end : {&first, &last})
+    if (!*end) return tl::unexpected(end->error());
+  return half_between(net, *first, *last);
+}
+
+std::unique_ptr<Domain> half_of_all(const RevolutionNet& net) {
+  return half_between(net, net.first_x(), net.last_x());
+}
+
+std::unique_ptr<Domain> all_of(const TranslationNet& net) {
+  return std::make_unique<Rectangle>(
+      std::array<Rectangle::Side, 2>{{{Eigen::Vector2d(1, 0), -net.half_u(), net.half_u()},
+                                      {Eigen::Vector2d(0, 1), -net.half_v(), net.half_v()}}});
+}
+
 Result<std::unique_ptr<Domain>> part_of(std::shared_ptr<const SurfaceNet> net,
                                         Surface::Function outside) {
   constexpr int rays = 360;
   auto part = std::make_unique<Part>(std::move(net), std::move(outside));
   for (int k = 0; k < rays; ++k)
     if (part->exits(2 * M_PI * k / rays) != 1)
-      return fail(Fault::bad_input,
-                  "the boundary is crossed more than once on the way from the apex outwards, at {} "
-                  "degrees from the first rod: it must be seen from there as a whole",
-                  k);
+      return invalid(
+          "the boundary is crossed more than once on the way from the apex outwards, at {} "
+          "degrees from the first rod: it must be seen from there as a whole",
+          k);
   return part;
 }
 

@@ -1,7 +1,6 @@
 #include "engine/footprint/footprint.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 namespace gridshell {
@@ -39,8 +38,7 @@ void cross(Footprint& net) {
     const auto along = [&](int joint) {
       return rod.family == Family::u ? net.joints[joint].u : net.joints[joint].v;
     };
-    std::sort(rod.joints.begin(), rod.joints.end(),
-              [&](int a, int b) { return along(a) < along(b); });
+    std::ranges::sort(rod.joints, [&](int a, int b) { return along(a) < along(b); });
     for (const int joint : rod.joints) rod.marks.push_back(along(joint));
   }
 }
@@ -168,23 +166,23 @@ double line_of(Placement placement, int index, double spacing) {
 Result<Footprint> cut_footprint(const Domain& domain, double spacing, Placement placement) {
   const double lines = domain.reach() / spacing;
   if (!(spacing > 0) || !(lines * lines * 4 < most_joints))
-    return fail(Fault::bad_input,
-                "a spacing of {:g} mm in a boundary that reaches {:g} mm gives more than {:g} "
-                "joints or none",
-                spacing, domain.reach(), most_joints);
+    return invalid(
+        "a spacing of {:g} mm in a boundary that reaches {:g} mm gives more than {:g} "
+        "joints or none",
+        spacing, domain.reach(), most_joints);
   Footprint net{spacing, placement, {}, {}, {}};
   const int last = int(std::ceil(lines)) + 1;
   for (Family family : {Family::u, Family::v})
     for (int index = -last; index <= last; ++index) add_rods(net, domain, family, index);
   if (net.rods.empty())
-    return fail(Fault::bad_input, "no grid line of spacing {:g} mm meets the boundary", spacing);
+    return invalid("no grid line of spacing {:g} mm meets the boundary", spacing);
   cross(net);
   net.lone_lines = int(std::erase_if(net.rods, crosses_none));
   if (net.rods.empty())
-    return fail(Fault::bad_input,
-                "no two rods of spacing {:g} mm cross within the boundary: it must be larger, or "
-                "the spacing smaller",
-                spacing);
+    return invalid(
+        "no two rods of spacing {:g} mm cross within the boundary: it must be larger, or "
+        "the spacing smaller",
+        spacing);
   find_cells(net);
   return net;
 }
@@ -193,19 +191,17 @@ Result<Footprint> cut_footprint(const Domain& domain, double spacing, Placement 
 constexpr double short_leg = 1e-3;
 
 Result<Footprint> circular_footprint(double radius, int rods, double spacing, Placement placement) {
-  if (rods < 2)
-    return fail(Fault::bad_input, "{} rod a direction makes no cell: take at least 2", rods);
-  if (rods > 1000) return fail(Fault::bad_input, "{} rods a direction: at most 1000", rods);
+  if (rods < 2) return invalid("{} rod a direction makes no cell: take at least 2", rods);
+  if (rods > 1000) return invalid("{} rods a direction: at most 1000", rods);
   const bool even = rods % 2 == 0;
   if (even != (placement == Placement::half))
-    return fail(Fault::bad_input,
-                "{} rods a direction do not fit placement \"{}\": rods at (i + 1/2) d (\"half\") "
-                "are an even number, rods at i d (\"on_axis\") an odd one",
-                rods, placement == Placement::half ? "half" : "on_axis");
+    return invalid(
+        "{} rods a direction do not fit placement \"{}\": rods at (i + 1/2) d (\"half\") "
+        "are an even number, rods at i d (\"on_axis\") an odd one",
+        rods, placement == Placement::half ? "half" : "on_axis");
   const double longest = radius / spacing - (rods - 1) / 2.0;
   if (!(longest > on_boundary))
-    return fail(
-        Fault::bad_input,
+    return invalid(
         "{} rods a direction at d = {:g} mm reach {:g} mm, beyond the boundary: the longest leg "
         "R_o/d - (n-1)/2 = {:.4g} must be above 0; take R_o >= {:.7g} mm or n <= {}",
         rods, spacing, (rods - 1) / 2.0 * spacing, longest,
@@ -218,10 +214,10 @@ Result<Footprint> circular_footprint(double radius, int rods, double spacing, Pl
   cross(net);
   const auto alone = std::ranges::find_if(net.rods, crosses_none);
   if (alone != net.rods.end())
-    return fail(Fault::bad_input,
-                "the {}-rod at {} = {:g} mm crosses no other rod: it would hang on its two ends "
-                "alone; move the boundary or the spacing",
-                name_of(alone->family), alone->family == Family::u ? "v" : "u", alone->line());
+    return invalid(
+        "the {}-rod at {} = {:g} mm crosses no other rod: it would hang on its two ends "
+        "alone; move the boundary or the spacing",
+        name_of(alone->family), alone->family == Family::u ? "v" : "u", alone->line());
   find_cells(net);
   return net;
 }

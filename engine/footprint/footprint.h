@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <array>
 #include <cmath>
-#include <string>
 #include <vector>
 
 #include "engine/core/choices.h"

@@ -4,10 +4,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
-#include <map>
-#include <numeric>
-#include <optional>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -46,9 +42,7 @@ bool is_straight(const Eigen::Matrix3Xd& points, const std::vector<int>& rod) {
 Result<void> check_rod(const RodNetwork& network, std::size_t r,
                        std::map<std::pair<int, int>, std::size_t>& stretches) {
   const std::vector<int>& rod = network.rods[r];
-  const auto wrong = [&](const std::string& what) {
-    return fail(Fault::bad_input, "rods[{}]: {}", r, what);
-  };
+  const auto wrong = [&](const std::string& what) { return invalid("rods[{}]: {}", r, what); };
   const std::set<int> points(rod.begin(), rod.end());
   if (points.size() < 2) return wrong("has one point, must have at least two, apart");
   if (is_ring(rod) && points.size() < 3) return wrong("a ring must have at least three points");
@@ -123,15 +117,12 @@ Result<void> check_points(const RodNetwork& network, const Roles& roles) {
     const auto [passes, ends] = roles.at(point);
     const bool free = network.free[point] != 0;
     if ((free || roles.is_supported(point)) && passes + ends == 0)
-      return fail(Fault::bad_input, "point {} is {}, and no rod has it", point,
-                  free ? "free" : "a support");
+      return invalid("point {} is {}, and no rod has it", point, free ? "free" : "a support");
     if (free && passes > 0)
-      return fail(
-          Fault::bad_input,
+      return invalid(
           "point {} is free, and inside a rod: only ends of rods are held unless they are free",
           point);
-    if (free && roles.is_supported(point))
-      return fail(Fault::bad_input, "point {} is a support and free", point);
+    if (free && roles.is_supported(point)) return invalid("point {} is a support and free", point);
   }
   return {};
 }
@@ -159,12 +150,11 @@ Result<RodEnd> hold_of(const RodNetwork& network, const Roles& roles, int end) {
   const auto own = network.holds.find(end);
   if (own == network.holds.end()) return there == RodEnd::pinned ? network.hold : there;
   if (there == RodEnd::pinned) return own->second;
-  return fail(Fault::bad_input,
-              "rods[{}]: its {} {}, how it is held can be said of an end at a support alone",
-              end / 2, end % 2 == 0 ? "begin" : "end",
-              there == RodEnd::joined   ? "is joined there"
-              : there == RodEnd::sprung ? "hangs on a spring"
-                                        : "is free");
+  return invalid("rods[{}]: its {} {}, how it is held can be said of an end at a support alone",
+                 end / 2, end % 2 == 0 ? "begin" : "end",
+                 there == RodEnd::joined   ? "is joined there"
+                 : there == RodEnd::sprung ? "hangs on a spring"
+                                           : "is free");
 }
 
 Result<FootprintRod> rod_of(const RodNetwork& network, std::size_t r, const Roles& roles,
@@ -185,10 +175,10 @@ Result<FootprintRod> rod_of(const RodNetwork& network, std::size_t r, const Role
   }
   rod.span = {0, position};
   if (rod.joints.empty())
-    return fail(Fault::bad_input,
-                "rods[{}]: is joined to no other rod, must share a point with one, or be the only "
-                "rod and have points inside",
-                r);
+    return invalid(
+        "rods[{}]: is joined to no other rod, must share a point with one, or be the only "
+        "rod and have points inside",
+        r);
   TRY(begin, hold_of(network, roles, int(2 * r)));
   TRY(end, hold_of(network, roles, int(2 * r) + 1));
   rod.begin = *begin;
@@ -274,15 +264,15 @@ Result<void> check_held(const RodNetwork& network, const Roles& roles, const Foo
   }
   for (const auto& [at, rod] : first_rod) {
     if (!off_a_line(held[at]))
-      return fail(Fault::bad_input,
-                  "rods[{}] and what is joined to it: held at fewer than three points, or at "
-                  "points on one line, and would turn freely about it",
-                  rod);
+      return invalid(
+          "rods[{}] and what is joined to it: held at fewer than three points, or at "
+          "points on one line, and would turn freely about it",
+          rod);
     if (!hold_all(held[at]))
-      return fail(Fault::bad_input,
-                  "rods[{}] and what is joined to it: held by springs along too few directions, "
-                  "and would move or turn freely",
-                  rod);
+      return invalid(
+          "rods[{}] and what is joined to it: held by springs along too few directions, "
+          "and would move or turn freely",
+          rod);
   }
   return {};
 }

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <optional>
 #include <utility>
 
 namespace gridshell {
@@ -146,9 +145,8 @@ std::vector<MeshSymmetry> symmetries_of(const RodMesh& mesh, const Eigen::Matrix
         }))
       continue;
     const Eigen::Matrix3Xd moved = symmetry.of(ends.leftCols(Eigen::Index(symmetry.image.size())));
-    const bool same = std::all_of(held.begin(), held.end(), [&](int node) {
-      return (moved.col(node) - ends.col(node)).norm() < same_mm;
-    });
+    const bool same = std::ranges::all_of(
+        held, [&](int node) { return (moved.col(node) - ends.col(node)).norm() < same_mm; });
     if (same) found.push_back(std::move(symmetry));
   }
   return found;

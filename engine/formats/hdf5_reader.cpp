@@ -266,13 +266,12 @@ Result<void> read_in_subprocess(const std::function<void()>& reading) {
     if (std::chrono::steady_clock::now() > end) {
       ::kill(child, SIGKILL);
       ::waitpid(child, &status, 0);
-      return fail(Fault::bad_input,
-                  "it is damaged: the HDF5 library takes more than {} s to read it", seconds);
+      return invalid("it is damaged: the HDF5 library takes more than {} s to read it", seconds);
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
-  return fail(Fault::bad_input, "it is damaged: the HDF5 library does not survive reading it");
+  return invalid("it is damaged: the HDF5 library does not survive reading it");
 }
 
 }  // namespace gridshell::record

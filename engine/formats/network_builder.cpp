@@ -59,105 +59,6 @@ std::set<int> ends_alone(const std::vector<std::vector<int>>& rods) {
   return ends;
 }
 
-}  // namespace
-
-Result<void> NetworkBuilder::add_joint(std::vector<int> points, const std::string& at) {
-  // those at one place are one already
-  std::set<int> once;
-  std::erase_if(points, [&](int point) { return !once.insert(point).second; });
-  for (const int point : points)
-    if (!listed_.insert(point).second)
-      return fail(Fault::bad_input,
-                  "{}: point {} is of another joint too, must be of one: list all points of a "
-                  "joint together",
-                  at, point);
-  joints_.push_back({std::move(points), at});
-  return {};
-}
-
-/// Every point is of a rod, and no rod comes to a joint twice but to close a ring.
-Result<void> NetworkBuilder::check_rods(const std::vector<int>& joint_of) const {
-  std::set<int> on_rods;
-  for (std::size_t r = 0; r < network_.rods.size(); ++r) {
-    const std::vector<int>& rod = network_.rods[r];
-    on_rods.insert(rod.begin(), rod.end());
-    std::map<int, std::size_t> first;
-    for (std::size_t k = 0; k < rod.size(); ++k) {
-      const int joint = joint_of[std::size_t(rod[k])];
-      if (joint < 0) continue;
-      const auto [there, is_new] = first.try_emplace(joint, k);
-      const bool closes = there->second == 0 && k + 1 == rod.size() && k > 2;
-      if (!is_new && !closes && rod[there->second] != rod[k])
-        return fail(Fault::bad_input,
-                    "{}: rods[{}] has both point {} and point {}, the points of a joint must be of "
-                    "different rods, or the two ends of a ring",
-                    joints_[std::size_t(joint)].at, r, rod[there->second], rod[k]);
-    }
-  }
-  for (const Joint& joint : joints_)
-    for (const int point : joint.points)
-      if (!on_rods.contains(point))
-        return fail(Fault::bad_input, "{}: no rod has point {}, must be a point of a rod", joint.at,
-                    point);
-  return {};
-}
-
-/// No point goes further to its joint than a part of the rods beside it.
-Result<void> NetworkBuilder::check_reach(const std::vector<int>& joint_of) const {
-  const auto shortest = shortest_beside(network_, joint_of, joints_.size());
-  for (std::size_t j = 0; j < joints_.size(); ++j) {
-    const Coordinates mean = mean_of(joints_[j].points, network_.points);
-    for (const int point : joints_[j].points) {
-      const double way = distance(network_.points[std::size_t(point)], mean);
-      if (!(way <= farthest * shortest[j]))
-        return fail(Fault::bad_input,
-                    "{}: point {} lies {:.4g} mm from the middle of the joint's points, must be at "
-                    "most {:.4g} mm, a quarter of the shortest stretch of rod beside them",
-                    joints_[j].at, point, way, farthest * shortest[j]);
-    }
-  }
-  return {};
-}
-
-/// The first point of a joint in the place of the others.
-void NetworkBuilder::rename(const std::vector<int>& joint_of) {
-  const auto name = [&](int point) {
-    const int joint = joint_of[std::size_t(point)];
-    return joint < 0 ? point : joints_[std::size_t(joint)].points.front();
-  };
-  for (std::vector<int>& rod : network_.rods)
-    for (int& point : rod) point = name(point);
-  for (Points* rows : {&network_.supports, &network_.springs, &network_.joint_laws})
-    for (std::vector<double>& row : *rows) row[0] = name(int(row[0]));
-  std::set<int> free, supported;
-  for (const std::vector<double>& row : network_.supports) supported.insert(int(row[0]));
-  for (const int point : network_.free) free.insert(name(point));
-  // rods that only end at a joint hang on one another
-  const std::set<int> ends = ends_alone(network_.rods);
-  for (const Joint& joint : joints_) {
-    const int point = joint.points.front();
-    if (ends.contains(point) && !supported.contains(point)) free.insert(point);
-  }
-  network_.free.assign(free.begin(), free.end());
-}
-
-Result<void> NetworkBuilder::join_listed() {
-  if (joints_.empty()) return {};
-  std::vector<int> joint_of(points(), -1);
-  for (std::size_t j = 0; j < joints_.size(); ++j)
-    for (const int point : joints_[j].points) joint_of[std::size_t(point)] = int(j);
-  if (auto fine = check_rods(joint_of); !fine) return fine;
-  if (auto fine = check_reach(joint_of); !fine) return fine;
-  for (const Joint& joint : joints_)
-    network_.points[std::size_t(joint.points.front())] = mean_of(joint.points, network_.points);
-  rename(joint_of);
-  return {};
-}
-
-// Rods of a drawing are joined wherever they cross or touch.
-
-namespace {
-
 constexpr std::size_t most_stretches = 20000;  // each is held against each
 
 Eigen::Vector3d place_of(const std::vector<double>& point) {
@@ -232,11 +133,104 @@ void put(std::vector<Cut> cuts, std::vector<std::vector<int>>& rods) {
 
 }  // namespace
 
+Result<void> NetworkBuilder::add_joint(std::vector<int> points, const std::string& at) {
+  // those at one place are one already
+  std::set<int> once;
+  std::erase_if(points, [&](int point) { return !once.insert(point).second; });
+  for (const int point : points)
+    if (!listed_.insert(point).second)
+      return invalid(
+          "{}: point {} is of another joint too, must be of one: list all points of a "
+          "joint together",
+          at, point);
+  joints_.push_back({std::move(points), at});
+  return {};
+}
+
+/// Every point is of a rod, and no rod comes to a joint twice but to close a ring.
+Result<void> NetworkBuilder::check_rods(const std::vector<int>& joint_of) const {
+  std::set<int> on_rods;
+  for (std::size_t r = 0; r < network_.rods.size(); ++r) {
+    const std::vector<int>& rod = network_.rods[r];
+    on_rods.insert(rod.begin(), rod.end());
+    std::map<int, std::size_t> first;
+    for (std::size_t k = 0; k < rod.size(); ++k) {
+      const int joint = joint_of[std::size_t(rod[k])];
+      if (joint < 0) continue;
+      const auto [there, is_new] = first.try_emplace(joint, k);
+      const bool closes = there->second == 0 && k + 1 == rod.size() && k > 2;
+      if (!is_new && !closes && rod[there->second] != rod[k])
+        return invalid(
+            "{}: rods[{}] has both point {} and point {}, the points of a joint must be of "
+            "different rods, or the two ends of a ring",
+            joints_[std::size_t(joint)].at, r, rod[there->second], rod[k]);
+    }
+  }
+  for (const Joint& joint : joints_)
+    for (const int point : joint.points)
+      if (!on_rods.contains(point))
+        return invalid("{}: no rod has point {}, must be a point of a rod", joint.at, point);
+  return {};
+}
+
+/// No point goes further to its joint than a part of the rods beside it.
+Result<void> NetworkBuilder::check_reach(const std::vector<int>& joint_of) const {
+  const auto shortest = shortest_beside(network_, joint_of, joints_.size());
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    const Coordinates mean = mean_of(joints_[j].points, network_.points);
+    for (const int point : joints_[j].points) {
+      const double way = distance(network_.points[std::size_t(point)], mean);
+      if (!(way <= farthest * shortest[j]))
+        return invalid(
+            "{}: point {} lies {:.4g} mm from the middle of the joint's points, must be at "
+            "most {:.4g} mm, a quarter of the shortest stretch of rod beside them",
+            joints_[j].at, point, way, farthest * shortest[j]);
+    }
+  }
+  return {};
+}
+
+/// The first point of a joint in the place of the others.
+void NetworkBuilder::rename(const std::vector<int>& joint_of) {
+  const auto name = [&](int point) {
+    const int joint = joint_of[std::size_t(point)];
+    return joint < 0 ? point : joints_[std::size_t(joint)].points.front();
+  };
+  for (std::vector<int>& rod : network_.rods)
+    for (int& point : rod) point = name(point);
+  for (Points* rows : {&network_.supports, &network_.springs, &network_.joint_laws})
+    for (std::vector<double>& row : *rows) row[0] = name(int(row[0]));
+  std::set<int> free, supported;
+  for (const std::vector<double>& row : network_.supports) supported.insert(int(row[0]));
+  for (const int point : network_.free) free.insert(name(point));
+  // rods that only end at a joint hang on one another
+  const std::set<int> ends = ends_alone(network_.rods);
+  for (const Joint& joint : joints_) {
+    const int point = joint.points.front();
+    if (ends.contains(point) && !supported.contains(point)) free.insert(point);
+  }
+  network_.free.assign(free.begin(), free.end());
+}
+
+Result<void> NetworkBuilder::join_listed() {
+  if (joints_.empty()) return {};
+  std::vector<int> joint_of(points(), -1);
+  for (std::size_t j = 0; j < joints_.size(); ++j)
+    for (const int point : joints_[j].points) joint_of[std::size_t(point)] = int(j);
+  if (auto fine = check_rods(joint_of); !fine) return fine;
+  if (auto fine = check_reach(joint_of); !fine) return fine;
+  for (const Joint& joint : joints_)
+    network_.points[std::size_t(joint.points.front())] = mean_of(joint.points, network_.points);
+  rename(joint_of);
+  return {};
+}
+
+// Rods of a drawing are joined wherever they cross or touch.
+
 Result<void> NetworkBuilder::join_crossings(const std::string& name) {
   const std::vector<Stretch> all = stretches_of(network_);
   if (all.size() > most_stretches)
-    return fail(
-        Fault::bad_input,
+    return invalid(
         "{}: holds {} stretches of rods, must be at most {} for their crossings to be found", name,
         all.size(), most_stretches);
   std::vector<Cut> cuts;

@@ -118,7 +118,5 @@ class NetworkBuilder {
 
 // the formats; errors as read_network()
 Result<NetworkData> read_network_json(std::string_view bytes, const std::string& name);
-Result<NetworkData> read_network_obj(std::string_view bytes, const std::string& name);
-Result<NetworkData> read_network_dxf(std::string_view bytes, const std::string& name);
 
 }  // namespace gridshell::preset

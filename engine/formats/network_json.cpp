@@ -85,13 +85,12 @@ Result<Document> parse(std::string_view bytes, const std::string& name) {
     document.json = Json::parse(CountingIterator(bytes.data(), &line),
                                 CountingIterator(bytes.data() + bytes.size(), &line), seen);
   } catch (const Json::exception& error) {
-    return fail(Fault::bad_input, "{}:{}: {}", name, line,
-                bytes.empty() ? "is empty, must be JSON" : "is no JSON here");
+    return invalid("{}:{}: {}", name, line,
+                   bytes.empty() ? "is empty, must be JSON" : "is no JSON here");
   }
-  if (!twice.empty()) return fail(Fault::bad_input, twice);
+  if (!twice.empty()) return invalid(twice);
   if (!document.json.is_object())
-    return fail(Fault::bad_input,
-                name + ":1: must be an object {\"points_mm\": ..., \"rods\": ...}");
+    return invalid(name + ":1: must be an object {\"points_mm\": ..., \"rods\": ...}");
   return document;
 }
 
@@ -113,11 +112,10 @@ class Reader {
   Result<NetworkData> read() {
     const std::vector<std::string> known{"points_mm", "rods", "joints", "supports"};
     for (const auto& [key, value] : document_.json.items()) {
-      if (std::find(known.begin(), known.end(), key) == known.end())
-        return fail(Fault::bad_input,
-                    "{}: unknown key '{}', must be points_mm, rods, joints or supports{}", name_,
-                    key.substr(0, 40), did_you_mean(key, known));
-      if (!value.is_array()) return fail(Fault::bad_input, "{}: '{}' must be a list", name_, key);
+      if (std::ranges::find(known, key) == known.end())
+        return invalid("{}: unknown key '{}', must be points_mm, rods, joints or supports{}", name_,
+                       key.substr(0, 40), did_you_mean(key, known));
+      if (!value.is_array()) return invalid("{}: '{}' must be a list", name_, key);
     }
     return each("points_mm", &Reader::point)
         .and_then([&] { return each("rods", &Reader::rod); })
@@ -142,7 +140,7 @@ class Reader {
   }
 
   tl::unexpected<Error> wrong(const std::string& what) const {
-    return fail(Fault::bad_input, "{}: {}", at_, what);
+    return invalid("{}: {}", at_, what);
   }
 
   Result<void> point(const Json& value) {
@@ -173,12 +171,10 @@ class Reader {
   /// Whether "joints" lists a point by its number.
   bool is_listed(const Json& number) const {
     const auto joints = document_.json.find("joints");
-    return joints != document_.json.end() &&
-           std::any_of(joints->begin(), joints->end(), [&](const Json& joint) {
+    return joints != document_.json.end() && std::ranges::any_of(*joints, [&](const Json& joint) {
              const Json& points =
                  joint.is_object() && joint.contains("points") ? joint["points"] : joint;
-             return points.is_array() &&
-                    std::find(points.begin(), points.end(), number) != points.end();
+             return points.is_array() && std::ranges::find(points, number) != points.end();
            });
   }
 

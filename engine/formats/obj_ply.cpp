@@ -23,40 +23,6 @@ std::optional<long> obj_vertex(std::string_view word, long vertices) {
   return *number > 0 ? *number - 1 : vertices + *number;
 }
 
-}  // namespace
-
-Result<void> read_obj_lines(std::string_view bytes, const std::string& name,
-                            std::string_view element, const ObjCallbacks& lines) {
-  long vertices = 0;
-  for (int number = 1; !bytes.empty(); ++number) {
-    const auto words = words_in(next_line(bytes));
-    if (words.empty() || (words[0] != "v" && words[0] != element)) continue;
-    const auto place = fmt::format("{}:{}", name, number);
-    if (words[0] == "v") {
-      std::vector<double> xyz;
-      for (std::size_t k = 1; k < words.size() && k < 4; ++k)
-        if (const auto value = number_of(words[k])) xyz.push_back(*value);
-      if (xyz.size() != 3)
-        return fail(Fault::bad_input, place + ": a vertex must have three numbers, v x y z");
-      if (auto taken = lines.vertex(xyz, place); !taken) return taken;
-      ++vertices;
-      continue;
-    }
-    std::vector<long> corners;
-    for (std::size_t k = 1; k < words.size(); ++k) {
-      const auto corner = obj_vertex(words[k], vertices);
-      if (!corner)
-        return fail(Fault::bad_input, "{}: '{}' is no vertex, must be its number", place,
-                    words[k].substr(0, 40));
-      corners.push_back(*corner);
-    }
-    if (auto taken = lines.element(corners, place); !taken) return taken;
-  }
-  return {};
-}
-
-namespace {
-
 enum class Form { text, little, big };
 
 enum class Number { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
@@ -94,13 +60,12 @@ struct Header {
 Result<Property> property_of(const std::vector<std::string_view>& words, const std::string& place) {
   const bool list = words.size() == 5 && words[1] == "list";
   if (!list && words.size() != 3)
-    return fail(Fault::bad_input,
-                place + ": must be \"property TYPE NAME\" or \"property list TYPE TYPE NAME\"");
+    return invalid(place + ": must be \"property TYPE NAME\" or \"property list TYPE TYPE NAME\"");
   Property property{std::string(words.back()), std::nullopt, Number::float32};
   const auto value = number_type(words[words.size() - 2]);
   if (list) property.count = number_type(words[2]);
   if (!value || (list && !property.count))
-    return fail(Fault::bad_input, place + ": names a type that PLY does not have");
+    return invalid(place + ": names a type that PLY does not have");
   property.value = *value;
   return property;
 }
@@ -114,12 +79,12 @@ Result<Header> read_header(std::string_view& bytes, const std::string& name) {
     const auto place = fmt::format("{}:{}", name, ++header.lines);
     if (header.lines == 1) {
       if (words.size() == 1 && words[0] == "ply") continue;
-      return fail(Fault::bad_input, place + ": no PLY, must begin with \"ply\"");
+      return invalid(place + ": no PLY, must begin with \"ply\"");
     }
     if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
     if (words[0] == "end_header") {
       if (formed) return header;
-      return fail(Fault::bad_input, place + ": the header names no format");
+      return invalid(place + ": the header names no format");
     }
     if (words[0] == "format" && words.size() == 3) {
       formed = true;
@@ -146,9 +111,9 @@ Result<Header> read_header(std::string_view& bytes, const std::string& name) {
       header.elements.back().properties.push_back(std::move(*property));
       continue;
     }
-    return fail(Fault::bad_input, place + ": is no line of a PLY header");
+    return invalid(place + ": is no line of a PLY header");
   }
-  return fail(Fault::bad_input, name + ": ends within its header");
+  return invalid(name + ": ends within its header");
 }
 
 /// The numbers behind a header, one after another; nothing once they end or are none.
@@ -237,8 +202,7 @@ Result<PlyItem> read_item(const Element& element, std::size_t number, Numbers& n
   for (const Property& property : element.properties) {
     const auto values = values_of(property, numbers);
     if (!values)
-      return fail(Fault::bad_input,
-                  item.place(name) + ": the file ends there, or what stands there is no number");
+      return invalid(item.place(name) + ": the file ends there, or what stands there is no number");
     if (!property.count && property.name.size() == 1 && property.name[0] >= 'x' &&
         property.name[0] <= 'z')
       item.xyz[property.name[0] - 'x'] = values->front();
@@ -250,6 +214,34 @@ Result<PlyItem> read_item(const Element& element, std::size_t number, Numbers& n
 }
 
 }  // namespace
+
+Result<void> read_obj_lines(std::string_view bytes, const std::string& name,
+                            std::string_view element, const ObjCallbacks& lines) {
+  long vertices = 0;
+  for (int number = 1; !bytes.empty(); ++number) {
+    const auto words = words_in(next_line(bytes));
+    if (words.empty() || (words[0] != "v" && words[0] != element)) continue;
+    const auto place = fmt::format("{}:{}", name, number);
+    if (words[0] == "v") {
+      std::vector<double> xyz;
+      for (std::size_t k = 1; k < words.size() && k < 4; ++k)
+        if (const auto value = number_of(words[k])) xyz.push_back(*value);
+      if (xyz.size() != 3) return invalid(place + ": a vertex must have three numbers, v x y z");
+      if (auto taken = lines.vertex(xyz, place); !taken) return taken;
+      ++vertices;
+      continue;
+    }
+    std::vector<long> corners;
+    for (std::size_t k = 1; k < words.size(); ++k) {
+      const auto corner = obj_vertex(words[k], vertices);
+      if (!corner)
+        return invalid("{}: '{}' is no vertex, must be its number", place, words[k].substr(0, 40));
+      corners.push_back(*corner);
+    }
+    if (auto taken = lines.element(corners, place); !taken) return taken;
+  }
+  return {};
+}
 
 std::string PlyItem::place(const std::string& name) const {
   return fmt::format("{}: {} {}", name, element, number + 1);

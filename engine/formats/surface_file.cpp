@@ -10,7 +10,6 @@
 #include "engine/core/text.h"
 #include "engine/core/try.h"
 #include "engine/formats/obj_ply.h"
-#include "engine/formats/point_file.h"
 
 namespace gridshell::preset {
 
@@ -18,12 +17,12 @@ Result<void> MeshBuilder::add_vertex(const std::vector<double>& xyz, const std::
   constexpr double largest = 1e9;
   for (const double value : xyz)
     if (!(std::abs(value) <= largest))
-      return fail(Fault::bad_input, "{}: a coordinate is {}, must be a number of at most 1e9",
-                  place, std::isfinite(value) ? "too large" : "not a number");
+      return invalid("{}: a coordinate is {}, must be a number of at most 1e9", place,
+                     std::isfinite(value) ? "too large" : "not a number");
   const auto [found, fresh] = at_.try_emplace(xyz, int(mesh_.vertices.size()));
   // a triangle that stands by itself brings three vertices
   if (mesh_.vertices.size() == most_vertices || number_.size() == 3 * most_triangles)
-    return fail(Fault::bad_input, "{}: more than {} vertices, must be fewer", place, most_vertices);
+    return invalid("{}: more than {} vertices, must be fewer", place, most_vertices);
   number_.push_back(found->second);
   if (fresh) mesh_.vertices.push_back(xyz);
   return {};
@@ -31,18 +30,15 @@ Result<void> MeshBuilder::add_vertex(const std::vector<double>& xyz, const std::
 
 Result<void> MeshBuilder::add_polygon(const std::vector<long>& corners, const std::string& place) {
   if (corners.size() < 3)
-    return fail(Fault::bad_input, "{}: a polygon of {} corners, must have 3 or more", place,
-                corners.size());
+    return invalid("{}: a polygon of {} corners, must have 3 or more", place, corners.size());
   std::vector<int> ring;
   for (const long corner : corners) {
     if (corner < 0 || corner >= long(number_.size()))
-      return fail(Fault::bad_input, "{}: names a vertex that is none of the {} before it", place,
-                  number_.size());
+      return invalid("{}: names a vertex that is none of the {} before it", place, number_.size());
     ring.push_back(number_[std::size_t(corner)]);
   }
   if (mesh_.triangles.size() + ring.size() - 2 > most_triangles)
-    return fail(Fault::bad_input, "{}: more than {} triangles, must be fewer", place,
-                most_triangles);
+    return invalid("{}: more than {} triangles, must be fewer", place, most_triangles);
   for (std::size_t k = 2; k < ring.size(); ++k)
     if (ring[0] != ring[k - 1] && ring[k - 1] != ring[k] && ring[k] != ring[0])
       mesh_.triangles.push_back({ring[0], ring[k - 1], ring[k]});
@@ -51,32 +47,7 @@ Result<void> MeshBuilder::add_polygon(const std::vector<long>& corners, const st
 
 Result<SurfaceData> MeshBuilder::take(const std::string& name) {
   if (!mesh_.triangles.empty()) return std::move(mesh_);
-  return fail(Fault::bad_input, name + ": holds no triangle, must be a mesh of triangles");
-}
-
-// Meshes as Wavefront OBJ: vertices and faces.
-
-Result<SurfaceData> read_obj(std::string_view bytes, const std::string& name) {
-  MeshBuilder draft;
-  return read_obj_lines(
-             bytes, name, "f",
-             {[&](const auto& xyz, const auto& at) { return draft.add_vertex(xyz, at); },
-              [&](const auto& corners, const auto& at) { return draft.add_polygon(corners, at); }})
-      .and_then([&] { return draft.take(name); });
-}
-
-// Meshes of triangles in PLY files.
-
-Result<SurfaceData> read_ply(std::string_view bytes, const std::string& name) {
-  MeshBuilder draft;
-  const auto read = each_ply_item(bytes, name, [&](const PlyItem& item) -> Result<void> {
-    if (item.element == "vertex")
-      return draft.add_vertex({item.xyz.x(), item.xyz.y(), item.xyz.z()}, item.place(name));
-    if (item.element == "face") return draft.add_polygon(item.corners, item.place(name));
-    return {};
-  });
-  if (!read) return tl::unexpected(read.error());
-  return draft.take(name);
+  return invalid(name + ": holds no triangle, must be a mesh of triangles");
 }
 
 // STL: triangles by the coordinates of their corners, as text or as 50 bytes each.
@@ -126,30 +97,14 @@ Result<SurfaceData> read_text(std::string_view bytes, const std::string& name) {
     for (std::size_t k = 1; k < words.size(); ++k)
       if (const auto value = number_of(words[k])) xyz.push_back(*value);
     if (xyz.size() != 3 || words.size() != 4)
-      return fail(Fault::bad_input, place + ": a vertex must have three numbers, vertex x y z");
+      return invalid(place + ": a vertex must have three numbers, vertex x y z");
     TRY_DO(add_corner(draft, xyz, place));
   }
   if (draft.vertices() % 3 != 0)
-    return fail(Fault::bad_input,
-                "{}: ends within a triangle: {} vertices, must be three a triangle", name,
-                draft.vertices());
+    return invalid("{}: ends within a triangle: {} vertices, must be three a triangle", name,
+                   draft.vertices());
   return draft.take(name);
 }
-
-}  // namespace
-
-Result<SurfaceData> read_stl(std::string_view bytes, const std::string& name) {
-  // a binary file may begin with "solid" too, and is told by its size
-  if (bytes.size() >= header && bytes.size() == header + triangle * count_in(bytes))
-    return read_binary(bytes, name);
-  if (bytes.starts_with("solid")) return read_text(bytes, name);
-  return fail(Fault::bad_input,
-              "{}: no STL: begins without \"solid\", and its {} bytes are not those of the {} "
-              "triangles that it says",
-              name, bytes.size(), count_in(bytes));
-}
-
-namespace {
 
 constexpr std::size_t most_heights = 100000, least_side = 4;
 
@@ -157,7 +112,7 @@ constexpr std::size_t most_heights = 100000, least_side = 4;
 std::vector<double> values_of(const Points& points, std::size_t coordinate) {
   std::vector<double> values;
   for (const auto& point : points) values.push_back(point[coordinate]);
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   const double alike = 1e-6 * (values.back() - values.front());
   values.erase(
       std::unique(values.begin(), values.end(), [&](double a, double b) { return b - a <= alike; }),
@@ -166,7 +121,7 @@ std::vector<double> values_of(const Points& points, std::size_t coordinate) {
 }
 
 std::size_t nearest(const std::vector<double>& values, double value) {
-  const auto after = std::lower_bound(values.begin(), values.end(), value);
+  const auto after = std::ranges::lower_bound(values, value);
   if (after == values.begin()) return 0;
   const std::size_t k = std::size_t(after - values.begin());
   return k == values.size() || value - values[k - 1] < values[k] - value ? k - 1 : k;
@@ -176,34 +131,31 @@ Result<SurfaceData> read_heights(std::string_view bytes, const std::string& name
   std::vector<int> lines;
   TRY(points, points_in(std::string(bytes), name, {"x", "y", "z"}, {}, &lines));
   if (points->size() > most_heights)
-    return fail(Fault::bad_input, "{}: holds {} points, must be at most {}", name, points->size(),
-                most_heights);
+    return invalid("{}: holds {} points, must be at most {}", name, points->size(), most_heights);
   SurfaceData grid{values_of(*points, 0), values_of(*points, 1), {}, {}, {}};
   const std::size_t columns = grid.x.size(), rows = grid.y.size();
   if (columns < least_side || rows < least_side)
-    return fail(Fault::bad_input,
-                "{}: {} different x and {} different y, must be a grid of at least 4 x 4 places",
-                name, columns, rows);
+    return invalid("{}: {} different x and {} different y, must be a grid of at least 4 x 4 places",
+                   name, columns, rows);
   const auto holds =
       fmt::format("holds {} points on a grid of {} x {} places", points->size(), columns, rows);
   // what lies far from any grid has as many places as the square of its points
   if (columns * rows > 4 * points->size())
-    return fail(Fault::bad_input, "{}: {}, must be a whole rectangle", name, holds);
+    return invalid("{}: {}, must be a whole rectangle", name, holds);
   grid.z.assign(rows, std::vector<double>(columns, std::nan("")));
   for (std::size_t k = 0; k < points->size(); ++k) {
     const auto& point = (*points)[k];
     double& z = grid.z[nearest(grid.y, point[1])][nearest(grid.x, point[0])];
     if (!std::isnan(z))
-      return fail(Fault::bad_input, "{}:{}: a second point at ({:g}, {:g}), must be one", name,
-                  lines[k], point[0], point[1]);
+      return invalid("{}:{}: a second point at ({:g}, {:g}), must be one", name, lines[k], point[0],
+                     point[1]);
     z = point[2];
   }
   for (std::size_t j = 0; j < rows; ++j)
     for (std::size_t i = 0; i < columns; ++i)
       if (std::isnan(grid.z[j][i]))
-        return fail(Fault::bad_input,
-                    "{}: {}, and none at ({:g}, {:g}): a hole, must be a whole rectangle", name,
-                    holds, grid.x[i], grid.y[j]);
+        return invalid("{}: {}, and none at ({:g}, {:g}): a hole, must be a whole rectangle", name,
+                       holds, grid.x[i], grid.y[j]);
   return grid;
 }
 
@@ -226,6 +178,40 @@ std::string mesh_fault(const SurfaceData& mesh) {
     if (auto added = draft.add_polygon({a, b, c}, "triangles"); !added)
       return added.error().message;
   return "";
+}
+
+/// Each reads a whole file; `name` is what errors call it. Errors (bad_input): what is not of the
+/// format, with its line or the number of its vertex or triangle.
+Result<SurfaceData> read_obj(std::string_view bytes, const std::string& name) {
+  MeshBuilder draft;
+  return read_obj_lines(
+             bytes, name, "f",
+             {[&](const auto& xyz, const auto& at) { return draft.add_vertex(xyz, at); },
+              [&](const auto& corners, const auto& at) { return draft.add_polygon(corners, at); }})
+      .and_then([&] { return draft.take(name); });
+}
+
+Result<SurfaceData> read_ply(std::string_view bytes, const std::string& name) {
+  MeshBuilder draft;
+  const auto read = each_ply_item(bytes, name, [&](const PlyItem& item) -> Result<void> {
+    if (item.element == "vertex")
+      return draft.add_vertex({item.xyz.x(), item.xyz.y(), item.xyz.z()}, item.place(name));
+    if (item.element == "face") return draft.add_polygon(item.corners, item.place(name));
+    return {};
+  });
+  if (!read) return tl::unexpected(read.error());
+  return draft.take(name);
+}
+
+Result<SurfaceData> read_stl(std::string_view bytes, const std::string& name) {
+  // a binary file may begin with "solid" too, and is told by its size
+  if (bytes.size() >= header && bytes.size() == header + triangle * count_in(bytes))
+    return read_binary(bytes, name);
+  if (bytes.starts_with("solid")) return read_text(bytes, name);
+  return invalid(
+      "{}: no STL: begins without \"solid\", and its {} bytes are not those of the {} "
+      "triangles that it says",
+      name, bytes.size(), count_in(bytes));
 }
 
 }  // namespace
@@ -252,10 +238,10 @@ Result<SurfaceData> read_surface(std::string_view bytes, const std::string& name
   if (ending == ".obj") return read_obj(bytes, name);
   if (ending == ".ply") return read_ply(bytes, name);
   if (ending == ".stl") return read_stl(bytes, name);
-  return fail(Fault::bad_input,
-              "{}: its name must end in .csv or .txt (heights x, y, z over a grid), or .obj, .ply "
-              "or .stl (triangles)",
-              name);
+  return invalid(
+      "{}: its name must end in .csv or .txt (heights x, y, z over a grid), or .obj, .ply "
+      "or .stl (triangles)",
+      name);
 }
 
 }  // namespace gridshell::preset

@@ -35,12 +35,6 @@ class MeshBuilder {
   std::map<std::vector<double>, int> at_;  // the vertex at a place
 };
 
-/// Each reads a whole file; `name` is what errors call it. Errors (bad_input): what is not of the
-/// format, with its line or the number of its vertex or triangle.
-Result<SurfaceData> read_obj(std::string_view bytes, const std::string& name);
-Result<SurfaceData> read_ply(std::string_view bytes, const std::string& name);
-Result<SurfaceData> read_stl(std::string_view bytes, const std::string& name);
-
 // Surfaces in files that a user brings: heights over a grid, meshes of triangles.
 
 /// The largest file of a mesh that is read.

@@ -115,6 +115,21 @@ Rod follow(double u, double v) {
   return rod;
 }
 
+// tangents this near to parallel (rad) count as a fold
+constexpr double least_sine = 1e-6;
+
+tl::unexpected<Error> beyond(const char* curve, char name, double at, double half) {
+  return invalid("curve_{} of the translation net ends at {} = {:.7g} mm; {} = {:g} mm lies beyond",
+                 curve, name, at < 0 ? -half : half, name, at);
+}
+
+tl::unexpected<Error> folds(double u, double v, double cosine) {
+  return invalid(
+      "the translation net folds (shear angle {}) near (u, v) = ({:g}, {:g}) mm, where its "
+      "curves are parallel",
+      cosine > 0 ? "0" : "180 degrees", u, v);
+}
+
 }  // namespace
 
 double SphereNet::shear(double z) {
@@ -133,11 +148,11 @@ double SphereNet::shear(double z) {
 Result<NetPoint> SphereNet::at(double u, double v) const {
   const double a = std::abs(u) / radius_, b = std::abs(v) / radius_;
   if (!(a * b < fold))
-    return fail(Fault::bad_input,
-                "the net on the sphere of radius {:g} mm folds (shear angle {}) where u v = {:.7g} "
-                "mm^2; (u, v) = ({:g}, {:g}) mm lies beyond",
-                radius_, (u < 0) == (v < 0) ? "0" : "180 degrees",
-                ((u < 0) == (v < 0) ? fold : -fold) * radius_ * radius_, u, v);
+    return invalid(
+        "the net on the sphere of radius {:g} mm folds (shear angle {}) where u v = {:.7g} "
+        "mm^2; (u, v) = ({:g}, {:g}) mm lies beyond",
+        radius_, (u < 0) == (v < 0) ? "0" : "180 degrees",
+        ((u < 0) == (v < 0) ? fold : -fold) * radius_ * radius_, u, v);
   const Rod rod = follow(a, b);
   const Eigen::Vector3d t = rod.frame.col(1), n = rod.frame.col(2);
   NetPoint point;
@@ -158,30 +173,10 @@ Result<NetPoint> SphereNet::at(double u, double v) const {
   return point;
 }
 
-namespace {
-
-// tangents this near to parallel (rad) count as a fold
-constexpr double least_sine = 1e-6;
-
-tl::unexpected<Error> beyond(const char* curve, char name, double at, double half) {
-  return fail(Fault::bad_input,
-              "curve_{} of the translation net ends at {} = {:.7g} mm; {} = {:g} mm lies beyond",
-              curve, name, at < 0 ? -half : half, name, at);
-}
-
-tl::unexpected<Error> folds(double u, double v, double cosine) {
-  return fail(Fault::bad_input,
-              "the translation net folds (shear angle {}) near (u, v) = ({:g}, {:g}) mm, where its "
-              "curves are parallel",
-              cosine > 0 ? "0" : "180 degrees", u, v);
-}
-
-}  // namespace
-
 Result<TranslationNet> TranslationNet::make(const Eigen::Matrix3Xd& x, const Eigen::Matrix3Xd& y) {
   auto curve_u = SplineCurve::through(x), curve_v = SplineCurve::through(y);
-  if (!curve_u) return fail(Fault::bad_input, "curve_u: " + curve_u.error().message);
-  if (!curve_v) return fail(Fault::bad_input, "curve_v: " + curve_v.error().message);
+  if (!curve_u) return invalid("curve_u: " + curve_u.error().message);
+  if (!curve_v) return invalid("curve_v: " + curve_v.error().message);
   TranslationNet net(UnitSpeedCurve(std::move(*curve_u)), UnitSpeedCurve(std::move(*curve_v)));
   TRY_DO(net.check_open());
   return net;

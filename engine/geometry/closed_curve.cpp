@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "engine/core/try.h"
-#include "engine/geometry/calculus.h"
 #include "engine/geometry/spline.h"
 
 namespace gridshell {
@@ -30,15 +29,14 @@ Result<Eigen::Matrix2Xd> cleaned(const Eigen::Matrix2Xd& given) {
   if (points.cols() > 1 && points.col(0) == points.col(points.cols() - 1))
     points.conservativeResize(2, points.cols() - 1);
   const Eigen::Index n = points.cols();
-  if (n < 3) return fail(Fault::bad_input, "a closed curve needs at least 3 points, not {}", n);
+  if (n < 3) return invalid("a closed curve needs at least 3 points, not {}", n);
   double area = 0;
   for (Eigen::Index k = 0; k < n; ++k) {
     if (!points.col(k).allFinite())
-      return fail(Fault::bad_input, "point {} of the closed curve is not finite", k + 1);
+      return invalid("point {} of the closed curve is not finite", k + 1);
     const Vector2d next = points.col((k + 1) % n);
     if (points.col(k) == next)
-      return fail(Fault::bad_input, "points {} and {} of the closed curve are the same", k + 1,
-                  (k + 1) % n + 1);
+      return invalid("points {} and {} of the closed curve are the same", k + 1, (k + 1) % n + 1);
     area += cross(points.col(k), next) / 2;
   }
   if (area < 0) points.rightCols(n - 1).rowwise().reverseInPlace();
@@ -50,6 +48,50 @@ bool segments_meet(const Vector2d& a, const Vector2d& b, const Vector2d& c, cons
     return cross(q - p, r - p) > 0;
   };
   return side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b);
+}
+
+/// t where the ray from the origin at `angle` meets the curve; all of them
+std::vector<double> on_ray(const ClosedCurve& curve, double angle) {
+  // turned so that the ray is the positive x-axis
+  const Vector2d along(std::cos(angle), std::sin(angle)), across(-along.y(), along.x());
+  std::vector<double> found;
+  std::vector<double> t;
+  const int samples = std::max(512, 8 * static_cast<int>(curve.breaks().size()));
+  for (int k = 0; k < samples; ++k) t.push_back(curve.last() * k / samples);
+  t.insert(t.end(), curve.breaks().begin(), curve.breaks().end());
+  std::ranges::sort(t);
+  const auto g = [&](double at) {
+    const ClosedCurve::Point p = curve.at(at);
+    return Vector2d(across.dot(p.position), across.dot(p.first));
+  };
+  for (std::size_t k = 0; k + 1 < t.size(); ++k) {
+    const double end = k + 2 == t.size() ? t[0] : t[k + 1];
+    if ((g(t[k])[0] >= 0) == (g(end)[0] >= 0)) continue;
+    const double at = root(g, t[k], t[k + 1]);
+    if (along.dot(curve.at(at).position) > 0) found.push_back(at);
+  }
+  return found;
+}
+
+Result<void> check_star(const ClosedCurve& curve, const char* name, Correspondence how) {
+  const std::size_t on_axis = on_ray(curve, 0).size();
+  if (on_axis % 2 == 0) return invalid("the origin is not inside the {} boundary", name);
+  if (how == Correspondence::arc_length && on_axis > 1)
+    return invalid(
+        "the positive x-axis meets the {} boundary more than once: arc lengths need one "
+        "place to start",
+        name);
+  // seen from the origin a star turns one way only
+  constexpr int samples = 2048;
+  for (int k = 0; how == Correspondence::angle && k < samples; ++k) {
+    const ClosedCurve::Point p = curve.at(curve.last() * (k + 0.5) / samples);
+    if (cross(p.position, p.first) > 0) continue;
+    return invalid(
+        "the ray from the origin at {:.4g} degrees meets the {} boundary more than once: "
+        "use correspondence \"arc_length\"",
+        std::atan2(p.position.y(), p.position.x()) * 180 / M_PI, name);
+  }
+  return {};
 }
 
 }  // namespace
@@ -64,8 +106,8 @@ Result<ClosedCurve> ClosedCurve::make(std::function<Point(double)> at, std::vect
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = i + 2; j < n && j < n + i - 1; ++j)
       if (segments_meet(p[i], p[i + 1], p[j], p[j + 1]))
-        return fail(Fault::bad_input, "the closed curve crosses itself near ({:.6g}, {:.6g}) mm",
-                    p[i].x(), p[i].y());
+        return invalid("the closed curve crosses itself near ({:.6g}, {:.6g}) mm", p[i].x(),
+                       p[i].y());
   const auto speed = [at = curve.at_](double s) { return at(s).first.norm(); };
   curve.length_ = std::make_shared<const Antiderivative>(speed, curve.breaks_, 0);
   return curve;
@@ -75,11 +117,9 @@ Result<ClosedCurve> ClosedCurve::ellipse(double a, double b) { return superellip
 
 Result<ClosedCurve> ClosedCurve::superellipse(double a, double b, double exponent) {
   if (!(a > 0 && b > 0 && std::isfinite(a) && std::isfinite(b)))
-    return fail(Fault::bad_input, "the half axes are {:g} and {:g} mm, they must be positive", a,
-                b);
+    return invalid("the half axes are {:g} and {:g} mm, they must be positive", a, b);
   if (!(exponent >= 1 && exponent <= 100))
-    return fail(Fault::bad_input,
-                "the superellipse's exponent is {:g}, it must lie between 1 and 100", exponent);
+    return invalid("the superellipse's exponent is {:g}, it must lie between 1 and 100", exponent);
   const auto at = [a, b, n = exponent](double t) {
     const double cosine = std::cos(t), sine = std::sin(t);
     const double p = std::pow(std::abs(cosine / a), n), q = std::pow(std::abs(sine / b), n);
@@ -197,55 +237,6 @@ double ClosedCurve::nearest(const Vector2d& point) const {
   }
   return found;
 }
-
-namespace {
-
-/// t where the ray from the origin at `angle` meets the curve; all of them
-std::vector<double> on_ray(const ClosedCurve& curve, double angle) {
-  // turned so that the ray is the positive x-axis
-  const Vector2d along(std::cos(angle), std::sin(angle)), across(-along.y(), along.x());
-  std::vector<double> found;
-  std::vector<double> t;
-  const int samples = std::max(512, 8 * static_cast<int>(curve.breaks().size()));
-  for (int k = 0; k < samples; ++k) t.push_back(curve.last() * k / samples);
-  t.insert(t.end(), curve.breaks().begin(), curve.breaks().end());
-  std::sort(t.begin(), t.end());
-  const auto g = [&](double at) {
-    const ClosedCurve::Point p = curve.at(at);
-    return Vector2d(across.dot(p.position), across.dot(p.first));
-  };
-  for (std::size_t k = 0; k + 1 < t.size(); ++k) {
-    const double end = k + 2 == t.size() ? t[0] : t[k + 1];
-    if ((g(t[k])[0] >= 0) == (g(end)[0] >= 0)) continue;
-    const double at = root(g, t[k], t[k + 1]);
-    if (along.dot(curve.at(at).position) > 0) found.push_back(at);
-  }
-  return found;
-}
-
-Result<void> check_star(const ClosedCurve& curve, const char* name, Correspondence how) {
-  const std::size_t on_axis = on_ray(curve, 0).size();
-  if (on_axis % 2 == 0)
-    return fail(Fault::bad_input, "the origin is not inside the {} boundary", name);
-  if (how == Correspondence::arc_length && on_axis > 1)
-    return fail(Fault::bad_input,
-                "the positive x-axis meets the {} boundary more than once: arc lengths need one "
-                "place to start",
-                name);
-  // seen from the origin a star turns one way only
-  constexpr int samples = 2048;
-  for (int k = 0; how == Correspondence::angle && k < samples; ++k) {
-    const ClosedCurve::Point p = curve.at(curve.last() * (k + 0.5) / samples);
-    if (cross(p.position, p.first) > 0) continue;
-    return fail(Fault::bad_input,
-                "the ray from the origin at {:.4g} degrees meets the {} boundary more than once: "
-                "use correspondence \"arc_length\"",
-                std::atan2(p.position.y(), p.position.x()) * 180 / M_PI, name);
-  }
-  return {};
-}
-
-}  // namespace
 
 Result<BoundaryMap> BoundaryMap::make(ClosedCurve original, ClosedCurve actuated,
                                       Correspondence how) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include "engine/core/try.h"
 #include "engine/geometry/spline.h"
@@ -12,7 +11,52 @@ namespace gridshell {
 namespace {
 
 tl::unexpected<Error> not_positive(const char* what, double value) {
-  return fail(Fault::bad_input, "{} is {:g}, it must be positive", what, value);
+  return invalid("{} is {:g}, it must be positive", what, value);
+}
+
+// how near 1 - (c r)^2 and c r come to the folds at 0: rods around the axis, or along it
+constexpr double least_regular = 1e-6;
+// what a sum of lengths may lose to round-off, relative to the net's extent
+constexpr double round_off = 1e-12;
+
+bool exists(const Profile& profile, double c, double t) {
+  const double cr = c * profile.at(t).r;
+  return cr > least_regular && (1 - cr) * (1 + cr) > least_regular;
+}
+
+/// the piece of the profile around its middle on which the net exists, with the breaks inside
+std::vector<double> unfolded(const Profile& profile, double c) {
+  // between breaks, to find the first fold
+  const int samples = std::clamp(256 / static_cast<int>(profile.breaks.size()), 4, 64);
+  std::vector<double> range{profile.origin};
+  const auto walk = [&](std::vector<double> breaks) {
+    double good = profile.origin;
+    for (const double to : breaks) {
+      const double from = good;
+      for (int k = 1; k <= samples; ++k) {
+        double bad = k == samples ? to : from + (to - from) * k / samples;
+        if (exists(profile, c, bad)) {
+          good = bad;
+          continue;
+        }
+        for (int halving = 0; halving < 100 && good != bad; ++halving) {
+          const double middle = (good + bad) / 2;
+          if (middle == good || middle == bad) break;
+          (exists(profile, c, middle) ? good : bad) = middle;
+        }
+        range.push_back(good);
+        return;
+      }
+      range.push_back(to);
+    }
+  };
+  std::vector<double> before, after;
+  for (const double t : profile.breaks) (t < profile.origin ? before : after).push_back(t);
+  std::ranges::reverse(before);
+  walk(before);
+  walk(after);
+  std::ranges::sort(range);
+  return range;
 }
 
 }  // namespace
@@ -54,8 +98,7 @@ Result<Profile> spool_profile(double radius, double waist) {
 Result<Profile> beltrami_profile(double radius, double waist) {
   if (!(radius > 0)) return not_positive("the pseudosphere's radius", radius);
   if (!(waist > 0 && waist < 1))
-    return fail(Fault::bad_input, "the pseudosphere's waist is {:g}, it must lie between 0 and 1",
-                waist);
+    return invalid("the pseudosphere's waist is {:g}, it must lie between 0 and 1", waist);
   const auto at = [radius](double t) {
     const double sech = 1 / std::cosh(t), tanh = std::tanh(t);
     return ProfilePoint{radius * sech, -radius * sech * tanh,
@@ -73,9 +116,8 @@ Result<Profile> tabulated_profile(const Eigen::Matrix2Xd& r_z) {
   const std::vector<double>& knots = curve->knots();
   for (std::size_t k = 0; k < knots.size(); ++k)
     if (!(r_z(0, k) > 0))
-      return fail(Fault::bad_input,
-                  "point {} of the profile has radius {:g} mm, it must be positive", k + 1,
-                  r_z(0, k));
+      return invalid("point {} of the profile has radius {:g} mm, it must be positive", k + 1,
+                     r_z(0, k));
   const auto at = [curve](double t) {
     const SplineCurve::Point p = curve->at(t);
     return ProfilePoint{p.position[0], p.first[0], p.second[0], p.first[1], p.second[1]};
@@ -87,64 +129,14 @@ Result<Profile> tabulated_profile(const Eigen::Matrix2Xd& r_z) {
                  curve->at(middle).position[1]};
 }
 
-namespace {
-
-// how near 1 - (c r)^2 and c r come to the folds at 0: rods around the axis, or along it
-constexpr double least_regular = 1e-6;
-// what a sum of lengths may lose to round-off, relative to the net's extent
-constexpr double round_off = 1e-12;
-
-bool exists(const Profile& profile, double c, double t) {
-  const double cr = c * profile.at(t).r;
-  return cr > least_regular && (1 - cr) * (1 + cr) > least_regular;
-}
-
-/// the piece of the profile around its middle on which the net exists, with the breaks inside
-std::vector<double> unfolded(const Profile& profile, double c) {
-  // between breaks, to find the first fold
-  const int samples = std::clamp(256 / static_cast<int>(profile.breaks.size()), 4, 64);
-  std::vector<double> range{profile.origin};
-  const auto walk = [&](std::vector<double> breaks) {
-    double good = profile.origin;
-    for (const double to : breaks) {
-      const double from = good;
-      for (int k = 1; k <= samples; ++k) {
-        double bad = k == samples ? to : from + (to - from) * k / samples;
-        if (exists(profile, c, bad)) {
-          good = bad;
-          continue;
-        }
-        for (int halving = 0; halving < 100 && good != bad; ++halving) {
-          const double middle = (good + bad) / 2;
-          if (middle == good || middle == bad) break;
-          (exists(profile, c, middle) ? good : bad) = middle;
-        }
-        range.push_back(good);
-        return;
-      }
-      range.push_back(to);
-    }
-  };
-  std::vector<double> before, after;
-  for (const double t : profile.breaks) (t < profile.origin ? before : after).push_back(t);
-  std::reverse(before.begin(), before.end());
-  walk(before);
-  walk(after);
-  std::sort(range.begin(), range.end());
-  return range;
-}
-
-}  // namespace
-
 Result<RevolutionNet> RevolutionNet::make(Profile profile, double c) {
   const double cr = c * profile.at(profile.origin).r;
-  if (!(c > 0))
-    return fail(Fault::bad_input, "a net on the {} needs c > 0, not {:g} / mm", profile.name, c);
+  if (!(c > 0)) return invalid("a net on the {} needs c > 0, not {:g} / mm", profile.name, c);
   if (!exists(profile, c, profile.origin))
-    return fail(Fault::bad_input,
-                "no net exists on the {} with c = {:g} / mm: in its middle sin(omega/2) = c r is "
-                "{:g}, it must lie between 0 and 1",
-                profile.name, c, cr);
+    return invalid(
+        "no net exists on the {} with c = {:g} / mm: in its middle sin(omega/2) = c r is "
+        "{:g}, it must lie between 0 and 1",
+        profile.name, c, cr);
   RevolutionNet net;
   net.profile_ = std::move(profile);
   net.c_ = c;
@@ -176,8 +168,7 @@ Result<NetPoint> RevolutionNet::at(double u, double v) const {
   double x = u + v;
   const double phi = c_ * (u - v);
   if (!(x >= first - slack && x <= last + slack))
-    return fail(Fault::bad_input, "{}; (u, v) = ({:g}, {:g}) mm lies beyond", why_it_ends(!(x < 0)),
-                u, v);
+    return invalid("{}; (u, v) = ({:g}, {:g}) mm lies beyond", why_it_ends(!(x < 0)), u, v);
   x = std::clamp(x, first, last);
   const double t = x_->inverse(x);
   const ProfilePoint p = profile_.at(t);
@@ -201,8 +192,7 @@ Result<double> RevolutionNet::x_at_axial(double z) const {
   const double first = (*z_)(z_->begin()), last = (*z_)(z_->end());
   const double slack = round_off * (last - first);
   if (!(z >= first - slack && z <= last + slack))
-    return fail(Fault::bad_input, "{}; {:g} mm lies beyond", why_it_ends(!(z < 0)),
-                profile_.axial_origin + z);
+    return invalid("{}; {:g} mm lies beyond", why_it_ends(!(z < 0)), profile_.axial_origin + z);
   double low = z_->begin(), high = z_->end();
   // bisection: heights along a profile may grow unevenly
   for (int halving = 0; halving < 200; ++halving) {

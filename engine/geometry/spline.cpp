@@ -44,17 +44,15 @@ Eigen::MatrixXd second_derivatives(const std::vector<double>& t, const Eigen::Ma
 
 Result<SplineCurve> SplineCurve::through(const Eigen::MatrixXd& points) {
   const Eigen::Index n = points.cols();
-  if (n < 4) return fail(Fault::bad_input, "a curve needs at least 4 points, not {}", n);
+  if (n < 4) return invalid("a curve needs at least 4 points, not {}", n);
   for (Eigen::Index k = 0; k < n; ++k)
-    if (!points.col(k).allFinite())
-      return fail(Fault::bad_input, "point {} of the curve is not finite", k + 1);
+    if (!points.col(k).allFinite()) return invalid("point {} of the curve is not finite", k + 1);
   SplineCurve curve;
   curve.points_ = points;
   curve.knots_.resize(n, 0.0);
   for (Eigen::Index k = 1; k < n; ++k) {
     const double chord = (points.col(k) - points.col(k - 1)).norm();
-    if (chord == 0)
-      return fail(Fault::bad_input, "points {} and {} of the curve are the same", k, k + 1);
+    if (chord == 0) return invalid("points {} and {} of the curve are the same", k, k + 1);
     curve.knots_[k] = curve.knots_[k - 1] + chord;
   }
   curve.second_ = second_derivatives(curve.knots_, points);
@@ -117,9 +115,9 @@ bool rises(const std::vector<double>& values) {
 Result<HeightGrid> HeightGrid::through(std::vector<double> x, std::vector<double> y,
                                        Eigen::MatrixXd z) {
   if (!rises(x) || !rises(y))
-    return fail(Fault::bad_input, "x and y of a grid of heights must be 4 or more rising numbers");
+    return invalid("x and y of a grid of heights must be 4 or more rising numbers");
   if (z.rows() != Eigen::Index(y.size()) || z.cols() != Eigen::Index(x.size()) || !z.allFinite())
-    return fail(Fault::bad_input, "a grid of heights must have a finite one at every place");
+    return invalid("a grid of heights must have a finite one at every place");
   HeightGrid grid;
   grid.z_xx_ = second_derivatives(x, z);
   grid.z_yy_ = second_derivatives(y, z.transpose()).transpose();

@@ -1,11 +1,12 @@
 #include "engine/geometry/surface.h"
 
 #include <fmt/format.h>
+#include <muParser.h>
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 #include "engine/core/dense.h"
 #include "engine/core/try.h"
@@ -30,19 +31,17 @@ Result<Eigen::Vector3d> Surface::nearest(const Eigen::Vector3d& p) const {
     const double value = F_(x);
     const Eigen::Vector3d slope = gradient(x);
     if (!std::isfinite(value) || !slope.allFinite())
-      return fail(Fault::bad_input,
-                  "the surface's function has no value at ({:.6g}, {:.6g}, {:.6g}) mm", x.x(),
-                  x.y(), x.z());
+      return invalid("the surface's function has no value at ({:.6g}, {:.6g}, {:.6g}) mm", x.x(),
+                     x.y(), x.z());
     if (slope.squaredNorm() == 0)
-      return fail(Fault::bad_input,
-                  "the surface's function has no slope at ({:.6g}, {:.6g}, {:.6g}) mm", x.x(),
-                  x.y(), x.z());
+      return invalid("the surface's function has no slope at ({:.6g}, {:.6g}, {:.6g}) mm", x.x(),
+                     x.y(), x.z());
     const Eigen::Vector3d step = -value / slope.squaredNorm() * slope;
     x += step;
     if (step.norm() <= near_mm + 1e-15 * x.norm()) return x;
   }
-  return fail(Fault::bad_input, "no point of the surface is found near ({:.6g}, {:.6g}, {:.6g}) mm",
-              p.x(), p.y(), p.z());
+  return invalid("no point of the surface is found near ({:.6g}, {:.6g}, {:.6g}) mm", p.x(), p.y(),
+                 p.z());
 }
 
 Surface::Curvature Surface::curvature(const Eigen::Vector3d& p) const {
@@ -105,7 +104,7 @@ Result<std::vector<int>> spread_centres(const Eigen::Matrix3Xd& x, double apart)
       continue;
     centres.push_back(k);
     if (!taken.add(k, box_about(x.col(k), apart), most_entries))
-      return fail(Fault::bad_input, "the mesh is too large for the rods' spacing");
+      return invalid("the mesh is too large for the rods' spacing");
   }
   return centres;
 }
@@ -124,6 +123,15 @@ std::vector<int> joined_around(const TriangleMesh& mesh, int centre, double radi
       around.push_back(next);
     }
   return around;
+}
+
+/// Whether a sign of equality stands in it that is no part of ==, <=, >= or !=.
+bool is_equation(std::string_view text) {
+  for (std::size_t k = 1; k + 1 < text.size(); ++k)
+    if (text[k] == '=' && text[k + 1] != '=' &&
+        std::string_view("=<>!").find(text[k - 1]) == std::string_view::npos)
+      return true;
+  return false;
 }
 
 }  // namespace
@@ -181,7 +189,7 @@ Result<void> MeshSurface::add_patch(const TriangleMesh& mesh, int vertex,
   const bool beside_rim = std::ranges::any_of(around, [&](int k) { return mesh.on_rim(k); });
   patch.reach = beside_rim ? rim_reach_ : reach_;
   if (!near_.add(int(patches_.size()), box_about(patch.centre, patch.reach), most_entries))
-    return fail(Fault::bad_input, "the mesh is too large for the rods' spacing");
+    return invalid("the mesh is too large for the rods' spacing");
   patches_.push_back(patch);
   return {};
 }
@@ -197,15 +205,14 @@ Result<MeshSurface> MeshSurface::fit(const TriangleMesh& mesh, double detail_mm)
   BoxGrid vertices(2 * reach);
   for (int k = 0; k < int(x.cols()); ++k)
     if (!vertices.add(k, {x.col(k), x.col(k)}, most_entries))
-      return fail(Fault::bad_input, "the mesh is too large");
+      return invalid("the mesh is too large");
   std::vector<int> mark(std::size_t(x.cols()), -1);
   std::size_t fitted = 0;
   for (const int centre : *centres) {
     const auto around = joined_around(mesh, centre, surface.fit_radius_, mark, centre);
     fitted += around.size();
     if (fitted > most_fitted)
-      return fail(Fault::bad_input,
-                  "the triangles of the mesh are too uneven in size to be fitted");
+      return invalid("the triangles of the mesh are too uneven in size to be fitted");
     // another sheet beside this one
     for (int corner = 0; corner < 8; ++corner) {
       const Eigen::Vector3d to(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
@@ -262,6 +269,37 @@ std::optional<double> highest_at(const TriangleMesh& mesh, double x, double y) {
     if (!highest || z > *highest) highest = z;
   }
   return highest;
+}
+
+struct Expression::Parsed {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  mu::Parser parser;
+};
+
+Result<Expression> Expression::parse(const std::string& text) {
+  if (is_equation(text)) return invalid("an equation, must be one side of it alone");
+  auto parsed = std::make_shared<Parsed>();
+  try {
+    parsed->parser.DefineVar("x", &parsed->point.x());
+    parsed->parser.DefineVar("y", &parsed->point.y());
+    parsed->parser.DefineVar("z", &parsed->point.z());
+    parsed->parser.SetExpr(text);
+    int values = 0;
+    parsed->parser.Eval(values);
+    if (values != 1) return invalid("{} values, must be one", values);
+  } catch (const mu::Parser::exception_type& wrong) {
+    return invalid("{} (at place {})", wrong.GetMsg(), int(wrong.GetPos()) + 1);
+  }
+  return Expression(text, std::move(parsed));
+}
+
+double Expression::at(const Eigen::Vector3d& point) const {
+  parsed_->point = point;
+  try {
+    return parsed_->parser.Eval();
+  } catch (const mu::Parser::exception_type&) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
 }
 
 }  // namespace gridshell

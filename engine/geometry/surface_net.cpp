@@ -38,6 +38,36 @@ std::optional<Eigen::Vector3d> solved(const Surface& surface, const Eigen::Vecto
   return std::nullopt;
 }
 
+constexpr int reach = 3;          // nodes to each side that a value between two nodes takes
+constexpr int coarse_margin = 8;  // of the coarser grid around what is wanted
+constexpr int most_nodes = 600;   // from the apex to an end of an axis
+
+/// Lagrange's weights of the nodes -2 ... 3 at t in [0, 1], of the value, its slope and its second
+/// derivative by t.
+struct Weights {
+  std::array<double, 2 * reach> value{}, slope{}, second{};
+
+  explicit Weights(double t) {
+    for (int a = 0; a < 2 * reach; ++a) {
+      // coefficients by product rule: the polynomial, once and twice derived
+      double p = 1, dp = 0, ddp = 0;
+      for (int b = 0; b < 2 * reach; ++b) {
+        if (b == a) continue;
+        const double factor = (t - (b + 1 - reach)) / (a - b), rate = 1.0 / (a - b);
+        ddp = ddp * factor + 2 * dp * rate;
+        dp = dp * factor + p * rate;
+        p *= factor;
+      }
+      value[std::size_t(a)] = p, slope[std::size_t(a)] = dp, second[std::size_t(a)] = ddp;
+    }
+  }
+};
+
+std::string help() {
+  return "; a smaller part of the surface, turned axes ([net] axis_deg) or building blocks may "
+         "help";
+}
+
 }  // namespace
 
 /// A geodesic from the apex, which is its first point; where the surface ends, so does it, with a
@@ -76,10 +106,10 @@ Result<ChordGrid::Axis> ChordGrid::geodesic(const Surface& surface, const NetPla
   }
   if (int(points.size()) <= most) return axis;
   const Eigen::Vector3d& last = points.back();
-  return fail(Fault::bad_input,
-              "the boundary does not cross the net's axes within {:g} mm of the apex: at ({:.4g}, "
-              "{:.4g}, {:.4g}) mm an axis is still inside",
-              most * chord, last.x(), last.y(), last.z());
+  return invalid(
+      "the boundary does not cross the net's axes within {:g} mm of the apex: at ({:.4g}, "
+      "{:.4g}, {:.4g}) mm an axis is still inside",
+      most * chord, last.x(), last.y(), last.z());
 }
 
 void ChordGrid::put_axis(const Axis& axis, int step_u, int step_v) {
@@ -176,40 +206,6 @@ void ChordGrid::join_inside(const NetPlace& place) {
   }
 }
 
-namespace {
-
-constexpr int reach = 3;          // nodes to each side that a value between two nodes takes
-constexpr int coarse_margin = 8;  // of the coarser grid around what is wanted
-constexpr int most_nodes = 600;   // from the apex to an end of an axis
-
-/// Lagrange's weights of the nodes -2 ... 3 at t in [0, 1], of the value, its slope and its second
-/// derivative by t.
-struct Weights {
-  std::array<double, 2 * reach> value{}, slope{}, second{};
-
-  explicit Weights(double t) {
-    for (int a = 0; a < 2 * reach; ++a) {
-      // coefficients by product rule: the polynomial, once and twice derived
-      double p = 1, dp = 0, ddp = 0;
-      for (int b = 0; b < 2 * reach; ++b) {
-        if (b == a) continue;
-        const double factor = (t - (b + 1 - reach)) / (a - b), rate = 1.0 / (a - b);
-        ddp = ddp * factor + 2 * dp * rate;
-        dp = dp * factor + p * rate;
-        p *= factor;
-      }
-      value[std::size_t(a)] = p, slope[std::size_t(a)] = dp, second[std::size_t(a)] = ddp;
-    }
-  }
-};
-
-std::string help() {
-  return "; a smaller part of the surface, turned axes ([net] axis_deg) or building blocks may "
-         "help";
-}
-
-}  // namespace
-
 Result<SurfaceNet> SurfaceNet::make(const Surface& surface, const NetPlace& place, double chord_mm,
                                     PartialNet* so_far) {
   TRY(coarse, ChordGrid::make(surface, place, chord_mm, coarse_margin, most_nodes));
@@ -293,10 +289,10 @@ Result<void> SurfaceNet::check_whole(PartialNet* so_far) const {
                                 ? "the surface ends, or bends too sharply for the net,"
                                 : "the boundary turns back towards the net's axes, beyond their "
                                   "ends,";
-          return fail(Fault::bad_input,
-                      "{} near ({:.4g}, {:.4g}, {:.4g}) mm, (u, v) = ({:.4g}, {:.4g}) mm, inside "
-                      "the boundary or next to it{}",
-                      why, p.x(), p.y(), p.z(), i * chord(), j * chord(), help());
+          return invalid(
+              "{} near ({:.4g}, {:.4g}, {:.4g}) mm, (u, v) = ({:.4g}, {:.4g}) mm, inside "
+              "the boundary or next to it{}",
+              why, p.x(), p.y(), p.z(), i * chord(), j * chord(), help());
         }
     }
   return {};
@@ -306,8 +302,7 @@ Result<NetPoint> SurfaceNet::at(double u, double v) const {
   const double H = chord();
   const int i = int(std::floor(u / H)), j = int(std::floor(v / H));
   if (!(std::abs(u) < most_nodes * H && std::abs(v) < most_nodes * H) || !known_about(i, j))
-    return fail(Fault::bad_input, "the net of the surface ends before (u, v) = ({:g}, {:g}) mm", u,
-                v);
+    return invalid("the net of the surface ends before (u, v) = ({:g}, {:g}) mm", u, v);
   const Weights along_u(u / H - i), along_v(v / H - j);
   Eigen::Vector3d position = Eigen::Vector3d::Zero(), C_u = position, C_v = position,
                   C_uu = position, C_uv = position, C_vv = position;

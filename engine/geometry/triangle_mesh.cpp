@@ -1,4 +1,4 @@
-#include "engine/geometry/triangle_mesh.h"
+#include "engine/geometry/surface.h"
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
@@ -6,7 +6,6 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <unordered_map>
 
 #include "engine/core/proximity.h"
 #include "engine/core/try.h"
@@ -47,39 +46,6 @@ bool apart(const Eigen::AlignedBox3d& one, const Eigen::AlignedBox3d& other) {
   return !one.intersects(other);
 }
 
-}  // namespace
-
-Result<std::optional<Eigen::Vector3d>> first_crossing(const Eigen::Matrix3Xd& vertices,
-                                                      const std::vector<Triangle>& triangles,
-                                                      double size) {
-  constexpr std::size_t most_entries = 8000000, most_pairs = 50000000;
-  std::vector<Eigen::AlignedBox3d> boxes;
-  BoxGrid grid(2 * size);
-  const auto too_long = [](const char* why) {
-    return fail(Fault::bad_input, "the mesh cannot be looked through: {}", why);
-  };
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    Eigen::AlignedBox3d box;
-    for (const int corner : triangles[t]) box.extend(vertices.col(corner));
-    boxes.push_back(box);
-    if (!grid.add(int(t), box, most_entries))
-      return too_long("its triangles are too uneven in size");
-  }
-  std::size_t pairs = 0;
-  for (const auto& [cell, inside] : grid.cells())
-    for (std::size_t a = 0; a < inside.size(); ++a)
-      for (std::size_t b = 0; b < a; ++b) {
-        if (++pairs > most_pairs) return too_long("too many triangles lie in one place");
-        const std::size_t s = std::size_t(inside[a]), t = std::size_t(inside[b]);
-        if (apart(boxes[s], boxes[t]) || share_a_vertex(triangles[s], triangles[t])) continue;
-        if (const auto at = meeting(vertices, triangles[s], triangles[t]))
-          return std::optional<Eigen::Vector3d>(*at);
-      }
-  return std::optional<Eigen::Vector3d>();
-}
-
-namespace {
-
 using Triangles = TriangleMesh::Triangles;
 
 Eigen::Vector3d area_of(const Eigen::Matrix3Xd& x, const std::array<int, 3>& t) {
@@ -108,7 +74,7 @@ Result<Eigen::Matrix3Xd> used_vertices(const Eigen::Matrix3Xd& all, Triangles& t
   for (auto& triangle : triangles)
     for (int& corner : triangle) {
       if (corner < 0 || corner >= all.cols())
-        return fail(Fault::bad_input, "a triangle names vertex {} of {}", corner, all.cols());
+        return invalid("a triangle names vertex {} of {}", corner, all.cols());
       int& number = now[std::size_t(corner)];
       if (number < 0) {
         number = int(used.size());
@@ -165,7 +131,7 @@ Result<void> turn_alike(const Eigen::Matrix3Xd& x, const Sides& sides, Triangles
     }
   }
   if (reached == triangles.size()) return {};
-  const auto other = std::size_t(std::find(done.begin(), done.end(), 0) - done.begin());
+  const auto other = std::size_t(std::ranges::find(done, 0) - done.begin());
   return mesh_fault(
       fmt::format("the mesh is in several pieces ({} of its {} triangles hang together): "
                   "another begins",
@@ -203,8 +169,8 @@ Result<void> check_rims(const Eigen::Matrix3Xd& x, const Sides& sides) {
     rims.push_back(rim);
   }
   if (rims.size() <= 1) return {};
-  const auto hole = std::min_element(
-      rims.begin(), rims.end(), [](const Rim& a, const Rim& b) { return a.vertices < b.vertices; });
+  const auto hole = std::ranges::min_element(
+      rims, [](const Rim& a, const Rim& b) { return a.vertices < b.vertices; });
   return mesh_fault(fmt::format("the mesh has a hole of {} edges", hole->vertices),
                     x.col(hole->at));
 }
@@ -222,13 +188,42 @@ Result<void> check_folds(const Eigen::Matrix3Xd& x, const Sides& sides,
 
 }  // namespace
 
+Result<std::optional<Eigen::Vector3d>> first_crossing(const Eigen::Matrix3Xd& vertices,
+                                                      const std::vector<Triangle>& triangles,
+                                                      double size) {
+  constexpr std::size_t most_entries = 8000000, most_pairs = 50000000;
+  std::vector<Eigen::AlignedBox3d> boxes;
+  BoxGrid grid(2 * size);
+  const auto too_long = [](const char* why) {
+    return invalid("the mesh cannot be looked through: {}", why);
+  };
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    Eigen::AlignedBox3d box;
+    for (const int corner : triangles[t]) box.extend(vertices.col(corner));
+    boxes.push_back(box);
+    if (!grid.add(int(t), box, most_entries))
+      return too_long("its triangles are too uneven in size");
+  }
+  std::size_t pairs = 0;
+  for (const auto& [cell, inside] : grid.cells())
+    for (std::size_t a = 0; a < inside.size(); ++a)
+      for (std::size_t b = 0; b < a; ++b) {
+        if (++pairs > most_pairs) return too_long("too many triangles lie in one place");
+        const std::size_t s = std::size_t(inside[a]), t = std::size_t(inside[b]);
+        if (apart(boxes[s], boxes[t]) || share_a_vertex(triangles[s], triangles[t])) continue;
+        if (const auto at = meeting(vertices, triangles[s], triangles[t]))
+          return std::optional<Eigen::Vector3d>(*at);
+      }
+  return std::optional<Eigen::Vector3d>();
+}
+
 tl::unexpected<Error> mesh_fault(const std::string& what, const Eigen::Vector3d& p) {
-  return fail(Fault::bad_input, "{} near ({:.4g}, {:.4g}, {:.4g}) mm", what, p.x(), p.y(), p.z());
+  return invalid("{} near ({:.4g}, {:.4g}, {:.4g}) mm", what, p.x(), p.y(), p.z());
 }
 
 Result<TriangleMesh> TriangleMesh::make(const Eigen::Matrix3Xd& vertices, Triangles triangles) {
-  if (triangles.empty()) return fail(Fault::bad_input, "the mesh has no triangle");
-  if (!vertices.allFinite()) return fail(Fault::bad_input, "a vertex of the mesh is not finite");
+  if (triangles.empty()) return invalid("the mesh has no triangle");
+  if (!vertices.allFinite()) return invalid("a vertex of the mesh is not finite");
   TRY(used, used_vertices(vertices, triangles));
   const Eigen::Matrix3Xd& x = *used;
   TRY(sides, sides_of(x, triangles));

@@ -69,6 +69,49 @@ void look_at_own_rods(const Preset& preset, RuleKind kind, std::vector<KeyFault>
   }
 }
 
+std::string list_of(const std::vector<KeyFault>& needs) {
+  std::vector<std::string> all;
+  for (const auto& need : needs)
+    if (std::ranges::find(all, need.what) == all.end()) all.push_back(need.what);
+  return fmt::format("{}", fmt::join(all, ", and "));
+}
+
+/// What a rung that is asked for cannot serve, and rods whose stiffness it lacks.
+std::vector<KeyFault> model_conflicts(const Preset& preset) {
+  std::vector<KeyFault> found;
+  const RodModel asked = preset.accuracy.model;
+  auto unmet = asked == RodModel::net ? key_faults(preset, RuleKind::needs_equilibrium)
+                                      : std::vector<KeyFault>();
+  if (asked == RodModel::net || asked == RodModel::bend)
+    for (auto& need : key_faults(preset, RuleKind::needs_twist)) unmet.push_back(std::move(need));
+  for (const KeyFault& need : unmet)
+    found.push_back({"accuracy",
+                     "model",
+                     -1,
+                     {need.label()},
+                     fmt::format("cannot serve {}: {}", need.label(), need.what)});
+  if (rod_model_of(preset) != RodModel::twist) return found;
+  const auto needs = key_faults(preset, RuleKind::needs_twist);
+  const KeyFault cause =
+      needs.empty() ? KeyFault{"accuracy", "model", -1, {}, "it is asked for"} : needs.front();
+  const auto check = [&](const Rod& rod, const std::string& table) {
+    if (rod.shear_GPa == 0)
+      found.push_back({cause.table,
+                       cause.key,
+                       -1,
+                       {fmt::format("{} shear_GPa", table)},
+                       fmt::format("twists the rods ({}), and their torsional stiffness is not "
+                                   "known: {} shear_GPa must be above 0",
+                                   cause.what, table)});
+  };
+  check(preset.rod, "[rod]");
+  if (preset.rod_v.differs) check(preset.rod_v, "[rod_v]");
+  if (preset.rod.shear_GPa > 0)
+    for (const auto& [number, rod] : rods_of_their_own(preset))
+      check(rod, fmt::format("rods[{}]", number));
+  return found;
+}
+
 }  // namespace
 
 Rod rod_of_network(const Preset& preset, int number, bool reversed) {
@@ -132,17 +175,6 @@ std::optional<NamedSide> side_named(const Preset& preset, const std::string& nam
   return std::nullopt;
 }
 
-namespace {
-
-std::string list_of(const std::vector<KeyFault>& needs) {
-  std::vector<std::string> all;
-  for (const auto& need : needs)
-    if (std::ranges::find(all, need.what) == all.end()) all.push_back(need.what);
-  return fmt::format("{}", fmt::join(all, ", and "));
-}
-
-}  // namespace
-
 RodModel rod_model_of(const Preset& preset) {
   if (preset.accuracy.model != RodModel::automatic) return preset.accuracy.model;
   const bool twist = !key_faults(preset, RuleKind::needs_twist).empty();
@@ -180,41 +212,6 @@ std::string model_reason(const Preset& preset) {
       "are {}",
       preset.joints.eccentricity_mm == 0 ? "shared nodes, the limit of stiff springs"
                                          : "bolts between the axes of rods that lie apart");
-}
-
-std::vector<KeyFault> model_conflicts(const Preset& preset) {
-  std::vector<KeyFault> found;
-  const RodModel asked = preset.accuracy.model;
-  auto unmet = asked == RodModel::net ? key_faults(preset, RuleKind::needs_equilibrium)
-                                      : std::vector<KeyFault>();
-  if (asked == RodModel::net || asked == RodModel::bend)
-    for (auto& need : key_faults(preset, RuleKind::needs_twist)) unmet.push_back(std::move(need));
-  for (const KeyFault& need : unmet)
-    found.push_back({"accuracy",
-                     "model",
-                     -1,
-                     {need.label()},
-                     fmt::format("cannot serve {}: {}", need.label(), need.what)});
-  if (rod_model_of(preset) != RodModel::twist) return found;
-  const auto needs = key_faults(preset, RuleKind::needs_twist);
-  const KeyFault cause =
-      needs.empty() ? KeyFault{"accuracy", "model", -1, {}, "it is asked for"} : needs.front();
-  const auto check = [&](const Rod& rod, const std::string& table) {
-    if (rod.shear_GPa == 0)
-      found.push_back({cause.table,
-                       cause.key,
-                       -1,
-                       {fmt::format("{} shear_GPa", table)},
-                       fmt::format("twists the rods ({}), and their torsional stiffness is not "
-                                   "known: {} shear_GPa must be above 0",
-                                   cause.what, table)});
-  };
-  check(preset.rod, "[rod]");
-  if (preset.rod_v.differs) check(preset.rod_v, "[rod_v]");
-  if (preset.rod.shear_GPa > 0)
-    for (const auto& [number, rod] : rods_of_their_own(preset))
-      check(rod, fmt::format("rods[{}]", number));
-  return found;
 }
 
 }  // namespace gridshell::preset

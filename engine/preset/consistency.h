@@ -58,7 +58,4 @@ RodModel rod_model_of(const Preset& preset);
 /// One sentence: which rung, what was left out, and why nothing is lost.
 std::string model_reason(const Preset& preset);
 
-/// What a rung that is asked for cannot serve, and rods whose stiffness it lacks.
-std::vector<KeyFault> model_conflicts(const Preset& preset);
-
 }  // namespace gridshell::preset

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <optional>
 #include <sstream>
-#include <type_traits>
 
 #include "engine/preset/preset.h"
 #include "engine/preset/toml_reader.h"

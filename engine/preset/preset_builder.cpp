@@ -15,7 +15,7 @@ std::string SourceLocation::text() const {
 
 std::string LocatedFaults::report() const {
   auto sorted = faults_;
-  std::stable_sort(sorted.begin(), sorted.end(), [](const LocatedFault& a, const LocatedFault& b) {
+  std::ranges::stable_sort(sorted, [](const LocatedFault& a, const LocatedFault& b) {
     const auto rank = [](const SourceLocation& p) {
       return std::tuple(p.line == 0, p.line, p.column);
     };

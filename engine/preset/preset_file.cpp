@@ -81,64 +81,6 @@ Presets read_presets(const toml::table& root, const std::string& name,
   return presets;
 }
 
-}  // namespace
-
-std::string case_name_fault(const std::string& name) {
-  const auto plain = [](unsigned char c) { return std::isalnum(c) || std::strchr("._-", c); };
-  if (name.empty() || !std::isalnum((unsigned char)name.front()) ||
-      !std::all_of(name.begin(), name.end(), plain))
-    return "names a folder, must be letters, digits, '.', '_' or '-' and begin with a letter or "
-           "digit";
-  if (name.size() > longest_name)
-    return fmt::format("is {} letters long, must be at most {}", name.size(), longest_name);
-  const auto kind = std::filesystem::path(name).extension().string();
-  for (const char* taken : {".csv", ".gif", ".h5", ".journal", ".json", ".mp4", ".pdf", ".png",
-                            ".svg", ".toml", ".webm"})
-    if (kind == taken) return fmt::format("must not end in {}, as the files of a run do", kind);
-  if (name == "frames") return "is the folder of a movie's pictures, must be another name";
-  return "";
-}
-
-Result<Override> parse_override(const std::string& argument) {
-  const auto equals = argument.find('=');
-  if (equals == std::string::npos || equals == 0)
-    return fail(Fault::bad_input,
-                "--set {}: must be table.key=value, for example --set footprint.radius_mm=126",
-                argument);
-  const auto trimmed = [](const std::string& text) {
-    const auto first = text.find_first_not_of(' ');
-    return first == std::string::npos ? ""
-                                      : text.substr(first, text.find_last_not_of(' ') + 1 - first);
-  };
-  return Override{"--set", trimmed(argument.substr(0, equals)), argument.substr(equals + 1)};
-}
-
-Result<Presets> read_preset_text(const std::string& text, const std::string& source,
-                                 const std::string& name, const std::vector<Override>& overrides,
-                                 const std::map<std::string, std::string>& files) {
-  toml::table root;
-  try {
-    root = toml::parse(text);
-  } catch (const toml::parse_error& error) {
-    const auto& at = error.source().begin;
-    return fail(Fault::bad_input, "{}:{}:{}: not TOML: {}", source, at.line, at.column,
-                error.description());
-  }
-  TomlReader reading(source, {std::filesystem::path(source).parent_path(), &files});
-  auto presets = read_presets(root, name, overrides, reading);
-  if (!reading.faults().empty()) return fail(Fault::bad_input, reading.faults().report());
-  return presets;
-}
-
-Result<Presets> read_preset_file(const std::filesystem::path& file,
-                                 const std::vector<Override>& overrides) {
-  auto text = read_file(file, largest_text);
-  if (!text) return fail(Fault::bad_input, text.error().message);
-  return read_preset_text(*text, file.string(), file.stem().string(), overrides);
-}
-
-namespace {
-
 std::string comment_of(const Field& field) {
   return field.unit.empty() ? field.meaning : fmt::format("{}: {}", field.unit, field.meaning);
 }
@@ -190,12 +132,59 @@ std::string list_text(const std::string& table, const Preset& preset, const Used
   return text;
 }
 
-bool is_list(const std::string& name) {
-  return std::any_of(tables().begin(), tables().end(),
-                     [&](const Table& table) { return table.list && table.name == name; });
+}  // namespace
+
+std::string case_name_fault(const std::string& name) {
+  const auto plain = [](unsigned char c) { return std::isalnum(c) || std::strchr("._-", c); };
+  if (name.empty() || !std::isalnum((unsigned char)name.front()) ||
+      !std::ranges::all_of(name, plain))
+    return "names a folder, must be letters, digits, '.', '_' or '-' and begin with a letter or "
+           "digit";
+  if (name.size() > longest_name)
+    return fmt::format("is {} letters long, must be at most {}", name.size(), longest_name);
+  const auto kind = std::filesystem::path(name).extension().string();
+  for (const char* taken : {".csv", ".gif", ".h5", ".journal", ".json", ".mp4", ".pdf", ".png",
+                            ".svg", ".toml", ".webm"})
+    if (kind == taken) return fmt::format("must not end in {}, as the files of a run do", kind);
+  if (name == "frames") return "is the folder of a movie's pictures, must be another name";
+  return "";
 }
 
-}  // namespace
+Result<Override> parse_override(const std::string& argument) {
+  const auto equals = argument.find('=');
+  if (equals == std::string::npos || equals == 0)
+    return invalid("--set {}: must be table.key=value, for example --set footprint.radius_mm=126",
+                   argument);
+  const auto trimmed = [](const std::string& text) {
+    const auto first = text.find_first_not_of(' ');
+    return first == std::string::npos ? ""
+                                      : text.substr(first, text.find_last_not_of(' ') + 1 - first);
+  };
+  return Override{"--set", trimmed(argument.substr(0, equals)), argument.substr(equals + 1)};
+}
+
+Result<Presets> read_preset_text(const std::string& text, const std::string& source,
+                                 const std::string& name, const std::vector<Override>& overrides,
+                                 const std::map<std::string, std::string>& files) {
+  toml::table root;
+  try {
+    root = toml::parse(text);
+  } catch (const toml::parse_error& error) {
+    const auto& at = error.source().begin;
+    return invalid("{}:{}:{}: not TOML: {}", source, at.line, at.column, error.description());
+  }
+  TomlReader reading(source, {std::filesystem::path(source).parent_path(), &files});
+  auto presets = read_presets(root, name, overrides, reading);
+  if (!reading.faults().empty()) return invalid(reading.faults().report());
+  return presets;
+}
+
+Result<Presets> read_preset_file(const std::filesystem::path& file,
+                                 const std::vector<Override>& overrides) {
+  auto text = read_file(file, largest_text);
+  if (!text) return invalid(text.error().message);
+  return read_preset_text(*text, file.string(), file.stem().string(), overrides);
+}
 
 std::string to_toml(const Preset& preset) {
   const Used used(preset);
@@ -223,7 +212,7 @@ std::string to_toml(const Presets& presets) {
     const Used in_case(one.preset);
     text += fmt::format("\n[[case]]\nname = \"{}\"\n", one.name);
     for (const auto& field : field_table()) {
-      if (is_list(field.table) || !in_case(field)) continue;
+      if (is_list_name(field.table) || !in_case(field)) continue;
       const auto value = value_text(field, one.preset);
       // what stands above, or where nothing does the default
       if (value == value_text(field, in_base(field) ? presets.base : defaults)) continue;

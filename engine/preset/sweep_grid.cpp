@@ -39,41 +39,6 @@ std::string setting(const Sweep& sweep, const SweepPoint& point) {
   return text;
 }
 
-}  // namespace
-
-SweepGrid::SweepGrid(const Presets& presets) : cases_(presets.cases) {
-  if (cases_.empty()) cases_.push_back({"", presets.base});
-  if (sweep().wanted()) size_ = cases_.size() * std::size_t(combinations(sweep()));
-}
-
-SweepPoint SweepGrid::at(std::size_t point) const {
-  const Sweep& sweep = this->sweep();
-  const std::size_t a_case = size_ / cases_.size();
-  const Case& one = cases_[point / a_case];
-  SweepPoint found{one.name, std::vector<std::string>(sweep.over.size()), 0, one.preset};
-  std::size_t rest = point % a_case;
-  if (sweep.seeds > 1) {
-    found.seed = one.preset.imperfection.seed + int(rest % std::size_t(sweep.seeds));
-    found.preset.imperfection.seed = found.seed;
-  }
-  rest /= std::size_t(sweep.seeds);
-  for (std::size_t k = sweep.over.size(); k-- > 0;) {
-    const SweepAxis& axis = sweep.over[k];
-    found.values[k] = axis.values[rest % axis.values.size()];
-    rest /= axis.values.size();
-    const auto value = toml::parse("x = " + found.values[k]);
-    assign(field_of(axis.key), *value.get("x"), found.preset, {});
-  }
-  // searches shake otherwise from point to point, and a point by itself can be made again
-  if (found.preset.jitter.wanted() && !sweeps(sweep, "jitter.seed")) {
-    int& seed = found.preset.jitter.seed;
-    seed = int((std::size_t(seed) + point) % (std::size_t(largest_seed) + 1));
-  }
-  return found;
-}
-
-namespace {
-
 /// Checks the points of one run of the file.
 class SweepCheck {
  public:
@@ -129,6 +94,37 @@ class SweepCheck {
 };
 
 }  // namespace
+
+SweepGrid::SweepGrid(const Presets& presets) : cases_(presets.cases) {
+  if (cases_.empty()) cases_.push_back({"", presets.base});
+  if (sweep().wanted()) size_ = cases_.size() * std::size_t(combinations(sweep()));
+}
+
+SweepPoint SweepGrid::at(std::size_t point) const {
+  const Sweep& sweep = this->sweep();
+  const std::size_t a_case = size_ / cases_.size();
+  const Case& one = cases_[point / a_case];
+  SweepPoint found{one.name, std::vector<std::string>(sweep.over.size()), 0, one.preset};
+  std::size_t rest = point % a_case;
+  if (sweep.seeds > 1) {
+    found.seed = one.preset.imperfection.seed + int(rest % std::size_t(sweep.seeds));
+    found.preset.imperfection.seed = found.seed;
+  }
+  rest /= std::size_t(sweep.seeds);
+  for (std::size_t k = sweep.over.size(); k-- > 0;) {
+    const SweepAxis& axis = sweep.over[k];
+    found.values[k] = axis.values[rest % axis.values.size()];
+    rest /= axis.values.size();
+    const auto value = toml::parse("x = " + found.values[k]);
+    assign(field_of(axis.key), *value.get("x"), found.preset, {});
+  }
+  // searches shake otherwise from point to point, and a point by itself can be made again
+  if (found.preset.jitter.wanted() && !sweeps(sweep, "jitter.seed")) {
+    int& seed = found.preset.jitter.seed;
+    seed = int((std::size_t(seed) + point) % (std::size_t(largest_seed) + 1));
+  }
+  return found;
+}
 
 void check_sweep(const std::vector<PresetBuilder>& runs, LocatedFaults& faults) {
   const PresetBuilder& first = runs.front();

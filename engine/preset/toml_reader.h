@@ -29,6 +29,9 @@ std::string assign(const Field& field, const toml::node& value, Preset& preset,
 /// The value as a fault shows it: TOML on one line, shortened when long.
 std::string toml_text(const toml::node& value);
 
+/// Whether a table of that name is a list of tables.
+bool is_list_name(const std::string& name);
+
 // Reads what a sweep goes over: `[sweep.over]` with keys in dotted form.
 //   rod.diameter_mm = [0.2, 0.3]
 //   actuation.radius_mm = { from = 90, to = 110, count = 5 }
@@ -38,14 +41,6 @@ struct AxisFault {
   toml::source_region place;
   std::string text;  ///< "[sweep.over] rod.diameter_mm = "x": is a string, must be a number > 0"
 };
-
-/// The axes in the order in which they are written; what is wrong is added to `faults`, and an axis
-/// with a fault is left out. Each value was assigned to its key once and is within its range.
-std::vector<SweepAxis> read_axes(const toml::table& over, std::vector<AxisFault>& faults);
-
-/// Whether a table of keys can change a number of a run: those of pictures and of the sweep itself
-/// cannot.
-bool affects_results(const std::string& table);
 
 // Lays TOML over presets, and gathers what is wrong on the way.
 

@@ -113,12 +113,12 @@ Result<Drawing> plate_drawing(const FabricationPlan& work) {
     middle += pin.at.head<2>();
     ++ring;
   }
-  if (ring == 0) return fail(Fault::bad_input, "nothing is pinned, so there is no plate");
+  if (ring == 0) return invalid("nothing is pinned, so there is no plate");
   if (high - low > 1e-3)
-    return fail(Fault::bad_input,
-                "the edge points lie between z = {:.3f} and {:.3f} mm, so no flat plate holds "
-                "them; '--what plate --to pins.csv' lists them",
-                low, high);
+    return invalid(
+        "the edge points lie between z = {:.3f} and {:.3f} mm, so no flat plate holds "
+        "them; '--what plate --to pins.csv' lists them",
+        low, high);
   middle /= ring;
   Layer boundary{"boundary", 1}, holes{"holes", 7}, labels{"labels", 5};
   put_boundary(work.actuated_boundary.topRows<2>(), work.actuated_radius_mm, boundary);

@@ -155,8 +155,8 @@ Result<ModelDetail> model_detail(const record::Trajectory& run) {
                       shapes = std::min((most_model_bytes - once) / a_shape, wanted);
     if (shapes == wanted || sides == 4) return ModelDetail{sides, shapes};
   }
-  return fail(Fault::bad_input, "one shape of {} points takes more than {} MB as .glb", points,
-              most_model_bytes / 1'000'000);
+  return invalid("one shape of {} points takes more than {} MB as .glb", points,
+                 most_model_bytes / 1'000'000);
 }
 
 Json material(const char* name, std::array<double, 4> colour, bool two_sided) {

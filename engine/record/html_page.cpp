@@ -141,8 +141,8 @@ Result<std::string> to_page(const record::Trajectory& run, const std::string& ti
   const auto nodes = std::size_t(run.frames.front().nodes.cols());
   const std::size_t a_frame = 8 * nodes + 8 * run.layout.cells.size() + 400;
   if (a_frame > most_page_bytes)
-    return fail(Fault::bad_input, "one frame of {} nodes takes more than {} MB in a page", nodes,
-                most_page_bytes / 1'000'000);
+    return invalid("one frame of {} nodes takes more than {} MB in a page", nodes,
+                   most_page_bytes / 1'000'000);
   const auto shown =
       even_frames(run.frames.size(), std::min(run.frames.size(), most_page_bytes / a_frame));
   Extent extent;

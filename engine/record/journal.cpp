@@ -3,14 +3,10 @@
 #include <fcntl.h>
 #include <algorithm>
 #include <cerrno>
-#include <cstdint>
 #include <functional>
 #include <map>
-#include <set>
 #include <utility>
-#include <vector>
 
-#include "engine/core/file_io.h"
 #include "engine/core/packing.h"
 #include "engine/core/try.h"
 #include "engine/formats/hdf5_file.h"
@@ -18,6 +14,7 @@
 #include "engine/record/trajectory_hdf5.h"
 
 namespace gridshell::record {
+namespace fs = std::filesystem;
 namespace {
 
 // version 0.2 wrote the older
@@ -46,6 +43,114 @@ void skip(ByteReader& in, std::uint8_t kind) {
   if (kind == kind_of(0.0)) in.number<double>();
   if (kind == kind_of(std::string())) in.text();
 }
+
+/// Where a payload lies.
+struct Place {
+  std::uint64_t at = 0, size = 0;
+};
+
+struct Record {
+  std::uint32_t kind = 0;
+  Place place;
+  std::string payload;
+  std::uint64_t next = 0;
+};
+
+/// The record at `at`, if it is whole.
+std::optional<Record> record_at(const ReadableFile& file, std::uint64_t at, ChecksumKind summed) {
+  const auto start = file.read(at, before_payload);
+  if (!start) return std::nullopt;
+  ByteReader in(*start);
+  Record found;
+  found.kind = in.number<std::uint32_t>();
+  const auto length = in.number<std::uint64_t>();
+  if (length > largest_record) return std::nullopt;
+  auto rest = file.read(at + before_payload, length + after_payload);
+  if (!rest) return std::nullopt;
+  Checksum sum(summed);
+  sum.add(*start);
+  sum.add(std::string_view(*rest).substr(0, length));
+  if (ByteReader(std::string_view(*rest).substr(length)).number<std::uint64_t>() != sum.value())
+    return std::nullopt;
+  found.place = {at + before_payload, length};
+  found.next = found.place.at + length + after_payload;
+  rest->resize(length);
+  found.payload = std::move(*rest);
+  return found;
+}
+
+/// An open journal.
+struct OpenJournal {
+  ReadableFile file;
+  JournalHead head;
+  ChecksumKind summed;
+  std::uint64_t begin;  ///< of the records of frames
+
+  /// take(index, record) for every whole record of a frame; of one index the last counts.
+  void each_frame(const std::function<void(int, const Record&)>& take) const {
+    for (auto record = record_at(file, begin, summed); record;
+         record = record_at(file, record->next, summed))
+      if (record->kind == frame_record && record->payload.size() >= sizeof(std::int32_t))
+        take(ByteReader(record->payload).number<std::int32_t>(), *record);
+  }
+};
+
+Result<OpenJournal> open_journal(const fs::path& path) {
+  const auto refuse = [&](const char* because) {
+    return invalid("'{}': {}", path.string(), because);
+  };
+  TRY(file, ReadableFile::open(path));
+  const auto line = file->read(0, first_line.size());
+  if (line != first_line && line != older_first_line) return refuse("it is no journal of a run");
+  const auto summed = line == first_line ? ChecksumKind::crc32 : ChecksumKind::fnv1a;
+  const auto first = record_at(*file, first_line.size(), summed);
+  auto head = first && first->kind == head_record ? unpacked_head(first->payload) : std::nullopt;
+  if (!head) return refuse("its beginning is damaged");
+  return OpenJournal{std::move(*file), std::move(*head), summed, first->next};
+}
+
+class JournalFrames : public FrameSource {
+ public:
+  explicit JournalFrames(OpenJournal journal) : journal_(std::move(journal)) {}
+
+  /// The first frame that fits the layout decides how many nodes there are; those that do not fit
+  /// it are left out.
+  void find_those_of(const Layout& layout) {
+    struct Found {
+      Place place;
+      Eigen::Index nodes;  // -1: it fits none
+      Frame head;
+    };
+    std::map<int, Found> found;
+    journal_.each_frame([&](int index, const Record& record) {
+      const auto one = unpacked_frame(record.payload, journal_.head.columns);
+      const Eigen::Index nodes = one ? one->nodes.cols() : -1;
+      const bool fits = one && check_layout(layout, nodes) && check_frame(layout, *one, 0, nodes);
+      found[index] = {record.place, fits ? nodes : -1, fits ? without_nodes(*one) : Frame()};
+    });
+    Eigen::Index nodes = -1;
+    for (auto& [index, one] : found) {
+      if (nodes < 0) nodes = one.nodes;
+      if (nodes < 0 || one.nodes != nodes) continue;
+      places_.push_back(one.place);
+      heads_.push_back(std::move(one.head));
+    }
+  }
+  const Frame* head(std::size_t k) const override { return &heads_[k]; }
+  std::size_t size() const override { return places_.size(); }
+  Result<Frame> read(std::size_t k) const override { return frame_at(places_[k]); }
+
+ private:
+  Result<Frame> frame_at(const Place& place) const {
+    const auto bytes = journal_.file.read(place.at, place.size);
+    if (!bytes) return fail(Fault::io, "cannot read a frame of the journal");
+    return unpacked_frame(*bytes, journal_.head.columns);
+  }
+
+  OpenJournal journal_;
+  std::vector<Place> places_;
+  std::vector<Frame> heads_;
+};
 
 }  // namespace
 
@@ -108,11 +213,9 @@ Result<Frame> unpacked_frame(std::string_view bytes, const std::vector<std::stri
     ++matrices;
     in.matrix(values);
   });
-  if (!in.at_end()) return fail(Fault::bad_input, "a frame is damaged");
+  if (!in.at_end()) return invalid("a frame is damaged");
   return frame;
 }
-
-namespace fs = std::filesystem;
 
 Result<JournalWriter> JournalWriter::create(const fs::path& path, const RunIdentity& name,
                                             const Layout& layout) {
@@ -132,7 +235,7 @@ Result<JournalWriter> JournalWriter::create(const fs::path& path, const RunIdent
 
 Result<void> JournalWriter::append(const Frame& frame) {
   if (frame.index < 0 || frame.index > largest_index)
-    return fail(Fault::bad_input, "frame {} has no place in a journal", frame.index);
+    return invalid("frame {} has no place in a journal", frame.index);
   TRY_DO(put(frame_record, packed_frame(frame)));
   indices_.insert(frame.index);
   return {};
@@ -148,125 +251,13 @@ Result<void> JournalWriter::put(std::uint32_t kind, const std::string& payload) 
   return {};
 }
 
-namespace {
-
-/// Where a payload lies.
-struct Place {
-  std::uint64_t at = 0, size = 0;
-};
-
-struct Record {
-  std::uint32_t kind = 0;
-  Place place;
-  std::string payload;
-  std::uint64_t next = 0;
-};
-
-/// The record at `at`, if it is whole.
-std::optional<Record> record_at(const ReadableFile& file, std::uint64_t at, ChecksumKind summed) {
-  const auto start = file.read(at, before_payload);
-  if (!start) return std::nullopt;
-  ByteReader in(*start);
-  Record found;
-  found.kind = in.number<std::uint32_t>();
-  const auto length = in.number<std::uint64_t>();
-  if (length > largest_record) return std::nullopt;
-  auto rest = file.read(at + before_payload, length + after_payload);
-  if (!rest) return std::nullopt;
-  Checksum sum(summed);
-  sum.add(*start);
-  sum.add(std::string_view(*rest).substr(0, length));
-  if (ByteReader(std::string_view(*rest).substr(length)).number<std::uint64_t>() != sum.value())
-    return std::nullopt;
-  found.place = {at + before_payload, length};
-  found.next = found.place.at + length + after_payload;
-  rest->resize(length);
-  found.payload = std::move(*rest);
-  return found;
-}
-
-/// An open journal.
-struct OpenJournal {
-  ReadableFile file;
-  JournalHead head;
-  ChecksumKind summed;
-  std::uint64_t begin;  ///< of the records of frames
-
-  /// take(index, record) for every whole record of a frame; of one index the last counts.
-  void each_frame(const std::function<void(int, const Record&)>& take) const {
-    for (auto record = record_at(file, begin, summed); record;
-         record = record_at(file, record->next, summed))
-      if (record->kind == frame_record && record->payload.size() >= sizeof(std::int32_t))
-        take(ByteReader(record->payload).number<std::int32_t>(), *record);
-  }
-};
-
-Result<OpenJournal> open_journal(const fs::path& path) {
-  const auto refuse = [&](const char* because) {
-    return fail(Fault::bad_input, "'{}': {}", path.string(), because);
-  };
-  TRY(file, ReadableFile::open(path));
-  const auto line = file->read(0, first_line.size());
-  if (line != first_line && line != older_first_line) return refuse("it is no journal of a run");
-  const auto summed = line == first_line ? ChecksumKind::crc32 : ChecksumKind::fnv1a;
-  const auto first = record_at(*file, first_line.size(), summed);
-  auto head = first && first->kind == head_record ? unpacked_head(first->payload) : std::nullopt;
-  if (!head) return refuse("its beginning is damaged");
-  return OpenJournal{std::move(*file), std::move(*head), summed, first->next};
-}
-
-class JournalFrames : public FrameSource {
- public:
-  explicit JournalFrames(OpenJournal journal) : journal_(std::move(journal)) {}
-
-  /// The first frame that fits the layout decides how many nodes there are; those that do not fit
-  /// it are left out.
-  void find_those_of(const Layout& layout) {
-    struct Found {
-      Place place;
-      Eigen::Index nodes;  // -1: it fits none
-      Frame head;
-    };
-    std::map<int, Found> found;
-    journal_.each_frame([&](int index, const Record& record) {
-      const auto one = unpacked_frame(record.payload, journal_.head.columns);
-      const Eigen::Index nodes = one ? one->nodes.cols() : -1;
-      const bool fits = one && check_layout(layout, nodes) && check_frame(layout, *one, 0, nodes);
-      found[index] = {record.place, fits ? nodes : -1, fits ? without_nodes(*one) : Frame()};
-    });
-    Eigen::Index nodes = -1;
-    for (auto& [index, one] : found) {
-      if (nodes < 0) nodes = one.nodes;
-      if (nodes < 0 || one.nodes != nodes) continue;
-      places_.push_back(one.place);
-      heads_.push_back(std::move(one.head));
-    }
-  }
-  const Frame* head(std::size_t k) const override { return &heads_[k]; }
-  std::size_t size() const override { return places_.size(); }
-  Result<Frame> read(std::size_t k) const override { return frame_at(places_[k]); }
-
- private:
-  Result<Frame> frame_at(const Place& place) const {
-    const auto bytes = journal_.file.read(place.at, place.size);
-    if (!bytes) return fail(Fault::io, "cannot read a frame of the journal");
-    return unpacked_frame(*bytes, journal_.head.columns);
-  }
-
-  OpenJournal journal_;
-  std::vector<Place> places_;
-  std::vector<Frame> heads_;
-};
-
-}  // namespace
-
 Result<Journal> read_journal(const fs::path& path, bool trial) {
   TRY(journal, open_journal(path));
   const JournalHead& head = journal->head;
   const auto survived =
       trial ? read_in_subprocess([&] { (void)layout_of_image(head.layout); }) : Result<void>();
   auto layout = survived.and_then([&] { return layout_of_image(head.layout); });
-  if (!layout) return fail(Fault::bad_input, "'{}': {}", path.string(), layout.error().message);
+  if (!layout) return invalid("'{}': {}", path.string(), layout.error().message);
   const RunIdentity name = head.name;
   const auto frames = std::make_shared<JournalFrames>(std::move(*journal));
   frames->find_those_of(*layout);

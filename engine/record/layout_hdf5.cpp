@@ -228,7 +228,7 @@ std::string image_of(const Layout& layout) {
 Result<Layout> layout_of_image(std::string_view bytes) {
   hdf5::Reader file(bytes);
   Layout layout = read_layout(file);
-  if (!file.good()) return fail(Fault::bad_input, file.reason());
+  if (!file.good()) return invalid(file.reason());
   return layout;
 }
 

@@ -20,46 +20,6 @@ void put(Figures& figures, const std::string& kind, const StateCount& count) {
   figures.emplace_back("met_confined_" + kind, double(count.met_confined));
 }
 
-}  // namespace
-
-Figures search_figures(const StateSearch& search, const std::vector<StateRow>& rows) {
-  Figures figures{{"jitter_seed", double(search.seed)},
-                  {"trials", double(search.trials)},
-                  {"at_rest", double(search.at_rest)},
-                  {"confined_trials", double(search.confined_trials)},
-                  {"confined_at_rest", double(search.confined_at_rest)},
-                  {"states", double(rows.size())},
-                  {"seen", double(search.completeness.seen)},
-                  {"chao1", search.completeness.estimate}};
-  for (const auto& [kind, word] : words_of<StateClass>()) {
-    StateCount count;
-    for (const StateRow& row : rows)
-      if (row.kind == kind) add(count, row);
-    put(figures, std::string(word), count);
-  }
-  StateCount count;
-  for (const StateRow& row : rows)
-    if (row.first_order()) add(count, row);
-  put(figures, first_order, count);
-  return figures;
-}
-
-std::optional<StateCount> state_count(const PointResult& result, const std::string& kind) {
-  StateCount count;
-  const auto take = [&](const std::string& name, int& into) {
-    const Figure* figure = result.figure(name + kind);
-    const double number = figure ? number_of(*figure) : std::nan("");
-    if (std::isfinite(number)) into = int(number);
-    return std::isfinite(number);
-  };
-  if (!take("states_", count.states) || !take("met_", count.met) ||
-      !take("met_confined_", count.met_confined))
-    return std::nullopt;
-  return count;
-}
-
-namespace {
-
 constexpr double endless = std::numeric_limits<double>::infinity();
 constexpr const char* leg_key = "footprint.longest_leg";
 constexpr const char* rods_key = "footprint.rods";
@@ -102,6 +62,42 @@ void count(const PhasePoint& point, PhaseRegion& region) {
 }
 
 }  // namespace
+
+Figures search_figures(const StateSearch& search, const std::vector<StateRow>& rows) {
+  Figures figures{{"jitter_seed", double(search.seed)},
+                  {"trials", double(search.trials)},
+                  {"at_rest", double(search.at_rest)},
+                  {"confined_trials", double(search.confined_trials)},
+                  {"confined_at_rest", double(search.confined_at_rest)},
+                  {"states", double(rows.size())},
+                  {"seen", double(search.completeness.seen)},
+                  {"chao1", search.completeness.estimate}};
+  for (const auto& [kind, word] : words_of<StateClass>()) {
+    StateCount count;
+    for (const StateRow& row : rows)
+      if (row.kind == kind) add(count, row);
+    put(figures, std::string(word), count);
+  }
+  StateCount count;
+  for (const StateRow& row : rows)
+    if (row.first_order()) add(count, row);
+  put(figures, first_order, count);
+  return figures;
+}
+
+std::optional<StateCount> state_count(const PointResult& result, const std::string& kind) {
+  StateCount count;
+  const auto take = [&](const std::string& name, int& into) {
+    const Figure* figure = result.figure(name + kind);
+    const double number = figure ? number_of(*figure) : std::nan("");
+    if (std::isfinite(number)) into = int(number);
+    return std::isfinite(number);
+  };
+  if (!take("states_", count.states) || !take("met_", count.met) ||
+      !take("met_confined_", count.met_confined))
+    return std::nullopt;
+  return count;
+}
 
 int PhasePoint::beyond_paper() const {
   int more = 0;

@@ -1,14 +1,10 @@
 #include "engine/record/run_folder.h"
 
-#include <iterator>
-
 #include "engine/core/file_io.h"
 #include "engine/core/system_info.h"
 #include "engine/core/try.h"
 #include "engine/formats/csv.h"
 #include "engine/record/frame_columns.h"
-#include "engine/record/summary.h"
-#include "engine/record/trajectory.h"
 #include "engine/record/trajectory_file.h"
 
 namespace gridshell::record {
@@ -120,7 +116,7 @@ Result<void> FolderSink::keep_coarser() {
 }
 
 Result<void> FolderSink::take(Frame frame) {
-  if (!journal_) return fail(Fault::bad_input, "a frame came before its layout");
+  if (!journal_) return invalid("a frame came before its layout");
   auto appended = journal_->append(frame);
   if (!appended || coarser_frames_ == 0 || journal_->frames() < coarser_frames_) return appended;
   std::error_code ignored;

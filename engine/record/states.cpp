@@ -106,7 +106,7 @@ Result<std::vector<Row>> read_csv(const std::filesystem::path& file) {
   const auto lines = csv_cells(*text);
   const auto names = lines.empty() ? std::vector<std::string>() : lines.front();
   if (const std::string fault = heading_fault<Row>(names); !fault.empty())
-    return fail(Fault::bad_input, "'{}': {}", file.string(), fault);
+    return invalid("'{}': {}", file.string(), fault);
   std::vector<Row> rows;
   for (std::size_t k = 1; k < lines.size(); ++k) {
     const std::vector<std::string>& cells = lines[k];
@@ -116,8 +116,7 @@ Result<std::vector<Row>> read_csv(const std::filesystem::path& file) {
       if (fault.empty() && !parse(at < cells.size() ? cells[at] : "", value)) fault = name;
     });
     if (!fault.empty())
-      return fail(Fault::bad_input, "'{}' line {}: its {} cannot be read", file.string(), k + 1,
-                  fault);
+      return invalid("'{}' line {}: its {} cannot be read", file.string(), k + 1, fault);
   }
   return rows;
 }
@@ -139,7 +138,7 @@ Result<StateSearch> read_search(const std::filesystem::path& file) {
   };
   const std::string fault = take_fields(parsed(*text), search, may_lack);
   if (fault.empty()) return search;
-  return fail(Fault::bad_input, "'{}' is no search for states: {}", file.string(), fault);
+  return invalid("'{}' is no search for states: {}", file.string(), fault);
 }
 
 }  // namespace
@@ -207,8 +206,8 @@ Result<StateTables> read_state_tables(const std::filesystem::path& folder) {
     });
   };
   if (!known(tables.transitions) || !known(tables.barriers))
-    return fail(Fault::bad_input, "'{}': {} or {} names a state that {} does not have",
-                folder.string(), transitions_name, barriers_name, states_name);
+    return invalid("'{}': {} or {} names a state that {} does not have", folder.string(),
+                   transitions_name, barriers_name, states_name);
   return tables;
 }
 

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "engine/core/enum_words.h"
 #include "engine/core/fields.h"
 #include "engine/core/result.h"
 #include "engine/record/frame.h"

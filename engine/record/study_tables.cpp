@@ -26,7 +26,7 @@ std::vector<std::size_t> pareto_front(const std::vector<AccuracyRow>& rows) {
   for (std::size_t k = 0; k < rows.size(); ++k)
     if (rows[k].outcome == RunOutcome::right && rows[k].cpu_s > 0 && rows[k].error > 0)
       order.push_back(k);
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+  std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
     return std::pair(rows[a].cpu_s, rows[a].error) < std::pair(rows[b].cpu_s, rows[b].error);
   });
   std::vector<std::size_t> front;

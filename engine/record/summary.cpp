@@ -83,7 +83,7 @@ Result<void> write_summary(const std::filesystem::path& path, const Summary& sum
 Result<Summary> read_summary(const std::filesystem::path& path) {
   TRY(text, read_file(path, largest_text));
   const auto refuse = [&](const std::string& fault) {
-    return fail(Fault::bad_input, "'{}' is no summary of a run: {}", path.string(), fault);
+    return invalid("'{}' is no summary of a run: {}", path.string(), fault);
   };
   Json json = parsed(*text);
   if (!json.is_object()) return refuse("not a JSON object");

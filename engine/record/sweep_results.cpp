@@ -38,56 +38,6 @@ std::string bare(const std::string& value) {
   return quoted ? value.substr(1, value.size() - 2) : value;
 }
 
-}  // namespace
-
-Figure figure_of(const Json& json) {
-  if (json.is_boolean()) return json.get<bool>();
-  if (json.is_number()) return json.get<double>();
-  if (json.is_string()) return json.get<std::string>();
-  return {};
-}
-
-double number_of(const Figure& figure) {
-  if (const auto* number = std::get_if<double>(&figure)) return *number;
-  if (const auto* flag = std::get_if<bool>(&figure)) return *flag ? 1 : 0;
-  return unknown;
-}
-
-const Figure* PointResult::figure(const std::string& name) const {
-  for (const auto& [key, value] : figures)
-    if (key == name) return &value;
-  return nullptr;
-}
-
-std::string sweep_csv(const SweepTable& table) {
-  const auto names = names_of(table);
-  CsvWriter csv;
-  csv.cell("point");
-  if (table.has_cases) csv.cell("case");
-  for (const auto& axis : table.axes) csv.cell(axis);
-  if (table.has_seeds) csv.cell("seed");
-  csv.cell("outcome");
-  for (const auto& name : names) csv.cell(name);
-  csv.cell("reason");
-  csv.end_line();
-  for (const auto& [keys, result] : table.rows) {
-    csv.cell(int(result.point));
-    if (table.has_cases) csv.cell(keys.case_name);
-    for (const auto& value : keys.values) csv.cell(bare(value));
-    if (table.has_seeds) csv.cell(keys.seed);
-    csv.cell(std::string(word_of(result.outcome)));
-    for (const auto& name : names) {
-      const Figure* figure = result.figure(name);
-      std::visit([&](const auto& value) { put(csv, value); }, figure ? *figure : Figure());
-    }
-    csv.cell(result.reason);
-    csv.end_line();
-  }
-  return std::move(csv).text();
-}
-
-namespace {
-
 /// A cell as the figure that it was written from.
 Figure figure_in(const std::string& cell) {
   if (cell.empty()) return {};
@@ -114,36 +64,6 @@ bool take_key(const std::string& name, const std::string& cell, SweepTable::Row&
   }
   return true;
 }
-
-}  // namespace
-
-Result<SweepTable> read_sweep_csv(std::string_view text) {
-  const auto rows = csv_cells(text);
-  if (rows.empty() || rows.front().front() != "point" || rows.front().back() != "reason")
-    return fail(Fault::bad_input, "line 1 is not 'point,...,outcome,...,reason'");
-  const auto& names = rows.front();
-  const auto figures = std::size_t(std::ranges::find(names, "outcome") - names.begin()) + 1;
-  SweepTable table;
-  for (std::size_t k = 1; k + 1 < figures; ++k)
-    if (names[k] == "case" || names[k] == "seed")
-      (names[k] == "case" ? table.has_cases : table.has_seeds) = true;
-    else
-      table.axes.push_back(names[k]);
-  for (std::size_t line = 1; line < rows.size(); ++line) {
-    const auto& cells = rows[line];
-    SweepTable::Row& row = table.rows.emplace_back();
-    bool good = cells.size() == names.size() && figures < names.size();
-    for (std::size_t k = 0; good && k < figures; ++k) good = take_key(names[k], cells[k], row);
-    if (!good) return fail(Fault::bad_input, "line {} is no point of a sweep", line + 1);
-    for (std::size_t k = figures; k + 1 < names.size(); ++k)
-      row.result.figures.emplace_back(names[k], figure_in(cells[k]));
-    row.result.reason = cells.back();
-  }
-  return table;
-}
-
-namespace fs = std::filesystem;
-namespace {
 
 constexpr std::size_t sum_length = 26;  // of ,"sum":"0123456789abcdef"}
 
@@ -234,6 +154,78 @@ std::optional<PointResult> point_of(std::string_view line, std::size_t points) {
 
 }  // namespace
 
+Figure figure_of(const Json& json) {
+  if (json.is_boolean()) return json.get<bool>();
+  if (json.is_number()) return json.get<double>();
+  if (json.is_string()) return json.get<std::string>();
+  return {};
+}
+
+double number_of(const Figure& figure) {
+  if (const auto* number = std::get_if<double>(&figure)) return *number;
+  if (const auto* flag = std::get_if<bool>(&figure)) return *flag ? 1 : 0;
+  return unknown;
+}
+
+const Figure* PointResult::figure(const std::string& name) const {
+  for (const auto& [key, value] : figures)
+    if (key == name) return &value;
+  return nullptr;
+}
+
+std::string sweep_csv(const SweepTable& table) {
+  const auto names = names_of(table);
+  CsvWriter csv;
+  csv.cell("point");
+  if (table.has_cases) csv.cell("case");
+  for (const auto& axis : table.axes) csv.cell(axis);
+  if (table.has_seeds) csv.cell("seed");
+  csv.cell("outcome");
+  for (const auto& name : names) csv.cell(name);
+  csv.cell("reason");
+  csv.end_line();
+  for (const auto& [keys, result] : table.rows) {
+    csv.cell(int(result.point));
+    if (table.has_cases) csv.cell(keys.case_name);
+    for (const auto& value : keys.values) csv.cell(bare(value));
+    if (table.has_seeds) csv.cell(keys.seed);
+    csv.cell(std::string(word_of(result.outcome)));
+    for (const auto& name : names) {
+      const Figure* figure = result.figure(name);
+      std::visit([&](const auto& value) { put(csv, value); }, figure ? *figure : Figure());
+    }
+    csv.cell(result.reason);
+    csv.end_line();
+  }
+  return std::move(csv).text();
+}
+
+Result<SweepTable> read_sweep_csv(std::string_view text) {
+  const auto rows = csv_cells(text);
+  if (rows.empty() || rows.front().front() != "point" || rows.front().back() != "reason")
+    return invalid("line 1 is not 'point,...,outcome,...,reason'");
+  const auto& names = rows.front();
+  const auto figures = std::size_t(std::ranges::find(names, "outcome") - names.begin()) + 1;
+  SweepTable table;
+  for (std::size_t k = 1; k + 1 < figures; ++k)
+    if (names[k] == "case" || names[k] == "seed")
+      (names[k] == "case" ? table.has_cases : table.has_seeds) = true;
+    else
+      table.axes.push_back(names[k]);
+  for (std::size_t line = 1; line < rows.size(); ++line) {
+    const auto& cells = rows[line];
+    SweepTable::Row& row = table.rows.emplace_back();
+    bool good = cells.size() == names.size() && figures < names.size();
+    for (std::size_t k = 0; good && k < figures; ++k) good = take_key(names[k], cells[k], row);
+    if (!good) return invalid("line {} is no point of a sweep", line + 1);
+    for (std::size_t k = figures; k + 1 < names.size(); ++k)
+      row.result.figures.emplace_back(names[k], figure_in(cells[k]));
+    row.result.reason = cells.back();
+  }
+  return table;
+}
+
+namespace fs = std::filesystem;
 Result<SweepContents> read_sweep_log(const fs::path& file) {
   TRY(text, read_file(file));
   SweepContents contents;
@@ -249,8 +241,8 @@ Result<SweepContents> read_sweep_log(const fs::path& file) {
     if (first) {
       const auto name = name_of(line);
       if (!name)
-        return fail(Fault::bad_input, "'{}' is no log of a sweep: its first line does not name one",
-                    file.string());
+        return invalid("'{}' is no log of a sweep: its first line does not name one",
+                       file.string());
       contents.name = *name;
     } else if (auto point = point_of(line, contents.name.points)) {
       contents.found.try_emplace(point->point, std::move(*point));

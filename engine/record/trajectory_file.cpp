@@ -92,7 +92,7 @@ std::string write_fault(int descriptor, const AtomicFile& target, const Trajecto
 }
 
 Result<Trajectory> read_checked(const std::filesystem::path& path) {
-  const auto refuse = [](const std::string& reason) { return fail(Fault::bad_input, reason); };
+  const auto refuse = [](const std::string& reason) { return invalid(reason); };
   const auto file = std::make_shared<hdf5::Reader>(path);
   if (!file->good()) return refuse("it is cut short or damaged");
   if (file->text_attribute("/", "format") != trajectory_format)
@@ -125,7 +125,7 @@ Result<void> write_trajectory(const std::filesystem::path& path, const Trajector
 Result<Trajectory> read_trajectory(const std::filesystem::path& path,
                                    const TrajectoryReadOptions& how) {
   const auto refuse = [&](const std::string& reason) {
-    return fail(Fault::bad_input, "'{}' is no trajectory of a run: {}", path.string(), reason);
+    return invalid("'{}' is no trajectory of a run: {}", path.string(), reason);
   };
   TRY(file, ReadableFile::open(path));
   if (const auto reason = header_fault(*file, how.unsealed); !reason.empty()) return refuse(reason);

@@ -35,43 +35,6 @@ tl::unexpected<Error> refuse(const char* which, const Error& error) {
   return fail(error.fault, std::string(which) + error.message);
 }
 
-}  // namespace
-
-Eigen::Matrix2Xd CurveDesign::actuated(const Eigen::Matrix2Xd& on_original) const {
-  Eigen::Matrix2Xd moved(2, on_original.cols());
-  for (Eigen::Index k = 0; k < moved.cols(); ++k) moved.col(k) = map(on_original.col(k));
-  return moved;
-}
-
-Result<CurveDesign> curve_design(const preset::Preset& preset) {
-  const auto& footprint = preset.footprint;
-  auto original = curve_of(footprint.boundary, footprint.radius_mm, 1);
-  if (!original) return refuse("[footprint] boundary: ", original.error());
-  const auto& to = preset.actuation;
-  auto actuated = to.scale > 0 ? curve_of(footprint.boundary, footprint.radius_mm, to.scale)
-                               : curve_of(to.boundary, to.radius_mm, 1);
-  if (!actuated) return refuse("[actuation] boundary: ", actuated.error());
-  TRY(map, BoundaryMap::make(*original, *actuated, to.correspondence));
-  auto domain = std::make_unique<CurveDomain>(*original);
-  const Eigen::Matrix2Xd ring = domain->boundary(1024);
-  const double scale = 0.5 * (ring.rowwise().maxCoeff() - ring.rowwise().minCoeff()).norm();
-  return CurveDesign{std::move(domain), std::move(*map), scale};
-}
-
-RodEnd hold_as(preset::EndKind kind) {
-  switch (kind) {
-    case preset::EndKind::pinned:
-      return RodEnd::pinned;
-    case preset::EndKind::tangent:
-      return RodEnd::tangent;
-    case preset::EndKind::clamped:
-      break;
-  }
-  return RodEnd::clamped;
-}
-
-namespace {
-
 Eigen::Vector3d vector_of(const std::vector<double>& row, std::size_t first) {
   return {row.at(first), row.at(first + 1), row.at(first + 2)};
 }
@@ -201,16 +164,48 @@ Result<void> check_diameters(const preset::Preset& preset, const Footprint& foot
     const preset::Rod rod = preset::rod_of_network(preset, drawn.number);
     const double across = rod.rectangular() ? rod.width_mm : rod.diameter_mm;
     if (!(across < footprint.spacing))
-      return fail(Fault::bad_input,
-                  "rods[{}]: a {} of {:g} mm, must be less than the usual distance of {:g} mm "
-                  "between joints",
-                  drawn.number, rod.rectangular() ? "width" : "diameter", across,
-                  footprint.spacing);
+      return invalid(
+          "rods[{}]: a {} of {:g} mm, must be less than the usual distance of {:g} mm "
+          "between joints",
+          drawn.number, rod.rectangular() ? "width" : "diameter", across, footprint.spacing);
   }
   return {};
 }
 
 }  // namespace
+
+Eigen::Matrix2Xd CurveDesign::actuated(const Eigen::Matrix2Xd& on_original) const {
+  Eigen::Matrix2Xd moved(2, on_original.cols());
+  for (Eigen::Index k = 0; k < moved.cols(); ++k) moved.col(k) = map(on_original.col(k));
+  return moved;
+}
+
+Result<CurveDesign> curve_design(const preset::Preset& preset) {
+  const auto& footprint = preset.footprint;
+  auto original = curve_of(footprint.boundary, footprint.radius_mm, 1);
+  if (!original) return refuse("[footprint] boundary: ", original.error());
+  const auto& to = preset.actuation;
+  auto actuated = to.scale > 0 ? curve_of(footprint.boundary, footprint.radius_mm, to.scale)
+                               : curve_of(to.boundary, to.radius_mm, 1);
+  if (!actuated) return refuse("[actuation] boundary: ", actuated.error());
+  TRY(map, BoundaryMap::make(*original, *actuated, to.correspondence));
+  auto domain = std::make_unique<CurveDomain>(*original);
+  const Eigen::Matrix2Xd ring = domain->boundary(1024);
+  const double scale = 0.5 * (ring.rowwise().maxCoeff() - ring.rowwise().minCoeff()).norm();
+  return CurveDesign{std::move(domain), std::move(*map), scale};
+}
+
+RodEnd hold_as(preset::EndKind kind) {
+  switch (kind) {
+    case preset::EndKind::pinned:
+      return RodEnd::pinned;
+    case preset::EndKind::tangent:
+      return RodEnd::tangent;
+    case preset::EndKind::clamped:
+      break;
+  }
+  return RodEnd::clamped;
+}
 
 Result<void> build_network(const preset::Preset& preset, Scene& scene) {
   const preset::NetworkData& file = preset.footprint.file;

@@ -7,24 +7,74 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
-#include "engine/footprint/faces.h"
+#include "engine/core/try.h"
+#include "engine/scene/scene.h"
 
 namespace gridshell {
 namespace {
 
-using Side = std::array<int, 2>;
+/// The net as a planar graph.
+struct Graph {
+  Eigen::Matrix3Xd place;                // of nodes in the flat
+  std::vector<std::vector<int>> beside;  // the nodes around each, anticlockwise
 
-Side side_of(const Face& face, std::size_t k) {
+  explicit Graph(const Footprint& footprint) {
+    const std::size_t joints = footprint.joints.size(), rods = footprint.rods.size();
+    place.setZero(3, Eigen::Index(joints + 2 * rods));
+    beside.resize(joints + 2 * rods);
+    for (std::size_t k = 0; k < joints; ++k)
+      place.col(Eigen::Index(k)).head<2>() << footprint.joints[k].u, footprint.joints[k].v;
+    for (std::size_t r = 0; r < rods; ++r) lay(footprint.rods[r], int(joints + 2 * r));
+    for (std::size_t node = 0; node < beside.size(); ++node) sort_around(int(node));
+  }
+
+ private:
+  void lay(const FootprintRod& rod, int begin) {
+    std::vector<int> nodes = rod.joints;
+    place.col(begin).head<2>() = rod.at(rod.span.begin);
+    place.col(begin + 1).head<2>() = rod.at(rod.span.end);
+    if (!rod.closed() && rod.begin != RodEnd::joined) nodes.insert(nodes.begin(), begin);
+    if (!rod.closed() && rod.end != RodEnd::joined) nodes.push_back(begin + 1);
+    for (std::size_t k = 1; k < nodes.size(); ++k) {
+      beside[std::size_t(nodes[k - 1])].push_back(nodes[k]);
+      beside[std::size_t(nodes[k])].push_back(nodes[k - 1]);
+    }
+  }
+
+  void sort_around(int node) {
+    std::ranges::sort(beside[std::size_t(node)], {}, [&](int other) {
+      const Eigen::Vector3d way = place.col(other) - place.col(node);
+      return std::atan2(way.y(), way.x());
+    });
+  }
+};
+
+/// All that lies to the left of the way from a to b, round to a again.
+std::vector<int> walk(const Graph& graph, int a, int b, std::set<std::pair<int, int>>& walked) {
+  std::vector<int> way;
+  while (walked.insert({a, b}).second) {
+    way.push_back(a);
+    const std::vector<int>& around = graph.beside[std::size_t(b)];
+    const auto back = std::ranges::find(around, a);
+    a = std::exchange(b, *(back == around.begin() ? around.end() - 1 : back - 1));
+  }
+  return way;
+}
+
+using FaceSide = std::array<int, 2>;
+
+FaceSide side_of(const Face& face, std::size_t k) {
   return {face.corners[k], face.corners[(k + 1) % face.corners.size()]};
 }
 
 /// The sides of faces that no other face shares, each in its face's order.
-std::set<Side> edge_of(const std::vector<Face>& faces) {
-  std::set<Side> edge;
+std::set<FaceSide> edge_of(const std::vector<Face>& faces) {
+  std::set<FaceSide> edge;
   for (const Face& face : faces)
     for (std::size_t k = 0; k < face.corners.size(); ++k) {
-      const Side side = side_of(face, k);
+      const FaceSide side = side_of(face, k);
       if (!edge.erase({side[1], side[0]})) edge.insert(side);
     }
   return edge;
@@ -57,8 +107,6 @@ void add_pressure(const Face& face, double pressure, std::vector<NodeAction>& ac
   }
 }
 
-}  // namespace
-
 Result<void> check_pressure(const LoadCase& load, const std::string& key,
                             const Footprint& footprint) {
   if (load.pressure_N_mm2 == 0) return {};
@@ -68,19 +116,78 @@ Result<void> check_pressure(const LoadCase& load, const std::string& key,
     if (is_held(footprint.rods[r].begin)) held.insert(joints + 2 * int(r));
     if (is_held(footprint.rods[r].end)) held.insert(joints + 2 * int(r) + 1);
   }
-  for (const Side& side : edge_of(faces_of(footprint)))
+  for (const FaceSide& side : edge_of(faces_of(footprint)))
     for (const int node : side) {
       if (held.contains(node)) continue;
       const std::string place =
           node < joints ? fmt::format("joint [{}, {}]", footprint.joints[std::size_t(node)].i,
                                       footprint.joints[std::size_t(node)].j)
                         : fmt::format("an end of rod {}", (node - joints) / 2);
-      return fail(Fault::bad_input,
-                  "{} pressure: the edge of the faces must be held, and {} there is free: such a "
-                  "load has no energy; one on the edge has, edge_direction = \"pressure\"",
-                  key, place);
+      return invalid(
+          "{} pressure: the edge of the faces must be held, and {} there is free: such a "
+          "load has no energy; one on the edge has, edge_direction = \"pressure\"",
+          key, place);
     }
   return {};
+}
+
+/// Towards the half of the shell that snow lies on; zero: all of it.
+Eigen::Vector2d side_of(preset::SnowSide side) {
+  switch (side) {
+    case preset::SnowSide::x:
+      return {1, 0};
+    case preset::SnowSide::minus_x:
+      return {-1, 0};
+    case preset::SnowSide::y:
+      return {0, 1};
+    case preset::SnowSide::minus_y:
+      return {0, -1};
+    case preset::SnowSide::all:
+      break;
+  }
+  return {0, 0};
+}
+
+}  // namespace
+
+std::vector<Face> faces_of(const Footprint& footprint) {
+  const Graph graph(footprint);
+  std::vector<Face> faces;
+  const auto keep = [&](std::vector<int> corners, bool on_boundary) {
+    Face face{std::move(corners), on_boundary};
+    // what is outside is walked round clockwise, and what has no area is no face
+    const double least = 1e-9 * footprint.spacing * footprint.spacing;
+    if (area_of(face, graph.place).z() > least) faces.push_back(std::move(face));
+  };
+  const auto is_edge_point = [&](int node) { return node >= int(footprint.joints.size()); };
+  std::set<std::pair<int, int>> walked;
+  for (int a = 0; a < int(graph.beside.size()); ++a)
+    for (const int b : graph.beside[std::size_t(a)]) {
+      std::vector<int> way = walk(graph, a, b, walked);
+      const auto first = std::ranges::find_if(way, is_edge_point);
+      if (way.empty()) continue;
+      if (first == way.end()) {
+        keep(way, false);
+        continue;
+      }
+      std::rotate(way.begin(), first, way.end());
+      way.push_back(way.front());
+      for (std::size_t from = 0, k = 1; k < way.size(); ++k) {
+        if (!is_edge_point(way[k])) continue;
+        keep({way.begin() + std::ptrdiff_t(from), way.begin() + std::ptrdiff_t(k) + 1}, true);
+        from = k;
+      }
+    }
+  return faces;
+}
+
+Eigen::Vector3d area_of(const Face& face, const Eigen::Matrix3Xd& nodes) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  const Eigen::Vector3d origin = nodes.col(face.corners.front());
+  for (std::size_t k = 2; k < face.corners.size(); ++k)
+    sum += 0.5 * (nodes.col(face.corners[k - 1]) - origin)
+                     .cross(Eigen::Vector3d(nodes.col(face.corners[k]) - origin));
+  return sum;
 }
 
 std::vector<NodeAction> forces_of(const LoadCase& load, const Footprint& footprint,
@@ -100,14 +207,14 @@ std::vector<NodeAction> forces_of(const LoadCase& load, const Footprint& footpri
   const Eigen::Vector3d wind(std::cos(load.wind_rad), std::sin(load.wind_rad), 0);
   const std::vector<Face> faces = faces_of(footprint);
   const bool at_edge = load.edge_N_mm != 0 || load.pressure_N_mm2 != 0;
-  const std::set<Side> edge = at_edge ? edge_of(faces) : std::set<Side>();
+  const std::set<FaceSide> edge = at_edge ? edge_of(faces) : std::set<FaceSide>();
   std::vector<NodeAction> actions;
   for (const Face& face : faces) {
     const Eigen::Vector3d area = area_of(face, nodes);
     if (load.pressure_N_mm2 != 0) add_pressure(face, load.pressure_N_mm2, actions);
     if (area.isZero(0)) continue;
     for (std::size_t k = 0; k < face.corners.size(); ++k) {
-      const Side ends = side_of(face, k);
+      const FaceSide ends = side_of(face, k);
       if (!edge.contains(ends)) continue;
       const Eigen::Vector3d a = nodes.col(ends[0]), b = nodes.col(ends[1]), n = area.normalized();
       const bool turns = load.edge_direction == preset::EdgeDirection::pressure;
@@ -130,6 +237,36 @@ std::vector<NodeAction> forces_of(const LoadCase& load, const Footprint& footpri
   for (const auto& [node, force] : forces) actions.push_back({node, force});
   std::erase_if(actions, [](const NodeAction& action) { return action.is_none(); });
   return actions;
+}
+
+Result<std::vector<PointLoad>> points_of(const preset::Points& rows, const std::string& key,
+                                         const Footprint& footprint) {
+  std::vector<PointLoad> points;
+  for (const auto& row : rows) {
+    const int i = int(std::lround(row[0])), j = int(std::lround(row[1]));
+    const int joint = row[0] == i && row[1] == j ? joint_at(footprint, i, j) : -1;
+    if (joint < 0)
+      return invalid("{} points: the footprint has no joint [{:g}, {:g}]", key, row[0], row[1]);
+    points.push_back({joint, {row[2], row[3], row[4]}});
+  }
+  return points;
+}
+
+Result<std::vector<LoadCase>> load_cases_of(const preset::Preset& preset,
+                                            const Footprint& footprint) {
+  const preset::Loads& loads = preset.loads;
+  std::vector<LoadCase> cases;
+  for (std::size_t k = 0; k < preset.load_case.size(); ++k) {
+    const preset::LoadCase& one = preset.load_case[k];
+    const auto key = fmt::format("[[loads.case]] {}", k + 1);
+    TRY(forces, points_of(one.points, key, footprint));
+    cases.push_back({one.name, one.dead, 1e-6 * one.snow * loads.snow_N_m2,
+                     1e-6 * one.wind * loads.wind_N_m2, loads.wind_deg * M_PI / 180,
+                     side_of(one.snow_side), 1e-3 * one.edge * loads.edge_N_m, loads.edge_direction,
+                     1e-6 * one.pressure * loads.pressure_N_m2, std::move(*forces)});
+    TRY_DO(check_pressure(cases.back(), key, footprint));
+  }
+  return cases;
 }
 
 }  // namespace gridshell

@@ -13,6 +13,24 @@
 
 namespace gridshell {
 
+// The faces that rods and boundary enclose: what snow lies on and wind presses on.
+
+/// A face of the net: its corners in order, anticlockwise as seen from above the flat. Nodes are
+/// those of every mesh: joints, then edge points, begin and end of rod r at 2 r and 2 r + 1.
+struct Face {
+  std::vector<int> corners;
+  bool on_boundary = false;  ///< from its last corner to its first there is no rod but the boundary
+};
+
+/// All faces of a footprint in the plane, walked round with the face on the left: at every node
+/// along the next rod to the left of the one it came by. Where the walk comes to an edge point a
+/// face ends, and the boundary closes it by a straight line.
+std::vector<Face> faces_of(const Footprint& footprint);
+
+/// 1/2 sum of x_k x x_(k+1), mm^2: the area of a face of a shape, along its normal; its z is the
+/// area in plan.
+Eigen::Vector3d area_of(const Face& face, const Eigen::Matrix3Xd& nodes);
+
 /// One case, its factors taken in.
 struct LoadCase {
   std::string name;
@@ -36,14 +54,18 @@ struct LoadCase {
 ///
 /// A pressure p turns with the shell. Its energy is p times the volume under the faces, of cones
 /// from the origin, 1/3 A . c of a face, c the mean of its corners; the cones' walls are taken off
-/// at the edge, which is held (check_pressure()). Of a pressure on the edge, per length, it is p
+/// at the edge, which is held (load_cases_of()). Of a pressure on the edge, per length, it is p
 /// times the area in plan inside the edge, held or not.
 std::vector<NodeAction> forces_of(const LoadCase& load, const Footprint& footprint,
                                   const Eigen::Matrix3Xd& nodes);
 
-/// Errors (bad_input), by `key`, the case's: a pressure on faces whose edge is not held, which has
-/// no energy.
-Result<void> check_pressure(const LoadCase& load, const std::string& key,
-                            const Footprint& footprint);
+/// Rows of `key` as forces on joints. Errors (bad_input): a joint that is not there.
+Result<std::vector<PointLoad>> points_of(const preset::Points& rows, const std::string& key,
+                                         const Footprint& footprint);
+
+/// The cases of a preset. Errors (bad_input): as points_of(); a pressure on faces whose edge is not
+/// held, which has no energy.
+Result<std::vector<LoadCase>> load_cases_of(const preset::Preset& preset,
+                                            const Footprint& footprint);
 
 }  // namespace gridshell

@@ -6,7 +6,6 @@
 
 #include "engine/core/try.h"
 #include "engine/footprint/domains.h"
-#include "engine/geometry/expression.h"
 #include "engine/geometry/spline.h"
 #include "engine/geometry/surface.h"
 #include "engine/preset/consistency.h"
@@ -64,9 +63,9 @@ Result<NetDesign> translation(const preset::Net& wanted) {
   const Eigen::Vector3d along = (x.rightCols<1>() - x.leftCols<1>()).normalized();
   const Eigen::Vector3d across = (y.rightCols<1>() - y.leftCols<1>()).normalized();
   if (!(along.cross(across).z() > 0))
-    return fail(Fault::bad_input,
-                "curve_v of the translation net must run to the left of curve_u as seen from "
-                "above: swap them, or turn one round");
+    return invalid(
+        "curve_v of the translation net must run to the left of curve_u as seen from "
+        "above: swap them, or turn one round");
   NetDesign design;
   auto net = std::make_shared<TranslationNet>(std::move(*made));
   design.domain = all_of(*net);
@@ -78,31 +77,6 @@ Result<NetDesign> translation(const preset::Net& wanted) {
   design.net = net;
   return design;
 }
-
-}  // namespace
-
-Result<NetDesign> net_design(const preset::Net& net, double spacing_mm) {
-  switch (net.kind) {
-    case preset::NetKind::sphere:
-      return cap(net);
-    case preset::NetKind::cylinder:
-      // longer than asked for, so that the ends lie on it whatever the rounding
-      return half_revolution(net, cylinder_profile(net.radius_mm, net.length_mm));
-    case preset::NetKind::spool:
-      return half_revolution(net, spool_profile(net.radius_mm, net.waist));
-    case preset::NetKind::beltrami:
-      return half_revolution(net, beltrami_profile(net.radius_mm, net.waist));
-    case preset::NetKind::profile:
-      return half_revolution(net, tabulated_profile(preset::matrix_of<2>(net.profile)));
-    case preset::NetKind::translation:
-      return translation(net);
-    case preset::NetKind::surface:
-      break;
-  }
-  return surface_design(net, spacing_mm);
-}
-
-namespace {
 
 Result<Block> block_of(const preset::Block& wanted, const preset::Footprint& footprint) {
   auto design = net_design(wanted.net, footprint.spacing_mm);
@@ -124,41 +98,13 @@ Result<Block> block_of(const preset::Block& wanted, const preset::Footprint& foo
 Result<BlockSide> block_side(const preset::Preset& preset, const std::string& name) {
   const auto side = preset::side_named(preset, name);
   const auto facing = side ? find_word<Side>(side->side) : std::nullopt;
-  if (!facing) return fail(Fault::bad_input, "\"{}\" is no side of a block", name);
+  if (!facing) return invalid("\"{}\" is no side of a block", name);
   return BlockSide{side->block, *facing};
 }
 
-}  // namespace
-
-Result<NetDesign> block_design(const preset::Preset& preset) {
-  std::vector<Block> blocks;
-  for (const preset::Block& wanted : preset.block) {
-    TRY(block, block_of(wanted, preset.footprint));
-    blocks.push_back(std::move(*block));
-  }
-  std::vector<Join> joins;
-  for (const preset::Join& wanted : preset.join) {
-    TRY(first, block_side(preset, wanted.first), second = block_side(preset, wanted.second));
-    if (!second) return tl::unexpected(second.error());
-    joins.push_back({*first, *second});
-  }
-  TRY(whole, Assemblage::make(std::move(blocks), joins, preset.blocks.max_gap_mm));
-  NetDesign design;
-  design.net = whole->net();
-  design.domain = whole->domain();
-  design.flat.axes = axes_along_x();
-  const Eigen::Matrix2Xd ring = design.domain->boundary(256);
-  design.scale_mm = 0.5 * (ring.rowwise().maxCoeff() - ring.rowwise().minCoeff()).norm();
-  design.blocks = std::make_shared<const Assemblage>(std::move(*whole));
-  return design;
-}
-
-namespace {
-
 Result<Surface::Function> parsed(const char* key, const std::string& text) {
   const auto expression = Expression::parse(text);
-  if (!expression)
-    return fail(Fault::bad_input, "[net] {} = \"{}\": {}", key, text, expression.error().message);
+  if (!expression) return invalid("[net] {} = \"{}\": {}", key, text, expression.error().message);
   return [E = *expression](const Eigen::Vector3d& p) { return E.at(p); };
 }
 
@@ -224,23 +170,23 @@ Result<Eigen::Vector3d> apex_of(const preset::Net& wanted, const Wanted& shape, 
   if (given.size() == 2) {
     const auto height = shape.height(apex.x(), apex.y());
     if (!height)
-      return fail(Fault::bad_input,
-                  "[net] apex_mm: the surface has no point at "
-                  "({:.6g}, {:.6g}) mm",
-                  apex.x(), apex.y());
+      return invalid(
+          "[net] apex_mm: the surface has no point at "
+          "({:.6g}, {:.6g}) mm",
+          apex.x(), apex.y());
     apex.z() = *height;
   }
   const auto nearest = surface.nearest(apex);
   if (!nearest)
-    return fail(Fault::bad_input, "[net] apex_mm lies far off the surface: {}{}",
-                nearest.error().message, shape.height ? "; without its z it is found" : "");
+    return invalid("[net] apex_mm lies far off the surface: {}{}", nearest.error().message,
+                   shape.height ? "; without its z it is found" : "");
   const double off = (*nearest - apex).norm();
   // flat triangles lie off the smooth surface
   if (given.size() == 3 && off > on_it * spacing_mm)
-    return fail(Fault::bad_input,
-                "[net] apex_mm lies {:.3g} mm off the surface, whose nearest point is "
-                "({:.6g}, {:.6g}, {:.6g}) mm",
-                off, nearest->x(), nearest->y(), nearest->z());
+    return invalid(
+        "[net] apex_mm lies {:.3g} mm off the surface, whose nearest point is "
+        "({:.6g}, {:.6g}, {:.6g}) mm",
+        off, nearest->x(), nearest->y(), nearest->z());
   return *nearest;
 }
 
@@ -252,8 +198,7 @@ Result<NetPlace> place_of(const preset::Net& wanted, const Surface& surface,
   Eigen::Vector3d up = bent.axes.col(2);
   if (up.z() < 0) up = -up;
   if (!(up.z() > steepest))
-    return fail(
-        Fault::bad_input,
+    return invalid(
         "[net] apex_mm: the surface is upright there, it must face up where the net begins");
   Eigen::Vector3d along = bent.axes.col(0);
   if (wanted.axis == preset::NetAxis::x || bent.umbilic)
@@ -276,16 +221,20 @@ FlatFrame frame_of(const preset::Net& wanted, const NetPlace& place, const Eigen
   return frame;
 }
 
-}  // namespace
-
-Result<NetDesign> surface_design(const preset::Net& wanted, double spacing_mm, PartialNet* so_far) {
+/// F(x, y, z) = 0, z = h(x, y), heights over a grid or a mesh, from an apex where the surface faces
+/// up, as far as the boundary; the net's grid is an eighth of the rods' spacing. Errors
+/// (bad_input): an expression that does not parse, a mesh that is no smooth sheet, an apex off the
+/// surface or outside the boundary, and those of the net and its part. `so_far`, where given, is
+/// filled where the net ends too early.
+Result<NetDesign> surface_design(const preset::Net& wanted, double spacing_mm,
+                                 PartialNet* so_far = nullptr) {
   TRY(shape, surface_of(wanted, spacing_mm));
   const Surface& surface = shape->surface;
   TRY(outside, outside_of(wanted));
   TRY(apex, apex_of(wanted, *shape, spacing_mm));
   if (!((*outside)(*apex) < 0))
-    return fail(Fault::bad_input, "[net] {}: the apex ({:.4g}, {:.4g}, {:.4g}) mm lies outside",
-                wanted.within.empty() ? "cut_mm" : "within", apex->x(), apex->y(), apex->z());
+    return invalid("[net] {}: the apex ({:.4g}, {:.4g}, {:.4g}) mm lies outside",
+                   wanted.within.empty() ? "cut_mm" : "within", apex->x(), apex->y(), apex->z());
   TRY(place, place_of(wanted, surface, *apex));
   place->outside = *outside;
   TRY(made, SurfaceNet::make(surface, *place, spacing_mm / 8, so_far));
@@ -298,6 +247,52 @@ Result<NetDesign> surface_design(const preset::Net& wanted, double spacing_mm, P
   const Eigen::Vector2d middle = ring->topRows<2>().rowwise().mean();
   design.scale_mm = (ring->topRows<2>().colwise() - middle).colwise().norm().maxCoeff();
   design.net = net;
+  return design;
+}
+
+}  // namespace
+
+Result<NetDesign> net_design(const preset::Net& net, double spacing_mm) {
+  switch (net.kind) {
+    case preset::NetKind::sphere:
+      return cap(net);
+    case preset::NetKind::cylinder:
+      // longer than asked for, so that the ends lie on it whatever the rounding
+      return half_revolution(net, cylinder_profile(net.radius_mm, net.length_mm));
+    case preset::NetKind::spool:
+      return half_revolution(net, spool_profile(net.radius_mm, net.waist));
+    case preset::NetKind::beltrami:
+      return half_revolution(net, beltrami_profile(net.radius_mm, net.waist));
+    case preset::NetKind::profile:
+      return half_revolution(net, tabulated_profile(preset::matrix_of<2>(net.profile)));
+    case preset::NetKind::translation:
+      return translation(net);
+    case preset::NetKind::surface:
+      break;
+  }
+  return surface_design(net, spacing_mm);
+}
+
+Result<NetDesign> block_design(const preset::Preset& preset) {
+  std::vector<Block> blocks;
+  for (const preset::Block& wanted : preset.block) {
+    TRY(block, block_of(wanted, preset.footprint));
+    blocks.push_back(std::move(*block));
+  }
+  std::vector<Join> joins;
+  for (const preset::Join& wanted : preset.join) {
+    TRY(first, block_side(preset, wanted.first), second = block_side(preset, wanted.second));
+    if (!second) return tl::unexpected(second.error());
+    joins.push_back({*first, *second});
+  }
+  TRY(whole, Assemblage::make(std::move(blocks), joins, preset.blocks.max_gap_mm));
+  NetDesign design;
+  design.net = whole->net();
+  design.domain = whole->domain();
+  design.flat.axes = axes_along_x();
+  const Eigen::Matrix2Xd ring = design.domain->boundary(256);
+  design.scale_mm = 0.5 * (ring.rowwise().maxCoeff() - ring.rowwise().minCoeff()).norm();
+  design.blocks = std::make_shared<const Assemblage>(std::move(*whole));
   return design;
 }
 

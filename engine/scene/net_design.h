@@ -34,16 +34,6 @@ Result<NetDesign> net_design(const preset::Net& net, double spacing_mm);
 /// footprint. Errors (bad_input): those of the blocks' nets and of Assemblage::make.
 Result<NetDesign> block_design(const preset::Preset& preset);
 
-// The net that a preset asks for on a surface given by an expression or a file.
-
-/// F(x, y, z) = 0, z = h(x, y), heights over a grid or a mesh, from an apex where the surface faces
-/// up, as far as the boundary; the net's grid is an eighth of the rods' spacing. Errors
-/// (bad_input): an expression that does not parse, a mesh that is no smooth sheet, an apex off the
-/// surface or outside the boundary, and those of the net and its part. `so_far`, where given, is
-/// filled where the net ends too early.
-Result<NetDesign> surface_design(const preset::Net& wanted, double spacing_mm,
-                                 PartialNet* so_far = nullptr);
-
 // What there is of the net of a preset that is refused.
 
 /// Where the net of a preset, on any surface, ends before its boundary. Nothing: it does not, or

@@ -43,6 +43,26 @@ void put_leg(double leg, Eigen::Index end, Scene& scene) {
   if (scene.motion.begin_far.size() > 0) scene.motion.begin_far.col(end) += moved;
 }
 
+constexpr double difference_step = 0.01;  // mm; far below any radius, far above round-off
+
+Result<Eigen::Vector3d> tangent_at(const ChebyshevNet& net, Family family,
+                                   const Eigen::Vector2d& uv) {
+  TRY(point, net.at(uv.x(), uv.y()));
+  return family == Family::u ? point->tangent_u : point->tangent_v;
+}
+
+/// Gives a scene other ends: legs of other lengths start from other edge points of the flat, far
+/// ends of tails go along with their edge points.
+void apply_ends(const ShellEnds& ends, Scene& scene) {
+  const ShellEnds before = ends_of(scene);
+  if (scene.motion.end_far.size() > 0) scene.motion.end_far += ends.at - before.at;
+  scene.motion.end = ends.at;
+  for (Eigen::Index k = 0; k < ends.at.cols(); ++k) {
+    if (holds_direction(hold_of(scene, k))) scene.motion.end_tangent.col(k) = ends.direction.col(k);
+    if (ends.leg[k] != before.leg[k]) put_leg(ends.leg[k], k, scene);
+  }
+}
+
 }  // namespace
 
 ShellEnds ends_of(const Scene& scene) {
@@ -59,16 +79,6 @@ ShellEnds ends_of(const Scene& scene) {
   ends.diameter =
       Eigen::Map<const Eigen::VectorXd>(scene.diameters_mm.data(), scene.diameters_mm.size());
   return ends;
-}
-
-void apply_ends(const ShellEnds& ends, Scene& scene) {
-  const ShellEnds before = ends_of(scene);
-  if (scene.motion.end_far.size() > 0) scene.motion.end_far += ends.at - before.at;
-  scene.motion.end = ends.at;
-  for (Eigen::Index k = 0; k < ends.at.cols(); ++k) {
-    if (holds_direction(hold_of(scene, k))) scene.motion.end_tangent.col(k) = ends.direction.col(k);
-    if (ends.leg[k] != before.leg[k]) put_leg(ends.leg[k], k, scene);
-  }
 }
 
 preset::Points table_of(const Scene& scene, const ShellEnds& ends) {
@@ -105,8 +115,8 @@ Result<void> apply_ends_table(const preset::Points& table, Scene& scene) {
   for (const auto& row : table) {
     const Name name{int(row[0]), int(row[1]), int(row[2])};
     const auto wrong = [&](const char* what) {
-      return fail(Fault::bad_input, "[ends] table: {} of {}-rod {}: {}",
-                  row[2] == 0 ? "begin" : "end", row[0] == 0 ? "u" : "v", row[1], what);
+      return invalid("[ends] table: {} of {}-rod {}: {}", row[2] == 0 ? "begin" : "end",
+                     row[0] == 0 ? "u" : "v", row[1], what);
     };
     const auto found = named.find(name);
     if (found == named.end() || double(int(row[1])) != row[1])
@@ -124,18 +134,6 @@ Result<void> apply_ends_table(const preset::Points& table, Scene& scene) {
   apply_ends(ends, scene);
   return {};
 }
-
-namespace {
-
-constexpr double difference_step = 0.01;  // mm; far below any radius, far above round-off
-
-Result<Eigen::Vector3d> tangent_at(const ChebyshevNet& net, Family family,
-                                   const Eigen::Vector2d& uv) {
-  TRY(point, net.at(uv.x(), uv.y()));
-  return family == Family::u ? point->tangent_u : point->tangent_v;
-}
-
-}  // namespace
 
 Eigen::Vector3d far_end(const Eigen::Vector3d& end, const Eigen::Vector3d& outwards,
                         const Eigen::Vector3d& curvature, double length) {

@@ -20,10 +20,6 @@ struct ShellEnds {
 
 ShellEnds ends_of(const Scene& scene);
 
-/// Gives a scene other ends: legs of other lengths start from other edge points of the flat, far
-/// ends of tails go along with their edge points.
-void apply_ends(const ShellEnds& ends, Scene& scene);
-
 /// The rows of `[ends] table` in the order of the ends: family (0: u), index of the rod, end (0:
 /// begin), x, y, z, leg, tx, ty, tz. Free ends have none.
 preset::Points table_of(const Scene& scene, const ShellEnds& ends);

@@ -42,38 +42,6 @@ preset::Rod rod_of(const preset::Preset& preset, const FootprintRod& drawn) {
   return drawn.family == Family::v && preset.rod_v.differs ? preset.rod_v : preset.rod;
 }
 
-/// Rows of `key` as forces on joints.
-Result<std::vector<PointLoad>> points_of(const preset::Points& rows, const std::string& key,
-                                         const Footprint& footprint) {
-  std::vector<PointLoad> points;
-  for (const auto& row : rows) {
-    const int i = int(std::lround(row[0])), j = int(std::lround(row[1]));
-    const int joint = row[0] == i && row[1] == j ? joint_at(footprint, i, j) : -1;
-    if (joint < 0)
-      return fail(Fault::bad_input, "{} points: the footprint has no joint [{:g}, {:g}]", key,
-                  row[0], row[1]);
-    points.push_back({joint, {row[2], row[3], row[4]}});
-  }
-  return points;
-}
-
-/// Towards the half of the shell that snow lies on; zero: all of it.
-Eigen::Vector2d side_of(preset::SnowSide side) {
-  switch (side) {
-    case preset::SnowSide::x:
-      return {1, 0};
-    case preset::SnowSide::minus_x:
-      return {-1, 0};
-    case preset::SnowSide::y:
-      return {0, 1};
-    case preset::SnowSide::minus_y:
-      return {0, -1};
-    case preset::SnowSide::all:
-      break;
-  }
-  return {0, 0};
-}
-
 /// All rods, with the diameters of `[rod] table`.
 Result<std::vector<preset::Rod>> rods_of(const preset::Preset& preset, const Footprint& footprint) {
   std::vector<preset::Rod> rods;
@@ -82,8 +50,7 @@ Result<std::vector<preset::Rod>> rods_of(const preset::Preset& preset, const Foo
   for (const auto& row : preset.rod_table) {
     const Family family = row[0] == 0 ? Family::u : Family::v;
     const auto wrong = [&](const std::string& what) {
-      return fail(Fault::bad_input, "[rod] table: {}-rod {:g}: {}", row[0] == 0 ? "u" : "v", row[1],
-                  what);
+      return invalid("[rod] table: {}-rod {:g}: {}", row[0] == 0 ? "u" : "v", row[1], what);
     };
     if (!(row[2] > 0 && row[2] < preset.footprint.spacing_mm))
       return wrong(
@@ -128,16 +95,8 @@ Result<void> put_rods(const preset::Preset& preset, Scene& scene) {
   if (std::ranges::count(scene.strength_MPa, 0) > 0) scene.strength_MPa.clear();
   TRY(points, points_of(loads.points, "[loads]", footprint));
   scene.rods.points = std::move(*points);
-  for (std::size_t k = 0; k < preset.load_case.size(); ++k) {
-    const preset::LoadCase& one = preset.load_case[k];
-    const auto key = fmt::format("[[loads.case]] {}", k + 1);
-    TRY(forces, points_of(one.points, key, footprint));
-    scene.load_cases.push_back(
-        {one.name, one.dead, 1e-6 * one.snow * loads.snow_N_m2, 1e-6 * one.wind * loads.wind_N_m2,
-         loads.wind_deg * M_PI / 180, side_of(one.snow_side), 1e-3 * one.edge * loads.edge_N_m,
-         loads.edge_direction, 1e-6 * one.pressure * loads.pressure_N_m2, std::move(*forces)});
-    TRY_DO(check_pressure(scene.load_cases.back(), key, footprint));
-  }
+  TRY(cases, load_cases_of(preset, footprint));
+  scene.load_cases = std::move(*cases);
   const bool springs = preset.joints.kind == preset::JointKind::spring;
   scene.rods.joints = {springs ? preset.joints.stiffness_N_per_mm : 0, preset.joints.shear_Nmm,
                        preset.joints.twist_Nmm};
@@ -292,9 +251,8 @@ Result<void> check_crossings(Scene& scene) {
     FootprintJoint& here = footprint.joints[std::size_t(joint)];
     if (law.shear_Nmm == 0 && law.twist_Nmm == 0 && here.eccentricity == 0) continue;
     if (here.eccentricity != 0 && rods[std::size_t(joint)].size() > 2)
-      return fail(Fault::bad_input,
-                  "joint [{}, {}]: {} rods cross there, an eccentricity must be of two", here.i,
-                  here.j, rods[std::size_t(joint)].size());
+      return invalid("joint [{}, {}]: {} rods cross there, an eccentricity must be of two", here.i,
+                     here.j, rods[std::size_t(joint)].size());
     if (rods[std::size_t(joint)].front()->number > rods[std::size_t(joint)].back()->number)
       here.eccentricity *= -1;
     for (const FootprintRod* a : rods[std::size_t(joint)])
@@ -302,10 +260,10 @@ Result<void> check_crossings(Scene& scene) {
         const Eigen::Vector3d t = way_through(*a, joint).normalized(),
                               s = way_through(*b, joint).normalized();
         if (a < b && t.cross(s).norm() < 1e-3)
-          return fail(Fault::bad_input,
-                      "joint [{}, {}]: rods[{}] and rods[{}] run alike there, must cross, as the "
-                      "joint holds them by the angle between them",
-                      here.i, here.j, a->number, b->number);
+          return invalid(
+              "joint [{}, {}]: rods[{}] and rods[{}] run alike there, must cross, as the "
+              "joint holds them by the angle between them",
+              here.i, here.j, a->number, b->number);
       }
   }
   return {};
@@ -321,25 +279,25 @@ Result<void> put_laws(const preset::Preset& preset, Scene& scene) {
   if (preset.footprint.kind != preset::FootprintKind::network) return {};
   for (std::size_t r = 0; scene.drawn_in_space && r < scene.rods.materials.size(); ++r)
     if (scene.rods.materials[r].as_drawn && scene.footprint.rods[r].closed())
-      return fail(Fault::bad_input,
-                  "[rod] as_drawn: rods[{}] is a ring drawn in space, whose section comes round "
-                  "turned: a rod that is cut so must have two ends",
-                  scene.footprint.rods[r].number);
+      return invalid(
+          "[rod] as_drawn: rods[{}] is a ring drawn in space, whose section comes round "
+          "turned: a rod that is cut so must have two ends",
+          scene.footprint.rods[r].number);
   for (const auto& row : preset.footprint.file.joint_laws) {
     const int joint = joint_at(scene.footprint, int(row[0]), 0);
     if (joint < 0)
-      return fail(Fault::bad_input,
-                  "[footprint] file: joints: no rods are joined at point {:g}, a law must be of a "
-                  "joint",
-                  row[0]);
+      return invalid(
+          "[footprint] file: joints: no rods are joined at point {:g}, a law must be of a "
+          "joint",
+          row[0]);
     scene.rods.own_joints[joint] = {scene.rods.joints.spring_N_per_mm, stiffness(row[1]),
                                     stiffness(row[2])};
     if (row.size() < 4) continue;
     if (row[3] != 0 && scene.rods.joints.spring_N_per_mm > 0)
-      return fail(Fault::bad_input,
-                  "[footprint] file: joints: the axes at point {:g} lie apart and are held by a "
-                  "bolt, [joints] kind must be \"shared\"",
-                  row[0]);
+      return invalid(
+          "[footprint] file: joints: the axes at point {:g} lie apart and are held by a "
+          "bolt, [joints] kind must be \"shared\"",
+          row[0]);
     scene.footprint.joints[std::size_t(joint)].eccentricity = row[3];
   }
   return scene.footprint.rods.front().number < 0 ? Result<void>() : check_crossings(scene);

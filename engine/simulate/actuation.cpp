@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "engine/core/system_info.h"
 #include "engine/core/try.h"
-#include "engine/simulate/equilibrium_path.h"
 #include "engine/simulate/first_state.h"
 #include "engine/simulate/frames.h"
 #include "engine/simulate/guided_path.h"
@@ -121,6 +119,35 @@ void follow_from_flat(EquilibriumPath& path, const Checkpoint& first, double to,
   if (to >= first.state.t) follow_segment(path, to, {}, watch);
 }
 
+/// The segment on which a path parameter lies, if there is one.
+std::optional<std::size_t> leg_at(const EquilibriumPath& path, double t) {
+  for (std::size_t k = path.segments.size(); k-- > 0;) {
+    const PathSegment& segment = path.segments[k];
+    double end = segment.end();
+    // nearer to the flat than it was followed nothing happens any more
+    if (segment.back && segment.report.end == Outcome::reached) end = 0;
+    if (std::min(segment.from, end) <= t && t <= std::max(segment.from, end)) return k;
+  }
+  return std::nullopt;
+}
+
+/// Whether straight rods lie in the flat without a force; its frame is then exact.
+bool rests_flat(const Scene& scene) {
+  return !scene.drawn_in_space &&
+         std::ranges::all_of(scene.rods.materials, [](const RodMaterial& material) {
+           return material.curvature.isZero(0);
+         });
+}
+
+Caption caption_of(const Scene& scene) {
+  return {at_progress,
+          [&scene](record::Frame& frame, double, double progress) {
+            frame.actuation = progress;
+            frame.boundary_radius_mm = scene.radius_at(progress);
+          },
+          [](record::Frame&, double, bool) {}};
+}
+
 }  // namespace
 
 std::string at_progress(double t, std::optional<double> error) {
@@ -139,8 +166,7 @@ Result<EquilibriumPath> follow_actuation(const std::shared_ptr<const Scene>& sce
   const auto certified = [](const Result<Report>& first, const char* which) -> Result<void> {
     if (!first) return tl::unexpected<Error>(first.error());
     if (first->end == Outcome::reached) return {};
-    return fail(Fault::no_equilibrium,
-                fmt::format("{} is not certified: {}", which, words_of(first->end).what));
+    return fail(Fault::no_equilibrium, "{} is not certified: {}", which, words_of(first->end).what);
   };
   const NestedShell& shell = path.simulation.shell();
   if (begins_as_drawn(*scene, shell.mesh(0), shell.motion(0))) {
@@ -166,57 +192,23 @@ Result<EquilibriumPath> follow_actuation(const std::shared_ptr<const Scene>& sce
   return path;
 }
 
-namespace {
-
-/// The segment on which a path parameter lies, if there is one.
-std::optional<std::size_t> leg_at(const EquilibriumPath& path, double t) {
-  for (std::size_t k = path.segments.size(); k-- > 0;) {
-    const PathSegment& segment = path.segments[k];
-    double end = segment.end();
-    // nearer to the flat than it was followed nothing happens any more
-    if (segment.back && segment.report.end == Outcome::reached) end = 0;
-    if (std::min(segment.from, end) <= t && t <= std::max(segment.from, end)) return k;
-  }
-  return std::nullopt;
-}
-
-/// Whether straight rods lie in the flat without a force; its frame is then exact.
-bool rests_flat(const Scene& scene) {
-  return !scene.drawn_in_space &&
-         std::all_of(scene.rods.materials.begin(), scene.rods.materials.end(),
-                     [](const RodMaterial& material) { return material.curvature.isZero(0); });
-}
-
-Caption caption_of(const Scene& scene) {
-  return {at_progress,
-          [&scene](record::Frame& frame, double, double progress) {
-            frame.actuation = progress;
-            frame.boundary_radius_mm = scene.radius_at(progress);
-          },
-          [](record::Frame&, double, bool) {}};
-}
-
-}  // namespace
-
 Result<EquilibriumPath> follow_whole_actuation(const std::shared_ptr<const Scene>& scene,
                                                const LevelPlan& plan, std::string_view wanted_for,
                                                const Watch& watch) {
   auto actuated = follow_actuation(scene, plan, false, 1, watch);
   if (actuated && actuated->limit != record::Limit::none && actuated->limit != record::Limit::snap)
-    return fail(
-        Fault::no_equilibrium,
-        fmt::format("there is no actuated shell {}: {}{}", wanted_for, actuated->limit_reason,
-                    actuated->limit == record::Limit::locking
-                        ? "; a larger actuated boundary, or more [limits] max_strain, goes further"
-                        : ""));
+    return fail(Fault::no_equilibrium, "there is no actuated shell {}: {}{}", wanted_for,
+                actuated->limit_reason,
+                actuated->limit == record::Limit::locking
+                    ? "; a larger actuated boundary, or more [limits] max_strain, goes further"
+                    : "");
   return actuated;
 }
 
 Result<EquilibriumPath> run_actuation(std::shared_ptr<const Scene> scene,
                                       const std::vector<double>& progress, record::Sink& sink,
                                       Watch& watch) {
-  const bool inner =
-      std::any_of(progress.begin(), progress.end(), [](double p) { return p > 0 && p < 1; });
+  const bool inner = std::ranges::any_of(progress, [](double p) { return p > 0 && p < 1; });
   auto path = converged_path(
       *scene,
       [&](const LevelPlan& plan, const Watch& w) {

@@ -10,7 +10,6 @@
 #include "engine/core/algorithms.h"
 #include "engine/core/try.h"
 #include "engine/solve/buckling.h"
-#include "engine/solve/equilibrium.h"
 #include "engine/solve/newton.h"
 
 namespace gridshell {
@@ -74,8 +73,10 @@ std::optional<State> unstable_branch(Linearisation& system, State state, double 
   return state;
 }
 
-}  // namespace
-
+/// The last state of a path, moved on with its boundary to `there` by the path's velocity. The
+/// stiffness is shifted by as little as keeps every node within `farthest_mm`; where no shift does,
+/// only what is prescribed moves. A boundary that moves alone would strain the legs, to thousands
+/// of times the energy that is at stake, and the way down would be a release of that.
 State extrapolated_state(Linearisation& system, const PinnedMotion& motion, const PathPoint& last,
                          double there, double farthest_mm, const Watch& watch) {
   constexpr double least_shift = 1e-9, largest_shift = 1e4;  // N/mm
@@ -100,6 +101,8 @@ State extrapolated_state(Linearisation& system, const PinnedMotion& motion, cons
   motion.impose(system, there, state);
   return state;
 }
+
+}  // namespace
 
 BranchSwitch departure_of(const Scene& scene, const RodMesh& mesh, const Model& model) {
   const Imperfection& imperfection = scene.imperfection;

@@ -10,7 +10,6 @@
 #include <numeric>
 #include <optional>
 
-#include "engine/core/algorithms.h"
 #include "engine/core/system_info.h"
 #include "engine/core/try.h"
 #include "engine/simulate/equilibrium_path.h"
@@ -30,8 +29,7 @@ constexpr double bytes_an_unknown = 1000, bytes_a_twist_unknown = 2000;
 // twice as many joints as this; measured on 48, 96 and 192 rods a direction (41 MB, 240 MB, 1.2 GB)
 constexpr double bytes_a_doubling = 6500, joints_of_a_small_net = 1800;
 
-}  // namespace
-
+/// Unknowns of a mesh with so many edges a segment, to within a few per cent.
 double unknowns_of(const Footprint& footprint, RodModel rung, int edges_per_segment) {
   double segments = 0;
   for (const FootprintRod& rod : footprint.rods) segments += double(rod.joints.size()) + 1;
@@ -41,6 +39,8 @@ double unknowns_of(const Footprint& footprint, RodModel rung, int edges_per_segm
   const double nodes = edges - double(footprint.joints.size());
   return 3 * nodes + (rung == RodModel::twist ? edges : 0);
 }
+
+}  // namespace
 
 double memory_GB(const Footprint& footprint, RodModel rung, const LevelPlan& plan) {
   double unknowns = 0;
@@ -58,16 +58,15 @@ Result<void> fits_memory(const Scene& scene, const LevelPlan& plan) {
   const double wanted = memory_GB(scene.footprint, scene.rung, plan);
   if (given == 0 || wanted <= given) return {};
   const int edges = plan.edges_per_segment.back();
-  return fail(
-      Fault::bad_input,
-      fmt::format("{} edges a segment, {:.3g} unknowns, take about {:.2g} GB, more than the {:.2g} "
-                  "GB of {}; {} needs less",
-                  edges, unknowns_of(scene.footprint, scene.rung, edges), wanted, given,
-                  asked > 0 ? "[accuracy] memory_GB"
-                            : "half of the machine's memory ([accuracy] "
-                              "memory_GB changes that)",
-                  scene.edges_per_segment > 0 ? "a smaller [accuracy] edges_per_segment"
-                                              : "a larger [accuracy] tolerance"));
+  return invalid(
+      "{} edges a segment, {:.3g} unknowns, take about {:.2g} GB, more than the {:.2g} "
+      "GB of {}; {} needs less",
+      edges, unknowns_of(scene.footprint, scene.rung, edges), wanted, given,
+      asked > 0 ? "[accuracy] memory_GB"
+                : "half of the machine's memory ([accuracy] "
+                  "memory_GB changes that)",
+      scene.edges_per_segment > 0 ? "a smaller [accuracy] edges_per_segment"
+                                  : "a larger [accuracy] tolerance");
 }
 
 }  // namespace gridshell

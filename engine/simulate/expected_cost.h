@@ -12,9 +12,6 @@
 
 namespace gridshell {
 
-/// Unknowns of a mesh with so many edges a segment, to within a few per cent.
-double unknowns_of(const Footprint& footprint, RodModel rung, int edges_per_segment);
-
 /// Gigabytes that a run on these meshes takes at most, all of them and their factors at a time.
 double memory_GB(const Footprint& footprint, RodModel rung, const LevelPlan& plan);
 

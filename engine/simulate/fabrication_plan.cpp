@@ -1,6 +1,4 @@
-#include "engine/simulate/fabrication_plan.h"
-
-#include <fmt/format.h>
+#include "engine/simulate/run.h"
 
 #include <cmath>
 

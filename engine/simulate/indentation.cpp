@@ -10,7 +10,6 @@
 #include "engine/record/shape_measures.h"
 #include "engine/scene/net_design.h"
 #include "engine/simulate/actuation.h"
-#include "engine/simulate/equilibrium_path.h"
 #include "engine/simulate/frames.h"
 #include "engine/solve/equilibrium_path.h"
 
@@ -35,82 +34,6 @@ int best_joint(const Footprint& footprint, const Eigen::VectorXd& score) {
   }
   return best;
 }
-
-}  // namespace
-
-double HeldShell::depth_mm() const { return push.displacement.norm(); }
-
-Result<void> not_on_boundary(const Footprint& footprint, int joint) {
-  if (std::ranges::find(footprint.held_joints, joint) == footprint.held_joints.end() ||
-      footprint.is_sprung(joint))
-    return {};
-  const FootprintJoint& at = footprint.joints[std::size_t(joint)];
-  return fail(Fault::bad_input,
-              fmt::format("joint [{}, {}] is a support: nothing can push it", at.i, at.j));
-}
-
-Result<int> pushed_joint(const preset::Indentation& indentation, const Footprint& footprint,
-                         const Eigen::Matrix3Xd& joints) {
-  if (indentation.joint.size() == 2) {
-    const int joint = joint_at(footprint, indentation.joint[0], indentation.joint[1]);
-    if (joint >= 0) return joint;
-    return fail(Fault::bad_input,
-                fmt::format("[indentation] joint = [{}, {}]: the footprint has no such joint",
-                            indentation.joint[0], indentation.joint[1]));
-  }
-  const Eigen::VectorXd height = joints.row(2).transpose();
-  if (indentation.at == preset::IndentationPlace::highest && indentation.latitude_deg == 90)
-    return best_joint(footprint, height);
-  return best_joint(footprint,
-                    joints.colwise().normalized().transpose() * direction_of(indentation));
-}
-
-Result<PushOf> push_of(const preset::Indentation& asked, const Scene& scene, const RodMesh& mesh,
-                       const Eigen::Matrix3Xd& nodes) {
-  const Eigen::Index joints = Eigen::Index(scene.footprint.joints.size());
-  Eigen::Matrix3Xd places = nodes.leftCols(joints);
-  if (scene.net) {
-    TRY(net, points_on(*scene.net, mesh.flat.leftCols(joints)));
-    places = std::move(*net);
-  }
-  TRY(joint, pushed_joint(asked, scene.footprint, places));
-  TRY_DO(not_on_boundary(scene.footprint, *joint));
-  PushOf push{*joint};
-  if (scene.net) {
-    const FootprintJoint& at = scene.footprint.joints[std::size_t(*joint)];
-    TRY(point, scene.net->at(at.u, at.v));
-    push.displacement = point->normal();
-  } else {
-    push.displacement = joint_tangents(scene.footprint, mesh, nodes).normal(*joint);
-    if (push.displacement.isZero(0))
-      return fail(Fault::bad_input,
-                  "[indentation]: no two rods cross at the joint pushed, so the "
-                  "shell has no normal there");
-  }
-  const double depth = asked.depth_mm > 0 ? asked.depth_mm : asked.depth * scene.length_scale_mm;
-  push.displacement *= asked.direction == preset::Direction::inward ? -depth : depth;
-  return push;
-}
-
-Result<HeldShell> hold_to_push(const std::shared_ptr<const Scene>& scene,
-                               const preset::Indentation& asked, const LevelPlan& plan,
-                               const Watch& watch) {
-  TRY(actuated, follow_whole_actuation(scene, plan, "to push", watch));
-  Simulation& simulation = actuated->simulation;
-  TRY(push, push_of(asked, *scene, simulation.shell().finest(), simulation.nodes()));
-  const auto joints = Eigen::Index(scene->footprint.joints.size());
-  Eigen::Matrix3Xd before = simulation.nodes().leftCols(joints);
-  HeldShell held{std::move(*actuated), *push, std::move(before)};
-  held.earlier = std::exchange(held.segments, {});
-  Constraint hold{push->joint};
-  if (asked.lateral == preset::Lateral::free) hold.directions = push->displacement.normalized();
-  const Report taken = held.simulation.begin_joint_push({hold}, {push->displacement}, watch);
-  if (taken.end != Outcome::reached)
-    return fail(Fault::no_equilibrium, "the unloaded shell cannot be held at the joint pushed");
-  return held;
-}
-
-namespace {
 
 At at_depth(double depth_mm) {
   return [depth_mm](double t, std::optional<double> error) {
@@ -232,6 +155,76 @@ bool came_to(const EquilibriumPath& path, const PathSample& sample) {
 }
 
 }  // namespace
+
+double HeldShell::depth_mm() const { return push.displacement.norm(); }
+
+Result<void> not_on_boundary(const Footprint& footprint, int joint) {
+  if (std::ranges::find(footprint.held_joints, joint) == footprint.held_joints.end() ||
+      footprint.is_sprung(joint))
+    return {};
+  const FootprintJoint& at = footprint.joints[std::size_t(joint)];
+  return invalid("joint [{}, {}] is a support: nothing can push it", at.i, at.j);
+}
+
+Result<int> pushed_joint(const preset::Indentation& indentation, const Footprint& footprint,
+                         const Eigen::Matrix3Xd& joints) {
+  if (indentation.joint.size() == 2) {
+    const int joint = joint_at(footprint, indentation.joint[0], indentation.joint[1]);
+    if (joint >= 0) return joint;
+    return invalid("[indentation] joint = [{}, {}]: the footprint has no such joint",
+                   indentation.joint[0], indentation.joint[1]);
+  }
+  const Eigen::VectorXd height = joints.row(2).transpose();
+  if (indentation.at == preset::IndentationPlace::highest && indentation.latitude_deg == 90)
+    return best_joint(footprint, height);
+  return best_joint(footprint,
+                    joints.colwise().normalized().transpose() * direction_of(indentation));
+}
+
+Result<PushOf> push_of(const preset::Indentation& asked, const Scene& scene, const RodMesh& mesh,
+                       const Eigen::Matrix3Xd& nodes) {
+  const Eigen::Index joints = Eigen::Index(scene.footprint.joints.size());
+  Eigen::Matrix3Xd places = nodes.leftCols(joints);
+  if (scene.net) {
+    TRY(net, points_on(*scene.net, mesh.flat.leftCols(joints)));
+    places = std::move(*net);
+  }
+  TRY(joint, pushed_joint(asked, scene.footprint, places));
+  TRY_DO(not_on_boundary(scene.footprint, *joint));
+  PushOf push{*joint};
+  if (scene.net) {
+    const FootprintJoint& at = scene.footprint.joints[std::size_t(*joint)];
+    TRY(point, scene.net->at(at.u, at.v));
+    push.displacement = point->normal();
+  } else {
+    push.displacement = joint_tangents(scene.footprint, mesh, nodes).normal(*joint);
+    if (push.displacement.isZero(0))
+      return invalid(
+          "[indentation]: no two rods cross at the joint pushed, so the "
+          "shell has no normal there");
+  }
+  const double depth = asked.depth_mm > 0 ? asked.depth_mm : asked.depth * scene.length_scale_mm;
+  push.displacement *= asked.direction == preset::Direction::inward ? -depth : depth;
+  return push;
+}
+
+Result<HeldShell> hold_to_push(const std::shared_ptr<const Scene>& scene,
+                               const preset::Indentation& asked, const LevelPlan& plan,
+                               const Watch& watch) {
+  TRY(actuated, follow_whole_actuation(scene, plan, "to push", watch));
+  Simulation& simulation = actuated->simulation;
+  TRY(push, push_of(asked, *scene, simulation.shell().finest(), simulation.nodes()));
+  const auto joints = Eigen::Index(scene->footprint.joints.size());
+  Eigen::Matrix3Xd before = simulation.nodes().leftCols(joints);
+  HeldShell held{std::move(*actuated), *push, std::move(before)};
+  held.earlier = std::exchange(held.segments, {});
+  Constraint hold{push->joint};
+  if (asked.lateral == preset::Lateral::free) hold.directions = push->displacement.normalized();
+  const Report taken = held.simulation.begin_joint_push({hold}, {push->displacement}, watch);
+  if (taken.end != Outcome::reached)
+    return fail(Fault::no_equilibrium, "the unloaded shell cannot be held at the joint pushed");
+  return held;
+}
 
 Result<EquilibriumPath> run_indentation(std::shared_ptr<const Scene> scene,
                                         const preset::Indentation& indentation,

@@ -22,7 +22,7 @@ int leading_edges_of(const EquilibriumPath& path) { return path.asked.edges_per_
 
 /// Whether every segment came to its end, or to a limit of the rods.
 bool whole(const EquilibriumPath& path) {
-  return std::all_of(path.segments.begin(), path.segments.end(), [](const PathSegment& segment) {
+  return std::ranges::all_of(path.segments, [](const PathSegment& segment) {
     return segment.report.end == Outcome::reached || at_limit(segment.report.end);
   });
 }
@@ -152,6 +152,39 @@ bool has_states(const LevelPlan& plan, EquilibriumPath& path, const Scene& scene
   const bool there = has_states_of(*fine, path, watch);
   path.simulation.charge(fine->effort());
   return there;
+}
+
+constexpr double found_to = 5e-5;  // in the path parameter
+
+/// Where a mesh of the path ends a branch that its leader leaves; empty: not within reach.
+std::optional<Event::Place> place_on(int level, EquilibriumPath& path, const PathSegment& segment,
+                                     const Event& event, const Watch& watch) {
+  constexpr double reach = 0.25;  // in the path parameter
+  Simulation& simulation = path.simulation;
+  NestedShell& shell = simulation.shell();
+  const int edges = shell.plan().edges_per_segment[std::size_t(level)];
+  if (event.placed.edges == edges) return event.placed;
+  PathOptions options;
+  options.spacing_mm = simulation.scene().footprint.spacing;
+  // the last step that was too long may be nearly twice the smallest
+  options.smallest_step = found_to / 2;
+  const auto& steps = segment.load_steps;
+  // of the branch that ends there: where the next rest stands may lie before the place told
+  const auto end = std::ranges::find_if(
+      steps, [&](const LoadStep& step) { return event.to && step.point.t == *event.to; });
+  for (auto step = std::make_reverse_iterator(end); step != steps.rend(); ++step) {
+    const double begin = step->point.t;
+    if (segment.sign() * (event.t - begin) < 0) continue;
+    if (std::abs(event.t - begin) > reach || watch.cancelled()) break;
+    if (simulation.sample(begin, *step, false, watch).end != Outcome::reached) continue;
+    PathFollower path_there(shell.system(level), shell.motion(level), options);
+    const State state = shell.state().levels[std::size_t(level)];
+    if (path_there.start(begin, state, watch).end != Outcome::reached) continue;
+    const PathReport there = path_there.advance(event.t + segment.sign() * reach, watch);
+    if (there.end == Outcome::reached) break;
+    return Event::Place{edges, path_there.point().t, found_to};
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -284,43 +317,6 @@ SharedPath led_by_finer(SharedPath path, const Follow& follow, const Watch& watc
   }
   return path;
 }
-
-namespace {
-
-constexpr double found_to = 5e-5;  // in the path parameter
-
-/// Where a mesh of the path ends a branch that its leader leaves; empty: not within reach.
-std::optional<Event::Place> place_on(int level, EquilibriumPath& path, const PathSegment& segment,
-                                     const Event& event, const Watch& watch) {
-  constexpr double reach = 0.25;  // in the path parameter
-  Simulation& simulation = path.simulation;
-  NestedShell& shell = simulation.shell();
-  const int edges = shell.plan().edges_per_segment[std::size_t(level)];
-  if (event.placed.edges == edges) return event.placed;
-  PathOptions options;
-  options.spacing_mm = simulation.scene().footprint.spacing;
-  // the last step that was too long may be nearly twice the smallest
-  options.smallest_step = found_to / 2;
-  const auto& steps = segment.load_steps;
-  // of the branch that ends there: where the next rest stands may lie before the place told
-  const auto end = std::ranges::find_if(
-      steps, [&](const LoadStep& step) { return event.to && step.point.t == *event.to; });
-  for (auto step = std::make_reverse_iterator(end); step != steps.rend(); ++step) {
-    const double begin = step->point.t;
-    if (segment.sign() * (event.t - begin) < 0) continue;
-    if (std::abs(event.t - begin) > reach || watch.cancelled()) break;
-    if (simulation.sample(begin, *step, false, watch).end != Outcome::reached) continue;
-    PathFollower path_there(shell.system(level), shell.motion(level), options);
-    const State state = shell.state().levels[std::size_t(level)];
-    if (path_there.start(begin, state, watch).end != Outcome::reached) continue;
-    const PathReport there = path_there.advance(event.t + segment.sign() * reach, watch);
-    if (there.end == Outcome::reached) break;
-    return Event::Place{edges, path_there.point().t, found_to};
-  }
-  return std::nullopt;
-}
-
-}  // namespace
 
 std::string why_so_fine(const EquilibriumPath& path) {
   constexpr double clearly = 10;

@@ -7,11 +7,8 @@
 
 #include "engine/core/system_info.h"
 #include "engine/core/try.h"
-#include "engine/core/watch.h"
 #include "engine/preset/consistency.h"
 #include "engine/record/shape_measures.h"
-#include "engine/record/trajectory.h"
-#include "engine/scene/scene.h"
 #include "engine/simulate/actuation.h"
 #include "engine/simulate/expected_cost.h"
 #include "engine/simulate/first_state.h"
@@ -96,7 +93,7 @@ std::vector<double> samples_of(const preset::Preset& preset, bool stills) {
     std::vector<double> progress;
     const double from = preset.original_radius_mm(), to = preset.actuated_radius_mm();
     for (double radius : preset.figure.radii_mm) progress.push_back((from - radius) / (from - to));
-    std::sort(progress.begin(), progress.end());
+    std::ranges::sort(progress);
     return progress;
   }
   return preset.movie.frames == 1 ? std::vector{1.0} : evenly(preset.movie.frames);
@@ -239,6 +236,34 @@ std::vector<std::string> left_out_of(const Scene& scene) {
                   thickest, long_by, 100 * 2.2 / (long_by * long_by), thickest)};
 }
 
+/// What the preset wants done, followed and shown; of steps, what each came to.
+Result<EquilibriumPath> path_for(const preset::Preset& preset,
+                                 const std::shared_ptr<const Scene>& scene, bool stills,
+                                 std::vector<std::string>& told, LastFrame& sink, Watch& watch) {
+  // of a push all frames of a movie, or enough for the curve of its force
+  const auto samples = evenly(stills ? 11 : std::max(2, preset.movie.frames));
+  if (preset.indentation.wanted())
+    return run_indentation(scene, preset.indentation, samples, sink, watch);
+  if (preset.step.empty()) return run_actuation(scene, samples_of(preset, stills), sink, watch);
+  // stills show each step's end
+  TRY(stepped, run_steps(scene, preset.step, stills ? 1 : preset.movie.frames, sink, watch));
+  told = std::move(stepped->messages);
+  return std::move(stepped->path);
+}
+
+/// Why a path without a limit has no frame of what was asked for.
+std::string not_in_the_flat(const EquilibriumPath& path) {
+  const Scene& scene = path.simulation.scene();
+  std::string text =
+      "rods that are curved at rest have no equilibrium in the flat, where all frames were asked "
+      "for: ask for one nearer to the actuated boundary";
+  if (path.segments.empty()) return text;
+  double nearest = 1;  // to the flat
+  for (const PathSegment& segment : path.segments)
+    nearest = std::min({nearest, progress_at(segment.from), progress_at(segment.end())});
+  return text + fmt::format(", at a radius of {:.6g} mm or less", scene.radius_at(nearest));
+}
+
 }  // namespace
 
 Result<Plan> plan(const preset::Preset& preset) {
@@ -284,38 +309,6 @@ Result<Plan> plan(const preset::Preset& preset) {
           seam.name, seam.rods.size(), seam.max_gap_mm(), seam.max_kink_deg()));
   return plan;
 }
-
-namespace {
-
-/// What the preset wants done, followed and shown; of steps, what each came to.
-Result<EquilibriumPath> path_for(const preset::Preset& preset,
-                                 const std::shared_ptr<const Scene>& scene, bool stills,
-                                 std::vector<std::string>& told, LastFrame& sink, Watch& watch) {
-  // of a push all frames of a movie, or enough for the curve of its force
-  const auto samples = evenly(stills ? 11 : std::max(2, preset.movie.frames));
-  if (preset.indentation.wanted())
-    return run_indentation(scene, preset.indentation, samples, sink, watch);
-  if (preset.step.empty()) return run_actuation(scene, samples_of(preset, stills), sink, watch);
-  // stills show each step's end
-  TRY(stepped, run_steps(scene, preset.step, stills ? 1 : preset.movie.frames, sink, watch));
-  told = std::move(stepped->messages);
-  return std::move(stepped->path);
-}
-
-/// Why a path without a limit has no frame of what was asked for.
-std::string not_in_the_flat(const EquilibriumPath& path) {
-  const Scene& scene = path.simulation.scene();
-  std::string text =
-      "rods that are curved at rest have no equilibrium in the flat, where all frames were asked "
-      "for: ask for one nearer to the actuated boundary";
-  if (path.segments.empty()) return text;
-  double nearest = 1;  // to the flat
-  for (const PathSegment& segment : path.segments)
-    nearest = std::min({nearest, progress_at(segment.from), progress_at(segment.end())});
-  return text + fmt::format(", at a radius of {:.6g} mm or less", scene.radius_at(nearest));
-}
-
-}  // namespace
 
 Result<EquilibriumPath> follow(const preset::Preset& preset,
                                const std::shared_ptr<const Scene>& scene, bool stills,

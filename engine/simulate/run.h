@@ -8,6 +8,7 @@
 #include "engine/core/result.h"
 #include "engine/core/watch.h"
 #include "engine/preset/preset.h"
+#include "engine/record/fabrication.h"
 #include "engine/record/summary.h"
 #include "engine/record/trajectory.h"
 #include "engine/scene/scene.h"
@@ -60,5 +61,10 @@ Result<EquilibriumPath> follow(const preset::Preset& preset,
 
 /// The same with all frames kept in memory.
 Result<ExperimentResult> run(const preset::Preset& preset, bool stills, Watch& watch);
+
+// From a preset to what is built by hand.
+
+/// The rods, marks, boundaries and pins of a preset's footprint. Errors: bad_input, as scene_of().
+Result<exports::FabricationPlan> fabrication_plan_of(const preset::Preset& preset);
 
 }  // namespace gridshell::simulate

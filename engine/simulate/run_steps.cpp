@@ -11,7 +11,6 @@
 #include "engine/simulate/actuation.h"
 #include "engine/simulate/equilibrium_path.h"
 #include "engine/simulate/frames.h"
-#include "engine/simulate/stiffening.h"
 
 namespace gridshell::simulate {
 namespace {
@@ -128,10 +127,10 @@ class Show {
     if (watch_.cancelled()) return stopped();
     if (fine && fine->end == Outcome::reached) return {};
     return fail(Fault::no_equilibrium,
-                fmt::format("the steps end on {} edges a segment, which do not have the state {} "
-                            "step {}; what may help: --set accuracy.leading_edges={}",
-                            meshes_.edges_per_segment.back(), shown_ ? "after" : "before",
-                            step_ + 1, meshes_.edges_per_segment.front()));
+                "the steps end on {} edges a segment, which do not have the state {} "
+                "step {}; what may help: --set accuracy.leading_edges={}",
+                meshes_.edges_per_segment.back(), shown_ ? "after" : "before", step_ + 1,
+                meshes_.edges_per_segment.front());
   }
 
   /// The frames on the way of a step, and the one at its end.
@@ -270,25 +269,23 @@ Result<void> check_steps(const std::vector<preset::Step>& steps, const Footprint
       if (std::ranges::none_of(footprint.cells, [&](const FootprintCell& one) {
             return one.i == cell[0] && one.j == cell[1];
           }))
-        return fail(Fault::bad_input, "[[step]] {} cells: the footprint has no cell [{:g}, {:g}]",
-                    k + 1, cell[0], cell[1]);
+        return invalid("[[step]] {} cells: the footprint has no cell [{:g}, {:g}]", k + 1, cell[0],
+                       cell[1]);
     if (step.kind == preset::StepKind::brace && footprint.cells.empty())
-      return fail(Fault::bad_input, "[[step]] {}: the footprint has no cells to brace", k + 1);
+      return invalid("[[step]] {}: the footprint has no cells to brace", k + 1);
     if (step.kind == preset::StepKind::tighten || step.kind == preset::StepKind::open)
       strengthened.insert(preset::Released::bolts);
     if (step.kind == preset::StepKind::brace) strengthened.insert(preset::Released::braces);
     if (step.kind != preset::StepKind::release) continue;
     if (step.what != preset::Released::joints) {
       if (strengthened.erase(step.what) > 0) continue;
-      return fail(Fault::bad_input, "[[step]] {} what: there are no {} to take out", k + 1,
-                  word_of(step.what));
+      return invalid("[[step]] {} what: there are no {} to take out", k + 1, word_of(step.what));
     }
     if (one ? !held.contains(step.joint) : held.empty())
-      return fail(
-          Fault::bad_input,
-          fmt::format("[[step]] {}: no joint is held that could be let go: a step before it "
-                      "must push or hold it",
-                      k + 1));
+      return invalid(
+          "[[step]] {}: no joint is held that could be let go: a step before it "
+          "must push or hold it",
+          k + 1);
     if (one)
       held.erase(step.joint);
     else

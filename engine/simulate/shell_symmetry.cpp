@@ -36,6 +36,14 @@ bool keeps_kinds(const ShellRods& rods, const RodMesh& mesh, const MeshSymmetry&
   });
 }
 
+/// Joints have the same numbers on every mesh: the smallest tells what goes where.
+std::vector<MeshSymmetry> symmetries_here(const Simulation& simulation) {
+  const Scene& scene = simulation.scene();
+  const RodMesh mesh = mesh_rods(scene.footprint, 1);
+  const Eigen::Matrix3Xd ends = pinned_motion(mesh, scene.motion).at(simulation.shell().state().t);
+  return symmetries_of_shell(scene, mesh, symmetries_of(mesh, ends));
+}
+
 }  // namespace
 
 std::vector<MeshSymmetry> symmetries_of_shell(const Scene& scene, const RodMesh& mesh,
@@ -54,18 +62,6 @@ std::vector<MeshSymmetry> symmetries_of_shell(const Scene& scene, const RodMesh&
   }
   return kept;
 }
-
-namespace {
-
-/// Joints have the same numbers on every mesh: the smallest tells what goes where.
-std::vector<MeshSymmetry> symmetries_here(const Simulation& simulation) {
-  const Scene& scene = simulation.scene();
-  const RodMesh mesh = mesh_rods(scene.footprint, 1);
-  const Eigen::Matrix3Xd ends = pinned_motion(mesh, scene.motion).at(simulation.shell().state().t);
-  return symmetries_of_shell(scene, mesh, symmetries_of(mesh, ends));
-}
-
-}  // namespace
 
 double distance_of_image(const Simulation& simulation, double least_mm) {
   const Eigen::Matrix3Xd joints = simulation.nodes().leftCols(simulation.shell().finest().joints);

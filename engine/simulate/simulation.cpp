@@ -11,7 +11,6 @@
 #include "engine/simulate/first_state.h"
 #include "engine/simulate/frames.h"
 #include "engine/solve/buckling.h"
-#include "engine/solve/equilibrium.h"
 
 namespace gridshell {
 namespace {

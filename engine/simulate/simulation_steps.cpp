@@ -1,10 +1,8 @@
 // What a hand does to a simulation: each takes the path's place by a drive of its own, or brings
 // the shell to rest where it is.
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
-#include "engine/core/system_info.h"
 #include "engine/core/try.h"
 #include "engine/simulate/branch_switch.h"
 #include "engine/simulate/expected_cost.h"

@@ -3,14 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
-#include <cmath>
 
 #include "engine/core/algorithms.h"
 #include "engine/core/try.h"
 #include "engine/record/shape_measures.h"
 #include "engine/simulate/expected_cost.h"
 #include "engine/simulate/indentation.h"
-#include "engine/simulate/stiffening.h"
 
 namespace gridshell::simulate {
 namespace {
@@ -30,13 +28,12 @@ Result<Eigen::Matrix3Xd> dragged_of(const preset::Step& step, const Scene& scene
   for (const auto& row : step.edge_points) {
     const auto k = Eigen::Index(row[0]);
     if (k >= dragged.cols())
-      return fail(Fault::bad_input, fmt::format("there is no edge point {}, they go from 0 to {}",
-                                                k, dragged.cols() - 1));
+      return invalid("there is no edge point {}, they go from 0 to {}", k, dragged.cols() - 1);
     dragged.col(k) << row[1], row[2], row[3];
   }
   const BoundaryMotion& motion = scene.motion;
   if (!step.edge_points.empty() && (motion.end_tangent.cols() > 0 || motion.end_far.cols() > 0))
-    return fail(Fault::bad_input, "ends whose direction is held cannot be moved one by one");
+    return invalid("ends whose direction is held cannot be moved one by one");
   return dragged;
 }
 
@@ -79,9 +76,9 @@ Result<Goal> goal_of(const Simulation& simulation, const preset::Step& step) {
   if (!holds && step.to_mm.empty()) {
     const Eigen::Vector3d normal = normal_at(simulation, *joint);
     if (normal.isZero(0))
-      return fail(Fault::bad_input,
-                  "no two rods cross at the joint, so the shell has no normal there: to_mm must "
-                  "say where it goes");
+      return invalid(
+          "no two rods cross at the joint, so the shell has no normal there: to_mm must "
+          "say where it goes");
     way = -step.depth_mm * normal;
   }
   Goal goal{*joint, at + way, Eigen::Vector3d::UnitZ(), false};
@@ -169,7 +166,7 @@ Result<Report> release(Simulation& simulation, const preset::Step& step, const W
                             [&](const Constraint& hold) { return hold.node == *joint; }))
       joints = {*joint};
   }
-  if (joints.empty()) return fail(Fault::bad_input, "no joint is held that could be let go");
+  if (joints.empty()) return invalid("no joint is held that could be let go");
   Report all;
   for (const int joint : joints) {
     std::vector<Event> before = std::move(all.events);
@@ -253,8 +250,7 @@ std::string text_of(const preset::Step& step) {
 Result<int> joint_of(const preset::Step& step, const Footprint& footprint) {
   const int joint = step.joint.size() == 2 ? joint_at(footprint, step.joint[0], step.joint[1]) : -1;
   if (joint < 0)
-    return fail(Fault::bad_input, fmt::format("joint = [{}]: the footprint has no such joint",
-                                              fmt::join(step.joint, ", ")));
+    return invalid("joint = [{}]: the footprint has no such joint", fmt::join(step.joint, ", "));
   return joint;
 }
 

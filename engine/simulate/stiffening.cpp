@@ -1,4 +1,3 @@
-#include "engine/simulate/stiffening.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -17,7 +16,7 @@ Result<void> check_formed(const Simulation& simulation) {
   const BoundaryMotion& motion = simulation.scene().motion;
   const bool moves = motion.begin.cols() > 0 && !motion.begin.isApprox(motion.end, 0);
   if (moves && simulation.progress() == 0)
-    return fail(Fault::bad_input, "the shell is flat yet: it must be formed before it is stiff");
+    return invalid("the shell is flat yet: it must be formed before it is stiff");
   return {};
 }
 
@@ -26,19 +25,6 @@ Bolts now_tightened(const Simulation& simulation, double stiffness) {
   return tightened(shell.finest(), shell.model(shell.levels() - 1), shell.state().levels.back().x,
                    stiffness);
 }
-
-}  // namespace
-
-Result<Report> tighten(Simulation& simulation, const preset::Step& step, const Watch& watch) {
-  TRY_DO(check_formed(simulation));
-  constexpr double rigid = std::numeric_limits<double>::infinity();
-  const double stiffness = step.stiffness_Nmm > 0 ? step.stiffness_Nmm : rigid;
-  ShellRods rods = simulation.rods();
-  rods.bolts = std::make_shared<const Bolts>(now_tightened(simulation, stiffness));
-  return simulation.set_rods(rods, watch);
-}
-
-namespace {
 
 /// How far each joint is to open so that its bolt, of `now`, rests at the step's angle, rad; NaN of
 /// joints that are left as they are.
@@ -52,8 +38,7 @@ Result<std::vector<double>> openings(const preset::Step& step, const Footprint& 
   for (const auto& row : step.angles) {
     const int joint = joint_at(footprint, int(row[0]), int(row[1]));
     if (joint < 0 || now.rods[std::size_t(joint)].size() != 2)
-      return fail(Fault::bad_input, "angles: [{:g}, {:g}] is no joint where two rods cross", row[0],
-                  row[1]);
+      return invalid("angles: [{:g}, {:g}] is no joint where two rods cross", row[0], row[1]);
     by[std::size_t(joint)] = row[2] * rad - rest(std::size_t(joint));
   }
   if (step.angles.empty()) {
@@ -61,22 +46,29 @@ Result<std::vector<double>> openings(const preset::Step& step, const Footprint& 
     int count = 0;
     for (std::size_t joint = 0; joint < by.size(); ++joint)
       if (now.rods[joint].size() == 2) sum += rest(joint), ++count;
-    if (count == 0)
-      return fail(Fault::bad_input, "the footprint has no joint where two rods cross");
+    if (count == 0) return invalid("the footprint has no joint where two rods cross");
     for (std::size_t joint = 0; joint < by.size(); ++joint)
       if (now.rods[joint].size() == 2) by[joint] = step.angle_deg * rad - sum / count;
   }
   for (std::size_t joint = 0; joint < by.size(); ++joint) {
     const double to = std::isnan(by[joint]) ? 1 : rest(joint) + by[joint];
     if (!(to > rad && to < M_PI - rad))
-      return fail(Fault::bad_input,
-                  "joint [{}, {}] would open to {:.4g} degrees, must be between 1 and 179",
-                  footprint.joints[joint].i, footprint.joints[joint].j, to / rad);
+      return invalid("joint [{}, {}] would open to {:.4g} degrees, must be between 1 and 179",
+                     footprint.joints[joint].i, footprint.joints[joint].j, to / rad);
   }
   return by;
 }
 
 }  // namespace
+
+Result<Report> tighten(Simulation& simulation, const preset::Step& step, const Watch& watch) {
+  TRY_DO(check_formed(simulation));
+  constexpr double rigid = std::numeric_limits<double>::infinity();
+  const double stiffness = step.stiffness_Nmm > 0 ? step.stiffness_Nmm : rigid;
+  ShellRods rods = simulation.rods();
+  rods.bolts = std::make_shared<const Bolts>(now_tightened(simulation, stiffness));
+  return simulation.set_rods(rods, watch);
+}
 
 Result<Report> open(Simulation& simulation, const preset::Step& step, const Watch& watch,
                     StepPath* way) {
@@ -85,8 +77,7 @@ Result<Report> open(Simulation& simulation, const preset::Step& step, const Watc
       step.stiffness_Nmm > 0 ? step.stiffness_Nmm : std::numeric_limits<double>::infinity();
   const auto known = simulation.rods().bolts;
   if (known && known->stiffness_Nmm != stiffness)
-    return fail(Fault::bad_input,
-                "bolts of another stiffness are there, which must be the same, or be released");
+    return invalid("bolts of another stiffness are there, which must be the same, or be released");
   // bolts that are there keep what they strive for
   Bolts bolts = now_tightened(simulation, stiffness);
   bolts.opened.assign(bolts.rods.size(), 0);
@@ -158,7 +149,7 @@ Result<Report> brace(Simulation& simulation, const preset::Step& step, const Wat
     }
   }
   if (rods.braces.size() == simulation.rods().braces.size())
-    return fail(Fault::bad_input, "the footprint has no such cells");
+    return invalid("the footprint has no such cells");
   return simulation.set_rods(rods, watch);
 }
 
@@ -166,7 +157,7 @@ Result<Report> take_out(Simulation& simulation, preset::Released what, const Wat
   ShellRods rods = simulation.rods();
   const bool bolts = what == preset::Released::bolts;
   if (bolts ? !rods.bolts : rods.braces.empty())
-    return fail(Fault::bad_input, "there are no {} to take out", word_of(what));
+    return invalid("there are no {} to take out", word_of(what));
   if (bolts)
     rods.bolts.reset();
   else
@@ -178,8 +169,7 @@ Result<Report> bring_case(Simulation& simulation, const std::string& name, doubl
                           const Watch& watch) {
   const Scene& scene = simulation.scene();
   const auto known = std::ranges::find(scene.load_cases, name, &LoadCase::name);
-  if (known == scene.load_cases.end())
-    return fail(Fault::bad_input, "there is no load case \"{}\"", name);
+  if (known == scene.load_cases.end()) return invalid("there is no load case \"{}\"", name);
   auto& cases = simulation.cases;
   auto on = std::ranges::find(cases, name, &CaseOnShell::name);
   if (on == cases.end())

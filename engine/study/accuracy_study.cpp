@@ -1,4 +1,4 @@
-#include "engine/study/accuracy_study.h"
+#include "engine/study/method_studies.h"
 
 #include <fmt/format.h>
 
@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "engine/core/parallel.h"
+#include "engine/core/team.h"
 #include "engine/core/try.h"
 #include "engine/study/benchmark_methods.h"
-#include "engine/study/time_limit.h"
 
 namespace gridshell::study {
 namespace {
@@ -40,7 +40,7 @@ Measured measure(BenchmarkProblem& study, const Method& method, double allowed,
     if (seconds > 2 || (seconds > 0.5 && run >= 2) || watch.cancelled()) break;
     if (measured.result.claim != RunOutcome::right) break;
   }
-  std::sort(measured.seconds.begin(), measured.seconds.end());
+  std::ranges::sort(measured.seconds);
   measured.outcome = verdict_of(study, measured.result, claimed_error, allowed, watch);
   return measured;
 }
@@ -231,7 +231,7 @@ Result<std::vector<AccuracyRow>> sizes_study(const preset::Preset& preset,
                                              const AccuracyOptions& options, Watch& watch) {
   constexpr double tolerances[] = {1e-2, 1e-3, 1e-4};
   if (preset.footprint.kind != preset::FootprintKind::circle)
-    return fail(Fault::bad_input, "--sizes are of a circle: [footprint] kind is another");
+    return invalid("--sizes are of a circle: [footprint] kind is another");
   keep_blas_on_one_thread();
   std::vector<AccuracyRow> rows;
   for (std::size_t k = 0; k < sizes.size(); ++k) {

@@ -22,76 +22,30 @@ Method mesh_method(std::string_view name, int edges, Run run) {
           }};
 }
 
-}  // namespace
+constexpr double flat = 1e-3;  // of the length scale
 
-Method net_method() {
-  return {"net", [](BenchmarkProblem& study, const Watch&) {
-            MethodResult result;
-            const auto& scene = study.scene();
-            if (!scene.net || study.task() == Task::push) return result;
-            const double begin = cpu_seconds_now();
-            Eigen::Matrix2Xd uv(2, study.joints());
-            for (int k = 0; k < study.joints(); ++k)
-              uv.col(k) << scene.footprint.joints[std::size_t(k)].u,
-                  scene.footprint.joints[std::size_t(k)].v;
-            auto net = points_on(*scene.net, uv);
-            result.seconds = cpu_seconds_now() - begin;
-            if (!net) return result;
-            result.claim = RunOutcome::right;
-            result.x = std::move(*net);
-            result.dof = 3 * study.joints();
-            return result;
-          }};
+/// Height of the joints above one another, over the length scale.
+double height_of(const BenchmarkProblem& study, const Eigen::Matrix3Xd& x) {
+  const auto z = x.leftCols(study.joints()).row(2);
+  return (z.maxCoeff() - z.minCoeff()) / study.scale_mm();
 }
 
-MethodResult follow_path(BenchmarkProblem& study, FollowOptions options, const Watch& watch) {
-  MethodResult result;
-  for (;;) {
-    double begin = cpu_seconds_now();
-    NestedShell shell = study.shell(options.plan, options.tolerance, options.on);
-    result.seconds += cpu_seconds_now() - begin;
-    NestedReport report = study.begin(shell, watch);
-    if (report.end == Outcome::reached) {
-      begin = cpu_seconds_now();
-      report = study.go(shell, watch, options.stops);
-      result.seconds += cpu_seconds_now() - begin;
-    }
-    // where it is refused the report names the reason
-    result.claim = report.end == Outcome::reached     ? RunOutcome::right
-                   : report.end == Outcome::cancelled ? RunOutcome::too_slow
-                                                      : RunOutcome::refused;
-    result.edges = options.plan.edges_per_segment.back();
-    result.dof = shell.model(shell.levels() - 1).dof();
-    result.x = shell.state().x;
-    result.whole_mesh = !options.plan.extrapolate && options.on.spring_N_per_mm == 0;
-    const bool met = shell.state().error_estimate_mm <= options.tolerance * study.scale_mm();
-    if (result.claim != RunOutcome::right || !options.refine || met) return result;
-    const auto next = finer(options.plan);
-    if (!next) {
-      result.claim = RunOutcome::refused;  // the tolerance is not met, and it says so
-      return result;
-    }
-    options.plan = *next;
-  }
+/// What a state that is not the right one is on its own mesh.
+RunOutcome kind_of(const BenchmarkProblem& study, const Problem& problem, const Eigen::Matrix3Xd& x,
+                   double near_mm) {
+  if (height_of(study, x) < flat && height_of(study, problem.end.x) > 10 * flat)
+    return RunOutcome::planar_saddle;
+  // an equilibrium of another boundary is none of this one
+  for (int node = 0; node < problem.model.nodes; ++node)
+    if (problem.model.pinned(node) && (x.col(node) - problem.end.x.col(node)).norm() > near_mm)
+      return RunOutcome::silent_wrong;
+  Linearisation system(problem.model);
+  const State state = start_state(problem.model, x);
+  if (!system.at(state, false).positive_definite()) return RunOutcome::silent_wrong;
+  Eigen::Matrix3Xd dx;
+  system.correction(dx);
+  return max_column_norm(dx) < near_mm ? RunOutcome::other_state : RunOutcome::silent_wrong;
 }
-
-Method plan_method(std::string name, const LevelPlan& plan, const ModelVariant& on) {
-  return {std::move(name), [plan, on](BenchmarkProblem& study, const Watch& watch) {
-            return follow_path(study, {.plan = plan, .tolerance = expected_error(plan), .on = on},
-                               watch);
-          }};
-}
-
-Method auto_method(double tolerance) {
-  return {fmt::format("auto {:.0e}", tolerance),
-          [tolerance](BenchmarkProblem& study, const Watch& watch) {
-            return follow_path(study, {plan_levels(tolerance), tolerance, true}, watch);
-          }};
-}
-
-// Newton's method the textbook's way.
-
-namespace {
 
 constexpr int most_iterations = 400;  // a load step
 
@@ -172,6 +126,73 @@ RunOutcome rest_shifted(Linearisation& system, State& state, const MarchOptions&
 
 }  // namespace
 
+Method net_method() {
+  return {"net", [](BenchmarkProblem& study, const Watch&) {
+            MethodResult result;
+            const auto& scene = study.scene();
+            if (!scene.net || study.task() == Task::push) return result;
+            const double begin = cpu_seconds_now();
+            Eigen::Matrix2Xd uv(2, study.joints());
+            for (int k = 0; k < study.joints(); ++k)
+              uv.col(k) << scene.footprint.joints[std::size_t(k)].u,
+                  scene.footprint.joints[std::size_t(k)].v;
+            auto net = points_on(*scene.net, uv);
+            result.seconds = cpu_seconds_now() - begin;
+            if (!net) return result;
+            result.claim = RunOutcome::right;
+            result.x = std::move(*net);
+            result.dof = 3 * study.joints();
+            return result;
+          }};
+}
+
+MethodResult follow_path(BenchmarkProblem& study, FollowOptions options, const Watch& watch) {
+  MethodResult result;
+  for (;;) {
+    double begin = cpu_seconds_now();
+    NestedShell shell = study.shell(options.plan, options.tolerance, options.on);
+    result.seconds += cpu_seconds_now() - begin;
+    NestedReport report = study.begin(shell, watch);
+    if (report.end == Outcome::reached) {
+      begin = cpu_seconds_now();
+      report = study.go(shell, watch, options.stops);
+      result.seconds += cpu_seconds_now() - begin;
+    }
+    // where it is refused the report names the reason
+    result.claim = report.end == Outcome::reached     ? RunOutcome::right
+                   : report.end == Outcome::cancelled ? RunOutcome::too_slow
+                                                      : RunOutcome::refused;
+    result.edges = options.plan.edges_per_segment.back();
+    result.dof = shell.model(shell.levels() - 1).dof();
+    result.x = shell.state().x;
+    result.whole_mesh = !options.plan.extrapolate && options.on.spring_N_per_mm == 0;
+    const bool met = shell.state().error_estimate_mm <= options.tolerance * study.scale_mm();
+    if (result.claim != RunOutcome::right || !options.refine || met) return result;
+    const auto next = finer(options.plan);
+    if (!next) {
+      result.claim = RunOutcome::refused;  // the tolerance is not met, and it says so
+      return result;
+    }
+    options.plan = *next;
+  }
+}
+
+Method plan_method(std::string name, const LevelPlan& plan, const ModelVariant& on) {
+  return {std::move(name), [plan, on](BenchmarkProblem& study, const Watch& watch) {
+            return follow_path(study, {.plan = plan, .tolerance = expected_error(plan), .on = on},
+                               watch);
+          }};
+}
+
+Method auto_method(double tolerance) {
+  return {fmt::format("auto {:.0e}", tolerance),
+          [tolerance](BenchmarkProblem& study, const Watch& watch) {
+            return follow_path(study, {plan_levels(tolerance), tolerance, true}, watch);
+          }};
+}
+
+// Newton's method the textbook's way.
+
 MethodResult march(const Problem& problem, const MarchOptions& options, const Watch& watch) {
   MethodResult result = MethodResult::on(problem);
   const double begin = cpu_seconds_now();
@@ -234,35 +255,6 @@ MethodResult buckle(const BenchmarkProblem& study, const Problem& problem, const
   result.x = first->x;
   return result;
 }
-
-namespace {
-
-constexpr double flat = 1e-3;  // of the length scale
-
-/// Height of the joints above one another, over the length scale.
-double height_of(const BenchmarkProblem& study, const Eigen::Matrix3Xd& x) {
-  const auto z = x.leftCols(study.joints()).row(2);
-  return (z.maxCoeff() - z.minCoeff()) / study.scale_mm();
-}
-
-/// What a state that is not the right one is on its own mesh.
-RunOutcome kind_of(const BenchmarkProblem& study, const Problem& problem, const Eigen::Matrix3Xd& x,
-                   double near_mm) {
-  if (height_of(study, x) < flat && height_of(study, problem.end.x) > 10 * flat)
-    return RunOutcome::planar_saddle;
-  // an equilibrium of another boundary is none of this one
-  for (int node = 0; node < problem.model.nodes; ++node)
-    if (problem.model.pinned(node) && (x.col(node) - problem.end.x.col(node)).norm() > near_mm)
-      return RunOutcome::silent_wrong;
-  Linearisation system(problem.model);
-  const State state = start_state(problem.model, x);
-  if (!system.at(state, false).positive_definite()) return RunOutcome::silent_wrong;
-  Eigen::Matrix3Xd dx;
-  system.correction(dx);
-  return max_column_norm(dx) < near_mm ? RunOutcome::other_state : RunOutcome::silent_wrong;
-}
-
-}  // namespace
 
 RunOutcome verdict_of(BenchmarkProblem& study, const MethodResult& result, double claimed,
                       double allowed, const Watch& watch) {

@@ -57,7 +57,7 @@ Result<std::unique_ptr<BenchmarkProblem>> BenchmarkProblem::create(const preset:
                                                                    int finest, Watch& watch,
                                                                    double EA_scale) {
   TRY(scene, scene_of(preset));
-  const auto refused = [](std::string why) { return fail(Fault::bad_input, std::move(why)); };
+  const auto refused = [](std::string why) { return invalid(std::move(why)); };
   if (scene->rung == RodModel::twist)
     return refused("a study compares methods on rods for which the bend rung is exact: " +
                    preset::model_reason(preset));
@@ -89,8 +89,7 @@ Result<void> BenchmarkProblem::follow(int finest, Watch& watch) {
   } else {
     TRY(t, parameter_of_shortening(reference.mesh(0), reference.motion(0), first_shortening));
     if (*t >= 1)
-      return fail(Fault::bad_input,
-                  "the boundary shortens the rods by less than 2 %: too little for a study");
+      return invalid("the boundary shortens the rods by less than 2 %: too little for a study");
     t_ = *t;
     TRY(first, first_buckled(reference.system(0), reference.mesh(0), reference.motion(0), t_,
                              scene_->seed, scene_->flat, watch));

@@ -7,9 +7,8 @@
 #include <utility>
 
 #include "engine/core/try.h"
-#include "engine/record/shape_symmetry.h"
+#include "engine/record/shape_measures.h"
 #include "engine/scene/scene.h"
-#include "engine/simulate/actuation.h"
 #include "engine/simulate/expected_cost.h"
 #include "engine/simulate/indentation.h"
 #include "engine/simulate/simulation.h"
@@ -41,7 +40,7 @@ struct Branch {
 Result<BranchStart> begin_actuation(std::shared_ptr<const Scene> scene, const LevelPlan& plan,
                                     const Watch& watch) {
   if (scene->drawn_in_space)
-    return fail(Fault::bad_input, "branches are looked for where a path begins flat or on a net");
+    return invalid("branches are looked for where a path begins flat or on a net");
   TRY(session, Simulation::open(scene, plan));
   Result<Report> begun = fail(Fault::no_equilibrium, "no buckled state was certified");
   if (scene->from_net) {
@@ -59,9 +58,9 @@ Result<BranchStart> begin_actuation(std::shared_ptr<const Scene> scene, const Le
   TRY(from, parameter_of_shortening(shell.finest(), shell.motion(shell.levels() - 1),
                                     simulate::flat_shortening));
   if (*from >= 1)
-    return fail(Fault::bad_input,
-                "the boundary moves too little for a path: the rods come less than 0.1 % shorter "
-                "than flat");
+    return invalid(
+        "the boundary moves too little for a path: the rods come less than 0.1 % shorter "
+        "than flat");
   return BranchStart{std::move(*session), *from};
 }
 
@@ -269,9 +268,9 @@ Result<BranchDiagram> branches_study(const preset::Preset& preset, const Branche
   TRY(made, shared_scene_of(preset));
   const std::shared_ptr<const Scene>& scene = *made;
   if (scene->rung == RodModel::net)
-    return fail(Fault::bad_input,
-                "a bifurcation diagram needs a model that is solved, not the net itself "
-                "([accuracy] model)");
+    return invalid(
+        "a bifurcation diagram needs a model that is solved, not the net itself "
+        "([accuracy] model)");
   const LevelPlan plan = simulate::initial_levels(*scene);
   TRY_DO(fits_memory(*scene, plan));
   Result<BranchStart> course = stopped();

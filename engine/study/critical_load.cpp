@@ -1,4 +1,4 @@
-#include "engine/study/load_study.h"
+#include "engine/study/formed_shell.h"
 
 #include <algorithm>
 #include <cmath>

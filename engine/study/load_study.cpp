@@ -1,4 +1,4 @@
-#include "engine/study/load_study.h"
+#include "engine/study/formed_shell.h"
 
 #include <algorithm>
 #include <cmath>
@@ -235,7 +235,7 @@ Result<void> put_case(Simulation& simulation, const LoadCase& load, int imperfec
 
 Result<void> check_cases(std::size_t cases) {
   if (cases > 0) return {};
-  return fail(Fault::bad_input, "there is nothing to carry: [[loads.case]] must name a case");
+  return invalid("there is nothing to carry: [[loads.case]] must name a case");
 }
 
 }  // namespace

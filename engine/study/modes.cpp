@@ -1,4 +1,4 @@
-#include "engine/study/modes.h"
+#include "engine/study/formed_shell.h"
 
 #include <algorithm>
 #include <cmath>
@@ -106,17 +106,17 @@ class LastAlone final : public record::Sink {
 
 Result<void> check_masses(const Scene& scene) {
   if (std::ranges::none_of(scene.mass_t_per_mm, [](double mass) { return !(mass > 0); })) return {};
-  return fail(Fault::bad_input,
-              "frequencies need a mass: [rod] density_kg_m3 must be above 0 (6450 for Nitinol, "
-              "7850 for steel), that of [rod_v] too where these differ");
+  return invalid(
+      "frequencies need a mass: [rod] density_kg_m3 must be above 0 (6450 for Nitinol, "
+      "7850 for steel), that of [rod_v] too where these differ");
 }
 
 Result<FormedShell> form(const preset::Preset& preset, const std::shared_ptr<const Scene>& scene,
                          Watch& watch) {
   if (scene->rung == RodModel::net)
-    return fail(Fault::bad_input,
-                "a net that nothing is solved for neither vibrates nor carries: [accuracy] model "
-                "must be another, or tolerance below 0.05");
+    return invalid(
+        "a net that nothing is solved for neither vibrates nor carries: [accuracy] model "
+        "must be another, or tolerance below 0.05");
   // the path does not hang on what samples it
   preset::Preset once = preset;
   once.movie.frames = 1;

@@ -76,89 +76,6 @@ bool euler_step(const Model& model, const Eigen::Matrix3Xd& mass, double h, doub
   return false;
 }
 
-}  // namespace
-
-double courant_step(const Model& model, const Eigen::Matrix3Xd& mass) {
-  double least = 1e300;
-  for (const ModelEdge& edge : model.edges)
-    least = std::min(least, std::sqrt(std::min(mass(0, edge.from), mass(0, edge.to)) *
-                                      edge.rest_length / edge.EA));
-  return least;
-}
-
-BaselineReport explicit_to_rest(const Model& model, const Eigen::Matrix3Xd& mass,
-                                MovingState& moving, const BaselineOptions& options,
-                                const Watch& watch) {
-  BaselineReport report;
-  Assembly assembly;
-  const double h = options.step * courant_step(model, mass);
-  const double keep = 1 / (1 + h * options.damping_per_s);
-  for (report.steps = 0; report.steps < options.most_steps; ++report.steps) {
-    if (ended(model, moving.state, options, watch, assembly, report)) return report;
-    kick_and_drift(model, mass, h, h, keep, assembly, moving.state.x, moving.velocity);
-    moving.time += h;
-  }
-  return report;
-}
-
-BaselineReport dynamic_relaxation(const Model& model, State& state, const BaselineOptions& options,
-                                  const Watch& watch) {
-  BaselineReport report;
-  // a quarter of what a row of the Hessian sums up to at most where rods are straight: no mode is
-  // then faster than 2, and a step of 1 is at the limit (Gershgorin)
-  Eigen::Matrix3Xd mass = Eigen::Matrix3Xd::Zero(3, model.nodes);
-  for (const ModelEdge& edge : model.edges)
-    for (int node : {edge.from, edge.to}) mass(0, node) += edge.EA / edge.rest_length;
-  for (const ModelBend& bend : model.bends) {
-    const ModelEdge &e = model.edges[std::size_t(bend.e)], &f = model.edges[std::size_t(bend.f)];
-    const double k = 4 * bend.stiffness / (e.rest_length * f.rest_length);
-    for (int node : {e.from, e.to, f.to}) mass(0, node) += k;
-  }
-  mass *= 0.5;
-  Assembly assembly;
-  Eigen::Matrix3Xd velocity = Eigen::Matrix3Xd::Zero(3, model.nodes);
-  const double h = options.step;
-  double before = 0;
-  bool from_rest = true;
-  for (report.steps = 0; report.steps < options.most_steps; ++report.steps) {
-    if (ended(model, state, options, watch, assembly, report)) return report;
-    // velocities stand half a step after positions: the first from rest is half a kick; a whole one
-    // would feed the fast modes at every restart
-    const double kick = from_rest ? 0.5 * h : h;
-    const double kinetic = kick_and_drift(model, mass, kick, h, 1, assembly, state.x, velocity);
-    from_rest = kinetic < before;
-    if (from_rest) {
-      // the peak lies a step and a half back; without the way back the fast modes' peaks would stop
-      // the slow ones again and again
-      for (int node : model.free_columns)
-        state.x.col(node) -= 1.5 * h * velocity.col(node) +
-                             0.5 * h * h / mass(0, node) * assembly.gradient.col(node);
-      velocity.setZero();
-    }
-    before = from_rest ? 0 : kinetic;
-  }
-  return report;
-}
-
-BaselineReport implicit_to_rest(const Model& model, const Eigen::Matrix3Xd& mass,
-                                MovingState& moving, const BaselineOptions& options,
-                                const Watch& watch) {
-  BaselineReport report;
-  Assembly assembly;
-  const auto solver = make_linear_solver(model);
-  const double h = options.step, inertia = 1 / (h * h) + options.damping_per_s / h;
-  for (; report.steps < options.most_steps; ++report.steps) {
-    if (ended(model, moving.state, options, watch, assembly, report)) return report;
-    if (!euler_step(model, mass, h, inertia, *solver, assembly, moving))
-      return report.end = grown(assembly) ? Outcome::not_finite : Outcome::not_converged, report;
-  }
-  return report;
-}
-
-// Methods that come to rest by moving.
-
-namespace {
-
 using record::RunOutcome;
 
 constexpr double loose_N = 1e-3;  // largest force left between load steps
@@ -241,6 +158,85 @@ Eigen::Matrix3Xd mass_of_wire(const Model& model) {
 }
 
 }  // namespace
+
+double courant_step(const Model& model, const Eigen::Matrix3Xd& mass) {
+  double least = 1e300;
+  for (const ModelEdge& edge : model.edges)
+    least = std::min(least, std::sqrt(std::min(mass(0, edge.from), mass(0, edge.to)) *
+                                      edge.rest_length / edge.EA));
+  return least;
+}
+
+BaselineReport explicit_to_rest(const Model& model, const Eigen::Matrix3Xd& mass,
+                                MovingState& moving, const BaselineOptions& options,
+                                const Watch& watch) {
+  BaselineReport report;
+  Assembly assembly;
+  const double h = options.step * courant_step(model, mass);
+  const double keep = 1 / (1 + h * options.damping_per_s);
+  for (report.steps = 0; report.steps < options.most_steps; ++report.steps) {
+    if (ended(model, moving.state, options, watch, assembly, report)) return report;
+    kick_and_drift(model, mass, h, h, keep, assembly, moving.state.x, moving.velocity);
+    moving.time += h;
+  }
+  return report;
+}
+
+BaselineReport dynamic_relaxation(const Model& model, State& state, const BaselineOptions& options,
+                                  const Watch& watch) {
+  BaselineReport report;
+  // a quarter of what a row of the Hessian sums up to at most where rods are straight: no mode is
+  // then faster than 2, and a step of 1 is at the limit (Gershgorin)
+  Eigen::Matrix3Xd mass = Eigen::Matrix3Xd::Zero(3, model.nodes);
+  for (const ModelEdge& edge : model.edges)
+    for (int node : {edge.from, edge.to}) mass(0, node) += edge.EA / edge.rest_length;
+  for (const ModelBend& bend : model.bends) {
+    const ModelEdge &e = model.edges[std::size_t(bend.e)], &f = model.edges[std::size_t(bend.f)];
+    const double k = 4 * bend.stiffness / (e.rest_length * f.rest_length);
+    for (int node : {e.from, e.to, f.to}) mass(0, node) += k;
+  }
+  mass *= 0.5;
+  Assembly assembly;
+  Eigen::Matrix3Xd velocity = Eigen::Matrix3Xd::Zero(3, model.nodes);
+  const double h = options.step;
+  double before = 0;
+  bool from_rest = true;
+  for (report.steps = 0; report.steps < options.most_steps; ++report.steps) {
+    if (ended(model, state, options, watch, assembly, report)) return report;
+    // velocities stand half a step after positions: the first from rest is half a kick; a whole one
+    // would feed the fast modes at every restart
+    const double kick = from_rest ? 0.5 * h : h;
+    const double kinetic = kick_and_drift(model, mass, kick, h, 1, assembly, state.x, velocity);
+    from_rest = kinetic < before;
+    if (from_rest) {
+      // the peak lies a step and a half back; without the way back the fast modes' peaks would stop
+      // the slow ones again and again
+      for (int node : model.free_columns)
+        state.x.col(node) -= 1.5 * h * velocity.col(node) +
+                             0.5 * h * h / mass(0, node) * assembly.gradient.col(node);
+      velocity.setZero();
+    }
+    before = from_rest ? 0 : kinetic;
+  }
+  return report;
+}
+
+BaselineReport implicit_to_rest(const Model& model, const Eigen::Matrix3Xd& mass,
+                                MovingState& moving, const BaselineOptions& options,
+                                const Watch& watch) {
+  BaselineReport report;
+  Assembly assembly;
+  const auto solver = make_linear_solver(model);
+  const double h = options.step, inertia = 1 / (h * h) + options.damping_per_s / h;
+  for (; report.steps < options.most_steps; ++report.steps) {
+    if (ended(model, moving.state, options, watch, assembly, report)) return report;
+    if (!euler_step(model, mass, h, inertia, *solver, assembly, moving))
+      return report.end = grown(assembly) ? Outcome::not_finite : Outcome::not_converged, report;
+  }
+  return report;
+}
+
+// Methods that come to rest by moving.
 
 MethodResult relax(const Problem& problem, const RelaxationOptions& options, const Watch& watch) {
   MethodResult result = MethodResult::on(problem);

@@ -32,8 +32,7 @@ Result<Cells> cells_of(const Eigen::Matrix3Xd& cloud, double size) {
   const Eigen::Vector3d low = cloud.rowwise().minCoeff();
   const double extent = (cloud.rowwise().maxCoeff() - low).maxCoeff();
   if (!(extent / size < most_cells))
-    return fail(
-        Fault::bad_input,
+    return invalid(
         "the points reach over {:.3g} mm, joints of {:.3g} mm are not to be found among them",
         extent, size * cells_a_diameter);
   Cells cells;
@@ -126,34 +125,6 @@ std::size_t usual_size(const std::vector<std::vector<int>>& sets, std::size_t po
   return 0;
 }
 
-}  // namespace
-
-Result<Clusters> cluster_joint_tops(const Eigen::Matrix3Xd& cloud, double diameter_mm) {
-  TRY(cells, cells_of(cloud, diameter_mm / cells_a_diameter));
-  const auto sets = sets_of(*cells);
-  const auto usual = double(usual_size(sets, std::size_t(cloud.cols())));
-  Clusters found;
-  std::vector<Eigen::Vector3d> tops;
-  for (const auto& set : sets) {
-    if (double(set.size()) < speck_share * usual) {
-      ++found.specks;
-      continue;
-    }
-    const auto middle = middle_of(chosen(cloud, set), diameter_mm / 2);
-    if (!middle) {
-      ++found.others;
-      continue;
-    }
-    tops.push_back(*middle);
-    found.points.push_back(int(set.size()));
-  }
-  found.tops.resize(3, Eigen::Index(tops.size()));
-  for (std::size_t k = 0; k < tops.size(); ++k) found.tops.col(Eigen::Index(k)) = tops[k];
-  return found;
-}
-
-namespace {
-
 constexpr double same_place = 1e-3;  // of d: a mirror image's
 constexpr double reach = 0.4;        // of d: no joint is measured further away
 constexpr double least_found_within = 0.9, least_within = 0.7;
@@ -232,6 +203,30 @@ RegisteredScan laid(const Eigen::Matrix3Xd& tops, const ScanTarget& form,
 }
 
 }  // namespace
+
+Result<Clusters> cluster_joint_tops(const Eigen::Matrix3Xd& cloud, double diameter_mm) {
+  TRY(cells, cells_of(cloud, diameter_mm / cells_a_diameter));
+  const auto sets = sets_of(*cells);
+  const auto usual = double(usual_size(sets, std::size_t(cloud.cols())));
+  Clusters found;
+  std::vector<Eigen::Vector3d> tops;
+  for (const auto& set : sets) {
+    if (double(set.size()) < speck_share * usual) {
+      ++found.specks;
+      continue;
+    }
+    const auto middle = middle_of(chosen(cloud, set), diameter_mm / 2);
+    if (!middle) {
+      ++found.others;
+      continue;
+    }
+    tops.push_back(*middle);
+    found.points.push_back(int(set.size()));
+  }
+  found.tops.resize(3, Eigen::Index(tops.size()));
+  for (std::size_t k = 0; k < tops.size(); ++k) found.tops.col(Eigen::Index(k)) = tops[k];
+  return found;
+}
 
 Eigen::Matrix3Xd RegisteredScan::measured() const {
   Eigen::Matrix3Xd some(3, found);

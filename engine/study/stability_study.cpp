@@ -1,14 +1,14 @@
 // Which cells each map has, and how they are judged.
 
-#include "engine/study/stability_study.h"
+#include "engine/study/method_studies.h"
 
 #include <cmath>
 #include <mutex>
 
 #include "engine/core/parallel.h"
+#include "engine/core/team.h"
 #include "engine/core/try.h"
 #include "engine/study/benchmark_methods.h"
-#include "engine/study/time_limit.h"
 
 namespace gridshell::study {
 namespace {
@@ -263,9 +263,9 @@ Result<std::vector<record::StabilityRow>> stability_study(const preset::Preset& 
   TRY(made, BenchmarkProblem::create(preset, 64, watch));
   const SharedProblem study = std::move(*made);
   if (study->task() != Task::actuation)
-    return fail(Fault::bad_input,
-                "maps of stability need an actuation from the flat, without a "
-                "push (actuation.start = \"flat\")");
+    return invalid(
+        "maps of stability need an actuation from the flat, without a "
+        "push (actuation.start = \"flat\")");
   for (const int edges : {1, 2, 4, 8}) (void)study->problem(edges, watch);
   const Axis steps{0.5, 0.8, 0.95, 1.05, 1.2, 1.4, 1.8};
   Cells cells;

@@ -23,30 +23,6 @@ constexpr double same_energy = 1e-3;
 // shares of the work, for the progress
 constexpr double shaken = 0.55, measured = 0.8, followed = 0.9;
 
-}  // namespace
-
-StateCatalogue::StateCatalogue(std::vector<MeshSymmetry> symmetries, double tolerance_mm)
-    : symmetries_(std::move(symmetries)), tolerance_mm_(tolerance_mm) {}
-
-std::optional<std::size_t> StateCatalogue::find(const Eigen::Matrix3Xd& joints,
-                                                double energy_mJ) const {
-  for (std::size_t k = 0; k < entries_.size(); ++k) {
-    const Entry& entry = entries_[k];
-    if (std::abs(entry.energy_mJ - energy_mJ) > same_energy * std::abs(entry.energy_mJ)) continue;
-    for (const MeshSymmetry& symmetry : symmetries_)
-      if (distance_under(symmetry, entry.joints, joints) < tolerance_mm_) return k;
-  }
-  return std::nullopt;
-}
-
-std::size_t StateCatalogue::enter(const Eigen::Matrix3Xd& joints, double energy_mJ) {
-  if (const auto known = find(joints, energy_mJ)) return *known;
-  entries_.push_back({joints, energy_mJ});
-  return entries_.size() - 1;
-}
-
-namespace {
-
 /// What a trial ended in.
 struct Trial {
   Result<State> rest = stopped();
@@ -172,11 +148,31 @@ Result<void> measure(const std::shared_ptr<const Scene>& scene,
 
 }  // namespace
 
+StateCatalogue::StateCatalogue(std::vector<MeshSymmetry> symmetries, double tolerance_mm)
+    : symmetries_(std::move(symmetries)), tolerance_mm_(tolerance_mm) {}
+
+std::optional<std::size_t> StateCatalogue::find(const Eigen::Matrix3Xd& joints,
+                                                double energy_mJ) const {
+  for (std::size_t k = 0; k < entries_.size(); ++k) {
+    const Entry& entry = entries_[k];
+    if (std::abs(entry.energy_mJ - energy_mJ) > same_energy * std::abs(entry.energy_mJ)) continue;
+    for (const MeshSymmetry& symmetry : symmetries_)
+      if (distance_under(symmetry, entry.joints, joints) < tolerance_mm_) return k;
+  }
+  return std::nullopt;
+}
+
+std::size_t StateCatalogue::enter(const Eigen::Matrix3Xd& joints, double energy_mJ) {
+  if (const auto known = find(joints, energy_mJ)) return *known;
+  entries_.push_back({joints, energy_mJ});
+  return entries_.size() - 1;
+}
+
 Result<StateLibrary> find_states(const std::shared_ptr<const Scene>& scene,
                                  const preset::SearchSettings& jitter, const SearchOptions& options,
                                  Watch& watch) {
   if (scene->rung == RodModel::net)
-    return fail(Fault::bad_input, "the net rung has no states: nothing is solved on it");
+    return invalid("the net rung has no states: nothing is solved on it");
   TRY_DO(fits_memory(*scene, measuring_plan(*scene)));
   StateLibrary library;
   record::StateSearch& search = library.search;

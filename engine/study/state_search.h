@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/preset/preset.h"
-#include "engine/record/shape_symmetry.h"
+#include "engine/record/shape_measures.h"
 #include "engine/simulate/simulation.h"
 #include "engine/solve/multilevel_relaxation.h"
 

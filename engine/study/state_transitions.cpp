@@ -54,36 +54,6 @@ void count(std::vector<record::Transition>& all, StateName from, StateName to, D
     all.push_back({from, to, by, 1});
 }
 
-}  // namespace
-
-Result<std::vector<record::Transition>> transitions_between(
-    const StateLibrary& library, const std::shared_ptr<const Scene>& scene,
-    const preset::SearchSettings& jitter, int threads, double begun, double end, Watch& watch) {
-  const auto& states = library.states;
-  const int followed = std::min(jitter.transitions, int(states.size()));
-  std::vector<std::optional<StateName>> to(std::size_t(followed * paths));
-  const auto follow = [&](Explorer& explorer, int k) {
-    const ShellState& from = states[std::size_t(k / paths)];
-    const int path = k % paths;
-    StateSearcher& hand = explorer.hand;
-    const auto rest = path == 0
-                          ? hand.release_boundary(from.rest, beyond * from.row.lives_to, watch)
-                          : hand.push_at_random(from.rest, path, watch);
-    if (rest) to[std::size_t(k)] = explorer.name_of(*rest, hand.energy_of(*rest));
-  };
-  TRY_DO(parallel_for(
-      int(to.size()), threads, watch, [&] { return Explorer::make(library, scene, jitter); },
-      follow, reporting(watch, begun, end)));
-  std::vector<record::Transition> all;
-  for (std::size_t k = 0; k < to.size(); ++k)
-    if (to[k])
-      count(all, states[k / paths].row.in_tables(), *to[k],
-            k % paths == 0 ? Disturbance::released : Disturbance::pushed);
-  return all;
-}
-
-namespace {
-
 constexpr int neighbours = 2;         // of each state
 constexpr double step_down_mm = 0.5;  // off a saddle, and steps from there
 constexpr double step_over_d = 0.1;   // of a node of a string that goes down
@@ -217,6 +187,32 @@ std::vector<record::Barrier> lowest_each(std::vector<record::Barrier> all) {
 }
 
 }  // namespace
+
+Result<std::vector<record::Transition>> transitions_between(
+    const StateLibrary& library, const std::shared_ptr<const Scene>& scene,
+    const preset::SearchSettings& jitter, int threads, double begun, double end, Watch& watch) {
+  const auto& states = library.states;
+  const int followed = std::min(jitter.transitions, int(states.size()));
+  std::vector<std::optional<StateName>> to(std::size_t(followed * paths));
+  const auto follow = [&](Explorer& explorer, int k) {
+    const ShellState& from = states[std::size_t(k / paths)];
+    const int path = k % paths;
+    StateSearcher& hand = explorer.hand;
+    const auto rest = path == 0
+                          ? hand.release_boundary(from.rest, beyond * from.row.lives_to, watch)
+                          : hand.push_at_random(from.rest, path, watch);
+    if (rest) to[std::size_t(k)] = explorer.name_of(*rest, hand.energy_of(*rest));
+  };
+  TRY_DO(parallel_for(
+      int(to.size()), threads, watch, [&] { return Explorer::make(library, scene, jitter); },
+      follow, reporting(watch, begun, end)));
+  std::vector<record::Transition> all;
+  for (std::size_t k = 0; k < to.size(); ++k)
+    if (to[k])
+      count(all, states[k / paths].row.in_tables(), *to[k],
+            k % paths == 0 ? Disturbance::released : Disturbance::pushed);
+  return all;
+}
 
 Result<std::vector<record::Barrier>> barriers_between(StateLibrary& library,
                                                       const std::shared_ptr<const Scene>& scene,

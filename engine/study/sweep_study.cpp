@@ -6,13 +6,13 @@
 
 #include "engine/core/file_io.h"
 #include "engine/core/parallel.h"
+#include "engine/core/team.h"
 #include "engine/core/try.h"
 #include "engine/preset/preset_file.h"
 #include "engine/record/phase_diagram.h"
 #include "engine/record/summary.h"
 #include "engine/simulate/run.h"
 #include "engine/study/state_library.h"
-#include "engine/study/time_limit.h"
 
 namespace gridshell::study {
 
@@ -83,6 +83,29 @@ Result<record::Figures> figures_of_search(const preset::Preset& preset,
   return figures;
 }
 
+using record::PointOutcome;
+using record::PointResult;
+
+constexpr double no_limit_s = 1e9;
+
+/// A point computed; an error where that is not the point's own.
+Result<PointResult> result_of(const preset::SweepGrid& grid, std::size_t point, Watch& watch) {
+  PointResult result;
+  result.point = point;
+  auto figures = figures_of(grid.at(point).preset, watch);
+  if (figures) {
+    result.figures = std::move(*figures);
+    return result;
+  }
+  const Error& error = figures.error();
+  if (error.fault == Fault::io || error.fault == Fault::cancelled)
+    return tl::unexpected<Error>(error);
+  result.reason = error.message;
+  result.outcome =
+      error.fault == Fault::bad_input ? PointOutcome::refused : PointOutcome::no_equilibrium;
+  return result;
+}
+
 }  // namespace
 
 Result<record::Figures> figures_of(const preset::Preset& asked, Watch& watch) {
@@ -111,33 +134,6 @@ std::vector<std::string> figure_names(bool search) {
   for (auto& [name, figure] : figures) names.push_back(std::move(name));
   return names;
 }
-
-namespace {
-
-using record::PointOutcome;
-using record::PointResult;
-
-constexpr double no_limit_s = 1e9;
-
-/// A point computed; an error where that is not the point's own.
-Result<PointResult> result_of(const preset::SweepGrid& grid, std::size_t point, Watch& watch) {
-  PointResult result;
-  result.point = point;
-  auto figures = figures_of(grid.at(point).preset, watch);
-  if (figures) {
-    result.figures = std::move(*figures);
-    return result;
-  }
-  const Error& error = figures.error();
-  if (error.fault == Fault::io || error.fault == Fault::cancelled)
-    return tl::unexpected<Error>(error);
-  result.reason = error.message;
-  result.outcome =
-      error.fault == Fault::bad_input ? PointOutcome::refused : PointOutcome::no_equilibrium;
-  return result;
-}
-
-}  // namespace
 
 std::uint64_t config_of(const preset::Presets& presets) {
   preset::Presets computed = presets;

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "engine/core/parallel.h"
+#include "engine/core/team.h"
 #include "engine/scene/scene.h"
 #include "engine/simulate/run.h"
-#include "engine/study/time_limit.h"
 
 namespace gridshell::study {
 namespace {
@@ -153,22 +153,6 @@ void rods(RandomDraw& draw, Preset& p) {
       break;
   }
 }
-
-}  // namespace
-
-Preset random_preset(SceneKind kind, std::mt19937& random) {
-  RandomDraw draw(random);
-  Preset p;
-  p.accuracy.tolerance = std::pow(10, draw.between(-4, -2));
-  constexpr void (*draw_kind[])(RandomDraw&, Preset&) = {
-      circle, curve, cap,  revolution, profile,       translation,
-      blocks, push,  load, rods,       random_network};
-  static_assert(std::size(draw_kind) == words_of<SceneKind>().size());
-  draw_kind[std::size_t(kind)](draw, p);
-  return p;
-}
-
-namespace {
 
 using record::TrustClass;
 using simulate::ExperimentResult;
@@ -346,6 +330,18 @@ TrustScene judged(int index, const TrustOptions& options, const Watch& watch) {
 }
 
 }  // namespace
+
+Preset random_preset(SceneKind kind, std::mt19937& random) {
+  RandomDraw draw(random);
+  Preset p;
+  p.accuracy.tolerance = std::pow(10, draw.between(-4, -2));
+  constexpr void (*draw_kind[])(RandomDraw&, Preset&) = {
+      circle, curve, cap,  revolution, profile,       translation,
+      blocks, push,  load, rods,       random_network};
+  static_assert(std::size(draw_kind) == words_of<SceneKind>().size());
+  draw_kind[std::size_t(kind)](draw, p);
+  return p;
+}
 
 Result<std::vector<TrustScene>> trust_study(const TrustOptions& options, Watch& watch) {
   keep_blas_on_one_thread();

@@ -119,31 +119,6 @@ Point corner(PangoLayout* layout, const Box& logical, const TextStyle& style) {
   return p;
 }
 
-}  // namespace
-
-Result<void> use_font(const std::string& family) {
-  if (family.empty()) {
-    font_family() = default_font;
-    return {};
-  }
-  PangoFontFamily** families = nullptr;
-  int count = 0;
-  pango_font_map_list_families(pango_cairo_font_map_get_default(), &families, &count);
-  const bool there = std::any_of(families, families + count, [&](PangoFontFamily* one) {
-    return family == pango_font_family_get_name(one);
-  });
-  g_free(families);
-  if (!there)
-    return fail(Fault::bad_input,
-                "[style] font = \"{}\": no font of that name on this machine; `fc-list "
-                ": family` lists those that are",
-                family);
-  font_family() = family;
-  return {};
-}
-
-namespace {
-
 std::string hex(Colour c) {
   const auto byte = [](float v) { return int(std::lround(255 * std::clamp(v, 0.f, 1.f))); };
   return fmt::format("#{:02x}{:02x}{:02x}", byte(c.r), byte(c.g), byte(c.b));
@@ -189,6 +164,27 @@ std::string text_element(PangoLayout* layout, const std::vector<TextRun>& runs, 
 }
 
 }  // namespace
+
+Result<void> use_font(const std::string& family) {
+  if (family.empty()) {
+    font_family() = default_font;
+    return {};
+  }
+  PangoFontFamily** families = nullptr;
+  int count = 0;
+  pango_font_map_list_families(pango_cairo_font_map_get_default(), &families, &count);
+  const bool there = std::any_of(families, families + count, [&](PangoFontFamily* one) {
+    return family == pango_font_family_get_name(one);
+  });
+  g_free(families);
+  if (!there)
+    return invalid(
+        "[style] font = \"{}\": no font of that name on this machine; `fc-list "
+        ": family` lists those that are",
+        family);
+  font_family() = family;
+  return {};
+}
 
 Box Canvas::text(const std::string& marked, Point anchor, const TextStyle& style) {
   const Layout layout = make_layout(cairo_, marked, style);

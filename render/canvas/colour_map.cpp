@@ -44,15 +44,16 @@ std::vector<Oklab> even_steps(const std::vector<Oklab>& knots, int count) {
   std::vector<Oklab> even;
   for (int n = 0; n < count; ++n) {
     const double wished = length.back() * n / (count - 1);
-    const auto after = std::size_t(
-        std::clamp<long>(std::lower_bound(length.begin(), length.end(), wished) - length.begin(), 1,
-                         long(length.size()) - 1));
+    const auto after = std::size_t(std::clamp<long>(
+        std::ranges::lower_bound(length, wished) - length.begin(), 1, long(length.size()) - 1));
     const double step = length[after] - length[after - 1];
     even.push_back(mix(curve[after - 1], curve[after],
                        step > 0 ? std::clamp((wished - length[after - 1]) / step, 0.0, 1.0) : 0));
   }
   return even;
 }
+
+double begun(double t, double start) { return start + (1 - start) * std::clamp(t, 0.0, 1.0); }
 
 }  // namespace
 
@@ -96,12 +97,6 @@ Colour diverging(double t, double start) {
                        from_polar(end_L, end_chroma, t < 0 ? blue : red), std::abs(t)));
 }
 
-namespace {
-
-double begun(double t, double start) { return start + (1 - start) * std::clamp(t, 0.0, 1.0); }
-
-}  // namespace
-
 Colour sequential(double t, double start) {
   static const std::vector<Oklab> table = even_steps({{0.935, -0.002, 0.045},
                                                       {0.79, 0.066, 0.105},
@@ -133,7 +128,7 @@ ColourScale symmetric_scale(std::vector<double> values, double quantile) {
     std::nth_element(values.begin(), values.begin() + long(k), values.end());
     end = values[k];
     // the largest value decides where it is not far off, or where most are zero
-    const double largest = *std::max_element(values.begin(), values.end());
+    const double largest = *std::ranges::max_element(values);
     if (largest <= 1.3 * end || end < 1e-9) end = largest;
   }
   end = end > 1e-12 ? nice_ceiling(end) : 1;

@@ -71,6 +71,21 @@ void draw_words(Canvas& canvas, const Box& box, const ColourBar& bar, double fon
   canvas.text(bar.words, {box.right() - 0.55 * font_size, box.middle().y}, style);
 }
 
+/// What is `length` long in the middle of the box's foot, its label above; false: no room.
+bool draw_length(Canvas& canvas, const Box& box, double length, const std::string& label,
+                 double font_size, const std::function<void(const Box&)>& draw) {
+  const double thickness = 0.22 * font_size;
+  const TextStyle style{.size = font_size, .align_x = AlignX::centre, .align_y = AlignY::bottom};
+  const Box text = canvas.measure(label, style);
+  if (!(length > 0) || std::max(length, text.width) > box.width ||
+      text.height + 2 * thickness > box.height)
+    return false;
+  const double x = box.middle().x, y = box.bottom() - thickness;
+  draw({x - length / 2, y, length, thickness});
+  canvas.text(label, {x, y - thickness}, style);
+  return true;
+}
+
 }  // namespace
 
 double colour_bar_width(const Canvas& canvas, const ColourBar& bar, double font_size) {
@@ -128,25 +143,6 @@ void draw_colour_bar(Canvas& canvas, const Box& box, const ColourBar& bar, doubl
                 {.size = font_size, .align_y = AlignY::middle});
   }
 }
-
-namespace {
-
-/// What is `length` long in the middle of the box's foot, its label above; false: no room.
-bool draw_length(Canvas& canvas, const Box& box, double length, const std::string& label,
-                 double font_size, const std::function<void(const Box&)>& draw) {
-  const double thickness = 0.22 * font_size;
-  const TextStyle style{.size = font_size, .align_x = AlignX::centre, .align_y = AlignY::bottom};
-  const Box text = canvas.measure(label, style);
-  if (!(length > 0) || std::max(length, text.width) > box.width ||
-      text.height + 2 * thickness > box.height)
-    return false;
-  const double x = box.middle().x, y = box.bottom() - thickness;
-  draw({x - length / 2, y, length, thickness});
-  canvas.text(label, {x, y - thickness}, style);
-  return true;
-}
-
-}  // namespace
 
 bool draw_scale_bar(Canvas& canvas, const Box& box, double length_mm, double units_per_mm,
                     double font_size) {

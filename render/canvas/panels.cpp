@@ -98,13 +98,13 @@ void draw(Canvas& canvas, const PanelFigure& figure, const Grid& grid, bool line
 }
 
 Result<void> check(const PanelFigure& figure) {
-  if (figure.panels.empty()) return fail(Fault::bad_input, "a figure needs at least one panel");
+  if (figure.panels.empty()) return invalid("a figure needs at least one panel");
   const Image& first = figure.panels[0].picture;
   for (const Panel& panel : figure.panels)
     if (panel.picture.width != first.width || panel.picture.height != first.height ||
         first.width < 1 || first.height < 1)
-      return fail(Fault::bad_input, "panels of a figure must be of one size: {} x {} and {} x {}",
-                  first.width, first.height, panel.picture.width, panel.picture.height);
+      return invalid("panels of a figure must be of one size: {} x {} and {} x {}", first.width,
+                     first.height, panel.picture.width, panel.picture.height);
   return {};
 }
 

@@ -61,8 +61,7 @@ PlotAxis choose_range(const Plot& plot, bool of_x) {
   const double room = 0.05 * (high - low);
   const bool bars_stand_on_low =
       !of_x && range.low == 0 &&
-      std::any_of(plot.series.begin(), plot.series.end(),
-                  [](const Series& s) { return s.kind == SeriesKind::bars; });
+      std::ranges::any_of(plot.series, [](const Series& s) { return s.kind == SeriesKind::bars; });
   if (!axis.low && !bars_stand_on_low) low -= room;
   if (!axis.high) high += room;
   return {axis.low.value_or(unwarp(low)), axis.high.value_or(unwarp(high)), axis.logarithmic, 0, 1};
@@ -96,6 +95,51 @@ std::vector<Tick> ticks_without_overlap(const Canvas& canvas, const PlotAxis& ax
     }
     if (!overlap || count <= 2) return ticks;
   }
+}
+
+// does the drawing of a series pass through `box`? sampled along lines, bars and error bars
+bool passes(const Series& s, const PlotFrame& frame, const Box& box) {
+  const auto inside = [&](Point p) {
+    return p.x >= box.x && p.x <= box.right() && p.y >= box.y && p.y <= box.bottom();
+  };
+  const auto segment = [&](Point p, Point q) {
+    for (int m = 0; m <= 24; ++m)
+      if (inside({p.x + (q.x - p.x) * m / 24, p.y + (q.y - p.y) * m / 24})) return true;
+    return false;
+  };
+  for (std::size_t k = 0; k < std::min(s.x.size(), s.y.size()); ++k) {
+    const Point p = frame.place(s.x[k], s.y[k]);
+    if (s.kind == SeriesKind::bars) {
+      const double half = std::abs(frame.x.place(s.x[k] + s.bar_width / 2) - p.x);
+      const double zero = frame.y.logarithmic ? frame.inside.bottom() : frame.y.place(0);
+      if (box.overlaps({p.x - half, std::min(p.y, zero), 2 * half, std::abs(zero - p.y)}))
+        return true;
+    }
+    if (inside(p)) return true;
+    if (s.kind == SeriesKind::points && s.line_width > 0 && k > 0 &&
+        segment(frame.place(s.x[k - 1], s.y[k - 1]), p))
+      return true;
+    if (k < s.y_error.size() && segment({p.x, frame.y.place(s.y[k] - s.y_error[k])},
+                                        {p.x, frame.y.place(s.y[k] + s.y_error[k])}))
+      return true;
+  }
+  return false;
+}
+
+bool hides(const Canvas& canvas, const Plot& plot, const PlotFrame& frame, const Box& box) {
+  for (const Series& s : plot.series)
+    if (passes(s, frame, box)) return true;
+  for (const Note& note : plot.notes)
+    if (box.overlaps(note_box(canvas, plot, frame, note))) return true;
+  for (const ReferenceLine& line : plot.references) {
+    const Box in = frame.inside;
+    const double at = line.horizontal ? frame.y.place(line.at) : frame.x.place(line.at);
+    const double room = line.label.empty() ? 0.5 : 1.4 * plot.font_size;
+    if (box.overlaps(line.horizontal ? Box{in.x, at - room, in.width, 2 * room}
+                                     : Box{at - 0.5, in.y, 1, in.height}))
+      return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -181,55 +225,6 @@ void draw_axes(Canvas& canvas, const Box& box, const Plot& plot, const PlotFrame
   canvas.text(plot.title, {std::clamp(in.middle().x, box.x + half, box.right() - half), box.y},
               title);
 }
-
-namespace {
-
-// does the drawing of a series pass through `box`? sampled along lines, bars and error bars
-bool passes(const Series& s, const PlotFrame& frame, const Box& box) {
-  const auto inside = [&](Point p) {
-    return p.x >= box.x && p.x <= box.right() && p.y >= box.y && p.y <= box.bottom();
-  };
-  const auto segment = [&](Point p, Point q) {
-    for (int m = 0; m <= 24; ++m)
-      if (inside({p.x + (q.x - p.x) * m / 24, p.y + (q.y - p.y) * m / 24})) return true;
-    return false;
-  };
-  for (std::size_t k = 0; k < std::min(s.x.size(), s.y.size()); ++k) {
-    const Point p = frame.place(s.x[k], s.y[k]);
-    if (s.kind == SeriesKind::bars) {
-      const double half = std::abs(frame.x.place(s.x[k] + s.bar_width / 2) - p.x);
-      const double zero = frame.y.logarithmic ? frame.inside.bottom() : frame.y.place(0);
-      if (box.overlaps({p.x - half, std::min(p.y, zero), 2 * half, std::abs(zero - p.y)}))
-        return true;
-    }
-    if (inside(p)) return true;
-    if (s.kind == SeriesKind::points && s.line_width > 0 && k > 0 &&
-        segment(frame.place(s.x[k - 1], s.y[k - 1]), p))
-      return true;
-    if (k < s.y_error.size() && segment({p.x, frame.y.place(s.y[k] - s.y_error[k])},
-                                        {p.x, frame.y.place(s.y[k] + s.y_error[k])}))
-      return true;
-  }
-  return false;
-}
-
-bool hides(const Canvas& canvas, const Plot& plot, const PlotFrame& frame, const Box& box) {
-  for (const Series& s : plot.series)
-    if (passes(s, frame, box)) return true;
-  for (const Note& note : plot.notes)
-    if (box.overlaps(note_box(canvas, plot, frame, note))) return true;
-  for (const ReferenceLine& line : plot.references) {
-    const Box in = frame.inside;
-    const double at = line.horizontal ? frame.y.place(line.at) : frame.x.place(line.at);
-    const double room = line.label.empty() ? 0.5 : 1.4 * plot.font_size;
-    if (box.overlaps(line.horizontal ? Box{in.x, at - room, in.width, 2 * room}
-                                     : Box{at - 0.5, in.y, 1, in.height}))
-      return true;
-  }
-  return false;
-}
-
-}  // namespace
 
 Legend::Legend(const Canvas& canvas, const Plot& plot)
     : plot_(plot), size_(plot.font_size), row_(1.35 * plot.font_size), key_(2.2 * plot.font_size) {

@@ -55,36 +55,6 @@ void parse(const std::string& text, TextRun look, std::vector<TextRun>& runs) {
   }
 }
 
-}  // namespace
-
-std::string plain(const std::string& text) {
-  std::string escaped;
-  for (char c : text) {
-    if (std::strchr("_^*{}\\", c) && c != '\0') escaped += '\\';
-    escaped += c;
-  }
-  return escaped;
-}
-
-std::vector<TextRun> parse_marked(const std::string& marked) {
-  std::vector<TextRun> runs;
-  parse(marked, {}, runs);
-  return runs;
-}
-
-std::string without_marks(const std::string& marked) {
-  std::string letters;
-  for (const TextRun& run : parse_marked(marked)) letters += run.text;
-  return letters;
-}
-
-std::string spaced(std::string word) {
-  std::replace(word.begin(), word.end(), '_', ' ');
-  return word;
-}
-
-namespace {
-
 std::string with_minus(std::string text) {
   if (!text.empty() && text[0] == '-') text.replace(0, 1, "−");
   return text;
@@ -127,6 +97,32 @@ std::string linear_label(double value, double step, double largest) {
 }
 
 }  // namespace
+
+std::string plain(const std::string& text) {
+  std::string escaped;
+  for (char c : text) {
+    if (std::strchr("_^*{}\\", c) && c != '\0') escaped += '\\';
+    escaped += c;
+  }
+  return escaped;
+}
+
+std::vector<TextRun> parse_marked(const std::string& marked) {
+  std::vector<TextRun> runs;
+  parse(marked, {}, runs);
+  return runs;
+}
+
+std::string without_marks(const std::string& marked) {
+  std::string letters;
+  for (const TextRun& run : parse_marked(marked)) letters += run.text;
+  return letters;
+}
+
+std::string spaced(std::string word) {
+  std::replace(word.begin(), word.end(), '_', ' ');
+  return word;
+}
 
 std::string fixed(double value, int decimals) {
   if (!std::isfinite(value)) return "–";

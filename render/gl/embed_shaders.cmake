@@ -1,4 +1,4 @@
-# Writes OUTPUT, a C++ file that holds every shader of FOLDER by name (render/gl/shader_program.h).
+# Writes OUTPUT, a C++ file that holds every shader of FOLDER by name (render/gl/opengl.h).
 file(GLOB FILES ${FOLDER}/*.vert ${FOLDER}/*.frag ${FOLDER}/*.glsl)
 list(SORT FILES)
 set(ENTRIES "")
@@ -8,7 +8,7 @@ foreach(FILE IN LISTS FILES)
   string(APPEND ENTRIES "  if (name == \"${NAME}\") return R\"glsl(${TEXT})glsl\";\n")
 endforeach()
 file(WRITE ${OUTPUT} "// Generated from shaders/ at build time.
-#include \"render/gl/shader_program.h\"
+#include \"render/gl/opengl.h\"
 
 namespace gridshell::render {
 

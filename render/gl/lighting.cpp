@@ -57,6 +57,9 @@ void normalise(std::vector<Lighting>& passes, int first, int last, double share)
   for (int i = first; i < last; ++i) passes[i].key = share * double(passes.size()) / sum;
 }
 
+constexpr float cell_density = 0.4f;  // thin coloured sheets let most of the light through
+constexpr float margin = 1.12f;       // empty rim, so that the blur's coarse levels end at zero
+
 }  // namespace
 
 std::vector<Lighting> lighting_passes(const Camera& camera, int passes) {
@@ -77,13 +80,6 @@ std::vector<Lighting> lighting_passes(const Camera& camera, int passes) {
   normalise(result, keys, passes, sky);
   return result;
 }
-
-namespace {
-
-constexpr float cell_density = 0.4f;  // thin coloured sheets let most of the light through
-constexpr float margin = 1.12f;       // empty rim, so that the blur's coarse levels end at zero
-
-}  // namespace
 
 ShadowMap::ShadowMap(const Gl& gl, Program caster, Program halve)
     : gl_(&gl),

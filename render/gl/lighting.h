@@ -10,7 +10,6 @@
 #include "render/gl/opengl.h"
 #include "render/gl/renderer.h"
 #include "render/gl/scene.h"
-#include "render/gl/shader_program.h"
 
 namespace gridshell::render {
 

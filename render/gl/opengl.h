@@ -4,9 +4,11 @@
 
 #define GL_GLEXT_PROTOTYPES  // for their types; nothing is linked
 #include <GL/glcorearb.h>
+#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -133,6 +135,43 @@ class VertexStore {
   VertexArray layout_;
   Buffer vertices_, indices_;
   std::vector<std::size_t> starts_;  ///< of each list among the indices, and their end
+};
+
+// The GLSL files of shaders/, embedded at build time.
+
+/// The text of a file of shaders/ ("solid.vert"); empty when there is no such file.
+std::string_view shader_text(std::string_view name);
+
+// A linked pair of shaders.
+
+/// Made of files of shaders/; several files of a stage are joined in their order.
+class Program {
+ public:
+  using Files = std::initializer_list<std::string_view>;
+
+  /// `defines`: lines of #define that go before all files. Errors: Fault::io with the files and the
+  /// compiler's log.
+  static Result<Program> create(const Gl& gl, Files vertex, Files fragment,
+                                std::string_view defines = {});
+  ~Program();
+  Program(Program&& other) noexcept;
+  Program& operator=(Program&& other) noexcept;
+
+  void use() const;
+  // to the program in use; a name that no shader reads is ignored
+  void set(const char* name, int value) const;
+  void set(const char* name, float value) const;
+  void set(const char* name, const Eigen::Vector2f& value) const;
+  void set(const char* name, const Eigen::Vector3f& value) const;
+  void set(const char* name, const Eigen::Vector4f& value) const;
+  void set(const char* name, const Eigen::Matrix4f& value) const;
+
+ private:
+  Program(const Gl& gl, GLuint id) : gl_(&gl), id_(id) {}
+  GLint location(const char* name) const;
+
+  const Gl* gl_;
+  GLuint id_;
 };
 
 }  // namespace gridshell::render

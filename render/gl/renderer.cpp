@@ -18,6 +18,71 @@ namespace {
 
 constexpr double radian = std::numbers::pi / 180;
 
+constexpr int largest_target = 4096;  // samples a side: a tile and its depth stay near the caches
+constexpr int most_samples = 16, most_passes = 4096, largest_picture = 65536;
+
+Result<void> check(const DrawQuality& quality, int width, int height) {
+  if (width < 1 || height < 1 || width > largest_picture || height > largest_picture)
+    return invalid("a picture of {} x {} pixels: each must be 1 to {}", width, height,
+                   largest_picture);
+  if (quality.supersample < 1 || quality.supersample > most_samples)
+    return invalid("supersample = {}: 1 to {}", quality.supersample, most_samples);
+  if (quality.jittered_passes < 1 || quality.jittered_passes > most_passes)
+    return invalid("jittered_passes = {}: 1 to {}", quality.jittered_passes, most_passes);
+  return {};
+}
+
+/// From colours times alpha, mixed in linear light, to colours beside alpha.
+void unpremultiply(Image& image) {
+  for (std::size_t k = 0; k < image.rgba.size(); k += 4) {
+    const float alpha = float(image.rgba[k + 3]) / 255;
+    for (int c = 0; c < 3 && alpha > 0 && alpha < 1; ++c) {
+      const float linear = std::min(1.f, to_linear(float(image.rgba[k + c]) / 255) / alpha);
+      image.rgba[k + c] = std::uint8_t(255 * to_srgb(linear) + 0.5f);
+    }
+  }
+}
+
+class GlRenderer final : public Renderer {
+ public:
+  GlRenderer(const Gl& gl) : gl_(gl) {}
+
+  Result<void> prepare() {
+    TRY(painter, Painter::create(gl_));
+    painter_.emplace(std::move(*painter));
+    GLint limit = 0;
+    gl_.GetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
+    target_side_ = std::min(largest_target, int(limit));
+    return {};
+  }
+
+  Result<Image> draw(const Drawing& drawing, const Camera& camera, const DrawQuality& quality,
+                     int width, int height) override {
+    TRY_DO(check(quality, width, height));
+    const double sample_mm = 2 * camera.half_extent_mm / height / quality.supersample;
+    TRY(scene, make_scene(drawing, camera, sample_mm, quality));
+    while (gl_.GetError() != GL_NO_ERROR) continue;  // not ours
+
+    Image image(width, height);
+    const RenderJob shot{*scene, drawing, camera, quality, width, height};
+    TRY_DO(painter_->begin(shot));
+    for (const Tile& tile : tiles(width, height, target_side_ / quality.supersample))
+      TRY_DO(painter_->paint(shot, tile, image));
+    if (const GLenum error = gl_.GetError(); error != GL_NO_ERROR)
+      return fail(Fault::io,
+                  "OpenGL failed on a picture of {} x {} pixels, "
+                  "error {:#x}{}",
+                  width, height, error, error == GL_OUT_OF_MEMORY ? " (out of memory)" : "");
+    if (drawing.background.a < 1) unpremultiply(image);
+    return image;
+  }
+
+ private:
+  Gl gl_;
+  std::optional<Painter> painter_;
+  int target_side_ = largest_target;
+};
+
 }  // namespace
 
 CameraAxes camera_axes(const Camera& camera) {
@@ -79,76 +144,6 @@ Eigen::Vector2d to_pixel(const Camera& camera, int width, int height,
   const Eigen::Vector4d clip = m * point.homogeneous();
   return {(0.5 + 0.5 * clip.x() / clip.w()) * width, (0.5 - 0.5 * clip.y() / clip.w()) * height};
 }
-
-namespace {
-
-constexpr int largest_target = 4096;  // samples a side: a tile and its depth stay near the caches
-constexpr int most_samples = 16, most_passes = 4096, largest_picture = 65536;
-
-Result<void> check(const DrawQuality& quality, int width, int height) {
-  if (width < 1 || height < 1 || width > largest_picture || height > largest_picture)
-    return fail(Fault::bad_input, "a picture of {} x {} pixels: each must be 1 to {}", width,
-                height, largest_picture);
-  if (quality.supersample < 1 || quality.supersample > most_samples)
-    return fail(Fault::bad_input, "supersample = {}: 1 to {}", quality.supersample, most_samples);
-  if (quality.jittered_passes < 1 || quality.jittered_passes > most_passes)
-    return fail(Fault::bad_input, "jittered_passes = {}: 1 to {}", quality.jittered_passes,
-                most_passes);
-  return {};
-}
-
-/// From colours times alpha, mixed in linear light, to colours beside alpha.
-void unpremultiply(Image& image) {
-  for (std::size_t k = 0; k < image.rgba.size(); k += 4) {
-    const float alpha = float(image.rgba[k + 3]) / 255;
-    for (int c = 0; c < 3 && alpha > 0 && alpha < 1; ++c) {
-      const float linear = std::min(1.f, to_linear(float(image.rgba[k + c]) / 255) / alpha);
-      image.rgba[k + c] = std::uint8_t(255 * to_srgb(linear) + 0.5f);
-    }
-  }
-}
-
-class GlRenderer final : public Renderer {
- public:
-  GlRenderer(const Gl& gl) : gl_(gl) {}
-
-  Result<void> prepare() {
-    TRY(painter, Painter::create(gl_));
-    painter_.emplace(std::move(*painter));
-    GLint limit = 0;
-    gl_.GetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
-    target_side_ = std::min(largest_target, int(limit));
-    return {};
-  }
-
-  Result<Image> draw(const Drawing& drawing, const Camera& camera, const DrawQuality& quality,
-                     int width, int height) override {
-    TRY_DO(check(quality, width, height));
-    const double sample_mm = 2 * camera.half_extent_mm / height / quality.supersample;
-    TRY(scene, make_scene(drawing, camera, sample_mm, quality));
-    while (gl_.GetError() != GL_NO_ERROR) continue;  // not ours
-
-    Image image(width, height);
-    const RenderJob shot{*scene, drawing, camera, quality, width, height};
-    TRY_DO(painter_->begin(shot));
-    for (const Tile& tile : tiles(width, height, target_side_ / quality.supersample))
-      TRY_DO(painter_->paint(shot, tile, image));
-    if (const GLenum error = gl_.GetError(); error != GL_NO_ERROR)
-      return fail(Fault::io,
-                  "OpenGL failed on a picture of {} x {} pixels, "
-                  "error {:#x}{}",
-                  width, height, error, error == GL_OUT_OF_MEMORY ? " (out of memory)" : "");
-    if (drawing.background.a < 1) unpremultiply(image);
-    return image;
-  }
-
- private:
-  Gl gl_;
-  std::optional<Painter> painter_;
-  int target_side_ = largest_target;
-};
-
-}  // namespace
 
 Result<std::unique_ptr<Renderer>> Renderer::create(Context& context) {
   TRY(gl, Gl::load(context));

@@ -266,8 +266,8 @@ class Weaver {
     constexpr int most_layers = 32;
     double near = INFINITY, far = -INFINITY;
     for (auto* pieces : {&sheets_, &ribbons_, &beads_}) {
-      std::stable_sort(pieces->begin(), pieces->end(),
-                       [](const Piece& a, const Piece& b) { return a.depth > b.depth; });
+      std::ranges::stable_sort(*pieces,
+                               [](const Piece& a, const Piece& b) { return a.depth > b.depth; });
       if (pieces->empty()) continue;
       far = std::max(far, pieces->front().depth);
       near = std::min(near, pieces->back().depth);
@@ -353,7 +353,7 @@ double Scene::radius() const { return 0.5 * (high - low).norm(); }
 Result<Scene> make_scene(const Drawing& drawing, const Camera& camera, double mm_per_sample,
                          const DrawQuality& quality) {
   if (const std::string fault = mismatch(drawing); !fault.empty())
-    return fail(Fault::bad_input, "the drawing " + fault);
+    return invalid("the drawing " + fault);
   Scene scene;
   Weaver weaver(scene, drawing, camera, mm_per_sample, quality);
   weaver.add_cell_patches();

@@ -176,48 +176,6 @@ void draw_legend(Canvas& canvas, const std::vector<BranchPoint>& points, Point a
   }
 }
 
-}  // namespace
-
-Plot branches_plot(const std::vector<BranchPoint>& points, BranchAxis axis) {
-  const Place place(points, axis);
-  Plot plot;
-  plot.x.label = has_radius(points) ? "*R*_{a} (mm)" : "progress";
-  plot.y.label = axis == BranchAxis::height ? "height (mm)" : "amplitude of broken symmetry";
-  plot.legend = LegendPlace::none;
-  plot.font_size = 8;
-  plot.series = pieces_of(points, place);
-  // the path itself on top
-  std::ranges::stable_partition(plot.series, [](const Series& s) { return s.line_width < 1.2; });
-  for (const EventMark& mark : marks) plot.add(marks_of(points, place, mark));
-  return plot;
-}
-
-Result<void> write_branches(const std::filesystem::path& stem,
-                            const std::vector<BranchPoint>& points, const std::string& title) {
-  std::vector<Plot> panels{branches_plot(points, BranchAxis::height),
-                           branches_plot(points, BranchAxis::amplitude)};
-  if (const auto part = close_up(points, Place(points, BranchAxis::height)))
-    for (std::size_t k = 0; k < 2; ++k) panels.push_back(part_of(panels[k], *part));
-  const double rows = double(panels.size() / 2);
-  const double height = 2 * margin + title_room + legend_room + rows * (panel_height + gap) - gap;
-  return write_figure(stem, width, height, title, [&](Canvas& canvas) {
-    canvas.text(plain(title), {margin, margin + title_room / 2},
-                {.size = 9, .bold = true, .align_y = AlignY::middle});
-    draw_legend(canvas, points, {margin + 2, margin + title_room + legend_room / 2});
-    const double panel = (width - 2 * margin - gap) / 2;
-    for (std::size_t k = 0; k < panels.size(); ++k)
-      draw_plot(canvas,
-                {margin + double(k % 2) * (panel + gap),
-                 margin + title_room + legend_room + double(k / 2) * (panel_height + gap), panel,
-                 panel_height},
-                panels[k]);
-  });
-}
-
-// What a shell carries: the load factor over a joint's way, a curve a case.
-
-namespace {
-
 using record::LoadPoint;
 
 /// A case's path in pieces that are stable or not throughout; the first bears its name.
@@ -272,6 +230,45 @@ Series strength_marks(const std::vector<LoadPoint>& points,
 }
 
 }  // namespace
+
+Plot branches_plot(const std::vector<BranchPoint>& points, BranchAxis axis) {
+  const Place place(points, axis);
+  Plot plot;
+  plot.x.label = has_radius(points) ? "*R*_{a} (mm)" : "progress";
+  plot.y.label = axis == BranchAxis::height ? "height (mm)" : "amplitude of broken symmetry";
+  plot.legend = LegendPlace::none;
+  plot.font_size = 8;
+  plot.series = pieces_of(points, place);
+  // the path itself on top
+  std::stable_partition(plot.series.begin(), plot.series.end(),
+                        [](const Series& s) { return s.line_width < 1.2; });
+  for (const EventMark& mark : marks) plot.add(marks_of(points, place, mark));
+  return plot;
+}
+
+Result<void> write_branches(const std::filesystem::path& stem,
+                            const std::vector<BranchPoint>& points, const std::string& title) {
+  std::vector<Plot> panels{branches_plot(points, BranchAxis::height),
+                           branches_plot(points, BranchAxis::amplitude)};
+  if (const auto part = close_up(points, Place(points, BranchAxis::height)))
+    for (std::size_t k = 0; k < 2; ++k) panels.push_back(part_of(panels[k], *part));
+  const double rows = double(panels.size() / 2);
+  const double height = 2 * margin + title_room + legend_room + rows * (panel_height + gap) - gap;
+  return write_figure(stem, width, height, title, [&](Canvas& canvas) {
+    canvas.text(plain(title), {margin, margin + title_room / 2},
+                {.size = 9, .bold = true, .align_y = AlignY::middle});
+    draw_legend(canvas, points, {margin + 2, margin + title_room + legend_room / 2});
+    const double panel = (width - 2 * margin - gap) / 2;
+    for (std::size_t k = 0; k < panels.size(); ++k)
+      draw_plot(canvas,
+                {margin + double(k % 2) * (panel + gap),
+                 margin + title_room + legend_room + double(k / 2) * (panel_height + gap), panel,
+                 panel_height},
+                panels[k]);
+  });
+}
+
+// What a shell carries: the load factor over a joint's way, a curve a case.
 
 Plot load_plot(const std::vector<LoadPoint>& points, const std::vector<record::LoadRow>& cases,
                const std::string& title) {

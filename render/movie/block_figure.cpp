@@ -104,6 +104,27 @@ void draw_rods(Canvas& canvas, const PlanView& place, const record::Part& part,
                 stroke);
 }
 
+/// Blocks apart above, joined below.
+struct BlockSheet {
+  std::vector<Eigen::Vector3d> moves;
+  Extent above, below;
+
+  explicit BlockSheet(const record::Layout& layout)
+      : moves(apart(layout.parts, &record::Part::flat, 0.25)) {
+    for (std::size_t k = 0; k < layout.parts.size(); ++k) {
+      above.take(layout.parts[k].flat, moves[k]);
+      below.take(layout.parts[k].flat, Eigen::Vector3d::Zero());
+    }
+    below.take(layout.original_boundary, Eigen::Vector3d::Zero());
+    below.take(layout.actuated_boundary, Eigen::Vector3d::Zero());
+  }
+  double wide() const { return std::max(above.size().x(), below.size().x()); }
+  double high() const { return above.size().y() + below.size().y(); }
+};
+
+constexpr double between = 14, bar_height = 20;  // points
+constexpr const char* rim_text = "dashed: the shell's rim";
+
 }  // namespace
 
 std::string block_kind(const std::string& name) {
@@ -157,31 +178,6 @@ Result<PanelFigure> draw_blocks(const std::vector<NetRun>& runs, const MovieStyl
   figure.pixels_per_mm = stage.pixels_per_mm();
   return figure;
 }
-
-namespace {
-
-/// Blocks apart above, joined below.
-struct BlockSheet {
-  std::vector<Eigen::Vector3d> moves;
-  Extent above, below;
-
-  explicit BlockSheet(const record::Layout& layout)
-      : moves(apart(layout.parts, &record::Part::flat, 0.25)) {
-    for (std::size_t k = 0; k < layout.parts.size(); ++k) {
-      above.take(layout.parts[k].flat, moves[k]);
-      below.take(layout.parts[k].flat, Eigen::Vector3d::Zero());
-    }
-    below.take(layout.original_boundary, Eigen::Vector3d::Zero());
-    below.take(layout.actuated_boundary, Eigen::Vector3d::Zero());
-  }
-  double wide() const { return std::max(above.size().x(), below.size().x()); }
-  double high() const { return above.size().y() + below.size().y(); }
-};
-
-constexpr double between = 14, bar_height = 20;  // points
-constexpr const char* rim_text = "dashed: the shell's rim";
-
-}  // namespace
 
 void draw_block_footprints(Canvas& canvas, const Box& box, const record::Trajectory& run,
                            const BlockKinds& kinds) {

@@ -170,64 +170,6 @@ void draw_panel(Canvas& canvas, const MethodPanel& panel, Point at) {
   canvas.line({x, map.box.y - 1}, {x, map.box.bottom() + 1}, {ink, 1.4, {3, 2}});
 }
 
-}  // namespace
-
-Colour outcome_colour(RunOutcome outcome) {
-  // from right to silent_wrong
-  constexpr std::array<long, words_of<RunOutcome>().size()> colours{
-      0x8CC7A1, 0xC9CDD3, 0xF0E2A8, 0xF2B36B, 0xA9C4E6, 0x7A3B8F, 0xB0417C, 0xC0262B};
-  return hex_colour(colours[std::size_t(outcome)]);
-}
-
-std::string outcome_label(RunOutcome outcome) {
-  const std::string name = spaced(std::string(word_of(outcome)));
-  return record::silently_wrong(outcome) && outcome != RunOutcome::silent_wrong ? "silent: " + name
-                                                                                : name;
-}
-
-double outcome_maps_height(const std::vector<StabilityRow>& rows, double width) {
-  const auto panels = panels_of(rows);
-  double height = 0;
-  places_of(panels, width, &height);
-  return height;
-}
-
-void draw_outcome_maps(Canvas& canvas, const Box& box, const std::vector<StabilityRow>& rows,
-                       const std::string& title) {
-  const auto panels = panels_of(rows);
-  double height = 0;
-  canvas.text(
-      title, {box.middle().x, box.y + 2},
-      {.size = size + 1.5, .bold = true, .align_x = AlignX::centre, .align_y = AlignY::top});
-  for (const Place& place : places_of(panels, box.width, &height)) {
-    const Point at{box.x + place.at.x, box.y + place.at.y};
-    if (place.first)
-      canvas.text(plain(place.panel->map + ", by " + spaced(place.panel->y_name)),
-                  {at.x + 4, at.y + 4}, {.size = size + 0.5, .bold = true, .align_y = AlignY::top});
-    draw_panel(canvas, *place.panel, {at.x, at.y + map_room});
-  }
-  // what a user would notice above, what not below
-  Patches patches{.row_width = box.width, .row_height = 15, .font_size = size};
-  patches.draw = [&](std::size_t k, const Box& patch) {
-    draw_outcome(canvas, patch, RunOutcome(k));
-  };
-  for (const auto& [outcome, word] : words_of<RunOutcome>())
-    patches.names.push_back(outcome_label(outcome));
-  draw_patches(canvas, {box.x + 4, box.y + height - legend_room + 4, 18, 10}, patches);
-}
-
-Result<void> write_outcome_maps(const std::filesystem::path& stem,
-                                const std::vector<StabilityRow>& rows, const std::string& title,
-                                double width_mm) {
-  const double width = width_mm * points_per_mm, margin = 4;
-  const double height = outcome_maps_height(rows, width - 2 * margin) + 2 * margin;
-  return write_figure(stem, width, height, title, [&](Canvas& canvas) {
-    draw_outcome_maps(canvas, Box{0, 0, width, height}.inset(margin), rows, title);
-  });
-}
-
-namespace {
-
 /// What a cell of the map of a sweep is of.
 struct SweepCell {
   double sum = 0;
@@ -364,6 +306,60 @@ class SweepMap {
 };
 
 }  // namespace
+
+Colour outcome_colour(RunOutcome outcome) {
+  // from right to silent_wrong
+  constexpr std::array<long, words_of<RunOutcome>().size()> colours{
+      0x8CC7A1, 0xC9CDD3, 0xF0E2A8, 0xF2B36B, 0xA9C4E6, 0x7A3B8F, 0xB0417C, 0xC0262B};
+  return hex_colour(colours[std::size_t(outcome)]);
+}
+
+std::string outcome_label(RunOutcome outcome) {
+  const std::string name = spaced(std::string(word_of(outcome)));
+  return record::silently_wrong(outcome) && outcome != RunOutcome::silent_wrong ? "silent: " + name
+                                                                                : name;
+}
+
+double outcome_maps_height(const std::vector<StabilityRow>& rows, double width) {
+  const auto panels = panels_of(rows);
+  double height = 0;
+  places_of(panels, width, &height);
+  return height;
+}
+
+void draw_outcome_maps(Canvas& canvas, const Box& box, const std::vector<StabilityRow>& rows,
+                       const std::string& title) {
+  const auto panels = panels_of(rows);
+  double height = 0;
+  canvas.text(
+      title, {box.middle().x, box.y + 2},
+      {.size = size + 1.5, .bold = true, .align_x = AlignX::centre, .align_y = AlignY::top});
+  for (const Place& place : places_of(panels, box.width, &height)) {
+    const Point at{box.x + place.at.x, box.y + place.at.y};
+    if (place.first)
+      canvas.text(plain(place.panel->map + ", by " + spaced(place.panel->y_name)),
+                  {at.x + 4, at.y + 4}, {.size = size + 0.5, .bold = true, .align_y = AlignY::top});
+    draw_panel(canvas, *place.panel, {at.x, at.y + map_room});
+  }
+  // what a user would notice above, what not below
+  Patches patches{.row_width = box.width, .row_height = 15, .font_size = size};
+  patches.draw = [&](std::size_t k, const Box& patch) {
+    draw_outcome(canvas, patch, RunOutcome(k));
+  };
+  for (const auto& [outcome, word] : words_of<RunOutcome>())
+    patches.names.push_back(outcome_label(outcome));
+  draw_patches(canvas, {box.x + 4, box.y + height - legend_room + 4, 18, 10}, patches);
+}
+
+Result<void> write_outcome_maps(const std::filesystem::path& stem,
+                                const std::vector<StabilityRow>& rows, const std::string& title,
+                                double width_mm) {
+  const double width = width_mm * points_per_mm, margin = 4;
+  const double height = outcome_maps_height(rows, width - 2 * margin) + 2 * margin;
+  return write_figure(stem, width, height, title, [&](Canvas& canvas) {
+    draw_outcome_maps(canvas, Box{0, 0, width, height}.inset(margin), rows, title);
+  });
+}
 
 Result<void> write_sweep_map(const std::filesystem::path& stem, const SweepTable& table,
                              const SweepView& view) {

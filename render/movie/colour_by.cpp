@@ -20,10 +20,6 @@ Eigen::VectorXd move_over_depth(const ColourOrigin& from, const record::Frame& f
   return (frame.nodes - from.first.nodes).colwise().norm() / from.depth_mm;
 }
 
-}  // namespace
-
-namespace {
-
 /// What is coloured, and as a bar says it.
 struct Quantity {
   const char *label = "", *words = "";
@@ -48,52 +44,6 @@ const Quantity& quantity_of(ColourBy by) {
        {"*σ* / strength", "utilisation of the rods", false, true, 1e-3, true}}};
   return quantities.at(by);
 }
-
-}  // namespace
-
-bool of_cells(ColourBy by) { return quantity_of(by).cells; }
-
-bool may_be_missing(ColourBy by) { return quantity_of(by).may_be_missing; }
-
-Eigen::VectorXd coloured_values(ColourBy by, const record::Layout& layout,
-                                const record::Frame& frame, const ColourOrigin& from) {
-  switch (by) {
-    case ColourBy::none:
-      return {};
-    case ColourBy::K:
-      return frame.cell_K;
-    case ColourBy::K_change:
-      return change_of_K(from.first, frame);
-    case ColourBy::deviation:
-      return record::deviation_of_cells(layout, frame);
-    case ColourBy::displacement:
-      return move_over_depth(from, frame);
-    case ColourBy::energy:
-      return record::bending_of_nodes_mJ_per_m(layout, frame);
-    case ColourBy::axial_force:
-      return record::axial_force_of_nodes_N(layout, frame);
-    case ColourBy::stress:
-    case ColourBy::utilisation:
-      return record::stress_of_nodes_MPa(layout, frame, by == ColourBy::utilisation);
-  }
-  return {};
-}
-
-tl::unexpected<Error> missing_values_error(ColourBy by) {
-  const std::string asked = fmt::format("[movie] colour_by = \"{}\"", word_of(by));
-  if (by == ColourBy::deviation)
-    return fail(Fault::bad_input, asked + ": the run has no net that its shell could lie off");
-  return fail(Fault::bad_input,
-              fmt::format("{}: no frame of the run knows the rods' {}, as runs of an older version "
-                          "and of a net do not; run it again",
-                          asked,
-                          by == ColourBy::axial_force ? "axial forces"
-                          : by == ColourBy::energy    ? "bending energy"
-                          : by == ColourBy::stress    ? "stress"
-                                                      : "strength"));
-}
-
-namespace {
 
 constexpr double quantile = 0.9;   // of the cells or nodes lie within the scale
 constexpr double one_sign = 0.05;  // the other side's share of the larger one that is no sign
@@ -140,11 +90,52 @@ ColourBar displacement_bar(const Surveys& runs) {
 
 }  // namespace
 
+bool of_cells(ColourBy by) { return quantity_of(by).cells; }
+
+bool may_be_missing(ColourBy by) { return quantity_of(by).may_be_missing; }
+
+Eigen::VectorXd coloured_values(ColourBy by, const record::Layout& layout,
+                                const record::Frame& frame, const ColourOrigin& from) {
+  switch (by) {
+    case ColourBy::none:
+      return {};
+    case ColourBy::K:
+      return frame.cell_K;
+    case ColourBy::K_change:
+      return change_of_K(from.first, frame);
+    case ColourBy::deviation:
+      return record::deviation_of_cells(layout, frame);
+    case ColourBy::displacement:
+      return move_over_depth(from, frame);
+    case ColourBy::energy:
+      return record::bending_of_nodes_mJ_per_m(layout, frame);
+    case ColourBy::axial_force:
+      return record::axial_force_of_nodes_N(layout, frame);
+    case ColourBy::stress:
+    case ColourBy::utilisation:
+      return record::stress_of_nodes_MPa(layout, frame, by == ColourBy::utilisation);
+  }
+  return {};
+}
+
+tl::unexpected<Error> missing_values_error(ColourBy by) {
+  const std::string asked = fmt::format("[movie] colour_by = \"{}\"", word_of(by));
+  if (by == ColourBy::deviation)
+    return invalid(asked + ": the run has no net that its shell could lie off");
+  return invalid(
+      "{}: no frame of the run knows the rods' {}, as runs of an older version "
+      "and of a net do not; run it again",
+      asked,
+      by == ColourBy::axial_force ? "axial forces"
+      : by == ColourBy::energy    ? "bending energy"
+      : by == ColourBy::stress    ? "stress"
+                                  : "strength");
+}
+
 std::optional<ColourBar> colour_bar_of(const Surveys& runs, const MovieStyle& style) {
   const ColourBy by = style.colour_by;
-  const bool any_cell = std::any_of(runs.begin(), runs.end(), [&](const RunSummary* run) {
-    return run->spread(by).most.size() > 0;
-  });
+  const bool any_cell = std::ranges::any_of(
+      runs, [&](const RunSummary* run) { return run->spread(by).most.size() > 0; });
   if (runs.empty() || by == ColourBy::none) return std::nullopt;
   if (of_cells(by) && (!any_cell || !style.look.cells)) return std::nullopt;
   ColourBar bar = by == ColourBy::displacement ? displacement_bar(runs) : bar_of_sizes(runs, by);

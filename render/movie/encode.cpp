@@ -7,8 +7,6 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "engine/core/try.h"
-
 namespace gridshell::render {
 
 namespace {

@@ -1,12 +1,70 @@
 // Sheets of paper for the workshop: what to cut, and how it goes together.
 #pragma once
 
+#include <functional>
 #include <string>
+#include <vector>
 
 #include "engine/record/fabrication.h"
-#include "render/canvas/sheets.h"
+#include "render/canvas/canvas.h"
+#include "render/canvas/plot.h"
 
 namespace gridshell::render {
+
+/// One column of a table: how wide, points; 0: what is left, its text broken into lines. Numbers
+/// stand at the right.
+struct TableColumn {
+  std::string title;  ///< marked text
+  double width = 0;
+  AlignX align = AlignX::right;
+};
+
+/// A line of a table; plain text. Red where `stands_out`.
+struct TableRow {
+  std::vector<std::string> cells;
+  bool stands_out = false;
+};
+
+/// Sheets of A4 filled from the top, as one PDF: headings, text, tables, pictures and plots; what
+/// does not fit comes on the next sheet.
+class Sheets {
+ public:
+  /// `title` stands at the foot of every sheet, with its number, and in the PDF's data.
+  explicit Sheets(std::string title) : title_(std::move(title)) {}
+
+  /// Of the whole, or of what follows.
+  void heading(const std::string& plain_text, double size = 11);
+  /// Plain text, broken into lines.
+  void text(const std::string& plain_text);
+  /// Its head comes again on each sheet that it goes on to.
+  void table(const std::vector<TableColumn>& columns, const std::vector<TableRow>& rows);
+  /// What something is, and how much, two pairs a line.
+  void values(const std::vector<std::pair<std::string, std::string>>& pairs);
+  /// As wide as the sheet, the picture's height with it.
+  void picture(const Image& image);
+  void plot(const Plot& plot, double height = 190);
+  /// What follows begins on a sheet of its own.
+  void next_sheet();
+
+  std::string pdf() const;
+
+ private:
+  /// What stands across the sheet and is not parted.
+  struct Item {
+    double height = 0;
+    std::function<void(Canvas& canvas, double y)> draw;
+    bool with_next = false;   ///< never the last on its sheet
+    std::size_t head = none;  ///< the item that comes before it at the top of a sheet
+  };
+  static constexpr std::size_t none = std::size_t(-1);
+  static constexpr double break_here = 1e9;  ///< height of what ends a sheet
+
+  void add(Item item) { items_.push_back(std::move(item)); }
+  std::vector<std::vector<std::size_t>> laid_out() const;
+
+  std::string title_;
+  std::vector<Item> items_;
+};
 
 /// Every rod with its length and marks.
 void add_cut_list(Sheets& sheets, const exports::FabricationPlan& work);

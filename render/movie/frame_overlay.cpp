@@ -38,6 +38,58 @@ Box cut_right(Box& box, double width) {
   return {box.right(), box.y, width, box.height};
 }
 
+constexpr Colour force_ink{0.0f, 0.56f, 0.30f, 1};
+
+constexpr Colour way{0.84f, 0.84f, 0.86f, 1}, done{0.45f, 0.47f, 0.5f, 1};
+
+struct Sign {
+  MarkKind kind;
+  const char* word;
+  Marker marker;
+  Colour colour;
+};
+constexpr Sign signs[] = {
+    {MarkKind::contact, "contact", Marker::square, contact_ink},
+    {MarkKind::unstable, "unstable", Marker::square, {0.80f, 0.12f, 0.10f, 1}},
+    {MarkKind::motion, "in motion", Marker::square, {0.93f, 0.60f, 0.15f, 1}},
+    {MarkKind::snap, "snap", Marker::diamond, {0.10f, 0.32f, 0.62f, 1}},
+    {MarkKind::lock, "locked", Marker::triangle, {0.30f, 0.16f, 0.45f, 1}}};
+
+bool reached(const std::vector<Mark>& marks, MarkKind kind, int at) {
+  return std::ranges::any_of(marks,
+                             [&](const Mark& mark) { return mark.kind == kind && mark.at <= at; });
+}
+
+// a coloured length for a state that lasts, a sign for a moment
+void draw_marks(Canvas& canvas, const Box& bar, const std::vector<Mark>& marks, int at, int frames,
+                double size) {
+  const double step = bar.width / std::max(1, frames - 1);
+  const auto place = [&](double frame) {
+    return std::clamp(bar.x + frame * step, bar.x, bar.right());
+  };
+  for (const Sign& sign : signs)
+    for (const Mark& mark : marks) {
+      if (mark.kind != sign.kind || mark.at > at) continue;
+      if (sign.marker == Marker::square) {
+        const double from = place(mark.at - 0.5), to = place(std::min(mark.at + 0.5, double(at)));
+        const double width = std::max(to - from, 0.12 * size);
+        canvas.rectangle({std::min(from, bar.right() - width), bar.y, width, bar.height},
+                         sign.colour);
+      } else {
+        canvas.marker(sign.marker, {place(mark.at), bar.middle().y}, 0.7 * size, sign.colour,
+                      {{1, 1, 1, 1}, 0.08 * size});
+      }
+    }
+}
+
+constexpr Colour rod_ink{0.16f, 0.17f, 0.2f, 1}, joint_ink{0.75f, 0.12f, 0.1f, 1},
+    load_ink{0.05f, 0.05f, 0.06f, 1};
+
+/// "950 N", "4.249 kN"
+std::string force_text(double N) {
+  return N >= 1000 ? fmt::format("{:.4g} kN", 1e-3 * N) : fmt::format("{:.4g} N", N);
+}
+
 }  // namespace
 
 TextStyle title_style(const MovieStyle& style, double font_size) {
@@ -173,12 +225,6 @@ void put_braces(const record::Layout& layout, const record::Frame& frame, double
   if (!braces.rods.empty()) drawing.ghosts.push_back(std::move(braces));
 }
 
-namespace {
-
-constexpr Colour force_ink{0.0f, 0.56f, 0.30f, 1};
-
-}  // namespace
-
 void put_loads(const record::Layout& layout, const record::Frame& frame, double largest_N,
                double thin_mm, Drawing& drawing) {
   const double width = std::max(0.02 * longest_force(layout), 1.5 * thin_mm);
@@ -190,10 +236,6 @@ std::optional<ArrowKey> arrow_key(const record::Layout& layout, double largest_N
   if (!(largest_N > 0)) return {};
   const double shown_N = nice_ceiling(0.6 * largest_N);
   return ArrowKey{longest_force(layout) * shown_N / largest_N, force_text(shown_N), force_ink};
-}
-
-std::string force_text(double N) {
-  return N >= 1000 ? fmt::format("{:.4g} kN", 1e-3 * N) : fmt::format("{:.4g} N", N);
 }
 
 std::string load_caption(const record::Frame& frame) {
@@ -214,52 +256,6 @@ std::string event_caption(const record::Frame& frame) {
   return "unstable: " + std::to_string(frame.negative_pivots) + " negative pivot" +
          (frame.negative_pivots > 1 ? "s" : "");
 }
-
-namespace {
-
-constexpr Colour way{0.84f, 0.84f, 0.86f, 1}, done{0.45f, 0.47f, 0.5f, 1};
-
-struct Sign {
-  MarkKind kind;
-  const char* word;
-  Marker marker;
-  Colour colour;
-};
-constexpr Sign signs[] = {
-    {MarkKind::contact, "contact", Marker::square, contact_ink},
-    {MarkKind::unstable, "unstable", Marker::square, {0.80f, 0.12f, 0.10f, 1}},
-    {MarkKind::motion, "in motion", Marker::square, {0.93f, 0.60f, 0.15f, 1}},
-    {MarkKind::snap, "snap", Marker::diamond, {0.10f, 0.32f, 0.62f, 1}},
-    {MarkKind::lock, "locked", Marker::triangle, {0.30f, 0.16f, 0.45f, 1}}};
-
-bool reached(const std::vector<Mark>& marks, MarkKind kind, int at) {
-  return std::any_of(marks.begin(), marks.end(),
-                     [&](const Mark& mark) { return mark.kind == kind && mark.at <= at; });
-}
-
-// a coloured length for a state that lasts, a sign for a moment
-void draw_marks(Canvas& canvas, const Box& bar, const std::vector<Mark>& marks, int at, int frames,
-                double size) {
-  const double step = bar.width / std::max(1, frames - 1);
-  const auto place = [&](double frame) {
-    return std::clamp(bar.x + frame * step, bar.x, bar.right());
-  };
-  for (const Sign& sign : signs)
-    for (const Mark& mark : marks) {
-      if (mark.kind != sign.kind || mark.at > at) continue;
-      if (sign.marker == Marker::square) {
-        const double from = place(mark.at - 0.5), to = place(std::min(mark.at + 0.5, double(at)));
-        const double width = std::max(to - from, 0.12 * size);
-        canvas.rectangle({std::min(from, bar.right() - width), bar.y, width, bar.height},
-                         sign.colour);
-      } else {
-        canvas.marker(sign.marker, {place(mark.at), bar.middle().y}, 0.7 * size, sign.colour,
-                      {{1, 1, 1, 1}, 0.08 * size});
-      }
-    }
-}
-
-}  // namespace
 
 void draw_timeline(Canvas& canvas, const Box& box, const std::vector<Mark>& marks, int at,
                    int frames, double font_size) {
@@ -287,13 +283,6 @@ void draw_timeline(Canvas& canvas, const Box& box, const std::vector<Mark>& mark
         2 * gap;
   }
 }
-
-namespace {
-
-constexpr Colour rod_ink{0.16f, 0.17f, 0.2f, 1}, joint_ink{0.75f, 0.12f, 0.1f, 1},
-    load_ink{0.05f, 0.05f, 0.06f, 1};
-
-}  // namespace
 
 void draw_top_view(Canvas& canvas, const Box& box, const record::Layout& layout,
                    const record::Frame& frame, const TopExtent& extent,

@@ -72,8 +72,6 @@ std::optional<ArrowKey> arrow_key(const record::Layout& layout, double largest_N
 
 /// "loads 71.98 kN, reactions 71.98 kN": sizes of the sums of those that are known.
 std::string load_caption(const record::Frame& frame);
-/// "950 N", "4.249 kN"
-std::string force_text(double N);
 
 /// "3 contacts"; empty: none, or not looked for.
 std::string contact_caption(const record::Frame& frame);

@@ -62,8 +62,15 @@ bool boundary_moves(const preset::Preset& preset) {
          });
 }
 
-}  // namespace
+std::string in_lines(const Canvas& canvas, const std::string& text, double width,
+                     const TextStyle& style) {
+  std::string all;
+  for (const std::string& line : canvas.wrapped(text, width, style))
+    all += (all.empty() ? "" : "\n") + line;
+  return all;
+}
 
+/// The theme, and over it what the style says.
 Appearance appearance_of(const preset::Style& style) {
   Appearance look = style.theme == preset::Theme::paper ? paper_appearance() : Appearance{};
   choose(look.rod_mm, style.rod_width_mm);
@@ -89,6 +96,8 @@ Appearance appearance_of(const preset::Style& style) {
   look.letters = style.letters;
   return look;
 }
+
+}  // namespace
 
 MovieStyle movie_style(const preset::Preset& preset) {
   MovieStyle style{preset.movie};
@@ -131,18 +140,6 @@ DrawQuality draw_quality(const MovieStyle& style) {
   quality.shadow = quality.shadow && style.look.shadow;
   return quality;
 }
-
-namespace {
-
-std::string in_lines(const Canvas& canvas, const std::string& text, double width,
-                     const TextStyle& style) {
-  std::string all;
-  for (const std::string& line : canvas.wrapped(text, width, style))
-    all += (all.empty() ? "" : "\n") + line;
-  return all;
-}
-
-}  // namespace
 
 Image title_card(const MovieStyle& style) {
   const double w = style.width(), h = style.height();

@@ -32,9 +32,6 @@ struct Appearance {
 /// White, with black rods: as in the paper's figures.
 Appearance paper_appearance();
 
-/// The theme, and over it what the style says.
-Appearance appearance_of(const preset::Style& style);
-
 /// What the preset says of movies (of stills the quality is that of figures), and what it says
 /// elsewhere. Standard views are in azimuth and elevation.
 struct MovieStyle : preset::Movie {

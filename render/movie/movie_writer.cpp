@@ -1,18 +1,104 @@
 #include "render/movie/movie_writer.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <memory>
+#include <system_error>
 
 #include "engine/core/file_io.h"
 #include "engine/core/try.h"
+#include "render/canvas/canvas.h"
 #include "render/movie/frame_overlay.h"
 #include "render/movie/run_figures.h"
-#include "render/movie/run_summary.h"
 #include "render/movie/stage.h"
 
 namespace gridshell::render {
+
+Worker::Worker() {
+  try {
+    thread_ = std::thread([this] { loop(); });
+  } catch (const std::system_error&) {
+    // whoever begins a job does it
+  }
+}
+
+Worker::~Worker() {
+  {
+    const std::lock_guard lock(mutex_);
+    over_ = true;
+  }
+  changed_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+void Worker::loop() {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    changed_.wait(lock, [this] { return job_ || over_; });
+    if (!job_) return;
+    lock.unlock();
+    Result<void> ended;
+    std::exception_ptr thrown;
+    try {
+      ended = job_();
+    } catch (...) {
+      thrown = std::current_exception();
+    }
+    lock.lock();
+    ended_ = std::move(ended);
+    thrown_ = thrown;
+    job_ = nullptr;
+    changed_.notify_all();
+  }
+}
+
+void Worker::begin(Job job) {
+  if (!thread_.joinable()) {
+    ended_ = job();
+    return;
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    job_ = std::move(job);
+  }
+  changed_.notify_all();
+}
+
+Result<void> Worker::wait() {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return !job_; });
+  if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
+  return std::exchange(ended_, Result<void>{});
+}
+
+std::string frame_name(int index) { return fmt::format("frame_{:05d}.png", index); }
+
+Result<void> FrameWriter::put(Image picture, DrawOverPicture over) {
+  return finish().and_then([&] { return check(); }).map([&] {
+    picture_ = std::move(picture);
+    worker_.begin([this, over = std::move(over), index = begun_++] {
+      if (over) over(picture_);
+      return write_png(picture_, folder_ / frame_name(index)).map([&] {
+        watch_.report(double(index + 1) / count_);
+        if (on_frame_) on_frame_(index, picture_);
+      });
+    });
+  });
+}
+
+Result<void> FrameWriter::finish() {
+  TRY_DO(worker_.wait());
+  written_ = begun_;
+  return {};
+}
+
+Result<void> FrameWriter::check() {
+  if (!watch_.cancelled()) return {};
+  TRY_DO(finish());
+  return fail(Fault::cancelled, "stopped after {} of {} frames", written_, count_);
+}
+
 namespace {
 
 /// A picture, and what is still to be drawn over it while the next one is made.
@@ -32,31 +118,6 @@ Result<void> write_frames(int count, const DrawFrame& draw, const std::filesyste
   }
   return writer.finish();
 }
-
-}  // namespace
-
-Result<void> write_movie(const FrameSource& source, RunSummary survey, const MovieStyle& style,
-                         const std::optional<ColourBar>& bar, Renderer& renderer,
-                         const std::filesystem::path& folder, Watch& watch,
-                         const FrameCallback& on_frame) {
-  TRY_DO(check_size(style));
-  if (source.count < 1) return fail(Fault::bad_input, "the run has no frame to show");
-  TRY_DO(check_coloured(survey, style));
-  TRY_DO(make_folder(folder));
-  const Stage stage(*source.layout, std::move(survey), style, bar);
-  const auto draw = [&](int k) -> Result<DrawnFrame> {
-    TRY(read, source.at(k));
-    const auto frame = std::make_shared<const record::Frame>(std::move(*read));
-    TRY_DO(check_frame(*source.layout, *frame, k, style));
-    TRY(picture, stage.draw_views(renderer, {*frame, k}));
-    return DrawnFrame{std::move(*picture), [&stage, frame, k](Image& image) {
-                        stage.finish(image, {*frame, k});
-                      }};
-  };
-  return write_frames(source.count, draw, folder, watch, on_frame);
-}
-
-namespace {
 
 // a run's part of the frame has no text of its own
 MovieStyle without_captions(MovieStyle style) {
@@ -196,10 +257,31 @@ class SideBySideMovie {
 
 }  // namespace
 
+Result<void> write_movie(const FrameSource& source, RunSummary survey, const MovieStyle& style,
+                         const std::optional<ColourBar>& bar, Renderer& renderer,
+                         const std::filesystem::path& folder, Watch& watch,
+                         const FrameCallback& on_frame) {
+  TRY_DO(check_size(style));
+  if (source.count < 1) return invalid("the run has no frame to show");
+  TRY_DO(check_coloured(survey, style));
+  TRY_DO(make_folder(folder));
+  const Stage stage(*source.layout, std::move(survey), style, bar);
+  const auto draw = [&](int k) -> Result<DrawnFrame> {
+    TRY(read, source.at(k));
+    const auto frame = std::make_shared<const record::Frame>(std::move(*read));
+    TRY_DO(check_frame(*source.layout, *frame, k, style));
+    TRY(picture, stage.draw_views(renderer, {*frame, k}));
+    return DrawnFrame{std::move(*picture), [&stage, frame, k](Image& image) {
+                        stage.finish(image, {*frame, k});
+                      }};
+  };
+  return write_frames(source.count, draw, folder, watch, on_frame);
+}
+
 Result<void> write_side_by_side(const std::vector<NamedRun>& runs, const MovieStyle& style,
                                 Renderer& renderer, const std::filesystem::path& folder,
                                 Watch& watch, const FrameCallback& on_frame) {
-  if (runs.empty()) return fail(Fault::bad_input, "there is no run to show");
+  if (runs.empty()) return invalid("there is no run to show");
   for (const NamedRun& one : runs) TRY_DO(check_showable(*one.run, style));
   TRY_DO(make_folder(folder));
   const SideBySideMovie beside(runs, style);

@@ -1,22 +1,98 @@
 // A run to a folder of numbered pictures.
 #pragma once
 
+#include <condition_variable>
+#include <exception>
 #include <filesystem>
+#include <functional>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include "engine/core/result.h"
 #include "engine/core/watch.h"
 #include "engine/record/trajectory.h"
 #include "render/canvas/legend.h"
+#include "render/gl/image.h"
 #include "render/gl/renderer.h"
-#include "render/movie/frame_writer.h"
 #include "render/movie/movie_style.h"
 #include "render/movie/run_plots.h"
 #include "render/movie/run_summary.h"
 
 namespace gridshell::render {
+
+/// Does one job after the other on one thread of its own, which keeps what libraries remember of a
+/// thread; where no thread is to be had, on the one that asks.
+class Worker {
+ public:
+  using Job = std::function<Result<void>()>;
+
+  Worker();
+  Worker(const Worker&) = delete;
+  Worker& operator=(const Worker&) = delete;
+  /// Waits for the job under way.
+  ~Worker();
+
+  /// Begins a job; the one before has been waited for.
+  void begin(Job job);
+  /// How the job under way ended, once it has; nothing was to be done: well. What it threw is
+  /// thrown here.
+  Result<void> wait();
+
+ private:
+  void loop();
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  Job job_;                    // null: none under way
+  Result<void> ended_;         // how the last one did
+  std::exception_ptr thrown_;  // by it
+  bool over_ = false;          // no more will come
+  std::thread thread_;
+};
+
+// Pictures to numbered files, beside whoever draws them.
+
+/// "frame_00000.png"
+std::string frame_name(int index);
+
+/// Called with each frame in turn once it stands on the disk, on the thread that writes.
+using FrameCallback = std::function<void(int index, const Image& picture)>;
+/// What is still to be drawn over a picture.
+using DrawOverPicture = std::function<void(Image& picture)>;
+
+/// Writes frame_00000.png ... into a folder: one picture is finished, compressed and handed on
+/// while the next is drawn. Every file is whole or absent. Progress of `watch` grows with what
+/// stands on the disk, to 1.
+class FrameWriter {
+ public:
+  /// The folder exists; `watch` outlives the writer.
+  FrameWriter(std::filesystem::path folder, int count, Watch& watch, FrameCallback on_frame = {})
+      : folder_(std::move(folder)), count_(count), watch_(watch), on_frame_(std::move(on_frame)) {}
+
+  /// The next picture, once the one before stands on the disk; `over` is done to it first, and
+  /// holds what it needs. Errors: those of write_png for the one before; Fault::cancelled, with
+  /// which nothing more is written.
+  Result<void> put(Image picture, DrawOverPicture over = {});
+
+  /// Waits for the last one.
+  Result<void> finish();
+
+  /// Fault::cancelled once the watch is, with how many frames there are.
+  Result<void> check();
+
+ private:
+  std::filesystem::path folder_;
+  int count_;
+  Watch& watch_;
+  FrameCallback on_frame_;
+  int begun_ = 0, written_ = 0;
+  Image picture_;  // in the making as a file
+  Worker worker_;  // waits for it when destroyed
+};
 
 /// Writes frame_00000.png ... into `folder` (made if absent), one picture a frame of `source`,
 /// whose survey has been taken; `bar` is a colour bar that several movies share. One frame is in

@@ -9,6 +9,46 @@ namespace {
 constexpr double letter_room = 10, caption_room = 12;  // points
 constexpr Colour pale{0.75f, 0.75f, 0.77f, 1};
 
+constexpr double margin = 12, line = 22, size = 13;
+constexpr Colour empty_ink{0.8f, 0.8f, 0.82f, 1};
+
+double cell_height(const PicturePair& pair, double width) {
+  double height = 0;
+  for (const auto* image : {&pair.before, &pair.after})
+    if (*image) height = std::max(height, width * (*image)->height / (*image)->width);
+  return std::min(height, 1.5 * width);
+}
+
+// as large as the cell allows, at its upper left
+void draw_in(Canvas& canvas, const Box& cell, const std::optional<Image>& image) {
+  if (!image) {
+    canvas.rectangle(cell, {0, 0, 0, 0}, {empty_ink, 1, {4, 3}});
+    canvas.text(
+        "none", cell.middle(),
+        {.size = size, .colour = ink, .align_x = AlignX::centre, .align_y = AlignY::middle});
+    return;
+  }
+  const double scale = std::min(cell.width / image->width, cell.height / image->height);
+  const Box box{cell.x, cell.y, scale * image->width, scale * image->height};
+  canvas.picture(*image, box);
+  canvas.rectangle(box, {0, 0, 0, 0}, {empty_ink, 0.5});
+}
+
+void draw_row(Canvas& canvas, double top, double width, const PicturePair& pair, double threshold) {
+  const ComparisonVerdict verdict = compare_versions(pair, threshold);
+  canvas.text(plain(pair.name + ": " + verdict.text), {margin, top + line / 2},
+              {.size = size, .colour = ink, .bold = true, .align_y = AlignY::middle});
+  std::optional<Image> difference;
+  if (verdict.worst) difference = difference_picture(*pair.before, *pair.after, *verdict.worst);
+  const double height = cell_height(pair, width);
+  int column = 0;
+  for (const std::optional<Image>* image :
+       {&pair.before, &pair.after, static_cast<const std::optional<Image>*>(&difference)}) {
+    draw_in(canvas, {margin + column * (width + margin), top + line, width, height}, *image);
+    ++column;
+  }
+}
+
 }  // namespace
 
 Box fitted(const Box& box, double aspect) {
@@ -57,50 +97,6 @@ Result<void> write_page(const std::filesystem::path& stem, const std::string& ti
     return lines ? write(std::filesystem::path(stem) += "_lines", true) : Result<void>{};
   });
 }
-
-namespace {
-
-constexpr double margin = 12, line = 22, size = 13;
-constexpr Colour empty_ink{0.8f, 0.8f, 0.82f, 1};
-
-double cell_height(const PicturePair& pair, double width) {
-  double height = 0;
-  for (const auto* image : {&pair.before, &pair.after})
-    if (*image) height = std::max(height, width * (*image)->height / (*image)->width);
-  return std::min(height, 1.5 * width);
-}
-
-// as large as the cell allows, at its upper left
-void draw_in(Canvas& canvas, const Box& cell, const std::optional<Image>& image) {
-  if (!image) {
-    canvas.rectangle(cell, {0, 0, 0, 0}, {empty_ink, 1, {4, 3}});
-    canvas.text(
-        "none", cell.middle(),
-        {.size = size, .colour = ink, .align_x = AlignX::centre, .align_y = AlignY::middle});
-    return;
-  }
-  const double scale = std::min(cell.width / image->width, cell.height / image->height);
-  const Box box{cell.x, cell.y, scale * image->width, scale * image->height};
-  canvas.picture(*image, box);
-  canvas.rectangle(box, {0, 0, 0, 0}, {empty_ink, 0.5});
-}
-
-void draw_row(Canvas& canvas, double top, double width, const PicturePair& pair, double threshold) {
-  const ComparisonVerdict verdict = compare_versions(pair, threshold);
-  canvas.text(plain(pair.name + ": " + verdict.text), {margin, top + line / 2},
-              {.size = size, .colour = ink, .bold = true, .align_y = AlignY::middle});
-  std::optional<Image> difference;
-  if (verdict.worst) difference = difference_picture(*pair.before, *pair.after, *verdict.worst);
-  const double height = cell_height(pair, width);
-  int column = 0;
-  for (const std::optional<Image>* image :
-       {&pair.before, &pair.after, static_cast<const std::optional<Image>*>(&difference)}) {
-    draw_in(canvas, {margin + column * (width + margin), top + line, width, height}, *image);
-    ++column;
-  }
-}
-
-}  // namespace
 
 ComparisonVerdict compare_versions(const PicturePair& pair, double threshold) {
   if (!pair.before) return {false, "is new", {}};

@@ -7,7 +7,6 @@
 #include "engine/core/try.h"
 #include "engine/record/frame_values.h"
 #include "render/movie/run_summary.h"
-#include "render/movie/stage.h"
 
 namespace gridshell::render {
 namespace {
@@ -70,9 +69,73 @@ std::vector<ColourKey> over_net_keys(const std::vector<NetRun>& runs) {
     key.name.insert(0, "net of ");
     keys.push_back(std::move(key));
   }
-  if (std::any_of(runs.begin(), runs.end(), [](const NetRun& one) { return one.scanned.size(); }))
+  if (std::ranges::any_of(runs, [](const NetRun& one) { return one.scanned.size(); }))
     keys.push_back(scan_key());
   return keys;
+}
+
+MovieStyle panel_style(MovieStyle style) {
+  style.captions = style.inset = style.bins = style.legends = false;
+  style.turn_deg = 0;
+  style.colour_by = ColourBy::displacement;
+  style.look.floor = false;
+  style.look.joint_mm = 0;
+  // round shells, three to a row
+  style.size[0] = style.size[1];
+  return style;
+}
+
+/// From the last state before each snap to the first after it.
+Series snaps_of(const Series& pushed, const record::Trajectory& run) {
+  Series snaps = line_series("", pushed.colour, 1, {3, 2});
+  for (std::size_t k = 1; k < run.frames.size(); ++k) {
+    if (!run.frames[k].event.starts_with("snap")) continue;
+    // what moved in time in between has no force
+    std::size_t before = k - 1;
+    while (before > 0 && !std::isfinite(pushed.y[before])) --before;
+    for (const std::size_t at : {before, k}) snaps.add(pushed.x[at], pushed.y[at]);
+    snaps.part();
+  }
+  return snaps;
+}
+
+/// A line that goes from state to state has a gap where one snapped to the next.
+void part_at_snaps(Series& pushed, const record::Trajectory& run) {
+  for (std::size_t k = run.frames.size(); k-- > 1;)
+    if (run.frames[k].event.starts_with("snap") && std::isfinite(pushed.y[k - 1])) {
+      pushed.x.insert(pushed.x.begin() + long(k), NAN);
+      pushed.y.insert(pushed.y.begin() + long(k), NAN);
+    }
+}
+
+/// Whether an error would be seen beside the line of the forces.
+bool errors_seen(const std::vector<NamedRun>& runs) {
+  constexpr double line = 0.01;  // a line's width, of the axis
+  double force = 0, error = 0;
+  for (const NamedRun& one : runs)
+    for (const record::Frame& frame : one.run->frames) {
+      force = std::max(force, std::abs(frame.force_N));
+      error = std::max(error, frame.push_error_N);
+    }
+  return error > line * force;
+}
+
+/// The force with its error on either side, a band from snap to snap; none where no error is known.
+std::vector<Band> error_bands(const record::Trajectory& run, Colour colour) {
+  std::vector<Band> bands;
+  colour.a = 0.25f;
+  bool goes_on = false;
+  for (const record::Frame& frame : run.frames) {
+    const bool known = std::isfinite(frame.force_N) && std::isfinite(frame.push_error_N);
+    if (known && (!goes_on || frame.event.starts_with("snap")))
+      bands.push_back({.name = "", .colour = colour});
+    goes_on = known;
+    if (!known) continue;
+    bands.back().x.push_back(frame.depth_mm);
+    bands.back().low.push_back(frame.force_N - frame.push_error_N);
+    bands.back().high.push_back(frame.force_N + frame.push_error_N);
+  }
+  return bands;
 }
 
 }  // namespace
@@ -171,74 +234,6 @@ Result<PanelFigure> draw_deviations(const std::vector<NetRun>& runs, const Movie
   figure->colour_bar->words = "distance from the net";
   return figure;
 }
-
-namespace {
-
-MovieStyle panel_style(MovieStyle style) {
-  style.captions = style.inset = style.bins = style.legends = false;
-  style.turn_deg = 0;
-  style.colour_by = ColourBy::displacement;
-  style.look.floor = false;
-  style.look.joint_mm = 0;
-  // round shells, three to a row
-  style.size[0] = style.size[1];
-  return style;
-}
-
-/// From the last state before each snap to the first after it.
-Series snaps_of(const Series& pushed, const record::Trajectory& run) {
-  Series snaps = line_series("", pushed.colour, 1, {3, 2});
-  for (std::size_t k = 1; k < run.frames.size(); ++k) {
-    if (!run.frames[k].event.starts_with("snap")) continue;
-    // what moved in time in between has no force
-    std::size_t before = k - 1;
-    while (before > 0 && !std::isfinite(pushed.y[before])) --before;
-    for (const std::size_t at : {before, k}) snaps.add(pushed.x[at], pushed.y[at]);
-    snaps.part();
-  }
-  return snaps;
-}
-
-/// A line that goes from state to state has a gap where one snapped to the next.
-void part_at_snaps(Series& pushed, const record::Trajectory& run) {
-  for (std::size_t k = run.frames.size(); k-- > 1;)
-    if (run.frames[k].event.starts_with("snap") && std::isfinite(pushed.y[k - 1])) {
-      pushed.x.insert(pushed.x.begin() + long(k), NAN);
-      pushed.y.insert(pushed.y.begin() + long(k), NAN);
-    }
-}
-
-/// Whether an error would be seen beside the line of the forces.
-bool errors_seen(const std::vector<NamedRun>& runs) {
-  constexpr double line = 0.01;  // a line's width, of the axis
-  double force = 0, error = 0;
-  for (const NamedRun& one : runs)
-    for (const record::Frame& frame : one.run->frames) {
-      force = std::max(force, std::abs(frame.force_N));
-      error = std::max(error, frame.push_error_N);
-    }
-  return error > line * force;
-}
-
-/// The force with its error on either side, a band from snap to snap; none where no error is known.
-std::vector<Band> error_bands(const record::Trajectory& run, Colour colour) {
-  std::vector<Band> bands;
-  colour.a = 0.25f;
-  bool goes_on = false;
-  for (const record::Frame& frame : run.frames) {
-    const bool known = std::isfinite(frame.force_N) && std::isfinite(frame.push_error_N);
-    if (known && (!goes_on || frame.event.starts_with("snap")))
-      bands.push_back({.name = "", .colour = colour});
-    goes_on = known;
-    if (!known) continue;
-    bands.back().x.push_back(frame.depth_mm);
-    bands.back().low.push_back(frame.force_N - frame.push_error_N);
-    bands.back().high.push_back(frame.force_N + frame.push_error_N);
-  }
-  return bands;
-}
-
-}  // namespace
 
 Result<PanelFigure> draw_pushes(const std::vector<NetRun>& runs, const MovieStyle& movie_style,
                                 Renderer& renderer, Watch& watch) {

@@ -22,8 +22,7 @@ Eigen::Matrix3Xd joints_of(const record::Trajectory& run) {
 }
 
 bool all_caps(const std::vector<NamedRun>& runs) {
-  return std::all_of(runs.begin(), runs.end(),
-                     [](const NamedRun& one) { return on_sphere(one.run->layout); });
+  return std::ranges::all_of(runs, [](const NamedRun& one) { return on_sphere(one.run->layout); });
 }
 
 double plane_of(const NamedRun& one) { return one.run->layout.actuated_boundary.row(2).mean(); }
@@ -134,6 +133,43 @@ void add_by_latitude(const Eigen::Matrix3Xd& joints, double rho, Series& series)
     series.add(latitude_deg(joint.z() / joint.norm()), joint.norm() / rho);
 }
 
+/// A square about all lines, so that lengths are alike on both axes.
+void frame_about(const std::vector<Eigen::Matrix3Xd>& lines, Plot& plot) {
+  constexpr double wider = 1.08;
+  Eigen::Vector2d low = lines.front().col(0).head<2>(), high = low;
+  for (const auto& line : lines) {
+    low = low.cwiseMin(line.topRows<2>().rowwise().minCoeff());
+    high = high.cwiseMax(line.topRows<2>().rowwise().maxCoeff());
+  }
+  const Eigen::Vector2d middle = (low + high) / 2;
+  const double half = wider * (high - low).maxCoeff() / 2;
+  plot.x.low = middle.x() - half, plot.x.high = middle.x() + half;
+  plot.y.low = middle.y() - half, plot.y.high = middle.y() + half;
+}
+
+constexpr Colour reference{0.62f, 0.63f, 0.66f, 0.55f}, reference_ink{0.5f, 0.51f, 0.54f, 1},
+    now_ink{0.13f, 0.33f, 0.60f, 1}, mean_ink{0.70f, 0.10f, 0.08f, 1};
+
+/// "Σ*K*_{□} = 5.898 rad, −1.78 %"; in rad where the first is next to nothing.
+std::string total_K_caption(double first, double now) {
+  const double change = now - first;
+  const bool relative = std::abs(first) > 0.1;
+  const std::string size =
+      fixed(relative ? 100 * change / std::abs(first) : change, relative ? 2 : 3);
+  return fmt::format("Σ*K*_{{□}} = {} rad, {}{}{}", fixed(now, 3), change > 0 ? "+" : "", size,
+                     relative ? " %" : " rad");
+}
+
+Series bins_of(const record::Frame& frame) {
+  Series series;
+  const long count = frame.K_bins.rows();
+  for (long k = 0; k < count; ++k) {
+    series.add(-1 + (2.0 * double(k) + 1) / double(count), frame.K_bins(k, 0));
+    series.y_error.push_back(frame.K_bins(k, 1));
+  }
+  return series;
+}
+
 }  // namespace
 
 void draw_figure_title(Canvas& canvas, const std::string& title) {
@@ -185,7 +221,7 @@ Plot quantile_plot(const std::vector<NamedRun>& runs) {
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const record::Trajectory& run = *runs[r].run;
     Eigen::VectorXd sorted = last_deviation(run).head(long(run.layout.joints.size()));
-    std::sort(sorted.begin(), sorted.end());
+    std::ranges::sort(sorted);
     Series series = line_series(runs[r].name, series_colour(r), 1.2);
     for (long k = 0; k < sorted.size(); ++k)
       series.add(sorted.size() > 1 ? 100.0 * double(k) / double(sorted.size() - 1) : 100,
@@ -240,24 +276,6 @@ Result<void> write_footprints(const std::filesystem::path& stem, const std::vect
       print);
 }
 
-namespace {
-
-/// A square about all lines, so that lengths are alike on both axes.
-void frame_about(const std::vector<Eigen::Matrix3Xd>& lines, Plot& plot) {
-  constexpr double wider = 1.08;
-  Eigen::Vector2d low = lines.front().col(0).head<2>(), high = low;
-  for (const auto& line : lines) {
-    low = low.cwiseMin(line.topRows<2>().rowwise().minCoeff());
-    high = high.cwiseMax(line.topRows<2>().rowwise().maxCoeff());
-  }
-  const Eigen::Vector2d middle = (low + high) / 2;
-  const double half = wider * (high - low).maxCoeff() / 2;
-  plot.x.low = middle.x() - half, plot.x.high = middle.x() + half;
-  plot.y.low = middle.y() - half, plot.y.high = middle.y() + half;
-}
-
-}  // namespace
-
 Plot refused_plot(const std::vector<Eigen::Matrix3Xd>& lines, const Eigen::Matrix3Xd& narrow,
                   const Eigen::Vector3d& end, const std::string& title) {
   Series net = line_series("the net as far as it comes, from above", {0.45f, 0.5f, 0.55f, 1}, 0.5);
@@ -283,33 +301,6 @@ Plot refused_plot(const std::vector<Eigen::Matrix3Xd>& lines, const Eigen::Matri
   if (!lines.empty()) frame_about(lines, plot);
   return plot;
 }
-
-namespace {
-
-constexpr Colour reference{0.62f, 0.63f, 0.66f, 0.55f}, reference_ink{0.5f, 0.51f, 0.54f, 1},
-    now_ink{0.13f, 0.33f, 0.60f, 1}, mean_ink{0.70f, 0.10f, 0.08f, 1};
-
-/// "Σ*K*_{□} = 5.898 rad, −1.78 %"; in rad where the first is next to nothing.
-std::string total_K_caption(double first, double now) {
-  const double change = now - first;
-  const bool relative = std::abs(first) > 0.1;
-  const std::string size =
-      fixed(relative ? 100 * change / std::abs(first) : change, relative ? 2 : 3);
-  return fmt::format("Σ*K*_{{□}} = {} rad, {}{}{}", fixed(now, 3), change > 0 ? "+" : "", size,
-                     relative ? " %" : " rad");
-}
-
-Series bins_of(const record::Frame& frame) {
-  Series series;
-  const long count = frame.K_bins.rows();
-  for (long k = 0; k < count; ++k) {
-    series.add(-1 + (2.0 * double(k) + 1) / double(count), frame.K_bins(k, 0));
-    series.y_error.push_back(frame.K_bins(k, 1));
-  }
-  return series;
-}
-
-}  // namespace
 
 Plot bins_plot(const RunSummary& run, long cells, const record::Frame& frame,
                const std::vector<double>& range, double font_size) {

@@ -19,51 +19,6 @@ LoadArrow arrow_at(const record::Layout& layout, const record::Frame& frame, int
   return away ? LoadArrow{node, near, near + way} : LoadArrow{node, near - way, near};
 }
 
-}  // namespace
-
-Eigen::Matrix3Xd boundary_at(const record::Layout& layout, double actuation) {
-  return layout.original_boundary +
-         actuation * (layout.actuated_boundary - layout.original_boundary);
-}
-
-bool load_acts(const record::LoadedJoint& load, const record::Layout& layout,
-               const record::Frame& frame) {
-  if (!load.at_times || frame.reactions_N.cols() != Eigen::Index(layout.supports.size()))
-    return true;
-  const int node = layout.joints.at(std::size_t(load.joint)).node;
-  const auto held = std::ranges::find(layout.supports, node);
-  return held == layout.supports.end() ||
-         !frame.reactions_N.col(held - layout.supports.begin()).isZero(0);
-}
-
-std::vector<LoadArrow> load_arrows(const record::Layout& layout, const record::Frame& frame) {
-  std::vector<LoadArrow> arrows;
-  if (layout.loaded_joints.empty() || layout.actuated_boundary.cols() == 0) return arrows;
-  const double length = 0.25 * layout.length_scale_mm;
-  for (const record::LoadedJoint& load : layout.loaded_joints) {
-    const int node = layout.joints.at(std::size_t(load.joint)).node;
-    if (node < frame.nodes.cols() && load_acts(load, layout, frame))
-      arrows.push_back(arrow_at(layout, frame, node, length * load.direction, gap_mm));
-  }
-  return arrows;
-}
-
-std::vector<LoadArrow> force_arrows(const record::Layout& layout, const record::Frame& frame,
-                                    double largest_N) {
-  std::vector<LoadArrow> arrows;
-  if (!(largest_N > 0) || layout.actuated_boundary.cols() == 0) return arrows;
-  const auto known = std::min<Eigen::Index>(frame.loads_N.cols(), long(layout.supports.size()));
-  for (Eigen::Index k = 0; k < known; ++k) {
-    const Eigen::Vector3d force = frame.loads_N.col(k) / largest_N;
-    const int node = layout.supports[std::size_t(k)];
-    if (force.norm() > 0.01 && node < frame.nodes.cols())
-      arrows.push_back(arrow_at(layout, frame, node, longest_force(layout) * force, 0));
-  }
-  return arrows;
-}
-
-namespace {
-
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // at most `most` of them, evenly
@@ -128,6 +83,47 @@ MarkKind kind_of(const record::Frame& frame) {
 }
 
 }  // namespace
+
+Eigen::Matrix3Xd boundary_at(const record::Layout& layout, double actuation) {
+  return layout.original_boundary +
+         actuation * (layout.actuated_boundary - layout.original_boundary);
+}
+
+bool load_acts(const record::LoadedJoint& load, const record::Layout& layout,
+               const record::Frame& frame) {
+  if (!load.at_times || frame.reactions_N.cols() != Eigen::Index(layout.supports.size()))
+    return true;
+  const int node = layout.joints.at(std::size_t(load.joint)).node;
+  const auto held = std::ranges::find(layout.supports, node);
+  return held == layout.supports.end() ||
+         !frame.reactions_N.col(held - layout.supports.begin()).isZero(0);
+}
+
+std::vector<LoadArrow> load_arrows(const record::Layout& layout, const record::Frame& frame) {
+  std::vector<LoadArrow> arrows;
+  if (layout.loaded_joints.empty() || layout.actuated_boundary.cols() == 0) return arrows;
+  const double length = 0.25 * layout.length_scale_mm;
+  for (const record::LoadedJoint& load : layout.loaded_joints) {
+    const int node = layout.joints.at(std::size_t(load.joint)).node;
+    if (node < frame.nodes.cols() && load_acts(load, layout, frame))
+      arrows.push_back(arrow_at(layout, frame, node, length * load.direction, gap_mm));
+  }
+  return arrows;
+}
+
+std::vector<LoadArrow> force_arrows(const record::Layout& layout, const record::Frame& frame,
+                                    double largest_N) {
+  std::vector<LoadArrow> arrows;
+  if (!(largest_N > 0) || layout.actuated_boundary.cols() == 0) return arrows;
+  const auto known = std::min<Eigen::Index>(frame.loads_N.cols(), long(layout.supports.size()));
+  for (Eigen::Index k = 0; k < known; ++k) {
+    const Eigen::Vector3d force = frame.loads_N.col(k) / largest_N;
+    const int node = layout.supports[std::size_t(k)];
+    if (force.norm() > 0.01 && node < frame.nodes.cols())
+      arrows.push_back(arrow_at(layout, frame, node, longest_force(layout) * force, 0));
+  }
+  return arrows;
+}
 
 void Interval::take(double value) {
   if (!std::isfinite(value)) return;

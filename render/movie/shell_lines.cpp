@@ -53,7 +53,7 @@ class Screen {
   }
 
   bool hides(const Seen& p, double slack) const {
-    return std::any_of(triangles_.begin(), triangles_.end(), [&](const Triangle& t) {
+    return std::ranges::any_of(triangles_, [&](const Triangle& t) {
       const double area = cross(t[0].at, t[1].at, t[2].at);
       if (std::abs(area) < 1e-9) return false;
       const double a = cross(p.at, t[1].at, t[2].at) / area,

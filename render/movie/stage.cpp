@@ -8,7 +8,6 @@
 
 #include "engine/core/try.h"
 #include "render/movie/run_plots.h"
-#include "render/movie/run_summary.h"
 
 namespace gridshell::render {
 
@@ -154,10 +153,11 @@ void clear_outside(Image& image, const Box& box, Colour colour) {
 
 Result<void> check_size(const MovieStyle& style) {
   if (style.width() < 16 || style.height() < 16 || style.width() > 16384 || style.height() > 16384)
-    return fail(Fault::bad_input, fmt::format("a picture of {} x {} pixels cannot be made: both "
-                                              "sides must be 16 to 16384",
-                                              style.width(), style.height()));
-  if (!(style.zoom > 0)) return fail(Fault::bad_input, "the camera's zoom must be above 0");
+    return invalid(
+        "a picture of {} x {} pixels cannot be made: both "
+        "sides must be 16 to 16384",
+        style.width(), style.height());
+  if (!(style.zoom > 0)) return invalid("the camera's zoom must be above 0");
   return {};
 }
 
@@ -165,13 +165,13 @@ Result<void> check_frame(const record::Layout& layout, const record::Frame& fram
                          const MovieStyle& style) {
   const long nodes = node_count_of(layout), cells = long(layout.cells.size());
   if (frame.nodes.cols() < nodes || !frame.nodes.allFinite())
-    return fail(Fault::bad_input,
-                fmt::format("frame {} of the run has {} nodes where {} with finite positions are "
-                            "needed",
-                            at, frame.nodes.cols(), nodes));
+    return invalid(
+        "frame {} of the run has {} nodes where {} with finite positions are "
+        "needed",
+        at, frame.nodes.cols(), nodes);
   if (by_K(style.colour_by) && frame.cell_K.size() != cells)
-    return fail(Fault::bad_input, fmt::format("frame {} of the run has K of {} cells instead of {}",
-                                              at, frame.cell_K.size(), cells));
+    return invalid("frame {} of the run has K of {} cells instead of {}", at, frame.cell_K.size(),
+                   cells);
   return {};
 }
 
@@ -182,9 +182,9 @@ Result<void> check_coloured(const RunSummary& survey, const MovieStyle& style) {
 
 Result<void> check_showable(const record::Trajectory& run, const MovieStyle& style) {
   TRY_DO(check_size(style));
-  if (run.frames.empty()) return fail(Fault::bad_input, "the run has no frame to show");
+  if (run.frames.empty()) return invalid("the run has no frame to show");
   if (run.layout.original_boundary.cols() != run.layout.actuated_boundary.cols())
-    return fail(Fault::bad_input, "the run's two boundaries differ in their number of points");
+    return invalid("the run's two boundaries differ in their number of points");
   for (std::size_t k = 0; k < run.frames.size(); ++k)
     TRY_DO(check_frame(run.layout, run.frames[k], int(k), style));
   const ColourBy by = style.colour_by;

@@ -26,62 +26,6 @@ void add_flank(Series& curve, double from_x, double from, double to_x, double to
   }
 }
 
-}  // namespace
-
-Plot barrier_plot(const record::StateTables& states) {
-  Plot plot;
-  plot.title = fmt::format(
-      "Barriers between states: all energies on {} edges a segment\n(those of states.csv are "
-      "extrapolated from finer meshes)",
-      states.search.judged_edges);
-  plot.y = {.label = "energy (mJ)"};
-  plot.legend = LegendPlace::none;
-  std::map<int, double> energy;  // of the states, on the mesh of the passes
-  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
-  for (const record::Barrier& one : states.barriers)
-    if (one.to != 0 && one.from != one.to) {
-      energy[one.from] = one.energy_mJ - one.barrier_mJ;
-      energy[one.to] = one.energy_mJ - one.back_mJ;
-      lowest = std::min({lowest, energy[one.from], energy[one.to]});
-      highest = std::max(highest, one.energy_mJ);
-    }
-  const double off = 0.015 * (highest - lowest);  // of words from what they name
-  std::map<int, double> place;
-  for (const auto& [state, level] : energy) place.emplace(state, double(place.size() + 1));
-  std::size_t colour = 0;
-  for (const record::Barrier& one : states.barriers) {
-    if (one.to == 0 || one.from == one.to) continue;
-    Series curve = line_series("", series_colour(colour++));
-    const double a = place.at(one.from), b = place.at(one.to), middle = 0.5 * (a + b);
-    const double from = a + std::copysign(half_bar, b - a), to = b - std::copysign(half_bar, b - a);
-    add_flank(curve, from, energy.at(one.from), middle, one.energy_mJ);
-    add_flank(curve, middle, one.energy_mJ, to, energy.at(one.to));
-    plot.series.push_back(std::move(curve));
-    plot.notes.push_back({middle, one.energy_mJ + off,
-                          scientific(std::max(one.barrier_mJ, one.back_mJ), 3), AlignX::centre,
-                          AlignY::bottom, plot.series.back().colour});
-  }
-  for (const auto& [state, level] : energy) {
-    Series bar = line_series("", ink, 2.2);
-    for (const double half : {-half_bar, half_bar}) bar.add(place.at(state) + half, level);
-    plot.series.push_back(std::move(bar));
-    plot.notes.push_back({place.at(state), level - off,
-                          fmt::format("*{}*", states.rows.at(std::size_t(state) - 1).name()),
-                          AlignX::centre, AlignY::top});
-  }
-  plot.x = {.label = "states in the order of their number, class.number", .ticks = 0};
-  plot.x.low = 0.5;
-  plot.x.high = double(place.size()) + 0.5;
-  if (lowest <= highest) {
-    // room for what stands above passes and below states
-    plot.y.low = lowest - 0.16 * (highest - lowest);
-    plot.y.high = highest + 0.12 * (highest - lowest);
-  }
-  return plot;
-}
-
-namespace {
-
 using record::PhaseDiagram;
 using record::PhasePoint;
 using record::StateClass;
@@ -238,19 +182,6 @@ class PhasePlot {
   Plot plot_;
 };
 
-}  // namespace
-
-Plot phase_plot(const PhaseDiagram& diagram, const std::string& title) {
-  return PhasePlot(diagram, title).take();
-}
-
-Result<void> write_phase_chart(const std::filesystem::path& stem, const PhaseDiagram& diagram,
-                               const std::string& title, const Print& print) {
-  return write_plot(stem, phase_plot(diagram, title), print, high);
-}
-
-namespace {
-
 constexpr Colour ring_ink{0.55f, 0.55f, 0.58f, 1};
 constexpr double room = 1.12;  // of the boundary, that mirrors stand out beyond it
 
@@ -267,6 +198,67 @@ double radius_of(const record::Layout& layout) {
 }
 
 }  // namespace
+
+Plot barrier_plot(const record::StateTables& states) {
+  Plot plot;
+  plot.title = fmt::format(
+      "Barriers between states: all energies on {} edges a segment\n(those of states.csv are "
+      "extrapolated from finer meshes)",
+      states.search.judged_edges);
+  plot.y = {.label = "energy (mJ)"};
+  plot.legend = LegendPlace::none;
+  std::map<int, double> energy;  // of the states, on the mesh of the passes
+  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+  for (const record::Barrier& one : states.barriers)
+    if (one.to != 0 && one.from != one.to) {
+      energy[one.from] = one.energy_mJ - one.barrier_mJ;
+      energy[one.to] = one.energy_mJ - one.back_mJ;
+      lowest = std::min({lowest, energy[one.from], energy[one.to]});
+      highest = std::max(highest, one.energy_mJ);
+    }
+  const double off = 0.015 * (highest - lowest);  // of words from what they name
+  std::map<int, double> place;
+  for (const auto& [state, level] : energy) place.emplace(state, double(place.size() + 1));
+  std::size_t colour = 0;
+  for (const record::Barrier& one : states.barriers) {
+    if (one.to == 0 || one.from == one.to) continue;
+    Series curve = line_series("", series_colour(colour++));
+    const double a = place.at(one.from), b = place.at(one.to), middle = 0.5 * (a + b);
+    const double from = a + std::copysign(half_bar, b - a), to = b - std::copysign(half_bar, b - a);
+    add_flank(curve, from, energy.at(one.from), middle, one.energy_mJ);
+    add_flank(curve, middle, one.energy_mJ, to, energy.at(one.to));
+    plot.series.push_back(std::move(curve));
+    plot.notes.push_back({middle, one.energy_mJ + off,
+                          scientific(std::max(one.barrier_mJ, one.back_mJ), 3), AlignX::centre,
+                          AlignY::bottom, plot.series.back().colour});
+  }
+  for (const auto& [state, level] : energy) {
+    Series bar = line_series("", ink, 2.2);
+    for (const double half : {-half_bar, half_bar}) bar.add(place.at(state) + half, level);
+    plot.series.push_back(std::move(bar));
+    plot.notes.push_back({place.at(state), level - off,
+                          fmt::format("*{}*", states.rows.at(std::size_t(state) - 1).name()),
+                          AlignX::centre, AlignY::top});
+  }
+  plot.x = {.label = "states in the order of their number, class.number", .ticks = 0};
+  plot.x.low = 0.5;
+  plot.x.high = double(place.size()) + 0.5;
+  if (lowest <= highest) {
+    // room for what stands above passes and below states
+    plot.y.low = lowest - 0.16 * (highest - lowest);
+    plot.y.high = highest + 0.12 * (highest - lowest);
+  }
+  return plot;
+}
+
+Plot phase_plot(const PhaseDiagram& diagram, const std::string& title) {
+  return PhasePlot(diagram, title).take();
+}
+
+Result<void> write_phase_chart(const std::filesystem::path& stem, const PhaseDiagram& diagram,
+                               const std::string& title, const Print& print) {
+  return write_plot(stem, phase_plot(diagram, title), print, high);
+}
 
 std::vector<int> inflections_of(const record::StateRow& row) {
   std::vector<int> counts;

@@ -112,8 +112,7 @@ Result<std::vector<std::filesystem::path>> write_stills(
   std::vector<std::filesystem::path> files;
   for (int k = 0; k < stage.frames(); ++k) {
     if (watch.cancelled())
-      return fail(Fault::cancelled,
-                  fmt::format("stopped after {} of {} stills", k, stage.frames()));
+      return fail(Fault::cancelled, "stopped after {} of {} stills", k, stage.frames());
     const record::Frame& frame = run.frames[std::size_t(k)];
     const std::string caption =
         captions.empty() ? frame_state_caption(frame) : captions[std::size_t(k)];

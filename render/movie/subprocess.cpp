@@ -76,7 +76,7 @@ void emit_lines(std::string_view said, std::string& line, const LineListener& he
 
 Result<Subprocess> Subprocess::start(const std::vector<std::string>& arguments, Input input) {
   const auto failed = [&](int code) {
-    return fail(Fault::io, fmt::format("cannot start {}: {}", arguments[0], reason(code)));
+    return fail(Fault::io, "cannot start {}: {}", arguments[0], reason(code));
   };
   DescriptorPair words, fed;
   int ends[2];
@@ -164,12 +164,12 @@ Result<void> Subprocess::end(const Watch& watch, const LineListener& heard) {
     if (ready > 0 && !listen(heard)) break;
   }
   const int status = wait();
-  if (watch.cancelled()) return fail(Fault::cancelled, fmt::format("stopped {}", name_));
+  if (watch.cancelled()) return fail(Fault::cancelled, "stopped {}", name_);
   if (WIFSIGNALED(status))
-    return fail(Fault::io, fmt::format("{} was killed by signal {}", name_, WTERMSIG(status)));
+    return fail(Fault::io, "{} was killed by signal {}", name_, WTERMSIG(status));
   if (WEXITSTATUS(status) != 0)
-    return fail(Fault::io, fmt::format("{} failed with exit code {}: {}", name_,
-                                       WEXITSTATUS(status), last_line(stderr_text_)));
+    return fail(Fault::io, "{} failed with exit code {}: {}", name_, WEXITSTATUS(status),
+                last_line(stderr_text_));
   return {};
 }
 

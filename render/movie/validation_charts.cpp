@@ -118,6 +118,45 @@ void add_auto(const std::vector<AccuracyRow>& rows, Plot& plot) {
   plot.notes.insert(plot.notes.end(), notes.begin(), notes.end());
 }
 
+using record::TrustClass;
+using record::TrustRow;
+
+constexpr double size = 7.5, bar_height = 13, row_height = 18, label_room = 88, title_room = 22,
+                 legend_line = 14, width = 504, margin = 6;
+
+std::string label(TrustClass found) { return spaced(std::string(word_of(found))); }
+
+int count(const std::vector<TrustRow>& rows, const std::string& kind, TrustClass found) {
+  return int(std::ranges::count_if(
+      rows, [&](const TrustRow& row) { return row.kind == kind && row.found == found; }));
+}
+
+/// Colour of a class; what would be silently wrong is warm and dark.
+Colour trust_colour(TrustClass found) {
+  // from right to too_slow
+  constexpr std::array<long, words_of<TrustClass>().size()> colours{
+      0x8CC7A1, 0xE08A8D, 0xC0262B, 0xF0E2A8, 0xE9BE7C, 0xC9CDD3,
+      0xA3A9B3, 0xB0417C, 0x9A6FB0, 0xE3E5E8, 0xA9C4E6};
+  return hex_colour(colours[std::size_t(found)]);
+}
+
+void draw_bar(Canvas& canvas, const std::vector<TrustRow>& rows, const std::string& kind,
+              const Box& box) {
+  int all = 0;
+  for (const auto& one : words_of<TrustClass>()) all += count(rows, kind, one.value);
+  double x = box.x;
+  for (const auto& one : words_of<TrustClass>()) {
+    const int n = count(rows, kind, one.value);
+    if (n == 0) continue;
+    const double part = box.width * n / all;
+    canvas.rectangle({x, box.y, part, box.height}, trust_colour(one.value), {white, 0.8});
+    if (part > 10)
+      canvas.text(fmt::format("{}", n), {x + part / 2, box.y + box.height / 2},
+                  {.size = size - 1, .align_x = AlignX::centre, .align_y = AlignY::middle});
+    x += part;
+  }
+}
+
 }  // namespace
 
 constexpr const char* error_label = "largest joint error over *R*_{o} or *ρ*";
@@ -165,48 +204,6 @@ std::string failures_of(const std::vector<AccuracyRow>& rows) {
                         row.edges_per_segment, word_of(row.outcome));
   }
   return text;
-}
-
-namespace {
-
-using record::TrustClass;
-using record::TrustRow;
-
-constexpr double size = 7.5, bar_height = 13, row_height = 18, label_room = 88, title_room = 22,
-                 legend_line = 14, width = 504, margin = 6;
-
-std::string label(TrustClass found) { return spaced(std::string(word_of(found))); }
-
-int count(const std::vector<TrustRow>& rows, const std::string& kind, TrustClass found) {
-  return int(std::ranges::count_if(
-      rows, [&](const TrustRow& row) { return row.kind == kind && row.found == found; }));
-}
-
-void draw_bar(Canvas& canvas, const std::vector<TrustRow>& rows, const std::string& kind,
-              const Box& box) {
-  int all = 0;
-  for (const auto& one : words_of<TrustClass>()) all += count(rows, kind, one.value);
-  double x = box.x;
-  for (const auto& one : words_of<TrustClass>()) {
-    const int n = count(rows, kind, one.value);
-    if (n == 0) continue;
-    const double part = box.width * n / all;
-    canvas.rectangle({x, box.y, part, box.height}, trust_colour(one.value), {white, 0.8});
-    if (part > 10)
-      canvas.text(fmt::format("{}", n), {x + part / 2, box.y + box.height / 2},
-                  {.size = size - 1, .align_x = AlignX::centre, .align_y = AlignY::middle});
-    x += part;
-  }
-}
-
-}  // namespace
-
-Colour trust_colour(TrustClass found) {
-  // from right to too_slow
-  constexpr std::array<long, words_of<TrustClass>().size()> colours{
-      0x8CC7A1, 0xE08A8D, 0xC0262B, 0xF0E2A8, 0xE9BE7C, 0xC9CDD3,
-      0xA3A9B3, 0xB0417C, 0x9A6FB0, 0xE3E5E8, 0xA9C4E6};
-  return hex_colour(colours[std::size_t(found)]);
 }
 
 Result<void> write_trust_bars(const std::filesystem::path& stem,

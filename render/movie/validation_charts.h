@@ -54,9 +54,6 @@ Result<void> write_outcome_maps(const std::filesystem::path& stem,
 
 // A study of trust as pictures: what came of the scenes of each kind, and errors beside estimates.
 
-/// Colour of a class; what would be silently wrong is warm and dark.
-Colour trust_colour(record::TrustClass found);
-
 /// One bar a kind, parted by class with the number of scenes in each part, and a legend below.
 Result<void> write_trust_bars(const std::filesystem::path& stem,
                               const std::vector<record::TrustRow>& rows);

@@ -1,6 +1,7 @@
 // Every method on either side of the edge of its stability, as the maps draw it, on a shell small
 // enough for every build.
 #include "engine/study/benchmark_methods.h"
+#include "engine/study/method_studies.h"
 #include "tests/presets.h"
 
 using namespace gridshell;

@@ -1,7 +1,7 @@
 // What the mouse does to the camera and to what is picked.
 #include <catch2/catch.hpp>
 
-#include "app/window/picker.h"
+#include "app/window/actions.h"
 #include "app/window/shell_drawing.h"
 #include "render/gl/renderer.h"
 

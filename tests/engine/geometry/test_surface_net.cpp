@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "engine/geometry/chebyshev_net.h"
-#include "engine/geometry/expression.h"
+#include "engine/geometry/surface.h"
 #include "engine/geometry/surface_net.h"
 #include "tests/engine/geometry/net_checks.h"
 #include "tests/results.h"

@@ -1,5 +1,4 @@
 // Names of groups, modes of rods, and how many kinds there are.
-#include "engine/record/shape_symmetry.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,6 +1,6 @@
 // What is built by hand has the model's own lengths and places.
 #include "engine/footprint/mesh.h"
-#include "engine/simulate/fabrication_plan.h"
+#include "engine/simulate/run.h"
 #include "tests/engine/simulate/run.h"
 
 using namespace gridshell;

@@ -1,12 +1,11 @@
 // A formed shell made stiff and loaded: bolts and braces free of stress, loads and reactions in
 // balance, all of it taken away again.
-#include "engine/simulate/stiffening.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "engine/footprint/faces.h"
+#include "engine/scene/load_case.h"
 #include "tests/engine/simulate/run.h"
 
 using namespace gridshell;

@@ -1,10 +1,10 @@
 // Speed against accuracy on a small shell: what the chart promises.
-#include "engine/study/accuracy_study.h"
+#include "engine/study/method_studies.h"
 
 #include <set>
 
+#include "engine/core/team.h"
 #include "engine/study/benchmark_methods.h"
-#include "engine/study/time_limit.h"
 #include "tests/presets.h"
 
 using namespace gridshell;

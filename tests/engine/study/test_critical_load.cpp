@@ -1,5 +1,6 @@
 // Critical loads with known answers, by arc length and linearised.
 #include "engine/elastic/along_rods.h"
+#include "engine/study/formed_shell.h"
 #include "tests/engine/solve/rod_cases.h"
 #include "tests/presets.h"
 

@@ -1,5 +1,5 @@
 // Frequencies of formed shells: their errors, masses, what is not stable and what is refused.
-#include "engine/study/modes.h"
+#include "engine/study/formed_shell.h"
 
 #include <cmath>
 

@@ -2,7 +2,7 @@
 #include <string>
 
 #include "render/gl/context.h"
-#include "render/gl/shader_program.h"
+#include "render/gl/opengl.h"
 #include "tests/results.h"
 
 using namespace gridshell;

@@ -2,7 +2,6 @@
 #include <vector>
 
 #include "render/gl/image.h"
-#include "render/movie/frame_writer.h"
 #include "render/movie/movie_writer.h"
 #include "tests/render/movie/fake_renderer.h"
 #include "tests/render/synthetic.h"

@@ -1,5 +1,5 @@
 // Sheets of A4: what comes on which, tables that go on, words that lie apart.
-#include "render/canvas/sheets.h"
+#include "render/movie/fabrication_sheets.h"
 
 #include "tests/render/canvas/ink.h"
 

@@ -1,5 +1,5 @@
 // Faces that rods and boundary enclose: none is lost, none counts twice.
-#include "engine/footprint/faces.h"
+#include "engine/scene/load_case.h"
 
 #include <cmath>
 #include <numeric>
