@@ -102,13 +102,6 @@ PinnedMotion pinned_motion(const RodMesh& mesh, const BoundaryMotion& motion) {
   return pinned;
 }
 
-namespace {
-
-constexpr int most_corrections = 8;
-constexpr double near_end = 32;  // smallest steps, of points that are brought to the tolerance
-
-}  // namespace
-
 void PathFollower::take_velocity(PathPoint& point) {
   motion_.velocity(system_, point.t, point.state, point.velocity);
 }
@@ -232,7 +225,7 @@ PathReport PathFollower::advance(double t, const Watch& watch) {
     }
     ++report.halvings;
     step_ = h / 2;
-    if (step_ >= (exact ? 1 : near_end) * options_.smallest_step) continue;
+    if (step_ >= options_.smallest_step) continue;
     // with one correction a point next to the path's end may lie beyond it
     if (!exact) {
       exact = true;
@@ -246,6 +239,12 @@ PathReport PathFollower::advance(double t, const Watch& watch) {
   }
   return report;
 }
+
+namespace {
+
+constexpr int most_corrections = 8;
+
+}  // namespace
 
 PathFollower::PathFollower(Linearisation& system, const PinnedMotion& motion,
                            const PathOptions& options)
