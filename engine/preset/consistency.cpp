@@ -14,7 +14,9 @@ namespace gridshell::preset {
 namespace {
 
 std::span<const RodValue> own_of(const NetworkData& network, int number) {
-  const auto [first, last] = std::ranges::equal_range(network.own, number, {}, &RodValue::rod);
+  // not by equal_range, which clang 14 does not take
+  const auto first = std::ranges::lower_bound(network.own, number, {}, &RodValue::rod),
+             last = std::ranges::upper_bound(network.own, number, {}, &RodValue::rod);
   return {first, last};
 }
 

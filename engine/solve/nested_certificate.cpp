@@ -14,7 +14,7 @@ namespace gridshell {
 namespace {
 
 // what the estimates are multiplied by, so that they stay on the safe side of the true error.
-// Measured on random circles (tests/engine/simulate/test_estimate.cpp): the plain estimate is
+// Measured on random circles (tests/engine/simulate/test_actuation.cpp): the plain estimate is
 // within 10 % of the error, the extrapolated one falls short by up to 1.7 where the meshes are not
 // quite in the asymptotic range
 constexpr double margin = 1.25, margin_extrapolated = 2.2;
