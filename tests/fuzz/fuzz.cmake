@@ -17,7 +17,7 @@ if(GRIDSHELL_FUZZ)
   find_package(ZLIB REQUIRED)
   pkg_check_modules(DEFLATE REQUIRED IMPORTED_TARGET libdeflate)
   file(GLOB reading CONFIGURE_DEPENDS engine/core/*.cpp engine/formats/*.cpp engine/preset/*.cpp
-    engine/record/*.cpp engine/footprint/network.cpp engine/footprint/footprint.cpp engine/geometry/surface.cpp engine/geometry/triangle_*.cpp)
+    engine/record/*.cpp engine/footprint/network.cpp engine/footprint/footprint.cpp engine/footprint/network_grid.cpp engine/geometry/surface.cpp engine/geometry/triangle_*.cpp)
   add_library(fuzzed STATIC ${reading} render/gl/image.cpp ${fuzz_sources})
   target_include_directories(fuzzed PUBLIC ${PROJECT_SOURCE_DIR})
   target_include_directories(fuzzed SYSTEM PUBLIC ${EIGEN_INCLUDE_DIR})
