@@ -223,7 +223,6 @@ void each_contact(const Model& model, const Eigen::Matrix3Xd& x, bool with_deriv
 }
 
 double clear_share(const Model& model, const Eigen::Matrix3Xd& x, const Eigen::Matrix3Xd& dx) {
-  constexpr int most_steps = 200;
   const ContactPairs& contact = model.contact;
   if (!contact.any()) return 1;
   double clear = 1;
@@ -243,9 +242,12 @@ double clear_share(const Model& model, const Eigen::Matrix3Xd& x, const Eigen::M
       return std::sqrt(nearest_points(at(e.from), at(e.to), at(f.from), at(f.to)).distance2);
     };
     double share = 0, d = distance(0);
-    const double least = 0.5 * std::min(d, thinness * contact.radii(one, other));
+    // many steps that each halve the distance would lead through in the end
+    const double radii = thinness * contact.radii(one, other), end = 0.25 * radii;
+    const double least = d > end ? std::max(0.5 * std::min(d, radii), end) : 0.999 * d;
+    const int most_steps = d > end ? 200 : 5000;  // those of the nearest are small
     for (int k = 0; k < most_steps && share < clear; ++k) {
-      if (d - least <= 1e-3 * least) break;
+      if (share > 0 && d - least <= 1e-3 * least) break;
       share += (d - least) / fastest;
       d = distance(std::min(share, 1.0));
     }

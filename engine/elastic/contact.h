@@ -99,8 +99,9 @@ void each_contact(const Model& model, const Eigen::Matrix3Xd& x, bool with_deriv
                   const std::function<void(const EdgeContact&)>& visit);
 
 /// The share of a straight move that goes ahead before the axes of two edges are within half their
-/// radii (half their distance, where they are within already), 1 where none are: edges never go
-/// through one another. By conservative steps, none longer than the distance left [Li 2021, ACCD].
+/// radii (where they are within already half their distance, at most to a quarter of their radii),
+/// 1 where none are: edges never go through one another, in however many moves. By conservative
+/// steps, none longer than the distance left [Li 2021, ACCD].
 double clear_share(const Model& model, const Eigen::Matrix3Xd& x, const Eigen::Matrix3Xd& dx);
 
 }  // namespace gridshell

@@ -133,6 +133,8 @@ Result<State> rest_after_bifurcation(NestedShell& shell, const Scene& scene, con
   const Eigen::Matrix3Xd mode = softest_mode(system, departure.start, watch);
   State state =
       extrapolated_state(system, motion, last, there, 0.2 * scene.footprint.spacing, watch);
+  if (system.clear_share(last.state, state.x - last.state.x) < 1)
+    return fail(Fault::no_equilibrium, "rods would go through one another");
   if (kind == Event::Kind::stability_lost)
     state = unstable_branch(system, state, 0.1 * scene.footprint.spacing, watch).value_or(state);
   if (!scene.snap.wanted) return leave_saddle(system, state, mode, departure, watch);

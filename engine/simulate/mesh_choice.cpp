@@ -128,6 +128,7 @@ SharedPath on_coarsest(const Scene& scene, std::span<const SharedPath> tried, Sh
                        const Watch& watch) {
   const double allowed = scene.tolerance * scene.length_scale_mm;
   for (const SharedPath& path : tried) {
+    confirmed->simulation.shell().free_memory();
     const Effort before = path->simulation.effort();
     const bool followed = follow_guide(*path, *confirmed, allowed, watch);
     const Effort spent = path->simulation.effort() - before;
@@ -210,10 +211,11 @@ void take_over(EquilibriumPath& path, const EquilibriumPath& from) {
   path.seconds_setup += from.seconds_setup;
 }
 
-Result<SharedPath> led_by_twice_the_edges(const Scene& scene, const EquilibriumPath& path,
+Result<SharedPath> led_by_twice_the_edges(const Scene& scene, EquilibriumPath& path,
                                           const Follow& follow, const Watch& watch) {
   const auto plan = with_finer_leader(path.asked);
   if (!plan || !fits_memory(scene, *plan)) return SharedPath();
+  path.simulation.shell().free_memory();
   auto fine = follow(*plan, watch);
   if (watch.cancelled()) return stopped();
   if (!fine) return SharedPath();
@@ -244,6 +246,7 @@ Result<SharedPath> confirm_on_finer_meshes(const Scene& scene, SharedPath path,
     if (asked == 0 && one_motion && !scene.leader_asked && !path->has_events() &&
         has_states(*plan, *path, scene, watch))
       return path;
+    path->simulation.shell().free_memory();
     auto fine = follow(*plan, watch);
     if (watch.cancelled()) return stopped();
     if (!fine) {

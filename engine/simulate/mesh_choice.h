@@ -19,7 +19,7 @@ void take_over(EquilibriumPath& path, const EquilibriumPath& from);
 
 /// The way of a path followed with leading meshes of twice the edges; nothing: there is none, or
 /// they do not fit the memory. Errors: cancelled.
-Result<SharedPath> led_by_twice_the_edges(const Scene& scene, const EquilibriumPath& path,
+Result<SharedPath> led_by_twice_the_edges(const Scene& scene, EquilibriumPath& path,
                                           const Follow& follow, const Watch& watch);
 
 /// Whether a finer path takes the place of one that ended where its leader alone loses the branch:

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <utility>
-#include <vector>
 
 namespace gridshell {
 namespace {
@@ -25,7 +25,7 @@ class ShiftGrowth {
   double most_, factor_ = 2;
 };
 
-/// The way down: what changes between its steps.
+/// The slow way down: what changes between its steps.
 class GradientFlow {
  public:
   GradientFlow(Linearisation& system, State& state, double step_mm, const Watch& watch)
@@ -81,30 +81,23 @@ class GradientFlow {
   Eigen::Matrix3Xd dx_;
 };
 
-/// As gradient_flow(); `seen`, after every step, ends it where it says so.
-template <class Seen>
-Outcome flow_down(Linearisation& system, State& state, double step_mm, const Seen& seen,
-                  const Watch& watch) {
-  GradientFlow drift(system, state, step_mm, watch);
+}  // namespace
+
+Outcome gradient_flow(Linearisation& system, State& state, double step_mm, const Watch& watch,
+                      const std::function<bool(const State&)>& seen) {
+  GradientFlow flow(system, state, step_mm, watch);
   for (int step = 0; step < most_steps; ++step) {
     if (watch.cancelled()) return Outcome::cancelled;
-    const std::optional<bool> arrived = drift.step();
+    const std::optional<bool> arrived = flow.step();
     if (!arrived) return watch.cancelled() ? Outcome::cancelled : Outcome::not_finite;
-    if (*arrived || seen(state)) return Outcome::reached;
+    if (*arrived || (seen && seen(state))) return Outcome::reached;
   }
   return Outcome::not_converged;
 }
 
-}  // namespace
-
-Outcome gradient_flow(Linearisation& system, State& state, double step_mm, const Watch& watch) {
-  return flow_down(
-      system, state, step_mm, [](const State&) { return false; }, watch);
-}
-
 namespace {
 
-/// The way down: what changes between its steps.
+/// Newton's way down: what changes between its steps.
 class Descent {
  public:
   Descent(Linearisation& system, State& state, const MinimiseOptions& options, const Watch& watch)
@@ -126,8 +119,8 @@ class Descent {
   /// Whether the last matrix was the mixed form as it is.
   bool exact() const { return weakening_ == 0 && shift_ == 0; }
 
-  /// As far along dx as the energy falls.
-  void go(const Eigen::Matrix3Xd& dx) {
+  /// As far along dx as the energy falls; false: rods that touch leave no way at all.
+  bool go(const Eigen::Matrix3Xd& dx) {
     const double begin = energy_at(state_), slope = product(system_.assembly().gradient, dx);
     const Eigen::VectorXd force = system_.assembly().force, change = system_.force_change(dx);
     const auto falls = [&](double step) {
@@ -137,6 +130,7 @@ class Descent {
       return system_.clear_share(state_, trial_.x - state_.x) == 1;
     };
     double step = system_.clear_share(state_, dx);
+    if (!(step > 1e-10)) return false;
     for (; step > 1e-10; step /= 2) {
       trial_ = state_;
       move_to(system_.model(), state_.x + step * dx, trial_);
@@ -146,6 +140,7 @@ class Descent {
     }
     std::swap(state_, trial_);
     state_.force = force + step * change;
+    return true;
   }
 
  private:
@@ -254,8 +249,9 @@ NewtonReport minimise(Linearisation& system, State& state, const MinimiseOptions
     if (report.iterations == 1) report.first_move_mm = move;
     report.last_move_mm = move;
     if (move > options.tolerance_mm) {
-      descent.go(dx);
-      continue;
+      if (descent.go(dx)) continue;
+      report.outcome = Outcome::lost;
+      return report;
     }
     system.apply(dx, state);
     if (!system.assembly().overlap &&
@@ -266,34 +262,15 @@ NewtonReport minimise(Linearisation& system, State& state, const MinimiseOptions
   return report;
 }
 
-Eigen::Matrix3Xd generic_direction(Eigen::Index columns) {
-  Eigen::Matrix3Xd any(3, columns);
-  for (Eigen::Index k = 0; k < columns; ++k) {
-    const double column = double(k);
-    any.col(k) << std::sin(0.7 + 1.3 * column), std::sin(1.9 + 2.1 * column),
-        1 + std::sin(2.3 + 0.9 * column);
-  }
-  return any / std::sqrt(6.0);
-}
-
-Eigen::Matrix3Xd softest_mode(Linearisation& system, const Eigen::Matrix3Xd& start,
-                              const Watch& watch) {
-  double shift = 1e-6;
-  while (!system.shifted(shift).positive_definite() && shift < 1e6 && !watch.cancelled())
-    shift *= 4;
-  Eigen::Matrix3Xd mode = start.size() > 0 ? start : generic_direction(system.model().columns());
-  for (int k = 0; k < 20; ++k) {
-    system.solve(mode);
-    mode /= mode.norm();
-  }
-  return mode;
-}
-
 Result<State> minimise_from(Linearisation& system, State state, const Watch& watch,
                             const BranchSwitch& departure) {
   const NewtonReport down = minimise(system, state, {}, watch);
   if (down.outcome == Outcome::reached) return state;
   if (watch.cancelled()) return fail(Fault::cancelled, "stopped while looking for an equilibrium");
+  if (down.outcome == Outcome::lost)
+    return fail(Fault::no_equilibrium,
+                "rods that press on one another, or cross without a joint, leave no way to an "
+                "equilibrium");
   // nothing moves any more, but a mode without stiffness keeps it from being a minimum
   if (down.outcome == Outcome::not_converged && down.last_move_mm < 1e-3) {
     system.at(state, false);
@@ -315,121 +292,6 @@ Result<State> find_equilibrium(Linearisation& system, const State& state, double
   if (report.outcome == Outcome::reached && system.at(found, false).positive_definite())
     return found;
   return minimise_from(system, state, watch);
-}
-
-namespace {
-
-State pushed(const Model& model, const State& state, const Eigen::Matrix3Xd& by) {
-  State moved = state;
-  move_to(model, state.x + clear_share(model, state.x, by) * by, moved);
-  return moved;
-}
-
-/// Whether one way down is enough, as the other is known from it.
-bool sides_equivalent(Linearisation& system, const State& unstable, const Eigen::Matrix3Xd& push,
-                      const BranchSwitch& departure) {
-  if (departure.side != BranchSide::lower) return false;
-  const Model& model = system.model();
-  const State along = pushed(model, unstable, push), against = pushed(model, unstable, -push);
-  const auto slope_at = [&](const State& state) {
-    system.gradient_at(state);
-    return system.assembly().gradient;
-  };
-  const Eigen::Matrix3Xd slope = slope_at(along);
-  // beside a state that is no equilibrium, as beyond a fold, the slope leads to one side from both
-  const double here = product(slope, push), there = product(slope_at(against), push);
-  if (std::abs(here - there) < 0.1 * std::abs(here + there)) return true;
-
-  // a symmetry that takes one side to the other and, of all that the energy is made of (rods,
-  // loads, field), the slope there with it
-  constexpr double same_mm = 1e-5, same_slope = 1e-6;
-  const int nodes = model.nodes;
-  if (model.has_spins() || !system.holds().empty()) return false;
-  return std::ranges::any_of(departure.symmetries, [&](const MeshSymmetry& symmetry) {
-    if (distance_under(symmetry, against.x, along.x.leftCols(nodes)) > same_mm) return false;
-    State image = against;
-    image.x.leftCols(nodes) = symmetry.of(along.x.leftCols(nodes));
-    MeshSymmetry turn = symmetry;
-    turn.centre.setZero();
-    return distance_under(turn, slope_at(image), slope.leftCols(nodes)) <=
-           same_slope * max_column_norm(slope);
-  });
-}
-
-/// A way down to a rest, and whether another one comes upon it.
-class WayDown {
- public:
-  explicit WayDown(double step_mm) : near_mm_(0.02 * step_mm) {}
-
-  void begin(const Eigen::Matrix3Xd& x) {
-    passed_.clear();
-    pass(x);
-  }
-  void pass(const Eigen::Matrix3Xd& x) { passed_.push_back(x.cast<float>()); }
-  /// Of a state further down another way than those that were asked for before.
-  bool leads_by(const Eigen::Matrix3Xd& x) {
-    for (; at_ + 1 < passed_.size(); ++at_) {
-      const Eigen::Matrix3Xf along = passed_[at_ + 1] - passed_[at_];
-      const Eigen::Matrix3Xf from = x.cast<float>() - passed_[at_];
-      const float share = from.cwiseProduct(along).sum() / along.squaredNorm();
-      if (share > 1) continue;
-      return share >= 0 && (from - share * along).colwise().norm().maxCoeff() < near_mm_;
-    }
-    return false;
-  }
-
- private:
-  const double near_mm_;
-  std::vector<Eigen::Matrix3Xf> passed_;
-  std::size_t at_ = 0;
-};
-
-/// To rest from beside an unstable state, pushed `along`, whose largest column is 1; nothing where
-/// there is none. `way` is the way down, or, where it is `known`, another one, on which this one
-/// ends if it comes upon it.
-std::optional<State> rest_beside(Linearisation& system, const State& unstable,
-                                 const Eigen::Matrix3Xd& along, const BranchSwitch& departure,
-                                 WayDown& way, bool known, const Watch& watch) {
-  constexpr double most_mm = 1;
-  for (double push = departure.amplitude_mm; push <= most_mm && !watch.cancelled(); push *= 4) {
-    State state = pushed(system.model(), unstable, push * along);
-    bool met = false;
-    if (!known) way.begin(state.x);
-    const auto seen = [&](const State& now) {
-      if (!known) way.pass(now.x);
-      return met = known && way.leads_by(now.x);
-    };
-    if (flow_down(system, state, departure.step_mm, seen, watch) != Outcome::reached) continue;
-    if (met) break;
-    if (minimise(system, state, {}, watch).outcome == Outcome::reached) return state;
-  }
-  return std::nullopt;
-}
-
-}  // namespace
-
-Result<State> leave_saddle(Linearisation& system, const State& unstable,
-                           const Eigen::Matrix3Xd& mode, const BranchSwitch& departure,
-                           const Watch& watch) {
-  const Eigen::Matrix3Xd unit = mode / max_column_norm(mode);
-  const bool one = sides_equivalent(system, unstable, departure.amplitude_mm * unit, departure);
-  Result<State> best = fail(Fault::no_equilibrium, "no rest found beside an unstable state");
-  double lowest = 0;
-  WayDown down(departure.step_mm);
-  for (double way : {1.0, -1.0}) {
-    if (departure.side == (way > 0 ? BranchSide::against : BranchSide::along)) continue;
-    auto state =
-        rest_beside(system, unstable, way * unit, departure, down, best.has_value(), watch);
-    if (watch.cancelled()) return fail(Fault::cancelled, "stopped while looking for a rest");
-    if (!state) continue;
-    if (one) return *state;
-    // of two mirror images it is always the same one, whatever round-off says
-    const double found = system.energy_at(*state);
-    if (best && found > lowest - 1e-6 * std::abs(lowest)) continue;
-    lowest = found;
-    best = std::move(*state);
-  }
-  return best;
 }
 
 }  // namespace gridshell

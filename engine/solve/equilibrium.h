@@ -1,6 +1,8 @@
-// Down the energy slowly, along its steepest slope. Where that ends does not depend on the mesh;
-// where long steps end does.
+// How a shell comes to rest: down the energy, slowly or by Newton's steps, and off a state that is
+// not stable.
 #pragma once
+
+#include <functional>
 
 #include "engine/core/choices.h"
 #include "engine/core/result.h"
@@ -11,13 +13,18 @@
 
 namespace gridshell {
 
+// Down the energy slowly, along its steepest slope. Where that ends does not depend on the mesh;
+// where long steps end does.
+
 /// As a shell without mass in a viscous fluid would go: dx/ds = -dE/dx, by linearly implicit Euler
 /// steps of the mixed form, (K + m I) dx = -dE/dx, m about as small as keeps every node's move
 /// within `step_mm` (a move of up to twice that is cut to it). Ends where Newton's own correction,
 /// m = 0, is a tenth of that or less and K is positive definite: near a minimum, which minimise()
-/// then finds. `state.force` is where the mixed form starts. Outcomes: reached, not_converged
+/// then finds. `seen` gets the state after every step but the last and ends the flow, as reached,
+/// where it says so. `state.force` is where the mixed form starts. Outcomes: reached, not_converged
 /// (steps ran out), not_finite, cancelled.
-Outcome gradient_flow(Linearisation& system, State& state, double step_mm, const Watch& watch);
+Outcome gradient_flow(Linearisation& system, State& state, double step_mm, const Watch& watch,
+                      const std::function<bool(const State&)>& seen = {});
 
 // Down the energy to a minimum from far away, where full Newton steps lead elsewhere.
 
@@ -36,9 +43,9 @@ struct MinimiseOptions {
 /// axial forces are weakened until it is (they alone make nearly straight rods lose stability), and
 /// only where that is not enough it is shifted. A step that would stretch the rods is followed by
 /// one that gives them their lengths back, so that soft modes may go far. At a saddle where nothing
-/// moves the outcome is not_converged; settle() leads on. `state.force` is where
+/// moves the outcome is not_converged; leave_saddle() leads on. `state.force` is where
 /// the mixed form starts (zero serves), and is set at the end. Outcomes: reached, not_converged,
-/// not_finite, cancelled.
+/// not_finite, lost (rods that touch leave no way down), cancelled.
 NewtonReport minimise(Linearisation& system, State& state, const MinimiseOptions& options,
                       const Watch& watch);
 
@@ -50,7 +57,7 @@ struct BranchSwitch {
                            ///< empty: any
   BranchSide side = BranchSide::lower;
   double amplitude_mm = 0.5;  ///< of the push: far above round-off, far below a cell
-  double step_mm = 0.5;       ///< of the way down (drift.h)
+  double step_mm = 0.5;       ///< of the way down, gradient_flow()
   /// Of the mesh. Where one of them takes one side to the other, one way down is enough.
   std::vector<MeshSymmetry> symmetries = {};
 };

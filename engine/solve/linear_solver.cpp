@@ -1,6 +1,71 @@
 #include "engine/solve/linear_solver.h"
 
+#include <optional>
+
 namespace gridshell {
+namespace {
+
+/// Blocks beyond a model's pattern, between edges that come near each other or nodes of a face: a
+/// pattern with theirs and a solver planned for it.
+class BeyondSolver final : public LinearSolver {
+ public:
+  explicit BeyondSolver(const Model& model) : model_(model), apart_(make_pattern_solver(model)) {}
+
+  Inertia factor(const BlockHessian& hessian, double shift) override {
+    if (!apart_) apart_ = make_pattern_solver(model_);
+    current_ = apart_.get();
+    if (!hessian.beyond.empty()) {
+      if (!together_ || !known(hessian)) plan(hessian);
+      current_ = together_.get();
+    }
+    current_->most_negative = most_negative;
+    current_->team = team;
+    return current_->factor(hessian.beyond.empty() ? hessian : merged(hessian), shift);
+  }
+  void solve(Eigen::Matrix3Xd& right_hand_side) const override { current_->solve(right_hand_side); }
+  void free_memory() override {
+    current_ = nullptr;
+    apart_.reset();
+    together_.reset();
+    wider_.reset();
+    merged_ = {};
+  }
+  long long blocks() const override { return current_->blocks(); }
+
+ private:
+  bool known(const BlockHessian& hessian) const {
+    return std::ranges::all_of(hessian.beyond, [&](const BlockHessian::Beyond& one) {
+      return wider_->pattern.find(one.row, one.column) >= 0;
+    });
+  }
+  void plan(const BlockHessian& hessian) {
+    wider_ = model_;
+    for (const BlockHessian::Beyond& one : hessian.beyond)
+      wider_->pattern.slot(one.row, one.column);
+    together_ = make_pattern_solver(*wider_);
+  }
+  /// The same with all blocks in the pattern.
+  const BlockHessian& merged(const BlockHessian& hessian) {
+    merged_.diagonal = hessian.diagonal;
+    merged_.pair = hessian.pair;
+    merged_.pair.resize(wider_->pattern.pairs().size());
+    for (const BlockHessian::Beyond& one : hessian.beyond)
+      merged_.add(wider_->pattern.find(one.row, one.column), one.block);
+    return merged_;
+  }
+
+  const Model& model_;
+  std::optional<Model> wider_;  // its pattern has the blocks beyond
+  std::unique_ptr<LinearSolver> apart_, together_;
+  LinearSolver* current_ = apart_.get();
+  BlockHessian merged_;
+};
+
+}  // namespace
+
+std::unique_ptr<LinearSolver> make_linear_solver(const Model& model) {
+  return std::make_unique<BeyondSolver>(model);
+}
 
 std::unique_ptr<LinearSolver> make_pattern_solver(const Model& model) {
   constexpr int measured = 1000000;  // degrees of freedom

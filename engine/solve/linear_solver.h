@@ -56,6 +56,9 @@ class LinearSolver {
   /// zero. Needs a factor() that was usable.
   virtual void solve(Eigen::Matrix3Xd& right_hand_side) const = 0;
 
+  /// Gives back the memory that it has of its own; the next factor() takes it again.
+  virtual void free_memory() {}
+
   /// 3x3 blocks in the factor.
   virtual long long blocks() const = 0;
 };
@@ -78,7 +81,8 @@ std::unique_ptr<LinearSolver> make_block_cholesky(const Model& model);
 struct CholmodOptions {
   bool supernodal =
       true;  ///< L L^T; where that fails, simplicial L D L^T counts the negative pivots
-  bool own_ordering = true;  ///< ordering.h; false: CHOLMOD's own nested dissection (METIS)
+  bool own_ordering =
+      true;  ///< nested_dissection(); false: CHOLMOD's own nested dissection (METIS)
 };
 
 /// CHOLMOD [Chen, Davis, Hager, Rajamanickam 2008].

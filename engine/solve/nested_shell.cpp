@@ -53,6 +53,10 @@ Effort NestedShell::effort() const {
   return sum;
 }
 
+void NestedShell::free_memory() {
+  for (const auto& level : levels_) level->system->free_memory();
+}
+
 Energies NestedShell::energies(int level) const {
   const Level& one = *levels_[std::size_t(level)];
   return energies_of(one.model, state_.levels[std::size_t(level)], one.system->outside);

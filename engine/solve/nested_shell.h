@@ -154,6 +154,8 @@ class NestedShell {
   /// Largest prescribed move, mm, while the motion comes all the way.
   double reach_mm() const { return max_column_norm(levels_[0]->motion.change); }
   Effort effort() const;
+  /// Gives back the memory of its matrices, most of what it has; whoever goes on takes it again.
+  void free_memory();
   /// Whether the path may go on through states with negative pivots (they stay in the report).
   void allow_unstable(bool allow) { options_.allow_unstable = allow; }
 

@@ -41,6 +41,12 @@ Inertia Linearisation::at(const State& state, bool mixed, double shift, double E
   return shifted(shift);
 }
 
+void Linearisation::free_memory() {
+  solver_->free_memory();
+  assembly_ = {};
+  border_ = {};
+}
+
 Inertia Linearisation::shifted(double shift) {
   ++effort_.factorizations;
   Inertia inertia = solver_->factor(assembly_.hessian, shift + neutral_shift_);

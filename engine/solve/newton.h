@@ -87,6 +87,9 @@ class Linearisation {
   /// Who helps with large matrices from here on.
   void work_with(Team* team) { solver_->team = team; }
 
+  /// Gives back the memory of the matrices while nobody asks for them; what comes next is an at().
+  void free_memory();
+
   /// What acts from outside from the next assembly on.
   ExternalLoads outside;
 

@@ -130,7 +130,8 @@ TEST_CASE("contact: a move goes as far as edges keep clear of one another, and n
     Matrix3Xd x(3, 4), dx(3, 4);
     for (double& value : x.reshaped()) value = any(random);
     for (double& value : dx.reshaped()) value = any(random);
-    const double least = 0.5 * std::min(distance(x), 2 * radius);
+    const double d = distance(x), end = 0.5 * radius;
+    const double least = d > end ? std::max(0.5 * std::min(d, 2 * radius), end) : 0.999 * d;
     const double share = clear_share(model, x, dx);
     REQUIRE(share <= 1);
     double nearest = 1e9;
@@ -142,6 +143,11 @@ TEST_CASE("contact: a move goes as far as edges keep clear of one another, and n
     CHECK(distance(x + share * dx) < 1.01 * least);
   }
   CHECK(stopped > 100);
+  // nor do many moves lead through
+  Matrix3Xd crossed = edges({-2, 0, 0}, {2, 0, 0}, {0, -2, 1}, {0, 2, 1});
+  const Matrix3Xd down = edges({0, 0, 0}, {0, 0, 0}, {0, 0, -2}, {0, 0, -2});
+  for (int move = 0; move < 200; ++move) crossed += clear_share(model, crossed, down) * down;
+  CHECK(crossed(2, 2) > 0.4 * radius);
   // along one another they may slide as far as they like
   const Matrix3Xd x = edges({-2, 0, 0}, {2, 0, 0}, {0, -9, 0.26}, {0, 9, 0.26});
   CHECK(clear_share(model, x, edges({0, 5, 0}, {0, 5, 0}, {0, 0, 0}, {0, 0, 0})) == 1);

@@ -8,7 +8,7 @@ namespace {
 
 const RodMesh mesh = crossing_rods(6);
 
-/// Where settle() comes to from a state, and the factorisations that it takes.
+/// Where leave_saddle() comes to from a state, and the factorisations that it takes.
 struct Rest {
   State state;
   int factorizations = 0;
