@@ -4,6 +4,7 @@
 # tests/style.sh clang [--all]   clang takes every source file without a warning, what changed or all
 # tests/style.sh warnings        every source file is built with warnings as errors, none silenced
 # tests/style.sh equal           no 50 tokens stand twice in engine/ but where equal_tokens.txt says why
+# tests/style.sh names           every source file that a comment or a .md file names is there
 #
 # BUILD (default build) is a folder that cmake has configured. `tidy` and `clang` take the files that differ
 # from the merge base with the main branch (BASE, default main), where that is this commit itself
@@ -154,11 +155,33 @@ equal() {
         exit !(pairs > 0 && known == pairs && !old) }' tests/equal_tokens.txt -
 }
 
+names() {
+  list=$(mktemp)
+  find engine render app tests -name '*.h' -o -name '*.cpp' >"$list"
+  # of a line what stands behind its last //, or of a .md file all of it
+  grep -rnE '[a-z0-9_]+\.(h|cpp)\>' --include='*.h' --include='*.cpp' --include='*.md' \
+    engine render app shaders presets tests ./*.md |
+    awk 'NR == FNR { sub(/.*\//, ""); there[$0] = 1; next }
+      { split($0, part, ":"); text = $0; sub(/^[^:]*:[0-9]*:/, "", text)
+        gsub(/<[^>]*>/, "", text)  # of others
+        if (part[1] !~ /\.md$/ && !sub(/^.*\/\/ ?/, "", text)) next
+        while (match(text, /[a-z0-9_]+\.(h|cpp)/)) {
+          name = substr(text, RSTART, RLENGTH); text = substr(text, RSTART + RLENGTH); ++all
+          if (!(name in there)) { print part[1] ":" part[2] ": no " name; ++lost }
+        } }
+      END { printf "%d names of source files, %d of files that are not there\n", all, lost
+            exit !(all > 0 && !lost) }' "$list" -
+  status=$?
+  rm "$list"
+  return $status
+}
+
 case ${1:-} in
   format) format "${2:-}" ;;
   tidy) tidy "${2:-}" ;;
   clang) clang "${2:-}" ;;
   warnings) warnings ;;
   equal) equal ;;
-  *) sed -n '2,6p' "$0"; exit 2 ;;
+  names) names ;;
+  *) sed -n '2,7p' "$0"; exit 2 ;;
 esac

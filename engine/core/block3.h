@@ -22,7 +22,7 @@
 
 namespace gridshell {
 
-/// x, y, z and a zero: one register with AVX. The alignment is stated, as clones (clones.h) would
+/// x, y, z and a zero: one register with AVX. The alignment is stated, as such functions would
 /// each assume their own. Handed on by reference, as they would not agree on registers either.
 typedef double Column __attribute__((vector_size(32), aligned(32)));
 

@@ -139,7 +139,7 @@ class Writer : public File {
 /// returns empty values. An object is read only where it is what was asked for: its type and rank,
 /// stored in the file itself (no external storage, no filters, no links but hard ones), and no
 /// larger than the file that holds it. The structures of the format itself are the library's to
-/// parse, and damaged ones can crash it: read in a process of its own first (trial.h).
+/// parse, and damaged ones can crash it: read in a process of its own first (read_in_subprocess()).
 class Reader : public File {
  public:
   /// A copy of these bytes.

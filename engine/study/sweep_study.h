@@ -15,9 +15,9 @@ namespace gridshell::study {
 /// The figures of a preset's run: those of summary.json but for its seconds, for its last state;
 /// how far that is (progress, below 1 where the path ended early), the depth and the force of a
 /// push (depth_mm, force_N), and what its rods are: stiffness_ratio, EA d^2/EI; of a circle the
-/// paper's longest and shortest leg (legs.h). Of a preset that looks for states: the figures of the
-/// state of lowest energy, then those of the search (search_figures.h). `[movie]` and `[figure]`
-/// change none of them. Errors: bad_input, no_equilibrium, cancelled.
+/// paper's longest and shortest leg (phase_diagram.h). Of a preset that looks for states: the
+/// figures of the state of lowest energy, then those of the search (phase_diagram.h). `[movie]` and
+/// `[figure]` change none of them. Errors: bad_input, no_equilibrium, cancelled.
 Result<record::Figures> figures_of(const preset::Preset& preset, Watch& watch);
 
 /// The names of all figures that figures_of() can give for runs, or for searches for states.

@@ -116,7 +116,7 @@ class RunSummary {
   double largest_move_mm = 0;  ///< of a joint, from where it was in the first frame
   std::vector<Mark> marks;     ///< in order
 
-  /// Of what is coloured (coloured.h), but for displacements, whose depth the end alone knows.
+  /// Of what is coloured (colour_by.cpp), but for displacements, whose depth the end alone knows.
   const ColouredRange& spread(ColourBy by) const { return spreads_[std::size_t(by)]; }
 
   /// Points that bound all frames, what is drawn of both boundaries, and the arrows of loads: some

@@ -94,7 +94,7 @@ TEST_CASE("drawings in space: rods that pass over one another are not joined") {
   CHECK(read.rods == std::vector<std::vector<int>>{{0, 8, 1}, {2, 8, 3}, {4, 8, 5}, {6, 7}});
 }
 
-// more of JSON: scene/test_network_damage.cpp
+// more of JSON: tests/engine/scene/test_network_damage.cpp
 TEST_CASE("files of networks that are broken say where") {
   const auto changed = [](const char* here, const char* to, const char* reason) {
     wrong(with(here, to), "n.json", reason);

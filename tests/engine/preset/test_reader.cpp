@@ -42,7 +42,7 @@ radii_mm = [126, 110.5]
   CHECK(preset.figure.radii_mm == std::vector<double>{126.0, 110.5});
 }
 
-// more of them, through the whole program: app/test_bad_input.cpp
+// more of them, through the whole program: tests/app/test_bad_input.cpp
 TEST_CASE("a fault names its place, key, value, what is wrong and what is right") {
   using Row = std::pair<std::string, std::string>;
   const auto [text, sentence] = GENERATE(values<Row>({
