@@ -154,6 +154,7 @@ Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follo
         return located(std::move(fine), watch);
       }
       finer_path = std::move(*fine);
+      if (finer_path) finer_path->simulation.shell().free_memory();
       // else the leader's way is followed to its end, and confirmed
       plan.finest_decides = false;
       spent = (*path)->simulation.effort();
@@ -277,6 +278,11 @@ std::string how_it_ended(const PathSegment& segment, const At& at) {
     return fmt::format("{} a rod is strained {} [limits] {} allows",
                        begun ? "where the path begins, " + at(report.t, {}) + "," : place(),
                        begun ? "further than" : "as far as", report.events.back().what);
+  if (report.end == Outcome::locked && !report.events.back().what.empty())
+    return fmt::format(
+        "{} the shell snaps, to a rest in which the rods are longer or shorter than [limits] "
+        "max_strain allows",
+        place());
   const double strain = report.certificate.largest_strain;
   if (report.end == Outcome::locked && strain < 0)
     return fmt::format(
@@ -439,12 +445,17 @@ std::string PathSampler::events(const PathSample& sample, double past) const {
   double before = segment.back ? segment.end() : segment.from;
   if (last_ && last_->segment == sample.segment) before = last_reached_t_;
   std::string text;
-  for (const Event& event : segment.report.events) {
-    if (!event.to) continue;
-    const double seen = segment.back ? event.t : *event.to;
-    if (way * (seen - before) <= 0 || way * (past - seen) < 0) continue;
-    const char* what = event.leap ? "snap " : "branches ";
-    text += (text.empty() ? what : " and ") + caption_.at(event.t, {});
+  // snaps come first: what a frame's text begins with is what it is marked by
+  for (const bool leap : {true, false}) {
+    std::string places;
+    for (const Event& event : segment.report.events) {
+      if (!event.to || event.leap != leap) continue;
+      const double seen = segment.back ? event.t : *event.to;
+      if (way * (seen - before) <= 0 || way * (past - seen) < 0) continue;
+      places += (places.empty() ? "" : " and ") + caption_.at(event.t, {});
+    }
+    if (!places.empty())
+      text += (text.empty() ? "" : "; ") + std::string(leap ? "snap " : "branches ") + places;
   }
   for (const ContactEvent& event : path_.contacts) {
     if (event.segment != sample.segment) continue;

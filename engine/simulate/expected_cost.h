@@ -30,8 +30,9 @@ int dof_of(const Scene& scene, int edges_per_segment);
 /// only chosen on the way, take up to some four times that, snaps followed in time more.
 double expected_seconds(const Scene& scene, const preset::Preset& preset);
 
-/// "strain up to 0.0026 of u+3, as the net is curved: 0.9 of the rods' strength": what net or
-/// boundary ask of the rods that bend most. Empty: nothing, or of rods curved at rest.
+/// "strain about 0.0026, 0.9 of the rods' strength, of u+3, as the net is curved": what net or
+/// boundary ask of the rods that bend most; of rods between their ends no more than the least.
+/// Empty: nothing, or of rods curved at rest.
 std::string expected_bending(const Scene& scene);
 
 /// Gigabytes of the whole program, its meshes taking `meshes_GB`.

@@ -37,9 +37,10 @@ int best_joint(const Footprint& footprint, const Eigen::VectorXd& score) {
 
 At at_depth(double depth_mm) {
   return [depth_mm](double t, std::optional<double> error) {
-    auto text = fmt::format("at depth {:.3f} mm", t * depth_mm);
-    if (error) text += fmt::format(" ± {:.1g} mm", *error * depth_mm);
-    return text;
+    if (!error) return fmt::format("at depth {:.3f} mm", t * depth_mm);
+    const double off = *error * depth_mm;
+    const int digits = off > 0 ? int(std::clamp(-std::floor(std::log10(off)), 0.0, 3.0)) : 3;
+    return fmt::format("at depth {:.{}f} mm ± {:.1g} mm", t * depth_mm, digits, off);
   };
 }
 

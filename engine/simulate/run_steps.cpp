@@ -224,7 +224,7 @@ std::string message_of(std::size_t k, const preset::Step& step, const PathSegmen
 /// Which step the limit belongs to, in front of its reason.
 void name_step_of_limit(Work& work, const std::vector<preset::Step>& steps) {
   set_limit(work, [](double t, std::optional<double>) {
-    return fmt::format("at path parameter {:.4f}", t);
+    return fmt::format("at path parameter {:.4g}", t);
   });
   if (work.limit == record::Limit::none) return;
   // the one that ended the path, else the first that leapt

@@ -36,7 +36,8 @@ struct Event {
   std::optional<double> error;  ///< of t, where two meshes say it
   std::optional<double> to;     ///< where the next rest stands, if one was found
   bool leap = true;             ///< whether that lies apart; else on a branch that leaves there
-  /// of a contact: of which parts, and where in space; of rods strained too far: by which limit
+  /// of a contact: of which parts, and where in space; of rods strained too far: by which limit;
+  /// of rods at their length: not empty where they are so in the rest beyond a snap
   std::string what = {};
   /// What one mesh, of so many edges a segment, says of t, and to how much it was looked for there.
   struct Place {

@@ -279,7 +279,8 @@ Outcome Simulation::Walk::branch_ended(Outcome how, double next, const NestedSta
     // the rest beyond would need longer or thinner rods, or room where others are
     shell_.back_to(end_of_branch);
     events_.pop_back();
-    return end_at(std::move(*limit));
+    if (limit->kind == Event::Kind::locked) limit->what = "beyond a snap";
+    return end_before(std::move(*limit), t, end_of_branch);
   }
   softening_.forget();
   keep();

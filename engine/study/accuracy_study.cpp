@@ -247,10 +247,15 @@ Result<std::vector<AccuracyRow>> sizes_study(const preset::Preset& preset,
       const Method method = auto_method(tolerance);
       const Measured measured = measure(**made, method, tolerance, options, watch);
       if (watch.cancelled()) return stopped();
-      AccuracyRow& row = rows.emplace_back(row_of<AccuracyRow>(method, measured));
+      AccuracyRow row = row_of<AccuracyRow>(method, measured);
       row.method = fmt::format("{} rods", sizes[k]);
+      // two tolerances may come to the same meshes
+      if (!rows.empty() && rows.back().method == row.method &&
+          rows.back().edges_per_segment == row.edges_per_segment)
+        continue;
       if (measured.result.claim == RunOutcome::right)
         row.error = (*made)->error_of(measured.result.x);
+      rows.push_back(std::move(row));
     }
     watch.report(double(k + 1) / double(sizes.size()));
   }

@@ -66,19 +66,29 @@ double top_of(const std::vector<TracedPoint>& points, std::size_t k) {
   return t[0] + a * (at - s[0]) + bend * (at - s[0]) * (at - s[1]);
 }
 
-/// The first place on a path where stability is lost.
-void take_critical(CriticalLoad& found) {
-  const auto& points = found.points;
+/// The first place on a path where stability is lost, and the mode that goes soft there.
+void take_critical(CriticalLoad& found, Linearisation& system, const PinnedMotion& motion,
+                   const Watch& watch) {
+  auto& points = found.points;
   for (std::size_t k = 1; k < points.size(); ++k) {
     const bool turns = points[k].event == BranchEvent::turn;
-    const bool branches =
-        points[k].event == BranchEvent::bifurcation || points[k].event == BranchEvent::joins;
+    const bool branches = points[k].event == BranchEvent::bifurcation;
     const bool slipped = points[k].negative_pivots > points[0].negative_pivots;
     if (!turns && !branches && !slipped) continue;
     found.event = turns ? BranchEvent::turn : BranchEvent::bifurcation;
-    found.factor = turns      ? top_of(points, k)
-                   : branches ? points[k].at.t
-                              : 0.5 * (points[k - 1].at.t + points[k].at.t);
+    if (turns) {
+      found.factor = top_of(points, k);
+      found.mode = points[k].at.velocity.x;
+    } else {
+      // a step may have gone past it
+      TracedPoint crossing = branches ? points[k] : points[k - 1];
+      if (!branches) crossing.beyond = points[k].negative_pivots;
+      found.factor = branches ? crossing.at.t : 0.5 * (crossing.at.t + points[k].at.t);
+      const auto modes = crossing_modes(system, motion, crossing, watch);
+      if (!modes.empty()) found.mode = modes.front();
+      points[k].event = BranchEvent::bifurcation;
+    }
+    if (found.mode.size() > 0) found.mode /= max_column_norm(found.mode);
     return;
   }
   found.event = points.back().event;
@@ -157,26 +167,26 @@ CriticalLoad critical_load(Linearisation& system, const PinnedMotion& motion, co
   how.max_strain = options.max_strain;
   how.most_steps = options.most_steps;
   how.after_turn = options.after_turn;
-  ArcFollower path(system, motion, how.arc);
-  if (path.start(0, begin, 1, watch) != Outcome::reached) {
-    found.event = BranchEvent::lost;
-    return found;
-  }
   // beyond a bifurcation the shell goes another way
   const auto leaves = [](const TracedPoint&) { return true; };
-  found.points = trace(system, motion, std::move(path), how, leaves, watch);
-  take_critical(found);
-  const auto at = std::ranges::find_if(found.points, [&](const TracedPoint& point) {
-    return point.event == BranchEvent::turn || point.event == BranchEvent::joins;
-  });
-  if (at == found.points.end()) return found;
-  if (at->event == BranchEvent::turn) found.mode = at->at.velocity.x;
-  if (at->event == BranchEvent::joins) {
-    const auto modes = crossing_modes(system, motion, *at, watch);
-    if (!modes.empty()) found.mode = modes.front();
-    at->event = BranchEvent::bifurcation;
+  const auto nothing = [](const TracedPoint& point) { return point.event == BranchEvent::none; };
+  constexpr int most_ways = 3;
+  for (int way = 1;; ++way) {
+    ArcFollower path(system, motion, how.arc);
+    if (path.start(0, begin, 1, watch) != Outcome::reached) {
+      found.event = BranchEvent::lost;
+      return found;
+    }
+    found.points = trace(system, motion, std::move(path), how, leaves, watch);
+    const bool ran_out =
+        int(found.points.size()) >= how.most_steps && std::ranges::all_of(found.points, nothing);
+    if (!ran_out || way == most_ways || watch.cancelled()) break;
+    // the linear estimate is far too low: once more in longer steps
+    for (double* length : {&how.arc.step_mm, &how.arc.largest_mm}) *length *= 8;
   }
-  if (found.mode.size() > 0) found.mode /= max_column_norm(found.mode);
+  for (TracedPoint& point : found.points)
+    if (point.event == BranchEvent::joins) point.event = BranchEvent::bifurcation;
+  take_critical(found, system, motion, watch);
   return found;
 }
 
