@@ -52,13 +52,13 @@ constexpr const char* goes_on = "the same command with --resume goes on from the
 Left left_in(const fs::path& folder) {
   Left left;
   std::error_code error;
-  left.frames = record::frames_in_journal(folder);
+  left.frames = record::frames_in_journals(folder);
   for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end;
        at.increment(error)) {
     left.pictures += at->path().extension() == ".png";
     left.runs += at->path().filename() == "summary.json";
     left.path |= at->path().filename().string().starts_with("segment_");
-    if (at->is_directory(error)) left.frames += record::frames_in_journal(at->path());
+    if (at->is_directory(error)) left.frames += record::frames_in_journals(at->path());
   }
   return left;
 }
@@ -133,6 +133,8 @@ ProgressState standing(const std::vector<Phase>& phases, std::size_t current, do
     if (k > current) after += phases[k].expected_seconds;
   }
   const double own = phases[current].expected_seconds;
+  // frames of motions in time come beside those that were counted
+  fraction = std::min(fraction, 1.0);
   ProgressState at{all > 0 ? (before + own * fraction) / all : 0,
                    std::numeric_limits<double>::quiet_NaN()};
   // too early to tell how fast this phase is

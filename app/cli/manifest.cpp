@@ -111,7 +111,8 @@ bool may_be_of(const LegacyRunFiles& run, const std::string& name) {
       record::states_name, record::search_name, record::transitions_name, record::barriers_name,
       record::journal_name, record::coarser_journal_name);
   if ((name.find(' ') == name.npos && data.find(" " + name + " ") != data.npos) ||
-      is_temporary(fs::path(name).filename().string()) || is_frame(name))
+      is_temporary(fs::path(name).filename().string()) || is_frame(name) ||
+      name.starts_with("segments/"))
     return true;
   const auto kind = fs::path(name).extension();
   if (name.find('/') != std::string::npos || (kind != ".png" && kind != ".svg")) return false;

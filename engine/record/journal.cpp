@@ -280,15 +280,16 @@ std::optional<std::string> preset_of_journal(const fs::path& folder) {
   return std::nullopt;
 }
 
-std::size_t frames_in_journal(const fs::path& folder) {
-  std::size_t most = 0;
-  for (const char* name : {journal_name, coarser_journal_name})
-    if (const auto journal = open_journal(folder / name)) {
-      std::set<int> indices;
-      journal->each_frame([&](int index, const Record&) { indices.insert(index); });
-      most = std::max(most, indices.size());
-    }
-  return most;
+std::size_t frames_in_journal(const fs::path& file) {
+  std::set<int> indices;
+  if (const auto journal = open_journal(file))
+    journal->each_frame([&](int index, const Record&) { indices.insert(index); });
+  return indices.size();
+}
+
+std::size_t frames_in_journals(const fs::path& folder) {
+  return std::max(frames_in_journal(folder / journal_name),
+                  frames_in_journal(folder / coarser_journal_name));
 }
 
 }  // namespace gridshell::record

@@ -75,8 +75,10 @@ Result<Journal> read_journal_of(const std::filesystem::path& folder);
 /// head.
 std::optional<std::string> preset_of_journal(const std::filesystem::path& folder);
 
-/// How many frames a folder's journals hold; 0 without any. Nothing of them is trusted.
-std::size_t frames_in_journal(const std::filesystem::path& folder);
+/// How many frames a journal holds; 0 where it is none. Nothing of it is trusted.
+std::size_t frames_in_journal(const std::filesystem::path& file);
+/// Of the longer of a folder's journals.
+std::size_t frames_in_journals(const std::filesystem::path& folder);
 
 // What the records of a journal hold: the head, then frames, packed.
 

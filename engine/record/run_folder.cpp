@@ -105,8 +105,11 @@ Result<void> FolderSink::begin(Layout layout) {
 }
 
 Result<void> FolderSink::keep_coarser() {
-  if (!journal_ || journal_->frames() <= coarser_frames_) return {};
-  coarser_frames_ = journal_->frames();
+  if (!journal_) coarser_frames_ = frames_in_journal(folder_ / coarser_journal_name);
+  const std::size_t frames =
+      journal_ ? journal_->frames() : frames_in_journal(folder_ / journal_name);
+  if (frames <= coarser_frames_) return {};
+  coarser_frames_ = frames;
   journal_.reset();
   std::error_code error;
   fs::rename(folder_ / journal_name, folder_ / coarser_journal_name, error);
@@ -131,13 +134,9 @@ Result<Trajectory> FolderSink::finish(const Summary& summary) {
   TRY(journal, read_journal(folder_ / journal_name, false));
   journal->trajectory.origin = {name_.title, name_.preset, std::string("gridshell ") + version()};
   TRY_DO(write_run(folder_, journal->trajectory, summary));
-  remove_journals(folder_);
-  return std::move(journal->trajectory);
-}
-
-void remove_journals(const fs::path& folder) {
   std::error_code ignored;
-  for (const char* name : {journal_name, coarser_journal_name}) fs::remove(folder / name, ignored);
+  for (const char* name : {journal_name, coarser_journal_name}) fs::remove(folder_ / name, ignored);
+  return std::move(journal->trajectory);
 }
 
 }  // namespace gridshell::record

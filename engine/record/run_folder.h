@@ -39,7 +39,8 @@ Result<void> write_run(const std::filesystem::path& folder, const Trajectory& tr
 // A run's folder as it fills: every frame is on the disk as soon as it is found.
 
 /// Writes frames to the journal of `folder`, of which none stays in memory. When a finer mesh
-/// begins, the coarser journal is kept beside the new one until that holds as many frames.
+/// begins, the coarser journal is kept beside the new one until that holds as many frames; so is
+/// what the same run left there when it was cut short.
 class FolderSink final : public Sink {
  public:
   FolderSink(std::filesystem::path folder, RunIdentity name)
@@ -60,8 +61,5 @@ class FolderSink final : public Sink {
   std::optional<JournalWriter> journal_;
   std::size_t coarser_frames_ = 0;
 };
-
-/// Removes the journals of a folder whose run is written.
-void remove_journals(const std::filesystem::path& folder);
 
 }  // namespace gridshell::record

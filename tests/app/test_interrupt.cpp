@@ -133,7 +133,7 @@ fs::path killed_with(std::size_t least, const std::vector<std::string>& run,
   while (running.hold()) {
     const auto journals = files_under(folder, gridshell::record::journal_name);
     if (!journals.empty()) partial = journals.front().parent_path();
-    if (!journals.empty() && gridshell::record::frames_in_journal(partial) >= least) break;
+    if (!journals.empty() && gridshell::record::frames_in_journals(partial) >= least) break;
     running.signal(SIGCONT);
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
@@ -155,7 +155,7 @@ TEST_CASE("of a run that is killed near its end nearly all frames are drawn", "[
   }
   REQUIRE_FALSE(partial.empty());
   CHECK_FALSE(fs::exists(folder / "run"));
-  const auto frames = gridshell::record::frames_in_journal(partial);
+  const auto frames = gridshell::record::frames_in_journals(partial);
   CHECK(frames >= 54);
   CHECK(frames < 60);
   const auto drawn = good({"render", partial.filename(), "-o", "drawn", "--size", "64x48",

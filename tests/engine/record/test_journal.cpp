@@ -151,6 +151,22 @@ TEST_CASE("frames of a coarser mesh are kept until the finer one has as many") {
   CHECK_FALSE(fs::exists(folder / coarser_journal_name));
 }
 
+TEST_CASE("a run that goes on keeps the frames it had until it has as many") {
+  const TemporaryFolder folder;
+  const Layout layout = sample_trajectory().layout;
+  const auto begun_again = [&](int frames) {
+    FolderSink sink(folder, {"s1_actuation", Kind::run});
+    REQUIRE(sink.begin(layout));
+    for (int k = 0; k < frames; ++k) REQUIRE(sink.take(frame_of(k)));
+    return frames_in_journals(folder);
+  };
+  CHECK(begun_again(5) == 5);
+  CHECK(begun_again(0) == 5);
+  CHECK(begun_again(2) == 5);
+  CHECK(begun_again(6) == 6);
+  CHECK_FALSE(fs::exists(folder / coarser_journal_name));
+}
+
 TEST_CASE("a disk that fills up leaves a journal of whole frames") {
   const TemporaryFolder folder;
   const std::size_t some = journal_of(3).size();
@@ -165,7 +181,7 @@ TEST_CASE("a disk that fills up leaves a journal of whole frames") {
   CHECK(fs::file_size(folder / journal_name) == some);
   // and goes on once there is room
   REQUIRE(sink.take(frame_of(3)));
-  CHECK(frames_in_journal(folder) == 4);
+  CHECK(frames_in_journals(folder) == 4);
 }
 
 TEST_CASE("a list of frames on the disk keeps few of them and reads like one in memory") {
