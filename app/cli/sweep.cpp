@@ -132,13 +132,12 @@ Result<void> draw(const SweepJob& work, const record::SweepTable& table) {
 
 /// The power laws of the figures that are drawn, as laws.csv, a picture and lines of text.
 Result<std::string> tell_laws(const SweepJob& work, const record::SweepTable& table) {
-  constexpr double holds = 0.1;  // within which a law is one
   std::string text;
   std::vector<record::LawRow> rows;
   for (const auto& name : plots_of(work.grid)) {
     std::vector<record::PowerLaw> laws;
     for (const auto& run : runs_of(work.presets))
-      if (auto law = record::power_law(table, run.name, name); law && law->scatter < holds)
+      if (auto law = record::power_law(table, run.name, name); law && law->holds())
         laws.push_back(std::move(*law));
     for (const record::PowerLaw& law : laws) {
       text += fmt::format("\n  {}{}{}", law.keys.front().case_name,
@@ -147,7 +146,7 @@ Result<std::string> tell_laws(const SweepJob& work, const record::SweepTable& ta
         text += fmt::format(", {}^({:.3f} ± {:.3f})", key.key, key.exponent, key.error);
         rows.push_back(key);
       }
-      text += fmt::format(" within {:.1g}", law.scatter);
+      text += fmt::format(" within {:.1g} %", 100 * law.scatter);
     }
     if (laws.empty()) continue;
     TRY_DO(render::write_plot(work.folder / (name + "_law"),

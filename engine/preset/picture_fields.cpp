@@ -102,7 +102,9 @@ void add_style(FieldList<Style> list) {
   list.add<&S::colour_map>(
       "auto: sequential where the values have one sign, else diverging about zero");
   list.add<&S::range>(
-      "of the colours, in the unit of the colour bar; empty: of all cases together");
+      "of the colours, in the unit of the colour bar; empty: where nine tenths of the values of "
+      "all "
+      "cases lie, of stress and utilisation all of them");
   rises(list, &S::range);
   list.add<&S::cells>("whether cells are shown");
   list.add<&S::joints>("whether joints are shown");

@@ -147,6 +147,7 @@ std::string case_name_fault(const std::string& name) {
                             ".svg", ".toml", ".webm"})
     if (kind == taken) return fmt::format("must not end in {}, as the files of a run do", kind);
   if (name == "frames") return "is the folder of a movie's pictures, must be another name";
+  if (name == "segments") return "is the folder of an unfinished run's path, must be another name";
   return "";
 }
 

@@ -44,6 +44,10 @@ toml::table override_value(const std::string& value) {
 // else the list of what there is
 std::string hint(const std::string& table, const std::string& name) {
   const auto here = keys_of(table);
+  for (const Table& whole : tables())
+    if (table.empty() && !name.empty() && whole.name == name)
+      return fmt::format("; it is a table, whose keys are set one by one, as {}.{}{}", name,
+                         whole.list ? "1." : "", keys_of(name).front());
   if (const auto near = did_you_mean(name, here); !near.empty()) return near;
   for (const auto& field : field_table())
     if (field.key == name)
@@ -81,11 +85,17 @@ std::vector<Entry> entries_of(const toml::table& over) {
   return entries;
 }
 
+/// Whether a name is a list of tables, or lies in one: "step", "step.2.depth_mm".
+bool in_list(const std::string& name) {
+  return std::ranges::any_of(tables(), [&](const Table& table) {
+    return table.list && (name == table.name || name.starts_with(table.name + "."));
+  });
+}
+
 /// Whether a table of keys can change a number of a run: those of pictures and of the sweep itself
 /// cannot.
 bool affects_results(const std::string& table) {
-  static const std::vector<std::string> others{"",       "sweep", "movie", "style",
-                                               "figure", "page",  "block", "join"};
+  static const std::vector<std::string> others{"", "sweep", "movie", "style", "figure", "page"};
   return std::ranges::find(others, table) == others.end();
 }
 
@@ -97,10 +107,13 @@ class AxisReader {
   std::optional<SweepAxis> read() {
     const std::size_t before = faults_.size();
     field_ = find_field(entry_.table, entry_.key);
-    if (!field_) {
+    if (in_list(entry_.name())) {
+      refuse(*entry_.value, "stands in each item of a list, must be a key that stands once");
+    } else if (!field_) {
       std::vector<std::string> names;
       for (const auto& field : field_table())
-        if (affects_results(field.table)) names.push_back(field.table + "." + field.key);
+        if (affects_results(field.table) && !in_list(field.table))
+          names.push_back(field.table + "." + field.key);
       refuse(*entry_.value, "unknown key" + did_you_mean(entry_.name(), names));
     } else if (!affects_results(entry_.table)) {
       refuse(*entry_.value, "changes no number of a run, must be a key of another table");

@@ -44,9 +44,17 @@ std::string with_error(double value, double error, const char* unit) {
   const std::string end = *unit ? fmt::format(" {}", unit) : "";
   if (!std::isfinite(error)) return fmt::format("{:.4g}{} (error not known)", value, end);
   if (error == 0) return fmt::format("{:.9g}{}", value, end);
-  const int digits = int(std::clamp(-std::floor(std::log10(error)), 0.0, 12.0));
-  return fmt::format("{:.{}f} ± {}{}", value, digits,
-                     error < 10 ? fmt::format("{:.1g}", error) : fmt::format("{:.0f}", error), end);
+  const double place = std::floor(std::log10(error));
+  if (place < 1) {
+    const int digits = int(std::clamp(-place, 0.0, 12.0));
+    return fmt::format("{:.{}f} ± {}{}", value, digits,
+                       error < 1 ? fmt::format("{:.1g}", error) : fmt::format("{:.0f}", error),
+                       end);
+  }
+  // two digits of it, and none of the value that say less
+  const double step = std::pow(10, place - 1);
+  return fmt::format("{:.0f} ± {:.0f}{}", std::nearbyint(value / step) * step,
+                     std::nearbyint(error / step) * step, end);
 }
 
 std::vector<double> curvature_per_mm(const Eigen::Matrix3Xd& points) {

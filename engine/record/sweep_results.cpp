@@ -308,9 +308,16 @@ tl::unexpected<Error> SweepLog::refuse(Fault fault, const std::string& why) cons
   return fail(fault, "cannot write '{}': {}", file_.string(), why);
 }
 
+bool PowerLaw::holds() const {
+  return scatter < 0.1 && std::ranges::all_of(keys, [](const LawRow& key) {
+           return key.error < 0.05 * std::max(1.0, std::abs(key.exponent));
+         });
+}
+
 std::optional<PowerLaw> power_law(const SweepTable& table, const std::string& case_name,
                                   const std::string& figure) {
   constexpr std::size_t fewest_values = 3;
+  constexpr double least_ratio = 1.5;  // of a key's largest to its smallest: less is nearly a line
   const auto keys = Eigen::Index(table.axes.size());
   std::vector<std::set<double>> values(table.axes.size());
   std::vector<Eigen::VectorXd> rows;
@@ -332,7 +339,8 @@ std::optional<PowerLaw> power_law(const SweepTable& table, const std::string& ca
     logs.push_back(std::log(found));
   }
   for (const auto& of_key : values)
-    if (of_key.size() < fewest_values) return std::nullopt;
+    if (of_key.size() < fewest_values || *of_key.rbegin() < least_ratio * *of_key.begin())
+      return std::nullopt;
   const auto free = Eigen::Index(rows.size()) - keys - 1;
   if (keys == 0 || free < 1) return std::nullopt;
   Eigen::MatrixXd A(Eigen::Index(rows.size()), keys + 1);

@@ -89,12 +89,16 @@ struct PowerLaw {
   std::vector<LawRow> keys;
   double factor = 0;
   double scatter = 0;  ///< root mean square of the logarithms' residuals
+  /// Whether the figures follow it: within a tenth, each exponent known to a twentieth of itself or
+  /// of one.
+  bool holds() const;
   /// What the law says beside each figure, point by point.
   std::vector<double> law, found;
 };
 
-/// Of the points of one case that came to a state. Nothing where a key has fewer than three values,
-/// or keys or figures are not all numbers above 0.
+/// Of the points of one case that came to a state. Nothing where a key has fewer than three values
+/// or its largest is less than one and a half times its smallest, or where keys or figures are not
+/// all numbers above 0.
 std::optional<PowerLaw> power_law(const SweepTable& table, const std::string& case_name,
                                   const std::string& figure);
 

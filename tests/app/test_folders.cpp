@@ -183,6 +183,7 @@ TEST_CASE("names of cases that would meet a run's files are refused") {
   const Bench bench(small);
   for (const auto& [name, sentence] : std::vector<std::pair<std::string, std::string>>{
            {"frames", "is the folder of a movie's pictures"},
+           {"segments", "is the folder of an unfinished run's path"},
            {"movie.mp4", "must not end in .mp4"},
            {"frames.journal", "must not end in .journal"},
            {"a.json", "must not end in .json"},

@@ -97,6 +97,9 @@ TEST_CASE("hostile sweeps are told with file, line and key") {
   CHECK_THAT(faults_of(over("rod.diametre_mm = [0.2]")),
              Contains("bad.toml:2:") && Contains("[sweep.over] rod.diametre_mm = ") &&
                  Contains("did you mean 'rod.diameter_mm'?"));
+  for (const char* key : {"step.depth_mm", "\"step.2.depth_mm\"", "loads.case.snow"})
+    CHECK_THAT(faults_of(over(std::string(key) + " = [1.0, 2.0]")),
+               Contains("bad.toml:2:") && Contains("must be a key that stands once"));
   CHECK_THAT(faults_of(over("rod.diameter_mm = []")),
              Contains("bad.toml:2:") && Contains("is empty, must hold values"));
   CHECK_THAT(
