@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 #include "app/cli/console.h"
 #include "app/cli/paper_page.h"
@@ -13,6 +14,9 @@
 #include "render/movie/movie_writer.h"
 #include "render/movie/run_figures.h"
 #include "render/movie/run_plots.h"
+#include "render/movie/run_summary.h"
+#include "render/movie/stage.h"
+#include "render/movie/stills.h"
 
 namespace gridshell::app {
 namespace fs = std::filesystem;
@@ -44,18 +48,28 @@ Result<void> draw_block_pictures(const record::Trajectory& run, const render::Mo
                              "Seams of the blocks", style.print);
 }
 
-/// "hemisphere: at most 3.10 %", of the joints; where there is room for it, of one shell alone,
-/// with the rods where they lie further off between them, which the colours show too.
-std::string caption_of(const record::Trajectory& run, const std::string& name, bool alone) {
+/// "hemisphere: at most 3.10 %", of the joints; with the rods where they lie further off between
+/// them, which the colours show too, in a line of their own where panels are narrow.
+std::string caption_of(const record::Trajectory& run, const std::string& name, bool narrow) {
   constexpr double further = 1.2;
   const Eigen::VectorXd deviation = render::last_deviation(run);
   const render::DeviationUnit unit = render::deviation_unit(run.layout);
   const double joints = unit.factor * deviation.head(long(run.layout.joints.size())).maxCoeff(),
                rods = unit.factor * deviation.maxCoeff();
   const char* word = run.layout.parts.empty() ? "%" : "mm";
-  if (!alone || rods <= further * joints)
-    return fmt::format("{}: at most {:.2f} {}", name, joints, word);
-  return fmt::format("{}: joints at most {:.2f}, rods {:.2f} {}", name, joints, rods, word);
+  if (rods <= further * joints) return fmt::format("{}: at most {:.2f} {}", name, joints, word);
+  return fmt::format("{}: joints at most {:.2f},{}rods {:.2f} {}", name, joints,
+                     narrow ? "\n" : " ", rods, word);
+}
+
+/// What a picture of several calls one, marked text: by its own title, else as its case.
+std::string title_among(const Run& run, const std::string& of_all) {
+  return run.preset.title == of_all && !run.name.empty() ? run.name : run.preset.title;
+}
+/// The same where it stands by itself.
+std::string title_alone(const Run& run, const std::string& of_all) {
+  const std::string title = title_among(run, of_all);
+  return of_all.empty() || title == run.preset.title ? title : of_all + ": " + title;
 }
 
 bool is_still(const Run& run) { return run.pictures == Pictures::stills; }
@@ -70,6 +84,11 @@ bool shows_net(const Run& run) {
          !preset.jitter.wanted() && preset.step.empty();
 }
 bool shows_push(const Run& run) { return is_still(run) && run.preset.indentation.wanted(); }
+/// One of several that no other picture shows beside one another.
+bool shows_case(const Run& run) {
+  return is_still(run) && !run.name.empty() && !shows_net(run) && !shows_push(run) &&
+         !run.preset.jitter.wanted();
+}
 bool has_net(const Run& run) {
   return shows_net(run) && run.trajectory.layout.net_nodes.size() > 0;
 }
@@ -82,7 +101,7 @@ Result<void> draw_beside(const Runs& runs, const std::string& title, render::Ren
   std::vector<render::NamedRun> compared;
   std::size_t frames = 0;
   for (const Run* run : runs) {
-    compared.push_back({&run->trajectory, run->preset.title});
+    compared.push_back({&run->trajectory, title_among(*run, title)});
     frames = std::max(frames, run->trajectory.frames.size());
   }
   return make_movie(folder, runs.front()->preset, style, int(frames), watch,
@@ -102,8 +121,8 @@ Result<void> draw_push_pictures(const Runs& runs, const std::string& title,
   std::vector<render::NetRun> shells;
   std::vector<render::NamedRun> named;
   for (const Run* run : runs) {
-    shells.push_back({&run->trajectory, run->preset.title});
-    named.push_back({&run->trajectory, run->preset.title});
+    shells.push_back({&run->trajectory, title_among(*run, title)});
+    named.push_back({&run->trajectory, title_among(*run, title)});
   }
   render::Plot force = render::force_plot(named);
   force.title = render::plain(style.title);
@@ -115,9 +134,31 @@ Result<void> draw_push_pictures(const Runs& runs, const std::string& title,
                                  style.print);
 }
 
-/// What shows several runs.
+/// `<stem>.png`: where the cases end.
+Result<void> draw_cases(const Runs& runs, const std::string& title, const SharedColourBar& bar,
+                        render::Renderer& renderer, const fs::path& stem, Watch& watch) {
+  auto style = render::still_style(style_of(runs.front()->preset, Pictures::stills));
+  style.title = title;
+  style.heading = style.legends = style.look.floor = false;
+  render::PanelFigure figure = render::empty_figure(style, 3);
+  figure.colour_bar = bar;
+  for (const Run* run : runs) {
+    const record::Trajectory& shown = run->trajectory;
+    TRY_DO(render::check_showable(shown, style));
+    const render::Stage stage(shown.layout, render::summarise_run(shown), style, bar);
+    const record::Frame last = shown.frames.back();
+    const std::string caption =
+        render::plain(title_among(*run, title)) + "\n" + render::frame_state_caption(last);
+    TRY_DO(render::add_panel(figure, stage, stage.drawing(last), {true, caption}, renderer, watch));
+  }
+  return save_panels(figure, with_suffix(stem, ".png"),
+                     style.print.width_mm > 0 ? style.print.dpi : 0);
+}
+
+/// What shows several runs; `bar`: the first one's.
 Result<void> draw_together(const std::vector<Run>& runs, const std::string& title,
-                           render::Renderer& renderer, const fs::path& stem, Progress& progress) {
+                           const SharedColourBar& bar, render::Renderer& renderer,
+                           const fs::path& stem, Progress& progress) {
   const auto those = [&](bool (*wanted)(const Run&)) {
     Runs found;
     for (const Run& run : runs)
@@ -134,6 +175,12 @@ Result<void> draw_together(const std::vector<Run>& runs, const std::string& titl
     TRY_DO(draw_net_pictures(nets, renderer, stem, progress.next_phase()));
   if (const Runs pushes = those(shows_push); !pushes.empty())
     TRY_DO(draw_push_pictures(pushes, title, renderer, stem, progress.next_phase()));
+  // under one colour bar
+  const bool alike = std::ranges::all_of(stills, [&](const Run* run) {
+    return run->preset.movie.colour_by == stills.front()->preset.movie.colour_by;
+  });
+  if (const Runs cases = those(shows_case); cases.size() > 1 && alike)
+    TRY_DO(draw_cases(cases, title, bar, renderer, stem, progress.next_phase()));
   return {};
 }
 
@@ -162,7 +209,7 @@ Result<void> draw_net_pictures(const Runs& runs, render::Renderer& renderer, con
   for (const Run* run : runs) {
     const std::string name = run->label.empty() ? name_of(run->preset) : run->label;
     shells.push_back({&run->trajectory, name, scan_of(run->preset)});
-    shades.push_back({&run->trajectory, caption_of(run->trajectory, name, alone)});
+    shades.push_back({&run->trajectory, caption_of(run->trajectory, name, runs.size() > 2)});
     named.push_back({&run->trajectory, name});
   }
   const auto write = [&](const char* suffix, render::Plot plot) {
@@ -202,6 +249,8 @@ std::vector<Phase> drawing_phases(const std::vector<Run>& runs) {
   } else {
     if (any(shows_net)) phases.push_back(drawing("drawing shells over nets", seconds));
     if (any(shows_push)) phases.push_back(drawing("drawing point loads", seconds));
+    if (std::ranges::count_if(runs, shows_case) > 1)
+      phases.push_back(drawing("drawing cases", 0.2 * seconds));
   }
   return phases;
 }
@@ -217,14 +266,16 @@ Result<void> draw_all(std::vector<Run>& runs, const std::string& title, const fs
     if (drawn_beside(run)) continue;
     const double start = seconds_now();
     Watch& watch = progress.next_phase();
+    const std::string own = std::exchange(run.preset.title, title_alone(run, title));
     if (run.preset.jitter.wanted())
       TRY_DO(draw_states(run, renderer, to / fs::path(run.preset.name).filename(), watch));
     else
       TRY_DO(draw_run(run, bars[k], renderer, to, watch));
+    run.preset.title = own;
     run.summary.seconds_render += seconds_now() - start;
   }
   const double start = seconds_now();
-  TRY_DO(draw_together(runs, title, renderer, folder / stem, progress));
+  TRY_DO(draw_together(runs, title, bars.front(), renderer, folder / stem, progress));
   for (Run& run : runs) run.summary.seconds_render += (seconds_now() - start) / double(runs.size());
   return {};
 }

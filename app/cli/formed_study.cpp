@@ -52,6 +52,7 @@ Result<void> draw(preset::Preset preset, const FormedStudy& found, const std::st
   TRY(maker, PictureMaker::create(context, preset.style.font));
   preset.movie.colour_by = preset::ColourBy::displacement;
   preset.movie.turn_deg = 0;
+  if (!preset.title.empty()) preset.title += ": moves drawn larger than they are";
   Watch& watch = progress.next_phase();
   if (!found.moves.empty())
     TRY_DO(render::write_stills({found.state.layout, found.moves},
@@ -172,7 +173,8 @@ Result<FormedStudy> find_loads(const preset::Preset& preset, int imperfections, 
     record::Frame moved = moved_by(found->state, found->modes[k], 1, int(k));
     moved.loads_N = row.critical_factor * found->loads[k];
     all.moves.push_back(std::move(moved));
-    all.captions.push_back(fmt::format("{}: {:.4g}", row.load_case, row.critical_factor));
+    all.captions.push_back(fmt::format("{}: factor {}", row.load_case,
+                                       record::with_error(row.critical_factor, row.error, "")));
   }
   const auto plot = render::load_plot(found->points, found->cases, preset::title_or_name(preset));
   all.draw_more = [plot, name = fs::path(preset.name).filename().string()](
@@ -210,10 +212,10 @@ std::string frequency_text(const record::ModeRow& mode) {
                      -1 / (2 * M_PI * mode.frequency_Hz));
 }
 
-/// "mode 3: 12.35 Hz", of a state that is not stable "mode 1: 0.82*i* Hz".
+/// "mode 3: 12.35 ± 0.01 Hz", of a state that is not stable "mode 1: 0.82*i* Hz".
 std::string caption_of(const record::ModeRow& mode) {
-  return fmt::format("mode {}: {:.4g}{} Hz", mode.mode, std::abs(mode.frequency_Hz),
-                     mode.frequency_Hz < 0 ? "*i*" : "");
+  if (mode.frequency_Hz >= 0) return fmt::format("mode {}: {}", mode.mode, frequency_text(mode));
+  return fmt::format("mode {}: {:.4g}*i* Hz", mode.mode, -mode.frequency_Hz);
 }
 
 /// A line a joint and mode: how it moves, the node that moves furthest by 1.

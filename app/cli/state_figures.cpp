@@ -1,6 +1,9 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <optional>
+#include <set>
+#include <string_view>
 
 #include "app/cli/figures.h"
 #include "app/cli/paper_page.h"
@@ -49,21 +52,14 @@ std::string completeness_text(const record::StateTables& states) {
 /// One series a class, in the order of the paper.
 template <class Value>
 std::vector<render::Series> by_class(const std::vector<StateRow>& rows, const Value& value) {
-  constexpr render::Marker markers[] = {render::Marker::square, render::Marker::triangle,
-                                        render::Marker::diamond, render::Marker::square,
-                                        render::Marker::circle};
   std::vector<render::Series> all;
   for (const auto& [kind, word] : words_of<StateClass>()) {
-    render::Series series;
-    series.name = class_text(kind);
-    series.colour = render::series_colour(std::size_t(kind));
-    series.marker = markers[std::size_t(kind)];
-    series.line_width = 0;
+    const render::ClassLook look = render::look_of(kind);
+    render::Series series = render::mark_series(class_text(kind), look.colour, look.marker);
     series.hollow = kind == StateClass::other;
     for (const StateRow& row : rows) {
       if (row.kind != kind) continue;
-      series.x.push_back(row.energy_mJ());
-      series.y.push_back(value(row));
+      series.add(row.energy_mJ(), value(row));
     }
     if (!series.x.empty()) all.push_back(std::move(series));
   }
@@ -78,8 +74,19 @@ render::Plot energies_plot(const record::StateTables& states) {
   plot.x = {.label = "energy (mJ)"};
   plot.y = {.label = "times met", .logarithmic = true, .low = 0.5};
   std::vector<StateRow> met;
-  std::ranges::copy_if(states.rows, std::back_inserter(met),
-                       [](const StateRow& row) { return row.count > 0; });
+  std::set<StateClass> left_out;
+  for (const StateRow& row : states.rows)
+    if (row.count > 0)
+      met.push_back(row);
+    else
+      left_out.insert(row.kind);
+  // these have no place on a logarithmic axis
+  if (const std::size_t others = states.rows.size() - met.size(); others > 0) {
+    std::vector<std::string_view> words;
+    for (const StateClass kind : left_out) words.push_back(word_of(kind));
+    plot.title +=
+        fmt::format("\n{} met by no trial are left out ({})", others, fmt::join(words, ", "));
+  }
   plot.series = by_class(met, [](const StateRow& row) { return double(row.count); });
   return plot;
 }

@@ -181,8 +181,7 @@ Result<render::Image> picture_of(const PictureRequest& asked, render::Renderer& 
   if (request.show.colour_by == ColourBy::none ||
       values_of(*request.shell, request.show).size() == 0)
     return image;
-  render::ColourBar bar{label_of(*request.shell, request.show), request.show.scale};
-  bar.ends = true;
+  const render::ColourBar bar = bar_of(*request.shell, request.show);
   render::draw_over(*image, [&](render::Canvas& canvas) {
     const double room = render::colour_bar_width(canvas, bar, font);
     draw_colour_bar(canvas, {image->width - room - 1.5 * font, 1.5 * font, room, 0.4 * height}, bar,

@@ -18,18 +18,24 @@ constexpr double paling = 0.2;  // of a map for rods, which are thin lines on wh
 struct ColourText {
   const char* label;
   const char* meaning;
+  const char *marked, *words;  // label and words of a picture's bar, as movies have them
 };
 /// In the order of the enum.
 constexpr ColourText colour_texts[] = {
-    {"nothing", "rods and joints alone"},
-    {"K□ (rad)", "integrated Gauss curvature of each cell"},
-    {"|u| (mm)", "how far each point moved since the shell was formed"},
-    {"ΔK□ (rad)", "its change since the shell was formed"},
-    {"Δ/ρ", "distance of a cell's joints from the net, over ρ"},
-    {"bending (mJ/m)", "bending energy a length of rod"},
-    {"axial force (N)", "of the rods; below 0 they are compressed"},
-    {"σ (MPa)", "largest stress of a fibre, by axial force and bending"},
-    {"σ / strength", "that over the rods' strength"},
+    {"nothing", "rods and joints alone", "", ""},
+    {"K□ (rad)", "integrated Gauss curvature of each cell", "*K*_{□} (rad)",
+     "Gauss curvature of a cell"},
+    {"|u| (mm)", "how far each point moved since the shell was formed", "|*u*| (mm)",
+     "displacement"},
+    {"ΔK□ (rad)", "its change since the shell was formed", "Δ*K*_{□} (rad)",
+     "change of Gauss curvature"},
+    {"Δ/ρ", "distance of a cell's joints from the net, over ρ", "Δ/*ρ*", "distance from the net"},
+    {"bending (mJ/m)", "bending energy a length of rod", "*e*_{b} (mJ/m)",
+     "bending energy over length"},
+    {"axial force (N)", "of the rods; below 0 they are compressed", "*N* (N)", "axial force"},
+    {"σ (MPa)", "largest stress of a fibre, by axial force and bending", "*σ* (MPa)",
+     "largest stress of a fibre"},
+    {"σ / strength", "that over the rods' strength", "*σ* / strength", "utilisation of the rods"},
 };
 static_assert(std::size(colour_texts) == words_of<ColourBy>().size());
 
@@ -143,6 +149,19 @@ std::string label_of(const ShellView& shell, const Show& show) {
   const bool surface = shell.design && shell.design->inverse.target == preset::Target::surface;
   if (by == ColourBy::deviation && surface) return "Δ/ρ from the surface";
   return colour_texts[std::size_t(by)].label;
+}
+render::ColourBar bar_of(const ShellView& shell, const Show& show) {
+  const auto& text = colour_texts[std::size_t(show.colour_by)];
+  const std::string label = label_of(shell, show);
+  const bool own = label == text.label;  // else it says itself what it is
+  render::ColourBar bar{own ? text.marked : render::plain(label), show.scale};
+  if (own) bar.words = text.words;
+  bar.ends = true;
+  const Eigen::VectorXd values = values_of(shell, show);
+  const double slack = 1e-9 * (show.scale.high - show.scale.low);
+  bar.beyond_low = values.size() > 0 && values.minCoeff() < show.scale.low - slack;
+  bar.beyond_high = values.size() > 0 && values.maxCoeff() > show.scale.high + slack;
+  return bar;
 }
 const char* meaning_of(ColourBy by) { return colour_texts[std::size_t(by)].meaning; }
 

@@ -79,6 +79,8 @@ std::string text_of_measure(const ShellView& shell, const std::vector<int>& join
 
 /// As the interface names it of a shell, with its unit: "bending energy (mJ/m)".
 std::string label_of(const ShellView& shell, const Show& show);
+/// The bar of these colours, in the words of movies and figures.
+render::ColourBar bar_of(const ShellView& shell, const Show& show);
 /// What it is, in a sentence.
 const char* meaning_of(ColourBy by);
 

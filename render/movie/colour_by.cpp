@@ -67,7 +67,9 @@ ColourBar bar_of_sizes(const Surveys& runs, ColourBy by) {
   for (const RunSummary* run : runs)
     most.insert(most.end(), run->spread(by).most.begin(), run->spread(by).most.end());
   const Interval all = all_of(runs, by);
-  ColourBar bar{.label = {}, .scale = symmetric_scale(most, quantile)};
+  // where rods break must be told
+  const bool whole = by == ColourBy::stress || by == ColourBy::utilisation;
+  ColourBar bar{.label = {}, .scale = symmetric_scale(most, whole ? 1 : quantile)};
   const Quantity& quantity = quantity_of(by);
   const double end = std::max(bar.scale.high, quantity.least_end);
   const bool positive = quantity.size || (all.any() && -all.low < one_sign * all.high);

@@ -82,8 +82,7 @@ void draw_marks(Canvas& canvas, const Box& bar, const std::vector<Mark>& marks, 
     }
 }
 
-constexpr Colour rod_ink{0.16f, 0.17f, 0.2f, 1}, joint_ink{0.75f, 0.12f, 0.1f, 1},
-    load_ink{0.05f, 0.05f, 0.06f, 1};
+constexpr Colour rod_ink{0.16f, 0.17f, 0.2f, 1}, load_ink{0.05f, 0.05f, 0.06f, 1};
 
 /// "950 N", "4.249 kN"
 std::string force_text(double N) {
@@ -261,7 +260,8 @@ void draw_timeline(Canvas& canvas, const Box& box, const std::vector<Mark>& mark
                    int frames, double font_size) {
   // what stands beside the bar over the whole run decides its length, so that it does not move
   const double size = 0.8 * font_size, gap = 0.5 * size;
-  double words = 0;
+  const double apart = 6 * gap;  // of the bar and its signs from those beside it
+  double words = apart - 2 * gap;
   for (const Sign& sign : signs)
     if (reached(marks, sign.kind, frames))
       words += size + gap + canvas.measure(sign.word, {.size = size}).width + 2 * gap;
@@ -271,7 +271,7 @@ void draw_timeline(Canvas& canvas, const Box& box, const std::vector<Mark>& mark
   canvas.rectangle(bar, way);
   canvas.rectangle({bar.x, bar.y, bar.width * at / (frames - 1), bar.height}, done);
   draw_marks(canvas, bar, marks, at, frames, font_size);
-  double x = bar.right() + 2 * gap;
+  double x = bar.right() + apart;
   for (const Sign& sign : signs) {
     if (!reached(marks, sign.kind, at)) continue;
     canvas.marker(sign.marker, {x + size / 2, box.middle().y}, 0.8 * size, sign.colour, {{}, 0});
@@ -286,15 +286,15 @@ void draw_timeline(Canvas& canvas, const Box& box, const std::vector<Mark>& mark
 
 void draw_top_view(Canvas& canvas, const Box& box, const record::Layout& layout,
                    const record::Frame& frame, const TopExtent& extent,
-                   const std::vector<Colour>& cell_colours, bool rings) {
+                   const std::vector<Colour>& cell_colours, const Appearance& look) {
   const double hair = std::max(0.6, box.width / 260), radius = std::max(0.7, box.width / 130);
   const Box inside = box.inset(radius + hair);
   const PlanView place{inside.middle(),
                        {extent.x_mm, extent.y_mm},
                        std::min(inside.width, inside.height) / (2 * extent.half_mm)};
-  if (rings && original_boundary_shown(frame))
+  if (look.rings && original_boundary_shown(frame))
     canvas.polyline(place.line(layout.original_boundary), {{0.6f, 0.6f, 0.62f, 1}, hair}, true);
-  if (rings)
+  if (look.rings)
     canvas.polyline(place.line(boundary_at(layout, frame.actuation)),
                     {{0.25f, 0.27f, 0.3f, 1}, 1.5 * hair}, true);
   for (std::size_t c = 0; c < std::min(cell_colours.size(), layout.cells.size()); ++c) {
@@ -314,7 +314,7 @@ void draw_top_view(Canvas& canvas, const Box& box, const record::Layout& layout,
     canvas.polyline(line, {rod_ink, hair});
   }
   for (const record::Joint& joint : layout.joints)
-    canvas.circle(place(frame.nodes.col(joint.node)), radius, joint_ink);
+    if (look.joint_mm > 0) canvas.circle(place(frame.nodes.col(joint.node)), radius, look.joint);
   for (const record::LoadedJoint& load : layout.loaded_joints) {
     if (!load_acts(load, layout, frame)) continue;
     const record::Joint& joint = layout.joints.at(std::size_t(load.joint));

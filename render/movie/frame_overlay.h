@@ -96,9 +96,9 @@ struct TopExtent {
   double half_mm = 1;
 };
 
-/// `cell_colours`: one a cell, or empty. `rings`: whether the boundaries are drawn.
+/// `cell_colours`: one a cell, or empty. Boundaries and joints are drawn where the look has any.
 void draw_top_view(Canvas& canvas, const Box& box, const record::Layout& layout,
                    const record::Frame& frame, const TopExtent& extent,
-                   const std::vector<Colour>& cell_colours, bool rings = true);
+                   const std::vector<Colour>& cell_colours, const Appearance& look = {});
 
 }  // namespace gridshell::render

@@ -141,14 +141,16 @@ class SideBySideMovie {
     for (const RunSummary& survey : surveys) all.push_back(&survey);
     bar_ = colour_bar_of(all, style);
     legend_ = bar_ ? colour_bar_width(*bar_, 0.95 * em_) + em_ : 0;
-    const int count = int(runs.size());
-    part.size = {std::max(16, int((style.width() - legend_ - 2 * em_) / count)),
-                 std::max(16, int(style.height() - top() - foot()))};
+    const int count = int(runs.size()), rows = count > in_one_row ? 2 : 1;
+    columns_ = (count + rows - 1) / rows;
+    part.size = {
+        std::max(16, int((style.width() - legend_ - 2 * em_) / columns_)),
+        std::max(16, int((style.height() - title() - last_line()) / rows - above() - below()))};
     // shells are about as high as wide: what is left below shows the forces of pushes
     const int high = int(0.92 * part.size[0]);
     const bool pushed = std::ranges::any_of(
         runs, [](const NamedRun& one) { return std::isfinite(one.run->frames.back().force_N); });
-    if (style.captions && pushed && part.size[1] - high > 8 * em_) {
+    if (style.captions && pushed && rows == 1 && part.size[1] - high > 8 * em_) {
       spare_ = part.size[1] - high;
       part.size[1] = high;
       std::vector<NamedRun> named;
@@ -182,7 +184,13 @@ class SideBySideMovie {
   }
 
  private:
-  double top() const { return style_.captions ? 6.2 * em_ : 0; }
+  static constexpr int in_one_row = 3;
+
+  // heights: of the title and the last line, and in each row above and below the parts
+  double title() const { return style_.captions ? 2.4 * em_ : 0; }
+  double last_line() const { return style_.captions ? 2 * em_ : 0; }
+  double above() const { return style_.captions ? 3.8 * em_ : 0; }
+  double below() const { return style_.captions ? 2.6 * em_ : 0; }
   /// The forces over the depths, and where the shells are on them.
   void draw_forces(Canvas& canvas, int index) const {
     Plot plot = forces_;
@@ -197,21 +205,24 @@ class SideBySideMovie {
     draw_plot(canvas, {em_, y, style_.width() - legend_ - 2 * em_, height}, plot);
   }
 
-  double foot() const { return style_.captions ? 4.6 * em_ : 0; }
   const record::Frame& frame(std::size_t run, int k) const {
     return runs_[run].run->frames[std::size_t(k)];
   }
   static int at(const Stage& stage, int index) { return std::min(index, stage.frames() - 1); }
 
   void draw_part(Canvas& canvas, std::size_t k, const Image& part, int index) const {
-    const Box box{em_ + double(k) * part.width, top(), double(part.width), double(part.height)};
+    const double row = double(k / std::size_t(columns_)),
+                 column = double(k % std::size_t(columns_));
+    const Box box{em_ + column * part.width,
+                  title() + above() + row * (above() + part.height + below()), double(part.width),
+                  double(part.height)};
     canvas.picture(part, box);
     if (!style_.captions) return;
     const int now = at(*stages_[k], index);
     const record::Frame& shown = frame(k, now);
     TextStyle text{.size = em_, .bold = true, .align_x = AlignX::centre, .align_y = AlignY::middle};
     const double x = box.middle().x, width = box.width - em_;
-    canvas.text(plain(canvas.shortened(runs_[k].name, width, text)), {x, 3.3 * em_}, text);
+    canvas.text(plain(canvas.shortened(runs_[k].name, width, text)), {x, box.y - 2.9 * em_}, text);
     text.bold = false;
     std::string state;
     for (const std::string& caption : state_captions(shown)) {
@@ -219,7 +230,7 @@ class SideBySideMovie {
       const std::string longer = state.empty() ? caption : state + "    " + caption;
       if (canvas.measure(longer, text).width <= width) state = longer;
     }
-    canvas.text(state, {x, 4.8 * em_}, text);
+    canvas.text(state, {x, box.y - 1.4 * em_}, text);
     text.colour = event_ink;
     canvas.text(plain(canvas.shortened(event_caption(shown), width, text)),
                 {x, box.bottom() + 0.8 * em_}, text);
@@ -231,8 +242,8 @@ class SideBySideMovie {
   void draw_text(Canvas& canvas, int index) const {
     if (bar_) {
       const double width = legend_ - em_, height = std::min(20 * em_, 0.6 * style_.height());
-      draw_colour_bar(canvas, {style_.width() - em_ - width, top(), width, height}, *bar_,
-                      0.95 * em_);
+      draw_colour_bar(canvas, {style_.width() - em_ - width, title() + above(), width, height},
+                      *bar_, 0.95 * em_);
     }
     if (!style_.captions) return;
     if (spare_ > 0) draw_forces(canvas, index);
@@ -248,6 +259,7 @@ class SideBySideMovie {
 
   const std::vector<NamedRun>& runs_;
   MovieStyle style_;
+  int columns_ = 1;
   double em_ = 0, legend_ = 0;  // of the font; of the colour bar's column
   double spare_ = 0;            // height below the parts for the forces; 0: there is none
   Plot forces_;

@@ -44,14 +44,17 @@ void draw_names(Canvas& canvas, Point at, const std::vector<NamedRun>& runs) {
   }
 }
 
-void draw_boundaries(Canvas& canvas, const Box& box, const std::vector<NamedRun>& runs) {
+/// Units a millimetre, at most `most`.
+double draw_boundaries(Canvas& canvas, const Box& box, const std::vector<NamedRun>& runs,
+                       double most) {
   Eigen::Matrix2Xd all;
   for (const NamedRun& one : runs) {
     const auto flat = one.run->layout.original_boundary.topRows<2>();
     all.conservativeResize(2, all.cols() + flat.cols());
     all.rightCols(flat.cols()) = flat;
   }
-  const PlanView place(box, all);
+  PlanView place(box, all);
+  place.scale = std::min(place.scale, most);
   if (runs.size() == 1) {
     const record::Layout& layout = runs.front().run->layout;
     for (const auto& rod : layout.rods)
@@ -77,12 +80,17 @@ void draw_boundaries(Canvas& canvas, const Box& box, const std::vector<NamedRun>
   // caps are named beside the planes that cut them, where these are theirs alone
   if (runs.size() > 1 && !(all_caps(runs) && planes_differ(runs)))
     draw_names(canvas, {length.right() + 14, left.y}, runs);
+  return place.scale;
+}
+
+/// Units a millimetre at which a sphere of radius rho and its names fill a box.
+double scale_of_planes(const Box& box, double rho) {
+  return std::min(box.width / 2.95, box.height / 1.35) / rho;
 }
 
 /// A sphere from the side and the planes z = z* of its caps.
-void draw_planes(Canvas& canvas, const Box& box, const std::vector<NamedRun>& runs) {
+void draw_planes(Canvas& canvas, const Box& box, const std::vector<NamedRun>& runs, double scale) {
   const double rho = runs.front().run->layout.length_scale_mm;
-  const double scale = std::min(box.width / 2.95, box.height / 1.35) / rho;
   const Point centre{box.x + 1.15 * scale * rho, box.middle().y + 0.5 * scale * rho};
   std::vector<Point> arc;
   for (int k = 0; k <= 90; ++k) {
@@ -258,8 +266,13 @@ void draw_footprints(Canvas& canvas, const Box& box, const std::vector<NamedRun>
   const bool caps = all_caps(runs);
   const double half = caps ? box.width / 2 : box.width;
   // below the boundaries stands a length to read them by
-  draw_boundaries(canvas, {box.x, box.y, half - 8, box.height - 20}, runs);
-  if (caps) draw_planes(canvas, {box.x + half, box.y, half, box.height - 8}, runs);
+  const Box beside{box.x + half, box.y, half, box.height - 8};
+  const double most =
+      caps ? scale_of_planes(beside, runs.front().run->layout.length_scale_mm) : INFINITY;
+  // both at one scale
+  const double scale =
+      draw_boundaries(canvas, {box.x, box.y, half - 8, box.height - 20}, runs, most);
+  if (caps) draw_planes(canvas, beside, runs, scale);
 }
 
 Result<void> write_footprints(const std::filesystem::path& stem, const std::vector<NamedRun>& runs,

@@ -149,6 +149,17 @@ void clear_outside(Image& image, const Box& box, Colour colour) {
         std::copy_n(rgba, 4, image.pixel(x, y));
 }
 
+// one line where that holds it, else two: apart where an event ends, or between words
+std::vector<std::string> lines_of_event(const Canvas& canvas, const std::string& said, double width,
+                                        const TextStyle& style) {
+  if (canvas.measure(plain(said), style).width <= width) return {said};
+  if (const auto end = said.rfind("; "); end != said.npos)
+    return {said.substr(0, end + 1), said.substr(end + 2)};
+  auto lines = canvas.wrapped(said, width, style);
+  for (; lines.size() > 2; lines.pop_back()) lines[lines.size() - 2] += " " + lines.back();
+  return lines;
+}
+
 }  // namespace
 
 Result<void> check_size(const MovieStyle& style) {
@@ -339,8 +350,12 @@ void Stage::draw_captions(Canvas& canvas, const ShownFrame& shown) const {
   TextStyle event = line;
   event.colour = event_ink;
   event.bold = true;
-  canvas.text(plain(canvas.shortened(event_caption(shown.frame), layout_.event.width, event)),
-              place(layout_.event), event);
+  const double room = layout_.title.width;
+  double y = layout_.event.middle().y;
+  const auto said = lines_of_event(canvas, event_caption(shown.frame), room, event);
+  if (said.size() > 1) event.halo = {1, 1, 1, 0.8f};  // the first of two is over the picture
+  for (auto text = said.rbegin(); text != said.rend(); ++text, y -= 1.3 * em)
+    canvas.text(plain(canvas.shortened(*text, room, event)), {layout_.event.x, y}, event);
   draw_timeline(canvas, layout_.timeline, survey_.marks, shown.at, frames(), em);
   const std::string count = frame_caption(shown.at, frames());
   const double count_width = canvas.measure(frame_caption(frames() - 1, frames()), line).width;
@@ -357,13 +372,16 @@ void Stage::draw_overlay(Canvas& canvas, const ShownFrame& shown) const {
   if (bar_ && !layout_.colour_bar.empty())
     draw_colour_bar(canvas, layout_.colour_bar, *bar_, 0.95 * layout_.font_size);
   if (!layout_.inset.empty()) {
-    draw_top_view(canvas, layout_.inset, run_, shown.frame, top_, cell_colours(shown.frame, 1),
-                  style_.look.rings);
-    // where the corner beside a round shell has room for it
-    const double size = 0.75 * layout_.font_size, gap = 0.3 * size;
-    if (layout_.inset.width > 11 * layout_.font_size)
-      canvas.text("top", {layout_.inset.x + gap, layout_.inset.y + gap},
-                  {.size = size, .colour = pale_ink, .align_y = AlignY::top});
+    // the word above it, where it is large enough to be made smaller by that
+    Box inset = layout_.inset;
+    if (inset.width > 11 * layout_.font_size) {
+      const double size = 0.75 * layout_.font_size, line = 1.3 * size;
+      inset = {inset.x + line, inset.y + line, inset.width - line, inset.height - line};
+      canvas.text("top", {inset.x, inset.y},
+                  {.size = size, .colour = pale_ink, .align_y = AlignY::bottom});
+    }
+    draw_top_view(canvas, inset, run_, shown.frame, top_, cell_colours(shown.frame, 1),
+                  style_.look);
   }
   if (!layout_.plot.empty() && shown.frame.K_bins.rows() > 0)
     draw_plot(canvas, layout_.plot,

@@ -34,18 +34,17 @@ using record::StateCount;
 constexpr double high = 0.84;  // of the picture, over its width
 constexpr Colour grey{0.42f, 0.42f, 0.45f, 1};
 
-/// How a class is drawn, and where beside the point, in steps between points.
+/// How large a class is drawn, and where beside the point, in steps between points.
 struct ClassMark {
   StateClass kind;
   const char* name;
-  Marker marker;
   double size, right, up;
 };
 constexpr std::array<ClassMark, 4> marks{{
-    {StateClass::i, "*i*", Marker::circle, 5, -0.2, 0.17},
-    {StateClass::ii, "*ii*", Marker::square, 4.6, 0.2, 0.17},
-    {StateClass::iii, "*iii*", Marker::diamond, 5.6, -0.2, -0.17},
-    {StateClass::iv, "*iv*", Marker::triangle, 5.2, 0.2, -0.17},
+    {StateClass::i, "*i*", 5, -0.2, 0.17},
+    {StateClass::ii, "*ii*", 4.6, 0.2, 0.17},
+    {StateClass::iii, "*iii*", 5.6, -0.2, -0.17},
+    {StateClass::iv, "*iv*", 5.2, 0.2, -0.17},
 }};
 constexpr double others_right = 0.3;  // of the number beside them
 constexpr double most_numbered = 12;  // columns, between which there is room for these numbers
@@ -137,9 +136,10 @@ class PhasePlot {
   }
 
   void add_class(const ClassMark& mark, bool by_trials) {
-    Series series = mark_series(
-        by_trials ? fmt::format("state {}", mark.name) : "", series_colour(std::size_t(mark.kind)),
-        mark.marker, mark.size * std::min(1.0, std::sqrt(most_numbered / columns_)), !by_trials);
+    const ClassLook look = look_of(mark.kind);
+    Series series =
+        mark_series(by_trials ? fmt::format("state {}", mark.name) : "", look.colour, look.marker,
+                    mark.size * std::min(1.0, std::sqrt(most_numbered / columns_)), !by_trials);
     for (const PhasePoint& point : points_) {
       const StateCount& count = point.of(mark.kind);
       if (count.states == 0 || (count.met > 0) != by_trials) continue;
@@ -199,13 +199,19 @@ double radius_of(const record::Layout& layout) {
 
 }  // namespace
 
+ClassLook look_of(StateClass kind) {
+  constexpr Marker markers[] = {Marker::circle, Marker::square, Marker::diamond, Marker::triangle};
+  if (kind == StateClass::other) return {grey, Marker::circle};
+  return {series_colour(std::size_t(kind)), markers[std::size_t(kind)]};
+}
+
 Plot barrier_plot(const record::StateTables& states) {
   Plot plot;
   plot.title = fmt::format(
       "Barriers between states: all energies on {} edges a segment\n(those of states.csv are "
       "extrapolated from finer meshes)",
       states.search.judged_edges);
-  plot.y = {.label = "energy (mJ)"};
+  plot.y = {.label = "energy, barriers (mJ)"};
   plot.legend = LegendPlace::none;
   std::map<int, double> energy;  // of the states, on the mesh of the passes
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
@@ -246,7 +252,7 @@ Plot barrier_plot(const record::StateTables& states) {
   if (lowest <= highest) {
     // room for what stands above passes and below states
     plot.y.low = lowest - 0.16 * (highest - lowest);
-    plot.y.high = highest + 0.12 * (highest - lowest);
+    plot.y.high = highest + 0.2 * (highest - lowest);
   }
   return plot;
 }

@@ -1,4 +1,4 @@
-// The barriers between the states of a shell.
+// How the states of a shell are drawn, and the barriers between them.
 #pragma once
 
 #include <filesystem>
@@ -13,6 +13,13 @@
 #include "render/canvas/plot.h"
 
 namespace gridshell::render {
+
+/// A class of states has one colour and one marker in all pictures.
+struct ClassLook {
+  Colour colour;
+  Marker marker;
+};
+ClassLook look_of(record::StateClass kind);
 
 /// The states between which passes are known, in the order of their number, each a bar at its
 /// energy on the mesh of the passes; from bar to bar a curve over the pass, with its height above

@@ -14,15 +14,12 @@
 namespace gridshell::render {
 namespace {
 
-using record::StateClass;
 using record::StateRow;
 using record::Transition;
 
 constexpr double width = 400, plot_height = 262, margin = 4, head = figure_title_room,
                  legend_room = 16, thumb = 50, thumb_text = 31, font = 8;
 constexpr double disturbed_radius = 3.6, dot_radius = 2.6, foot_room = 14;
-constexpr Colour grey{0.55f, 0.55f, 0.58f, 1};
-
 using record::Disturbance;
 
 Colour colour_of(Disturbance by) { return series_colour(by == Disturbance::released ? 0 : 1); }
@@ -184,10 +181,9 @@ class TransitionGraph {
   }
 
   void draw_node(Canvas& canvas, const Node& node) {
-    const StateClass kind = node.row->kind;
-    const Colour colour = kind == StateClass::other ? grey : series_colour(std::size_t(kind) + 2);
-    canvas.circle(node.at, node.radius(), node.disturbed ? Colour{1, 1, 1, 1} : colour,
-                  {colour, node.disturbed ? 1.6 : 0});
+    const ClassLook look = look_of(node.row->kind);
+    canvas.marker(look.marker, node.at, 2 * node.radius(), node.disturbed ? white : look.colour,
+                  {look.colour, node.disturbed ? 1.6 : 0});
     taken_.push_back(about(node.at, node.radius(), node.radius()));
   }
 

@@ -83,6 +83,22 @@ TEST_CASE("a frame says what it is") {
   }
 }
 
+TEST_CASE("an event that one line does not hold has two") {
+  record::Trajectory run = synthetic::dome(12, 2);
+  const std::string snap = "snap at depth 33.851 mm;",
+                    touch = "joints (-1, -1) and (0, 0) touch at depth 33.41 mm ± 0.04 mm";
+  run.frames.edit()[8].event = snap + " " + touch;
+  CHECK(test::has(texts_of(Stage(run, titled(1920, 1080)), run, 8), snap + " " + touch));
+  const auto two = texts_of(Stage(run, titled(800, 600)), run, 8);
+  CHECK(test::has(two, snap));
+  CHECK(test::has(two, touch));
+  run.frames.edit()[8].event = "one event of many words " + touch + " " + touch;
+  const auto words = texts_of(Stage(run, titled(800, 600)), run, 8);
+  CHECK(std::ranges::count_if(words, [](const std::string& text) {
+          return text.starts_with("one event of many words") && !text.ends_with("…");
+        }) == 1);
+}
+
 TEST_CASE("captions name only what is known") {
   record::Frame frame;
   frame.height_mm = 12.34;

@@ -1,4 +1,6 @@
 // Charts of branches and of states.
+#include <set>
+
 #include "engine/record/phase_diagram.h"
 #include "render/movie/state_charts.h"
 #include "tests/render/canvas/ink.h"
@@ -111,6 +113,22 @@ record::PhasePoint point(double leg, int rods, StateClass kind, const record::St
 }
 
 }  // namespace
+
+TEST_CASE("every class of states has a sign and a colour of its own, in all pictures") {
+  std::set<Marker> markers;
+  std::set<float> reds;
+  for (const StateClass kind : {StateClass::i, StateClass::ii, StateClass::iii, StateClass::iv}) {
+    markers.insert(look_of(kind).marker);
+    reds.insert(look_of(kind).colour.r);
+  }
+  CHECK(markers.size() == 4);
+  CHECK(reds.size() == 4);
+  const Plot plot = phase_plot({point(1, 10, StateClass::ii, {1, 5, 0})}, "");
+  const Series* ii = test::series_named(plot, "state *ii*");
+  REQUIRE(ii);
+  CHECK(ii->marker == look_of(StateClass::ii).marker);
+  CHECK(ii->colour.r == look_of(StateClass::ii).colour.r);
+}
 
 TEST_CASE("a class that trials met is filled, one of symmetric forms alone is hollow") {
   record::PhaseDiagram diagram{point(1, 10, StateClass::ii, {1, 5, 0}),
