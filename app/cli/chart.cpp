@@ -289,7 +289,8 @@ Result<int> chart_trust(const ChartOptions& options) {
   const auto number = [&](const char* key) { return summary[key].get<int>(); };
   const int silent = number("silently_wrong");
   if (!options.common.quiet) {
-    fmt::print("{}: {} scenes, {} silently wrong\n", folder.string(), how.scenes, silent);
+    fmt::print("{}: {} scenes, {} silently wrong{}\n", folder.string(), how.scenes, silent,
+               silent > 0 ? " (kept in its folder worst)" : "");
     for (const auto& [name, count] : summary["classes"].items())
       fmt::print("  {:22} {}\n", name, count.get<int>());
     fmt::print("a snap that one family of meshes alone tells of: {}\n", number("snap_alone"));

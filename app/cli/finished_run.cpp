@@ -46,6 +46,9 @@ std::string shown(const std::string& word) {
 
 // the folders of the cases, or the run itself as one case without a name
 Result<std::vector<std::string>> case_names(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error))
+    return no_run(folder, "a run is a folder that 'gridshell run PRESET -o FOLDER' writes");
   const auto file = folder / "summary.json";
   const auto text = read_file(file, largest_text);
   if (!text) {

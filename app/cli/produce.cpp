@@ -78,8 +78,11 @@ std::string help_for(const preset::Preset& preset, record::Limit limit, double l
   }
   if (preset.actuation.start == preset::Start::net)
     return "what may help: --set actuation.start=flat, the patient way from the flat footprint";
-  return fmt::format("what may help: --set accuracy.edges_per_segment={}",
-                     std::max(8, 2 * preset.accuracy.edges_per_segment));
+  if (preset.contact.model == preset::ContactModel::barrier)
+    return "what may help: a wider [contact] gap_mm, or more stiffness_N_per_mm";
+  const int edges = preset.accuracy.edges_per_segment;
+  return fmt::format("what may help: --set accuracy.edges_per_segment={}{}", std::max(8, 2 * edges),
+                     edges == 0 ? ", which asks for no tolerance" : "");
 }
 
 // one run, a path's or a search for states
@@ -101,7 +104,6 @@ Result<record::Summary> computed(Run& run, int threads, const fs::path& segments
 Result<void> simulate(Run& run, int threads, const fs::path& folder, const fs::path& segments,
                       Watch& watch) {
   TRY_DO(make_folder(folder));
-  record::remove_journals(folder);
   TRY_DO(write_file(folder / "preset.toml", preset::to_toml(run.preset)));
   const record::Kind kind = kind_of(run.pictures);
   record::FolderSink sink(folder, {run.preset.name, kind, run.preset.title});
@@ -162,10 +164,14 @@ Result<void> write_runs(std::vector<Run>& runs, const preset::Presets& presets,
 
 std::string state_text(const record::Summary& at) {
   if (!at.solved) return "the net itself, no equilibrium";
-  return fmt::format("bend energy {}, {}, residual {:.1e} N",
-                     record::with_error(at.energies[Term::bend], at.energy_error_mJ, "mJ"),
-                     at.stable ? "stable" : fmt::format("{} negative pivots", at.negative_pivots),
-                     at.residual_N);
+  constexpr double worth_telling = 0.01, least_mJ = 1e-6;
+  const double bend = at.energies[Term::bend], all = at.energies.total();
+  return fmt::format(
+      "bend energy {}{}, {}, residual {:.1e} N", record::with_error(bend, at.energy_error_mJ, "mJ"),
+      std::abs(all - bend) > worth_telling * std::max(std::abs(bend), least_mJ)
+          ? fmt::format(" of {:.4g} mJ in all", all)
+          : "",
+      at.stable ? "stable" : fmt::format("{} negative pivots", at.negative_pivots), at.residual_N);
 }
 
 /// In as many digits as hold.
@@ -175,7 +181,9 @@ void print_forces(const record::Summary& at) {
   if (std::isfinite(at.force_N) && std::isfinite(at.stiffness_N_per_mm))
     fmt::print(", growing by {}",
                record::with_error(at.stiffness_N_per_mm, at.stiffness_error_N_per_mm, "N/mm"));
-  if (at.largest_force_N > 0)
+  if (at.force_error_N >= at.largest_force_N && at.largest_force_N > 0)
+    fmt::print("\n  no force on a support above {:.1g} N", at.largest_force_N + at.force_error_N);
+  else if (at.largest_force_N > 0)
     fmt::print("\n  largest force on a support {}{}",
                record::with_error(at.largest_force_N, at.force_error_N, "N"),
                std::isfinite(at.force_error_N)

@@ -82,7 +82,11 @@ Result<render::Image> picture_of(const Run& run, preset::ColourBy colours,
 void add_geometry(Sheets& sheets, const Run& run, const exports::FabricationPlan& plan) {
   const record::Summary& summary = run.summary;
   const auto& boundary = plan.actuated_boundary;
-  const Eigen::Vector3d span = boundary.rowwise().maxCoeff() - boundary.rowwise().minCoeff();
+  // of a rod that is clamped at one end there is none
+  const Eigen::Vector3d span =
+      boundary.cols() > 0
+          ? Eigen::Vector3d(boundary.rowwise().maxCoeff() - boundary.rowwise().minCoeff())
+          : Eigen::Vector3d::Zero();
   sheets.values(
       {{"rods", fmt::format("{}, {:.4g} m in all", summary.rods, 1e-3 * plan.total_length_mm())},
        {"joints", fmt::format("{}, {} mm apart", summary.joints, number(plan.spacing_mm))},

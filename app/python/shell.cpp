@@ -128,6 +128,10 @@ Result<State> Shell::look() {
   for (const Constraint& hold : session_->holds()) {
     const FootprintJoint& joint = scene_->footprint.joints[std::size_t(hold.node)];
     state.held.push_back({joint.i, joint.j});
+    const auto taken = session_->grip_origins.find(hold.node);
+    if (taken == session_->grip_origins.end()) continue;
+    const Eigen::Vector3d moved = session_->nodes().col(hold.node) - taken->second;
+    if (moved.norm() > nearest_mm) state.pushed.push_back({hold.node, moved.normalized()});
   }
   return state;
 }

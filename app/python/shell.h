@@ -19,6 +19,8 @@ struct State {
   record::Frame frame;
   Certificate certificate;
   std::vector<std::array<int, 2>> held = {};  ///< (i, j) of the joints that are held
+  std::vector<record::LoadedJoint> pushed =
+      {};  ///< those of them that were moved, as pictures show
 };
 
 /// What a step came to.

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "app/cli/pictures.h"
@@ -190,7 +192,9 @@ Result<void> draw_on(const State& state, const render::MovieStyle& style,
                      const std::filesystem::path& path, const std::string& context) {
   // OpenGL stays on the thread that began it, which is that of this call
   TRY(artist, app::PictureMaker::create(context, state.preset->style.font));
-  const record::Trajectory run{*state.layout, {state.frame}};
+  record::Layout layout = *state.layout;
+  std::ranges::copy(state.pushed, std::back_inserter(layout.loaded_joints));
+  const record::Trajectory run{std::move(layout), {state.frame}};
   TRY_DO(render::check_showable(run, style));
   const render::Stage stage(run, style);
   TRY(picture, stage.draw(artist->renderer(), {run.frames.front(), 0}));

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <type_traits>
@@ -137,6 +138,9 @@ Result<std::vector<InputEvent>> read_events(const std::string& text, const std::
     ++number;
     const auto begin = line.find_first_not_of(" \t\r");
     if (begin == std::string::npos || line[begin] == '#') continue;
+    // what is typed or opened may have one
+    if (!line.starts_with("type") && !line.starts_with("open"))
+      line.erase(std::min(line.find(" #"), line.size()));
     line.erase(line.find_last_not_of(" \t\r") + 1);
     auto event = read_event(line);
     if (!event) return invalid("{}:{}: {}", source, number, event.error().message);

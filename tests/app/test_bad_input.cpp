@@ -35,7 +35,7 @@ run s1_actuation -o bad.toml => cannot write the folder 'bad.toml': it is a file
 run s1_actuation -o bad.toml/x => cannot write the folder 'bad.toml/x': Not a directory
 movei s1_actuation => no command 'movei'; did you mean 'movie'? ('gridshell --help' lists them)
 compare none.png none.png => cannot read 'none.png': No such file or directory
-render none => 'none' is no run: cannot read 'none/summary.json': No such file or directory
+render none => 'none' is no run: a run is a folder that 'gridshell run PRESET -o FOLDER' writes
 )";
 
 }  // namespace

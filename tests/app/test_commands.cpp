@@ -131,6 +131,14 @@ TEST_CASE("figure draws a still a radius and all in one", "[standard]") {
   CHECK_FALSE(fs::exists(bench.at / "again/frames"));
 }
 
+TEST_CASE("figure draws where the cases end, side by side", "[standard]") {
+  const Bench bench(two_cases);
+  bench.good("figure small.toml -o run");
+  CHECK(files_in(bench.at / "run") ==
+        listed({"far", "near", "preset.toml", "small.png", "summary.json"}));
+  CHECK(width_of(bench.at / "run/small.png") > 1.5 * width_of(bench.at / "run/near/near.png"));
+}
+
 TEST_CASE("figures of building blocks, drawn again from the run", "[shared]") {
   const fs::path run = shared_run("fig5_peanut");
   CHECK_THAT(text_of(fs::path(run) += ".txt"),
@@ -267,7 +275,8 @@ TEST_CASE("chart accuracy of sizes draws a curve a number of rods") {
   const auto said = bench.good("chart accuracy small.toml --sizes 5,6 --edges 16 -o sizes");
   CHECK_THAT(said.out, Contains("5 rods: ") && Contains("6 rods: "));
   const auto table = text_of(bench.at / "sizes/accuracy.csv");
-  CHECK(std::ranges::count(table, '\n') == 7);
+  // 1e-2 and 1e-3 come to the same meshes
+  CHECK(std::ranges::count(table, '\n') == 5);
   CHECK_THAT(table, Contains("\n5 rods,") && Contains("\n6 rods,"));
   CHECK(fs::exists(bench.at / "sizes/accuracy.png"));
   CHECK_THAT(bench.run("chart accuracy small.toml --sizes 5,many").err,
