@@ -174,14 +174,15 @@ inline constexpr const char* picture_doc =
 
 }  // namespace gridshell::python
 
-template <gridshell::python::TypeName type>
-struct pybind11::detail::type_caster<gridshell::python::Judged<type>> {
-  PYBIND11_TYPE_CASTER(gridshell::python::Judged<type>, const_name(type.text));
+template <gridshell::python::TypeName type_name>
+struct pybind11::detail::type_caster<gridshell::python::Judged<type_name>> {
+  PYBIND11_TYPE_CASTER(gridshell::python::Judged<type_name>, const_name(type_name.text));
   bool load(handle source, bool) {
     value.value = reinterpret_borrow<object>(source);
     return true;
   }
-  static handle cast(const gridshell::python::Judged<type>& judged, return_value_policy, handle) {
+  static handle cast(const gridshell::python::Judged<type_name>& judged, return_value_policy,
+                     handle) {
     return judged.value.inc_ref();
   }
 };

@@ -246,7 +246,11 @@ Result<std::vector<PointLoad>> points_of(const preset::Points& rows, const std::
     const int i = int(std::lround(row[0])), j = int(std::lround(row[1]));
     const int joint = row[0] == i && row[1] == j ? joint_at(footprint, i, j) : -1;
     if (joint < 0)
-      return invalid("{} points: the footprint has no joint [{:g}, {:g}]", key, row[0], row[1]);
+      return invalid("{} points: the footprint has no joint [{:g}, {:g}], must be one of its {}{}",
+                     key, row[0], row[1], footprint.joints.size(),
+                     footprint.joints.empty() ? ""
+                                              : fmt::format(", as [{}, {}]", footprint.joints[0].i,
+                                                            footprint.joints[0].j));
     points.push_back({joint, {row[2], row[3], row[4]}});
   }
   return points;

@@ -100,9 +100,10 @@ void draw(Canvas& canvas, const PanelFigure& figure, const Grid& grid, bool line
 Result<void> check(const PanelFigure& figure) {
   if (figure.panels.empty()) return invalid("a figure needs at least one panel");
   const Image& first = figure.panels[0].picture;
+  if (first.width < 1 || first.height < 1)
+    return invalid("the picture is too small for its panels: it takes more of [movie] size");
   for (const Panel& panel : figure.panels)
-    if (panel.picture.width != first.width || panel.picture.height != first.height ||
-        first.width < 1 || first.height < 1)
+    if (panel.picture.width != first.width || panel.picture.height != first.height)
       return invalid("panels of a figure must be of one size: {} x {} and {} x {}", first.width,
                      first.height, panel.picture.width, panel.picture.height);
   return {};

@@ -276,6 +276,13 @@ Plot load_plot(const std::vector<LoadPoint>& points, const std::vector<record::L
   plot.title = title;
   plot.x.label = "way of the joint that goes furthest (mm)";
   plot.y.label = "load factor";
+  // cases whose factors are far apart would lie on one another
+  constexpr double far_apart = 10, below = 1.0 / 30;
+  double least = INFINITY, most = 0;
+  for (const record::LoadRow& row : cases)
+    if (row.critical_factor > 0)
+      least = std::min(least, row.critical_factor), most = std::max(most, row.critical_factor);
+  if (most > far_apart * least) plot.y.logarithmic = true, plot.y.low = below * least;
   std::size_t next = 0;
   for (const auto& name : distinct(points, &LoadPoint::load_case))
     add_path(points, name, series_colour(next++), plot);

@@ -102,7 +102,9 @@ TEST_CASE("loads on the bend rung are those of the twist rung, and lower the she
   p.accuracy.model = RodModel::twist;
   CHECK(distance(bend, run(p)) < 1e-6 * p.footprint.radius_mm);
   p.loads.points = {{7, 0, 0, 0, 1}};
-  CHECK(refused_run(p) == "[loads] points: the footprint has no joint [7, 0]");
+  CHECK_THAT(
+      refused_run(p),
+      Catch::StartsWith("[loads] points: the footprint has no joint [7, 0], must be one of its "));
 }
 
 TEST_CASE("spring joints come to the shared ones as they stiffen, on both rungs") {

@@ -166,6 +166,8 @@ TEST_CASE("one joint opens all rhombi, and what is wrong with a step is told") {
   CHECK_THAT(run(p).summary.steps[0], Catch::Contains("joints at 70.00 degrees on average"));
   p.step[0].angles = {{3, 0, 70}};
   CHECK_THAT(refused_run(p), Catch::Contains("[3, 0] is no joint where two rods cross"));
+  p.step[0].angles = {{12, 0, 70}, {12, 0, 80}};
+  CHECK_THAT(refused_run(p), Catch::Contains("[12, 0] stands there twice"));
   p.step = {opened(179.5, 100)};
   CHECK_THAT(refused_run(p), Catch::Contains("must be between 1 and 179"));
   p.step = {opened(60, 100), opened(70, 200)};

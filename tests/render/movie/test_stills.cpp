@@ -69,4 +69,6 @@ TEST_CASE("panels of different size, or none, are refused") {
   figure.panels = {{Image(20, 10), "", ""}, {Image(20, 12), "", ""}};
   CHECK(refusal(draw_panels(figure)) ==
         "panels of a figure must be of one size: 20 x 10 and 20 x 12");
+  figure.panels = {{Image(), "", ""}};
+  CHECK_THAT(refusal(draw_panels(figure)), Catch::Contains("too small for its panels"));
 }
