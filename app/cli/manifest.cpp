@@ -8,6 +8,7 @@
 #include <sstream>
 #include <vector>
 
+#include "app/cli/delivery.h"
 #include "engine/core/file_io.h"
 #include "engine/core/json.h"
 #include "engine/gridshell.h"
@@ -102,6 +103,13 @@ bool is_frame(const std::string& name) {
   return digits.size() >= 5 && digits.find_first_not_of("0123456789") == digits.npos;
 }
 
+/// "segments/version", "segments/CASE/segment_0003": of the path of a run that was cut short
+bool is_of_path(const std::string& name) {
+  if (!name.starts_with(std::string(segments_name) + "/")) return false;
+  const auto file = fs::path(name).filename().string();
+  return file == version_name || file.starts_with("segment_");
+}
+
 bool may_be_of(const LegacyRunFiles& run, const std::string& name) {
   static const std::string data = fmt::format(
       " summary.json preset.toml joints.csv cells.csv frames.csv bins.csv seams.csv trajectory.h5 "
@@ -111,8 +119,7 @@ bool may_be_of(const LegacyRunFiles& run, const std::string& name) {
       record::states_name, record::search_name, record::transitions_name, record::barriers_name,
       record::journal_name, record::coarser_journal_name);
   if ((name.find(' ') == name.npos && data.find(" " + name + " ") != data.npos) ||
-      is_temporary(fs::path(name).filename().string()) || is_frame(name) ||
-      name.starts_with("segments/"))
+      is_temporary(fs::path(name).filename().string()) || is_frame(name) || is_of_path(name))
     return true;
   const auto kind = fs::path(name).extension();
   if (name.find('/') != std::string::npos || (kind != ".png" && kind != ".svg")) return false;

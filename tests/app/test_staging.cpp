@@ -103,6 +103,7 @@ TEST_CASE("only a run or an empty folder may be replaced, and what stands in the
       {true, {{"notes.txt", mine}}, "it holds what no run wrote there: 'notes.txt'"},
       {true, {{"old.png", mine}}, "it holds what no run wrote there: 'old.png'"},
       {true, {{"frames/mine.png", mine}}, "it holds what no run wrote there: 'frames/mine.png'"},
+      {true, {{"segments/mine", mine}}, "it holds what no run wrote there: 'segments/mine'"},
       {true, {{".hidden", mine}}, "it holds what no run wrote there: '.hidden'"},
       {true, {{"deep/er/thesis.tex", mine}}, "no run wrote there: 'deep/er/thesis.tex'"},
       {true, {{"empty/", ""}}, "it holds what no run wrote there: 'empty'"},
