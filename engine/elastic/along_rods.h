@@ -21,26 +21,23 @@ inline EdgeGeometry geometry_of(const Eigen::Matrix3Xd& x, const ModelEdge& edge
   return geometry_between(x, edge.from, edge.to);
 }
 
-/// Edges one after another, and every bend with its two edges: on_edge(k, edge, geometry),
-/// on_bend(bend, geometry of e, geometry of f).
+/// The edges of a rod one after another, and every bend with its two edges, that which closes a
+/// ring last: on_edge(k, edge, geometry), on_bend(k, bend, geometry of e, geometry of f).
 template <class OnEdge, class OnBend>
-inline __attribute__((always_inline)) void along_rods(const Model& model, const Eigen::Matrix3Xd& x,
-                                                      OnEdge on_edge, OnBend on_bend) {
+inline __attribute__((always_inline)) void along_rod(const Model& model, const Model::Rod& rod,
+                                                     const Eigen::Matrix3Xd& x, OnEdge on_edge,
+                                                     OnBend on_bend) {
   EdgeGeometry before, here;
-  std::size_t next = 0;
-  const std::size_t bends = model.bends.size();
-  for (int k = 0; k < int(model.edges.size()); ++k) {
+  const std::size_t edges = rod.edges.size();
+  // a ring comes to its first edge again
+  for (std::size_t n = 0; n < edges + (rod.closing_bend >= 0); ++n) {
+    const int k = rod.edges[n < edges ? n : 0];
     const ModelEdge& edge = model.edges[std::size_t(k)];
     here = geometry_of(x, edge);
-    on_edge(k, edge, here);
-    if (next < bends && model.bends[next].f == k) on_bend(model.bends[next++], before, here);
+    if (n < edges) on_edge(k, edge, here);
+    const int bend = n < edges ? rod.first_bend + int(n) - 1 : rod.closing_bend;
+    if (n > 0) on_bend(bend, model.bends[std::size_t(bend)], before, here);
     before = here;
-  }
-  // where rings close
-  for (; next < bends; ++next) {
-    const ModelBend& bend = model.bends[next];
-    on_bend(bend, geometry_of(x, model.edges[std::size_t(bend.e)]),
-            geometry_of(x, model.edges[std::size_t(bend.f)]));
   }
 }
 

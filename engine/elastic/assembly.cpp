@@ -16,7 +16,11 @@ inline void keep_smallest(double& smallest, double value) {
   if (!(value >= smallest)) smallest = value;
 }
 
-inline void reset(const Model& model, Assembly& out) {
+inline void keep_largest(double& largest, double value) {
+  if (!(std::abs(value) <= std::abs(largest))) largest = value;
+}
+
+void reset(const Model& model, Assembly& out) {
   out.energies = {};
   out.gradient.setZero(3, model.columns());
   out.force.resize(Eigen::Index(model.edges.size()));
@@ -27,16 +31,14 @@ inline void reset(const Model& model, Assembly& out) {
 }
 
 /// Stretch of one edge: energy and axial force.
-inline void add_stretch(const ModelEdge& edge, int k, double EA, const EdgeGeometry& g,
+inline void add_stretch(const ModelEdge& edge, int k, double EA, const EdgeGeometry& g, RodSum& sum,
                         Assembly& out) {
   const StretchEnergy s = stretch(EA, edge.rest_length, g.length);
-  out.energies[Term::stretch] += s.value;
+  sum.stretch += s.value;
   out.force[k] = s.force;
   out.tangents.col(k) = g.tangent;
   // the edge to a ghost only shows a direction
-  const double strain = g.length / edge.rest_length - 1;
-  if (edge.EA > 0 && !(std::abs(strain) <= std::abs(out.largest_strain)))
-    out.largest_strain = strain;
+  if (edge.EA > 0) keep_largest(sum.largest_strain, g.length / edge.rest_length - 1);
 }
 
 inline void add_pull(const ModelEdge& edge, const Eigen::Vector3d& pull, Assembly& out) {
@@ -45,8 +47,8 @@ inline void add_pull(const ModelEdge& edge, const Eigen::Vector3d& pull, Assembl
 }
 
 inline void add_bend_gradient(const ModelEdge& e, const ModelEdge& f, const BendEnergy& bend,
-                              Assembly& out) {
-  out.energies[Term::bend] += bend.value;
+                              RodSum& sum, Assembly& out) {
+  sum.bend += bend.value;
   out.gradient.col(e.from) -= bend.gradient_e;
   out.gradient.col(e.to) += bend.gradient_e - bend.gradient_f;
   out.gradient.col(f.to) += bend.gradient_f;
@@ -172,53 +174,55 @@ void add_others(const Model& model, const State& state, const ExternalLoads& out
   });
 }
 
-/// Energies, forces and gradient, the pull of edge k being pull_of(k, its geometry).
+/// Energies, forces and gradient of a rod, the pull of edge k being pull_of(k, its geometry).
 template <class Pull>
-inline __attribute__((always_inline)) void assemble_forces(const Model& model,
-                                                           const Eigen::Matrix3Xd& x, Assembly& out,
-                                                           Pull pull_of) {
-  reset(model, out);
+inline __attribute__((always_inline)) void add_forces(const Model& model, const Model::Rod& rod,
+                                                      const Eigen::Matrix3Xd& x, RodSum& into,
+                                                      Assembly& out, Pull pull_of) {
+  RodSum sum = into;
   BendEnergy energy;
-  along_rods(
-      model, x,
+  along_rod(
+      model, rod, x,
       [&](int k, const ModelEdge& edge, const EdgeGeometry& g) {
-        add_stretch(edge, k, edge.EA, g, out);
+        add_stretch(edge, k, edge.EA, g, sum, out);
         add_pull(edge, pull_of(k, g), out);
       },
-      [&](const ModelBend& bend, const EdgeGeometry& e, const EdgeGeometry& f) {
-        keep_smallest(out.smallest_cosine, e.tangent.dot(f.tangent));
+      [&](int, const ModelBend& bend, const EdgeGeometry& e, const EdgeGeometry& f) {
+        keep_smallest(sum.smallest_cosine, e.tangent.dot(f.tangent));
         bend_gradient(bend.stiffness, e, f, energy);
         add_bend_gradient(model.edges[std::size_t(bend.e)], model.edges[std::size_t(bend.f)],
-                          energy, out);
+                          energy, sum, out);
       });
+  into = sum;
 }
 
 GRIDSHELL_CLONES
-void rod_gradient(const Model& model, const Eigen::Matrix3Xd& x, Assembly& out) {
-  assemble_forces(model, x, out, [&](int k, const EdgeGeometry& g) -> Eigen::Vector3d {
+void rod_gradient(const Model& model, const Model::Rod& rod, RodSum& sum, const Eigen::Matrix3Xd& x,
+                  Assembly& out) {
+  add_forces(model, rod, x, sum, out, [&](int k, const EdgeGeometry& g) -> Eigen::Vector3d {
     return out.force[k] * g.tangent;
   });
 }
 
 GRIDSHELL_CLONES
-void rod_mixed_residual(const Model& model, const State& state, const Eigen::Matrix3Xd& tangents,
-                        Assembly& out) {
-  assemble_forces(model, state.x, out, [&](int k, const EdgeGeometry& g) -> Eigen::Vector3d {
+void rod_mixed_residual(const Model& model, const Model::Rod& rod, RodSum& sum, const State& state,
+                        const Eigen::Matrix3Xd& tangents, Assembly& out) {
+  add_forces(model, rod, state.x, sum, out, [&](int k, const EdgeGeometry& g) -> Eigen::Vector3d {
     return state.force[k] * g.tangent + (out.force[k] - state.force[k]) * tangents.col(k);
   });
 }
 
 GRIDSHELL_CLONES
-void rod_hessian(const Model& model, const State& state, const Stiffness& how, Assembly& out) {
-  reset(model, out);
+void rod_hessian(const Model& model, const Model::Rod& rod, RodSum& into, const State& state,
+                 const Stiffness& how, Assembly& out) {
   BlockHessian& h = out.hessian;
-  h.reset(std::size_t(model.columns()), model.pattern.pairs().size());
+  RodSum sum = into;
   BendEnergy energy;
-  along_rods(
-      model, state.x,
+  along_rod(
+      model, rod, state.x,
       [&](int k, const ModelEdge& edge, const EdgeGeometry& g) {
         const double EA = how.EA_scale * edge.EA;
-        add_stretch(edge, k, EA, g, out);
+        add_stretch(edge, k, EA, g, sum, out);
         add_pull(edge, out.force[k] * g.tangent, out);
         const double geometric = (how.mixed ? state.force[k] : out.force[k]) / g.length;
         Column along;
@@ -231,34 +235,70 @@ void rod_hessian(const Model& model, const State& state, const Stiffness& how, A
         across -= stiffness;
         h.add(edge.slot, across);
       },
-      [&](const ModelBend& bend, const EdgeGeometry& e, const EdgeGeometry& f) {
-        const ModelEdge &edge_e = model.edges[std::size_t(bend.e)],
-                        &edge_f = model.edges[std::size_t(bend.f)];
-        keep_smallest(out.smallest_cosine, e.tangent.dot(f.tangent));
-        bend_hessian(bend.stiffness, e, f, energy);
-        add_bend_gradient(edge_e, edge_f, energy, out);
-        add_bend_hessian(edge_e, edge_f, bend.slot, energy, h);
-      });
+      // a call would be none of the copy for one instruction set
+      [&](int, const ModelBend& bend, const EdgeGeometry& e, const EdgeGeometry& f)
+          __attribute__((always_inline)) {
+            const ModelEdge &edge_e = model.edges[std::size_t(bend.e)],
+                            &edge_f = model.edges[std::size_t(bend.f)];
+            keep_smallest(sum.smallest_cosine, e.tangent.dot(f.tangent));
+            bend_hessian(bend.stiffness, e, f, energy);
+            add_bend_gradient(edge_e, edge_f, energy, sum, out);
+            add_bend_hessian(edge_e, edge_f, bend.slot, energy, h);
+          });
+  into = sum;
+}
+
+/// Whether it is worth it to share the rods: others wait longer than they work on a small model.
+bool worth_sharing(const Model& model) {
+  constexpr std::size_t edges = 10000;  // some 0.7 ms
+  return model.edges.size() >= edges;
+}
+
+/// All rods, of_rod(rod, sum), and what else there is. Of a large model the rods of a wave go to
+/// whoever is free, each with a sum of its own.
+template <class OfRod>
+void assemble(const Model& model, const State& state, const ExternalLoads& outside,
+              bool with_hessian, Assembly& out, Team* team, OfRod of_rod) {
+  const bool apart = worth_sharing(model);
+  reset(model, out);
+  if (with_hessian)
+    out.hessian.reset(std::size_t(model.columns()), model.pattern.pairs().size(),
+                      apart ? team : nullptr);
+  out.of_rod.assign(apart ? model.rods.size() : 1, {});
+  if (!apart)
+    for (const Model::Rod& rod : model.rods) of_rod(rod, out.of_rod.front());
+  for (std::size_t wave = 0; apart && wave < model.waves.size(); ++wave)
+    share(team, int(model.waves[wave].size()), [&](int k) {
+      const auto rod = std::size_t(model.waves[wave][std::size_t(k)]);
+      of_rod(model.rods[rod], out.of_rod[rod]);
+    });
+  for (const RodSum& sum : out.of_rod) {
+    out.energies[Term::stretch] += sum.stretch;
+    out.energies[Term::bend] += sum.bend;
+    keep_smallest(out.smallest_cosine, sum.smallest_cosine);
+    keep_largest(out.largest_strain, sum.largest_strain);
+  }
+  add_others(model, state, outside, with_hessian, out);
 }
 
 }  // namespace
 
 void assemble_gradient(const Model& model, const State& state, const ExternalLoads& outside,
-                       Assembly& out) {
-  rod_gradient(model, state.x, out);
-  add_others(model, state, outside, false, out);
+                       Assembly& out, Team* team) {
+  assemble(model, state, outside, false, out, team,
+           [&](auto&... of) { rod_gradient(model, of..., state.x, out); });
 }
 
 void assemble_mixed_residual(const Model& model, const State& state, const ExternalLoads& outside,
-                             const Eigen::Matrix3Xd& tangents, Assembly& out) {
-  rod_mixed_residual(model, state, tangents, out);
-  add_others(model, state, outside, false, out);
+                             const Eigen::Matrix3Xd& tangents, Assembly& out, Team* team) {
+  assemble(model, state, outside, false, out, team,
+           [&](auto&... of) { rod_mixed_residual(model, of..., state, tangents, out); });
 }
 
 void assemble_hessian(const Model& model, const State& state, const ExternalLoads& outside,
-                      const Stiffness& stiffness, Assembly& out) {
-  rod_hessian(model, state, stiffness, out);
-  add_others(model, state, outside, true, out);
+                      const Stiffness& stiffness, Assembly& out, Team* team) {
+  assemble(model, state, outside, true, out, team,
+           [&](auto&... of) { rod_hessian(model, of..., state, stiffness, out); });
 }
 
 void multiply(const Model& model, const BlockHessian& hessian, const Eigen::Matrix3Xd& x,

@@ -7,6 +7,12 @@
 
 namespace gridshell {
 
+/// What the edges and bends of a rod add up to.
+struct RodSum {
+  double stretch = 0, bend = 0;  ///< energies, mJ
+  double smallest_cosine = 1, largest_strain = 0;
+};
+
 /// Working memory and results of one assembly; reused from call to call.
 struct Assembly {
   Energies energies;          ///< by term, mJ
@@ -17,6 +23,7 @@ struct Assembly {
   double smallest_cosine = 1;  ///< of the turns between edges: below 0 they turn over 90 degrees
   double largest_strain = 0;   ///< of the edges, by size, with its sign
   bool overlap = false;        ///< rods that a barrier keeps apart are nearer than their radii
+  std::vector<RodSum> of_rod;  ///< of a small model one of all
 };
 
 /// What acts on a model from outside beside its ground: its dead loads times a factor, a field that
@@ -48,9 +55,10 @@ Eigen::VectorXd bending_of(const Model& model, const State& state);
 /// times the fibres' reach.
 Eigen::VectorXd bending_strain_of(const Model& model, const State& state);
 
-/// Energies, gradient and axial forces at a state.
+/// Energies, gradient and axial forces at a state. A team shares the rods of a large model; here
+/// and below results do not hang on it.
 void assemble_gradient(const Model& model, const State& state, const ExternalLoads& outside,
-                       Assembly& out);
+                       Assembly& out, Team* team = nullptr);
 
 /// What joints store, so much of their opening having come: their part of an assembly, and of
 /// energies alone.
@@ -65,11 +73,11 @@ Eigen::Matrix3Xd opening_rate(const Model& model, const State& state);
 /// eliminated with the edges' directions t0 of an earlier linearisation: the gradient with N t +
 /// (EA strain - N) t0 in the place of EA strain t. Where N = EA strain it is the gradient.
 void assemble_mixed_residual(const Model& model, const State& state, const ExternalLoads& outside,
-                             const Eigen::Matrix3Xd& tangents, Assembly& out);
+                             const Eigen::Matrix3Xd& tangents, Assembly& out, Team* team = nullptr);
 
 /// Energies, gradient and Hessian.
 void assemble_hessian(const Model& model, const State& state, const ExternalLoads& outside,
-                      const Stiffness& stiffness, Assembly& out);
+                      const Stiffness& stiffness, Assembly& out, Team* team = nullptr);
 
 /// y = H x over all columns.
 void multiply(const Model& model, const BlockHessian& hessian, const Eigen::Matrix3Xd& x,

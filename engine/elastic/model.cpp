@@ -92,9 +92,11 @@ class Builder {
 
   Model build(const std::vector<ModelRod>& rods, std::vector<char> crossings) {
     // after all others, as they join edges that do not follow one another in the list
-    for (const auto& [rod, material, turn] : rings_)
+    for (const auto& [rod, material, turn] : rings_) {
+      model_.rods[rod].closing_bend = int(model_.bends.size());
       add_bend(material, model_.rods[rod],
                {model_.rods[rod].edges.back(), model_.rods[rod].edges.front()}, 0.5, turn);
+    }
     crossings.resize(std::size_t(model_.nodes), 0);
     mark_shared(rods, crossings);
     model_.held.assign(std::size_t(model_.nodes), 0);
@@ -102,6 +104,7 @@ class Builder {
     for (std::size_t r = 0; r < rods.size(); ++r) hold(rods[r], model_.rods[r]);
     lay_along_rods(rods);
     find_segments(crossings);
+    find_waves();
     finish(model_);
     return std::move(model_);
   }
@@ -231,6 +234,23 @@ class Builder {
       if (model_.segment[std::size_t(first)] == -2) model_.segment[std::size_t(first)] = -1;
     }
     std::erase_if(model_.inside, [&](int c) { return model_.segment[std::size_t(c)] < 0; });
+  }
+
+  void find_waves() {
+    std::vector<std::size_t> next(std::size_t(model_.nodes), 0);  // wave that a node is free for
+    for (std::size_t r = 0; r < model_.rods.size(); ++r) {
+      std::size_t wave = 0;
+      const auto nodes = [&](const auto& visit) {
+        for (const int edge : model_.rods[r].edges) {
+          visit(next[std::size_t(model_.edges[std::size_t(edge)].from)]);
+          visit(next[std::size_t(model_.edges[std::size_t(edge)].to)]);
+        }
+      };
+      nodes([&](std::size_t there) { wave = std::max(wave, there); });
+      nodes([&](std::size_t& there) { there = wave + 1; });
+      if (wave == model_.waves.size()) model_.waves.emplace_back();
+      model_.waves[wave].push_back(int(r));
+    }
   }
 
   Model model_;

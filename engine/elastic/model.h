@@ -13,6 +13,7 @@
 #include "engine/core/choices.h"
 #include "engine/core/energies.h"
 #include "engine/core/result.h"
+#include "engine/core/team.h"
 #include "engine/elastic/contact.h"
 #include "engine/elastic/element_energies.h"
 #include "engine/elastic/rod_material.h"
@@ -52,9 +53,14 @@ struct BlockHessian {
   std::vector<Block3> diagonal, pair;
   std::vector<Beyond> beyond;
 
-  void reset(std::size_t columns, std::size_t pairs) {
+  void reset(std::size_t columns, std::size_t pairs, Team* team = nullptr) {
     diagonal.assign(columns, {});
-    pair.assign(pairs, {});
+    pair.resize(pairs);
+    const int pieces = team ? team->threads() : 1;
+    share(team, pieces, [&](int k) {
+      const auto at = [&](int piece) { return pair.begin() + long(pairs * piece / pieces); };
+      std::fill(at(k), at(k + 1), Block3{});
+    });
     beyond.clear();
   }
   void add(BlockSlot slot, const Block3& block) {
@@ -209,13 +215,17 @@ struct Model {
     std::vector<int> edges;                ///< in order, ghosts too
     int ghost_begin = -1, ghost_end = -1;  ///< their edges
     bool closed = false;
-    int first_bend = 0;  ///< of those that follow one another along it
-    int held_spin = -1;  ///< edge whose angle is held as nothing resists the spin, or -1
+    int first_bend = 0;     ///< of those that follow one another along it
+    int closing_bend = -1;  ///< that which closes a ring, or -1
+    int held_spin = -1;     ///< edge whose angle is held as nothing resists the spin, or -1
     Eigen::Vector3d director;
     double gyration_mm2 = 0;  ///< of the section about the rod's axis, squared: (I1 + I2)/A
     FibreReach fibres;
   };
   std::vector<Rod> rods;
+  /// Rods of one wave share no node, and those at a node stand in the order of their waves: sums at
+  /// a node have one order, whoever goes along which rod.
+  std::vector<std::vector<int>> waves;
 
   /// per column: a bit set for each of its three unknowns that is prescribed or does not exist
   std::vector<unsigned char> held;

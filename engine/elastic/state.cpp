@@ -210,12 +210,12 @@ Eigen::Matrix3Xd nodes_of(const RodMesh& mesh, const Model& model,
 
 Eigen::VectorXd bending_of(const Model& model, const State& state) {
   Eigen::VectorXd energy(Eigen::Index(model.bends.size()));
-  Eigen::Index next = 0;
-  along_rods(
-      model, state.x, [](int, const ModelEdge&, const EdgeGeometry&) {},
-      [&](const ModelBend& bend, const EdgeGeometry& e, const EdgeGeometry& f) {
-        energy[next++] = bend_value(bend.stiffness, e, f);
-      });
+  for (const Model::Rod& rod : model.rods)
+    along_rod(
+        model, rod, state.x, [](int, const ModelEdge&, const EdgeGeometry&) {},
+        [&](int k, const ModelBend& bend, const EdgeGeometry& e, const EdgeGeometry& f) {
+          energy[k] = bend_value(bend.stiffness, e, f);
+        });
   each_pair_list(model, [&]<class Law>(const std::vector<Pair<Law>>& list) {
     if constexpr (Law::term == Term::bend)
       for (const Pair<Law>& pair : list)
@@ -227,15 +227,13 @@ Eigen::VectorXd bending_of(const Model& model, const State& state) {
 Eigen::VectorXd bending_strain_of(const Model& model, const State& state) {
   Eigen::VectorXd strain(Eigen::Index(model.bends.size()));
   const auto rods = rods_of_bends(model);
-  std::size_t next = 0;
-  along_rods(
-      model, state.x, [](int, const ModelEdge&, const EdgeGeometry&) {},
-      [&](const ModelBend& bend, const EdgeGeometry& e, const EdgeGeometry& f) {
-        const double turn = curvature_binormal(e.tangent, f.tangent).kb.norm();
-        strain[Eigen::Index(next)] =
-            rods[next]->fibres.strain(turn / length_between(model, bend.e, bend.f));
-        ++next;
-      });
+  for (const Model::Rod& rod : model.rods)
+    along_rod(
+        model, rod, state.x, [](int, const ModelEdge&, const EdgeGeometry&) {},
+        [&](int k, const ModelBend& bend, const EdgeGeometry& e, const EdgeGeometry& f) {
+          const double turn = curvature_binormal(e.tangent, f.tangent).kb.norm();
+          strain[k] = rod.fibres.strain(turn / length_between(model, bend.e, bend.f));
+        });
   const auto put = [&]<class Law>(const Pair<Law>& pair, const auto& bent) {
     strain[pair.bend] =
         rods[std::size_t(pair.bend)]->fibres.strain(bent / length_between(model, pair.e, pair.f));
@@ -251,14 +249,15 @@ Eigen::VectorXd bending_strain_of(const Model& model, const State& state) {
 
 Energies energies_of(const Model& model, const State& state, const ExternalLoads& outside) {
   Energies sum;
-  along_rods(
-      model, state.x,
-      [&](int, const ModelEdge& edge, const EdgeGeometry& g) {
-        sum[Term::stretch] += stretch(edge.EA, edge.rest_length, g.length).value;
-      },
-      [&](const ModelBend& bend, const EdgeGeometry& e, const EdgeGeometry& f) {
-        sum[Term::bend] += bend_value(bend.stiffness, e, f);
-      });
+  for (const Model::Rod& rod : model.rods)
+    along_rod(
+        model, rod, state.x,
+        [&](int, const ModelEdge& edge, const EdgeGeometry& g) {
+          sum[Term::stretch] += stretch(edge.EA, edge.rest_length, g.length).value;
+        },
+        [&](int, const ModelBend& bend, const EdgeGeometry& e, const EdgeGeometry& f) {
+          sum[Term::bend] += bend_value(bend.stiffness, e, f);
+        });
   each_pair_list(model, [&]<class Law>(const std::vector<Pair<Law>>& list) {
     for (const Pair<Law>& pair : list)
       sum[Law::term] += pair.law.value(pair_geometry(model, state, pair));

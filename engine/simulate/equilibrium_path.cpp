@@ -166,12 +166,14 @@ Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follo
     if (!(worst > allowed))
       return located(confirm_on_finer_meshes(scene, std::move(*path), once, watch, one_motion),
                      watch);
-    // twice the edges leave a quarter, and may lose no stability where the leader does alone
-    if (stays_beyond_event(**path) && !plan.extrapolate && !scene.leader_asked &&
-        worst <= 4 * allowed) {
+    // twice the edges leave a quarter, and may lose no stability where the leader does alone; where
+    // they were followed already, they may do
+    const bool known = finer_path && worst_estimate_mm(*finer_path) <= allowed;
+    if (known || (stays_beyond_event(**path) && !plan.extrapolate && !scene.leader_asked &&
+                  worst <= 4 * allowed)) {
       path = confirm_on_finer_meshes(scene, std::move(*path), once, watch, one_motion);
       if (!path) return path;
-      if (uneventful(**path) && worst_estimate_mm(**path) <= allowed)
+      if ((known || uneventful(**path)) && worst_estimate_mm(**path) <= allowed)
         return located(std::move(path), watch);
     }
     const auto next = finer(plan);
@@ -224,15 +226,16 @@ CertifiedSample certify_sample(EquilibriumPath& path, const PathSample& sample,
       if (done(held) && held.certificate.stable()) return {held, still->point.t};
     }
   const LoadStep &before = load_step_before(segment, t), &after = load_step_after(segment, t);
-  Report report = from(before, false);
+  const bool goes_on = goes_on_between(segment, before, after);
+  Report report = path.simulation.sample(t, before, false, watch,
+                                         goes_on && t != before.point.t ? &after : nullptr);
   if (done(report)) return {report, t};
   // a branch was left in between: it may be a state of the next one
   report = from(after, false);
   if (done(report)) return {report, after.point.t};
   // or, where the next one does not come back so far, the rest to which the shell went; a branch
   // that goes on between the two is not left for a rest
-  if ((report.end == Outcome::unstable || report.end == Outcome::lost) &&
-      !goes_on_between(segment, before, after))
+  if ((report.end == Outcome::unstable || report.end == Outcome::lost) && !goes_on)
     report = path.simulation.certify_rest_at(t, before, watch);
   if (done(report)) return {report, after.point.t};
   // or any equilibrium, which says what it is

@@ -25,24 +25,6 @@ bool smooth(const PathSegment& segment, std::size_t k) {
   return goes_on_between(segment, segment.load_steps[k], segment.load_steps[k + 1]);
 }
 
-/// The cubic through two states and their tangents; angles, which count from a state's own frames,
-/// go on from the first.
-State hermite(const Model& model, const PathPoint& a, const PathPoint& b, double t) {
-  const double h = b.t - a.t, s = (t - a.t) / h;
-  const double to = s * s * (3 - 2 * s), from_slope = h * s * (1 - s) * (1 - s),
-               to_slope = -h * s * s * (1 - s);
-  const auto between = [&](const auto& x, const auto& vx, const auto& y, const auto& vy) {
-    return (x + to * (y - x) + from_slope * vx + to_slope * vy).eval();
-  };
-  State guess = a.state;
-  guess.force = between(a.state.force, a.velocity.force, b.state.force, b.velocity.force);
-  Eigen::Matrix3Xd x = a.state.x + (t - a.t) * a.velocity.x;
-  x.leftCols(model.nodes) =
-      between(a.state.x, a.velocity.x, b.state.x, b.velocity.x).leftCols(model.nodes);
-  move_to(model, x, guess);
-  return guess;
-}
-
 /// What acts and what is held on another system of the same mesh.
 void take_over(const Linearisation& from, Linearisation& to) {
   to.outside = from.outside;
@@ -121,10 +103,10 @@ std::optional<record::Frame> FramesBetween::leading_at(Linearisation& system, do
 
 /// The frame of a certified state, but of nodes, K, reactions and energies what finer meshes add.
 /// Nothing: there is no stable one.
-std::shared_ptr<const FramesBetween::Knot> FramesBetween::knot_at(double t,
-                                                                  const LoadStep& beside) {
+std::shared_ptr<const FramesBetween::Knot> FramesBetween::knot_at(double t, const LoadStep& beside,
+                                                                  const LoadStep* across) {
   NestedShell& shell = path_.simulation.shell();
-  const Report report = path_.simulation.sample(t, beside, false, watch_);
+  const Report report = path_.simulation.sample(t, beside, false, watch_, across);
   if (report.end != Outcome::reached || !report.certificate.stable()) return nullptr;
   const auto knot =
       std::make_shared<Knot>(Knot{frame_of(path_.simulation), shell.state().levels[0]});
@@ -148,7 +130,7 @@ FramesBetween::Knots FramesBetween::knots_in(const PathSegment& segment, const W
   Knots knots;
   for (std::size_t k = window.first; k < end; ++k) {
     const auto [at, is_new] = knots_.try_emplace({k, 0});
-    if (is_new) at->second = knot_at(segment.load_steps[k].point.t, segment.load_steps[k]);
+    if (is_new) at->second = knot_at(segment.load_steps[k].point.t, segment.load_steps[k], nullptr);
     if (at->second) knots.push_back(at->second);
   }
   return knots;
@@ -164,7 +146,9 @@ FramesBetween::Knots FramesBetween::knots_between(const PathSegment& segment,
     const bool whole = part == parts;
     const auto [at, is_new] = knots_.try_emplace({whole ? k + 1 : k, whole ? 0 : part});
     const double share = double(part) / parts;
-    if (is_new) at->second = knot_at((1 - share) * a.point.t + share * b.point.t, whole ? b : a);
+    if (is_new)
+      at->second = knot_at((1 - share) * a.point.t + share * b.point.t, whole ? b : a,
+                           part > 0 && !whole ? &b : nullptr);
     if (!at->second) break;
     knots.push_back(at->second);
   }
@@ -242,7 +226,7 @@ std::optional<FramesBetween::Draft> FramesBetween::draft_at(const PathSample& sa
   if (knots.size() < window->t.size()) return {};
   const std::size_t before = window->before - window->first;
   Draft draft{
-      sample, hermite(model, from, to, sample.t), &from, &to, {knots[before], knots[before + 1]},
+      sample, between(model, from, to, sample.t), &from, &to, {knots[before], knots[before + 1]},
       knots,  weights_at(window->t, sample.t)};
   if (!closer && doubt_mm(draft.knots, draft.weights) <= allowed_mm) return draft;
   // states in between
@@ -300,7 +284,7 @@ void FramesBetween::finish(Draft& draft, Factored& factored) const {
   Linearisation& system = factored.system;
   const double middle = draft.middle();
   if (factored.t != middle || factored.count != system.effort().factorizations) {
-    State state = hermite(shell.model(0), *draft.from, *draft.to, middle);
+    State state = between(shell.model(0), *draft.from, *draft.to, middle);
     shell.motion(0).impose(system, middle, state);
     factored.inertia = system.at(state);
     factored.t = middle;

@@ -77,7 +77,7 @@ class FramesBetween {
   Knots knots_in(const PathSegment& segment, const Window& window);
   Knots knots_between(const PathSegment& segment, const Window& window);
   double doubt_mm(const Knots& knots, const Weights& weights) const;
-  std::shared_ptr<const Knot> knot_at(double t, const LoadStep& beside);
+  std::shared_ptr<const Knot> knot_at(double t, const LoadStep& beside, const LoadStep* across);
   std::optional<Draft> draft_at(const PathSample& sample, bool closer);
   void read_ahead(const PathSample& sample);
   void finish(std::vector<Draft>& drafts);

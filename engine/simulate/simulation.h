@@ -230,8 +230,10 @@ class Simulation {
   /// Counts what another simulation spent before this one.
   void charge(const Effort& spent) { spent_ += spent; }
   /// Certifies the state at t beside a load_step, without moving the path on; with `unstable`, or
-  /// beside a load_step that is not stable, any equilibrium, which says how stable it is.
-  Report sample(double t, const LoadStep& beside, bool unstable, const Watch& watch);
+  /// beside a load_step that is not stable, any equilibrium, which says how stable it is. `across`:
+  /// one beyond t to which its branch goes on.
+  Report sample(double t, const LoadStep& beside, bool unstable, const Watch& watch,
+                const LoadStep* across = nullptr);
   /// The rest at t that a shell comes to which lost its branch behind the load_step.
   Report certify_rest_at(double t, const LoadStep& before, const Watch& watch);
   /// Whether the rods have come to their length.

@@ -396,10 +396,12 @@ void Simulation::Walk::bisect(double bad, const NestedState& good,
   shell_.back_to(last);
 }
 
-Report Simulation::sample(double t, const LoadStep& beside, bool unstable, const Watch& watch) {
+Report Simulation::sample(double t, const LoadStep& beside, bool unstable, const Watch& watch,
+                          const LoadStep* across) {
   const CallBegin begin = call_begin();
   shell_->allow_unstable(unstable || !beside.certificate.stable());
-  const NestedReport nested = shell_->sample(t, beside.point, watch);
+  const NestedReport nested =
+      shell_->sample(t, beside.point, watch, across ? &across->point : nullptr);
   shell_->allow_unstable(false);
   return report(nested.end, nested.t, begin);
 }

@@ -23,7 +23,7 @@ struct Range {
 
 GRIDSHELL_CLONES
 void copy_blocks(const std::vector<Block3>& pair, const Move* begin, const Move* end, bool turn,
-                 std::vector<Block3>& below) {
+                 Block3* below) {
   for (const Move* move = begin; move != end; ++move) {
     const Block3& from = pair[std::size_t(move->from)];
     Block3& to = below[std::size_t(move->to)];
@@ -59,6 +59,7 @@ class BlockCholesky final : public LinearSolver {
   }
 
   Inertia factor(const BlockHessian& hessian, double shift) override {
+    take_numbers();
     fill(hessian, shift);
     return factor_numbers(factor_, most_negative, team);
   }
@@ -77,11 +78,23 @@ class BlockCholesky final : public LinearSolver {
       b.col(column_[k]) << x[k].value[0], x[k].value[1], x[k].value[2];
   }
 
-  long long blocks() const override {
-    return (long long)(factor_.below.size() + factor_.diagonal.size());
-  }
+  bool has_factor() const override { return numbers && numbers->of == this; }
+
+  long long blocks() const override { return (long long)(factor_.row.size() + order_.size()); }
 
  private:
+  void take_numbers() {
+    if (!numbers) numbers = std::make_shared<FactorNumbers>();
+    const auto take = [](auto& all, std::size_t count) {
+      if (all.size() < count) std::exchange(all, {}), all.resize(count);
+      return all.data();
+    };
+    factor_.diagonal = take(numbers->diagonal, order_.size());
+    factor_.inverse = take(numbers->inverse, order_.size());
+    factor_.below = take(numbers->below, factor_.row.size());
+    numbers->of = this;
+  }
+
   /// rows below the diagonal of each column of L, in elimination order: the Hessian's own and those
   /// of the columns whose first row it is, its children in the elimination tree
   void find_structure(const std::vector<std::vector<int>>& graph) {
@@ -107,9 +120,6 @@ class BlockCholesky final : public LinearSolver {
       factor_.first.push_back(int(rows.size()));
       if (rows.size() > begin) child_before[k] = std::exchange(last_child[rows[begin]], k);
     }
-    factor_.diagonal.resize(std::size_t(n));
-    factor_.inverse.resize(std::size_t(n));
-    factor_.below.resize(rows.size());
   }
 
   int slot(int row, int column) const {
@@ -154,7 +164,7 @@ class BlockCholesky final : public LinearSolver {
 
   /// returns which blocks below the diagonal the Hessian has
   std::vector<char> plan_copies() {
-    std::vector<char> filled(factor_.below.size(), 0);
+    std::vector<char> filled(factor_.row.size(), 0);
     const auto& pattern = model_.pattern.pairs();
     for (int k = 0; k < int(pattern.size()); ++k) {
       const auto [row, column] = pattern[std::size_t(k)];
@@ -212,8 +222,7 @@ class BlockCholesky final : public LinearSolver {
       });
     some(empty_.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k)
-        std::fill(factor_.below.begin() + empty_[k].begin, factor_.below.begin() + empty_[k].end,
-                  Block3{});
+        std::fill(factor_.below + empty_[k].begin, factor_.below + empty_[k].end, Block3{});
     });
     const auto held_pair = [&](int pair) {
       const auto [row, column] = model_.pattern.pairs()[std::size_t(pair)];

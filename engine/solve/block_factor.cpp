@@ -135,11 +135,11 @@ inline void update_wide(BlockFactor& f, int begin, int end, const Rows& some, co
       target += tile;
       for (int c = 0; c < width; ++c) lb[c] += tile;
     };
-    subtract_panel<1>(lb, la, width, target, f.diagonal.data());
+    subtract_panel<1>(lb, la, width, target, f.diagonal);
     next(1);
     int left = rows - a - 1;
-    for (; left >= 3; left -= 3, next(3)) subtract_panel<3>(lb, la, width, target, f.below.data());
-    for (; left > 0; --left, next(1)) subtract_panel<1>(lb, la, width, target, f.below.data());
+    for (; left >= 3; left -= 3, next(3)) subtract_panel<3>(lb, la, width, target, f.below);
+    for (; left > 0; --left, next(1)) subtract_panel<1>(lb, la, width, target, f.below);
   }
 }
 

@@ -19,6 +19,13 @@ static_assert(alignof(Entry) == 32 && sizeof(Entry) == sizeof(Column));
 
 constexpr int widest_panel = 8;  // columns; wider ones would not stay in the nearest cache
 
+/// The numbers of factors that take turns: those of the last one.
+struct FactorNumbers {
+  std::vector<Block3> diagonal, below;
+  std::vector<Entry> inverse;  ///< of the pivots
+  const void* of = nullptr;    ///< the solver whose they are
+};
+
 /// The plan and the numbers of one factor; plain arrays for the loops over them. Panels: columns
 /// beside one another that have the same rows below them.
 struct BlockFactor {
@@ -32,11 +39,11 @@ struct BlockFactor {
   std::vector<long long> first_target;  // per panel
   // branches of the elimination tree: first panel of each, and of the trunk, which comes after them
   std::vector<int> branch;
-  std::vector<int> own_rows;            // per panel: rows below it in its own branch
-  std::vector<int> crossing;            // panels of branches with rows in the trunk
-  std::vector<double> work_to;          // columns + 1: of their updates, up to each of the trunk
-  std::vector<Block3> diagonal, below;  // targets < columns are diagonal, the rest is below
-  std::vector<Entry> inverse;           // of the pivots
+  std::vector<int> own_rows;    // per panel: rows below it in its own branch
+  std::vector<int> crossing;    // panels of branches with rows in the trunk
+  std::vector<double> work_to;  // columns + 1: of their updates, up to each of the trunk
+  Block3 *diagonal = nullptr, *below = nullptr;  // FactorNumbers'
+  Entry* inverse = nullptr;
 
   int panels() const { return int(panel.size()) - 1; }
   int branches() const { return int(branch.size()) - 1; }

@@ -128,8 +128,29 @@ PathReport PathFollower::start(double t, State state, const Watch& watch) {
   return report;
 }
 
+State between(const Model& model, const PathPoint& a, const PathPoint& b, double t) {
+  const double h = b.t - a.t, s = (t - a.t) / h;
+  const double to = s * s * (3 - 2 * s), from_slope = h * s * (1 - s) * (1 - s),
+               to_slope = -h * s * s * (1 - s);
+  const auto cubic = [&](const auto& x, const auto& vx, const auto& y, const auto& vy) {
+    return (x + to * (y - x) + from_slope * vx + to_slope * vy).eval();
+  };
+  State guess = a.state;
+  guess.force = cubic(a.state.force, a.velocity.force, b.state.force, b.velocity.force);
+  Eigen::Matrix3Xd x = a.state.x + (t - a.t) * a.velocity.x;
+  x.leftCols(model.nodes) =
+      cubic(a.state.x, a.velocity.x, b.state.x, b.velocity.x).leftCols(model.nodes);
+  move_to(model, x, guess);
+  return guess;
+}
+
 State PathFollower::predict(double t) const {
   const double h = t - now_.t;
+  if (has_before_ && h * (before_.t - now_.t) > 0) {
+    State guess = between(system_.model(), now_, before_, t);
+    motion_.impose(system_, t, guess);
+    return guess;
+  }
   // the change of the tangent since the point before gives the curvature of the path
   const double bend = has_before_ ? 0.5 * h * h / (now_.t - before_.t) : 0.0;
   State guess = now_.state;
@@ -250,10 +271,13 @@ PathFollower::PathFollower(Linearisation& system, const PinnedMotion& motion,
                            const PathOptions& options)
     : system_(system), motion_(motion), options_(options) {}
 
-void PathFollower::resume(const PathPoint& point) {
+void PathFollower::resume(const PathPoint& point, const PathPoint* across) {
   motion_.apply_loads(system_, point.t);
   now_ = point;
-  has_before_ = false;
+  has_before_ = across && across->velocity.x.size() > 0 && point.velocity.x.size() > 0;
+  if (!has_before_) return;
+  before_ = *across;
+  step_ = std::abs(across->t - point.t);
 }
 
 ArcFollower::ArcFollower(Linearisation& system, const PinnedMotion& motion,

@@ -87,6 +87,10 @@ struct PathPoint {
   State velocity;  ///< by t; it has no frames
 };
 
+/// The cubic at t through two states of a path and their tangents [Hermite]; angles, which count
+/// from a state's own frames, go on from the first.
+State between(const Model& model, const PathPoint& a, const PathPoint& b, double t);
+
 struct PathOptions {
   double spacing_mm = 20;       ///< d: what moves are measured against
   double target_move = 0.01;    ///< correction aimed at, of d: sets the next step
@@ -122,10 +126,11 @@ class PathFollower {
   PathReport advance(double t, const Watch& watch);
 
   /// Goes on from a point that was followed before, with the step that served there, under the
-  /// loads of that point.
-  void resume(const PathPoint& point);
+  /// loads of that point. `across`: a point further on to which its branch goes on; what lies
+  /// between them is looked for on the cubic through both, at once.
+  void resume(const PathPoint& point, const PathPoint* across = nullptr);
 
-  /// Predicted state at t from the current point (Hermite between the last two, else Taylor).
+  /// Predicted state at t: between the last two points, or beyond them by their tangents.
   State predict(double t) const;
 
   void allow_unstable(bool allow) { options_.allow_unstable = allow; }

@@ -2,6 +2,8 @@
 
 #include <optional>
 
+#include "engine/solve/block_factor.h"
+
 namespace gridshell {
 namespace {
 
@@ -9,10 +11,11 @@ namespace {
 /// pattern with theirs and a solver planned for it.
 class BeyondSolver final : public LinearSolver {
  public:
-  explicit BeyondSolver(const Model& model) : model_(model), apart_(make_pattern_solver(model)) {}
+  explicit BeyondSolver(const Model& model) : model_(model), apart_(make_block_cholesky(model)) {}
 
   Inertia factor(const BlockHessian& hessian, double shift) override {
-    if (!apart_) apart_ = make_pattern_solver(model_);
+    if (!apart_) apart_ = make_block_cholesky(model_);
+    if (!numbers) numbers = std::make_shared<FactorNumbers>();
     current_ = apart_.get();
     if (!hessian.beyond.empty()) {
       if (!together_ || !known(hessian)) plan(hessian);
@@ -20,15 +23,18 @@ class BeyondSolver final : public LinearSolver {
     }
     current_->most_negative = most_negative;
     current_->team = team;
+    current_->numbers = numbers;
     return current_->factor(hessian.beyond.empty() ? hessian : merged(hessian), shift);
   }
   void solve(Eigen::Matrix3Xd& right_hand_side) const override { current_->solve(right_hand_side); }
+  bool has_factor() const override { return current_->has_factor(); }
   void free_memory() override {
     current_ = nullptr;
     apart_.reset();
     together_.reset();
     wider_.reset();
     merged_ = {};
+    if (numbers) *numbers = {};
   }
   long long blocks() const override { return current_->blocks(); }
 
@@ -42,7 +48,7 @@ class BeyondSolver final : public LinearSolver {
     wider_ = model_;
     for (const BlockHessian::Beyond& one : hessian.beyond)
       wider_->pattern.slot(one.row, one.column);
-    together_ = make_pattern_solver(*wider_);
+    together_ = make_block_cholesky(*wider_);
   }
   /// The same with all blocks in the pattern.
   const BlockHessian& merged(const BlockHessian& hessian) {
@@ -65,11 +71,6 @@ class BeyondSolver final : public LinearSolver {
 
 std::unique_ptr<LinearSolver> make_linear_solver(const Model& model) {
   return std::make_unique<BeyondSolver>(model);
-}
-
-std::unique_ptr<LinearSolver> make_pattern_solver(const Model& model) {
-  constexpr int measured = 1000000;  // degrees of freedom
-  return model.dof() <= measured ? make_block_cholesky(model) : make_cholmod(model);
 }
 
 Eigen::Matrix3d without_held(const Model& model, int row, int column,

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "engine/core/try.h"
+#include "engine/solve/block_factor.h"
 
 namespace gridshell {
 
@@ -19,10 +20,12 @@ Result<NestedShell> NestedShell::make(const Footprint& footprint, const ShellRod
   shell.boundary_ = motion;
   // contact knows no order
   if (rods.contact.barrier.acts()) shell.plan_.extrapolate = shell.plan_.extrapolate_forces = false;
+  const auto numbers = std::make_shared<FactorNumbers>();
   for (int edges : plan.edges_per_segment) {
     auto level = std::make_unique<Level>();
     TRY_DO(level->build(footprint, rods, rung, motion, edges));
     level->system->work_with(options.team);
+    level->system->share(numbers);
     level->system->outside.steady = &level->steady;
     level->system->outside.field = &level->field;
     if (!shell.levels_.empty()) {
@@ -159,7 +162,8 @@ NestedReport NestedShell::advance(double t, const Watch& watch) {
   return certify(t, path_->point(), path_->last(), Prefer::first, watch);
 }
 
-NestedReport NestedShell::sample(double t, const NestedPathPoint& beside, const Watch& watch) {
+NestedReport NestedShell::sample(double t, const NestedPathPoint& beside, const Watch& watch,
+                                 const NestedPathPoint* across) {
   struct Memory {  // what finer meshes added stays that of the path
     std::vector<std::unique_ptr<Level>>& levels;
     std::vector<std::vector<LevelCorrection>> beyond;
@@ -172,10 +176,12 @@ NestedReport NestedShell::sample(double t, const NestedPathPoint& beside, const 
   } memory(levels_);
   PathFollower path(*levels_[0]->system, levels_[0]->motion, options_);
   path.allow_unstable(options_.allow_unstable);
-  path.resume(beside);
+  path.resume(beside, across);
   const PathReport report = path.advance(t, watch);
   if (report.end != Outcome::reached) return {report.end, report.t};
   set_corrections(beside.beyond);
+  for (std::size_t k = 0; across && k < across->beyond.size(); ++k)
+    levels_[k + 1]->beyond.push_back(across->beyond[k]);
   return certify(t, path.point(), path.last(), Prefer::stable, watch);
 }
 

@@ -106,8 +106,10 @@ class NestedShell {
   /// failure.
   NestedReport advance(double t, const Watch& watch);
   /// Certifies the state at t, between points of the path that are known, and leaves the path
-  /// itself as it is: `beside` is the nearest of them. Finer levels choose as in start().
-  NestedReport sample(double t, const NestedPathPoint& beside, const Watch& watch);
+  /// itself as it is: `beside` is the nearest of them, `across` one beyond t to which its branch
+  /// goes on. Finer levels choose as in start().
+  NestedReport sample(double t, const NestedPathPoint& beside, const Watch& watch,
+                      const NestedPathPoint* across = nullptr);
 
   /// From the current state on the shell is driven so, t = 0 being the current state. A start() at
   /// t = 0 from the coarsest level's state follows.

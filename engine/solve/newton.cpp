@@ -33,7 +33,7 @@ Linearisation::Linearisation(const Model& model, std::unique_ptr<LinearSolver> s
 
 Inertia Linearisation::at(const State& state, bool mixed, double shift, double EA_scale) {
   EA_scale_ = EA_scale;
-  assemble_hessian(model_, state, outside, {mixed, EA_scale}, assembly_);
+  assemble_hessian(model_, state, outside, {mixed, EA_scale}, assembly_, solver_->team);
   tangents_ = assembly_.tangents;
   for (const Constraint& hold : holds_)
     assembly_.hessian.diagonal[std::size_t(hold.node)].matrix() +=
@@ -49,7 +49,8 @@ void Linearisation::free_memory() {
 
 Inertia Linearisation::shifted(double shift) {
   ++effort_.factorizations;
-  Inertia inertia = solver_->factor(assembly_.hessian, shift + neutral_shift_);
+  shift_ = shift + neutral_shift_;
+  Inertia inertia = solver_->factor(assembly_.hessian, shift_);
   if (!holds_.empty() && inertia.usable) border(inertia);
   return inertia;
 }
@@ -104,6 +105,10 @@ void Linearisation::border(Inertia& inertia) {
 }
 
 void Linearisation::solve(Eigen::Matrix3Xd& right_hand_side) const {
+  if (!solver_->has_factor()) {
+    ++effort_.factorizations;
+    solver_->factor(assembly_.hessian, shift_);
+  }
   solver_->solve(right_hand_side);
   if (holds_.empty()) return;
   const Eigen::VectorXd force = solution(compliance_, held_part(right_hand_side));
@@ -125,11 +130,11 @@ double Linearisation::residual() const {
 }
 
 void Linearisation::residual_at(const State& state) {
-  assemble_mixed_residual(model_, state, outside, tangents_, assembly_);
+  assemble_mixed_residual(model_, state, outside, tangents_, assembly_, solver_->team);
 }
 
 void Linearisation::gradient_at(const State& state) {
-  assemble_gradient(model_, state, outside, assembly_);
+  assemble_gradient(model_, state, outside, assembly_, solver_->team);
 }
 
 void Linearisation::correction(Eigen::Matrix3Xd& dx) const {

@@ -86,6 +86,9 @@ class Linearisation {
 
   /// Who helps with large matrices from here on.
   void work_with(Team* team) { solver_->team = team; }
+  /// Systems that share the memory of their factors take turns: what another one factorised in
+  /// between is factorised again when it is solved with.
+  void share(std::shared_ptr<FactorNumbers> numbers) { solver_->numbers = std::move(numbers); }
 
   /// Gives back the memory of the matrices while nobody asks for them; what comes next is an at().
   void free_memory();
@@ -145,7 +148,8 @@ class Linearisation {
   Eigen::Matrix3Xd tangents_;             // unit tangent of each edge at the linearisation point
   double EA_scale_ = 1;
   double neutral_shift_ = 0;  // N/mm
-  Effort effort_;
+  double shift_ = 0;          // of the last factorisation
+  mutable Effort effort_;     // solves may factorise again
 };
 
 /// Largest move of a column.

@@ -2,6 +2,7 @@
 #include "engine/elastic/assembly.h"
 
 #include <Eigen/Geometry>
+#include <array>
 #include <random>
 
 #include "tests/engine/elastic/bent_dome.h"
@@ -101,6 +102,55 @@ TEST_CASE("assembly: both ways give one gradient, the mixed residual is it where
   state.force = alone.force;
   assemble_mixed_residual(dome.model, state, {}, any, mixed);
   CHECK((mixed.gradient - alone.gradient).norm() <= 1e-12 * alone.gradient.norm());
+}
+
+TEST_CASE("assembly: large models have the same bits on any number of threads") {
+  const BentDome dome = bent_dome(486, 48, 4);
+  REQUIRE(dome.model.waves.size() == 2);  // no rod of a direction meets another one
+  for (const std::vector<int>& wave : dome.model.waves) CHECK(wave.size() == 48);
+  const Eigen::Matrix3Xd any = Eigen::Matrix3Xd::Random(3, Eigen::Index(dome.model.edges.size()));
+  const auto all_of = [&](Team* team) {
+    std::array<Assembly, 3> all;
+    assemble_hessian(dome.model, dome.state, {}, {}, all[0], team);
+    assemble_gradient(dome.model, dome.state, {}, all[1], team);
+    assemble_mixed_residual(dome.model, dome.state, {}, any, all[2], team);
+    return all;
+  };
+  const auto alone = all_of(nullptr);
+  for (int threads : {2, 3, 8}) {
+    Team team(threads);
+    const auto shared = all_of(&team);
+    for (std::size_t k = 0; k < alone.size(); ++k) {
+      CHECK(shared[k].gradient == alone[k].gradient);
+      CHECK(shared[k].energies.total() == alone[k].energies.total());
+      CHECK(shared[k].largest_strain == alone[k].largest_strain);
+    }
+    Eigen::Matrix3Xd one, other;
+    multiply(dome.model, alone[0].hessian, alone[1].gradient, one);
+    multiply(dome.model, shared[0].hessian, alone[1].gradient, other);
+    CHECK(one == other);
+  }
+}
+
+TEST_CASE("assembly: rods that meet go one after another, in the order of their list") {
+  const auto rod = [](std::vector<int> nodes, bool ring = false) {
+    std::vector<double> position;
+    for (std::size_t k = 0; k < nodes.size() + ring; ++k) position.push_back(5.0 * double(k));
+    const RodEnd end = ring ? RodEnd::free : RodEnd::pinned;
+    return ModelRod{std::move(nodes), std::move(position), wire, {}, end, end};
+  };
+  const Model model =
+      build_model(10, {rod({0, 1, 2}), rod({3, 4, 5, 6}, true), rod({7, 1, 4}), rod({8, 9, 7})},
+                  RodModel::bend)
+          .value();
+  CHECK(model.waves == std::vector<std::vector<int>>{{0, 1}, {2}, {3}});
+  // the ring's last bend is its own
+  CHECK(model.rods[1].closing_bend == int(model.bends.size()) - 1);
+  State state = start_state(model, Eigen::Matrix3Xd::Random(3, 10));
+  Assembly assembly;
+  assemble_gradient(model, state, {}, assembly);
+  CHECK(assembly.energies.total() == Approx(energies_of(model, state).total()).epsilon(1e-14));
+  CHECK(bending_of(model, state).sum() == Approx(assembly.energies[Term::bend]).epsilon(1e-14));
 }
 
 TEST_CASE("assembly: a rigid motion costs nothing, forces and moments balance") {

@@ -1,7 +1,8 @@
 #include <catch2/catch.hpp>
 
 #include "engine/core/dense.h"
-#include "engine/solve/linear_solver.h"
+#include "engine/solve/block_factor.h"
+#include "engine/solve/newton.h"
 #include "tests/engine/elastic/bent_dome.h"
 
 using namespace gridshell;
@@ -92,6 +93,26 @@ TEST_CASE("factorisations: large ones have the same bits on any number of thread
           alone->factor(system.assembly.hessian, 0).negative_pivots);
     alone->most_negative = std::numeric_limits<int>::max();
   }
+}
+
+TEST_CASE("factorisations: two systems in one memory take turns, each with its own solution") {
+  const BentDome coarse = bent_dome(70, 6, 2), fine = bent_dome(70, 6, 4);
+  Linearisation alone(fine.model), a(coarse.model), b(fine.model);
+  const auto numbers = std::make_shared<FactorNumbers>();
+  a.share(numbers);
+  b.share(numbers);
+  b.at(fine.state, false, 0.3);
+  a.at(coarse.state, false, 0.3);
+  CHECK(numbers->below.size() >= 100);
+  alone.at(fine.state, false, 0.3);
+  Eigen::Matrix3Xd x = alone.assembly().gradient, y = x;
+  alone.solve(x);
+  b.solve(y);
+  CHECK(x == y);
+  // made again once, and counted
+  b.solve(y);
+  CHECK(b.effort().factorizations == 2);
+  CHECK(alone.effort().factorizations == 1);
 }
 
 TEST_CASE("factorisations: a singular or infinite matrix is not usable") {
