@@ -166,14 +166,12 @@ Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follo
     if (!(worst > allowed))
       return located(confirm_on_finer_meshes(scene, std::move(*path), once, watch, one_motion),
                      watch);
-    // twice the edges leave a quarter, and may lose no stability where the leader does alone; where
-    // they were followed already, they may do
-    const bool known = finer_path && worst_estimate_mm(*finer_path) <= allowed;
-    if (known || (stays_beyond_event(**path) && !plan.extrapolate && !scene.leader_asked &&
-                  worst <= 4 * allowed)) {
+    // twice the edges leave a quarter, and may lose no stability where the leader does alone
+    if (stays_beyond_event(**path) && !plan.extrapolate && !scene.leader_asked &&
+        worst <= 4 * allowed) {
       path = confirm_on_finer_meshes(scene, std::move(*path), once, watch, one_motion);
       if (!path) return path;
-      if ((known || uneventful(**path)) && worst_estimate_mm(**path) <= allowed)
+      if (uneventful(**path) && worst_estimate_mm(**path) <= allowed)
         return located(std::move(path), watch);
     }
     const auto next = finer(plan);

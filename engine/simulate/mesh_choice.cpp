@@ -262,16 +262,12 @@ Result<SharedPath> confirm_on_finer_meshes(const Scene& scene, SharedPath path,
     auto differs = mesh_disagreement(*path, **fine);
     if (!differs) differs = only_on_leaders(*path, **fine, watch);
     if (!differs) {
-      const auto within = [&](const EquilibriumPath& one) {
-        return worst_estimate_mm(one) <= scene.tolerance * scene.length_scale_mm;
-      };
-      const bool better = !scene.leader_asked &&
-                          ((path->single_motion && ends_later(path->segments, (*fine)->segments)) ||
-                           (!within(*path) && within(**fine)));
+      const bool later = path->single_motion && !scene.leader_asked &&
+                         ends_later(path->segments, (*fine)->segments);
       extrapolate_events(path->segments, (*fine)->segments);
       extrapolate_events(path->earlier, (*fine)->earlier);
       path->mesh_disagreement.clear();
-      if (better) {
+      if (later) {
         keep_fine();
         return path;
       }

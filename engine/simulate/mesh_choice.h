@@ -31,12 +31,12 @@ bool settles(const EquilibriumPath& fine, const EquilibriumPath& path);
 /// once more with leading meshes of twice the edges; `one_motion`, where nothing happened on it,
 /// three of its states alone are looked for on them.
 /// Where both tell the same, the events' places are extrapolated (the error falls fourfold), with
-/// an error, and where the path turns back clearly later with the finer one, or it alone is within
-/// the tolerance, its path is kept; where they do not, the finer one is asked against a still finer
-/// one, at most three times, unless nothing happens on its whole way, stable on its finest mesh.
-/// What is confirmed without a doubt is followed on the coarsest meshes tried that have it
-/// (guided_path.h). Where a leader was asked for, its path is kept, and what a finer one does not
-/// confirm is said. What remains in doubt is said. Errors: cancelled.
+/// an error, and where the path turns back clearly later with the finer one, its path is kept;
+/// where they do not, the finer one is asked against a still finer one, at most three times, unless
+/// nothing happens on its whole way, stable on its finest mesh. What is confirmed without a doubt
+/// is followed on the coarsest meshes tried that have it (guided_path.h). Where a leader was asked
+/// for, its path is kept, and what a finer one does not confirm is said. What remains in doubt is
+/// said. Errors: cancelled.
 Result<SharedPath> confirm_on_finer_meshes(const Scene& scene, SharedPath path,
                                            const Follow& follow, const Watch& watch,
                                            bool one_motion);

@@ -110,6 +110,7 @@ PathReport PathFollower::start(double t, State state, const Watch& watch) {
   PathReport report;
   // from the same point the same path, whatever was followed before
   has_before_ = false;
+  across_ = nullptr;
   step_ = first_step;
   now_ = {t, std::move(state), {}};
   NewtonOptions options;
@@ -146,8 +147,8 @@ State between(const Model& model, const PathPoint& a, const PathPoint& b, double
 
 State PathFollower::predict(double t) const {
   const double h = t - now_.t;
-  if (has_before_ && h * (before_.t - now_.t) > 0) {
-    State guess = between(system_.model(), now_, before_, t);
+  if (across_) {
+    State guess = between(system_.model(), now_, *across_, t);
     motion_.impose(system_, t, guess);
     return guess;
   }
@@ -215,6 +216,7 @@ Outcome PathFollower::step(double t, bool converge, NewtonReport& report, const 
   before_ = std::move(now_);
   has_before_ = before_.velocity.x.size() > 0;
   now_ = std::move(next);
+  across_ = nullptr;
   return Outcome::reached;
 }
 
@@ -274,9 +276,10 @@ PathFollower::PathFollower(Linearisation& system, const PinnedMotion& motion,
 void PathFollower::resume(const PathPoint& point, const PathPoint* across) {
   motion_.apply_loads(system_, point.t);
   now_ = point;
-  has_before_ = across && across->velocity.x.size() > 0 && point.velocity.x.size() > 0;
-  if (!has_before_) return;
-  before_ = *across;
+  has_before_ = false;
+  across_ = nullptr;
+  if (!across || across->velocity.x.size() == 0 || point.velocity.x.size() == 0) return;
+  across_ = across;
   step_ = std::abs(across->t - point.t);
 }
 

@@ -126,11 +126,11 @@ class PathFollower {
   PathReport advance(double t, const Watch& watch);
 
   /// Goes on from a point that was followed before, with the step that served there, under the
-  /// loads of that point. `across`: a point further on to which its branch goes on; what lies
-  /// between them is looked for on the cubic through both, at once.
+  /// loads of that point. `across`: a point further on, which stays there meanwhile, to which its
+  /// branch goes on; what lies between them is looked for on the cubic through both, at once.
   void resume(const PathPoint& point, const PathPoint* across = nullptr);
 
-  /// Predicted state at t: between the last two points, or beyond them by their tangents.
+  /// Predicted state at t from the current point (by its tangent and that of the point before).
   State predict(double t) const;
 
   void allow_unstable(bool allow) { options_.allow_unstable = allow; }
@@ -148,6 +148,7 @@ class PathFollower {
   PathPoint now_, before_;
   NewtonReport last_;
   bool has_before_ = false;
+  const PathPoint* across_ = nullptr;         // of resume(), until a step is taken
   static constexpr double first_step = 0.05;  // in t
   double step_ = first_step;
 };
