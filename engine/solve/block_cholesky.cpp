@@ -85,6 +85,7 @@ class BlockCholesky final : public LinearSolver {
  private:
   void take_numbers() {
     if (!numbers) numbers = std::make_shared<FactorNumbers>();
+    numbers->of = nullptr;  // there may not be memory enough
     const auto take = [](auto& all, std::size_t count) {
       if (all.size() < count) std::exchange(all, {}), all.resize(count);
       return all.data();
