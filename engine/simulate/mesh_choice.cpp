@@ -339,6 +339,7 @@ void locate_on_meshes(EquilibriumPath& path, const Follow& follow, const Watch& 
   if (last == 0 && path.has_events()) {
     const LevelPlan plan{{2 * leading_edges_of(path)}, false};
     if (!fits_memory(path.simulation.scene(), plan)) return;
+    path.simulation.shell().free_memory();
     const auto fine = follow(plan, watch);
     if (!fine) return;
     (*fine)->asked = plan;
