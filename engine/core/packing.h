@@ -6,6 +6,7 @@
 #include <cstring>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace gridshell {
 
@@ -30,7 +31,9 @@ class ByteWriter {
   void put(int value) { number(std::int32_t(value)); }
   void put(double value) { number(value); }
   void put(const std::string& value) { text(value); }
-  const std::string& bytes() const { return text_; }
+  void reserve(std::size_t bytes) { text_.reserve(bytes); }
+  const std::string& bytes() const& { return text_; }
+  std::string bytes() && { return std::move(text_); }
 
  private:
   std::string text_;

@@ -162,7 +162,7 @@ std::string packed_head(const RunIdentity& name, const Layout& layout) {
   out.number(std::uint64_t(columns.size()));
   for (const FrameColumn& column : columns) out.text(column.name);
   out.text(image_of(layout));
-  return out.bytes();
+  return std::move(out).bytes();
 }
 
 std::optional<JournalHead> unpacked_head(std::string_view bytes) {
@@ -180,6 +180,11 @@ std::optional<JournalHead> unpacked_head(std::string_view bytes) {
 
 std::string packed_frame(const Frame& frame) {
   ByteWriter out;
+  std::size_t bytes = 4096;  // numbers, words
+  visit_matrices(frame, [&](const auto& values) {
+    bytes += 16 + sizeof(double) * std::size_t(values.size());
+  });
+  out.reserve(bytes);
   out.put(frame.index);
   for (const FrameColumn& column : columns_of_a_frame())
     visit_column(column, frame, [&](const auto& value) {
@@ -187,7 +192,7 @@ std::string packed_frame(const Frame& frame) {
       out.put(value);
     });
   visit_matrices(frame, [&](const auto& values) { out.matrix(values); });
-  return out.bytes();
+  return std::move(out).bytes();
 }
 
 Result<Frame> unpacked_frame(std::string_view bytes, const std::vector<std::string>& columns) {
@@ -243,6 +248,7 @@ Result<void> JournalWriter::append(const Frame& frame) {
 
 Result<void> JournalWriter::put(std::uint32_t kind, const std::string& payload) {
   ByteWriter record;
+  record.reserve(before_payload + payload.size() + after_payload);
   record.number(kind);
   record.text(payload);
   record.number(Checksum::of(record.bytes(), ChecksumKind::crc32));

@@ -10,6 +10,7 @@
 #include "engine/simulate/first_state.h"
 #include "engine/simulate/frames.h"
 #include "engine/simulate/guided_path.h"
+#include "engine/simulate/path_sampler.h"
 #include "engine/simulate/shell_symmetry.h"
 #include "engine/solve/buckling.h"
 

@@ -19,10 +19,17 @@ constexpr double nearby = 1e-3;  // of d: a correction beyond is none of the gue
 constexpr double misfit_of_knots = 1e-5;  // of the largest axial force (nested_certificate.cpp)
 constexpr std::size_t most_knots = 6;
 constexpr int parts = 4;               // of the way between two load steps
-constexpr std::size_t most_ahead = 8;  // pieces of the way, however many help
+constexpr std::size_t most_ahead = 8;  // pieces of the way: two for each who helps
 
 bool smooth(const PathSegment& segment, std::size_t k) {
   return goes_on_between(segment, segment.load_steps[k], segment.load_steps[k + 1]);
+}
+
+/// The cubic at t through the points of the path next to it.
+State between(const Model& model, const NestedPathPoint& before, const NestedPathPoint& after,
+              double t) {
+  const auto [from, to] = interval_at(before, after, t);
+  return gridshell::between(model, *from, *to, t);
 }
 
 /// What acts and what is held on another system of the same mesh.
@@ -123,9 +130,11 @@ std::shared_ptr<const FramesBetween::Knot> FramesBetween::knot_at(double t, cons
 /// The knots at the load steps of a window; fewer: one of them has none.
 FramesBetween::Knots FramesBetween::knots_in(const PathSegment& segment, const Window& window) {
   const auto end = window.first + window.t.size();
+  // samples that are read ahead may lie one window further
   std::erase_if(knots_, [&](const auto& known) {
     const auto& [step, part] = known.first;
-    return step < window.first || step >= end || (part > 0 && step != window.before);
+    const bool beside = step <= window.before + 1 && step + 1 >= window.before;
+    return step + 1 < window.first || step > end || (part > 0 && !beside);
   });
   Knots knots;
   for (std::size_t k = window.first; k < end; ++k) {
@@ -185,12 +194,15 @@ std::optional<record::Frame> FramesBetween::at(const PathSample& sample) {
 
 /// Makes the frames of the piece of the way in which a sample lies, and of the next ones.
 void FramesBetween::read_ahead(const PathSample& sample) {
+  const Team* team = path_.simulation.scene().team.get();
+  const std::size_t helpers = team ? std::size_t(team->threads()) : 1,
+                    most = std::min(2 * helpers, most_ahead);
   std::vector<Draft> drafts;
   std::set<double> pieces;
   auto next = std::ranges::find(expected_, sample.index, &PathSample::index);
   for (PathSample ahead = sample; ahead.segment == sample.segment; ahead = *next) {
     auto draft = draft_at(ahead, false);
-    if (!draft || (pieces.insert(draft->middle()), pieces.size() > most_ahead)) break;
+    if (!draft || (pieces.insert(draft->middle()), pieces.size() > most)) break;
     drafts.push_back(std::move(*draft));
     if (next == expected_.end() || ++next == expected_.end()) break;
   }
@@ -214,8 +226,8 @@ std::optional<FramesBetween::Draft> FramesBetween::draft_at(const PathSample& sa
   const PathSegment& segment = path_.segments[sample.segment];
   const auto window = wanted_ ? window_at(segment, sample.t) : std::nullopt;
   if (!window) return {};
-  const PathPoint &from = segment.load_steps[window->before].point,
-                  &to = segment.load_steps[window->before + 1].point;
+  const NestedPathPoint &from = segment.load_steps[window->before].point,
+                        &to = segment.load_steps[window->before + 1].point;
   if (from.velocity.x.size() == 0 || to.velocity.x.size() == 0) return {};
   if (sample.segment != segment_) knots_.clear();
   segment_ = sample.segment;
@@ -259,7 +271,7 @@ void FramesBetween::finish(std::vector<Draft>& drafts) {
   NestedShell& shell = path_.simulation.shell();
   Linearisation& first = shell.system(0);
   const int helpers = scene.team ? scene.team->threads() : 1,
-            lanes = std::min({helpers, int(pieces.size()), int(most_ahead)});
+            lanes = std::min(helpers, int(pieces.size()));
   while (int(systems_.size()) + 1 < lanes)
     systems_.push_back(std::make_unique<Linearisation>(shell.model(0)));
   const auto work = [&](int lane) {

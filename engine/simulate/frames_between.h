@@ -8,7 +8,7 @@
 
 #include "engine/footprint/mesh.h"
 #include "engine/record/contacts.h"
-#include "engine/simulate/equilibrium_path.h"
+#include "engine/simulate/path_sampler.h"
 
 namespace gridshell::simulate {
 
@@ -56,8 +56,8 @@ class FramesBetween {
   struct Draft {
     PathSample sample;
     State guess;
-    const PathPoint *from, *to;  ///< load steps around it
-    Knots around, knots;         ///< those at these load steps, and all that count
+    const NestedPathPoint *from, *to;  ///< load steps around it
+    Knots around, knots;               ///< those at these load steps, and all that count
     Weights weights;
     std::optional<record::Frame> frame = {};
 

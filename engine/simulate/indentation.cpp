@@ -11,7 +11,8 @@
 #include "engine/scene/net_design.h"
 #include "engine/simulate/actuation.h"
 #include "engine/simulate/frames.h"
-#include "engine/solve/equilibrium_path.h"
+#include "engine/simulate/path_sampler.h"
+#include "engine/solve/arc_follower.h"
 
 namespace gridshell::simulate {
 namespace {

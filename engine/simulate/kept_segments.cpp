@@ -75,7 +75,10 @@ void put(auto& in, Is<Inertia> auto& s) {
   all(in, s.negative_pivots, s.usable, s.smallest_pivot, s.largest_pivot);
 }
 void put(auto& in, Is<LevelCorrection> auto& s) { all(in, s.t, s.x, s.force); }
-void put(auto& in, Is<NestedPathPoint> auto& s) { all(in, s.t, s.state, s.velocity, s.beyond); }
+void put(auto& in, Is<PathPoint> auto& s) { all(in, s.t, s.state, s.velocity); }
+void put(auto& in, Is<NestedPathPoint> auto& s) {
+  all(in, s.t, s.state, s.velocity, s.beyond, s.way);
+}
 void put(auto& in, Is<Certificate> auto& s) {
   all(in, s.residual_N, s.negative_pivots, s.error_estimate_mm, s.largest_strain);
 }

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "engine/simulate/actuation.h"
-#include "engine/simulate/equilibrium_path.h"
 #include "engine/simulate/frames.h"
+#include "engine/simulate/path_sampler.h"
 
 namespace gridshell::simulate {
 namespace {

@@ -9,7 +9,7 @@
 #include "engine/footprint/actuation.h"
 #include "engine/footprint/footprint.h"
 #include "engine/footprint/mesh.h"
-#include "engine/solve/equilibrium_path.h"
+#include "engine/solve/pinned_motion.h"
 
 namespace gridshell {
 

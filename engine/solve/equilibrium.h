@@ -8,7 +8,6 @@
 #include "engine/core/result.h"
 #include "engine/core/watch.h"
 #include "engine/footprint/symmetry.h"
-#include "engine/solve/equilibrium_path.h"
 #include "engine/solve/newton.h"
 
 namespace gridshell {

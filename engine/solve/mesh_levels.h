@@ -8,7 +8,7 @@
 #include "engine/core/result.h"
 #include "engine/elastic/shell_rods.h"
 #include "engine/footprint/actuation.h"
-#include "engine/solve/equilibrium_path.h"
+#include "engine/solve/pinned_motion.h"
 
 namespace gridshell {
 

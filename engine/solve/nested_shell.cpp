@@ -11,6 +11,16 @@ LevelCorrection operator-(const LevelCorrection& a, const LevelCorrection& b) {
   return {a.t, a.x - b.x, a.force - b.force};
 }
 
+PathInterval interval_at(const NestedPathPoint& before, const NestedPathPoint& after, double t) {
+  PathInterval found{&before, &after};
+  for (const PathPoint& point : after.way) {
+    const bool in_front = after.t > before.t ? point.t < t : point.t > t;
+    (in_front ? found.from : found.to) = &point;
+    if (!in_front) break;
+  }
+  return found;
+}
+
 NestedShell::NestedShell(const LevelPlan& plan, const PathOptions& options)
     : plan_(plan), options_(options) {}
 Result<NestedShell> NestedShell::make(const Footprint& footprint, const ShellRods& rods,
@@ -141,7 +151,11 @@ std::vector<LevelCorrection> NestedShell::beyond() const {
   return all;
 }
 
-NestedPathPoint NestedShell::point() const { return {followed(), beyond()}; }
+NestedPathPoint NestedShell::point() const {
+  constexpr std::size_t most_left_out = 3;  // a cubic from end to end does without
+  const auto& way = path_->way();
+  return {followed(), beyond(), way.size() > most_left_out ? way : std::vector<PathPoint>{}};
+}
 
 NestedReport NestedShell::place(double t, const State& coarse, const Watch& watch) {
   forget();
@@ -176,7 +190,12 @@ NestedReport NestedShell::sample(double t, const NestedPathPoint& beside, const 
   } memory(levels_);
   PathFollower path(*levels_[0]->system, levels_[0]->motion, options_);
   path.allow_unstable(options_.allow_unstable);
-  path.resume(beside, across);
+  if (across) {
+    const PathInterval around = interval_at(beside, *across, t);
+    path.resume(*around.from, around.to);
+  } else {
+    path.resume(beside);
+  }
   const PathReport report = path.advance(t, watch);
   if (report.end != Outcome::reached) return {report.end, report.t};
   set_corrections(beside.beyond);

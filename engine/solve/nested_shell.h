@@ -68,7 +68,16 @@ struct LevelCorrection {
 /// differs from a quarter of what the mesh before it adds.
 struct NestedPathPoint : PathPoint {
   std::vector<LevelCorrection> beyond = {};  ///< coarse to fine; empty: not known
+  /// where the coarsest mesh took many steps from the point before: where they led
+  std::vector<PathPoint> way = {};
 };
+
+/// Points of the coarsest mesh that lie next to t, in front of it and behind.
+struct PathInterval {
+  const PathPoint *from, *to;
+};
+/// Those between two points that follow one another on a branch, themselves among them.
+PathInterval interval_at(const NestedPathPoint& before, const NestedPathPoint& after, double t);
 
 /// How far a shell came, and why it ended there: reached, unstable, folded, lost, not_finite,
 /// meshes_disagree, cancelled.

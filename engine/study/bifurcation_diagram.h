@@ -8,7 +8,7 @@
 #include "engine/core/watch.h"
 #include "engine/preset/preset.h"
 #include "engine/record/study_tables.h"
-#include "engine/solve/equilibrium_path.h"
+#include "engine/solve/arc_follower.h"
 
 namespace gridshell::study {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/core/dense.h"
+#include "engine/solve/arc_follower.h"
 
 namespace gridshell::study {
 namespace {

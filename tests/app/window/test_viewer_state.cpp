@@ -5,7 +5,7 @@
 #include "app/window/actions.h"
 #include "app/window/input_event.h"
 #include "app/window/viewer_state.h"
-#include "engine/solve/equilibrium_path.h"
+#include "engine/solve/pinned_motion.h"
 #include "tests/results.h"
 #include "tests/temporary_folder.h"
 

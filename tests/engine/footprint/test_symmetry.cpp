@@ -1,7 +1,7 @@
 // The maps of the square that a footprint has.
 #include "engine/footprint/symmetry.h"
 
-#include "engine/solve/equilibrium_path.h"
+#include "engine/solve/pinned_motion.h"
 #include "tests/presets.h"
 
 using namespace gridshell;

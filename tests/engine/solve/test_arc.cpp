@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "engine/solve/equilibrium_path.h"
+#include "engine/solve/arc_follower.h"
 #include "tests/engine/solve/crossing_rods.h"
 
 using namespace gridshell;

@@ -54,6 +54,43 @@ TEST_CASE("along a path finer meshes take one correction a state, and it is the 
   }
 }
 
+TEST_CASE("a state between two points of a path is found from where the path came past there") {
+  const Scene scene = value_of(scene_of(paper_circle(8)));
+  PathOptions options;
+  options.target_move = 1e-3;
+  const LevelPlan plan{{4, 8}, false};
+  NestedShell shell = value_of(
+      NestedShell::make(scene.footprint, scene.rods, RodModel::bend, scene.motion, plan, options));
+  const double first = parameter(0.98);
+  const State begin =
+      first_buckled(shell.system(0), shell.mesh(0), shell.motion(0), first, {}, scene.flat, watch)
+          .value();
+  REQUIRE(shell.start(first, begin, watch).end == Outcome::reached);
+  const NestedPathPoint before = shell.point();
+  REQUIRE(shell.advance(1, watch).end == Outcome::reached);
+  const NestedPathPoint after = shell.point();
+  REQUIRE(after.way.size() > 3);
+  CHECK(before.way.empty());
+
+  // also where the path came past
+  for (const double t : {0.5 * (first + 1), after.way[1].t}) {
+    const auto [from, to] = interval_at(before, after, t);
+    CHECK(from->t < t);
+    CHECK(to->t >= t);
+    CHECK(to->t - from->t < 0.5 * (1 - first));
+    const Effort start = shell.system(0).effort();
+    REQUIRE(shell.sample(t, before, watch, &after).end == Outcome::reached);
+    CHECK((shell.system(0).effort() - start).factorizations <= 3);
+    const State found = shell.state().levels[1];
+    REQUIRE(shell.sample(t, before, watch).end == Outcome::reached);
+    CHECK(max_column_norm(shell.state().levels[1].x - found.x) < 1e-6);
+  }
+  // back the same way
+  NestedPathPoint back = before;
+  back.way.assign(after.way.rbegin(), after.way.rend());
+  CHECK(interval_at(after, back, after.way[1].t - 1e-9).from->t == after.way[1].t);
+}
+
 TEST_CASE("a finer leader doubles all meshes, or is the second where the finest is fine enough") {
   CHECK(with_finer_leader({{4, 8}, false})->edges_per_segment == std::vector<int>{8, 16});
   CHECK(with_finer_leader({{16, 32, 64}, true})->edges_per_segment ==

@@ -1,0 +1,120 @@
+#include "engine/simulate/path_sampler.h"
+
+#include <fmt/format.h>
+#include <utility>
+
+#include "engine/core/try.h"
+#include "engine/simulate/frames.h"
+#include "engine/simulate/frames_between.h"
+
+namespace gridshell::simulate {
+
+PathSampler::PathSampler(EquilibriumPath& path, Caption caption, record::Sink& sink, Watch& watch,
+                         std::size_t count)
+    : path_(path), caption_(std::move(caption)), sink_(sink), watch_(watch), count_(count) {}
+
+Result<bool> PathSampler::at(const PathSample& sample) {
+  if (!between_)
+    between_ =
+        std::make_shared<FramesBetween>(path_, caption_.measure, watch_, std::move(expected_));
+  if (auto frame = between_->at(sample)) {
+    TRY_DO(motions(sample, sample.t));
+    return take_at(std::move(*frame), sample, events(sample, sample.t), sample.t).map([] {
+      return true;
+    });
+  }
+  const int before = path_.simulation.effort().newton_iterations;
+  const auto [report, past] = certify_sample(path_, sample, watch_);
+  if (watch_.cancelled()) return stopped();
+  if (report.end != Outcome::reached) {
+    if (within_snap(path_.segments[sample.segment], sample.t)) {
+      path_.limit_reason += "; there is no state to show " + caption_.at(sample.t, {});
+    } else if (path_.limit == record::Limit::none || path_.limit == record::Limit::snap) {
+      path_.limit = record::Limit::branch_lost;
+      path_.limit_reason =
+          fmt::format("{} {}", words_of(report.end).what, caption_.at(sample.t, {}));
+    }
+    return false;
+  }
+  TRY_DO(motions(sample, past));
+  std::string event = events(sample, past);
+  if (const int pivots = report.certificate.negative_pivots; event.empty() && pivots > 0)
+    event = fmt::format("unstable: {} negative pivots", pivots);
+  const int newton = path_.simulation.effort().newton_iterations - before;
+  return take_current(sample, std::move(event), past, newton).map([] { return true; });
+}
+
+Result<void> PathSampler::take_current(const PathSample& sample, std::string event, double past,
+                                       int newton_iterations) {
+  record::Frame frame = frame_of(path_.simulation);
+  caption_.measure(frame, sample.t, false);
+  frame.newton_iterations = newton_iterations;
+  return take_at(std::move(frame), sample, std::move(event), past);
+}
+
+Result<void> PathSampler::take_at(record::Frame frame, const PathSample& sample, std::string event,
+                                  double past) {
+  frame.event = std::move(event);
+  last_ = sample;
+  last_reached_t_ = past;
+  return take(std::move(frame), sample);
+}
+
+Result<void> PathSampler::take(record::Frame frame, const PathSample& sample) {
+  // with frames of a snap in between, all are counted
+  frame.index = path_.simulation.scene().snap.wanted ? taken_ : sample.index;
+  frame.progress = sample.progress;
+  caption_.place(frame, sample.t, sample.progress);
+  ++taken_;
+  watch_.report(0.5 + 0.5 * double(taken_) / double(count_));
+  return sink_.take(std::move(frame));
+}
+
+/// Frames of snaps that the segment came past since the sample before.
+Result<void> PathSampler::motions(const PathSample& sample, double past) {
+  const PathSegment& segment = path_.segments[sample.segment];
+  if (!last_ || last_->segment != sample.segment) next_snap_ = 0;
+  bool any = false;
+  for (; next_snap_ < segment.snaps.size(); ++next_snap_) {
+    const PathRecord::Snap& snap = segment.snaps[next_snap_];
+    const double landed = segment.load_steps[snap.before + 1].point.t;
+    if (segment.sign() * (past - landed) < 0) break;
+    any = true;
+    PathSample there = sample;
+    there.t = landed;
+    for (record::Frame& frame : frames_in_motion(path_.simulation, snap.moments))
+      if (auto taken = take(std::move(frame), there); !taken) return taken;
+  }
+  // the simulation stood somewhere else for them
+  if (any) certify_sample(path_, sample, watch_);
+  return {};
+}
+
+/// A segment back is shown against its way: from its end to where it began.
+std::string PathSampler::events(const PathSample& sample, double past) const {
+  const PathSegment& segment = path_.segments[sample.segment];
+  const double way = segment.back ? -segment.sign() : segment.sign();
+  double before = segment.back ? segment.end() : segment.from;
+  if (last_ && last_->segment == sample.segment) before = last_reached_t_;
+  std::string text;
+  // snaps come first: what a frame's text begins with is what it is marked by
+  for (const bool leap : {true, false}) {
+    std::string places;
+    for (const Event& event : segment.report.events) {
+      if (!event.to || event.leap != leap) continue;
+      const double seen = segment.back ? event.t : *event.to;
+      if (way * (seen - before) <= 0 || way * (past - seen) < 0) continue;
+      places += (places.empty() ? "" : " and ") + caption_.at(event.t, {});
+    }
+    if (!places.empty())
+      text += (text.empty() ? "" : "; ") + std::string(leap ? "snap " : "branches ") + places;
+  }
+  for (const ContactEvent& event : path_.contacts) {
+    if (event.segment != sample.segment) continue;
+    if (way * (event.t - before) <= 0 || way * (past - event.t) < 0) continue;
+    text += (text.empty() ? "" : "; ") + event.text;
+  }
+  return text;
+}
+
+}  // namespace gridshell::simulate

@@ -1,0 +1,67 @@
+// Frames of a path, one a sample, handed to a sink in order.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/record/trajectory.h"
+#include "engine/simulate/equilibrium_path.h"
+
+namespace gridshell::simulate {
+
+class FramesBetween;
+
+/// What an experiment says of its frames beyond the state itself.
+struct Caption {
+  At at;
+  /// Puts in where the boundary and the push stand at path parameter t.
+  std::function<void(record::Frame&, double t, double progress)> place;
+  /// Measures forces and reach on the certified state that the simulation stands in, or, `between`
+  /// load steps, on the frame alone.
+  std::function<void(record::Frame&, double t, bool between)> measure;
+};
+
+/// Certifies samples of a path, in the order in which they are shown, with what happened between
+/// them: frames of snaps that were followed in time, events.
+class PathSampler {
+ public:
+  /// `count`: of the samples to come, for the progress.
+  PathSampler(EquilibriumPath& path, Caption caption, record::Sink& sink, Watch& watch,
+              std::size_t count);
+
+  /// Those that may come, in order: with a team, frames are made some ahead.
+  void expect(std::vector<PathSample> samples) { expected_ = std::move(samples); }
+
+  /// One sample. False: it is not certified, which becomes the path's limit; within a jump that
+  /// already is the limit, the limit's reason says it. Errors: cancelled, the sink's.
+  Result<bool> at(const PathSample& sample);
+  /// The state that the simulation stands in as a frame, with an event of its own; `past`: as of
+  /// CertifiedSample.
+  Result<void> take_current(const PathSample& sample, std::string event, double past,
+                            int newton_iterations = 0);
+  /// What happened to the segment since the sample before, in words; empty: nothing.
+  std::string events(const PathSample& sample, double past) const;
+  /// A frame made elsewhere.
+  Result<void> take(record::Frame frame, const PathSample& sample);
+
+ private:
+  Result<void> motions(const PathSample& sample, double past);
+  Result<void> take_at(record::Frame frame, const PathSample& sample, std::string event,
+                       double past);
+
+  EquilibriumPath& path_;
+  Caption caption_;
+  std::vector<PathSample> expected_;
+  std::shared_ptr<FramesBetween> between_;
+  record::Sink& sink_;
+  Watch& watch_;
+  std::size_t count_, next_snap_ = 0;
+  std::optional<PathSample> last_;
+  double last_reached_t_ = 0;  ///< of the last sample, as of CertifiedSample
+  int taken_ = 0;
+};
+
+}  // namespace gridshell::simulate

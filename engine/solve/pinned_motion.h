@@ -1,0 +1,80 @@
+// How what is prescribed moves along a path: pinned nodes, held joints, loads.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "engine/core/watch.h"
+#include "engine/footprint/actuation.h"
+#include "engine/footprint/mesh.h"
+#include "engine/solve/newton.h"
+
+namespace gridshell {
+
+/// How far a motion has come at path parameter t.
+enum class PathLaw {
+  square,  ///< t^2: a shell that buckles out of the flat rises as the square root of how far its
+           ///< boundary came, so positions are smooth in t = sqrt(progress) down to the flat
+  even     ///< t
+};
+
+/// The progress of an actuation at its path parameter, and the other way.
+inline double progress_at(double t) { return t * t; }
+inline double parameter_at(double progress) { return std::sqrt(std::max(progress, 0.0)); }
+
+/// A factor that grows with the motion.
+struct LoadFactor {
+  double begin = 0, change = 0;
+};
+
+/// A node on an arm about another one: the arm turns and changes its length evenly in t.
+struct EndRotation {
+  int node = 0, about = 0;
+  Eigen::Vector3d arm{0, 0, 0};   ///< at t = 0, mm
+  Eigen::Vector3d axis{0, 0, 1};  ///< unit
+  double angle = 0;               ///< to t = 1, rad
+  double stretch = 0;             ///< the arm's length is 1 + t stretch times what it was
+
+  /// The arm at t, and how it changes by t.
+  Eigen::Vector3d at(double t) const;
+  Eigen::Vector3d rate(double t) const;
+};
+
+/// The turn about a node that takes the arm `from` to the arm `to` the shorter way.
+EndRotation rotation_between(int node, int about, const Eigen::Vector3d& from,
+                             const Eigen::Vector3d& to);
+
+/// Where the pinned nodes, and of held nodes the held components, are at path parameter t, how fast
+/// they move, and how much of the dead loads and of a field acts. By default loads come on in
+/// proportion: the flat shell carries none.
+struct PinnedMotion {
+  Eigen::Matrix3Xd begin;   ///< 3 x nodes at t = 0 (what is free is ignored)
+  Eigen::Matrix3Xd change;  ///< to t = 1
+  PathLaw law = PathLaw::square;
+  LoadFactor load{0, 1};
+  LoadFactor field{0, 0};
+  LoadFactor opening{0, 0};             ///< of the joints that are opened
+  std::vector<EndRotation> turns = {};  ///< these nodes do not move straight
+
+  double progress(double t) const { return law == PathLaw::square ? progress_at(t) : t; }
+  double speed(double t) const { return law == PathLaw::square ? 2 * t : 1.0; }
+  Eigen::Matrix3Xd at(double t) const;
+  Eigen::Matrix3Xd rate(double t) const;  ///< by t
+  double factor_at(const LoadFactor& growth, double t) const {
+    return growth.begin + progress(t) * growth.change;
+  }
+  /// Sets the loads of `system` to those at t.
+  void apply_loads(Linearisation& system, double t) const;
+  /// Puts what is prescribed where it belongs at t, and the loads on.
+  void impose(Linearisation& system, double t, State& state) const;
+  /// How all columns follow at a state just factorised, and the axial forces with them; by t.
+  void velocity(Linearisation& system, double t, const State& state, State& velocity) const;
+};
+
+/// The motion of a mesh's pinned nodes: its edge points and held joints, the far ends of tails,
+/// which turn about them, beyond those whose direction is held their ghosts, and supports of
+/// springs.
+PinnedMotion pinned_motion(const RodMesh& mesh, const BoundaryMotion& motion);
+
+}  // namespace gridshell
