@@ -96,4 +96,17 @@ Eigen::VectorXd polynomial_weights(const std::vector<double>& known, double t,
   return all;
 }
 
+Eigen::MatrixX2d slope_weights(const std::vector<double>& known, double t) {
+  Eigen::MatrixX2d all(Eigen::Index(known.size()), 2);
+  const Eigen::VectorXd basis = polynomial_weights(known, t);
+  for (std::size_t k = 0; k < known.size(); ++k) {
+    double slope = 0;  // of the basis where it is one
+    for (std::size_t j = 0; j < known.size(); ++j)
+      if (j != k) slope += 1 / (known[k] - known[j]);
+    const double square = std::pow(basis[Eigen::Index(k)], 2), way = t - known[k];
+    all.row(Eigen::Index(k)) << (1 - 2 * way * slope) * square, way * square;
+  }
+  return all;
+}
+
 }  // namespace gridshell

@@ -50,6 +50,10 @@ Eigen::Matrix3d best_turn(const Eigen::Matrix3Xd& x, const Eigen::Matrix3Xd& y, 
 Eigen::VectorXd polynomial_weights(const std::vector<double>& known, double t,
                                    std::size_t left_out = std::size_t(-1));
 
+/// Of the polynomial through values and slopes at `known`: its weights at t of the values, first
+/// column, and of the slopes [Hermite].
+Eigen::MatrixX2d slope_weights(const std::vector<double>& known, double t);
+
 /// The shortest rotation that takes the direction of `from` to that of `to`.
 Eigen::Quaterniond turn_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 

@@ -25,13 +25,6 @@ bool smooth(const PathSegment& segment, std::size_t k) {
   return goes_on_between(segment, segment.load_steps[k], segment.load_steps[k + 1]);
 }
 
-/// The cubic at t through the points of the path next to it.
-State between(const Model& model, const NestedPathPoint& before, const NestedPathPoint& after,
-              double t) {
-  const auto [from, to] = interval_at(before, after, t);
-  return gridshell::between(model, *from, *to, t);
-}
-
 /// What acts and what is held on another system of the same mesh.
 void take_over(const Linearisation& from, Linearisation& to) {
   to.outside = from.outside;
@@ -72,6 +65,17 @@ std::optional<FramesBetween::Window> FramesBetween::window_at(const PathSegment&
   std::vector<double> known;
   for (std::size_t j = first; j <= last; ++j) known.push_back(steps[j].point.t);
   return Window{first, std::move(known), k};
+}
+
+/// Where the coarsest mesh is looked for: on the polynomial through the states and tangents of the
+/// four knots next to t.
+State FramesBetween::guess_at(double t, const Knots& knots) const {
+  constexpr std::size_t most = 4;
+  std::vector<const PathPoint*> points;
+  for (const auto& knot : knots) points.push_back(&knot->leading);
+  std::ranges::sort(points, {}, [t](const PathPoint* point) { return std::abs(point->t - t); });
+  points.resize(std::min(points.size(), most));
+  return between(path_.simulation.shell().model(0), points, t);
 }
 
 FramesBetween::Weights FramesBetween::weights_at(const std::vector<double>& known, double t) {
@@ -116,10 +120,12 @@ std::shared_ptr<const FramesBetween::Knot> FramesBetween::knot_at(double t, cons
   const Report report = path_.simulation.sample(t, beside, false, watch_, across);
   if (report.end != Outcome::reached || !report.certificate.stable()) return nullptr;
   const auto knot =
-      std::make_shared<Knot>(Knot{frame_of(path_.simulation), shell.state().levels[0]});
+      std::make_shared<Knot>(Knot{frame_of(path_.simulation), {t, shell.state().levels[0], {}}});
   measure_(knot->added, t, false);
-  const auto leading = leading_at(shell.system(0), t, knot->leading);
+  PathPoint& at = knot->leading;
+  const auto leading = leading_at(shell.system(0), t, at.state);
   if (!leading) return nullptr;
+  shell.motion(0).velocity(shell.system(0), t, at.state, at.velocity);
   knot->added.nodes -= leading->nodes;
   knot->added.cell_K -= leading->cell_K;
   knot->added.reactions_N -= leading->reactions_N;
@@ -226,20 +232,18 @@ std::optional<FramesBetween::Draft> FramesBetween::draft_at(const PathSample& sa
   const PathSegment& segment = path_.segments[sample.segment];
   const auto window = wanted_ ? window_at(segment, sample.t) : std::nullopt;
   if (!window) return {};
-  const NestedPathPoint &from = segment.load_steps[window->before].point,
-                        &to = segment.load_steps[window->before + 1].point;
-  if (from.velocity.x.size() == 0 || to.velocity.x.size() == 0) return {};
+  const PathPoint &from = segment.load_steps[window->before].point,
+                  &to = segment.load_steps[window->before + 1].point;
   if (sample.segment != segment_) knots_.clear();
   segment_ = sample.segment;
   const Scene& scene = path_.simulation.scene();
-  const Model& model = path_.simulation.shell().model(0);
   const double allowed_mm = share_of_tolerance * scene.tolerance * scene.length_scale_mm;
   const Knots knots = knots_in(segment, *window);
   if (knots.size() < window->t.size()) return {};
   const std::size_t before = window->before - window->first;
-  Draft draft{
-      sample, between(model, from, to, sample.t), &from, &to, {knots[before], knots[before + 1]},
-      knots,  weights_at(window->t, sample.t)};
+  Draft draft{sample, &from,
+              &to,    {knots[before], knots[before + 1]},
+              knots,  weights_at(window->t, sample.t)};
   if (!closer && doubt_mm(draft.knots, draft.weights) <= allowed_mm) return draft;
   // states in between
   draft.knots = knots_between(segment, *window);
@@ -249,14 +253,6 @@ std::optional<FramesBetween::Draft> FramesBetween::draft_at(const PathSample& sa
     known.push_back(from.t + (to.t - from.t) * part / parts);
   draft.weights = weights_at(known, sample.t);
   if (!(doubt_mm(draft.knots, draft.weights) <= allowed_mm)) return {};
-  Eigen::Matrix3Xd x = draft.guess.x;
-  x.leftCols(model.nodes) = weighted(draft.knots, draft.weights.all, [&](const Knot& knot) {
-    return Eigen::Matrix3Xd(knot.leading.x.leftCols(model.nodes));
-  });
-  move_to(model, x, draft.guess);
-  draft.guess.force =
-      weighted(draft.knots, draft.weights.all,
-               [](const Knot& knot) -> const Eigen::VectorXd& { return knot.leading.force; });
   return draft;
 }
 
@@ -296,13 +292,14 @@ void FramesBetween::finish(Draft& draft, Factored& factored) const {
   Linearisation& system = factored.system;
   const double middle = draft.middle();
   if (factored.t != middle || factored.count != system.effort().factorizations) {
-    State state = between(shell.model(0), *draft.from, *draft.to, middle);
+    State state = guess_at(middle, draft.knots);
     shell.motion(0).impose(system, middle, state);
     factored.inertia = system.at(state);
     factored.t = middle;
     factored.count = system.effort().factorizations;
   }
-  draft.frame = leading_at(system, draft.sample.t, draft.guess, factored.inertia);
+  State guess = guess_at(draft.sample.t, draft.knots);
+  draft.frame = leading_at(system, draft.sample.t, guess, factored.inertia);
   if (draft.frame) compose(draft);
 }
 

@@ -13,15 +13,15 @@
 namespace gridshell::simulate {
 
 /// Between two load steps of one smooth branch the coarsest mesh is brought to rest at t, from the
-/// cubic through states and tangents of both [Hermite]; what finer meshes add to its nodes, K,
-/// reactions and energies, and what lies along the rods, is a polynomial in t through up to six
-/// load steps of that branch [Lagrange], or, where that leaves too much or does not lead to a
-/// state, through the two around it and three states certified between them. The residual is the
-/// coarsest mesh's. Its pivots are those in the middle of a quarter of the way between the load
-/// steps, as long as corrections by that factorisation shrink tenfold: no stiffness that they meet
-/// differs by more than a tenth then. The error estimates are those of the load steps around it,
-/// evenly in between, and twice what polynomials of one degree less, without the first or the last
-/// of those load steps, would have changed.
+/// polynomial through states and tangents of up to four around it [Hermite]; what finer meshes add
+/// to its nodes, K, reactions and energies, and what lies along the rods, is a polynomial in t
+/// through up to six load steps of that branch [Lagrange], or, where that leaves too much or does
+/// not lead to a state, through the two around it and three states certified between them. The
+/// residual is the coarsest mesh's. Its pivots are those in the middle of a quarter of the way
+/// between the load steps, as long as corrections by that factorisation shrink tenfold: no
+/// stiffness that they meet differs by more than a tenth then. The error estimates are those of the
+/// load steps around it, evenly in between, and twice what polynomials of one degree less, without
+/// the first or the last of those load steps, would have changed.
 class FramesBetween {
  public:
   /// `measure`: as of Caption; `expected`: samples that may come, in the order of their index.
@@ -36,10 +36,10 @@ class FramesBetween {
   std::optional<record::Frame> at(const PathSample& sample);
 
  private:
-  /// What finer meshes add at a certified state, and the coarsest mesh's state there.
+  /// What finer meshes add at a certified state, and the coarsest mesh there.
   struct Knot {
     record::Frame added;
-    State leading;
+    PathPoint leading;
   };
   using Knots = std::vector<std::shared_ptr<const Knot>>;
   /// Of a polynomial in t at a place.
@@ -55,9 +55,8 @@ class FramesBetween {
   /// A frame as it is begun, and as it becomes.
   struct Draft {
     PathSample sample;
-    State guess;
-    const NestedPathPoint *from, *to;  ///< load steps around it
-    Knots around, knots;               ///< those at these load steps, and all that count
+    const PathPoint *from, *to;  ///< load steps around it
+    Knots around, knots;         ///< those at these load steps, and all that count
     Weights weights;
     std::optional<record::Frame> frame = {};
 
@@ -74,6 +73,7 @@ class FramesBetween {
   };
   static Weights weights_at(const std::vector<double>& known, double t);
   std::optional<Window> window_at(const PathSegment& segment, double t) const;
+  State guess_at(double t, const Knots& knots) const;
   Knots knots_in(const PathSegment& segment, const Window& window);
   Knots knots_between(const PathSegment& segment, const Window& window);
   double doubt_mm(const Knots& knots, const Weights& weights) const;

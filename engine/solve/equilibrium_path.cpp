@@ -52,18 +52,22 @@ PathReport PathFollower::start(double t, State state, const Watch& watch) {
   return report;
 }
 
-State between(const Model& model, const PathPoint& a, const PathPoint& b, double t) {
-  const double h = b.t - a.t, s = (t - a.t) / h;
-  const double to = s * s * (3 - 2 * s), from_slope = h * s * (1 - s) * (1 - s),
-               to_slope = -h * s * s * (1 - s);
-  const auto cubic = [&](const auto& x, const auto& vx, const auto& y, const auto& vy) {
-    return (x + to * (y - x) + from_slope * vx + to_slope * vy).eval();
-  };
-  State guess = a.state;
-  guess.force = cubic(a.state.force, a.velocity.force, b.state.force, b.velocity.force);
-  Eigen::Matrix3Xd x = a.state.x + (t - a.t) * a.velocity.x;
-  x.leftCols(model.nodes) =
-      cubic(a.state.x, a.velocity.x, b.state.x, b.velocity.x).leftCols(model.nodes);
+State between(const Model& model, std::span<const PathPoint* const> points, double t) {
+  std::vector<double> known;
+  for (const PathPoint* point : points) known.push_back(point->t);
+  const Eigen::MatrixX2d weights = slope_weights(known, t);
+  const PathPoint& first = *points.front();
+  State guess = first.state;
+  guess.force.setZero();
+  Eigen::Matrix3Xd x = first.state.x + (t - first.t) * first.velocity.x;
+  auto nodes = x.leftCols(model.nodes);
+  nodes.setZero();
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const auto& [at, state, velocity] = *points[k];
+    const double of_value = weights(Eigen::Index(k), 0), of_slope = weights(Eigen::Index(k), 1);
+    nodes += of_value * state.x.leftCols(model.nodes) + of_slope * velocity.x.leftCols(model.nodes);
+    guess.force += of_value * state.force + of_slope * velocity.force;
+  }
   move_to(model, x, guess);
   return guess;
 }
@@ -71,7 +75,8 @@ State between(const Model& model, const PathPoint& a, const PathPoint& b, double
 State PathFollower::predict(double t) const {
   const double h = t - now_.t;
   if (across_) {
-    State guess = between(system_.model(), now_, *across_, t);
+    const PathPoint* ends[] = {&now_, across_};
+    State guess = between(system_.model(), ends, t);
     motion_.impose(system_, t, guess);
     return guess;
   }

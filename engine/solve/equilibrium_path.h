@@ -2,6 +2,7 @@
 // factorisation a step, steps chosen by how well the prediction did.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "engine/core/watch.h"
@@ -17,9 +18,9 @@ struct PathPoint {
   State velocity;  ///< by t; it has no frames
 };
 
-/// The cubic at t through two states of a path and their tangents [Hermite]; angles, which count
+/// The polynomial at t through states of a path and their tangents [Hermite]; angles, which count
 /// from a state's own frames, go on from the first.
-State between(const Model& model, const PathPoint& a, const PathPoint& b, double t);
+State between(const Model& model, std::span<const PathPoint* const> points, double t);
 
 struct PathOptions {
   double spacing_mm = 20;       ///< d: what moves are measured against
