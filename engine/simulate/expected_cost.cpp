@@ -127,10 +127,13 @@ int dof_of(const Scene& scene, int edges_per_segment) {
 
 double expected_seconds(const Scene& scene, const preset::Preset& preset) {
   if (scene.rung == RodModel::net) return 0.01;
-  // a trial ends on a mesh of 4 edges a segment; measured on 8 to 20 rods
-  constexpr double a_trial = 2.3e-5;
-  if (const preset::SearchSettings& jitter = preset.jitter; jitter.wanted())
-    return a_trial * dof_of(scene, 4) * (jitter.trials + jitter.confined);
+  // all on a mesh of 4 edges a segment; measured on 8 to 20 rods
+  constexpr double a_trial = 2.6e-5, a_barrier = 3.4e-4, ways_of_a_state = 7e-4;
+  if (const preset::SearchSettings& jitter = preset.jitter; jitter.wanted()) {
+    const int barriers = jitter.barriers ? jitter.drawn * (jitter.drawn - 1) / 2 : 0;
+    return dof_of(scene, 4) * (a_trial * (jitter.trials + jitter.confined) + a_barrier * barriers +
+                               ways_of_a_state * jitter.transitions);
+  }
   // of a frame: corrections on the leading mesh; what is told of the finest takes as long as some
   // assemblies there
   constexpr double corrections = 1.5, tellings = 5.4, start_s = 0.02;
@@ -140,11 +143,15 @@ double expected_seconds(const Scene& scene, const preset::Preset& preset) {
                finest = double(edges.back()) / edges.front();
   const double frame =
       tellings * finest * unit.assembly + corrections * (unit.assembly + unit.factorisation);
-  // what is chosen is confirmed by meshes of twice the edges; bolts and braces come in at rest
+  // what is chosen is confirmed by meshes of twice the edges; bolts and braces come in at rest, on
+  // meshes that are built anew
+  constexpr double build = 15;  // as many factorisations
   using Do = preset::StepKind;
-  const auto moves = std::ranges::count_if(preset.step, [](const preset::Step& step) {
-    return step.kind != Do::tighten && step.kind != Do::brace && step.kind != Do::hold;
+  const auto builds = std::ranges::count_if(preset.step, [](const preset::Step& step) {
+    return step.kind == Do::tighten || step.kind == Do::brace;
   });
+  const auto moves = std::ssize(preset.step) - builds -
+                     std::ranges::count(preset.step, Do::hold, &preset::Step::kind);
   // of a way on which nothing is chosen three states are looked for there; only frames between the
   // net and the flat take the way back to it
   const bool network = preset.footprint.kind == preset::FootprintKind::network;
@@ -158,7 +165,7 @@ double expected_seconds(const Scene& scene, const preset::Preset& preset) {
   const int frames =
       shares.empty() ? preset.movie.frames : std::accumulate(shares.begin(), shares.end(), 1);
   return start_s + frame * frames +
-         ways * factorisations_of(scene, preset.footprint) * all *
+         (ways * factorisations_of(scene, preset.footprint) + build * double(builds)) * all *
              (unit.assembly + unit.factorisation);
 }
 

@@ -10,6 +10,7 @@
 #include "engine/core/team.h"
 #include "engine/simulate/frame_forces.h"
 #include "engine/simulate/frames.h"
+#include "engine/solve/equilibrium_path.h"
 
 namespace gridshell::simulate {
 namespace {
@@ -19,7 +20,7 @@ constexpr double nearby = 1e-3;  // of d: a correction beyond is none of the gue
 constexpr double misfit_of_knots = 1e-5;  // of the largest axial force (nested_certificate.cpp)
 constexpr std::size_t most_knots = 6;
 constexpr int parts = 4;               // of the way between two load steps
-constexpr std::size_t most_ahead = 8;  // pieces of the way: two for each who helps
+constexpr std::size_t most_ahead = 8;  // pieces of the way; two a thread serve where there are few
 
 bool smooth(const PathSegment& segment, std::size_t k) {
   return goes_on_between(segment, segment.load_steps[k], segment.load_steps[k + 1]);
@@ -62,23 +63,28 @@ std::optional<FramesBetween::Window> FramesBetween::window_at(const PathSegment&
     if (first > 0 && size + 1 < most_knots && smooth(segment, first - 1)) --first;
     if (last + 1 < steps.size() && last - first + 1 < most_knots && smooth(segment, last)) ++last;
   }
-  std::vector<double> known;
-  for (std::size_t j = first; j <= last; ++j) known.push_back(steps[j].point.t);
-  return Window{first, std::move(known), k};
+  return Window{first, last, k};
 }
 
 /// Where the coarsest mesh is looked for: on the polynomial through the states and tangents of the
-/// four knots next to t.
+/// knots around t, and of the next on each side but where it lies so near to these that round-off
+/// would count.
 State FramesBetween::guess_at(double t, const Knots& knots) const {
-  constexpr std::size_t most = 4;
-  std::vector<const PathPoint*> points;
-  for (const auto& knot : knots) points.push_back(&knot->leading);
-  std::ranges::sort(points, {}, [t](const PathPoint* point) { return std::abs(point->t - t); });
-  points.resize(std::min(points.size(), most));
+  const auto at = [&](std::size_t k) { return knots[k]->leading.t; };
+  const double way = at(knots.size() - 1) - at(0);
+  std::size_t k = 0;
+  while (k + 2 < knots.size() && way * (t - at(k + 1)) >= 0) ++k;
+  std::vector<const PathPoint*> points{&knots[k]->leading, &knots[k + 1]->leading};
+  const double least = 0.5 * std::abs(at(k + 1) - at(k));
+  if (k > 0 && std::abs(at(k) - at(k - 1)) >= least) points.push_back(&knots[k - 1]->leading);
+  if (k + 2 < knots.size() && std::abs(at(k + 2) - at(k + 1)) >= least)
+    points.push_back(&knots[k + 2]->leading);
   return between(path_.simulation.shell().model(0), points, t);
 }
 
-FramesBetween::Weights FramesBetween::weights_at(const std::vector<double>& known, double t) {
+FramesBetween::Weights FramesBetween::weights_at(const Knots& knots, double t) {
+  std::vector<double> known;
+  for (const auto& knot : knots) known.push_back(knot->leading.t);
   const Eigen::VectorXd all = polynomial_weights(known, t);
   return {all,
           {all - polynomial_weights(known, t, 0),
@@ -87,7 +93,7 @@ FramesBetween::Weights FramesBetween::weights_at(const std::vector<double>& know
 
 /// So that a frame does not depend on which others there are.
 double FramesBetween::Draft::middle() const {
-  return from->t + (std::floor(parts * share()) + 0.5) / parts * (to->t - from->t);
+  return from() + (std::floor(parts * share()) + 0.5) / parts * (to() - from());
 }
 
 /// The coarsest mesh brought to rest beside a guess, where it is stable there.
@@ -135,15 +141,8 @@ std::shared_ptr<const FramesBetween::Knot> FramesBetween::knot_at(double t, cons
 
 /// The knots at the load steps of a window; fewer: one of them has none.
 FramesBetween::Knots FramesBetween::knots_in(const PathSegment& segment, const Window& window) {
-  const auto end = window.first + window.t.size();
-  // samples that are read ahead may lie one window further
-  std::erase_if(knots_, [&](const auto& known) {
-    const auto& [step, part] = known.first;
-    const bool beside = step <= window.before + 1 && step + 1 >= window.before;
-    return step + 1 < window.first || step > end || (part > 0 && !beside);
-  });
   Knots knots;
-  for (std::size_t k = window.first; k < end; ++k) {
+  for (std::size_t k = window.first; k <= window.last; ++k) {
     const auto [at, is_new] = knots_.try_emplace({k, 0});
     if (is_new) at->second = knot_at(segment.load_steps[k].point.t, segment.load_steps[k], nullptr);
     if (at->second) knots.push_back(at->second);
@@ -198,11 +197,33 @@ std::optional<record::Frame> FramesBetween::at(const PathSample& sample) {
   return frame;
 }
 
+std::size_t FramesBetween::helpers() const {
+  const Team* team = path_.simulation.scene().team.get();
+  return team ? std::size_t(team->threads()) : 1;
+}
+
+/// Knots that neither the frame of a sample nor later ones need.
+void FramesBetween::forget_behind(const PathSample& sample) {
+  const PathSegment& segment = path_.segments[sample.segment];
+  if (sample.segment != segment_) knots_.clear();
+  segment_ = sample.segment;
+  const auto window = window_at(segment, sample.t);
+  if (!window) return;
+  // a segment back is shown against its way
+  const auto behind = [&](std::size_t step, std::size_t first, std::size_t last) {
+    return segment.back ? step > last : step < first;
+  };
+  std::erase_if(knots_, [&](const auto& known) {
+    const auto& [step, part] = known.first;
+    return part > 0 ? behind(step, window->before, window->before)
+                    : behind(step, window->first, window->last);
+  });
+}
+
 /// Makes the frames of the piece of the way in which a sample lies, and of the next ones.
 void FramesBetween::read_ahead(const PathSample& sample) {
-  const Team* team = path_.simulation.scene().team.get();
-  const std::size_t helpers = team ? std::size_t(team->threads()) : 1,
-                    most = std::min(2 * helpers, most_ahead);
+  const std::size_t most = std::min(2 * helpers(), most_ahead);
+  forget_behind(sample);
   std::vector<Draft> drafts;
   std::set<double> pieces;
   auto next = std::ranges::find(expected_, sample.index, &PathSample::index);
@@ -226,32 +247,23 @@ void FramesBetween::read_ahead(const PathSample& sample) {
   }
 }
 
-/// A sample's guess, by states in between where the polynomial through load steps is in doubt or
-/// `closer` is asked for. Nothing: as of at().
+/// What a sample's frame is made from, by states in between where the polynomial through load steps
+/// is in doubt or `closer` is asked for. Nothing: as of at().
 std::optional<FramesBetween::Draft> FramesBetween::draft_at(const PathSample& sample, bool closer) {
   const PathSegment& segment = path_.segments[sample.segment];
   const auto window = wanted_ ? window_at(segment, sample.t) : std::nullopt;
   if (!window) return {};
-  const PathPoint &from = segment.load_steps[window->before].point,
-                  &to = segment.load_steps[window->before + 1].point;
-  if (sample.segment != segment_) knots_.clear();
-  segment_ = sample.segment;
   const Scene& scene = path_.simulation.scene();
   const double allowed_mm = share_of_tolerance * scene.tolerance * scene.length_scale_mm;
   const Knots knots = knots_in(segment, *window);
-  if (knots.size() < window->t.size()) return {};
+  if (knots.size() <= window->last - window->first) return {};
   const std::size_t before = window->before - window->first;
-  Draft draft{sample, &from,
-              &to,    {knots[before], knots[before + 1]},
-              knots,  weights_at(window->t, sample.t)};
+  Draft draft{sample, {knots[before], knots[before + 1]}, knots, weights_at(knots, sample.t)};
   if (!closer && doubt_mm(draft.knots, draft.weights) <= allowed_mm) return draft;
   // states in between
   draft.knots = knots_between(segment, *window);
   if (int(draft.knots.size()) <= parts) return {};
-  std::vector<double> known;
-  for (int part = 0; part <= parts; ++part)
-    known.push_back(from.t + (to.t - from.t) * part / parts);
-  draft.weights = weights_at(known, sample.t);
+  draft.weights = weights_at(draft.knots, sample.t);
   if (!(doubt_mm(draft.knots, draft.weights) <= allowed_mm)) return {};
   return draft;
 }
@@ -266,8 +278,7 @@ void FramesBetween::finish(std::vector<Draft>& drafts) {
   const Scene& scene = path_.simulation.scene();
   NestedShell& shell = path_.simulation.shell();
   Linearisation& first = shell.system(0);
-  const int helpers = scene.team ? scene.team->threads() : 1,
-            lanes = std::min(helpers, int(pieces.size()));
+  const int lanes = int(std::min(helpers(), pieces.size()));
   while (int(systems_.size()) + 1 < lanes)
     systems_.push_back(std::make_unique<Linearisation>(shell.model(0)));
   const auto work = [&](int lane) {
@@ -292,7 +303,8 @@ void FramesBetween::finish(Draft& draft, Factored& factored) const {
   Linearisation& system = factored.system;
   const double middle = draft.middle();
   if (factored.t != middle || factored.count != system.effort().factorizations) {
-    State state = guess_at(middle, draft.knots);
+    // alike for all frames of the piece
+    State state = guess_at(middle, draft.around);
     shell.motion(0).impose(system, middle, state);
     factored.inertia = system.at(state);
     factored.t = middle;

@@ -13,15 +13,15 @@
 namespace gridshell::simulate {
 
 /// Between two load steps of one smooth branch the coarsest mesh is brought to rest at t, from the
-/// polynomial through states and tangents of up to four around it [Hermite]; what finer meshes add
-/// to its nodes, K, reactions and energies, and what lies along the rods, is a polynomial in t
-/// through up to six load steps of that branch [Lagrange], or, where that leaves too much or does
-/// not lead to a state, through the two around it and three states certified between them. The
-/// residual is the coarsest mesh's. Its pivots are those in the middle of a quarter of the way
-/// between the load steps, as long as corrections by that factorisation shrink tenfold: no
-/// stiffness that they meet differs by more than a tenth then. The error estimates are those of the
-/// load steps around it, evenly in between, and twice what polynomials of one degree less, without
-/// the first or the last of those load steps, would have changed.
+/// polynomial through states and tangents of up to four, two on each side [Hermite]; what finer
+/// meshes add to its nodes, K, reactions and energies, and what lies along the rods, is a
+/// polynomial in t through up to six load steps of that branch [Lagrange], or, where that leaves
+/// too much or does not lead to a state, through the two around it and three states certified
+/// between them. The residual is the coarsest mesh's. Its pivots are those in the middle of a
+/// quarter of the way between the load steps, as long as corrections by that factorisation shrink
+/// tenfold: no stiffness that they meet differs by more than a tenth then. The error estimates are
+/// those of the load steps around it, evenly in between, and twice what polynomials of one degree
+/// less, without the first or the last of those load steps, would have changed.
 class FramesBetween {
  public:
   /// `measure`: as of Caption; `expected`: samples that may come, in the order of their index.
@@ -48,19 +48,19 @@ class FramesBetween {
     Eigen::VectorXd without[2];  ///< less those without the first, the last of its knots
   };
   struct Window {
-    std::size_t first = 0;   ///< load step
-    std::vector<double> t;   ///< of the load steps
-    std::size_t before = 0;  ///< that in front of the sample
+    std::size_t first = 0, last = 0;  ///< load steps
+    std::size_t before = 0;           ///< that in front of the sample
   };
   /// A frame as it is begun, and as it becomes.
   struct Draft {
     PathSample sample;
-    const PathPoint *from, *to;  ///< load steps around it
-    Knots around, knots;         ///< those at these load steps, and all that count
+    Knots around, knots;  ///< those at the load steps around it, and all that count
     Weights weights;
     std::optional<record::Frame> frame = {};
 
-    double share() const { return (sample.t - from->t) / (to->t - from->t); }
+    double from() const { return around[0]->leading.t; }
+    double to() const { return around[1]->leading.t; }
+    double share() const { return (sample.t - from()) / (to() - from()); }
     /// Path parameter in the middle of its piece of the way.
     double middle() const;
   };
@@ -71,7 +71,7 @@ class FramesBetween {
     Inertia inertia = {};
     int count = 0;
   };
-  static Weights weights_at(const std::vector<double>& known, double t);
+  static Weights weights_at(const Knots& knots, double t);
   std::optional<Window> window_at(const PathSegment& segment, double t) const;
   State guess_at(double t, const Knots& knots) const;
   Knots knots_in(const PathSegment& segment, const Window& window);
@@ -79,7 +79,9 @@ class FramesBetween {
   double doubt_mm(const Knots& knots, const Weights& weights) const;
   std::shared_ptr<const Knot> knot_at(double t, const LoadStep& beside, const LoadStep* across);
   std::optional<Draft> draft_at(const PathSample& sample, bool closer);
+  std::size_t helpers() const;
   void read_ahead(const PathSample& sample);
+  void forget_behind(const PathSample& sample);
   void finish(std::vector<Draft>& drafts);
   void finish(Draft& draft, Factored& factored) const;
   std::optional<record::Frame> leading_at(Linearisation& system, double t, State& guess,

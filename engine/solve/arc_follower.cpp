@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/core/dense.h"
-
 namespace gridshell {
 
 namespace {

@@ -169,7 +169,7 @@ PathReport PathFollower::advance(double t, const Watch& watch) {
     ++report.steps;
     if (outcome == Outcome::reached) {
       report.t = now_.t;
-      if (now_.t != t) way_.push_back(now_);
+      if (options_.keeps_way && now_.t != t) way_.push_back(now_);
       // the prediction is off by a term of third order in h
       const double aim = options_.target_move * options_.spacing_mm;
       const double grow = std::cbrt(aim / std::max(report.last.first_move_mm, 1e-3 * aim));

@@ -32,6 +32,7 @@ struct PathOptions {
       1e-6;  ///< of points that are asked for; between them one correction is enough
   double widest_turn = -0.5;    ///< cosine of the turn at which two edges have folded
   bool allow_unstable = false;  ///< go on through states with negative pivots
+  bool keeps_way = false;       ///< PathFollower::way()
   Team* team = nullptr;         ///< who helps with large matrices
 };
 
@@ -66,7 +67,8 @@ class PathFollower {
 
   void allow_unstable(bool allow) { options_.allow_unstable = allow; }
   const PathPoint& point() const { return now_; }
-  /// Where the last advance() came past, in order, its begin and end not among them.
+  /// Where the last advance() that reached its end came past, in order, neither that nor its begin
+  /// among them, each but one correction from rest; none where the options do not keep it.
   const std::vector<PathPoint>& way() const { return way_; }
   const NewtonReport& last() const { return last_; }  ///< of the current point
   const PinnedMotion& motion() const { return motion_; }

@@ -51,7 +51,9 @@ Result<NestedShell> NestedShell::make(const Footprint& footprint, const ShellRod
 }
 
 void NestedShell::reset_path() {
-  path_ = std::make_unique<PathFollower>(*levels_[0]->system, levels_[0]->motion, options_);
+  PathOptions options = options_;
+  options.keeps_way = true;
+  path_ = std::make_unique<PathFollower>(*levels_[0]->system, levels_[0]->motion, options);
 }
 
 std::vector<PinnedMotion> NestedShell::motions() const {
@@ -152,9 +154,13 @@ std::vector<LevelCorrection> NestedShell::beyond() const {
 }
 
 NestedPathPoint NestedShell::point() const {
-  constexpr std::size_t most_left_out = 3;  // a cubic from end to end does without
-  const auto& way = path_->way();
-  return {followed(), beyond(), way.size() > most_left_out ? way : std::vector<PathPoint>{}};
+  // a cubic from end to end does without few; many take memory
+  constexpr std::size_t few = 3, most = 12;
+  NestedPathPoint point{followed(), beyond()};
+  const std::vector<PathPoint>& way = path_->way();
+  const std::size_t kept = way.size() > few ? std::min(way.size(), most) : 0;
+  for (std::size_t k = 0; k < kept; ++k) point.way.push_back(way[k * way.size() / kept]);
+  return point;
 }
 
 NestedReport NestedShell::place(double t, const State& coarse, const Watch& watch) {
@@ -190,13 +196,15 @@ NestedReport NestedShell::sample(double t, const NestedPathPoint& beside, const 
   } memory(levels_);
   PathFollower path(*levels_[0]->system, levels_[0]->motion, options_);
   path.allow_unstable(options_.allow_unstable);
-  if (across) {
-    const PathInterval around = interval_at(beside, *across, t);
-    path.resume(*around.from, around.to);
-  } else {
-    path.resume(beside);
+  const PathInterval next =
+      across ? interval_at(beside, *across, t) : PathInterval{&beside, nullptr};
+  path.resume(*next.from, next.to);
+  PathReport report = path.advance(t, watch);
+  // from the way, which is not at rest, it may not be found
+  if (report.end != Outcome::reached && next.from != &beside) {
+    path.resume(beside, across);
+    report = path.advance(t, watch);
   }
-  const PathReport report = path.advance(t, watch);
   if (report.end != Outcome::reached) return {report.end, report.t};
   set_corrections(beside.beyond);
   for (std::size_t k = 0; across && k < across->beyond.size(); ++k)

@@ -115,8 +115,8 @@ class NestedShell {
   /// failure.
   NestedReport advance(double t, const Watch& watch);
   /// Certifies the state at t, between points of the path that are known, and leaves the path
-  /// itself as it is: `beside` is the nearest of them, `across` one beyond t to which its branch
-  /// goes on. Finer levels choose as in start().
+  /// itself as it is: `beside` is the nearest of them, `across` the next one, beyond t, to which
+  /// its branch goes on, by its way. Finer levels choose as in start().
   NestedReport sample(double t, const NestedPathPoint& beside, const Watch& watch,
                       const NestedPathPoint* across = nullptr);
 

@@ -3,9 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <vector>
 
-#include "engine/core/watch.h"
 #include "engine/footprint/actuation.h"
 #include "engine/footprint/mesh.h"
 #include "engine/solve/newton.h"

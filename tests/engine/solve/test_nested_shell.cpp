@@ -72,8 +72,8 @@ TEST_CASE("a state between two points of a path is found from where the path cam
   REQUIRE(after.way.size() > 3);
   CHECK(before.way.empty());
 
-  // also where the path came past
-  for (const double t : {0.5 * (first + 1), after.way[1].t}) {
+  // also where the path came past, and just behind
+  for (const double t : {0.5 * (first + 1), after.way[1].t, after.way[1].t + 1e-7}) {
     const auto [from, to] = interval_at(before, after, t);
     CHECK(from->t < t);
     CHECK(to->t >= t);
