@@ -67,8 +67,8 @@ std::optional<FramesBetween::Window> FramesBetween::window_at(const PathSegment&
 }
 
 /// Where the coarsest mesh is looked for: on the polynomial through the states and tangents of the
-/// knots around t, and of the next on each side but where it lies so near to these that round-off
-/// would count.
+/// knots around t, and of the next on each side, but where it lies so near to these that round-off
+/// would count, or beyond a way that bends too much for it to tell.
 State FramesBetween::guess_at(double t, const Knots& knots) const {
   const auto at = [&](std::size_t k) { return knots[k]->leading.t; };
   const double way = at(knots.size() - 1) - at(0);
@@ -76,9 +76,11 @@ State FramesBetween::guess_at(double t, const Knots& knots) const {
   while (k + 2 < knots.size() && way * (t - at(k + 1)) >= 0) ++k;
   std::vector<const PathPoint*> points{&knots[k]->leading, &knots[k + 1]->leading};
   const double least = 0.5 * std::abs(at(k + 1) - at(k));
-  if (k > 0 && std::abs(at(k) - at(k - 1)) >= least) points.push_back(&knots[k - 1]->leading);
-  if (k + 2 < knots.size() && std::abs(at(k + 2) - at(k + 1)) >= least)
-    points.push_back(&knots[k + 2]->leading);
+  const auto tells = [&](std::size_t a) {
+    return !knots[a + 1]->hard && std::abs(at(a + 1) - at(a)) >= least;
+  };
+  if (k > 0 && tells(k - 1)) points.push_back(&knots[k - 1]->leading);
+  if (k + 2 < knots.size() && tells(k + 1)) points.push_back(&knots[k + 2]->leading);
   return between(path_.simulation.shell().model(0), points, t);
 }
 
@@ -125,8 +127,8 @@ std::shared_ptr<const FramesBetween::Knot> FramesBetween::knot_at(double t, cons
   NestedShell& shell = path_.simulation.shell();
   const Report report = path_.simulation.sample(t, beside, false, watch_, across);
   if (report.end != Outcome::reached || !report.certificate.stable()) return nullptr;
-  const auto knot =
-      std::make_shared<Knot>(Knot{frame_of(path_.simulation), {t, shell.state().levels[0], {}}});
+  const auto knot = std::make_shared<Knot>(Knot{
+      frame_of(path_.simulation), {t, shell.state().levels[0], {}}, !beside.point.way.empty()});
   measure_(knot->added, t, false);
   PathPoint& at = knot->leading;
   const auto leading = leading_at(shell.system(0), t, at.state);
@@ -259,6 +261,7 @@ std::optional<FramesBetween::Draft> FramesBetween::draft_at(const PathSample& sa
   if (knots.size() <= window->last - window->first) return {};
   const std::size_t before = window->before - window->first;
   Draft draft{sample, {knots[before], knots[before + 1]}, knots, weights_at(knots, sample.t)};
+  closer = closer || knots[before + 1]->hard;
   if (!closer && doubt_mm(draft.knots, draft.weights) <= allowed_mm) return draft;
   // states in between
   draft.knots = knots_between(segment, *window);
@@ -302,12 +305,15 @@ void FramesBetween::finish(Draft& draft, Factored& factored) const {
   const NestedShell& shell = path_.simulation.shell();
   Linearisation& system = factored.system;
   const double middle = draft.middle();
-  if (factored.t != middle || factored.count != system.effort().factorizations) {
-    // alike for all frames of the piece
-    State state = guess_at(middle, draft.around);
+  // alike for all frames of a piece that have the same knots
+  const Knot* by = draft.knots[1].get();
+  if (factored.t != middle || factored.by != by ||
+      factored.count != system.effort().factorizations) {
+    State state = guess_at(middle, draft.knots);
     shell.motion(0).impose(system, middle, state);
     factored.inertia = system.at(state);
     factored.t = middle;
+    factored.by = by;
     factored.count = system.effort().factorizations;
   }
   State guess = guess_at(draft.sample.t, draft.knots);

@@ -40,6 +40,7 @@ class FramesBetween {
   struct Knot {
     record::Frame added;
     PathPoint leading;
+    bool hard = false;  ///< whether the coarsest mesh took many steps to it
   };
   using Knots = std::vector<std::shared_ptr<const Knot>>;
   /// Of a polynomial in t at a place.
@@ -68,6 +69,7 @@ class FramesBetween {
   struct Factored {
     Linearisation& system;
     double t = record::unknown;
+    const Knot* by = nullptr;  ///< one of the knots that it was guessed from
     Inertia inertia = {};
     int count = 0;
   };

@@ -155,7 +155,7 @@ std::vector<LevelCorrection> NestedShell::beyond() const {
 
 NestedPathPoint NestedShell::point() const {
   // a cubic from end to end does without few; many take memory
-  constexpr std::size_t few = 3, most = 12;
+  constexpr std::size_t few = 2, most = 12;
   NestedPathPoint point{followed(), beyond()};
   const std::vector<PathPoint>& way = path_->way();
   const std::size_t kept = way.size() > few ? std::min(way.size(), most) : 0;
