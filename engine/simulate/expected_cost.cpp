@@ -136,7 +136,7 @@ double expected_seconds(const Scene& scene, const preset::Preset& preset) {
   }
   // of a frame: corrections on the leading mesh; what is told of the finest takes as long as some
   // assemblies there
-  constexpr double corrections = 1.5, tellings = 5.4, start_s = 0.02;
+  constexpr double corrections = 1.3, tellings = 4.9, start_s = 0.02;
   const std::vector<int> edges = initial_levels(scene).edges_per_segment;
   const UnitCost unit = unit_cost(scene, edges.front());
   const double all = std::accumulate(edges.begin(), edges.end(), 0.0) / edges.front(),
