@@ -240,7 +240,7 @@ void FramesBetween::read_ahead(const PathSample& sample) {
   finish(drafts);
   Factored alone{path_.simulation.shell().system(0)};
   for (Draft& draft : drafts) {
-    if (!draft.frame)
+    if (!draft.frame && !draft.closer)
       if (auto closer = draft_at(draft.sample, true)) {
         finish(*closer, alone);
         draft.frame = std::move(closer->frame);
@@ -261,8 +261,9 @@ std::optional<FramesBetween::Draft> FramesBetween::draft_at(const PathSample& sa
   if (knots.size() <= window->last - window->first) return {};
   const std::size_t before = window->before - window->first;
   Draft draft{sample, {knots[before], knots[before + 1]}, knots, weights_at(knots, sample.t)};
-  closer = closer || knots[before + 1]->hard;
-  if (!closer && doubt_mm(draft.knots, draft.weights) <= allowed_mm) return draft;
+  draft.closer =
+      closer || knots[before + 1]->hard || !(doubt_mm(draft.knots, draft.weights) <= allowed_mm);
+  if (!draft.closer) return draft;
   // states in between
   draft.knots = knots_between(segment, *window);
   if (int(draft.knots.size()) <= parts) return {};
@@ -306,14 +307,13 @@ void FramesBetween::finish(Draft& draft, Factored& factored) const {
   Linearisation& system = factored.system;
   const double middle = draft.middle();
   // alike for all frames of a piece that have the same knots
-  const Knot* by = draft.knots[1].get();
-  if (factored.t != middle || factored.by != by ||
+  if (factored.t != middle || factored.closer != draft.closer ||
       factored.count != system.effort().factorizations) {
     State state = guess_at(middle, draft.knots);
     shell.motion(0).impose(system, middle, state);
     factored.inertia = system.at(state);
     factored.t = middle;
-    factored.by = by;
+    factored.closer = draft.closer;
     factored.count = system.effort().factorizations;
   }
   State guess = guess_at(draft.sample.t, draft.knots);

@@ -57,6 +57,7 @@ class FramesBetween {
     PathSample sample;
     Knots around, knots;  ///< those at the load steps around it, and all that count
     Weights weights;
+    bool closer = false;  ///< whether the knots are those between two load steps
     std::optional<record::Frame> frame = {};
 
     double from() const { return around[0]->leading.t; }
@@ -69,7 +70,7 @@ class FramesBetween {
   struct Factored {
     Linearisation& system;
     double t = record::unknown;
-    const Knot* by = nullptr;  ///< one of the knots that it was guessed from
+    bool closer = false;  ///< as of the draft
     Inertia inertia = {};
     int count = 0;
   };
