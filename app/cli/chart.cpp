@@ -236,7 +236,7 @@ Result<int> chart_preset(const ChartOptions& options) {
     if (runs.front().name.empty()) return {};
     return write_file(partial / "summary.json", text_of(all));
   };
-  TRY_DO(deliver(folder, phases, options.common.quiet, work));
+  TRY_DO(deliver({folder, "chart " + options.kind}, phases, options.common.quiet, work));
   if (!options.common.quiet) fmt::print("{}: {}\n{}", folder.string(), options.kind, text);
   return ExitCode::done;
 }
@@ -285,7 +285,7 @@ Result<int> chart_trust(const ChartOptions& options) {
     TRY_DO(write_worst(*scenes, partial / "worst"));
     return write_file(partial / "summary.json", text_of(summary));
   };
-  TRY_DO(deliver(folder, {{"judging scenes", 100}}, options.common.quiet, work));
+  TRY_DO(deliver({folder, "chart trust"}, {{"judging scenes", 100}}, options.common.quiet, work));
   const auto number = [&](const char* key) { return summary[key].get<int>(); };
   const int silent = number("silently_wrong");
   if (!options.common.quiet) {

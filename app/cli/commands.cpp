@@ -57,9 +57,9 @@ void print_plan(const preset::Preset& preset, const simulate::Plan& plan) {
 Result<int> check(const Options& options) {
   TRY(presets, load(options));
   if (options.print_config) return print_config(*presets);
-  // what `run` would say after it
+  // what `run` and `movie` would say after it
   const auto folder = output_of(options, presets->base);
-  if (const auto because = refusal_to_write(folder); !because.empty())
+  if (const auto because = refusal_to_write(folder, ""); !because.empty())
     return invalid("cannot write the folder '{}': {}", folder.string(), because);
   for (const auto& run : runs_of(*presets)) {
     const auto plan = plan_of(run.preset);
@@ -139,7 +139,8 @@ Result<int> produce_with(const Options& options) {
 void add_commands(CommandLine& program) {
   add_preset_command(program, "movie", "run the experiment and render it: frames and a movie",
                      produce_with<Pictures::movie>);
-  add_preset_command(program, "figure", "the stills of a preset", produce_with<Pictures::stills>);
+  add_preset_command(program, "figure", "the stills of a preset", produce_with<Pictures::stills>,
+                     "folder to write, by default out/<preset>_figure");
   add_preset_command(program, "run", "the experiment alone, no pictures",
                      produce_with<Pictures::none>, "folder to write, by default out/<preset>",
                      true);

@@ -185,6 +185,9 @@ Progress::~Progress() {
 Watch& Progress::next_phase() {
   const std::lock_guard lock(mutex_);
   watches_.push_back(std::make_unique<Watch>());
+  // one that was not announced is a part of the last that was
+  if (watches_.size() > phases_.size())
+    phases_.push_back(phases_.empty() ? Phase{"working"} : phases_.back());
   phase_began_ = seconds_now();
   place_shown_at_ = phase_began_ - place_every_s + first_place_s;
   if (interrupted_) watches_.back()->cancel();
@@ -243,12 +246,12 @@ void Progress::show_now() {
   }
 }
 
-Result<void> deliver(const fs::path& final_folder, const std::vector<Phase>& phases, bool quiet,
+Result<void> deliver(const Delivery& made, const std::vector<Phase>& phases, bool quiet,
                      const Work& work, const fs::path& left_there) {
   const InterruptGuard guarded;
-  TRY(staged, left_there.empty() ? StagedFolder::create(final_folder)
-                                 : StagedFolder::resume(final_folder, left_there));
-  if (!quiet) report_left_behind(final_folder);
+  TRY(staged, left_there.empty() ? StagedFolder::create(made.folder, made.command)
+                                 : StagedFolder::resume(made.folder, made.command, left_there));
+  if (!quiet) report_left_behind(made.folder);
   const auto on_forced_exit = [&] {
     std::fprintf(stderr, "stopped\n%s\n", keep_finished_files(staged->path()).c_str());
   };

@@ -98,13 +98,19 @@ class Progress {
 /// Writes into `partial`; begins every phase it was announced with.
 using Work = std::function<Result<void>(const std::filesystem::path& partial, Progress& progress)>;
 
-/// Runs `work` into a staged folder and gives it the name `final_folder`; `left`: in that of a run
-/// that was not finished. On failure, what was finished stays under the partial name. Errors: those
-/// of `work`, with what is left.
-Result<void> deliver(const std::filesystem::path& final_folder, const std::vector<Phase>& phases,
-                     bool quiet, const Work& work, const std::filesystem::path& left = {});
+/// What is delivered: the folder, and the command that makes it ("run").
+struct Delivery {
+  std::filesystem::path folder;
+  std::string command;
+};
 
-/// In a partial folder: what of a run's path was followed, and the version that did.
+/// Runs `work` into a staged folder and gives it its final name; `left`: in that of a run that was
+/// not finished. On failure, what was finished stays under the partial name. Errors: those
+/// of `work`, with what is left.
+Result<void> deliver(const Delivery& made, const std::vector<Phase>& phases, bool quiet,
+                     const Work& work, const std::filesystem::path& left = {});
+
+/// In a partial folder: what of a run's path was followed, and the build (build_id()) that did.
 inline constexpr const char *segments_name = "segments", *version_name = "version";
 
 }  // namespace gridshell::app

@@ -38,10 +38,13 @@ Json json_of(const DesignedState& state, double scale) {
   return json;
 }
 
-std::string design_json(const DesignResult& found, const FlatStartCheck& from_flat) {
+/// `target`: "surface" or "net", of [inverse] target.
+std::string design_json(const DesignResult& found, std::string_view target,
+                        const FlatStartCheck& from_flat) {
   const double scale = found.length_scale_mm;
   const DesignedState &before = found.before.back(), &after = found.after.back();
   Json json{{"length_scale_mm", scale},
+            {"distances_from", target},
             {"max_before", before.max_mm / scale},
             {"mean_before", before.mean_mm / scale},
             {"max_after", after.max_mm / scale},
@@ -168,7 +171,7 @@ Result<void> write_design(const fs::path& folder, const preset::Preset& designed
   const auto write = [&](const char* name, const std::string& text) {
     return write_file(folder / name, text);
   };
-  TRY_DO(write("design.json", design_json(found, from_flat)));
+  TRY_DO(write("design.json", design_json(found, word_of(designed.inverse.target), from_flat)));
   TRY_DO(write("design.csv", design_csv(found, found.table)));
   TRY_DO(write("ends.csv", ends_csv(found.table)));
   TRY_DO(write("ends_rounded.csv", ends_csv(found.rounded_table)));
@@ -190,7 +193,8 @@ std::string design_text(const DesignResult& found, const FlatStartCheck& from_fl
           : "");
   const auto line = [&](const char* name, const DesignedState& state) {
     text += fmt::format(
-        "  {:<8} {:>2} edges: largest {:.3f} %, mean {:.3f} % of {:.4g} mm; bend energy {:.3f} mJ, "
+        "  {:<8} {:>2} edges: largest distance {:.3f} %, mean {:.3f} % of {:.4g} mm; bend energy "
+        "{:.3f} mJ, "
         "smallest eigenvalue {:.3g} N/mm^2, leg force at most {:.3f} N\n",
         name, state.edges_per_segment, percent * state.max_mm, percent * state.mean_mm,
         found.length_scale_mm, state.energies[Term::bend], state.eigenvalue,
@@ -343,9 +347,10 @@ Result<int> produce_design(const Options& options) {
                                   {"drawing", 2 * expected_seconds(Pictures::stills, *preset)}};
   record::Summary summary;
   std::string text;
-  TRY_DO(deliver(folder, phases, options.quiet, [&](const fs::path& partial, Progress& progress) {
-    return work(*preset, options, partial, progress, summary, text);
-  }));
+  TRY_DO(deliver({folder, "design"}, phases, options.quiet,
+                 [&](const fs::path& partial, Progress& progress) {
+                   return work(*preset, options, partial, progress, summary, text);
+                 }));
   if (!options.quiet) fmt::print("{}: {}", folder.string(), text);
   const auto fault = failure_of(summary, preset->allow_unstable);
   if (!fault.empty()) fmt::print(stderr, "{}: {}\n", preset->name, fault);

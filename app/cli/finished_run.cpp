@@ -237,7 +237,10 @@ Result<int> render(const Options& options, bool unsealed) {
       fmt::print(stderr, "'{}' is not finished: {}\n", folder_of(options.input, run.name).string(),
                  progress_text(run));
   const fs::path folder = options.output.empty() ? fs::path(options.input) : options.output;
-  TRY_DO(deliver(folder, drawing_phases(*runs), options.quiet,
+  // it remains what it was made by: pictures can be drawn again, frames cannot
+  std::string maker = maker_of(options.input);
+  if (maker.empty()) maker = word_of(runs->front().summary.kind);
+  TRY_DO(deliver({folder, maker}, drawing_phases(*runs), options.quiet,
                  [&](const fs::path& partial, Progress& progress) {
                    return render_runs(*runs, options, partial, progress);
                  }));

@@ -103,7 +103,7 @@ Result<int> study_formed(const Options& options, const FormedCommand& command) {
     for (Phase& phase : command.drawn_more(run.preset)) phases.push_back(std::move(phase));
   }
   std::string text, fault;
-  TRY_DO(deliver(folder, phases, options.quiet,
+  TRY_DO(deliver({folder, command.folder_end.substr(1)}, phases, options.quiet,
                  [&](const fs::path& partial, Progress& progress) -> Result<void> {
                    for (const auto& run : runs)
                      TRY_DO(study_one(run, command, options.context, folder_of(partial, run.name),

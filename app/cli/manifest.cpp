@@ -17,7 +17,8 @@ namespace gridshell::app {
 namespace fs = std::filesystem;
 namespace {
 
-const std::string first_line = "gridshell run 1";
+// followed by the command that made the folder; version 0.2.0 named none
+const std::string first_line = "gridshell run 1", made_by = ", made by ";
 
 // all files and empty folders under a folder, relative to it, sorted
 std::vector<std::string> contents(const fs::path& folder, std::error_code& error) {
@@ -33,16 +34,23 @@ std::vector<std::string> contents(const fs::path& folder, std::error_code& error
   return found;
 }
 
-// the files that a manifest lists, or nothing where there is none
-std::optional<std::set<std::string>> listed(const fs::path& folder) {
+struct Manifest {
+  std::string command;  // that made the folder, or empty
+  std::set<std::string> names;
+};
+
+// what a manifest says, or nothing where there is none
+std::optional<Manifest> manifest_of(const fs::path& folder) {
   const auto text = read_file(folder / manifest_name, largest_text);
   if (!text) return std::nullopt;
   std::istringstream lines(*text);
   std::string line;
-  if (!std::getline(lines, line) || line != first_line) return std::nullopt;
-  std::set<std::string> names{manifest_name};
-  while (std::getline(lines, line)) names.insert(line);
-  return names;
+  if (!std::getline(lines, line)) return std::nullopt;
+  if (line != first_line && !line.starts_with(first_line + made_by)) return std::nullopt;
+  Manifest manifest{line.substr(std::min(line.size(), (first_line + made_by).size())),
+                    {manifest_name}};
+  while (std::getline(lines, line)) manifest.names.insert(line);
+  return manifest;
 }
 
 // a run or chart without a manifest: which names its files may have
@@ -154,21 +162,37 @@ std::string foreign_text(const std::vector<std::string>& foreign) {
 
 }  // namespace
 
-Result<void> write_manifest(const fs::path& folder) {
+Result<void> write_manifest(const fs::path& folder, const std::string& command) {
   std::error_code error;
-  std::string text = first_line + "\n";
+  std::string text = first_line + made_by + command + "\n";
   for (const auto& name : contents(folder, error))
     if (name != manifest_name) text += name + "\n";
   if (error) return fail(Fault::io, "cannot list '{}': {}", folder.string(), error.message());
   return write_file(folder / manifest_name, text);
 }
 
+std::string maker_of(const fs::path& folder) {
+  if (const auto manifest = manifest_of(folder); manifest && !manifest->command.empty())
+    return manifest->command;
+  const auto text = read_file(folder / "summary.json", largest_text);
+  const auto json = text ? parsed(*text) : Json();
+  const auto kind_in = [](const Json& one) -> std::string {
+    return one.is_object() && one.contains("kind") && one["kind"].is_string()
+               ? one["kind"].get<std::string>()
+               : "";
+  };
+  if (json.is_object() && json.contains("cases") && json["cases"].is_array() &&
+      !json["cases"].empty())
+    return kind_in(json["cases"].front());
+  return kind_in(json);
+}
+
 std::string why_not_a_run(const fs::path& folder) {
   std::error_code error;
   std::vector<std::string> foreign;
-  if (const auto names = listed(folder)) {
+  if (const auto manifest = manifest_of(folder)) {
     for (const auto& name : contents(folder, error))
-      if (!names->contains(name) && !is_temporary(fs::path(name).filename().string()))
+      if (!manifest->names.contains(name) && !is_temporary(fs::path(name).filename().string()))
         foreign.push_back(name);
   } else if (const auto run = unlisted(folder)) {
     gather_foreign(folder, *run, "", foreign);

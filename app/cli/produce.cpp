@@ -145,7 +145,7 @@ Result<void> write_runs(std::vector<Run>& runs, const preset::Presets& presets,
   const fs::path segments = maker ? fs::path() : partial / segments_name;
   if (!maker) {
     TRY_DO(make_folder(segments));
-    TRY_DO(write_file(segments / version_name, version()));
+    TRY_DO(write_file(segments / version_name, build_id()));
   }
   for (Run& run : runs)
     TRY_DO(simulate(run, thread_count(options.threads), folder_of(partial, run.name),
@@ -227,10 +227,11 @@ void print_result(const Run& run, const fs::path& folder) {
     fmt::print("\n  on its way: {}", at.limit_reason);
   if (!at.contact.empty()) fmt::print("\n  contact: {}", at.contact);
   if (at.contacts > 0)
-    fmt::print(
-        "\n  its last state has {} place{} of contact; what the shell would do there is not "
-        "modelled",
-        at.contacts, at.contacts > 1 ? "s" : "");
+    fmt::print("\n  its last state has {} interpenetration{}: rods overlap there{}", at.contacts,
+               at.contacts > 1 ? "s" : "",
+               run.preset.contact.model == preset::ContactModel::barrier
+                   ? ""
+                   : ", and contact is not modelled");
   fmt::print("\n");
   if (run.preset.jitter.wanted()) fmt::print("{}", found_text(run.states));
   fmt::print("{}", how_to_make_movie(folder_of(folder, run.name), run.preset));
@@ -249,9 +250,9 @@ Result<fs::path> unfinished_run(const fs::path& folder, const std::string& prese
     if (!text || *text != presets)
       why = fmt::format("'{}' is a run of another preset, or of this one with other keys",
                         left.string());
-    else if (*made_by != version())
-      why = fmt::format("'{}' was begun by version {}, and this is {}", left.string(), *made_by,
-                        version());
+    else if (*made_by != build_id())
+      why = fmt::format("'{}' was begun by another build of this program, {}, and this is {}",
+                        left.string(), *made_by, build_id());
     else
       return left;
   }
@@ -276,11 +277,14 @@ std::string failure_of(const record::Summary& summary, bool allow_unstable) {
 Result<int> produce(const Options& options, Pictures pictures) {
   TRY(presets, load(options));
   if (options.print_config) return print_config(*presets);
-  const auto folder = output_of(options, presets->base);
+  const std::string command(word_of(kind_of(pictures)));
+  // beside the run and the movie, whose frames it does not have
+  const auto folder =
+      output_of(options, presets->base, pictures == Pictures::stills ? "_figure" : "");
   std::vector<Phase> phases;
   auto runs = planned(*presets, pictures, phases);
   if (!runs) {
-    if (pictures == Pictures::stills) draw_refusals(*presets, folder);
+    if (pictures == Pictures::stills) draw_refusals(*presets, output_of(options, presets->base));
     return tl::unexpected(runs.error());
   }
   for (Phase& phase : drawing_phases(*runs)) phases.push_back(std::move(phase));
@@ -294,7 +298,7 @@ Result<int> produce(const Options& options, Pictures pictures) {
   const auto work = [&](const fs::path& partial, Progress& progress) {
     return write_runs(*runs, *presets, options, partial, progress);
   };
-  TRY_DO(deliver(folder, phases, options.quiet, work, left));
+  TRY_DO(deliver({folder, command}, phases, options.quiet, work, left));
   bool whole = true;
   for (const Run& run : *runs) {
     if (!options.quiet) print_result(run, folder);

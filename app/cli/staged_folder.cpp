@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <fstream>
+#include <iterator>
 #include <system_error>
 #include <utility>
 
@@ -30,8 +32,13 @@ fs::path target_of(const fs::path& folder) {
   return error ? normal : led;
 }
 
+bool may_replace(const std::string& command, const std::string& maker) {
+  return command.empty() || maker.empty() || command == maker ||
+         (command == "movie" && maker == "run");
+}
+
 // why the folder must not be replaced, or empty
-std::string refusal(const fs::path& folder) {
+std::string refusal(const fs::path& folder, const std::string& command) {
   std::error_code error;
   const auto status = fs::status(folder, error);
   if (!fs::exists(status))
@@ -39,7 +46,30 @@ std::string refusal(const fs::path& folder) {
   if (!fs::is_directory(status)) return "it is a file";
   if (fs::is_empty(folder, error) && !error) return "";
   const auto because = why_not_a_run(folder);
-  return because.empty() ? "" : because + "; choose another folder with -o";
+  if (!because.empty()) return because + "; choose another folder with -o";
+  const auto maker = maker_of(folder);
+  if (may_replace(command, maker)) return "";
+  return fmt::format(
+      "it was made by 'gridshell {}', and 'gridshell {}' replaces only what it made itself; choose "
+      "another folder with -o, or remove this one",
+      maker, command);
+}
+
+long lines_of(const fs::path& file) {
+  std::ifstream text(file);
+  return std::count(std::istreambuf_iterator<char>(text), {}, '\n');
+}
+
+// the table of frames of `old` that has more of them than the one in its place in `made`, or empty
+fs::path longer_frames(const fs::path& old, const fs::path& made) {
+  std::error_code error;
+  for (fs::recursive_directory_iterator at(old, error), end; !error && at != end;
+       at.increment(error)) {
+    const fs::path name = at->path().lexically_relative(old);
+    if (name.filename() == "frames.csv" && lines_of(at->path()) > lines_of(made / name))
+      return name;
+  }
+  return {};
 }
 
 fs::path outermost_missing(fs::path folder) {
@@ -113,7 +143,9 @@ int exchange(const fs::path& a, const fs::path& b, const fs::path& aside) {
 
 }  // namespace
 
-std::string refusal_to_write(const fs::path& folder) { return refusal(target_of(folder)); }
+std::string refusal_to_write(const fs::path& folder, const std::string& command) {
+  return refusal(target_of(folder), command);
+}
 
 Result<void> check_beside_runs(const fs::path& to) {
   std::error_code error;
@@ -127,12 +159,13 @@ Result<void> check_beside_runs(const fs::path& to) {
   return {};
 }
 
-Result<StagedFolder> StagedFolder::create(const fs::path& final_folder) {
+Result<StagedFolder> StagedFolder::create(const fs::path& final_folder,
+                                          const std::string& command) {
   const auto refuse = [&](const std::string& because) {
     return invalid("cannot write the folder '{}': {}", final_folder.string(), because);
   };
   const auto target = target_of(final_folder);
-  if (const auto because = refusal(target); !because.empty()) return refuse(because);
+  if (const auto because = refusal(target, command); !because.empty()) return refuse(because);
   const auto parent = target.parent_path(), first_made = outermost_missing(parent);
   std::error_code error;
   fs::create_directories(parent, error);
@@ -145,32 +178,41 @@ Result<StagedFolder> StagedFolder::create(const fs::path& final_folder) {
     remove_empty(parent, first_made);
     return refuse(partial.error().message);
   }
-  const Lock lock = lock_of(*partial);
+  Lock lock = lock_of(*partial);
+  // another program that looks for what was left behind holds it for an instant
+  for (int k = 0; k < 100 && lock.failure == EWOULDBLOCK; ++k) {
+    ::usleep(1000);
+    lock = lock_of(*partial);
+  }
   if (lock.failure)
     std::fprintf(stderr,
                  "'%s' cannot be locked (%s): others may take it for left behind while it is "
                  "written\n",
                  partial->c_str(), reason(lock.failure).c_str());
-  return StagedFolder(target, *partial, first_made, lock.descriptor);
+  return StagedFolder(target, command, *partial, first_made, lock.descriptor);
 }
 
-Result<StagedFolder> StagedFolder::resume(const fs::path& final_folder, const fs::path& partial) {
+Result<StagedFolder> StagedFolder::resume(const fs::path& final_folder, const std::string& command,
+                                          const fs::path& partial) {
   const Lock lock = lock_of(partial);
   if (lock.failure)
     return fail(Fault::io, "cannot go on in '{}': {}", partial.string(), reason(lock.failure));
   remove_unfinished(partial);
-  return StagedFolder(target_of(final_folder), partial, {}, lock.descriptor);
+  return StagedFolder(target_of(final_folder), command, partial, {}, lock.descriptor);
 }
 
-StagedFolder::StagedFolder(fs::path final_folder, fs::path partial, fs::path first_made, int lock)
+StagedFolder::StagedFolder(fs::path final_folder, std::string command, fs::path partial,
+                           fs::path first_made, int lock)
     : final_(std::move(final_folder)),
       partial_(std::move(partial)),
+      command_(std::move(command)),
       first_made_(std::move(first_made)),
       lock_(lock) {}
 
 StagedFolder::StagedFolder(StagedFolder&& other) noexcept
     : final_(std::move(other.final_)),
       partial_(std::move(other.partial_)),
+      command_(std::move(other.command_)),
       first_made_(std::move(other.first_made_)),
       lock_(std::exchange(other.lock_, -1)),
       settled_(std::exchange(other.settled_, true)) {}
@@ -194,15 +236,21 @@ Result<std::string> StagedFolder::commit() {
   const auto refuse = [&](const std::string& because) {
     return fail(Fault::io, "cannot write the folder '{}': {}", final_.string(), because);
   };
-  TRY_DO(write_manifest(partial_));
+  TRY_DO(write_manifest(partial_, command_));
   const int code = take_free_name(partial_, final_);
   if (code == 0) {
     settled_ = true;
     return std::string();
   }
   if (code != EEXIST && code != ENOTEMPTY && code != ENOTDIR) return refuse(reason(code));
-  // what stands there now need not be what stood there at the start
-  if (const auto because = refusal(final_); !because.empty()) return refuse(because);
+  // what is there now need not be what was there at the start
+  if (const auto because = refusal(final_, command_); !because.empty()) return refuse(because);
+  if (const auto lost = longer_frames(final_, partial_);
+      command_ == "movie" && maker_of(final_) == "run" && !lost.empty())
+    return refuse(fmt::format(
+        "its run has more frames than this movie ('{}': {} instead of {}); choose another folder "
+        "with -o, or --frames as many",
+        lost.string(), lines_of(final_ / lost) - 1, lines_of(partial_ / lost) - 1));
   auto old = make_new(final_, "old");
   if (!old) return refuse(old.error().message);
   const auto give_up = [&](const std::string& because) {
@@ -210,9 +258,12 @@ Result<std::string> StagedFolder::commit() {
     return refuse(because);
   };
   if (const int failed = exchange(partial_, final_, *old); failed) return give_up(reason(failed));
-  if (const auto because = refusal(partial_); !because.empty()) {
+  if (const auto because = refusal(partial_, command_); !because.empty()) {
     // it changed under our hands
-    exchange(partial_, final_, *old);
+    if (const int failed = exchange(partial_, final_, *old); failed)
+      return give_up(
+          fmt::format("{}, and what was there is now in '{}', as it could not be put back: {}",
+                      because, partial_.string(), reason(failed)));
     return give_up(because);
   }
   // a name that says what it is, should the removal be cut short

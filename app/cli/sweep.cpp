@@ -215,7 +215,7 @@ Result<std::string> finish(const SweepJob& work, const record::SweepLog& log) {
     TRY(told_of_them, tell_laws(work, table));
     laws = std::move(*told_of_them);
   }
-  TRY_DO(write_manifest(work.folder));
+  TRY_DO(write_manifest(work.folder, "sweep"));
   const bool any = std::ranges::any_of(
       table.rows, [](const auto& row) { return row.result.outcome == record::PointOutcome::done; });
   if (!any && !work.shard)

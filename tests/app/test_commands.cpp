@@ -55,10 +55,16 @@ TEST_CASE("run writes a whole run folder and replaces the one before") {
   bench.good("movie small.toml");
   CHECK(json_of(run / "summary.json")["kind"] == "movie");
   CHECK(fs::exists(run / "frames"));
-  bench.good("run small.toml --frames 4");
-  CHECK(files_in(run) == listed(data_files));
+  check_refused("run small.toml --frames 4", bench.at, Contains("made by 'gridshell movie'"));
+  CHECK(frames_of(run).size() == 3);
+  bench.good("movie small.toml --frames 4");
   CHECK(frames_of(run).size() == 4);
   CHECK(files_in(bench.at / "out") == std::vector<std::string>{"small"});
+  // stills have a folder of their own
+  bench.good("figure small.toml");
+  CHECK(files_in(bench.at / "out") == std::vector<std::string>{"small", "small_figure"});
+  CHECK(frames_of(run).size() == 4);
+  CHECK(json_of(bench.at / "out/small_figure/summary.json")["kind"] == "figure");
 }
 
 TEST_CASE("the same preset gives the same frames, from the run's own preset.toml too") {

@@ -113,6 +113,16 @@ TEST_CASE("the time left follows how fast the work turns out") {
   CHECK(std::isnan(app::standing(phases, 1, 0.5, 0.1).seconds_left));
 }
 
+TEST_CASE("a phase that was not announced is one more of the last") {
+  app::Progress progress({{"simulating", 1}}, app::Progress::Show::lines, [] {});
+  for (int k = 0; k < 4; ++k) {
+    Watch& watch = progress.next_phase();
+    watch.report(0.9);
+    std::this_thread::sleep_for(std::chrono::milliseconds(60));
+    CHECK_FALSE(watch.cancelled());
+  }
+}
+
 TEST_CASE("the time left on a path follows its leader's pace, and is not known at first") {
   app::PathPace pace;
   CHECK(std::isnan(pace.seconds_left({0.1, 4}, 10)));

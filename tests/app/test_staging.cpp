@@ -11,14 +11,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-StagedFolder staged_at(const fs::path& run) { return value_of(StagedFolder::create(run)); }
+StagedFolder staged_at(const fs::path& run) { return value_of(StagedFolder::create(run, "run")); }
 
 // what a finished run leaves: its files, and the list of them
 void make_run(const fs::path& run) {
   REQUIRE(make_folder(run / "frames"));
   REQUIRE(write_file(run / "summary.json", "old"));
   REQUIRE(write_file(run / "frames/old.png", "old"));
-  REQUIRE(app::write_manifest(run));
+  REQUIRE(app::write_manifest(run, "run"));
 }
 
 // the names beside `run` that are not its own
@@ -60,10 +60,10 @@ TEST_CASE("a run folder is replaced as a whole") {
 
 TEST_CASE("without a commit nothing stays, not even the parents made for it") {
   const TemporaryFolder folder;
-  { REQUIRE(StagedFolder::create(folder / "a/b/run")); }
+  { REQUIRE(StagedFolder::create(folder / "a/b/run", "run")); }
   CHECK(folder.entries().empty());
   REQUIRE(make_folder(folder / "a"));
-  { REQUIRE(StagedFolder::create(folder / "a/b/run/")); }
+  { REQUIRE(StagedFolder::create(folder / "a/b/run/", "run")); }
   CHECK(folder.entries() == std::vector<std::string>{"a"});
   CHECK(fs::is_empty(folder / "a"));
 }
@@ -117,7 +117,7 @@ TEST_CASE("only a run or an empty folder may be replaced, and what stands in the
     REQUIRE(make_folder((at / name).parent_path()));
     if (!name.ends_with('/')) REQUIRE(write_file(at / name, text));
   }
-  const auto staged = StagedFolder::create(at);
+  const auto staged = StagedFolder::create(at, "run");
   INFO(standing.why);
   REQUIRE(bool(staged) == standing.why.empty());
   if (staged) return;
@@ -139,13 +139,13 @@ TEST_CASE("whether a folder is a run is seen from its top, whatever lies below")
       for (const char* other : {"a", "b", "c", "d"})
         fs::create_directory_symlink(top / other, top / name / other);
     }
-    CHECK_THAT(app::refusal_to_write(top), Catch::Contains("it exists and is no run"));
+    CHECK_THAT(app::refusal_to_write(top, "run"), Catch::Contains("it exists and is no run"));
   }
   SECTION("links that lead in circles") {
     make_run(top);
     fs::remove(top / app::manifest_name);
     fs::create_symlink(app::manifest_name, top / app::manifest_name);
-    CHECK_THAT(app::refusal_to_write(top), Catch::Contains("it exists and is no run"));
+    CHECK_THAT(app::refusal_to_write(top, "run"), Catch::Contains("it exists and is no run"));
   }
   SECTION("one that says it is its own case") {
     const auto name = GENERATE(".", "..", "");
@@ -153,7 +153,7 @@ TEST_CASE("whether a folder is a run is seen from its top, whatever lies below")
     REQUIRE(write_file(top / "summary.json",
                        std::string(R"({"preset": "x", "cases": [{"name": ")") + name + "\"}]}"));
     REQUIRE(write_file(top / "thesis.tex", "years of work"));
-    CHECK_THAT(app::refusal_to_write(top), Catch::Contains("'thesis.tex'"));
+    CHECK_THAT(app::refusal_to_write(top, "run"), Catch::Contains("'thesis.tex'"));
   }
 }
 
@@ -165,7 +165,7 @@ TEST_CASE("a run of version 0.1, which has no list of its files, may be replaced
   for (const char* name : {"frames.csv", "trajectory.h5", "movie.mp4", "x_1.png", "x_K.svg",
                            "frames/frame_00000.png", ".partial-77-frames.csv"})
     REQUIRE(write_file(run / name, "old"));
-  CHECK(StagedFolder::create(run));
+  CHECK(StagedFolder::create(run, "run"));
 }
 
 TEST_CASE("what appears under the final name meanwhile is not destroyed") {
@@ -245,4 +245,45 @@ TEST_CASE("an old run that cannot be removed is named, and the new one stands") 
   CHECK_THAT(note, Catch::Contains("could not be removed (Permission denied)") &&
                        Catch::Contains("is in '" + left[0].string() + "'"));
   fs::permissions(left[0] / "frames", fs::perms::owner_all);
+}
+
+TEST_CASE("a command replaces only what the same command made, a movie a run whose frames it has") {
+  const TemporaryFolder folder;
+  const auto run = folder / "run";
+  const auto fill = [](const fs::path& at, int frames) {
+    std::string table = "frame\n";
+    for (int k = 0; k < frames; ++k) table += std::to_string(k) + "\n";
+    REQUIRE(write_file(at / "summary.json", "{}"));
+    REQUIRE(write_file(at / "frames.csv", table));
+  };
+  REQUIRE(make_folder(run));
+  fill(run, 240);
+  REQUIRE(app::write_manifest(run, "run"));
+  CHECK(app::maker_of(run) == "run");
+  CHECK_THAT(refusal(StagedFolder::create(run, "figure"), Fault::bad_input),
+             Catch::Contains("it was made by 'gridshell run'") && Catch::Contains("-o"));
+  CHECK(app::refusal_to_write(run, "run").empty());
+  const int frames = GENERATE(239, 240, 300);
+  auto movie = value_of(StagedFolder::create(run, "movie"));
+  fill(movie.path(), frames);
+  const auto committed = movie.commit();
+  CHECK(bool(committed) == (frames >= 240));
+  if (committed)
+    CHECK_THAT(app::refusal_to_write(run, "run"), Catch::Contains("'gridshell movie'"));
+  else
+    CHECK_THAT(committed.error().message, Catch::Contains("'frames.csv': 240 instead of 239"));
+  movie.keep();
+}
+
+TEST_CASE("what made a folder of version 0.2.0 is said by its summary") {
+  const TemporaryFolder folder;
+  const auto [summary, maker] = GENERATE(table<std::string, std::string>({
+      {R"({"kind": "movie"})", "movie"},
+      {R"({"cases": [{"name": "a", "kind": "figure"}]})", "figure"},
+      {R"({"chart": "accuracy"})", ""},
+  }));
+  REQUIRE(write_file(folder / "summary.json", summary));
+  REQUIRE(write_file(folder / app::manifest_name, "gridshell run 1\nsummary.json\n"));
+  CHECK(app::why_not_a_run(folder.path()).empty());
+  CHECK(app::maker_of(folder.path()) == maker);
 }

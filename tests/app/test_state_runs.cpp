@@ -18,7 +18,7 @@ TEST_CASE("a search for states: tables, pictures, and the same pictures again fr
   const TemporaryFolder at;
   REQUIRE(write_file(at / "shell.toml", search));
   good("figure shell.toml --threads 1", at);
-  const fs::path run = at / "out" / "shell";
+  const fs::path run = at / "out" / "shell_figure";
   const auto tables = value_of(gridshell::record::read_state_tables(run));
   REQUIRE(!tables.rows.empty());
   CHECK(tables.search.trials == 8);
@@ -29,7 +29,7 @@ TEST_CASE("a search for states: tables, pictures, and the same pictures again fr
   for (const char* name : {"states.csv", "transitions.csv", "barriers.csv", "frames.csv",
                            "shell.png", "shell_transitions.svg", "shell_barriers.svg"})
     if (fs::exists(run / name)) CHECK(text_of(run / name) == text_of(at / "two" / name));
-  good("render out/shell -o again", at);
+  good("render out/shell_figure -o again", at);
   for (const char* name : {"shell.png", "shell_energies.png", "states.csv", "states.json"})
     CHECK(text_of(run / name) == text_of(at / "again" / name));
 }
@@ -51,12 +51,13 @@ TEST_CASE("states and a finished sweep's phase diagram stand on one page", "[sta
                                                    "footprint.longest_leg = [0.8, 2.0]\n"));
   // without a sweep its place is an empty frame that says so
   const Ended bare = good("figure page.toml --quiet", at);
-  const std::string empty = text_of(at / "out/page/page_page.svg");
+  const std::string empty = text_of(at / "out/page_figure/page_page.svg");
   CHECK_THAT(empty, Contains("names no sweep") && !Contains("longest leg"));
   good("sweep sweep.toml --quiet", at);
   // drawn again with the sweep, shells as lines too
   const Ended drawn = good(
-      "render out/page -o again --quiet --set page.sweep=out/sweep --set figure.vector=true", at);
+      "render out/page_figure -o again --quiet --set page.sweep=out/sweep --set figure.vector=true",
+      at);
   const std::string page = text_of(at / "again/page_page.svg");
   CHECK_THAT(page, Contains("longest leg") && !Contains("names no sweep"));
   CHECK(fs::exists(at / "again/page_page.pdf"));
@@ -64,7 +65,7 @@ TEST_CASE("states and a finished sweep's phase diagram stand on one page", "[sta
   // a folder that holds none, and one that is not finished
   const auto refused = [&](const std::string& named) {
     const Ended ended = gridshell_program(
-        {"render", "out/page", "-o", "not", "--quiet", "--set", "page.sweep=" + named}, at);
+        {"render", "out/page_figure", "-o", "not", "--quiet", "--set", "page.sweep=" + named}, at);
     CHECK(ended.code == 2);
     CHECK_FALSE(fs::exists(at / "not"));
     return ended.err;
@@ -117,8 +118,8 @@ TEST_CASE("joints measured lie over a state of a page of states", "[standard]") 
       "[accuracy]\nedges_per_segment = 4\n[jitter]\ntrials = 2\nconfined = 7\n"
       "[page]\nkind = \"fig2\"\n[movie]\nsize = [320, 240]\n[figure]\nquality = \"draft\"\n"));
   good("figure page.toml --quiet", at);
-  CHECK(text_of(at / "out/page/page_page.svg").find("joints measured") == std::string::npos);
-  const Ended drawn = good({"render", "out/page", "-o", "again", "--quiet", "--set",
+  CHECK(text_of(at / "out/page_figure/page_page.svg").find("joints measured") == std::string::npos);
+  const Ended drawn = good({"render", "out/page_figure", "-o", "again", "--quiet", "--set",
                             "figure.scan=[[0, 0, 20], [10, 10, 18]]"},
                            at);
   CHECK(text_of(at / "again/page_page.svg").find("joints measured") != std::string::npos);

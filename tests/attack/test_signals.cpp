@@ -35,10 +35,10 @@ void check_left(const fs::path& folder, bool killed) {
 TEST_CASE("signals at any moment are answered, and nothing is lost", "[standard][signals]") {
   const TemporaryFolder at;
   REQUIRE(write_file(at / "small.toml", small));
-  REQUIRE(gridshell_program({"run", "small.toml", "-o", "old", "--quiet"}, at).code == 0);
+  REQUIRE(gridshell_program({"movie", "small.toml", "-o", "old", "--quiet"}, at).code == 0);
   const std::vector<std::vector<std::string>> commands{
-      {"run", "small.toml", "-o", "old"},        {"movie", "small.toml", "-o", "old"},
-      {"figure", "small.toml", "-o", "old"},     {"render", "old"},
+      {"run", "small.toml", "-o", "new"},        {"movie", "small.toml", "-o", "old"},
+      {"figure", "small.toml", "-o", "new"},     {"render", "old"},
       {"check", "small.toml", "-o", "old"},      {"run", "s1_actuation", "-o", "new"},
       {"figure", "fig1_actuation", "-o", "new"}, {"run", "model_clamped", "-o", "new"},
       {"run", "s3_pole_inward", "-o", "new"},    {"render", "old", "-o", "new"}};
