@@ -101,8 +101,9 @@ Result<void> EditSession::do_step(preset::Step step, const Watch& watch) {
   // a leap is taken from a state at rest on all meshes, as a run takes it
   const bool leaps = step.kind == preset::StepKind::jitter || step.kind == preset::StepKind::rest ||
                      step.kind == preset::StepKind::release;
+  // where finer meshes do not have it the leap begins on the coarse one
   if (leaps && session_->shell().levels() == 1)
-    session_->remesh(simulate::initial_levels(*now_.scene), watch);
+    (void)session_->remesh(simulate::initial_levels(*now_.scene), watch);
   const bool began_stable = view_.stable();
   const double began_mm = pushed_mm(step);
   simulate::StepPath way;

@@ -3,45 +3,11 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/core/packing.h"
 #include "engine/core/try.h"
 
 namespace gridshell::window {
 
-std::optional<ScratchFile::Place> ScratchFile::put(std::string_view bytes) {
-  if (!file_) file_.reset(std::tmpfile());
-  if (!file_ || ::fseeko(file_.get(), end_, SEEK_SET) != 0 ||
-      std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size() ||
-      std::fflush(file_.get()) != 0)
-    return std::nullopt;
-  return Place{std::exchange(end_, end_ + std::int64_t(bytes.size())), bytes.size()};
-}
-
-std::string ScratchFile::take(const Place& place) const {
-  std::string bytes(place.size, 0);
-  const bool read = file_ && ::fseeko(file_.get(), place.at, SEEK_SET) == 0 &&
-                    std::fread(bytes.data(), 1, place.size, file_.get()) == place.size;
-  return read ? bytes : std::string();
-}
-
 namespace {
-
-constexpr std::int64_t most_bytes_aside = std::int64_t(8) << 30;
-
-/// Calls visit(array) for each of a checkpoint's arrays of numbers.
-template <class Kept, class Visit>
-void each_array(Kept& kept, const Visit& visit) {
-  visit(kept.state.x);
-  for (auto& level : kept.state.levels)
-    visit(level.x), visit(level.force), visit(level.director), visit(level.reference_twist);
-  for (auto& motion : kept.motions) visit(motion.begin), visit(motion.change);
-}
-
-std::int64_t bytes_of(const Checkpoint& kept) {
-  std::int64_t doubles = 0;
-  each_array(kept, [&](const auto& array) { doubles += array.size(); });
-  return doubles * std::int64_t(sizeof(double));
-}
 
 /// To the bit, on the same mesh.
 bool same_nodes(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) {
@@ -55,6 +21,16 @@ LevelPlan coarse_plan(const Scene& scene) {
 }
 
 void EditSession::execute(const Command& command, const Watch& watch) {
+  remembered_ = false;
+  try {
+    run_command(command, watch);
+  } catch (const std::exception& error) {
+    recover(command, error);
+  }
+  redo_aside_.clear();
+}
+
+void EditSession::run_command(const Command& command, const Watch& watch) {
   const double begin = seconds_now();
   // what a drag came past stays said at its end
   const bool settles = is_any<RefineAfterDrag>(command.edit);
@@ -67,7 +43,7 @@ void EditSession::execute(const Command& command, const Watch& watch) {
   }
   if (!settles) view_.way.clear();
   this_drag_ = command.drag;
-  const bool remembered = !travels && !settles && remember(command);
+  remembered_ = !travels && !settles && remember(command);
   if (!settles && !is_any<Undo, Redo, DiscardDesign>(command.edit)) accept_design();
   if (session_ && command.passing && session_->shell().levels() > 1) coarsen(watch);
   const bool moves =
@@ -80,12 +56,11 @@ void EditSession::execute(const Command& command, const Watch& watch) {
     view_.error = done.error().fault == Fault::cancelled ? "stopped" : done.error().message;
   // what moved nothing is no step
   const bool refused = !done && done.error().fault == Fault::bad_input;
-  if (!done && remembered && undo_.back().state.scene == now_.scene &&
+  if (!done && remembered_ && undo_.back().state.scene == now_.scene &&
       (refused || same_nodes(undo_.back().checkpoint.state.x, session_->nodes()))) {
     // on the meshes of before, too
     if (refused) session_->restore(undo_.back().checkpoint);
-    undo_.pop_back();
-    drag_ = 0;
+    take_back_step();
   }
   // whether these meshes still meet the tolerance is for refine() to find out
   if (!travels) now_.refined = false;
@@ -96,6 +71,21 @@ void EditSession::execute(const Command& command, const Watch& watch) {
 
 void EditSession::refine(const Watch& watch) {
   if (!session_ || now_.refined) return;
+  try {
+    const Checkpoint before = session_->save();
+    try {
+      refine_meshes(watch);
+    } catch (const std::exception&) {
+      session_->restore(before);
+      throw;
+    }
+  } catch (const std::exception& error) {
+    view_.error = error_text(error);
+    now_.refined = only_coarse_mesh_ = true;
+  }
+}
+
+void EditSession::refine_meshes(const Watch& watch) {
   const double begin = seconds_now();
   // a shell that nothing happened to since it was formed
   const bool untouched = now_.first && same_nodes(now_.first->nodes, view_.frame.nodes);
@@ -113,7 +103,7 @@ void EditSession::refine(const Watch& watch) {
     }
   }
   if (now_.scene->edges_per_segment == 0)
-    session_->refine(now_.scene->tolerance * now_.scene->length_scale_mm, watch);
+    (void)session_->refine(now_.scene->tolerance * now_.scene->length_scale_mm, watch);
   now_.refined = !watch.cancelled();
   update_view();
   if (untouched) view_.first = now_.first = std::make_shared<const record::Frame>(view_.frame);
@@ -123,98 +113,8 @@ void EditSession::refine(const Watch& watch) {
 
 void EditSession::coarsen(const Watch& watch) {
   // where the coarse mesh does not have this state, the drag goes on on the finer ones
-  session_->remesh(coarse_plan(*now_.scene), watch);
+  (void)session_->remesh(coarse_plan(*now_.scene), watch);
 }
-
-// ---- steps ----
-
-/// Keeps the state before a command, but for one of the drag that the last step began.
-bool EditSession::remember(const Command& command) {
-  if (!session_ || (command.drag != 0 && command.drag == drag_)) return false;
-  drag_ = command.drag;
-  redo_.clear();
-  undo_.push_back({now_, session_->save(), is_any<Design>(command.edit)});
-  keep_within_memory(undo_);
-  return true;
-}
-
-/// Older steps go to a file; where that has no room, they are forgotten.
-void EditSession::keep_within_memory(std::deque<UndoStep>& steps) {
-  clear_scratch();
-  std::int64_t bytes = 0;
-  std::size_t kept = 0;
-  while (kept < steps.size() && bytes <= most_bytes_)
-    bytes += bytes_of(steps[steps.size() - 1 - kept++].checkpoint);
-  // those before are aside already but for the last few
-  for (std::size_t k = steps.size() - kept; k-- > 0 && !steps[k].saved;)
-    if (!save_to_scratch(steps[k])) {
-      steps.erase(steps.begin(), steps.begin() + std::ptrdiff_t(k) + 1);
-      return;
-    }
-}
-
-/// What nobody can go back to makes room.
-void EditSession::clear_scratch() {
-  const auto saved = [](const UndoStep& step) { return step.saved.has_value(); };
-  if (std::ranges::none_of(undo_, saved) && std::ranges::none_of(redo_, saved))
-    scratch_ = ScratchFile();
-}
-
-bool EditSession::save_to_scratch(UndoStep& step) {
-  if (scratch_.bytes() > most_bytes_aside) return false;
-  ByteWriter out;
-  each_array(step.checkpoint, [&](const auto& array) { out.matrix(array); });
-  step.saved = scratch_.put(out.bytes());
-  if (step.saved) each_array(step.checkpoint, []<class Array>(Array& array) { array = Array(); });
-  return step.saved.has_value();
-}
-
-bool EditSession::load_from_scratch(UndoStep& step) const {
-  if (!step.saved) return true;
-  const std::string bytes = scratch_.take(*step.saved);
-  step.saved.reset();
-  ByteReader in(bytes);
-  each_array(step.checkpoint, [&](auto& array) { in.matrix(array); });
-  return in.at_end();
-}
-
-Result<void> EditSession::restore(const UndoStep& step) {
-  if (step.state.scene != now_.scene) {
-    TRY(session, Simulation::open(step.state.scene, step.checkpoint.plan));
-    session_ = std::move(*session);
-  }
-  session_->restore(step.checkpoint);
-  now_ = step.state;
-  view_.layout.reset();
-  steps_drag_ = 0;
-  return {};
-}
-
-Result<void> EditSession::travel(std::deque<UndoStep>& from, std::deque<UndoStep>& to,
-                                 const char* none) {
-  if (from.empty()) return invalid(none);
-  UndoStep back = std::move(from.back());
-  from.pop_back();
-  if (!load_from_scratch(back))
-    return fail(Fault::io, "the state was put aside into a file that cannot be read");
-  // of what is done again it is known what it was
-  to.push_back({now_, session_->save(), back.before_design});
-  keep_within_memory(to);
-  drag_ = 0;
-  return restore(back);
-}
-
-Result<void> EditSession::act(const Undo& command, const Watch&) {
-  auto back = travel(undo_, redo_, "there is nothing to undo");
-  while (command.all && back && !undo_.empty()) back = travel(undo_, redo_, "");
-  return back;
-}
-
-Result<void> EditSession::act(const Redo&, const Watch&) {
-  return travel(redo_, undo_, "there is nothing to do again");
-}
-
-// ---- edits ----
 
 /// Notes what a step came past; an end before its end is the error.
 Result<void> EditSession::note_events(const Report& report) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <deque>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -51,7 +52,7 @@ class EditSession {
   explicit EditSession(std::int64_t most_bytes = std::int64_t(100) << 20)
       : most_bytes_(most_bytes) {}
 
-  /// Executes a command as far as it can.
+  /// Executes a command as far as it can. What is thrown on the way (memory) is such an error too.
   void execute(const Command& command, const Watch& watch);
   /// Onto the meshes that the preset's accuracy asks for, where the shell stands on coarser ones.
   void refine(const Watch& watch);
@@ -109,6 +110,10 @@ class EditSession {
   double pushed_mm(const preset::Step& step) const;
   std::string place_text(const PathMark& mark) const;
 
+  void run_command(const Command& command, const Watch& watch);
+  void take_back_step();
+  void recover(const Command& command, const std::exception& thrown);
+  void refine_meshes(const Watch& watch);
   Result<void> form(const preset::Preset& preset, const Watch& watch);
   Result<void> rebuild_shell(const preset::Preset& preset, const Watch& watch);
   void set_shell(const preset::Preset& preset, std::shared_ptr<const Scene> scene,
@@ -143,11 +148,13 @@ class EditSession {
   EditState now_;
   std::optional<Simulation> session_;
   std::deque<UndoStep> undo_, redo_;
-  ScratchFile scratch_;  // the arrays of older ones
+  std::deque<UndoStep> redo_aside_;  // until the command at hand is known to be a step
+  ScratchFile scratch_;              // the arrays of older ones
   std::int64_t most_bytes_;
   int drag_ = 0;                          // that the last step to undo belongs to
   int this_drag_ = 0, steps_drag_ = 0;    // of the command at hand, and of the last of the steps
   bool last_eventful_ = false;            // whether that came past something
+  bool remembered_ = false;               // the command at hand, as a step
   bool only_coarse_mesh_ = false;         // finer meshes do not have this state
   int nodes_shown_ = 0;                   // of the layout in the view
   std::vector<MeshSymmetry> symmetries_;  // that a state of this shell may have
@@ -156,6 +163,9 @@ class EditSession {
   std::function<void(const ShellView&)> listener_;
   ShellView view_;
 };
+
+/// Why something was thrown, in words that fit into the line of errors.
+std::string error_text(const std::exception& thrown);
 
 /// The meshes that follow a drag: the coarsest of those that the scene asks for.
 LevelPlan coarse_plan(const Scene& scene);

@@ -100,7 +100,11 @@ std::string shortened(const std::string& title, float width) {
   if (ImGui::CalcTextSize(title.c_str()).x <= width) return title;
   std::string begin = title;
   const auto too_long = [&] { return ImGui::CalcTextSize((begin + "…").c_str()).x > width; };
-  while (!begin.empty() && too_long()) begin.pop_back();
+  while (!begin.empty() && too_long()) {
+    // a letter is one byte or more, all but the first 10xxxxxx
+    while (begin.size() > 1 && (begin.back() & 0xc0) == 0x80) begin.pop_back();
+    begin.pop_back();
+  }
   return begin + "…";
 }
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <string>
 #include <utility>
@@ -12,15 +13,18 @@
 namespace gridshell::window {
 namespace {
 
-/// Low and high with some room; never of no width.
+/// Low and high with some room; never of no width. Of values that are not known nothing is asked.
 struct Span {
   float low = 0, high = 1;
 
   Span(float from, float to) : low(from), high(to) {}
   explicit Span(const std::vector<float>& values) {
-    const auto [least, most] = std::minmax_element(values.begin(), values.end());
-    const float middle = 0.5f * (*least + *most);
-    const float half = std::max(0.55f * (*most - *least), 1e-4f + 0.02f * std::abs(middle));
+    float least = std::numeric_limits<float>::infinity(), most = -least;
+    for (const float value : values)
+      if (std::isfinite(value)) least = std::min(least, value), most = std::max(most, value);
+    if (least > most) return;
+    const float middle = 0.5f * (least + most);
+    const float half = std::max(0.55f * (most - least), 1e-4f + 0.02f * std::abs(middle));
     low = middle - half;
     high = middle + half;
   }
@@ -105,11 +109,26 @@ class PlotBox {
     std::size_t from = 0;
     for (const std::size_t end : ends) {
       const ImU32 shade = std::ranges::binary_search(curve.coarse, from) ? pale() : colour;
-      list_.AddPolyline(points.data() + from, int(end - from), shade, 0, panel_.px(1.4));
-      if (end == from + 1) list_.AddCircleFilled(points[from], panel_.px(2), shade);
+      draw_known(points, from, end, shade);
       from = end;
     }
     list_.AddCircleFilled(points.back(), panel_.px(3), colour);
+  }
+  /// Those of a piece that are known, with a gap where one is not.
+  void draw_known(const std::vector<ImVec2>& points, std::size_t from, std::size_t end,
+                  ImU32 shade) {
+    const auto known = [&](std::size_t k) {
+      return std::isfinite(points[k].x) && std::isfinite(points[k].y);
+    };
+    while (from < end) {
+      while (from < end && !known(from)) ++from;
+      std::size_t to = from;
+      while (to < end && known(to)) ++to;
+      if (to > from)
+        list_.AddPolyline(points.data() + from, int(to - from), shade, 0, panel_.px(1.4));
+      if (to == from + 1) list_.AddCircleFilled(points[from], panel_.px(2), shade);
+      from = to;
+    }
   }
   /// Where no shell stays, as bands, and what happened, as lines.
   void draw_marks(const Curve& curve, const Span& x) {

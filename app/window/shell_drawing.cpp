@@ -24,11 +24,11 @@ struct ColourText {
 constexpr ColourText colour_texts[] = {
     {"nothing", "rods and joints alone", "", ""},
     {"K□ (rad)", "integrated Gauss curvature of each cell", "*K*_{□} (rad)",
-     "Gauss curvature of a cell"},
+     "integrated Gauss curvature"},
     {"|u| (mm)", "how far each point moved since the shell was formed", "|*u*| (mm)",
      "displacement"},
     {"ΔK□ (rad)", "its change since the shell was formed", "Δ*K*_{□} (rad)",
-     "change of Gauss curvature"},
+     "change of integrated Gauss curvature"},
     {"Δ/ρ", "distance of a cell's joints from the net, over ρ", "Δ/*ρ*", "distance from the net"},
     {"bending (mJ/m)", "bending energy a length of rod", "*e*_{b} (mJ/m)",
      "bending energy over length"},
@@ -106,12 +106,10 @@ void put_colours(const ShellView& shell, const Show& show, render::Drawing& draw
   for (const double value : values_of(shell, show)) {
     auto& colours = cells ? drawing.cell_colours : drawing.node_colours;
     colours.push_back(show.scale(value));
-    if (cells) colours.back().a = 0.93f;
   }
   if (drawing.node_colours.empty()) return;
-  // colours need some width to be seen, and no shine
+  // colours need some width to be seen
   drawing.rod_diameter_mm *= 1.8;
-  drawing.sheen = 0.2;
 }
 
 /// The forces that hold joints, as arrows: the largest a sixth of the shell.

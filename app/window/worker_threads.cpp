@@ -1,6 +1,7 @@
 #include "app/window/worker_threads.h"
 
 #include <chrono>
+#include <exception>
 #include <utility>
 
 #include "engine/core/system_info.h"
@@ -103,6 +104,18 @@ void EngineThread::wait() {
   rested_.wait(lock, [this] { return commands_.empty() && !working_ && !unrefined_; });
 }
 
+/// What there is to see after it; null, and the view before stays, where no memory is left for
+/// that.
+template <class Act>
+std::shared_ptr<const ShellView> EngineThread::view_after(const Act& act) {
+  try {
+    act();
+    return std::make_shared<const ShellView>(session_.shell());
+  } catch (const std::exception&) {
+    return nullptr;
+  }
+}
+
 /// One command, or the refinement after the last of a drag, at a time.
 void EngineThread::work() {
   std::unique_lock lock(mutex_);
@@ -117,19 +130,17 @@ void EngineThread::work() {
       commands_.pop_front();
       unrefined_ = !command.passing;
       lock.unlock();
-      session_.execute(command, *watch);
-      auto seen = std::make_shared<const ShellView>(session_.shell());
+      auto seen = view_after([&] { session_.execute(command, *watch); });
       lock.lock();
-      shell_ = std::move(seen);
+      if (seen) shell_ = std::move(seen);
       // of a design that is stopped the last step stands, and is to be certified as any other
       if (watch->cancelled()) unrefined_ = std::holds_alternative<Design>(command.edit);
     } else {
       refining_ = true;
       lock.unlock();
-      session_.refine(*watch);
-      auto seen = std::make_shared<const ShellView>(session_.shell());
+      auto seen = view_after([&] { session_.refine(*watch); });
       lock.lock();
-      shell_ = std::move(seen);
+      if (seen) shell_ = std::move(seen);
       refining_ = unrefined_ = false;
     }
     working_ = false;

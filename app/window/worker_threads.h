@@ -86,6 +86,8 @@ class EngineThread {
 
  private:
   void work();
+  template <class Act>
+  std::shared_ptr<const ShellView> view_after(const Act& act);
 
   mutable std::mutex mutex_;
   std::condition_variable wake_, rested_;

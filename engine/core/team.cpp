@@ -2,6 +2,7 @@
 
 #include <pthread.h>
 #include <chrono>
+#include <utility>
 
 #include "engine/core/system_info.h"
 
@@ -55,10 +56,18 @@ void Team::run(int tasks, const std::function<void(int)>& task) {
   for (int left = busy_.load(std::memory_order_acquire); left > 0;
        left = busy_.load(std::memory_order_acquire))
     wait_while(busy_, left);
+  if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
 }
 
 void Team::work() {
-  for (int k = next_++; k < tasks_; k = next_++) (*task_)(k);
+  try {
+    for (int k = next_++; k < tasks_; k = next_++) (*task_)(k);
+  } catch (...) {
+    // tasks that nobody has begun are left out
+    next_.store(tasks_);
+    const std::lock_guard lock(guard_);
+    if (!thrown_) thrown_ = std::current_exception();
+  }
 }
 
 void Team::help(const std::stop_token& stop) {

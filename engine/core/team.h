@@ -5,6 +5,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <mutex>
 #include <thread>
@@ -26,7 +27,8 @@ class Team {
   int threads() const { return int(helpers_.size()) + 1; }
 
   /// Calls task(k) once for every k from 0 to `tasks`, on any thread and in any order, and returns
-  /// when all are done. Tasks must not throw, and no result may hang on who does them.
+  /// when all are done. No result may depend on who does them. Where a task throws, those not yet
+  /// begun are left out, and the first exception is thrown again here.
   void run(int tasks, const std::function<void(int)>& task);
 
  private:
@@ -38,6 +40,8 @@ class Team {
   std::atomic<int> next_{0};  // task
   std::atomic<int> busy_{0};  // helpers that are not done with this round
   std::atomic<std::uint32_t> round_{0};
+  std::mutex guard_;
+  std::exception_ptr thrown_;  // the first of this round
   std::vector<std::jthread> helpers_;
 };
 

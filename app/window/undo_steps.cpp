@@ -1,0 +1,174 @@
+// The steps that can be undone: where their states are put, and how one goes back to them.
+#include <algorithm>
+#include <exception>
+#include <new>
+#include <utility>
+
+#include "app/window/edit_session.h"
+#include "engine/core/packing.h"
+#include "engine/core/try.h"
+
+namespace gridshell::window {
+
+std::optional<ScratchFile::Place> ScratchFile::put(std::string_view bytes) {
+  if (!file_) file_.reset(std::tmpfile());
+  if (!file_ || ::fseeko(file_.get(), end_, SEEK_SET) != 0 ||
+      std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size() ||
+      std::fflush(file_.get()) != 0)
+    return std::nullopt;
+  return Place{std::exchange(end_, end_ + std::int64_t(bytes.size())), bytes.size()};
+}
+
+std::string ScratchFile::take(const Place& place) const {
+  std::string bytes(place.size, 0);
+  const bool read = file_ && ::fseeko(file_.get(), place.at, SEEK_SET) == 0 &&
+                    std::fread(bytes.data(), 1, place.size, file_.get()) == place.size;
+  return read ? bytes : std::string();
+}
+
+namespace {
+
+constexpr std::int64_t most_bytes_aside = std::int64_t(8) << 30;
+
+/// Calls visit(array) for each of a checkpoint's arrays of numbers.
+template <class Kept, class Visit>
+void each_array(Kept& kept, const Visit& visit) {
+  visit(kept.state.x);
+  for (auto& level : kept.state.levels)
+    visit(level.x), visit(level.force), visit(level.director), visit(level.reference_twist);
+  for (auto& motion : kept.motions) visit(motion.begin), visit(motion.change);
+}
+
+std::int64_t bytes_of(const Checkpoint& kept) {
+  std::int64_t doubles = 0;
+  each_array(kept, [&](const auto& array) { doubles += array.size(); });
+  return doubles * std::int64_t(sizeof(double));
+}
+
+}  // namespace
+
+/// Keeps the state before a command, but for one of the drag that the last step began.
+bool EditSession::remember(const Command& command) {
+  if (!session_ || (command.drag != 0 && command.drag == drag_)) return false;
+  drag_ = command.drag;
+  undo_.push_back({now_, session_->save(), is_any<Design>(command.edit)});
+  redo_aside_ = std::exchange(redo_, {});
+  keep_within_memory(undo_);
+  return true;
+}
+
+/// Older steps go to a file; where that has no room, they are forgotten.
+void EditSession::keep_within_memory(std::deque<UndoStep>& steps) {
+  clear_scratch();
+  std::int64_t bytes = 0;
+  std::size_t kept = 0;
+  while (kept < steps.size() && bytes <= most_bytes_)
+    bytes += bytes_of(steps[steps.size() - 1 - kept++].checkpoint);
+  // those before are aside already but for the last few
+  for (std::size_t k = steps.size() - kept; k-- > 0 && !steps[k].saved;)
+    if (!save_to_scratch(steps[k])) {
+      steps.erase(steps.begin(), steps.begin() + std::ptrdiff_t(k) + 1);
+      return;
+    }
+}
+
+/// What nobody can go back to makes room.
+void EditSession::clear_scratch() {
+  const auto saved = [](const UndoStep& step) { return step.saved.has_value(); };
+  if (std::ranges::none_of(undo_, saved) && std::ranges::none_of(redo_, saved) &&
+      std::ranges::none_of(redo_aside_, saved))
+    scratch_ = ScratchFile();
+}
+
+bool EditSession::save_to_scratch(UndoStep& step) {
+  if (scratch_.bytes() > most_bytes_aside) return false;
+  ByteWriter out;
+  each_array(step.checkpoint, [&](const auto& array) { out.matrix(array); });
+  step.saved = scratch_.put(out.bytes());
+  if (step.saved) each_array(step.checkpoint, []<class Array>(Array& array) { array = Array(); });
+  return step.saved.has_value();
+}
+
+bool EditSession::load_from_scratch(UndoStep& step) const {
+  if (!step.saved) return true;
+  const std::string bytes = scratch_.take(*step.saved);
+  step.saved.reset();
+  ByteReader in(bytes);
+  each_array(step.checkpoint, [&](auto& array) { in.matrix(array); });
+  return in.at_end();
+}
+
+Result<void> EditSession::restore(const UndoStep& step) {
+  if (step.state.scene != now_.scene) {
+    TRY(session, Simulation::open(step.state.scene, step.checkpoint.plan));
+    session_ = std::move(*session);
+  }
+  session_->restore(step.checkpoint);
+  now_ = step.state;
+  view_.layout.reset();
+  steps_drag_ = 0;
+  return {};
+}
+
+Result<void> EditSession::travel(std::deque<UndoStep>& from, std::deque<UndoStep>& to,
+                                 const char* none) {
+  if (from.empty()) return invalid(none);
+  if (!load_from_scratch(from.back()))
+    return fail(Fault::io, "the state was put aside into a file that cannot be read");
+  // of what is done again it is known what it was
+  UndoStep before{now_, session_->save(), from.back().before_design};
+  try {
+    TRY_DO(restore(from.back()));
+  } catch (const std::exception&) {
+    TRY_DO(restore(before));
+    throw;
+  }
+  from.pop_back();
+  to.push_back(std::move(before));
+  keep_within_memory(to);
+  drag_ = 0;
+  return {};
+}
+
+Result<void> EditSession::act(const Undo& command, const Watch&) {
+  auto back = travel(undo_, redo_, "there is nothing to undo");
+  while (command.all && back && !undo_.empty()) back = travel(undo_, redo_, "");
+  return back;
+}
+
+Result<void> EditSession::act(const Redo&, const Watch&) {
+  return travel(redo_, undo_, "there is nothing to do again");
+}
+
+std::string error_text(const std::exception& thrown) {
+  return dynamic_cast<const std::bad_alloc*>(&thrown) ? "memory ran out" : thrown.what();
+}
+
+/// After an exception: back to the state before the command, or before the drag that it is of.
+void EditSession::recover(const Command& command, const std::exception& thrown) {
+  try {
+    const std::string why = error_text(thrown);
+    const bool of_drag = command.drag != 0 && command.drag == drag_;
+    if ((remembered_ || of_drag) && !undo_.empty()) {
+      const Result<void> back = restore(undo_.back());
+      take_back_step();
+      view_.error = back ? why : why + "; " + back.error().message;
+    } else {
+      if (redo_.empty()) redo_.swap(redo_aside_);
+      view_.error = why;
+    }
+    update_view();
+  } catch (const std::exception&) {
+    // the view of before stays; an error that fits anywhere
+    view_.error = "memory ran out";
+  }
+}
+
+/// Forgets the step that the command at hand did not become; what was undone can be done again.
+void EditSession::take_back_step() {
+  undo_.pop_back();
+  redo_ = std::exchange(redo_aside_, {});
+  drag_ = 0;
+}
+
+}  // namespace gridshell::window
