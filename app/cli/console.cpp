@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <unistd.h>
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -45,8 +46,9 @@ constexpr const char* out_of_memory =
   _exit(code);
 }
 
-// a signal handler can reach nothing but what is static
-volatile std::sig_atomic_t came = 0, guarded = 0;
+// a signal handler can reach nothing but what is static, and other threads read what it writes
+std::atomic<int> came{0}, guarded{0};
+static_assert(std::atomic<int>::is_always_lock_free);
 
 void on_signal(int) {
   if (came || !guarded) end_at_once("stopped\n", ExitCode::interrupted);
@@ -71,7 +73,13 @@ void install_terminate_handler() {
   rlimit space{};
   if (getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur != RLIM_INFINITY)
     for (const int refused : {SIGSEGV, SIGTRAP, SIGABRT})
-      std::signal(refused, [](int) { end_at_once(out_of_memory, ExitCode::failed); });
+      std::signal(refused, [](int) {
+        end_at_once(
+            "ended by a signal: memory ran out under the limit that is set (ulimit -v), or, where "
+            "the same happens without a limit, by a fault of this program; what was finished stays "
+            "under its partial name\n",
+            ExitCode::failed);
+      });
 }
 
 void install_signal_handlers() {

@@ -24,6 +24,20 @@ std::size_t piece_at(const Knots& knots, double t) {
   return std::size_t(std::upper_bound(knots.begin() + 1, knots.end() - 1, t) - knots.begin()) - 1;
 }
 
+/// Sets `place` to `value` and, at the end of the scope, also by an exception, back to what it was.
+template <class T>
+class SetForScope {
+ public:
+  SetForScope(T& place, T value) : place_(place), before_(place) { place = value; }
+  ~SetForScope() { place_ = before_; }
+  SetForScope(const SetForScope&) = delete;
+  SetForScope& operator=(const SetForScope&) = delete;
+
+ private:
+  T& place_;
+  T before_;
+};
+
 // Sets that grow together.
 
 /// The numbers 0 to size - 1, each a set of its own until sets are joined [Galler, Fischer 1964].

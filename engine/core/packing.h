@@ -6,6 +6,7 @@
 #include <cstring>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 namespace gridshell {
@@ -48,6 +49,12 @@ class ByteReader {
 
   template <class T>
   T number() {
+    // a byte that is neither 0 nor 1 is no bool, nor may it become one
+    if constexpr (std::is_same_v<T, bool>) {
+      const auto byte = number<std::uint8_t>();
+      good_ = good_ && byte <= 1;
+      return good_ && byte == 1;
+    }
     T value{};
     if (take(sizeof value)) std::memcpy(&value, taken_.data(), sizeof value);
     return value;

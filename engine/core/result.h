@@ -3,8 +3,14 @@
 
 #include <fmt/core.h>
 #include <string>
-#include <tl/expected.hpp>
 #include <utility>
+
+// declared first, so that a Result that is dropped does not compile
+namespace tl {
+template <class T, class E>
+class [[nodiscard]] expected;
+}
+#include <tl/expected.hpp>
 
 namespace gridshell {
 

@@ -185,9 +185,10 @@ class Reader : public File {
 
 namespace gridshell::record {
 
-/// Runs `reading` in a process of its own, with little memory and time beyond what it began with:
-/// the HDF5 library may crash, loop or ask for all memory on structures that somebody crafted. What
-/// it returns does not matter, only that it does, within 20 s. Errors: bad_input when it did not.
+/// Runs `reading` in a process of its own, with a quarter of the machine's memory (at least 1 GB)
+/// and 20 s beyond what it began with: the HDF5 library may crash, loop or ask for all memory on
+/// structures that somebody crafted. What it returns does not matter, only that it does. Errors:
+/// bad_input when it did not.
 Result<void> read_in_subprocess(const std::function<void()>& reading);
 
 }  // namespace gridshell::record

@@ -4,10 +4,13 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <fstream>
 #include <thread>
 
+#include "engine/core/system_info.h"
 #include "engine/formats/hdf5_file.h"
 
 namespace gridshell::record::hdf5 {
@@ -221,8 +224,27 @@ namespace {
 
 constexpr int seconds = 20;
 
+/// Bytes of address space that this process has; 0 where nobody says.
+std::uint64_t bytes_in_use() {
+  std::uint64_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * std::uint64_t(::sysconf(_SC_PAGESIZE));
+}
+
+/// Beside what there is: what a large run takes, and never the machine's memory.
+void restrict_memory() {
+  constexpr std::uint64_t least = std::uint64_t(1) << 30;
+  const std::uint64_t now = bytes_in_use();
+  rlimit space{};
+  if (now == 0 || ::getrlimit(RLIMIT_AS, &space) != 0) return;
+  space.rlim_cur =
+      std::min<rlim_t>(space.rlim_cur, now + std::max(least, machine_memory_bytes() / 4));
+  ::setrlimit(RLIMIT_AS, &space);
+}
+
 // no words, no core file, no end but its own
 void restrict_subprocess() {
+  restrict_memory();
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGINT, SIGTERM, SIGHUP})
     std::signal(signal, SIG_DFL);

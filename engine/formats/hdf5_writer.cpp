@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <new>
 
 #include "engine/formats/hdf5_file.h"
 
@@ -12,7 +13,11 @@ namespace {
 
 /// H5Ewalk2 callback: keeps the innermost description
 herr_t keep_innermost(unsigned depth, const H5E_error2_t* error, void* out) {
-  if (depth == 0 && error->desc) *static_cast<std::string*>(out) = error->desc;
+  // nothing may be thrown through the library: a reason that does not fit into memory is left out
+  try {
+    if (depth == 0 && error->desc) *static_cast<std::string*>(out) = error->desc;
+  } catch (const std::bad_alloc&) {
+  }
   return 0;
 }
 
@@ -34,7 +39,8 @@ const Open& of(const H5FD_t* file) { return *reinterpret_cast<const Open*>(file)
 H5FD_t* open_file(const char*, unsigned, hid_t access, haddr_t) {
   const auto* info = static_cast<Stream* const*>(H5Pget_driver_info(access));
   if (!info) return nullptr;
-  auto* file = new Open;
+  auto* file = new (std::nothrow) Open;
+  if (!file) return nullptr;
   file->stream = *info;
   return &file->shared;
 }

@@ -174,7 +174,7 @@ Result<EquilibriumPath> follow_actuation(const std::shared_ptr<const Scene>& sce
     TRY(begun, certified(path.simulation.begin_as_drawn(watch), "the network as drawn"));
     follow_segment(path, parameter_at(to), {}, watch);
   } else if (to == 0) {
-    path.simulation.begin_flat();
+    (void)path.simulation.begin_flat();  // always an equilibrium
     return path;
   } else if (scene->from_net) {
     TRY(begun, certified(path.simulation.begin_on_net(watch), "the state beside the net"));

@@ -180,9 +180,8 @@ void KeptSegments::keep(const KeptSegment& segment) {
     const std::uint64_t sum = out.sum.value();
     out.number(sum);
     out.file.close();
-    if (out.file) (void)whole.commit();
+    if (out.file) has_file_ = bool(whole.commit());
   }
-  has_file_ = true;
   written_at_ = seconds_now();
   // large ones are written less often, but where all are asked for
   if (worth_s_ > 0) wait_s_ = std::max(worth_s_, 20 * (written_at_ - begun));

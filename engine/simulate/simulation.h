@@ -59,7 +59,7 @@ constexpr Outcome outcome_of(Event::Kind limit) {
 
 /// How a step ended: what was reached, why no more, what it cost. Where not all was reached the
 /// shell stands in the last certified state.
-struct Report {
+struct [[nodiscard]] Report {
   Outcome end = Outcome::reached;
   double t = 0;               ///< path parameter reached
   Certificate certificate;    ///< of the state the shell stands in

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 
 #include "engine/solve/linear_solver.h"
 
@@ -26,6 +27,7 @@ class CholmodSolver final : public LinearSolver {
         for (int c = 0; c < 3; ++c) order.push_back(3 * node + c);
     factor_ = cholmod_analyze_p(matrix_, options.own_ordering ? order.data() : nullptr, nullptr, 0,
                                 &common_);
+    if (!factor_) throw std::bad_alloc();
   }
 
   ~CholmodSolver() override {
@@ -65,6 +67,7 @@ class CholmodSolver final : public LinearSolver {
   void solve(Eigen::Matrix3Xd& b) const override {
     cholmod_dense* rhs =
         cholmod_allocate_dense(matrix_->nrow, 1, matrix_->nrow, CHOLMOD_REAL, &common_);
+    if (!rhs) throw std::bad_alloc();
     auto* values = static_cast<double*>(rhs->x);
     clear_held_rows(b);
     for (int k = 0; k < model_.free(); ++k)
@@ -97,6 +100,7 @@ class CholmodSolver final : public LinearSolver {
     }
     matrix_ =
         cholmod_allocate_sparse(3 * n, 3 * n, entries, true, true, -1, CHOLMOD_REAL, &common_);
+    if (!matrix_) throw std::bad_alloc();
     auto* start = static_cast<int*>(matrix_->p);
     auto* row = static_cast<int*>(matrix_->i);
     int at = 0;

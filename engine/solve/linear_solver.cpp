@@ -26,8 +26,11 @@ class BeyondSolver final : public LinearSolver {
     current_->numbers = numbers;
     return current_->factor(hessian.beyond.empty() ? hessian : merged(hessian), shift);
   }
-  void solve(Eigen::Matrix3Xd& right_hand_side) const override { current_->solve(right_hand_side); }
-  bool has_factor() const override { return current_->has_factor(); }
+  void solve(Eigen::Matrix3Xd& right_hand_side) const override {
+    if (!current_) return void(right_hand_side.setZero());
+    current_->solve(right_hand_side);
+  }
+  bool has_factor() const override { return current_ && current_->has_factor(); }
   void free_memory() override {
     current_ = nullptr;
     apart_.reset();
@@ -36,7 +39,7 @@ class BeyondSolver final : public LinearSolver {
     merged_ = {};
     if (numbers) *numbers = {};
   }
-  long long blocks() const override { return current_->blocks(); }
+  long long blocks() const override { return current_ ? current_->blocks() : 0; }
 
  private:
   bool known(const BlockHessian& hessian) const {

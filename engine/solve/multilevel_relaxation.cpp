@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/core/algorithms.h"
 #include "engine/core/dense.h"
 #include "engine/core/try.h"
 #include "engine/solve/buckling.h"
@@ -113,10 +114,8 @@ Result<State> MultilevelRelaxation::rest_under(const std::vector<NodeAction>& fo
                                                State state, const Watch& watch) {
   Level& finest = *levels_.back();
   finest.motion.impose(*finest.system, t, state);
-  finest.system->outside.steady = &forces;
-  auto rest = rest_from_rough(*finest.system, std::move(state), watch);
-  finest.system->outside.steady = nullptr;
-  return rest;
+  const SetForScope under(finest.system->outside.steady, &forces);
+  return rest_from_rough(*finest.system, std::move(state), watch);
 }
 
 /// Full steps to the equilibrium nearby, stable or not, if there is one.

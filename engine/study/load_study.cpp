@@ -89,14 +89,13 @@ class Loading {
     for (int node = 0; node < model.nodes; ++node)
       if (!force.col(node).isZero(0)) acting.push_back({node, force.col(node)});
     Linearisation& system = shell_.system(level);
-    const auto* before = system.outside.steady;
-    system.outside.steady = &acting;
+    const SetForScope under(system.outside.steady,
+                            static_cast<const std::vector<NodeAction>*>(&acting));
     shell_.motion(level).apply_loads(system, 0);
     Result<CriticalLoad> found = fail(Fault::no_equilibrium, "");
     if (auto bent = find_equilibrium(system, shell_.state().levels[std::size_t(level)],
                                      10 * size_mm, watch_))
       found = on(level, *bent);
-    system.outside.steady = before;
     return found;
   }
 

@@ -72,7 +72,8 @@ Result<std::vector<StartForm>> forms_to_shake(const std::shared_ptr<const Scene>
     if (jitter.mode == SearchMode::random) continue;
     auto course = follow_actuation(scene, judged_plan, level < 1, level, watch);
     if (watch.cancelled()) return stopped();
-    if (course && scene->from_net) course->simulation.go(forms.back().t, watch);
+    // where it came to decides, below
+    if (course && scene->from_net) (void)course->simulation.go(forms.back().t, watch);
     const bool there = course && course->simulation.shell().state().t == forms.back().t;
     if (there)
       forms.back().state = course->simulation.shell().state().levels[0];
@@ -143,7 +144,7 @@ Result<State> StateSearcher::push_start(const StartForm& form, std::mt19937& ran
     const int joint = pushable_[random() % std::uint32_t(pushable_.size())];
     const double depth = jitter_.depth * scene_->footprint.spacing * share(random);
     // how far it came is far enough: a hand stops where the rods are at their length
-    session_.push(joint, depth * direction(random), Across::free, watch);
+    (void)session_.push(joint, depth * direction(random), Across::free, watch);
     if (watch.cancelled()) return stopped();
     TRY_DO(reached_or(session_.release(joint, watch).end, "did not come to rest when it was let go",
                       watch));

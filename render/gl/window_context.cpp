@@ -2,6 +2,7 @@
 #include <GLFW/glfw3.h>
 
 #include <array>
+#include <exception>
 #include <map>
 #include <utility>
 
@@ -81,29 +82,34 @@ class GlfwWindow final : public Window {
     glfw_.set_user_pointer(window_, this);
     pointer_of = glfw_.user_pointer;
     glfw_.on_cursor(window_, [](GLFWwindow* w, double x, double y) {
-      GlfwWindow& self = of(w);
       // screen coordinates are not pixels everywhere
-      const double scale = self.pixels_a_unit();
-      if (self.listener_) self.listener_->mouse(scale * x, scale * y);
+      const double scale = of(w).pixels_a_unit();
+      of(w).pass([&](const WindowListener& to) { to.mouse(scale * x, scale * y); });
     });
     glfw_.on_button(window_, [](GLFWwindow* w, int button, int action, int) {
-      if (of(w).listener_ && button <= 2) of(w).listener_->button(button, action == GLFW_PRESS);
+      of(w).pass([&](const WindowListener& to) {
+        if (button <= 2) to.button(button, action == GLFW_PRESS);
+      });
     });
     glfw_.on_scroll(window_, [](GLFWwindow* w, double, double y) {
-      if (of(w).listener_) of(w).listener_->wheel(y);
+      of(w).pass([&](const WindowListener& to) { to.wheel(y); });
     });
     glfw_.on_key(window_, [](GLFWwindow* w, int key, int, int action, int) {
-      const std::string name = name_of_key(key);
-      if (of(w).listener_ && !name.empty()) of(w).listener_->key(name, action != GLFW_RELEASE);
+      of(w).pass([&](const WindowListener& to) {
+        const std::string name = name_of_key(key);
+        if (!name.empty()) to.key(name, action != GLFW_RELEASE);
+      });
     });
     glfw_.on_char(window_, [](GLFWwindow* w, unsigned codepoint) {
-      if (of(w).listener_) of(w).listener_->text(codepoint);
+      of(w).pass([&](const WindowListener& to) { to.text(codepoint); });
     });
     glfw_.on_drop(window_, [](GLFWwindow* w, int count, const char** paths) {
-      if (of(w).listener_ && count > 0) of(w).listener_->dropped(paths[0]);
+      of(w).pass([&](const WindowListener& to) {
+        if (count > 0) to.dropped(paths[0]);
+      });
     });
     glfw_.on_refresh(window_, [](GLFWwindow* w) {
-      if (of(w).listener_) of(w).listener_->uncovered();
+      of(w).pass([](const WindowListener& to) { to.uncovered(); });
     });
   }
   ~GlfwWindow() override {
@@ -125,6 +131,7 @@ class GlfwWindow final : public Window {
     else
       glfw_.poll();
     listener_ = nullptr;
+    if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
   }
   bool wants_to_close() const override { return glfw_.should_close(window_); }
   int width() const override { return size().first; }
@@ -152,6 +159,17 @@ class GlfwWindow final : public Window {
   static GlfwWindow& of(GLFWwindow* window) {
     return *static_cast<GlfwWindow*>(pointer_of(window));
   }
+  /// Hands an event on. What the listener throws waits until the library, which is written in C,
+  /// has returned; events after it are dropped.
+  template <class Event>
+  void pass(const Event& event) {
+    if (!listener_ || thrown_) return;
+    try {
+      event(*listener_);
+    } catch (...) {
+      thrown_ = std::current_exception();
+    }
+  }
   std::pair<int, int> size() const {
     int w = 1, h = 1;
     glfw_.framebuffer_size(window_, &w, &h);
@@ -166,6 +184,7 @@ class GlfwWindow final : public Window {
   Glfw glfw_;
   GLFWwindow* window_;
   const WindowListener* listener_ = nullptr;
+  std::exception_ptr thrown_;  // by the listener
   Cursor cursor_ = Cursor::arrow;
   std::array<GLFWcursor*, 4> cursors_{};
 };

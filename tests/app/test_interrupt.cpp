@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 
 #include "engine/core/json.h"
+#include "engine/core/system_info.h"
 #include "engine/record/journal.h"
 #include "render/gl/image.h"
 #include "tests/app/bench.h"
+#include "tests/app/unfinished_run.h"
 
 namespace {
 
@@ -106,6 +108,22 @@ TEST_CASE("a run that is ended goes on from there, to the same state", "[full]")
   CHECK(a["edges_per_segment"] == b["edges_per_segment"]);
   CHECK(a["limit_reason"] == b["limit_reason"]);
   check_refused(command("ended", "--resume"), folder, Contains("'ended' is a finished run"));
+}
+
+TEST_CASE("a run that another build began is not gone on with") {
+  const Bench bench(small_preset({}));
+  bench.good("run small.toml -o whole");
+  const fs::path left = bench.at / "out/small.partial-7";
+  cut_short(bench.at / "whole", left, 1);
+  fs::create_directories(left / "segments");
+  const auto begun_by = [&](const std::string& build) {
+    REQUIRE(write_file(left / "segments/version", build));
+  };
+  // of the same version
+  begun_by(gridshell::version());
+  check_refused("run small.toml --resume", bench.at, Contains("begun by another build"));
+  begun_by(gridshell::version() + std::string(" 0123456789abcdef"));
+  check_refused("run small.toml --resume", bench.at, Contains("begun by another build"));
 }
 
 TEST_CASE("a killed movie leaves no half file, and the run before it stays", "[s1]") {

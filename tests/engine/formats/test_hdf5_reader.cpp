@@ -1,6 +1,11 @@
 // Trajectories whose datasets another program made, lost or led elsewhere.
+#include <algorithm>
+#include <cstdlib>
+#include <new>
 #include <vector>
 
+#include "engine/core/system_info.h"
+#include "engine/formats/hdf5_file.h"
 #include "tests/engine/record/changed_file.h"
 
 using namespace gridshell;
@@ -92,4 +97,19 @@ TEST_CASE("objects that are not what they should be are refused before anything 
                H5Dclose(set), H5Sclose(space), H5Tclose(type);
              }),
              Catch::Contains("nodes of 12"));
+}
+
+TEST_CASE("a reading in a process of its own gets no more than a part of the machine's memory") {
+  const auto taking = [](std::uint64_t bytes) {
+    return read_in_subprocess([bytes] {
+      // asked for, not touched: it is the limit that refuses
+      void* memory = std::malloc(bytes);
+      if (!memory) throw std::bad_alloc();
+      std::free(memory);
+    });
+  };
+  CHECK(taking(std::uint64_t(256) << 20));
+  const std::uint64_t most = std::max(machine_memory_bytes() / 4, std::uint64_t(1) << 30);
+  CHECK_THAT(gridshell::refusal(taking(most + (std::uint64_t(64) << 20))),
+             Catch::Contains("does not survive reading it"));
 }

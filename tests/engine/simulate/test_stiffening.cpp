@@ -168,7 +168,7 @@ TEST_CASE("bolts and braces change nothing as they come in, hold afterwards, and
 TEST_CASE("what is made stiff too early, or is not there, is named") {
   const auto scene = shared_scene(loaded_shell());
   Simulation flat = value_of(Simulation::open(scene, plan_levels(1e-2)));
-  flat.begin_flat();
+  CHECK(flat.begin_flat().end == Outcome::reached);
   CHECK_THAT(refusal(apply_step(flat, step(StepKind::tighten), unwatched), Fault::bad_input),
              Catch::Contains("must be formed"));
   preset::Preset p = loaded_shell();

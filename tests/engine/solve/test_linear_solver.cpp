@@ -140,3 +140,19 @@ TEST_CASE("ordering: a permutation, with about the fill of CHOLMOD's nested diss
     CHECK(own->blocks() <= 1.05 * metis->blocks());
   }
 }
+
+TEST_CASE("a solver that gave its memory back has no factor, and one again after the next") {
+  const System system(70, 6, 2);
+  const auto solver = make_linear_solver(system.model);
+  CHECK_FALSE(solver->has_factor());
+  REQUIRE(solver->factor(system.assembly.hessian, 500).usable);
+  CHECK(solver->has_factor());
+  solver->free_memory();
+  CHECK_FALSE(solver->has_factor());
+  CHECK(solver->blocks() == 0);
+  Eigen::Matrix3Xd b = system.assembly.gradient;
+  solver->solve(b);
+  CHECK(b.isZero(0));
+  REQUIRE(solver->factor(system.assembly.hessian, 500).usable);
+  CHECK(residual(system, *solver, 500) < 1e-8);
+}
