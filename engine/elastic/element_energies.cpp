@@ -75,8 +75,9 @@ Eigen::Matrix3d normal_projector(const Eigen::Vector3d& t) {
   return Eigen::Matrix3d::Identity() - t * t.transpose();
 }
 
-HalfwayFrame frame_of(const PairGeometry& at, double share) {
-  return halfway_frame(at.e.tangent, at.director_e, at.angle_e + share * at.twist());
+HalfwayFrame frame_of(const PairGeometry& at, const MaterialBend& bend) {
+  return halfway_frame(at.e.tangent, at.director_e,
+                       at.angle_e + bend.share * at.twist() + bend.axis);
 }
 
 /// s of EndBending, and how it grows with c.
@@ -276,20 +277,47 @@ double add_material_bend(const MaterialBend& bend, const HalfwayFrame& mu, const
   return material_bend_value(bend, scale * w);
 }
 
+Eigen::Vector2d MaterialBend::bent(const Eigen::Vector2d& excess) const {
+  return Eigen::Rotation2Dd(axis) *
+         Eigen::Vector2d(corner * corner * excess[0], corner * excess[1]);
+}
+
+Eigen::Vector2d MaterialBend::give() const {
+  const Eigen::Vector2d own(std::pow(corner, 4) / stiffness[0], corner * corner / stiffness[1]);
+  const double along = std::pow(std::cos(axis), 2);
+  return {along * own[0] + (1 - along) * own[1], along * own[1] + (1 - along) * own[0]};
+}
+
+CornerLaw::CornerLaw(const Eigen::Vector2d& EI, double GJ, double length_e, double length_f,
+                     const Eigen::Vector2d& turn) {
+  const double h = std::atan(0.5 * turn.norm()), c = std::cos(h), s = std::sin(h),
+               length = 0.5 * (length_e + length_f);
+  bend.axis = std::atan2(turn[1], turn[0]);
+  bend.corner = c;
+  const double along = std::pow(std::cos(bend.axis), 2), across = 1 - along;
+  const double EI_n = 1 / (along / EI[0] + across / EI[1]),
+               EI_m = 1 / (across / EI[0] + along / EI[1]);
+  const double vv = length * (c * c / EI_m + s * s / GJ), uu = length * (s * s / EI_m + c * c / GJ),
+               vu = 0.5 * (length_e - length_f) * c * s * (1 / EI_m - 1 / GJ);
+  bend.stiffness << std::pow(c, 4) * EI_n / length, c * c * uu / (vv * uu - vu * vu);
+  bend.rest << turn.norm(), 0;
+  bend.share = 0.5 - vu / (uu * turn.norm());
+  torsion = c * c / uu;
+}
+
 Eigen::Vector2d SectionBending::excess(const PairGeometry& at) const {
   const CurvatureBinormal b = curvature_binormal(at.e.tangent, at.f.tangent);
-  return frame_of(at, bend.share).transpose() * (scale_of(bend, b) * b.kb) - bend.rest;
+  return frame_of(at, bend).transpose() * (scale_of(bend, b) * b.kb) - bend.rest;
 }
 
 double SectionBending::value(const PairGeometry& at) const {
   const CurvatureBinormal b = curvature_binormal(at.e.tangent, at.f.tangent);
-  return material_bend_value(bend,
-                             frame_of(at, bend.share).transpose() * (scale_of(bend, b) * b.kb));
+  return material_bend_value(bend, frame_of(at, bend).transpose() * (scale_of(bend, b) * b.kb));
 }
 
 double SectionBending::add(const PairGeometry& at, PairEnergy& out) const {
   PairEnergy here;
-  const double value = add_material_bend(bend, frame_of(at, bend.share),
+  const double value = add_material_bend(bend, frame_of(at, bend),
                                          binormal_with_slopes(at.e.tangent, at.f.tangent), here);
   scale_to_edges(at.e.length, at.f.length, here);
   out += here;

@@ -152,9 +152,36 @@ struct Torsion {
 struct MaterialBend {
   Eigen::Vector2d stiffness;  ///< EI1/l, EI2/l (mJ)
   Eigen::Vector2d rest;       ///< w_0 = l * curvature at rest
-  double share = 0.5;         ///< of the twist, from e on, where the frame stands; at an end 0 or 1
+  double share = 0.5;         ///< of the twist, from e on, where the frame is; at an end 0 or 1
+  double axis = 0;            ///< from m1 to the first axis of w, about the rod, rad
+  double corner = 1;          ///< cos of half the angle by which a rod cut with a corner turns
 
-  bool at_end() const { return share != 0.5; }
+  bool at_end() const { return share == 0 || share == 1; }
+  /// l/EI about m1 and m2, 1/(N mm).
+  Eigen::Vector2d give() const;
+  /// l times the change of curvature that w - w_0 stands for, about m1 and m2.
+  Eigen::Vector2d bent(const Eigen::Vector2d& excess) const;
+};
+
+/// A rod cut with a corner, between two edges that are straight at rest and meet at an angle 2h
+/// there. Half of each edge bends and twists about its own axes, and both halves in series are the
+/// compliance of the node. With n the corner's axis, u = (t + s)/|t + s|, v = n x u, rotations psi
+/// of f from rest change the measures by
+///   w_1' = psi_n/cos^2 h, w_2' = -psi_v/cos h, tau' = psi_u/cos h,
+/// as w_1 = 2 tan h; so 2 tan h with the stiffness EI/l of a straight rod would be 1/cos^4 h too
+/// stiff in the corner's plane. To first order in psi, which is one in the edge length:
+///   psi_n: l/EI_n,
+///   psi_v: sum over both halves of l_k/2 (cos^2 h/EI_m + sin^2 h/GJ), psi_u: cos and sin
+///   exchanged, both:  (l_e - l_f)/2 sin h cos h (1/EI_m - 1/GJ), which moves `share`.
+/// EI_n, EI_m: about n and across it; that a section with two stiffnesses which lies askew to the
+/// corner couples them is left out.
+struct CornerLaw {
+  MaterialBend bend;
+  double torsion = 0;  ///< mJ
+
+  /// `turn`: the curvature binormal at rest about m1 and m2; EI about them.
+  CornerLaw(const Eigen::Vector2d& EI, double GJ, double length_e, double length_f,
+            const Eigen::Vector2d& turn);
 };
 
 /// mu: columns m1, m2 of e turned by half the twist, in 3D.

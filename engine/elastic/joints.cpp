@@ -17,7 +17,7 @@ double give_of(const Model& model, int bend, Turn how) {
   if (how == Turn::spin) return 1 / law_of<Torsion>(model, bend)->stiffness;
   const auto* end = law_of<EndBending>(model, bend);
   if (const auto* section = law_of<SectionBending>(model, bend))
-    return 1 / section->bend.stiffness[how == Turn::aside ? 0 : 1];
+    return section->bend.give()[how == Turn::aside ? 0 : 1];
   return 2 / (end ? end->stiffness : model.bends[std::size_t(bend)].stiffness);
 }
 

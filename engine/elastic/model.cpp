@@ -1,6 +1,7 @@
 #include "engine/elastic/model.h"
 
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 #include <bit>
 #include <cmath>
 
@@ -136,15 +137,19 @@ class Builder {
     if (plain && at_end)
       std::get<std::vector<Pair<EndBending>>>(model_.pairs).push_back({e, f, bend, {round}});
     if (!twist_) return;
+    const Eigen::Vector2d EI(m.EI1, m.EI2);
+    MaterialBend law{EI / length, length * m.curvature + turn, share};
+    double torsion = m.GJ / length;
+    if (!at_end && !turn.isZero(1e-9)) {
+      const CornerLaw corner(EI, m.GJ, before, after, turn);
+      law = corner.bend;
+      law.rest += Eigen::Rotation2Dd(-law.axis) * (length * m.curvature);
+      torsion = corner.torsion;
+    }
     std::get<std::vector<Pair<Torsion>>>(model_.pairs)
-        .push_back({e, f, bend, {m.GJ / length, length * m.twist}});
+        .push_back({e, f, bend, {torsion, length * m.twist}});
     if (!plain)
-      std::get<std::vector<Pair<SectionBending>>>(model_.pairs)
-          .push_back(
-              {e,
-               f,
-               bend,
-               {{Eigen::Vector2d(m.EI1, m.EI2) / length, length * m.curvature + turn, share}}});
+      std::get<std::vector<Pair<SectionBending>>>(model_.pairs).push_back({e, f, bend, {law}});
   }
 
   /// nodes that rods share

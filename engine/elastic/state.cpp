@@ -239,7 +239,7 @@ Eigen::VectorXd bending_strain_of(const Model& model, const State& state) {
         rods[std::size_t(pair.bend)]->fibres.strain(bent / length_between(model, pair.e, pair.f));
   };
   for (const auto& pair : std::get<std::vector<Pair<SectionBending>>>(model.pairs))
-    put(pair, pair.law.excess(pair_geometry(model, state, pair)));
+    put(pair, pair.law.bend.bent(pair.law.excess(pair_geometry(model, state, pair))));
   // 2 EI/l tan^2 of half the turn, as it counts at an end
   for (const auto& pair : std::get<std::vector<Pair<EndBending>>>(model.pairs))
     put(pair,

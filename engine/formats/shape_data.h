@@ -69,6 +69,12 @@ inline bool clamps(const NetworkData& network) {
                              [](const auto& row) { return row[2] == double(EndKind::clamped); });
 }
 
+/// Whether a rod is closed: its last point is its first.
+inline bool has_closed_rods(const NetworkData& network) {
+  return std::ranges::any_of(
+      network.rods, [](const auto& rod) { return rod.size() > 2 && rod.front() == rod.back(); });
+}
+
 // Both as tables of a preset: visit(key, member, whether it must be there).
 
 template <RecordOf<SurfaceData> Data, class Visit>

@@ -99,6 +99,8 @@ void add_footprint(std::vector<Field>& all) {
                               return row[1] != 0 || row[2] != 0;
                             });
                    })
+      .needs_twist("rods that are closed have no ends that could spin",
+                   [=](const Footprint& of) { return network(of) && has_closed_rods(of.file); })
       .needs_twist("clamped ends of the file hold the rods' spin",
                    [=](const Footprint& of) { return network(of) && clamps(of.file); });
   list.add<&Footprint::rods>(between(1, 500), "rods a direction in a circle, n")

@@ -1,7 +1,9 @@
 // Stretch, bending and twist against automatic differentiation of their definitions.
 #include "engine/elastic/element_energies.h"
 
+#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <random>
 #include <unsupported/Eigen/AutoDiff>
 
@@ -100,7 +102,8 @@ Definitions definitions(const Sample& at) {
   const T m = atan2(dot(s, cross(here, d_f)), dot(here, d_f));
   const T tau = theta_f - theta_e + m;
   const V kb = (T(2) / (T(1) + dot(t, s))) * cross(t, s);
-  const T phi = theta_e + T(at.bend.share) * tau, u2 = (T(1) - dot(t, s)) / (T(1) + dot(t, s)),
+  const T phi = theta_e + T(at.bend.share) * tau + T(at.bend.axis),
+          u2 = (T(1) - dot(t, s)) / (T(1) + dot(t, s)),
           grown = at.bend.at_end() ? T(1) + u2 + u2 * u2 : T(1);
   const V across = cross(t, d_e);
   const T w1 = dot(kb, cos(phi) * d_e + sin(phi) * across);
@@ -125,7 +128,7 @@ void check(const Vector& gradient, const Matrix& hessian, const T& exact, double
 /// Value and derivatives of the bending in material axes.
 double material_bend(const Sample& at, PairEnergy& out) {
   const HalfwayFrame mu =
-      halfway_frame(at.t(), at.director_e, at.theta_e + at.bend.share * at.tau());
+      halfway_frame(at.t(), at.director_e, at.theta_e + at.bend.share * at.tau() + at.bend.axis);
   const double value = add_material_bend(at.bend, mu, binormal_with_slopes(at.t(), at.s()), out);
   scale_to_edges(at.e.norm(), at.f.norm(), out);
   return value;
@@ -162,9 +165,11 @@ TEST_CASE("twist: gradient and Hessian agree with automatic differentiation") {
 }
 
 TEST_CASE("material bend: value, gradient and Hessian agree with automatic differentiation") {
-  for (const double share : {0.5, 0.0, 1.0})
+  // at a corner the frame is anywhere, and its axes lie askew
+  for (const double share : {0.5, 0.0, 1.0, 0.3, -0.4})
     for (Sample at : samples(6, 60)) {
       at.bend.share = share;
+      at.bend.axis = share < 0.5 && share != 0 ? 0.7 : 0;
       PairEnergy out;
       const T exact = definitions(at).bend;
       CHECK(material_bend(at, out) == Approx(exact.value().value()).epsilon(1e-12));
@@ -203,6 +208,55 @@ TEST_CASE("material bend: equal stiffness and no curvature at rest is the round 
     CHECK((material.gradient - round.gradient).norm() <= 1e-12 * (1 + round.gradient.norm()));
     CHECK((material.hessian - round.hessian).norm() <= 1e-11 * (1 + round.hessian.norm()));
   }
+}
+
+TEST_CASE("a corner gives way as its two half edges in series do") {
+  const double GJ = 2.9, length_e = 1.7, length_f = 0.6;
+  // a round rod about any axis, a section with two stiffnesses about one of its own
+  const auto [EI, axis] = GENERATE(table<Eigen::Vector2d, double>({{{4.1, 4.1}, 0.0},
+                                                                   {{4.1, 4.1}, 2.3},
+                                                                   {{4.1, 4.1}, -0.9},
+                                                                   {{4.1, 1.3}, 0.0},
+                                                                   {{4.1, 1.3}, M_PI / 2},
+                                                                   {{4.1, 1.3}, M_PI}}));
+  const double h = GENERATE(0.02, 0.3, 0.5 * M_PI / 2, 1.1);
+  CAPTURE(EI, axis, h);
+  const Eigen::Vector3d t(1, 0, 0), m1(0, 0, 1), m2 = t.cross(m1);
+  const Eigen::Vector3d n = std::cos(axis) * m1 + std::sin(axis) * m2;
+  const Eigen::Vector3d s = Eigen::AngleAxisd(2 * h, n) * t;
+  const CornerLaw law(EI, GJ, length_e, length_f,
+                      2 * std::tan(h) * Eigen::Vector2d(std::cos(axis), std::sin(axis)));
+  const SectionBending bending{law.bend};
+  const Torsion torsion{law.torsion, 0};
+  // f with its frame, carried from e's, turned from rest
+  const auto energy = [&](const Eigen::Vector3d& psi) {
+    const Eigen::Matrix3d by =
+        psi.isZero(0) ? Eigen::Matrix3d(Eigen::Matrix3d::Identity())
+                      : Eigen::AngleAxisd(psi.norm(), psi.normalized()).toRotationMatrix();
+    PairGeometry at;
+    at.e = {t, length_e}, at.f = {by * s, length_f};
+    at.director_e = m1, at.director_f = by * transport(m1, t, s);
+    at.reference_twist = reference_twist(at.director_e, t, at.director_f, by * s);
+    return bending.value(at) + torsion.value(at);
+  };
+  CHECK(energy({0, 0, 0}) == Approx(0).margin(1e-20));
+  Eigen::Matrix3d stiffness;
+  const double step = 1e-3;
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d a = step * Eigen::Vector3d::Unit(i),
+                            b = step * Eigen::Vector3d::Unit(k);
+      stiffness(i, k) =
+          (energy(a + b) - energy(a - b) - energy(b - a) + energy(-a - b)) / (4 * step * step);
+    }
+  const auto half = [&](double length, const Eigen::Vector3d& along, const Eigen::Vector3d& first) {
+    const Eigen::Vector3d second = along.cross(first);
+    return Eigen::Matrix3d(0.5 * length *
+                           (first * first.transpose() / EI[0] +
+                            second * second.transpose() / EI[1] + along * along.transpose() / GJ));
+  };
+  const Eigen::Matrix3d give = half(length_e, t, m1) + half(length_f, s, transport(m1, t, s));
+  CHECK((stiffness * give - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < 2e-4);
 }
 
 TEST_CASE("stretch: force is the derivative of energy") {
