@@ -139,12 +139,13 @@ ShapeContacts::Search ShapeContacts::between(int a, int b) const {
   const Segment &one = segment(a), &other = segment(b);
   search.radii = of_.radius_mm_[one.rod] + of_.radius_mm_[other.rod];
   search.gap = beside(one.rod) + beside(other.rod);
+  search.apart = one.rod == other.rod ? std::numbers::pi * search.radii : -infinity;
+  if (const auto [first, last] = of_.ends_[std::size_t(one.rod)]; node(first) == node(last))
+    search.round = along_[last] - along_[first];
   if (a == b) {
-    search.apart = std::numbers::pi * search.radii;
     add_joint(search, one.begin, one.end);  // of a ring
     return search;
   }
-  search.apart = -infinity;
   for (const int point : {one.begin, one.end})
     for (const int beside : {other.begin, other.end}) add_joint(search, point, beside);
   return search;
@@ -246,6 +247,7 @@ void ShapeContacts::joints(bool by_all_pairs) {
   const std::size_t count = of_.axes_.size();
   std::vector<Vector3d> foot(count), top(count);
   std::vector<Box> boxes(count);
+  const auto has_cylinder = [&](int k) { return of_.axes_[std::size_t(k)].beside[2] >= 0; };
   for (std::size_t k = 0; k < count; ++k) {
     foot[k] = top[k] = nodes_.col(of_.axes_[k].node);
     top[k] += of_.joint_height_mm_ * normal_of(of_.axes_[k]);
@@ -253,6 +255,7 @@ void ShapeContacts::joints(bool by_all_pairs) {
     boxes[k].extend(top[k]);
   }
   const auto look = [&](int a, int b) {
+    if (!has_cylinder(a) || !has_cylinder(b)) return;
     const std::size_t i = std::size_t(a), j = std::size_t(b);
     const NearestPoints near = nearest_points(foot[i], top[i], foot[j], top[j]);
     const double gap = std::sqrt(near.distance2) - diameter;
@@ -314,6 +317,7 @@ ContactSearch::ContactSearch(const Layout& layout)
     }
     const int first = int(points_.size()), last = int(rod.size()) - 1;
     points_.insert(points_.end(), rod.begin(), rod.end());
+    ends_.push_back({first, first + last});
     for (const int node : rod) {
       const int joint = axis[std::size_t(node)];
       places_.push_back(joint < 0 ? node : axes_[std::size_t(joint)].node);
@@ -325,11 +329,13 @@ ContactSearch::ContactSearch(const Layout& layout)
             {int(r), first + begin, first + k, axis[std::size_t(rod[begin])], joint});
         begin = k;
       }
-      if (joint < 0) continue;
+      // a ring comes back to the joint that it begins at
+      const bool ring = last > 1 && rod.front() == rod.back();
+      if (joint < 0 || (ring && k == last)) continue;
       auto& beside = axes_[joint].beside;
       const std::size_t free = beside[0] < 0 ? 0 : 2;
       if (beside[free] >= 0) continue;
-      beside[free] = rod[std::size_t(std::max(k - 1, 0))];
+      beside[free] = rod[std::size_t(k > 0 ? k - 1 : ring ? last - 1 : 0)];
       beside[free + 1] = rod[std::size_t(std::min(k + 1, last))];
     }
   }

@@ -42,7 +42,7 @@ struct Contacts {
 /// segment. Straight rods overlap up to half of S / sin(a/2), so that it is their bending that is
 /// told; beyond the middle of a segment all is, so that a closing cell is.
 /// Ends of two rods that are nearer than S are held at one place, which counts as a joint. Points
-/// of one rod are told that are more than pi S apart along it.
+/// of one rod are told that are more than pi S apart along it, whatever joints lie between them.
 ///
 /// Laths whose sections keep to the joints' normals are rectangles: of the way between two nearest
 /// points the part along the normal (between two joints along the mean of theirs) is held against
@@ -50,8 +50,8 @@ struct Contacts {
 /// counts.
 ///
 /// The cylinder of a joint stands on the rods' crossing, along t_u x t_v, as high as the layout
-/// says, with rounded ends. A rod touches the table where its middle is more than its radius below
-/// the plane.
+/// says, with rounded ends; where one rod only has a corner or a support there is none. A rod
+/// touches the table where its middle is more than its radius below the plane.
 class ContactSearch {
  public:
   explicit ContactSearch(const Layout& layout);
@@ -78,7 +78,8 @@ class ContactSearch {
   std::vector<int> points_;  ///< nodes, rod after rod
   std::vector<int> places_;  ///< of the points: their nodes, of joints those of their first rod
   std::vector<Segment> segments_;
-  std::vector<double> radius_mm_;  ///< of each rod; of a lath as far as its corners reach
+  std::vector<std::array<int, 2>> ends_;  ///< of each rod, points
+  std::vector<double> radius_mm_;         ///< of each rod; of a lath as far as its corners reach
   /// Half the width and half the thickness of each rod that is a lath, along the normal; else 0.
   std::vector<std::array<double, 2>> half_mm_;
   std::vector<Axis> axes_;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -35,16 +37,18 @@ class ShapeContacts {
   /// What is looked for between two segments.
   struct Search {
     int a = 0, b = 0;
-    double radii = 0;  ///< sum
-    double gap = 0;    ///< above is not looked for
-    double apart = 0;  ///< of one segment: nearer points along it are not told
+    double radii = 0;         ///< sum
+    double gap = 0;           ///< above is not looked for
+    double apart = 0;         ///< of one rod: nearer points along it are not told
+    double round = infinity;  ///< length of a rod that is a ring
     int joints = 0;
     Joint joint[2];
     Contact found;
     bool any = false;
 
     bool told(double at_a, double at_b) const {
-      if (at_b - at_a < apart) return false;
+      const double way = std::abs(at_b - at_a);
+      if (std::min(way, round - way) < apart) return false;
       for (int k = 0; k < joints; ++k)
         if (std::abs(at_a - joint[k].at_a) <= joint[k].within &&
             std::abs(at_b - joint[k].at_b) <= joint[k].within)

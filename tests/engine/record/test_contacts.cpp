@@ -243,6 +243,42 @@ TEST_CASE("a rod touches itself where a loop closes, not where it only bends") {
   CHECK(ContactSearch(ring).in(x).places.empty());
 }
 
+TEST_CASE("neighbours along a rod do not touch where its points are closer than its thickness") {
+  // each point one that the rod is drawn through, as those of a polyline are
+  constexpr int points = 300;
+  Layout layout = lone_rod(points);
+  layout.joint_diameter_mm = 3;
+  layout.joint_height_mm = 5;
+  for (int k = 0; k < points; ++k) layout.joints.push_back({k, 0, 0, 0, k});
+  Eigen::Matrix3Xd x(3, points);
+  // an arch of radius 40, its points 0.4 mm apart on a rod of 1 mm
+  for (int k = 0; k < points; ++k) {
+    const double angle = 0.01 * k;
+    x.col(k) << 40 * std::cos(angle), 40 * std::sin(angle), 0;
+  }
+  CHECK(ContactSearch(layout).in(x).places.empty());
+  CHECK(ContactSearch(layout).by_all_pairs(x).places.empty());
+  // where it comes back to itself it does
+  for (int k = 0; k < points; ++k) {
+    const double angle = 4 * std::numbers::pi * k / points;
+    x.col(k) << 5 * std::cos(angle), 5 * std::sin(angle), 0.9 * angle / (2 * std::numbers::pi);
+  }
+  const Contacts helix = ContactSearch(layout).in(x);
+  CHECK_FALSE(helix.places.empty());
+  CHECK(helix.rod_gap_mm == Approx(-0.1).margin(0.01));
+  CHECK(std::ranges::all_of(helix.places,
+                            [](const Contact& at) { return at.kind == ContactKind::rods; }));
+  // of a ring also across the point at which it begins
+  Layout ring = layout;
+  ring.rods[0].push_back(0);
+  for (int k = 0; k < points; ++k) {
+    const double angle = 2 * std::numbers::pi * k / points;
+    x.col(k) << 20 * std::cos(angle), 20 * std::sin(angle), 0;
+  }
+  CHECK(ContactSearch(ring).in(x).places.empty());
+  CHECK(ContactSearch(ring).by_all_pairs(x).places.empty());
+}
+
 TEST_CASE("a table is touched more than a radius below its plane, where there is one") {
   Grid grid(2, 4);
   Eigen::Matrix3Xd x = grid.sheared(90 * degree);
