@@ -43,7 +43,8 @@ struct ComparedScan {
   Clusters clusters;
   JointCylinder cylinder;
   std::vector<ComparedState> states;
-  std::size_t best = 0;  ///< the one that it lies on best
+  std::size_t best = 0;     ///< the one that it lies on best
+  double tolerance_mm = 0;  ///< of match_tolerance_mm(), or the one asked for
   /// Where it shows none: the height of the joints' cylinders, mm, with which it shows a state, and
   /// which.
   std::optional<std::pair<double, std::string>> with_height = {};
@@ -82,6 +83,8 @@ std::string scan_json(const ComparedScan& scan) {
   json.update(
       {{"specks", scan.clusters.specks},
        {"clusters_too_wide", scan.clusters.others},
+       {"noise_mm", scan.clusters.noise_mm},
+       {"tolerance_mm", scan.tolerance_mm},
        {"joint_diameter_mm", scan.cylinder.diameter_mm},
        {"joint_height_mm", scan.cylinder.height_mm},
        {"joint_height_that_fits_mm", scan.with_height ? Json(scan.with_height->first) : Json()},
@@ -129,6 +132,17 @@ std::string scan_text(const ComparedScan& scan) {
       laid.found, laid.joints.cols(), laid.outliers.cols(), scan.clusters.specks,
       laid.mirrored ? ", mirrored" : "", laid.rms_mm, laid.max_mm, laid.within_bar,
       scan.cylinder.diameter_mm);
+  if (std::isfinite(scan.clusters.noise_mm))
+    text += fmt::format(
+        "  the points of a top lie {:.3f} mm off its plane: joints may lie off by {:.3f} mm rms\n",
+        scan.clusters.noise_mm, scan.tolerance_mm);
+  const double radius = scan.cylinder.diameter_mm / 2;
+  if (!best.shown && study::scan_matches(laid, radius))
+    text += fmt::format(
+        "  its joints lie like those of {}, but {:.2g} times as far off as the scan is noisy: it "
+        "is "
+        "pushed, loaded or built otherwise; --tolerance {:.2g} takes it for that state\n",
+        best.name, laid.rms_mm / scan.clusters.noise_mm, 1.01 * laid.rms_mm);
   if (scan.with_height)
     text += fmt::format(
         "  all tops lie {:.2f} mm further {} along the normals than [joints] height_mm = {:g} "
@@ -144,6 +158,7 @@ struct ScanOptions {
   Options common;  ///< output, quiet, context, --set; `input` is the file of points
   std::vector<std::string> runs;
   bool unsealed = false;
+  double tolerance_mm = 0;  ///< 0: by the noise
 };
 
 constexpr long most_clusters_a_joint = 20;
@@ -176,11 +191,13 @@ struct Scanned {
   std::vector<std::vector<Run>> runs;
   std::vector<Candidate> candidates;
   JointCylinder cylinder;
+  double tolerance_mm = 0;  ///< 0: by the noise
 };
 
 Result<Scanned> read_all(const ScanOptions& options) {
   TRY(overrides, overrides_of_run(options.common, {"joints.diameter_mm", "joints.height_mm"}));
   Scanned scanned;
+  scanned.tolerance_mm = options.tolerance_mm;
   TRY(bytes, as_input(read_file(options.common.input, preset::largest_cloud_file)));
   TRY(cloud, preset::read_cloud(*bytes, options.common.input));
   scanned.cloud = std::move(*cloud);
@@ -214,7 +231,8 @@ std::optional<std::pair<double, std::string>> height_that_fits(const Scanned& sc
       cylinder.height_mm += study::beyond_height(*laid, form);
       laid = study::register_points(scan.clusters, form, cylinder);
     }
-    const bool shown = laid && cylinder.height_mm >= 0 && study::scan_matches(*laid, cylinder);
+    const bool shown =
+        laid && cylinder.height_mm >= 0 && study::scan_matches(*laid, scan.tolerance_mm);
     const double cost = laid ? laid->cost / double(run.layout.joints.size()) : least;
     if (!shown || !(cost < least)) continue;
     least = cost;
@@ -236,7 +254,10 @@ Result<ComparedScan> compared(const Scanned& scanned, const std::string& file, W
         "{}: {} clusters of points as wide as joints of {:g} mm ([joints] diameter_mm), "
         "the shell has {} joints",
         file, clusters->tops.cols(), scanned.cylinder.diameter_mm, most);
-  ComparedScan scan{file, std::move(*clusters), scanned.cylinder, {}, 0};
+  ComparedScan scan{file, std::move(*clusters), scanned.cylinder, {}};
+  scan.tolerance_mm = scanned.tolerance_mm > 0
+                          ? scanned.tolerance_mm
+                          : study::match_tolerance_mm(scan.clusters, scan.cylinder);
   double least = std::numeric_limits<double>::infinity();
   for (const Candidate& one : scanned.candidates) {
     if (watch.cancelled()) return stopped();
@@ -249,7 +270,7 @@ Result<ComparedScan> compared(const Scanned& scanned, const std::string& file, W
         false};
     // states of shells of other sizes count by their joints
     if (state.scan) {
-      state.shown = scan_matches(*state.scan, scan.cylinder);
+      state.shown = scan_matches(*state.scan, scan.tolerance_mm);
       const double cost = state.scan->cost / double(run.layout.joints.size());
       if (cost < least) least = cost, scan.best = scan.states.size();
     }
@@ -307,7 +328,7 @@ Result<int> produce_scan(const ScanOptions& options) {
     TRY(maker, PictureMaker::create(common.context, best.run->preset.style.font));
     return draw(*scan, best, *maker, partial, progress.next_phase());
   };
-  TRY_DO(deliver(folder, phases, common.quiet, work));
+  TRY_DO(deliver({folder, "scan"}, phases, common.quiet, work));
   if (!common.quiet) fmt::print("{}: {}", folder.string(), scan_text(*scan));
   return scan->of_best().shown ? ExitCode::done : ExitCode::different;
 }
@@ -324,6 +345,10 @@ void add_scan(CommandLine& program) {
   add_work_options(command, options.common, "folder to write, by default out/<points>_scan");
   add_picture_options(command, options.common);
   add_unsealed(command, options.unsealed);
+  command
+      .option("--tolerance", options.tolerance_mm,
+              "how far off the joints may lie, mm rms; by default five times the scan's noise")
+      .in_range(0, 1000);
   command.footer(
       "The exit code is 3 where the scan shows none of the states. Joints are cylinders of\n"
       "[joints] diameter_mm and height_mm, of which the scan sees the tops.");

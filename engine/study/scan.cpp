@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 
 #include "engine/core/algorithms.h"
 #include "engine/core/dense.h"
@@ -100,12 +101,16 @@ Eigen::Matrix3Xd chosen(const Eigen::Matrix3Xd& cloud, const std::vector<int>& p
 }
 
 /// The middle of a top, or nothing where its points reach beyond it: two things that touch.
-std::optional<Eigen::Vector3d> middle_of(const Eigen::Matrix3Xd& points, double radius) {
+std::optional<Eigen::Vector3d> middle_of(const Eigen::Matrix3Xd& points, double radius,
+                                         double& off_plane) {
   const Eigen::Vector3d mean = points.rowwise().mean();
   if ((points.colwise() - mean).colwise().norm().maxCoeff() > 2 * radius) return std::nullopt;
   if (points.cols() < 3) return mean;
   const Eigen::Matrix3Xd about = points.colwise() - mean;
   const auto axes = eigen_pairs(about * about.transpose());
+  constexpr Eigen::Index enough = 10;  // a plane goes through three of them
+  if (points.cols() >= enough)
+    off_plane = std::sqrt(std::max(0.0, axes.values[0]) / double(points.cols() - 3));
   const Eigen::Matrix<double, 3, 2> plane = axes.vectors.rightCols<2>();
   const Eigen::Vector3d middle = plane * disc_around(plane.transpose() * about, radius);
   const auto off = (about.colwise() - middle).colwise().norm().array().eval();
@@ -114,11 +119,16 @@ std::optional<Eigen::Vector3d> middle_of(const Eigen::Matrix3Xd& points, double 
   return mean + middle;
 }
 
-/// How many points the cluster has that the median point is in.
-std::size_t usual_size(const std::vector<std::vector<int>>& sets, std::size_t points) {
+/// How many points the cluster has that the median point is in, of those that may be tops.
+std::size_t usual_size(const std::vector<std::vector<int>>& sets) {
+  constexpr std::size_t of_a_top = 8;
   std::vector<std::size_t> sizes;
   for (const auto& set : sets) sizes.push_back(set.size());
   std::ranges::sort(sizes);
+  if (sizes.empty()) return 0;
+  if (sizes.back() >= of_a_top)
+    std::erase_if(sizes, [](std::size_t size) { return size < of_a_top; });
+  const std::size_t points = std::accumulate(sizes.begin(), sizes.end(), std::size_t(0));
   std::size_t before = 0;
   for (const std::size_t size : sizes)
     if ((before += size) * 2 >= points) return size;
@@ -127,7 +137,7 @@ std::size_t usual_size(const std::vector<std::vector<int>>& sets, std::size_t po
 
 constexpr double same_place = 1e-3;  // of d: a mirror image's
 constexpr double reach = 0.4;        // of d: no joint is measured further away
-constexpr double least_found_within = 0.9, least_within = 0.7;
+constexpr double least_found_within = 0.9, least_within = 0.6;
 
 /// Tangent at the middle of three points of a quadratic through them, a unit vector.
 Eigen::Vector3d tangent_at(const Eigen::Vector3d& before, const Eigen::Vector3d& at,
@@ -199,6 +209,9 @@ RegisteredScan laid(const Eigen::Matrix3Xd& tops, const ScanTarget& form,
   Eigen::Index next = 0;
   for (Eigen::Index k = 0; k < tops.cols(); ++k)
     if (!used[std::size_t(k)]) scan.outliers.col(next++) = moved.col(k);
+  const Eigen::Matrix3Xd places = form.joints + cylinder.height_mm * form.normals;
+  for (const auto& top : scan.outliers.colwise())
+    scan.beside += (places.colwise() - top).colwise().norm().minCoeff() < form.spacing_mm;
   return scan;
 }
 
@@ -207,24 +220,29 @@ RegisteredScan laid(const Eigen::Matrix3Xd& tops, const ScanTarget& form,
 Result<Clusters> cluster_joint_tops(const Eigen::Matrix3Xd& cloud, double diameter_mm) {
   TRY(cells, cells_of(cloud, diameter_mm / cells_a_diameter));
   const auto sets = sets_of(*cells);
-  const auto usual = double(usual_size(sets, std::size_t(cloud.cols())));
+  const auto usual = double(usual_size(sets));
   Clusters found;
   std::vector<Eigen::Vector3d> tops;
+  std::vector<double> noise;
   for (const auto& set : sets) {
     if (double(set.size()) < speck_share * usual) {
       ++found.specks;
       continue;
     }
-    const auto middle = middle_of(chosen(cloud, set), diameter_mm / 2);
+    double off_plane = record::unknown;
+    const auto middle = middle_of(chosen(cloud, set), diameter_mm / 2, off_plane);
     if (!middle) {
       ++found.others;
       continue;
     }
     tops.push_back(*middle);
+    if (std::isfinite(off_plane)) noise.push_back(off_plane);
     found.points.push_back(int(set.size()));
   }
   found.tops.resize(3, Eigen::Index(tops.size()));
   for (std::size_t k = 0; k < tops.size(); ++k) found.tops.col(Eigen::Index(k)) = tops[k];
+  std::ranges::sort(noise);
+  if (!noise.empty()) found.noise_mm = noise[noise.size() / 2];
   return found;
 }
 
@@ -311,11 +329,17 @@ double beyond_height(const RegisteredScan& scan, const ScanTarget& form) {
   return least_squares(moves, off)(0);
 }
 
-bool scan_matches(const RegisteredScan& scan, const JointCylinder& cylinder) {
-  const Eigen::Index tops = scan.found + scan.outliers.cols();
-  const auto could = double(std::min(scan.joints.cols(), tops));
+double match_tolerance_mm(const Clusters& clusters, const JointCylinder& cylinder) {
+  constexpr double of_noise = 5, least = 0.1;
+  if (!std::isfinite(clusters.noise_mm)) return cylinder.diameter_mm / 2;
+  return std::clamp(of_noise * clusters.noise_mm, least * cylinder.diameter_mm,
+                    cylinder.diameter_mm / 2);
+}
+
+bool scan_matches(const RegisteredScan& scan, double tolerance_mm) {
+  const auto could = double(std::min(scan.joints.cols(), Eigen::Index(scan.found + scan.beside)));
   return scan.within_bar >= least_found_within * scan.found &&
-         scan.within_bar >= least_within * could && scan.rms_mm <= cylinder.diameter_mm / 2;
+         scan.within_bar >= least_within * could && scan.rms_mm <= tolerance_mm;
 }
 
 }  // namespace gridshell::study

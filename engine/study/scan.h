@@ -16,11 +16,15 @@ struct Clusters {
   std::vector<int> points;  ///< of each
   int specks = 0;           ///< clusters of too few points
   int others = 0;           ///< clusters wider than a joint, or two things that touch
+  /// By how much the points of a top lie off its plane, rms, of the middle one of all tops; NaN:
+  /// no top has enough points to say.
+  double noise_mm = record::unknown;
 };
 
 /// Points that lie nearer to one another than a third of `diameter_mm` are one cluster (further
 /// apart than 1.2 diameters never). A cluster with less than a quarter of the points of the cluster
-/// that the median point is in is a speck; one that reaches further than a diameter from its
+/// that the median point is in, of clusters of eight points and more where there are such (sparse
+/// points of a table are many), is a speck; one that reaches further than a diameter from its
 /// middle, or with a twentieth of its points beyond 1.25 radii, is no joint. The middle of a top is
 /// that of a disc of the diameter in the points' plane which they overhang least, since their mean
 /// depends on how evenly a scanner sees it; along the normal it is their mean. Errors (bad_input):
@@ -92,6 +96,7 @@ struct RegisteredScan {
   Pose pose;                    ///< from the scan's frame to the run's
   bool mirrored = false;
   int found = 0, within_bar = 0;  ///< joints; of them within two radii
+  int beside = 0;                 ///< outliers nearer than the spacing to where a top should be
   double rms_mm = 0, max_mm = 0, mean_mm = 0;
   double cost = 0;  ///< Registration::cost: of several states the least is the one
 
@@ -110,9 +115,15 @@ std::optional<RegisteredScan> register_points(const Clusters& clusters, const Sc
 /// joints found, r from the simulated joint p to the measured one. 0 of fewer than eight of them.
 double beyond_height(const RegisteredScan& scan, const ScanTarget& form);
 
+/// How far the joints of a state that a scan shows may lie off, rms: five times the noise of the
+/// scan, from a tenth of the joints' diameter to their radius; where the noise is not known the
+/// radius. More than that, and in a pattern, is a dent or a shell that was built otherwise.
+double match_tolerance_mm(const Clusters& clusters, const JointCylinder& cylinder);
+
 /// Whether a scan laid so shows that state: nine tenths of the joints found lie within two radii of
-/// the simulated ones, as do seven tenths of what could (of the joints or of the tops, whichever
-/// are fewer), and their rms is at most a radius.
-bool scan_matches(const RegisteredScan& scan, const JointCylinder& cylinder);
+/// the simulated ones, as do six tenths of what could (of the joints or of the tops on the shell or
+/// beside it, whichever are fewer, so that a view of one side is enough), and their rms is at most
+/// the tolerance.
+bool scan_matches(const RegisteredScan& scan, double tolerance_mm);
 
 }  // namespace gridshell::study
