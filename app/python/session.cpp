@@ -126,8 +126,9 @@ void add_steps(py::class_<Session>& type) {
           "lateral"_a = "free",
           "Moves the joint (i, j), which is held from then on: by depth_mm against the shell's "
           "normal, inward (below 0 outward), or to the position to_mm, mm.\n\n"
-          "along: direction in which it is held, else that of the push. lateral: \"free\" or "
-          "\"held\": whether it may move across the push.")
+          "along: direction in which it is held, else that of the push: depth_mm takes the shell's "
+          "normal anew at each push, to_mm with along=session.directions[k] goes on along the "
+          "first. lateral: \"free\" or \"held\": whether it may move across the push.")
       .def(
           "hold",
           [](Session& self, const Array& joint, const OptionalArray& along) {
@@ -210,7 +211,7 @@ void add_looks(const py::module_& module, py::class_<Session>& type) {
   const py::object state = module.attr("State");
   for (const char* name :
        {"nodes", "layout", "certificate", "energies", "energy_mJ", "force_N", "depth_mm",
-        "height_mm", "progress", "boundary_radius_mm", "cell_K", "total_K", "held"})
+        "height_mm", "progress", "boundary_radius_mm", "cell_K", "total_K", "held", "directions"})
     type.def_property_readonly(
         name,
         [name](const Session& self) -> py::object { return py::cast(self.state()).attr(name); },

@@ -17,7 +17,7 @@ Result<Shell> Shell::open(const preset::Preset& preset) {
   TRY(session, Simulation::open(shell.scene_, simulate::initial_levels(*shell.scene_)));
   shell.session_ = std::move(*session);
   if (!shell.scene_->drawn_in_space) {
-    shell.session_->begin_flat();
+    (void)shell.session_->begin_flat();
   } else if (auto begun = shell.form(0, unwatched); !begun) {
     return tl::unexpected<Error>(begun.error());
   } else {
@@ -128,6 +128,10 @@ Result<State> Shell::look() {
   for (const Constraint& hold : session_->holds()) {
     const FootprintJoint& joint = scene_->footprint.joints[std::size_t(hold.node)];
     state.held.push_back({joint.i, joint.j});
+    const bool one = hold.directions.cols() == 1;
+    state.directions.push_back({NAN, NAN, NAN});
+    for (int c = 0; c < 3 && one; ++c)
+      state.directions.back()[std::size_t(c)] = hold.directions(c, 0);
     const auto taken = session_->grip_origins.find(hold.node);
     if (taken == session_->grip_origins.end()) continue;
     const Eigen::Vector3d moved = session_->nodes().col(hold.node) - taken->second;

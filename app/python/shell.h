@@ -19,6 +19,8 @@ struct State {
   record::Frame frame;
   Certificate certificate;
   std::vector<std::array<int, 2>> held = {};  ///< (i, j) of the joints that are held
+  /// The unit vector along which each of them is held and was first pushed; NaN: in all directions.
+  std::vector<std::array<double, 3>> directions = {};
   std::vector<record::LoadedJoint> pushed =
       {};  ///< those of them that were moved, as pictures show
 };

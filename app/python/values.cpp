@@ -184,6 +184,15 @@ void add_state(py::module_& module) {
             return held;
           },
           "Of a session: (i, j) of the joints that are held.")
+      .def_property_readonly(
+          "directions",
+          [](const State& of) {
+            std::vector<std::tuple<double, double, double>> directions;
+            for (const auto& [x, y, z] : of.directions) directions.emplace_back(x, y, z);
+            return directions;
+          },
+          "Of a session: the unit vector (x, y, z) along which each of these was first pushed and "
+          "is held; nan: it is held in all directions.")
       .def("picture", &draw, py::arg("path"), py::kw_only(), py::arg("size") = py::none(),
            py::arg("context") = "auto", picture_doc);
 }

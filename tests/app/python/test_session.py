@@ -94,6 +94,24 @@ def test_a_push_by_a_depth_goes_inward(formed):
     formed.restore(kept)
 
 
+def test_pushes_along_the_first_direction_are_one_push(formed):
+    kept = formed.save()
+    formed.push((0, 0), depth_mm=10)
+    once, force = formed.nodes.copy(), formed.force_N
+    formed.restore(kept)
+    formed.push((0, 0), depth_mm=2)
+    joint = [tuple(one) for one in formed.layout.joints].index((0, 0))
+    way = np.array(formed.directions[0])
+    assert np.linalg.norm(way) == pytest.approx(1)
+    start = formed.nodes[joint] - 2 * way
+    for depth in (4, 6, 8, 10):
+        formed.push((0, 0), to_mm=start + depth * way, along=way)
+        assert formed.depth_mm == pytest.approx(depth, abs=1e-6)
+    np.testing.assert_allclose(formed.nodes, once, rtol=0, atol=1e-3)
+    assert formed.force_N == pytest.approx(force, rel=1e-4)
+    formed.restore(kept)
+
+
 def test_arrays_look_into_their_state_and_outlive_it(formed):
     kept = formed.save()
     first = formed.nodes
