@@ -21,6 +21,17 @@ void step_rules(FieldList<Step>& list) {
       .needs_equilibrium("a net does not answer a hand", first);
 }
 
+/// Whether an open finds bolts of another stiffness, which it cannot go on with.
+bool meets_other_bolts(const Preset& preset, const Step& of) {
+  const Step* bolted = nullptr;
+  for (const Step& step : preset.step) {
+    if (&step == &of) break;
+    if (step.kind == StepKind::tighten || step.kind == StepKind::open) bolted = &step;
+    if (step.kind == StepKind::release && step.what == Released::bolts) bolted = nullptr;
+  }
+  return of.kind == StepKind::open && bolted && bolted->stiffness_Nmm != of.stiffness_Nmm;
+}
+
 /// What makes a formed shell stiff, and takes it away again.
 void add_stiffening(FieldList<Step>& list) {
   using K = StepKind;
@@ -28,7 +39,11 @@ void add_stiffening(FieldList<Step>& list) {
                                  "of a tighten: resistance of each joint to a change of its angle; "
                                  "of an open: of each joint to "
                                  "being off the angle that it is opened to; 0: rigid");
-  list.used_by(&Step::kind, {K::tighten, K::open});
+  list.used_by(&Step::kind, {K::tighten, K::open})
+      .refused({},
+               "bolts of another stiffness are there by then, must be the same, or a release of "
+               "\"bolts\" before it",
+               meets_other_bolts);
   list.add<&Step::angle_deg>(between(0, 180),
                              "of an open: to what all joints where two rods cross open on average, "
                              "each by as much; between "

@@ -103,6 +103,10 @@ TEST_CASE("what is wrong with a step is said with its place, its number and what
       {"[[step]]\ndo = \"open\"",
        "bad.toml:1:1: [[step]] 1 angle_deg = 0.0: an open has `angle_deg` or `angles`, must be one "
        "of the two"},
+      {"[[step]]\ndo = \"tighten\"\nstiffness_Nmm = 5.0\n[[step]]\ndo = \"open\"\n"
+       "angle_deg = 80.0\nstiffness_Nmm = 7.0",
+       "bad.toml:7:17: [[step]] 2 stiffness_Nmm = 7.0: bolts of another stiffness are there by "
+       "then, must be the same, or a release of \"bolts\" before it"},
       {"[[step]]\ndo = \"brace\"",
        "bad.toml:1:1: [[step]] 1 EA_N = 0.0: a brace needs a stiffness, must be above 0"},
       {"[[step]]\ndo = \"load\"\ncase = \"snow\"",
