@@ -1,5 +1,6 @@
 // Rods, rings and joints: a matt base with the sheen of drawn metal. Premultiplied.
 uniform float sheen;  // 0: flat ink
+uniform float unlit;  // 1: in its own colour, which a bar explains; 0: lit
 
 // What a point's neighbours share, and so is found once a vertex.
 struct Metal {
@@ -26,5 +27,6 @@ vec4 metal(Metal metal, float to_light, float half_way, float to_eye, float up) 
   vec3 base = metal.surface.rgb;
   vec3 shine = mix(vec3(0.5), base, metal.hue) * gloss * key_light + 0.12 * edge * edge * around;
   vec3 colour = base * (facing_light * key_light + around) + sheen * shine;
-  return vec4(mix(colour, background, metal.pale), 1.0) * metal.surface.a;
+  colour = mix(mix(colour, background, metal.pale), base, unlit);
+  return vec4(colour, 1.0) * metal.surface.a;
 }

@@ -1,6 +1,4 @@
-in vec3 shade;
-in vec4 dark;
-in vec3 key_part;
+in vec4 tint;
 out vec4 fragment;
 
-void main() { fragment = dark + vec4(key_part * lit(shade), 0.0); }
+void main() { fragment = tint; }

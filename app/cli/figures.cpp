@@ -22,12 +22,19 @@ namespace gridshell::app {
 namespace fs = std::filesystem;
 namespace {
 
+/// Whether a preset is one for `gridshell design`, and not what that made of it.
+bool to_be_designed(const preset::Preset& preset) {
+  return !preset.inverse.vary.empty() && preset.ends.table.empty() && preset.rod_table.empty();
+}
+
 std::string name_of(const preset::Preset& preset) {
   if (preset.footprint.kind == preset::FootprintKind::blocks) return "assemblage";
   const preset::Net& net = preset.net;
   using preset::NetKind;
   if (net.kind == NetKind::sphere)
-    return net.cut_height == 0 ? "hemisphere" : fmt::format("*z*^{{*}}/*ρ* = {:g}", net.cut_height);
+    return to_be_designed(preset) ? "before its design"
+           : net.cut_height == 0  ? "hemisphere"
+                                  : fmt::format("*z*^{{*}}/*ρ* = {:g}", net.cut_height);
   if (net.kind == NetKind::profile) return "surface of revolution";
   if (net.kind == NetKind::translation) return "translation net";
   if (net.kind == NetKind::spool || net.kind == NetKind::beltrami) return "saddle";
@@ -57,8 +64,9 @@ std::string caption_of(const record::Trajectory& run, const std::string& name, b
   const double joints = unit.factor * deviation.head(long(run.layout.joints.size())).maxCoeff(),
                rods = unit.factor * deviation.maxCoeff();
   const char* word = run.layout.parts.empty() ? "%" : "mm";
-  if (rods <= further * joints) return fmt::format("{}: at most {:.2f} {}", name, joints, word);
-  return fmt::format("{}: joints at most {:.2f},{}rods {:.2f} {}", name, joints,
+  // in digits that do not round a small one away
+  if (rods <= further * joints) return fmt::format("{}: at most {:.3g} {}", name, joints, word);
+  return fmt::format("{}: joints at most {:.3g},{}rods {:.3g} {}", name, joints,
                      narrow ? "\n" : " ", rods, word);
 }
 

@@ -157,8 +157,9 @@ class PageMaker {
   static std::string total_text(const record::Trajectory& run) {
     const double total = run.frames.front().total_K, turned = 2 * M_PI - total;
     return fmt::format(
-        "D: unloaded, Σ*K*_{{□}} = 2*π* − {:.3f} rad = {:.3f} rad; 2*π* less what the outer cells "
-        "turn along their boundary.",
+        "D: Σ*K*_{{□}} is 2*π* − the turning of the boundary of the complete cells (unloaded "
+        "{:.3f} "
+        "rad, Σ*K*_{{□}} = {:.3f} rad), which a push changes, and with it Σ*K*_{{□}}.",
         turned, total);
   }
 
@@ -238,7 +239,6 @@ class PageMaker {
     for (int k = 0; k < count; ++k) {
       const Run& run = *records_[std::size_t(k)];
       record::Frame frame = run.trajectory.frames.back();
-      frame.contacts = -1;  // no word beside it would tell their marks
       record::Trajectory last{run.trajectory.layout, {std::move(frame)}};
       // the shell alone is to fill its place
       last.layout.original_boundary = last.layout.actuated_boundary =
@@ -258,6 +258,8 @@ class PageMaker {
       page.add_note({box.x + 3, box.bottom() + 6, width - 3, 4}, render::plain(run.preset.title));
       page.add_note({box.x + 3, box.bottom() + 9.5, width - 3, 4},
                     render::plain(run.preset.source));
+      if (const auto overlaps = render::contact_caption(last.frames.front()); !overlaps.empty())
+        page.add_note({box.x + 3, box.bottom() + 13, width - 3, 4}, "violet: " + overlaps);
       watch_.report(double(k + 1) / count);
     }
     return page;

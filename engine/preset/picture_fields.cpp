@@ -99,8 +99,7 @@ void add_style(FieldList<Style> list) {
   list.add<&S::joint_colour>("of joints").colour();
   list.add<&S::ring_colour>("of the boundary").colour();
   list.add<&S::background>("behind the shell; \"transparent\" leaves it out of the PNG").colour();
-  list.add<&S::colour_map>(
-      "auto: sequential where the values have one sign, else diverging about zero");
+  list.add<&S::colour_map>("auto: sequential of sizes, diverging about zero of what has a sign");
   list.add<&S::range>(
       "of the colours, in the unit of the colour bar; empty: where nine tenths of the values of "
       "all "

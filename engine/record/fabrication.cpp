@@ -102,19 +102,34 @@ Drawing footprint_drawing(const FabricationPlan& work) {
   return drawing;
 }
 
-Result<Drawing> plate_drawing(const FabricationPlan& work) {
+std::string FabricationPlan::section_text() const {
+  return width_mm > 0 ? fmt::format("laths of {:g} x {:g} mm", width_mm, thickness_mm)
+                      : fmt::format("rods of {:g} mm diameter", rod_diameter_mm);
+}
+
+std::pair<double, double> FabricationPlan::heights_of_pins() const {
   double low = INFINITY, high = -INFINITY;
+  for (const Pin& pin : pins)
+    if (pin.in_ring) low = std::min(low, pin.at.z()), high = std::max(high, pin.at.z());
+  return {low, high};
+}
+
+bool FabricationPlan::has_plate() const {
+  const auto [low, high] = heights_of_pins();
+  return low <= high && high - low <= 1e-3;
+}
+
+Result<Drawing> plate_drawing(const FabricationPlan& work) {
+  const auto [low, high] = work.heights_of_pins();
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
   int ring = 0;
   for (const Pin& pin : work.pins) {
     if (!pin.in_ring) continue;
-    low = std::min(low, pin.at.z());
-    high = std::max(high, pin.at.z());
     middle += pin.at.head<2>();
     ++ring;
   }
   if (ring == 0) return invalid("nothing is pinned, so there is no plate");
-  if (high - low > 1e-3)
+  if (!work.has_plate())
     return invalid(
         "the edge points lie between z = {:.3f} and {:.3f} mm, so no flat plate holds "
         "them; '--what plate --to pins.csv' lists them",

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/core/result.h"
@@ -44,6 +45,9 @@ struct Pin {
 struct FabricationPlan {
   std::string title;
   double spacing_mm = 0, rod_diameter_mm = 0;
+  double width_mm = 0, thickness_mm = 0;  ///< of laths; 0: the rods are round
+  /// What a hand does to the shell once its ends are held, sentence by sentence.
+  std::vector<std::string> hand = {};
   std::vector<CutRod> rods;
   std::vector<Eigen::Vector2d> joints;
   Eigen::Matrix2Xd original_boundary;  ///< closed polyline in the flat
@@ -59,6 +63,12 @@ struct FabricationPlan {
   /// families lie in quarters of their own.
   Eigen::Vector2d label_position(const CutRod& rod, double away) const;
   double total_length_mm() const;
+  /// "60 x 30 mm laths", "rods of 0.254 mm diameter".
+  std::string section_text() const;
+  /// Lowest and highest pin of the ring; without one infinite, the first above the second.
+  std::pair<double, double> heights_of_pins() const;
+  /// Whether one flat plate holds the pins of the ring.
+  bool has_plate() const;
 };
 
 /// Lengths and marks as multiples of a step (0: as they are): marks lie at rounded distances from a

@@ -120,6 +120,42 @@ Json boundary_json(const Eigen::Matrix3Xd& polyline) {
   return points;
 }
 
+/// Ends of the braces that are there, as nodes.
+Json braces_json(const record::Layout& layout, const record::Frame& frame) {
+  Json braces = Json::array();
+  for (Eigen::Index k = 0; k < frame.brace_force_N.size(); ++k) {
+    if (std::isnan(frame.brace_force_N[k])) continue;
+    const auto& joints = layout.cells[std::size_t(k / 2)].joints;
+    const auto node = [&](Eigen::Index corner) {
+      return layout.joints[std::size_t(joints[std::size_t(corner)])].node;
+    };
+    braces.push_back({node(k % 2), node(k % 2 + 2)});
+  }
+  return braces;
+}
+
+/// [node, F_x, F_y, F_z] of every load, N.
+Json loads_json(const record::Layout& layout, const record::Frame& frame) {
+  Json loads = Json::array();
+  const auto count = std::min(frame.loads_N.cols(), Eigen::Index(layout.supports.size()));
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const Eigen::Vector3d force = frame.loads_N.col(k);
+    if (!(force.norm() > 0)) continue;
+    loads.push_back({layout.supports[std::size_t(k)], rounded(force.x(), 4), rounded(force.y(), 4),
+                     rounded(force.z(), 4)});
+  }
+  return loads;
+}
+
+/// Nodes that something holds: where there is a reaction.
+Json held_json(const record::Layout& layout, const record::Frame& frame) {
+  Json held = Json::array();
+  const auto count = std::min(frame.reactions_N.cols(), Eigen::Index(layout.supports.size()));
+  for (Eigen::Index k = 0; k < count; ++k)
+    if (frame.reactions_N.col(k).norm() > 0) held.push_back(layout.supports[std::size_t(k)]);
+  return held;
+}
+
 Json layout_json(const record::Layout& layout) {
   Json json = Json::object();
   json["rods"] = layout.rods;
@@ -169,6 +205,9 @@ Result<std::string> to_page(const record::Trajectory& run, const std::string& ti
                               {"actuation", frame.actuation},
                               {"nodes", positions(frame, extent)},
                               {"K", std::move(K)},
+                              {"braces", braces_json(run.layout, frame)},
+                              {"loads", loads_json(run.layout, frame)},
+                              {"held", held_json(run.layout, frame)},
                               {"figures", figures(frame)}});
   }
   if (run.frames.fault()) return tl::unexpected(*run.frames.fault());

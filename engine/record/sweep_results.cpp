@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <numeric>
 #include <set>
 #include <system_error>
 
@@ -309,6 +310,13 @@ tl::unexpected<Error> SweepLog::refuse(Fault fault, const std::string& why) cons
 }
 
 bool PowerLaw::holds() const {
+  constexpr double close = 0.02;
+  double worst = 0;
+  for (std::size_t k = 0; k < law.size(); ++k)
+    worst = std::max(worst, std::abs(std::log(found[k] / law[k])));
+  // of n neighbours n/2 +- sqrt(n)/2 lie on one side by chance: within two of those
+  const double neighbours = std::max(1.0, double(law.size()) - 1);
+  if (worst > close && same_side > 0.5 + 1 / std::sqrt(neighbours)) return false;
   return scatter < 0.1 && std::ranges::all_of(keys, [](const LawRow& key) {
            return key.error < 0.05 * std::max(1.0, std::abs(key.exponent));
          });
@@ -325,6 +333,10 @@ std::optional<PowerLaw> power_law(const SweepTable& table, const std::string& ca
   for (const SweepTable::Row& row : table.rows) {
     const Figure* known = row.result.figure(figure);
     if (row.keys.case_name != case_name || !known) continue;
+    // shells that pass through themselves are none
+    if (const Figure* overlaps = row.result.figure("contacts");
+        overlaps && number_of(*overlaps) > 0)
+      continue;
     const double found = number_of(*known);
     if (!(found > 0)) return std::nullopt;
     // the factor's column is the last
@@ -356,9 +368,17 @@ std::optional<PowerLaw> power_law(const SweepTable& table, const std::string& ca
     law.keys.push_back({case_name, figure, table.axes[std::size_t(k)], x[k],
                         std::sqrt(spread(k, k) * left.squaredNorm() / double(free))});
   for (std::size_t k = 0; k < rows.size(); ++k) {
+    law.first_key.push_back(std::exp(A(Eigen::Index(k), 0)));
     law.law.push_back(std::exp(A.row(Eigen::Index(k)).dot(x)));
     law.found.push_back(std::exp(logs[k]));
   }
+  std::vector<std::size_t> order(rows.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::ranges::sort(order, {}, [&](std::size_t k) { return law.law[k]; });
+  int same = 0;
+  for (std::size_t k = 1; k < order.size(); ++k)
+    same += left[Eigen::Index(order[k - 1])] * left[Eigen::Index(order[k])] > 0;
+  law.same_side = double(same) / std::max(1.0, double(order.size()) - 1);
   return law;
 }
 

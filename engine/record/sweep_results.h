@@ -89,16 +89,19 @@ struct PowerLaw {
   std::vector<LawRow> keys;
   double factor = 0;
   double scatter = 0;  ///< root mean square of the logarithms' residuals
+  /// How many neighbours in the order of the law lie on one side of it, of all neighbours: a half
+  /// where what it leaves is chance, near 1 where another curve is what the figures follow.
+  double same_side = 0;
   /// Whether the figures follow it: within a tenth, each exponent known to a twentieth of itself or
-  /// of one.
+  /// of one; and what it leaves is chance, or so small (a fiftieth at most) that the law is close.
   bool holds() const;
-  /// What the law says beside each figure, point by point.
-  std::vector<double> law, found;
+  /// What the law says beside each figure, point by point, and the first key there.
+  std::vector<double> law, found, first_key;
 };
 
-/// Of the points of one case that came to a state. Nothing where a key has fewer than three values
-/// or its largest is less than one and a half times its smallest, or where keys or figures are not
-/// all numbers above 0.
+/// Of the points of one case that came to a state without interpenetrations. Nothing where a key
+/// has fewer than three values or its largest is less than one and a half times its smallest, or
+/// where keys or figures are not all numbers above 0.
 std::optional<PowerLaw> power_law(const SweepTable& table, const std::string& case_name,
                                   const std::string& figure);
 

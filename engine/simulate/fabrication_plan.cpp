@@ -1,5 +1,6 @@
 #include "engine/simulate/run.h"
 
+#include <fmt/format.h>
 #include <cmath>
 
 #include "engine/core/try.h"
@@ -49,6 +50,22 @@ void add_pins(const FootprintRod& rod, Eigen::Index r, const std::string& name, 
   add(2 * r + 1, rod.end, rod.tail_end, "end");
 }
 
+/// What a builder does of a step; empty for one that is none of building.
+std::string hand_text(const preset::Step& step, const Scene& scene) {
+  if (step.kind == preset::StepKind::tighten)
+    return fmt::format(
+        "Tighten the bolts of all {} joints{}.", scene.footprint.joints.size(),
+        step.stiffness_Nmm > 0
+            ? fmt::format(" so that each resists turning by {:g} N mm a rad", step.stiffness_Nmm)
+            : ", so that rods keep their angles there");
+  if (step.kind != preset::StepKind::brace) return "";
+  const std::size_t cells = step.cells.empty() ? scene.footprint.cells.size() : step.cells.size();
+  return fmt::format("Brace {}{} cells along {} by {} of EA = {:g} N, from joint to joint.",
+                     step.cells.empty() ? "all " : "", cells,
+                     step.diagonals == preset::Diagonals::both ? "both diagonals" : "one diagonal",
+                     step.brace == preset::BraceKind::cable ? "cables" : "struts", step.EA_N);
+}
+
 }  // namespace
 
 Result<exports::FabricationPlan> fabrication_plan_of(const preset::Preset& preset) {
@@ -57,6 +74,10 @@ Result<exports::FabricationPlan> fabrication_plan_of(const preset::Preset& prese
   work.title = preset::title_or_name(preset);
   work.spacing_mm = scene->footprint.spacing;
   work.rod_diameter_mm = scene->rod_diameter_mm;
+  if (preset.rod.rectangular())
+    work.width_mm = preset.rod.width_mm, work.thickness_mm = preset.rod.thickness_mm;
+  for (const preset::Step& step : preset.step)
+    if (const std::string text = hand_text(step, *scene); !text.empty()) work.hand.push_back(text);
   for (std::size_t r = 0; r < scene->footprint.rods.size(); ++r) {
     const FootprintRod& rod = scene->footprint.rods[r];
     work.rods.push_back(cut(rod, *scene));

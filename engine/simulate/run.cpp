@@ -241,7 +241,7 @@ Result<EquilibriumPath> path_for(const preset::Preset& preset,
                                  const std::shared_ptr<const Scene>& scene, bool stills,
                                  std::vector<std::string>& told, LastFrame& sink, Watch& watch) {
   // of a push all frames of a movie, or enough for the curve of its force
-  const auto samples = evenly(stills ? 11 : std::max(2, preset.movie.frames));
+  const auto samples = evenly(stills ? 61 : std::max(2, preset.movie.frames));
   if (preset.indentation.wanted())
     return run_indentation(scene, preset.indentation, samples, sink, watch);
   if (preset.step.empty()) return run_actuation(scene, samples_of(preset, stills), sink, watch);

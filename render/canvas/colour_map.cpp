@@ -113,10 +113,14 @@ Colour grey(double t, double start) { return to_colour({0.95 - 0.75 * begun(t, s
 
 Colour ColourScale::operator()(double value) const {
   if (!std::isfinite(value)) return {0.6f, 0.6f, 0.6f, 1};
-  double t = high > low ? (value - low) / (high - low) : 0.5;
+  // about zero, whichever part of the map the scale shows
+  if (map == diverging) {
+    const double end = std::max(std::abs(low), std::abs(high));
+    return map(end > 0 ? std::clamp(value, low, high) / end : 0, start);
+  }
+  const double t = high > low ? (value - low) / (high - low) : 0.5;
   // what is farther from zero is stronger
-  if (map != diverging && high <= 0 && low < 0) t = 1 - t;
-  return map(map == diverging ? 2 * t - 1 : t, start);
+  return map(high <= 0 && low < 0 ? 1 - t : t, start);
 }
 
 ColourScale symmetric_scale(std::vector<double> values, double quantile) {

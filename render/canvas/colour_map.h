@@ -37,8 +37,9 @@ Colour grey(double t, double start = 0);
 /// One of the three. `start` leaves out that share of a map of [0, 1] at its light end.
 using ColourMap = Colour (*)(double t, double start);
 
-/// What a value looks like: `low` … `high` over the whole map; beyond it the end colours, for an
-/// unknown value grey.
+/// What a value looks like: `low` … `high` over the whole map, of the diverging one as far as the
+/// larger of the two sizes on both sides of zero; beyond it the end colours, for an unknown value
+/// grey.
 struct ColourScale {
   ColourMap map = diverging;
   double low = -1, high = 1;

@@ -107,11 +107,6 @@ struct Patch {
   std::vector<Eigen::Vector3f> points;
 
   const Eigen::Vector3f& at(int u, int v) const { return points[v * (steps + 1) + u]; }
-  Eigen::Vector3f normal(int u, int v) const {
-    const Eigen::Vector3f along_u = at(std::min(u + 1, steps), v) - at(std::max(u - 1, 0), v);
-    const Eigen::Vector3f along_v = at(u, std::min(v + 1, steps)) - at(u, std::max(v - 1, 0));
-    return along_u.cross(along_v).stableNormalized();
-  }
 };
 
 Patch coons_patch(const record::Layout& layout, const Eigen::Matrix3Xd& nodes,
@@ -169,7 +164,7 @@ std::vector<std::uint32_t> add_patch(Mesh& mesh, const Patch& patch, const Eigen
   const PackedColour packed = pack(colour);
   for (int j = 0; j <= n; ++j)
     for (int i = 0; i <= n; ++i)
-      mesh.add(patch.at(i * stride, j * stride), patch.normal(i * stride, j * stride), packed);
+      mesh.add(patch.at(i * stride, j * stride), Eigen::Vector3f::Zero(), packed);
   std::vector<std::uint32_t> indices;
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) {

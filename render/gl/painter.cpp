@@ -79,8 +79,7 @@ Result<Painter> Painter::create(const Gl& gl) {
 
 Result<Painter::Programs> Painter::create_programs(int taps) const {
   const std::string define = fmt::format("#define TAPS {}\n", taps);
-  TRY(sheet,
-      Program::create(*gl_, {"light.glsl", "sheet.vert"}, {"shadow.glsl", "sheet.frag"}, define));
+  TRY(sheet, Program::create(*gl_, {"sheet.vert"}, {"sheet.frag"}, define));
   TRY(ribbon, Program::create(*gl_, {"light.glsl", "tint.glsl", "ribbon.glsl", "ribbon.vert"},
                               {"light.glsl", "shadow.glsl", "metal.glsl", "ribbon.frag"}, define));
   TRY(bead, Program::create(*gl_, {"light.glsl", "tint.glsl", "ribbon.glsl", "bead.vert"},
@@ -270,7 +269,6 @@ void Painter::set_light(const Program& program, const RenderJob& shot,
   // what the camera shows, not what the scene holds: a movie's frames must not differ by it
   const double extent = shot.camera.half_extent_mm;
   const double middle = forward.dot(shot.camera.target);
-  program.set("ground_z", float(shot.drawing.ground_z_mm));
   program.set("light_direction", Eigen::Vector3f(light.direction.cast<float>()));
   program.set("key", float(light.key));
   program.set("sky", float(light.sky));
@@ -280,6 +278,7 @@ void Painter::set_light(const Program& program, const RenderJob& shot,
   program.set("forward", Eigen::Vector3f(forward.cast<float>()));
   program.set("far_fade", float(shot.drawing.far_fade));
   program.set("sheen", float(shot.drawing.sheen));
+  program.set("unlit", shot.drawing.node_colours.empty() ? 0.f : 1.f);
   program.set("haze", Eigen::Vector2f(float(middle), float(1 / extent)));
 }
 
@@ -305,9 +304,10 @@ void Painter::draw_meshes(const RenderJob& shot, const Lighting& light,
   for (const Program* program : {&programs.sheet, &programs.ribbon, &programs.bead}) {
     program->use();
     program->set("view_projection", matrix);
+    program->set("ground_z", float(shot.drawing.ground_z_mm));
+    if (program == &programs.sheet) continue;
     set_light(*program, shot, light);
     set_shadow(*program, shot, light);
-    if (program == &programs.sheet) continue;
     program->set("widest", widest_radius_mm);
     program->set("sample_size", float(sample_size(shot)));
   }

@@ -32,8 +32,9 @@ struct Quantity {
 const Quantity& quantity_of(ColourBy by) {
   static const std::map<ColourBy, Quantity> quantities{
       {ColourBy::none, {}},
-      {ColourBy::K, {"*K*_{□} (rad)", "Gauss curvature of a cell", true, false, 0.02}},
-      {ColourBy::K_change, {"Δ*K*_{□} (rad)", "change of Gauss curvature", true, false, 0.02}},
+      {ColourBy::K, {"*K*_{□} (rad)", "integrated Gauss curvature", true, false, 0.02}},
+      {ColourBy::K_change,
+       {"Δ*K*_{□} (rad)", "change of integrated Gauss curvature", true, false, 0.02}},
       {ColourBy::deviation, {"Δ/*ρ*", "distance from the net", true, true, 1e-6, true}},
       {ColourBy::displacement,
        {"|*u*| / *δ*_{0}", "displacement over depth", false, false, 0, true}},
@@ -45,9 +46,8 @@ const Quantity& quantity_of(ColourBy by) {
   return quantities.at(by);
 }
 
-constexpr double quantile = 0.9;   // of the cells or nodes lie within the scale
-constexpr double one_sign = 0.05;  // the other side's share of the larger one that is no sign
-constexpr double paling = 0.2;     // of a map for rods, which are thin lines on white
+constexpr double quantile = 0.9;  // of the cells or nodes lie within the scale
+constexpr double paling = 0.2;    // of a map for rods, which are thin lines on white
 
 using Surveys = std::vector<const RunSummary*>;
 
@@ -61,7 +61,8 @@ Interval all_of(const Surveys& runs, ColourBy by) {
   return all;
 }
 
-// from zero to where most of the sizes lie, and as far to the other side where both signs occur
+// from zero to where most of the sizes lie, and as far to the other side of what has a sign, so
+// that a colour means one sign in all pictures
 ColourBar bar_of_sizes(const Surveys& runs, ColourBy by) {
   std::vector<double> most;
   for (const RunSummary* run : runs)
@@ -72,14 +73,10 @@ ColourBar bar_of_sizes(const Surveys& runs, ColourBy by) {
   ColourBar bar{.label = {}, .scale = symmetric_scale(most, whole ? 1 : quantile)};
   const Quantity& quantity = quantity_of(by);
   const double end = std::max(bar.scale.high, quantity.least_end);
-  const bool positive = quantity.size || (all.any() && -all.low < one_sign * all.high);
-  const bool negative = all.any() && all.high < -one_sign * all.low;
-  bar.scale = {positive || negative ? sequential : diverging, positive ? 0 : -end,
-               negative ? 0 : end, of_cells(by) ? 0 : paling};
-  if (all.any()) {
-    bar.beyond_low = all.low < bar.scale.low && !positive;
-    bar.beyond_high = all.high > bar.scale.high && !negative;
-  }
+  bar.scale = {quantity.size ? sequential : diverging, quantity.size ? 0 : -end, end,
+               of_cells(by) ? 0 : paling};
+  bar.beyond_low = all.any() && !quantity.size && all.low < bar.scale.low;
+  bar.beyond_high = all.any() && all.high > bar.scale.high;
   return bar;
 }
 

@@ -87,8 +87,9 @@ void draw_plate(Canvas& canvas, const FabricationPlan& work, const Box& box) {
   canvas.polyline(fit.line(boundary), {red, 0.8}, true);
   for (const Pin& pin : work.pins)
     if (pin.in_ring) canvas.circle(fit(pin.at.head<2>()), 1.3, {1, 1, 1, 1}, {ink, 0.7});
-  canvas.text("actuated boundary with its holes, seen from above", {box.middle().x, box.bottom()},
-              {7.5, ink, false, AlignX::centre, AlignY::bottom});
+  canvas.text(work.has_plate() ? "actuated boundary with its holes, seen from above"
+                               : "where the ends are held, seen from above; heights in pins.csv",
+              {box.middle().x, box.bottom()}, {7.5, ink, false, AlignX::centre, AlignY::bottom});
 }
 
 std::string marks_of(const CutRod& rod) {
@@ -110,24 +111,45 @@ std::string short_legs(const FabricationPlan& work) {
 std::vector<std::string> steps(const FabricationPlan& work) {
   const auto ring_pins = std::ranges::count(work.pins, true, &Pin::in_ring);
   const auto far_pins = long(work.pins.size()) - ring_pins;
+  constexpr double largest_print_mm = 3000;  // of a sheet on a table or a floor
+  const double extent =
+      (work.original_boundary.rowwise().maxCoeff() - work.original_boundary.rowwise().minCoeff())
+          .maxCoeff();
+  const char* bolt = work.width_mm > 0 ? "bolt" : "tie";
   std::vector<std::string> list{
-      fmt::format("Cut {} rods of {:g} mm diameter, {:.2f} m in all, to the lengths of the cut "
-                  "list; write its name on each.",
-                  work.rods.size(), work.rod_diameter_mm, 1e-3 * work.total_length_mm()),
+      fmt::format("Cut {} {}, {:.2f} m in all, to the lengths of the cut list; write its name on "
+                  "each.",
+                  work.rods.size(), work.section_text(), 1e-3 * work.total_length_mm()),
       "Mark the joints on each rod at the distances of the cut list, measured from its begin: the "
       "left of a u-rod, the lower end of a v-rod.",
-      fmt::format("Print the footprint at full size (export --what footprint), lay the u-rods on "
-                  "it, the v-rods over them, and tie them at all {} crossings so that they can "
-                  "turn but not slide.",
-                  work.joints.size()),
-      fmt::format("Drill the {} holes of the actuated boundary (export --what plate).", ring_pins),
-      "Put the ends into their holes, opposite ones in turn from the middle outwards. Hold the "
-      "middle up while the first ones go in: a flat grid may also buckle down."};
+      fmt::format("{}, lay the u-rods on it, the v-rods over them, and {} them at all {} crossings "
+                  "so that they can turn but not slide.",
+                  extent > largest_print_mm
+                      ? "Set the footprint out on the ground (export --what footprint)"
+                      : "Print the footprint at full size (export --what footprint)",
+                  bolt, work.joints.size())};
+  if (work.has_plate()) {
+    list.push_back(fmt::format("Drill the {} holes of the actuated boundary (export --what plate).",
+                               ring_pins));
+    list.push_back(
+        "Put the ends into their holes, opposite ones in turn from the middle outwards. Hold the "
+        "middle up while the first ones go in: a flat grid may also buckle down.");
+  } else if (ring_pins > 0) {
+    const auto [low, high] = work.heights_of_pins();
+    list.push_back(
+        fmt::format("Make {} supports at the places of 'export --what plate --to pins.csv': their "
+                    "heights differ by up to {:.0f} mm, so no flat plate holds them.",
+                    ring_pins, high - low));
+    list.push_back(
+        "Bring the grid up and fix its ends to the supports, opposite ones in turn from the middle "
+        "outwards; prop its middle until all are fixed.");
+  }
   if (far_pins > 0)
     list.push_back(
         fmt::format("Hold the {} far ends at the places of the second ring, which do "
                     "not lie in the plate (export --what plate --to pins.csv).",
                     far_pins));
+  list.insert(list.end(), work.hand.begin(), work.hand.end());
   return list;
 }
 
@@ -258,9 +280,10 @@ std::string Sheets::pdf() const {
 
 void add_cut_list(Sheets& sheets, const FabricationPlan& work) {
   sheets.text(
-      fmt::format("{} rods, {:.2f} m in all; marks in mm from the begin of each rod. Red: a "
-                  "leg below {:g} mm.",
-                  work.rods.size(), 1e-3 * work.total_length_mm(), exports::shortest_leg_mm));
+      fmt::format("{} {}, {:.2f} m in all; marks in mm from the begin of each. Red: a leg below "
+                  "{:g} mm.",
+                  work.rods.size(), work.section_text(), 1e-3 * work.total_length_mm(),
+                  exports::shortest_leg_mm));
   std::vector<TableRow> rows;
   for (const CutRod& rod : work.rods)
     rows.push_back(
@@ -281,9 +304,9 @@ std::string assembly_sheet_pdf(const FabricationPlan& work) {
     const double wide = a4_width - 2 * margin, half = (wide - 16) / 2;
     const TextStyle text{9, ink};
     draw_title(canvas, work.title + ": assembly", 14);
-    canvas.text(fmt::format("rods {:g} mm thick, joints {:g} mm apart along them",
-                            work.rod_diameter_mm, work.spacing_mm),
-                {margin, margin + 16}, text);
+    canvas.text(
+        fmt::format("{}, joints {:g} mm apart along them", work.section_text(), work.spacing_mm),
+        {margin, margin + 16}, text);
     draw_footprint(canvas, work, {margin, margin + 26, half, half + 10});
     draw_plate(canvas, work, {margin + half + 16, margin + 26, half, half + 10});
     double y = margin + half + 70;

@@ -49,7 +49,7 @@ struct Sign {
   Colour colour;
 };
 constexpr Sign signs[] = {
-    {MarkKind::contact, "contact", Marker::square, contact_ink},
+    {MarkKind::contact, "interpenetration", Marker::square, contact_ink},
     {MarkKind::unstable, "unstable", Marker::square, {0.80f, 0.12f, 0.10f, 1}},
     {MarkKind::motion, "in motion", Marker::square, {0.93f, 0.60f, 0.15f, 1}},
     {MarkKind::snap, "snap", Marker::diamond, {0.10f, 0.32f, 0.62f, 1}},
@@ -246,7 +246,9 @@ std::string load_caption(const record::Frame& frame) {
 
 std::string contact_caption(const record::Frame& frame) {
   if (frame.contacts <= 0) return "";
-  return std::to_string(frame.contacts) + (frame.contacts > 1 ? " contacts" : " contact");
+  return std::to_string(frame.contacts) +
+         (frame.contacts > 1 ? " interpenetrations" : " interpenetration") +
+         (frame.energies[Term::contact] > 0 ? "" : " (contact not modelled)");
 }
 
 std::string event_caption(const record::Frame& frame) {

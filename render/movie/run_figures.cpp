@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
+#include <utility>
 
+#include "engine/core/text.h"
 #include "engine/core/try.h"
 #include "engine/record/frame_values.h"
 #include "render/movie/run_summary.h"
@@ -36,18 +39,27 @@ Result<PanelFigure> panels_of(const std::vector<NetRun>& runs, const MovieStyle&
                               const DrawingEdit& edit) {
   const MovieStyle style = uncoloured(movie_style);
   PanelFigure figure = empty_figure(style, std::min(columns, int(runs.size())));
+  std::vector<record::Trajectory> states;
   for (const NetRun& one : runs) {
     TRY_DO(check_showable(*one.run, style));
-    const record::Trajectory last = final_state(*one.run);
-    const Stage stage(last, style);
-    Drawing drawing = stage.drawing(last.frames.front());
+    states.push_back(final_state(*one.run));
+  }
+  std::vector<Stage> stages;
+  for (const record::Trajectory& state : states) stages.emplace_back(state, style);
+  // all at the scale of the largest
+  figure.pixels_per_mm = stages.front().pixels_per_mm();
+  for (const Stage& stage : stages)
+    figure.pixels_per_mm = std::min(figure.pixels_per_mm, stage.pixels_per_mm());
+  figure.scale_bar_mm = style.scale_bar_mm;
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const double wider = stages[k].pixels_per_mm() / figure.pixels_per_mm;
+    Drawing drawing = stages[k].drawing(states[k].frames.front());
     drawing.ground = false;
-    edit(one, drawing);
-    TRY_DO(add_panel(figure, stage, std::move(drawing), {runs.size() > 1, one.caption}, renderer,
-                     watch));
-    if (runs.size() > 1) continue;
-    figure.scale_bar_mm = style.scale_bar_mm;
-    figure.pixels_per_mm = stage.pixels_per_mm();
+    // lines as thick on paper as the largest's
+    drawing.rod_diameter_mm *= wider;
+    edit(runs[k], drawing);
+    TRY_DO(add_panel(figure, stages[k], std::move(drawing),
+                     {runs.size() > 1, runs[k].caption, wider}, renderer, watch));
   }
   return figure;
 }
@@ -85,24 +97,60 @@ MovieStyle panel_style(MovieStyle style) {
   return style;
 }
 
-/// From the last state before each snap to the first after it.
+/// Where a frame says that the shell snapped on the way to it, mm: "snap at depth 66.180 mm".
+std::optional<double> depth_of_snap(const record::Frame& frame) {
+  const std::string begin = "snap at depth ";
+  if (!frame.event.starts_with(begin)) return std::nullopt;
+  const std::string number = frame.event.substr(begin.size());
+  return parse_number<double>(number.substr(0, number.find(' ')));
+}
+
+/// Straight down at the depth of each snap, from where the path came to it to where it went on: on
+/// both sides as far from the next frame as force and stiffness there say.
 Series snaps_of(const Series& pushed, const record::Trajectory& run) {
   Series snaps = line_series("", pushed.colour, 1, {3, 2});
   for (std::size_t k = 1; k < run.frames.size(); ++k) {
-    if (!run.frames[k].event.starts_with("snap")) continue;
+    const record::Frame after = run.frames[k];
+    if (!after.event.starts_with("snap")) continue;
     // what moved in time in between has no force
-    std::size_t before = k - 1;
-    while (before > 0 && !std::isfinite(pushed.y[before])) --before;
-    for (const std::size_t at : {before, k}) snaps.add(pushed.x[at], pushed.y[at]);
+    std::size_t at = k - 1;
+    while (at > 0 && !std::isfinite(pushed.y[at])) --at;
+    const record::Frame before = run.frames[at];
+    const double depth = depth_of_snap(after).value_or(after.depth_mm);
+    const auto force = [&](const record::Frame& frame) {
+      const double slope = std::isfinite(frame.stiffness_N_per_mm) ? frame.stiffness_N_per_mm : 0;
+      return frame.force_N + slope * (depth - frame.depth_mm);
+    };
+    snaps.add(before.depth_mm, before.force_N);
+    snaps.add(depth, force(before));
+    snaps.add(depth, force(after));
+    snaps.add(after.depth_mm, after.force_N);
     snaps.part();
   }
   return snaps;
 }
 
-/// A line that goes from state to state has a gap where one snapped to the next.
+/// The pieces of a line on which the state is not stable.
+Series unstable_of(const Series& pushed, const record::Trajectory& run) {
+  Series pieces = line_series("", pushed.colour, pushed.line_width, {1.2, 1.5});
+  for (std::size_t k = 1; k < run.frames.size(); ++k) {
+    const record::Frame from = run.frames[k - 1], to = run.frames[k];
+    if (to.event.starts_with("snap") || std::max(from.negative_pivots, to.negative_pivots) <= 0)
+      continue;
+    pieces.add(from.depth_mm, from.force_N);
+    pieces.add(to.depth_mm, to.force_N);
+    pieces.part();
+  }
+  return pieces;
+}
+
+/// A line that goes from state to state has a gap where one snapped to the next, and where a dashed
+/// one shows states that are not stable.
 void part_at_snaps(Series& pushed, const record::Trajectory& run) {
   for (std::size_t k = run.frames.size(); k-- > 1;)
-    if (run.frames[k].event.starts_with("snap") && std::isfinite(pushed.y[k - 1])) {
+    if ((run.frames[k].event.starts_with("snap") ||
+         std::max(run.frames[k].negative_pivots, run.frames[k - 1].negative_pivots) > 0) &&
+        std::isfinite(pushed.y[k - 1])) {
       pushed.x.insert(pushed.x.begin() + long(k), NAN);
       pushed.y.insert(pushed.y.begin() + long(k), NAN);
     }
@@ -161,7 +209,8 @@ Result<void> add_panel(PanelFigure& figure, const Stage& stage, Drawing drawing,
                        const PanelText& text, Renderer& renderer, const Watch& watch) {
   if (watch.cancelled()) return fail(Fault::cancelled, "stopped while drawing a figure");
   const MovieStyle& style = stage.style();
-  const Camera camera = stage.camera(stage.frames() - 1);
+  Camera camera = stage.camera(stage.frames() - 1);
+  camera.half_extent_mm *= text.wider;
   TRY(picture, renderer.draw(drawing, camera, draw_quality(style), style.width(), style.height()));
   figure.panels.push_back({std::move(*picture),
                            text.lettered ? panel_letter(style, figure.panels.size()) : "",
@@ -226,7 +275,6 @@ Result<PanelFigure> draw_deviations(const std::vector<NetRun>& runs, const Movie
     const Eigen::VectorXd deviation = last_deviation(*one.run);
     for (double share : deviation) drawing.node_colours.push_back(scale(unit.factor * share));
     drawing.rod_diameter_mm *= 1.8;
-    drawing.sheen = 0.2;
     drawing.joint_diameter_mm = 0;
   };
   TRY(figure, panels_of(runs, style, renderer, watch, columns, dress));
@@ -265,7 +313,7 @@ Plot force_plot(const std::vector<NamedRun>& runs) {
   Plot plot;
   plot.x = {.label = "depth *δ* (mm)", .low = 0};
   plot.y = {.label = "force (N)"};
-  bool snap_in_legend = false;
+  bool snap_in_legend = false, unstable_in_legend = false;
   const bool banded = errors_seen(runs);
   for (std::size_t k = 0; k < runs.size(); ++k) {
     Series series = line_series(runs.size() > 1 ? runs[k].name : "", series_colour(k));
@@ -276,9 +324,13 @@ Plot force_plot(const std::vector<NamedRun>& runs) {
       if (plot.bands.empty()) band.name = "error of the force";
       plot.bands.push_back(std::move(band));
     }
-    Series snaps = snaps_of(series, *runs[k].run);
+    Series snaps = snaps_of(series, *runs[k].run), unstable = unstable_of(series, *runs[k].run);
     part_at_snaps(series, *runs[k].run);
     plot.series.push_back(std::move(series));
+    if (!unstable.x.empty()) {
+      if (!std::exchange(unstable_in_legend, true)) unstable.name = "unstable";
+      plot.series.push_back(std::move(unstable));
+    }
     if (snaps.x.empty()) continue;
     if (!snap_in_legend) snaps.name = "snap to another state";
     snap_in_legend = true;

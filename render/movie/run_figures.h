@@ -30,6 +30,7 @@ std::string panel_letter(const MovieStyle& style, std::size_t k);
 struct PanelText {
   bool lettered = false;
   std::string caption = {};  ///< marked text
+  double wider = 1;          ///< how many times as much is seen as the stage frames
 };
 /// One panel more: a drawing from where the stage sees its last frame, as lines too where the style
 /// wants them. Errors: the renderer's; Fault::cancelled.

@@ -199,7 +199,7 @@ Plot curvature_plot(const std::vector<NamedRun>& runs) {
   plot.x.label = "*x*/*L*";
   plot.x.low = -1.05;
   plot.x.high = 1.05;
-  plot.y.label = "curvature of a cell, *K*_{□} (rad)";
+  plot.y.label = "integrated Gauss curvature of a cell, *K*_{□} (rad)";
   plot.references.push_back({.at = 0, .label = ""});
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const record::Trajectory& run = *runs[r].run;
@@ -322,7 +322,7 @@ Plot bins_plot(const RunSummary& run, long cells, const record::Frame& frame,
   Plot plot;
   plot.font_size = font_size;
   plot.x = {.label = "*x* / *L*", .low = -1, .high = 1};
-  plot.y = {.label = "mean Gauss curvature *K*_{□} (rad)",
+  plot.y = {.label = "mean integrated Gauss curvature, *K*_{□} (rad)",
             .low = !range.empty() ? range[0] : low - (low < 0 ? margin : 0),
             .high = !range.empty() ? range[1] : high + margin};
   Series before = bins_of(run.first), now = bins_of(frame);

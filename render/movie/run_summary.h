@@ -166,10 +166,11 @@ tl::unexpected<Error> missing_values_error(ColourBy by);
 
 // One colour bar for all runs that are shown together.
 
-/// The scale that suits all of the runs: sequential where the values have one sign, else diverging
-/// about zero; none when nothing is coloured. It comes from the most that each cell comes to, so
-/// that it does not depend on how many frames sample the path, and a few strongly bent cells at the
-/// boundary do not pale the rest. The style's map and range go before.
+/// The scale that suits all of the runs: sequential of sizes, diverging about zero of what has a
+/// sign, also where all values have the same; none when nothing is coloured. It comes from the most
+/// that each cell comes to, so that it does not depend on how many frames sample the path, and a
+/// few strongly bent cells at the boundary do not pale the rest. The style's map and range go
+/// before.
 std::optional<ColourBar> colour_bar_of(const std::vector<const RunSummary*>& runs,
                                        const MovieStyle& style);
 

@@ -223,26 +223,23 @@ Stage::Stage(const record::Trajectory& run, const MovieStyle& style)
 
 Camera Stage::camera(int at) const { return framings_.front().camera(moment(at)); }
 
-std::vector<Colour> Stage::colours_of(const record::Frame& frame, float alpha) const {
+std::vector<Colour> Stage::colours_of(const record::Frame& frame) const {
   if (!bar_) return {};
   const Eigen::VectorXd values =
       coloured_values(style_.colour_by, run_, frame, {survey_.first, survey_.depth_mm});
   std::vector<Colour> colours;
-  for (const double value : values) {
-    colours.push_back(bar_->scale(value));
-    colours.back().a = alpha;
-  }
+  for (const double value : values) colours.push_back(bar_->scale(value));
   return colours;
 }
 
-std::vector<Colour> Stage::cell_colours(const record::Frame& frame, float alpha) const {
+std::vector<Colour> Stage::cell_colours(const record::Frame& frame) const {
   if (!of_cells(style_.colour_by) || !style_.look.cells) return {};
-  return colours_of(frame, alpha);
+  return colours_of(frame);
 }
 
 std::vector<Colour> Stage::node_colours(const record::Frame& frame) const {
   if (of_cells(style_.colour_by)) return {};
-  auto colours = colours_of(frame, 1);
+  auto colours = colours_of(frame);
   // what moves in time knows no forces: its rods are as wide as the others
   if (colours.empty() && bar_)
     colours.assign(std::size_t(frame.nodes.cols()), bar_->scale(record::unknown));
@@ -265,7 +262,7 @@ Drawing Stage::drawing(const record::Frame& frame) const {
   drawing.joint_colour = look.joint;
   drawing.joint_diameter_mm =
       look.joint_mm > 0 ? std::max(look.joint_mm, 1.5 * drawing.rod_diameter_mm) : 0;
-  drawing.cell_colours = cell_colours(frame, 0.93f);
+  drawing.cell_colours = cell_colours(frame);
   drawing.node_colours = node_colours(frame);
   // a red joint would look like tension
   if (style_.colour_by == ColourBy::axial_force && look.joint == Appearance{}.joint)
@@ -290,7 +287,7 @@ Drawing Stage::drawing(const record::Frame& frame) const {
   drawing.ground = look.floor && style_.views.empty() && look.background.a > 0;
   drawing.background = look.background;
   drawing.far_fade = look.far_fade;
-  drawing.sheen = drawing.node_colours.empty() ? look.sheen : 0.2;
+  drawing.sheen = look.sheen;
   return drawing;
 }
 
@@ -380,8 +377,7 @@ void Stage::draw_overlay(Canvas& canvas, const ShownFrame& shown) const {
       canvas.text("top", {inset.x, inset.y},
                   {.size = size, .colour = pale_ink, .align_y = AlignY::bottom});
     }
-    draw_top_view(canvas, inset, run_, shown.frame, top_, cell_colours(shown.frame, 1),
-                  style_.look);
+    draw_top_view(canvas, inset, run_, shown.frame, top_, cell_colours(shown.frame), style_.look);
   }
   if (!layout_.plot.empty() && shown.frame.K_bins.rows() > 0)
     draw_plot(canvas, layout_.plot,

@@ -100,8 +100,8 @@ class Stage {
   void draw_overlay(Canvas& canvas, const ShownFrame& shown) const;
 
  private:
-  std::vector<Colour> colours_of(const record::Frame& frame, float alpha) const;
-  std::vector<Colour> cell_colours(const record::Frame& frame, float alpha) const;
+  std::vector<Colour> colours_of(const record::Frame& frame) const;
+  std::vector<Colour> cell_colours(const record::Frame& frame) const;
   std::vector<Colour> node_colours(const record::Frame& frame) const;
   void draw_captions(Canvas& canvas, const ShownFrame& shown) const;
   double moment(int at) const { return frames() > 1 ? double(at) / (frames() - 1) : 0; }

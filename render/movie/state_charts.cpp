@@ -207,20 +207,26 @@ ClassLook look_of(StateClass kind) {
 
 Plot barrier_plot(const record::StateTables& states) {
   Plot plot;
-  plot.title = fmt::format(
-      "Barriers between states: all energies on {} edges a segment\n(those of states.csv are "
-      "extrapolated from finer meshes)",
-      states.search.judged_edges);
-  plot.y = {.label = "energy, barriers (mJ)"};
+  plot.title = fmt::format("Barriers between states (heights found on {} edges a segment)",
+                           states.search.judged_edges);
+  plot.y = {.label = "elastic energy; heights of barriers (mJ)"};
   plot.legend = LegendPlace::none;
-  std::map<int, double> energy;  // of the states, on the mesh of the passes
+  // of the states as everywhere else; of passes only the height above their states is known, which
+  // on another mesh hardly differs, as their energies do
+  std::map<int, double> energy;
+  const auto level_of = [&](const record::StateName& state) {
+    return states.rows.at(std::size_t(int(state)) - 1).energy_mJ();
+  };
+  const auto pass_of = [&](const record::Barrier& one) {
+    return 0.5 * (level_of(one.from) + one.barrier_mJ + level_of(one.to) + one.back_mJ);
+  };
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
   for (const record::Barrier& one : states.barriers)
     if (one.to != 0 && one.from != one.to) {
-      energy[one.from] = one.energy_mJ - one.barrier_mJ;
-      energy[one.to] = one.energy_mJ - one.back_mJ;
+      energy[one.from] = level_of(one.from);
+      energy[one.to] = level_of(one.to);
       lowest = std::min({lowest, energy[one.from], energy[one.to]});
-      highest = std::max(highest, one.energy_mJ);
+      highest = std::max(highest, pass_of(one));
     }
   const double off = 0.015 * (highest - lowest);  // of words from what they name
   std::map<int, double> place;
@@ -231,12 +237,12 @@ Plot barrier_plot(const record::StateTables& states) {
     Series curve = line_series("", series_colour(colour++));
     const double a = place.at(one.from), b = place.at(one.to), middle = 0.5 * (a + b);
     const double from = a + std::copysign(half_bar, b - a), to = b - std::copysign(half_bar, b - a);
-    add_flank(curve, from, energy.at(one.from), middle, one.energy_mJ);
-    add_flank(curve, middle, one.energy_mJ, to, energy.at(one.to));
+    const double pass = pass_of(one);
+    add_flank(curve, from, energy.at(one.from), middle, pass);
+    add_flank(curve, middle, pass, to, energy.at(one.to));
     plot.series.push_back(std::move(curve));
-    plot.notes.push_back({middle, one.energy_mJ + off,
-                          scientific(std::max(one.barrier_mJ, one.back_mJ), 3), AlignX::centre,
-                          AlignY::bottom, plot.series.back().colour});
+    plot.notes.push_back({middle, pass + off, scientific(std::max(one.barrier_mJ, one.back_mJ), 3),
+                          AlignX::centre, AlignY::bottom, plot.series.back().colour});
   }
   for (const auto& [state, level] : energy) {
     Series bar = line_series("", ink, 2.2);

@@ -294,15 +294,22 @@ Plot law_plot(const std::vector<record::PowerLaw>& laws, const SweepView& view) 
   Plot plot;
   plot.title = plain(view.title);
   plot.y.label = label_of(view.figure);
-  plot.x.label = plot.y.label + " by its power law";
+  // over the key itself, or where there are several over what the law makes of them
+  const bool one_key =
+      std::ranges::all_of(laws, [](const auto& law) { return law.keys.size() == 1; });
+  plot.x.label =
+      one_key ? label_of(laws.front().keys.front().key) : plot.y.label + " by its power law";
   plot.x.logarithmic = plot.y.logarithmic = true;
   for (std::size_t k = 0; k < laws.size(); ++k) {
     const record::PowerLaw& one = laws[k];
     Series marks =
         mark_series(plain(one.keys.front().case_name), series_colour(k), series_marker(k));
-    marks.x = one.law;
+    marks.x = one_key ? one.first_key : one.law;
     marks.y = one.found;
-    const auto [low, high] = std::ranges::minmax(one.law);
+    const auto [low, high] = std::ranges::minmax(marks.x);
+    const auto at = [&](double x) {
+      return one_key ? one.factor * std::pow(x, one.keys.front().exponent) : x;
+    };
     plot.add(std::move(marks));
     for (const record::LawRow& key : one.keys) {
       std::string power = record::with_error(key.exponent, key.error, "");
@@ -311,7 +318,8 @@ Plot law_plot(const std::vector<record::PowerLaw>& laws, const SweepView& view) 
       const double width = &key == &one.keys.front() ? 1 : 0;
       Series row = line_series(fmt::format("power {} of {}", power, label_of(key.key)),
                                series_colour(k), width);
-      row.x = row.y = {low, high};
+      row.x = {low, high};
+      row.y = {at(low), at(high)};
       plot.add(std::move(row));
     }
   }

@@ -129,7 +129,12 @@ class TransitionGraph {
       x = canvas.text(text, {x + 27, y}, {.size = font, .align_y = AlignY::middle}).right() + 14;
     };
     entry(Disturbance::released, "boundary released and contracted again");
-    entry(Disturbance::pushed, "a joint pushed (number: how often)");
+    // only of what was pushed more than once an arrow has a number
+    const bool numbers = std::ranges::any_of(states_.transitions, [](const Transition& one) {
+      return one.by == Disturbance::pushed && one.to != 0 && one.to != one.from && one.count > 1;
+    });
+    entry(Disturbance::pushed,
+          numbers ? "a joint pushed (number: how often, if not once)" : "a joint pushed");
   }
 
   /// A curve a -> b bent through c, with a head at b.

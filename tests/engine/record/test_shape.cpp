@@ -139,6 +139,33 @@ TEST_CASE("a page holds the run, and a title cannot end its script") {
   CHECK(json["frames"][0]["nodes"].get<std::string>().size() == (bytes + 2) / 3 * 4);
 }
 
+TEST_CASE("a page has the supports, loads and braces of each frame") {
+  record::Trajectory run = sample_trajectory();
+  record::Frame& last = run.frames.edit().back();
+  const auto supports = Eigen::Index(run.layout.supports.size());
+  REQUIRE(supports > 1);
+  last.reactions_N = Eigen::Matrix3Xd::Zero(3, supports);
+  last.reactions_N.col(1) << 0, 0, 3;
+  last.loads_N = Eigen::Matrix3Xd::Zero(3, supports);
+  last.loads_N.col(0) << 0, 0, -3;
+  last.brace_force_N =
+      Eigen::VectorXd::Constant(2 * Eigen::Index(run.layout.cells.size()), record::unknown);
+  last.brace_force_N[1] = 7;
+  const auto page = value_of(to_page(run, "braced"));
+  const std::size_t from = page.find("application/json\">") + 18;
+  const Json frame =
+      parsed(page.substr(from, page.find("</script>", from) - from))["frames"].back();
+  REQUIRE(frame["held"].size() == 1);
+  CHECK(frame["held"][0] == run.layout.supports[1]);
+  REQUIRE(frame["loads"].size() == 1);
+  CHECK(frame["loads"][0][0] == run.layout.supports[0]);
+  CHECK(frame["loads"][0][3] == -3);
+  REQUIRE(frame["braces"].size() == 1);
+  const auto& corners = run.layout.cells[0].joints;
+  CHECK(frame["braces"][0][0] == run.layout.joints[std::size_t(corners[1])].node);
+  CHECK(frame["braces"][0][1] == run.layout.joints[std::size_t(corners[3])].node);
+}
+
 TEST_CASE("reactions are those of the supports, and unknown where not recorded") {
   const record::Trajectory run = sample_trajectory();
   CHECK(reactions_N(run.layout, run.frames.back()) == run.frames.back().reactions_N);

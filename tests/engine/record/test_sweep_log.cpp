@@ -176,3 +176,30 @@ TEST_CASE("a power law of a table is found with its exponents, where all is abov
   CHECK(!power_law(table, "", "exact"));
   CHECK(!power_law(table, "other", "exact"));
 }
+
+TEST_CASE("a plateau that bends at its end has no exponent, nor count shells through themselves") {
+  SweepTable table;
+  table.axes = {"d"};
+  for (int k = 0; k < 21; ++k) {
+    const double d = std::pow(10, -2 + 0.12 * k);
+    PointResult result;
+    // flat over two decades, then down by a third; the law that it is near is within a tenth
+    const double fall = d > 1.5 ? 1 - 0.35 * (std::log10(d) - std::log10(1.5)) / 0.22 : 1;
+    result.figures = {{"plateau", 0.03 * std::max(fall, 0.6)},
+                      {"law", 3 * std::pow(d, -1.0)},
+                      {"noisy", 3 * std::pow(d, -1.0) * (k * 7 % 3 == 0 ? 1.04 : 0.98)},
+                      {"contacts", 0.0}};
+    table.rows.push_back({{"", {std::to_string(d)}, 0}, result});
+  }
+  const auto plateau = value_of(power_law(table, "", "plateau"));
+  CAPTURE(plateau.scatter, plateau.same_side);
+  CHECK_FALSE(plateau.holds());
+  CHECK(value_of(power_law(table, "", "law")).holds());
+  CHECK(value_of(power_law(table, "", "noisy")).holds());
+  // points beside it that overlap change nothing
+  const std::size_t points = plateau.law.size();
+  PointResult overlaps;
+  overlaps.figures = {{"plateau", 1.0}, {"law", 99.0}, {"noisy", 99.0}, {"contacts", 48.0}};
+  table.rows.push_back({{"", {"0.001"}, 0}, overlaps});
+  CHECK(value_of(power_law(table, "", "law")).law.size() == points);
+}

@@ -99,3 +99,13 @@ TEST_CASE("the symmetric scale is round and not paled by a few extreme cells") {
   CHECK(symmetric_scale({}, 0.99).high == 1);
   CHECK(symmetric_scale({0, 0, 0}, 0.99).high == 1);
 }
+
+TEST_CASE("a diverging scale is about zero, whichever part of it is shown") {
+  const ColourScale part{diverging, 0, 0.1}, more{diverging, -0.2, 0.1};
+  CHECK(part(0).r == diverging(0).r);
+  CHECK(part(0.1).r == diverging(1).r);
+  CHECK(part(-0.1).b == diverging(0).b);  // below its low end
+  CHECK(more(0).g == diverging(0).g);
+  CHECK(more(-0.2).b == diverging(-1).b);
+  CHECK(more(0.1).r == diverging(0.5).r);
+}

@@ -44,16 +44,18 @@ std::optional<ColourBar> bar(const std::vector<record::Trajectory>& runs,
 
 }  // namespace
 
-TEST_CASE("K of one sign takes a sequential map, of two signs one about zero") {
+TEST_CASE("K takes a map about zero, of one sign too, so that a colour means one sign") {
   const auto positive = value_of(bar({of_K(0, 0.3)}));
-  CHECK(positive.scale.map == sequential);
-  CHECK(positive.scale.low == 0);
+  CHECK(positive.scale.map == diverging);
+  CHECK(positive.scale.low == -positive.scale.high);
   CHECK(positive.scale.high >= 0.3);
   const auto negative = bar({of_K(0, -0.3)});
-  CHECK(negative->scale.map == sequential);
-  CHECK(negative->scale.high == 0);
+  CHECK(negative->scale.map == diverging);
   CHECK(negative->scale(0).b == positive.scale(0).b);
-  CHECK(negative->scale(negative->scale.low).b == positive.scale(positive.scale.high).b);
+  // red above, blue below
+  CHECK(positive.scale(0.3).r > positive.scale(0.3).b);
+  CHECK(negative->scale(-0.3).r < negative->scale(-0.3).b);
+  CHECK(positive.words == "integrated Gauss curvature");
   const auto both = bar({of_K(-0.2, 0.3)});
   CHECK(both->scale.map == diverging);
   CHECK(both->scale.low == -both->scale.high);

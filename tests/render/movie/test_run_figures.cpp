@@ -152,10 +152,12 @@ TEST_CASE("a push has a band of its error from snap to snap, where that is known
   CHECK(force_plot({{&run, "a"}}).bands[0].x == std::vector<double>{0, 2});
 }
 
-TEST_CASE("a snap is a dashed line from the state before to the one after, with its name once") {
+TEST_CASE("a snap is straight down at the depth where it is, with its name once") {
   record::Trajectory run = pushed();
+  run.frames.edit()[1].stiffness_N_per_mm = -0.05;
   record::Frame snapped = run.frames[2];
-  snapped.event = "snap at depth 3.1 mm";
+  snapped.event = "snap at depth 3.100 mm";
+  snapped.stiffness_N_per_mm = 0.1;
   run.frames.edit().back() = snapped;
   const Plot plot = force_plot({{&run, "a"}, {&run, "b"}});
   REQUIRE(plot.series.size() == 4);
@@ -163,8 +165,22 @@ TEST_CASE("a snap is a dashed line from the state before to the one after, with 
   REQUIRE(way.y.size() == 4);
   CHECK(std::isnan(way.y[2]));
   CHECK(snap.dash.size() == 2);
-  CHECK((snap.x[0] == 2 && snap.x[1] == 4));
-  CHECK((snap.y[0] == Approx(0.1) && snap.y[1] == Approx(0.4)));
+  REQUIRE(snap.x.size() >= 4);
+  CHECK((snap.x[0] == 2 && snap.x[1] == Approx(3.1) && snap.x[2] == Approx(3.1) && snap.x[3] == 4));
+  // as far as forces and stiffnesses on both sides say
+  CHECK((snap.y[0] == Approx(0.1) && snap.y[1] == Approx(0.1 - 1.1 * 0.05)));
+  CHECK((snap.y[2] == Approx(0.4 - 0.9 * 0.1) && snap.y[3] == Approx(0.4)));
   CHECK(snap.name == "snap to another state");
   CHECK(plot.series[3].name.empty());
+}
+
+TEST_CASE("states that are not stable are dashed, and the line has a gap there") {
+  record::Trajectory run = pushed();
+  run.frames.edit()[2].negative_pivots = 1;
+  const Plot plot = force_plot({{&run, "a"}});
+  REQUIRE(plot.series.size() == 2);
+  CHECK(std::isnan(plot.series[0].y[2]));
+  CHECK(plot.series[1].name == "unstable");
+  CHECK(plot.series[1].dash.size() == 2);
+  CHECK((plot.series[1].x[0] == 2 && plot.series[1].x[1] == 4));
 }

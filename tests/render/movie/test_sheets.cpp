@@ -71,3 +71,44 @@ TEST_CASE("long text is broken, a picture keeps its shape") {
   REQUIRE(words.size() == 1);
   CHECK(words[0].size() > 10);
 }
+
+TEST_CASE("an assembly sheet says what is cut, where ends are held and what a hand does then") {
+  exports::FabricationPlan work;
+  work.title = "A dome";
+  work.spacing_mm = 1000;
+  work.rod_diameter_mm = 47.8731;
+  exports::CutRod rod;
+  rod.name = "u+0";
+  rod.length_mm = 4000;
+  rod.joint_marks_mm = {1000, 2000, 3000};
+  rod.begin = {-2000, 0}, rod.end = {2000, 0};
+  rod.leg_begin_mm = rod.leg_end_mm = 1000;
+  work.rods = {rod};
+  work.joints = {{-1000, 0}, {0, 0}, {1000, 0}};
+  work.original_boundary.resize(2, 3);
+  work.original_boundary << -2000, 2000, 0, 0, 0, 2000;
+  work.actuated_boundary = Eigen::Matrix3Xd::Zero(3, 3);
+  work.actuated_boundary.topRows<2>() = work.original_boundary;
+  work.pins = {{"u+0 begin", {-1900, 0, 0}}, {"u+0 end", {1900, 0, 0}}};
+  const auto text = [&] {
+    std::string all;
+    const test::CanvasObserver observer([&](const render::Canvas& canvas) {
+      if (canvas.width() < 100) return;
+      for (const std::string& words : canvas.texts()) all += words + " ";
+    });
+    CHECK(render::assembly_sheet_pdf(work).starts_with("%PDF"));
+    return all;
+  };
+  CHECK_THAT(text(), Catch::Contains("rods of 47.8731 mm diameter") &&
+                         Catch::Contains("Drill the 2 holes"));
+  // laths, at different heights, bolted and braced
+  work.width_mm = 60, work.thickness_mm = 30;
+  work.pins[1].at.z() = 700;
+  work.hand = {"Tighten the bolts of all 3 joints.", "Brace all 4 cells."};
+  const std::string timber = text();
+  CHECK_THAT(timber, Catch::Contains("laths of 60 x 30 mm") && !Catch::Contains("47.8731"));
+  CHECK_THAT(timber, Catch::Contains("700 mm") && !Catch::Contains("Drill"));
+  CHECK_THAT(timber, Catch::Contains("Tighten the bolts of all 3 joints.") &&
+                         Catch::Contains("Brace all 4 cells."));
+  CHECK_THAT(timber, !Catch::Contains("Print the footprint at full size"));
+}

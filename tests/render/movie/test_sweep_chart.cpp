@@ -109,3 +109,21 @@ TEST_CASE("a map: all that is written fits, cells without a state are told") {
   REQUIRE(write_sweep_map(folder / "height_mm", table, {.figure = "height_mm", .title = "A map"}));
   CHECK(drawn == 3);
 }
+
+TEST_CASE("a law of one key is drawn over that key, of several over what it says") {
+  record::PowerLaw law;
+  law.keys = {{"", "height_mm", "rod.diameter_mm", -2, 0.01}};
+  law.factor = 5;
+  law.first_key = {1, 2, 4};
+  law.law = {5, 1.25, 0.3125};
+  law.found = {5.1, 1.2, 0.32};
+  const Plot plot = law_plot({law}, {"height_mm", "", 0, "shells"});
+  CHECK_THAT(plot.x.label, Catch::Contains("diameter") && !Catch::Contains("power law"));
+  CHECK(plot.series[0].x == law.first_key);
+  CHECK(plot.series[1].x == std::vector<double>{1, 4});
+  CHECK(plot.series[1].y == std::vector<double>{5, 0.3125});
+  law.keys.push_back({"", "height_mm", "net.radius_mm", 1, 0.01});
+  const Plot two = law_plot({law}, {"height_mm", "", 0, "shells"});
+  CHECK_THAT(two.x.label, Catch::Contains("power law"));
+  CHECK(two.series[0].x == law.law);
+}
