@@ -131,7 +131,7 @@ std::vector<std::string> steps(const FabricationPlan& work) {
   if (work.has_plate()) {
     list.push_back(fmt::format("Drill the {} holes of the actuated boundary (export --what plate).",
                                ring_pins));
-    list.push_back(
+    list.emplace_back(
         "Put the ends into their holes, opposite ones in turn from the middle outwards. Hold the "
         "middle up while the first ones go in: a flat grid may also buckle down.");
   } else if (ring_pins > 0) {
@@ -140,7 +140,7 @@ std::vector<std::string> steps(const FabricationPlan& work) {
         fmt::format("Make {} supports at the places of 'export --what plate --to pins.csv': their "
                     "heights differ by up to {:.0f} mm, so no flat plate holds them.",
                     ring_pins, high - low));
-    list.push_back(
+    list.emplace_back(
         "Bring the grid up and fix its ends to the supports, opposite ones in turn from the middle "
         "outwards; prop its middle until all are fixed.");
   }

@@ -78,9 +78,9 @@ TEST_CASE("a bracket cut with a corner bends and twists as its legs do, at secon
       errors.push_back(plane ? tip.x() - 200 - inside : -tip.z() - across);
     }
     CAPTURE(first_piece, plane, errors, across, inside);
-    CHECK(std::abs(errors[2]) < 1e-3 * (plane ? inside : across));
-    CHECK(errors[0] / errors[1] == Approx(4).epsilon(0.15));
-    CHECK(errors[1] / errors[2] == Approx(4).epsilon(0.3));
+    // by what the mesh changes: the load itself leaves the linear form a little
+    CHECK(std::abs(errors[2]) < 3e-4 * (plane ? inside : across));
+    CHECK((errors[0] - errors[1]) / (errors[1] - errors[2]) == Approx(4).epsilon(0.05));
   }
 }
 
