@@ -317,7 +317,9 @@ Plot force_plot(const std::vector<NamedRun>& runs) {
   const bool banded = errors_seen(runs);
   for (std::size_t k = 0; k < runs.size(); ++k) {
     Series series = line_series(runs.size() > 1 ? runs[k].name : "", series_colour(k));
-    series.marker = series_marker(k);
+    // of many frames the line itself is what they lie on
+    constexpr std::size_t most_marked = 24;
+    if (runs[k].run->frames.size() <= most_marked) series.marker = series_marker(k);
     for (const record::Frame& frame : runs[k].run->frames)
       series.add(frame.depth_mm, frame.force_N);
     for (Band& band : banded ? error_bands(*runs[k].run, series_colour(k)) : std::vector<Band>()) {

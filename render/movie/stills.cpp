@@ -79,8 +79,9 @@ void draw_still_labels(Canvas& canvas, const Stage& stage, const ShownFrame& sho
   const std::string contacts = contact_caption(shown.frame);
   if (contacts.empty()) return;
   canvas.marker(Marker::circle, {room.x + 0.5 * size, y}, 0.8 * size, contact_ink, {{}, 0});
-  canvas.text(contacts, {room.x + 1.4 * size, y},
-              {.size = size, .colour = contact_ink, .align_y = AlignY::middle});
+  canvas.text(
+      contacts, {room.x + 1.4 * size, y},
+      {.size = size, .colour = contact_ink, .align_y = AlignY::middle, .halo = {1, 1, 1, 1}});
 }
 
 std::string frame_state_caption(const record::Frame& frame) {

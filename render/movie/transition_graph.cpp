@@ -133,8 +133,7 @@ class TransitionGraph {
     const bool numbers = std::ranges::any_of(states_.transitions, [](const Transition& one) {
       return one.by == Disturbance::pushed && one.to != 0 && one.to != one.from && one.count > 1;
     });
-    entry(Disturbance::pushed,
-          numbers ? "a joint pushed (number: how often, if not once)" : "a joint pushed");
+    entry(Disturbance::pushed, numbers ? "a joint pushed (number: times)" : "a joint pushed");
   }
 
   /// A curve a -> b bent through c, with a head at b.

@@ -159,8 +159,8 @@ TEST_CASE("what touches wears a mark, and words beside the bar and as the event"
     INFO("frame " << k);
     const Drawing drawing = stage.drawing(run.frames[std::size_t(k)]);
     const auto texts = texts_of(stage, run, k);
-    CHECK(std::ranges::count(texts, "contact") == (k >= 2));
-    CHECK(std::ranges::count(texts, "1 contact") == (k >= 2));
+    CHECK(std::ranges::count(texts, "interpenetration") == (k >= 2));
+    CHECK(std::ranges::count(texts, "1 interpenetration (contact not modelled)") == (k >= 2));
     REQUIRE(drawing.marks.empty() == (k < 2));
     if (k < 2) continue;
     const Eigen::Vector3d at = run.frames[std::size_t(k)].nodes.col(run.layout.joints[1].node);
