@@ -153,14 +153,19 @@ class PageMaker {
             one.trajectory.layout.joints.size(), 100 * one.summary.max_deviation));
   }
 
-  /// What the totals of K are compared with.
+  /// K of all cells, where there is no room for more words beside it.
+  render::Plot low_curvature_plot() const {
+    render::Plot plot = render::curvature_plot(named_shells_);
+    plot.y.label = "integrated *K*_{□} (rad)";
+    return plot;
+  }
+
+  /// Why the totals of K change.
   static std::string total_text(const record::Trajectory& run) {
-    const double total = run.frames.front().total_K, turned = 2 * M_PI - total;
     return fmt::format(
-        "D: Σ*K*_{{□}} is 2*π* − the turning of the boundary of the complete cells (unloaded "
-        "{:.3f} "
-        "rad, Σ*K*_{{□}} = {:.3f} rad), which a push changes, and with it Σ*K*_{{□}}.",
-        turned, total);
+        "D: Σ*K*_{{□}} = 2*π* − the turning of the complete cells' boundary ({:.3f} rad unloaded), "
+        "which a push changes.",
+        2 * M_PI - run.frames.front().total_K);
   }
 
   /// Shells over their nets, K of their cells, and one of them under point loads.
@@ -170,7 +175,7 @@ class PageMaker {
     TRY(over, render::draw_over_nets(shells_, filling(above, std::min(3, int(shells_.size()))),
                                      renderer_, watch_));
     page.add_figure("A", above, std::move(*over));
-    page.add_plot("B", {2, 48, 174, 44}, render::curvature_plot(named_shells_));
+    page.add_plot("B", {2, 48, 174, 44}, low_curvature_plot());
     // from where their own preset looks
     render::MovieStyle push_style = filling(middle, std::min(3, int(pushes_.size())), true);
     if (push_ != nullptr) {
@@ -225,7 +230,7 @@ class PageMaker {
     over->keys = {{over->keys.front().colour, "shell at rest, over the nets of A"}};
     page.add_figure(count > 1 ? "" : "C", below, std::move(*over));
     TRY(more, add_experiment(page));
-    page.add_plot(*more, {116, 58, 60, 57}, render::curvature_plot(named_shells_));
+    page.add_plot(*more, {116, 58, 60, 57}, low_curvature_plot());
     return page;
   }
 
