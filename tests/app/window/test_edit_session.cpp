@@ -1,6 +1,4 @@
 // What commands do to a shell.
-#include <new>
-
 #include "app/window/viewer_state.h"
 #include "app/window/worker_threads.h"
 #include "tests/app/window/edited_shell.h"
@@ -338,52 +336,6 @@ TEST_CASE("a command that cannot be met leaves the last good shell and says why"
   CHECK(shell.attempt(Push{-3}) == "no such joint");
   CHECK(shell.attempt(Redo{}) == "there is nothing to do again");
   CHECK(difference(shell, before) == 0);
-}
-
-TEST_CASE("a change that is refused leaves what was undone to be done again") {
-  // also where older states are put aside into a file
-  EditedShell shell(small_shell(), GENERATE(0, 1 << 20));
-  shell.act(Move{0.4});
-  const ShellView moved = shell.view();
-  shell.act(Undo{});
-  const ShellView before = shell.view();
-  preset::Preset wrong = before.preset;
-  wrong.footprint.radius_mm = 1;
-  CHECK(shell.attempt(Change{wrong}) != "");
-  CHECK(shell.attempt(Push{-3}) == "no such joint");
-  CHECK(shell.view().redo_steps == 1);
-  CHECK(shell.view().undo_steps == before.undo_steps);
-  shell.act(Redo{});
-  CHECK(difference(shell, moved) == 0);
-  // another step is what makes it impossible
-  shell.act(Undo{});
-  shell.act(Move{0.3});
-  CHECK(shell.view().redo_steps == 0);
-}
-
-TEST_CASE("what is thrown on the way is an error, and the shell is as before the command") {
-  EditedShell shell;
-  shell.act(Move{0.4});
-  shell.act(Undo{});
-  const ShellView before = shell.view();
-  const int joint = shell.joint(0, 0);
-  const Eigen::Vector3d normal = shell.view().normals.col(joint), from = shell.node(joint);
-  bool throws = true;
-  // a long way that is typed shows its equilibria as it comes to them
-  shell.session.tell([&](const ShellView&) {
-    if (throws) throw std::bad_alloc();
-  });
-  shell.session.execute({Push{joint, from - 6 * normal, normal}, 1, true}, unwatched);
-  CHECK(shell.view().error == "memory ran out");
-  CHECK(difference(shell, before) == 0);
-  CHECK(shell.view().steps.empty());
-  CHECK(shell.view().held.empty());
-  CHECK(shell.view().undo_steps == before.undo_steps);
-  CHECK(shell.view().redo_steps == 1);
-  throws = false;
-  shell.session.execute({Push{joint, from - 6 * normal, normal}, 2, true}, unwatched);
-  CHECK(shell.view().error.empty());
-  CHECK(shell.view().steps.size() == 1);
 }
 
 TEST_CASE("without a shell there is nothing to do") {
