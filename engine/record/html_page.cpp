@@ -134,25 +134,23 @@ Json braces_json(const record::Layout& layout, const record::Frame& frame) {
   return braces;
 }
 
-/// [node, F_x, F_y, F_z] of every load, N.
-Json loads_json(const record::Layout& layout, const record::Frame& frame) {
-  Json loads = Json::array();
-  const auto count = std::min(frame.loads_N.cols(), Eigen::Index(layout.supports.size()));
+/// [node, F_x, F_y, F_z] of every support on which a force acts, N.
+Json forces_json(const record::Layout& layout, const Eigen::Matrix3Xd& forces_N) {
+  Json forces = Json::array();
+  const auto count = std::min(forces_N.cols(), Eigen::Index(layout.supports.size()));
   for (Eigen::Index k = 0; k < count; ++k) {
-    const Eigen::Vector3d force = frame.loads_N.col(k);
+    const Eigen::Vector3d force = forces_N.col(k);
     if (!(force.norm() > 0)) continue;
-    loads.push_back({layout.supports[std::size_t(k)], rounded(force.x(), 4), rounded(force.y(), 4),
-                     rounded(force.z(), 4)});
+    forces.push_back({layout.supports[std::size_t(k)], rounded(force.x(), 4), rounded(force.y(), 4),
+                      rounded(force.z(), 4)});
   }
-  return loads;
+  return forces;
 }
 
 /// Nodes that something holds: where there is a reaction.
 Json held_json(const record::Layout& layout, const record::Frame& frame) {
   Json held = Json::array();
-  const auto count = std::min(frame.reactions_N.cols(), Eigen::Index(layout.supports.size()));
-  for (Eigen::Index k = 0; k < count; ++k)
-    if (frame.reactions_N.col(k).norm() > 0) held.push_back(layout.supports[std::size_t(k)]);
+  for (const Json& one : forces_json(layout, frame.reactions_N)) held.push_back(one[0]);
   return held;
 }
 
@@ -206,7 +204,7 @@ Result<std::string> to_page(const record::Trajectory& run, const std::string& ti
                               {"nodes", positions(frame, extent)},
                               {"K", std::move(K)},
                               {"braces", braces_json(run.layout, frame)},
-                              {"loads", loads_json(run.layout, frame)},
+                              {"loads", forces_json(run.layout, frame.loads_N)},
                               {"held", held_json(run.layout, frame)},
                               {"figures", figures(frame)}});
   }
