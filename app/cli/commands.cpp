@@ -71,6 +71,8 @@ Result<int> check(const Options& options) {
     }
     print_plan(run.preset, *plan);
   }
+  for (const std::string& file : presets->files) fmt::print("  file            {}\n", file);
+  for (const std::string& note : presets->notes) fmt::print("  note            {}\n", note);
   return printed();
 }
 

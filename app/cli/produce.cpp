@@ -277,6 +277,8 @@ Result<int> produce(const Options& options, Pictures pictures) {
   TRY(presets, load(options));
   if (options.print_config) return print_config(*presets);
   const auto folder = output_of(options, presets->base);
+  for (const std::string& note : presets->notes)
+    fmt::print(stderr, "{}: note: {}\n", presets->base.name, note);
   std::vector<Phase> phases;
   auto runs = planned(*presets, pictures, phases);
   if (!runs) {

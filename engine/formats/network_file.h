@@ -35,12 +35,6 @@ struct NetworkOptions {
   double rod_mm = 0;  ///< diameter of a rod, which tells a unit that cannot be meant; 0: not known
 };
 
-/// What came of a file.
-struct FileReport {
-  std::string text;                ///< one sentence: how many rods, joints, its size, its unit
-  std::vector<std::string> notes;  ///< what may not be as it was meant
-};
-
 /// Reads a file as its name's ending says:
 ///   .json  {"points_mm": [[x, y], ...], "rods": [[0, 1, ...], ...], "supports": [...]}; a rod is a
 ///          list of numbers of points (from 0) or of places [x, y], or {"points": list,
