@@ -180,9 +180,10 @@ void report_network(const NetworkData& network, FileReport& report) {
     report.text +=
         fmt::format("; at {} rods end together and are held", counted(together, "support"));
   if (size.y() < 1e-6 * size.x() && size.z() > 1e-3 * size.x())
-    report.notes.push_back(
-        "all rods stand upright in the plane y = 0: a drawing whose y is up? Its y and z must be "
-        "exchanged");
+    report.notes.push_back(fmt::format(
+        "all rods stand upright in the plane y = {}: a drawing whose y is up? Its y and z must be "
+        "exchanged",
+        box.min().y()));
   const double near = 0.1 * spacing_of(network);
   if (!(near > 0)) return;
   const auto pairs = NearPoints(network, near).find();

@@ -73,9 +73,14 @@ class TableReader {
       return !lines.empty() && std::ranges::all_of(lines, holds);
     };
     Cells cells;
+    // a title, or a row that was cut, has other signs
     const auto parts = [&](char apart) {
-      return all(
-          [&](std::string_view line) { return split(line, apart, cells), cells.size() > 1; });
+      const auto split_up = [&](std::string_view line) {
+        split(line, apart, cells);
+        return cells.size() != 1;
+      };
+      return 2 * std::ranges::count_if(lines, split_up) >= std::ptrdiff_t(lines.size()) &&
+             !lines.empty();
     };
     const auto number_with_blank = [&](std::string_view line) {
       split(line, '\t', cells);
@@ -91,7 +96,9 @@ class TableReader {
                 return cell.find(',') == cell.npos || has_decimal_comma(cell);
               }));
     };
-    if (parts(';'))
+    if (!lines.empty() && lower(lines[0]).starts_with("sep=") && lines[0].size() == 5)
+      apart_ = lines[0][4];
+    else if (parts(';'))
       apart_ = ';';
     else if (parts('\t') && std::ranges::none_of(lines, number_with_blank))
       apart_ = '\t';
@@ -104,10 +111,12 @@ class TableReader {
       if (table_.rows() == 0 && !remark.empty()) remark_ = line;
       return {};
     }
+    // Excel's own line says what parts the cells
+    if (first_ && lower(trimmed(line)).starts_with("sep=")) return {};
     split(without_remark(line), apart_, cells_);
     // nothing but what parts cells
     if (cells_.empty()) return {};
-    if (cells_.size() == 1 && wanted_.size() > 1 && is_whole(cells_[0]) && counts_at(number))
+    if (cells_.size() == 1 && wanted_.size() > 1 && is_whole(cells_[0]) && counts_here())
       return take_count(number);
     if (std::exchange(first_, false)) {
       const bool header = std::ranges::all_of(cells_, [&](std::string_view cell) {
@@ -126,8 +135,9 @@ class TableReader {
   }
 
   /// Whether a line of one number may be a count: before all rows, or behind those counted.
-  bool counts_at(int) const {
-    return counted_ ? table_.rows() + table_.empty_rows == expected_ : table_.rows() == 0;
+  bool counts_here() const {
+    const std::size_t rows = table_.rows() + table_.empty_rows;
+    return (rows == counted_from_ && !table_.by_name) || (counted_ && rows == expected_);
   }
 
   Result<void> take_count(int number) {
