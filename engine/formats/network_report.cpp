@@ -119,11 +119,15 @@ class NearPoints {
     }
     if (ends.size() * stretches > most) return;
     for (const auto& [end, own] : ends) {
+      const std::vector<int>& rod = network_.rods[std::size_t(own)];
+      // a rod that is joined right beside the end is one that it passes
+      const int beside = end == rod.front() ? rod[1] : rod[rod.size() - 2];
       const Eigen::Vector3d at = place_of(network_, end);
       double least = near_;
       for (std::size_t r = 0; r < network_.rods.size(); ++r)
         for (std::size_t k = 1; k < network_.rods[r].size() && int(r) != own; ++k)
-          least = std::min(least, distance(at, network_.rods[r][k - 1], network_.rods[r][k]));
+          if (std::ranges::count(rods_[std::size_t(beside)], int(r)) == 0)
+            least = std::min(least, distance(at, network_.rods[r][k - 1], network_.rods[r][k]));
       if (least < near_) pairs.push_back({at, least});
     }
   }

@@ -44,6 +44,9 @@ void split(std::string_view line, char apart, Cells& cells) {
     std::string_view cell = trimmed(line.substr(0, end));
     if (cell.size() > 1 && cell.front() == '"' && cell.back() == '"')
       cell = trimmed(cell.substr(1, cell.size() - 2));
+    // "x, y": the blank parts them, the comma says nothing
+    if (apart == ' ' && cell.size() > 1 && (cell.back() == ',' || cell.back() == ';'))
+      cell.remove_suffix(1);
     cells.push_back(cell);
     if (end == line.size()) break;
     line.remove_prefix(end + 1);

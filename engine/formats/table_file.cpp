@@ -29,7 +29,7 @@ class TableReader {
     table_.columns = columns.size();
   }
 
-  Result<Table> read(std::string_view text) {
+  Result<NumberTable> read(std::string_view text) {
     find_separator(text);
     for (int line = 1; !text.empty(); ++line) TRY_DO(take(next_line(text), line));
     if (counted_) TRY_DO(check_count());
@@ -104,6 +104,11 @@ class TableReader {
       apart_ = '\t';
     else if (parts(',') && !all(decimal_commas))
       apart_ = ',';
+    const auto has_commas = [&](std::string_view line) {
+      split(line, apart_, cells);
+      return std::ranges::any_of(cells, has_decimal_comma);
+    };
+    mixed_ = apart_ == ',' || std::ranges::none_of(lines, has_commas);
   }
 
   Result<void> take(std::string_view line, int number) {
@@ -113,7 +118,8 @@ class TableReader {
     }
     // Excel's own line says what parts the cells
     if (first_ && lower(trimmed(line)).starts_with("sep=")) return {};
-    split(without_remark(line), apart_, cells_);
+    row_ = without_remark(line);
+    split(row_, apart_, cells_);
     // nothing but what parts cells
     if (cells_.empty()) return {};
     if (cells_.size() == 1 && wanted_.size() > 1 && is_whole(cells_[0]) && counts_here())
@@ -234,7 +240,7 @@ class TableReader {
       ++table_.empty_rows;
       return {};
     }
-    if (cells_.size() != length_) return wrong_length(line);
+    if (cells_.size() != length_ && !split_by_any()) return wrong_length(line);
     if (by_place && looks_like_commas())
       return invalid(
           "{}: six whole numbers between commas: decimal commas, or further columns? A first line "
@@ -257,6 +263,17 @@ class TableReader {
     return !any && cells_.size() <= length_;
   }
 
+  /// A row of numbers with other signs between them than most have, where no comma is a decimal
+  /// one.
+  bool split_by_any() {
+    const Cells cells = words_in(row_, " \t\r\f\v,;");
+    const bool numbers = std::ranges::all_of(
+        cells, [](std::string_view cell) { return number_of(cell).has_value(); });
+    if (!mixed_ || cells.size() != length_ || !numbers) return false;
+    cells_ = cells;
+    return true;
+  }
+
   /// x, y, z with decimal commas, or x, y, z and a colour.
   bool looks_like_commas() const {
     return apart_ == ',' && wanted_.size() == 3 && cells_.size() == 6 &&
@@ -264,14 +281,14 @@ class TableReader {
   }
 
   Result<void> wrong_length(int line) const {
-    const bool twice =
-        apart_ == ',' && cells_.size() == 2 * length_ && std::ranges::all_of(cells_, is_whole);
+    const bool commas = apart_ == ',' && cells_.size() > length_ &&
+                        std::ranges::all_of(words_in(row_, " \t\r\f\v,"), is_whole);
     const std::string expected = table_.by_name ? fmt::format("{}, as the header names", length_)
                                  : length_ > wanted_.size()
                                      ? fmt::format("{}, as in the rows before", length_)
                                      : columns_text();
     return invalid("{}: holds {} values, must be {}{}", place(line), cells_.size(), expected,
-                   twice ? "; with decimal commas semicolons must part the columns" : "");
+                   commas ? "; with decimal commas semicolons must part the columns" : "");
   }
 
   Result<double> value_in(std::string_view cell, std::size_t column, int line) {
@@ -286,9 +303,9 @@ class TableReader {
         apart_ == ',' && cell.find(',') == cell.npos ? number_of(cell) : decimal_number(cell);
     if (!value) {
       const bool blank = cell.find(' ') != cell.npos;
+      const auto got = fmt::format("'{}'", shortened(std::string(cell)));
       return invalid("{}: {} is no number, must be {}{}", place(line),
-                     cell.empty() ? "an empty cell" : "'" + shortened(std::string(cell)) + "'",
-                     columns_text(),
+                     cell.empty() ? std::string("an empty cell") : got, columns_text(),
                      blank ? "; a file must have one sign between its cells throughout" : "");
     }
     const bool comma = cell.find(',') != cell.npos, point = cell.find('.') != cell.npos;
@@ -308,16 +325,18 @@ class TableReader {
   std::vector<std::size_t> place_;  // of each column wanted, among the cells
   std::vector<double> scale_;
   std::size_t length_ = 0;  // cells of a row
-  std::string_view remark_;
+  std::string_view remark_, row_;
+  bool mixed_ = false;  // no decimal comma was seen
   bool first_ = true, commas_ = false, points_ = false, numbered_ = true, counted_ = false;
   std::size_t expected_ = 0, counted_from_ = 0;  // rows
-  Table table_;
+  NumberTable table_;
 };
 
 }  // namespace
 
-Result<Table> read_table(std::string_view bytes, const std::string& name,
-                         const std::vector<TableColumn>& columns, const TableOptions& options) {
+Result<NumberTable> read_table(std::string_view bytes, const std::string& name,
+                               const std::vector<TableColumn>& columns,
+                               const TableOptions& options) {
   std::string storage;
   return TableReader(name, columns, options).read(plain_text(bytes, storage));
 }

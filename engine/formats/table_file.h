@@ -22,7 +22,7 @@ struct TableOptions {
 };
 
 /// Rows of as many numbers as there were columns wanted; a text is the number of its word.
-struct Table {
+struct NumberTable {
   std::size_t columns = 0;
   std::vector<double> values;  ///< row after row
   std::vector<int> lines;      ///< of each row
@@ -34,17 +34,19 @@ struct Table {
 };
 
 /// Reads a table, a row a line:
-///   cells apart by semicolons, tabs, commas or blanks, one of them in a file, cells may be quoted;
-///   decimal points, or decimal commas where no comma parts cells; a file has one of the two;
-///   what follows "#" or "//", lines that begin with "%" or "!", and empty lines are remarks;
-///   a first line of names alone is a header: columns are found by their names in any order, names
-///   in capitals or with a unit (x_mm, "X [m]") being the same, lengths in that unit; the last
-///   remark before the rows is one where it names every column; other columns are left out;
-///   a first line of one whole number counts the rows (.pts), which must be there.
+///   cells apart by semicolons, tabs, commas or blanks, cells may be quoted; a row of numbers may
+///   have another of them than most rows, where no comma is a decimal one; decimal points, or
+///   decimal commas where no comma parts cells; a file has one of the two; what follows "#" or
+///   "//", lines that begin with "%" or "!", and empty lines are remarks; a first line of names
+///   alone is a header: columns are found by their names in any order, names in capitals or with a
+///   unit (x_mm, "X [m]") being the same, lengths in that unit; the last remark before the rows is
+///   one where it names every column; other columns are left out; a first line of one whole number
+///   counts the rows (.pts), which must be there.
 /// Errors (bad_input), as "name:line: ...": a header without a column that is wanted, a row of
 /// another number of cells, a cell that is no finite number or none of its words, rows that are
 /// fewer than their count; what looks like decimal commas between commas; no row.
-Result<Table> read_table(std::string_view bytes, const std::string& name,
-                         const std::vector<TableColumn>& columns, const TableOptions& options = {});
+Result<NumberTable> read_table(std::string_view bytes, const std::string& name,
+                               const std::vector<TableColumn>& columns,
+                               const TableOptions& options = {});
 
 }  // namespace gridshell::preset

@@ -54,7 +54,7 @@ Presets read_presets(const toml::table& root, const std::string& name,
     return draft;
   };
   const auto whole = finish(base);
-  Presets presets{whole.preset, {}, {}, {}};
+  Presets presets{whole.preset, {}};
   const auto add_once = [](const std::vector<std::string>& from, std::vector<std::string>& to) {
     for (const std::string& one : from)
       if (std::ranges::find(to, one) == to.end()) to.push_back(one);
