@@ -234,12 +234,12 @@ class TableReader {
   Result<void> take_row(int line) {
     const bool by_place = !table_.by_name;
     const std::size_t least = wanted_.size();
-    if (length_ == 0)
-      length_ = by_place && !options_.longer_rows ? least : std::max(least, cells_.size());
     if (options_.empty_rows && is_empty_row()) {
       ++table_.empty_rows;
       return {};
     }
+    if (length_ == 0)
+      length_ = by_place && !options_.longer_rows ? least : std::max(least, cells_.size());
     if (cells_.size() != length_ && !split_by_any()) return wrong_length(line);
     if (by_place && looks_like_commas())
       return invalid(
@@ -256,11 +256,12 @@ class TableReader {
     return {};
   }
 
+  /// Whether every cell that is wanted says that there is no number, or every one of the row.
   bool is_empty_row() const {
-    bool any = false;
-    for (const std::size_t at : place_)
-      any = any || (at < cells_.size() && !is_missing(cells_[at]));
-    return !any && cells_.size() <= length_;
+    return std::ranges::all_of(cells_, is_missing) ||
+           std::ranges::all_of(place_, [&](std::size_t at) {
+             return at < cells_.size() && is_missing(cells_[at]);
+           });
   }
 
   /// A row of numbers with other signs between them than most have, where no comma is a decimal
@@ -269,7 +270,7 @@ class TableReader {
     const Cells cells = words_in(row_, " \t\r\f\v,;");
     const bool numbers = std::ranges::all_of(
         cells, [](std::string_view cell) { return number_of(cell).has_value(); });
-    if (!mixed_ || cells.size() != length_ || !numbers) return false;
+    if (!mixed_ || cells_.size() > length_ || cells.size() != length_ || !numbers) return false;
     cells_ = cells;
     return true;
   }

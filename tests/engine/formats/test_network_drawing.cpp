@@ -118,7 +118,7 @@ TEST_CASE("layers, sheets and marks are left out by rules that are reported") {
   CHECK_THAT(layered.report.text, Catch::Contains("1 line, 1 mline on other layers than \"rods\""));
   CHECK(read(grid() + entity("CIRCLE", "10 0 20 0 40 25")).network.rods.size() == 7);
   CHECK(refused(grid() + entity("MLINE", "8 0")) ==
-        "d.dxf:172: MLINE must be exploded to lines and polylines");
+        "d.dxf:78: MLINE must be exploded to lines and polylines");
   CHECK_THAT(refused(grid() + line(-30, 0, 25, 0)),
              Catch::Contains("lies on what is drawn at d.dxf:"));
 }
