@@ -21,11 +21,6 @@ constexpr std::size_t most_ends = 100;  // at one point
 constexpr double turn_a_piece_deg = 3;  // of a curve
 constexpr double straight_deg = 0.1;
 
-Eigen::Vector3d place_of(const NetworkData& network, int point) {
-  const auto& at = network.points[std::size_t(point)];
-  return {at[0], at[1], at[2]};
-}
-
 /// By how much a polyline turns at its middle point, rad.
 double turn_at(const NetworkData& network, int before, int at, int after) {
   const Eigen::Vector3d in = place_of(network, at) - place_of(network, before),

@@ -59,6 +59,12 @@ struct NetworkOptions {
 Result<NetworkData> read_network(std::string_view bytes, const std::string& name,
                                  const NetworkOptions& options = {}, FileReport* report = nullptr);
 
+/// Where a point of a network is, mm.
+inline Eigen::Vector3d place_of(const NetworkData& network, int point) {
+  const auto& at = network.points[std::size_t(point)];
+  return {at[0], at[1], at[2]};
+}
+
 /// The median distance of neighbouring joints and ends along the rods, mm.
 double spacing_of(const NetworkData& network);
 

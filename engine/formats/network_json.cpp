@@ -116,7 +116,10 @@ class Reader {
     for (const auto& [key, value] : document_.json.items()) {
       if (std::ranges::find(known, key) == known.end())
         return invalid("{}: unknown key '{}', must be points_mm, rods, joints or supports{}", name_,
-                       key.substr(0, 40), did_you_mean(key, known));
+                       key.substr(0, 40),
+                       std::ranges::count(known, key + "_mm") > 0
+                           ? fmt::format("; did you mean '{}_mm'?", key)
+                           : did_you_mean(key, known));
       if (!value.is_array()) return invalid("{}: '{}' must be a list", name_, key);
     }
     return each("points_mm", &Reader::point)

@@ -14,11 +14,6 @@
 namespace gridshell::preset {
 namespace {
 
-Eigen::Vector3d place_of(const NetworkData& network, int point) {
-  const auto& at = network.points[std::size_t(point)];
-  return {at[0], at[1], at[2]};
-}
-
 /// How often rods go through a point, and how often they end there.
 struct PointUse {
   int passes = 0, ends = 0;

@@ -233,7 +233,8 @@ Result<SurfaceData> read_stl(std::string_view bytes, const std::string& name, do
     return read_binary(bytes, name, unit_mm);
   std::string storage;
   const std::string_view text = plain_text(bytes, storage);
-  if (lower(trimmed(text).substr(0, 5)) == "solid") return read_text(text, name, unit_mm);
+  const std::size_t first = std::min(text.find_first_not_of(" \t\r\n"), text.size());
+  if (lower(text.substr(first, 5)) == "solid") return read_text(text, name, unit_mm);
   return invalid(
       "{}: no STL: begins without \"solid\", and its {} bytes are not those of the {} "
       "triangles that it says",

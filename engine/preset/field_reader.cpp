@@ -108,7 +108,13 @@ std::string read_parts(const toml::table& table, Data& data) {
     if (!wrong.empty() || (!needed && !table.contains(key))) return;
     const auto* value = table.get(key);
     const bool list = value && value->is_array();
-    wrong = list ? read_part(*value, part) : fmt::format("has no list {}", key);
+    const std::string_view name(key);
+    const std::string bare(name.ends_with("_mm") ? name.substr(0, name.size() - 3) : "");
+    wrong = list ? read_part(*value, part)
+                 : fmt::format("has no list {}{}", key,
+                               table.contains(bare)
+                                   ? fmt::format(" (it has {}, whose unit must be named)", bare)
+                                   : "");
     if (list && !wrong.empty()) wrong = fmt::format("{} {}", key, wrong);
   });
   return wrong;

@@ -76,7 +76,7 @@ TEST_CASE("a closed chain of rods whose ends meet is a frame where its joints ar
   RodNetwork net = network(square, {{0, 1}, {1, 2}, {2, 3}, {3, 0}}, {0, 1, 2});
   net.springs = {{1, {0, 0, 9}}, {2, {9, 0, 9}}};
   refused(net,
-          "rods[2]: is joined to no other rod: where rods only end, as at point 3, each is held");
+          "rods[3]: is joined to no other rod: where rods only end, as at point 3, each is held");
   refused(net, "{\"point\": 3, \"to_mm\": \"free\"}");
   net.joined = {0, 1, 2, 3};
   const auto made = value_of(network_footprint(net));

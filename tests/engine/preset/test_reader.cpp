@@ -57,7 +57,8 @@ TEST_CASE("a fault names its place, key, value, what is wrong and what is right"
       {"[actuatoin]\nradius_mm = 3",
        "bad.toml:1:2: [actuatoin]: unknown table; did you mean 'actuation'?"},
       {"footprint = 3",
-       "bad.toml:1:1: footprint = 3: is a table, must hold keys: kind, file, rods, "
+       "bad.toml:1:1: footprint = 3: is a table, must hold keys: kind, file, file_unit, join_mm, "
+       "rods, "
        "radius_mm, longest_leg, "
        "spacing_mm, placement, boundary, half_x_mm, half_y_mm, exponent, points_mm"},
       {"[footprint]\nradius_mm = nan",
