@@ -58,6 +58,12 @@ class NearPoints {
  public:
   NearPoints(const NetworkData& network, double near) : network_(network), near_(near) {
     rods_.resize(network.points.size());
+    beside_.resize(network.points.size());
+    for (const std::vector<int>& rod : network.rods)
+      for (std::size_t k = 1; k < rod.size(); ++k) {
+        beside_[std::size_t(rod[k])].push_back(rod[k - 1]);
+        beside_[std::size_t(rod[k - 1])].push_back(rod[k]);
+      }
     for (std::size_t r = 0; r < network.rods.size(); ++r)
       for (const int point : network.rods[r]) {
         auto& rods = rods_[std::size_t(point)];
@@ -77,7 +83,7 @@ class NearPoints {
           if (beside == cells_.end()) continue;
           for (const int b : beside->second) {
             const double apart = (place_of(network_, a) - place_of(network_, b)).norm();
-            if (b <= a || !(apart < near_) || share_a_rod(a, b)) continue;
+            if (b <= a || !(apart < near_) || share_a_rod(a, b) || pass(a, b)) continue;
             pairs.push_back({place_of(network_, a), apart});
             found.insert({a, b});
           }
@@ -97,6 +103,23 @@ class NearPoints {
   bool share_a_rod(int a, int b) const {
     const auto &of_a = rods_[std::size_t(a)], &of_b = rods_[std::size_t(b)];
     return std::ranges::any_of(of_a, [&](int rod) { return std::ranges::count(of_b, rod) > 0; });
+  }
+
+  /// Whether all rods at two points run alike beside one another, as laths in a bundle do.
+  bool pass(int a, int b) const {
+    // whom the file lets go is meant to be free
+    if (std::ranges::count(network_.free, a) + std::ranges::count(network_.free, b) > 0)
+      return true;
+    constexpr double alike = 0.25;  // sine of their angle
+    const Eigen::Vector3d apart = place_of(network_, b) - place_of(network_, a);
+    for (const int next : beside_[std::size_t(a)])
+      for (const int other : beside_[std::size_t(b)]) {
+        const Eigen::Vector3d u = (place_of(network_, next) - place_of(network_, a)).normalized(),
+                              v = (place_of(network_, other) - place_of(network_, b)).normalized();
+        // they cross, or one continues the other
+        if (u.cross(v).norm() > alike || u.cross(apart).norm() < 0.5 * apart.norm()) return false;
+      }
+    return true;
   }
 
   /// Ends that nothing is joined to, near a rod that they do not reach.
@@ -121,7 +144,8 @@ class NearPoints {
       double least = near_;
       for (std::size_t r = 0; r < network_.rods.size(); ++r)
         for (std::size_t k = 1; k < network_.rods[r].size() && int(r) != own; ++k)
-          if (std::ranges::count(rods_[std::size_t(beside)], int(r)) == 0)
+          if (std::ranges::count(rods_[std::size_t(beside)], int(r)) == 0 &&
+              !pass(end, network_.rods[r][k]))
             least = std::min(least, distance(at, network_.rods[r][k - 1], network_.rods[r][k]));
       if (least < near_) pairs.push_back({at, least});
     }
@@ -136,7 +160,7 @@ class NearPoints {
   const NetworkData& network_;
   double near_;
   std::map<Cell, std::vector<int>> cells_;
-  std::vector<std::vector<int>> rods_;  // of each point, in order
+  std::vector<std::vector<int>> rods_, beside_;  // of each point, in order
 };
 
 std::string counted(std::size_t count, const char* what) {
