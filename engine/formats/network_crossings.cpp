@@ -31,6 +31,11 @@ struct Stretch {
   Eigen::Vector3d at(double share) const { return begin + share * way(); }
   double length() const { return way().norm(); }
   double low() const { return std::min(begin.x(), end.x()) - one_point_mm; }
+  /// Whether they reach over one another along an axis.
+  bool near(const Stretch& other, int k, double by) const {
+    return std::min(begin[k], end[k]) <= std::max(other.begin[k], other.end[k]) + by &&
+           std::min(other.begin[k], other.end[k]) <= std::max(begin[k], end[k]) + by;
+  }
   double high() const { return std::max(begin.x(), end.x()) + one_point_mm; }
 };
 
@@ -115,10 +120,13 @@ std::vector<int> NetworkBuilder::rods_at_points() const {
   return rods;
 }
 
-void NetworkBuilder::join_ends() {
-  if (!joins_near()) return;
+Result<void> NetworkBuilder::join_ends(const std::string& name) {
+  constexpr std::size_t most_looked_at = 1000000000;
+  if (!joins_near()) return {};
   const std::vector<int> rods = rods_at_points();
   const std::vector<Stretch> all = stretches_of(network_);
+  if (2 * network_.rods.size() * all.size() > most_looked_at)
+    return invalid("{}: holds too many rods for their ends to be joined, join_mm must be 0", name);
   std::vector<Cut> cuts;
   for (std::size_t r = 0; r < network_.rods.size(); ++r)
     for (const int end : {network_.rods[r].front(), network_.rods[r].back()}) {
@@ -139,6 +147,7 @@ void NetworkBuilder::join_ends() {
       cuts.push_back({nearest->rod, nearest->first, share, end});
     }
   put(std::move(cuts), network_.rods);
+  return {};
 }
 
 Result<void> NetworkBuilder::join_crossings(const std::string& name) {
@@ -151,6 +160,7 @@ Result<void> NetworkBuilder::join_crossings(const std::string& name) {
   for (std::size_t k = 0; k < all.size(); ++k)
     for (std::size_t m = k + 1; m < all.size() && all[m].low() <= all[k].high() + near_mm_; ++m) {
       const Stretch &a = all[k], &b = all[m];
+      if (!a.near(b, 1, near_mm_) || !a.near(b, 2, near_mm_)) continue;
       if (const double length = overlap(a, b); length > near_mm_)
         return invalid(
             "{}: lies on what is drawn at {} over {:.4g} mm, one of them must be left out",

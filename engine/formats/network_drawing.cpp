@@ -26,7 +26,7 @@ std::string counted(std::size_t count, const std::string& what) {
 Result<NetworkData> finish(NetworkBuilder& builder, const std::string& name, std::size_t lines,
                            FileReport& report) {
   TRY(met, builder.join_in_line());
-  builder.join_ends();
+  TRY_DO(builder.join_ends(name));
   TRY_DO(builder.join_crossings(name));
   builder.thin_out();
   if (*met > 0)

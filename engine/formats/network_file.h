@@ -123,8 +123,8 @@ class NetworkBuilder {
   /// ends at one point.
   Result<int> join_in_line();
   /// Ends that nothing is joined to and that lie within the builder's join_mm of another rod are
-  /// moved onto it and joined.
-  void join_ends();
+  /// moved onto it and joined. Errors (bad_input): too many to be looked at.
+  Result<void> join_ends(const std::string& name);
   /// Joins rods where they cross or touch, as drawings have them: a point more on each. Errors
   /// (bad_input): rods that lie on one another, too many to be looked at.
   Result<void> join_crossings(const std::string& name);

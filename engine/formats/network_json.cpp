@@ -127,7 +127,7 @@ class Reader {
         .and_then([&] { return each("joints", &Reader::joint); })
         .and_then([&] { return each("supports", &Reader::support); })
         .and_then([&] { return draft_.join_listed(); })
-        .map([&] { draft_.join_ends(); })
+        .and_then([&] { return draft_.join_ends(name_); })
         .and_then([&] { return draft_.take(name_); });
   }
 

@@ -73,6 +73,8 @@ class NearPoints {
   }
 
   std::vector<NearPair> find() const {
+    constexpr std::size_t most = 20000000;  // pairs looked at
+    std::size_t looked_at = 0;
     std::vector<NearPair> pairs;
     std::set<int> found;
     for (const auto& [cell, points] : cells_)
@@ -82,6 +84,7 @@ class NearPoints {
               cells_.find({cell[0] + n % 3 - 1, cell[1] + n / 3 % 3 - 1, cell[2] + n / 9 - 1});
           if (beside == cells_.end()) continue;
           for (const int b : beside->second) {
+            if (++looked_at > most) return pairs;
             const double apart = (place_of(network_, a) - place_of(network_, b)).norm();
             if (b <= a || !(apart < near_) || share_a_rod(a, b) || pass(a, b)) continue;
             pairs.push_back({place_of(network_, a), apart});
