@@ -18,7 +18,6 @@
 #include "engine/core/file_io.h"
 #include "engine/core/json.h"
 #include "engine/core/try.h"
-#include "engine/formats/plain_text.h"
 #include "engine/gridshell.h"
 #include "render/movie/run_figures.h"
 
@@ -185,8 +184,8 @@ Result<Scanned> read_all(const ScanOptions& options) {
   TRY(overrides, overrides_of_run(options.common, {"joints.diameter_mm", "joints.height_mm"}));
   Scanned scanned;
   TRY(bytes, as_input(read_file(options.common.input, preset::largest_cloud_file)));
-  TRY(cloud,
-      preset::read_cloud(*bytes, options.common.input, preset::millimetres_of(options.unit)));
+  const auto unit = find_word<preset::FileUnit>(options.unit).value_or(preset::FileUnit::mm);
+  TRY(cloud, preset::read_cloud(*bytes, options.common.input, preset::millimetres(unit)));
   scanned.cloud = std::move(cloud->points);
   scanned.empty_rows = cloud->empty_rows;
   for (const std::string& folder : options.runs) {
