@@ -67,10 +67,13 @@ Result<int> check(const Options& options) {
       Error error = plan.error();
       if (refused_net(run.preset))
         error.message += "\n'gridshell figure' draws the net as far as it comes";
+      for (const std::string& note : presets->notes) error.message += "\nnote: " + note;
       return tl::unexpected(error);
     }
     print_plan(run.preset, *plan);
   }
+  for (const std::string& file : presets->files) fmt::print("  file            {}\n", file);
+  for (const std::string& note : presets->notes) fmt::print("  note            {}\n", note);
   return printed();
 }
 

@@ -281,6 +281,8 @@ Result<int> produce(const Options& options, Pictures pictures) {
   // beside the run and the movie, whose frames it does not have
   const auto folder =
       output_of(options, presets->base, pictures == Pictures::stills ? "_figure" : "");
+  for (const std::string& note : presets->notes)
+    fmt::print(stderr, "{}: note: {}\n", presets->base.name, note);
   std::vector<Phase> phases;
   auto runs = planned(*presets, pictures, phases);
   if (!runs) {

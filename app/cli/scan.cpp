@@ -157,6 +157,7 @@ std::string scan_text(const ComparedScan& scan) {
 struct ScanOptions {
   Options common;  ///< output, quiet, context, --set; `input` is the file of points
   std::vector<std::string> runs;
+  std::string unit = "mm";
   bool unsealed = false;
   double tolerance_mm = 0;  ///< 0: by the noise
 };
@@ -188,6 +189,7 @@ std::vector<Candidate> candidates_of(const std::vector<Run>& runs, const fs::pat
 /// Everything that is read before anything is written.
 struct Scanned {
   Eigen::Matrix3Xd cloud;
+  std::size_t empty_rows = 0;  ///< of its file, which hold no point
   std::vector<std::vector<Run>> runs;
   std::vector<Candidate> candidates;
   JointCylinder cylinder;
@@ -199,8 +201,10 @@ Result<Scanned> read_all(const ScanOptions& options) {
   Scanned scanned;
   scanned.tolerance_mm = options.tolerance_mm;
   TRY(bytes, as_input(read_file(options.common.input, preset::largest_cloud_file)));
-  TRY(cloud, preset::read_cloud(*bytes, options.common.input));
-  scanned.cloud = std::move(*cloud);
+  const auto unit = find_word<preset::FileUnit>(options.unit).value_or(preset::FileUnit::mm);
+  TRY(cloud, preset::read_cloud(*bytes, options.common.input, preset::millimetres(unit)));
+  scanned.cloud = std::move(cloud->points);
+  scanned.empty_rows = cloud->empty_rows;
   for (const std::string& folder : options.runs) {
     TRY(runs, read_runs(folder, *overrides, options.unsealed));
     scanned.runs.push_back(std::move(*runs));
@@ -241,9 +245,31 @@ std::optional<std::pair<double, std::string>> height_that_fits(const Scanned& sc
   return fits;
 }
 
+double extent_of(const Eigen::Matrix3Xd& points) {
+  return (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).maxCoeff();
+}
+
+/// Errors: bad_input when the cloud is far smaller than any shell, as one in metres is.
+Result<void> check_size(const Scanned& scanned, const std::string& file) {
+  constexpr double far_smaller = 50;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Candidate& one : scanned.candidates) {
+    const record::Trajectory& run = one.run->trajectory;
+    const record::Frame& frame = run.frames[one.frame];
+    if (!run.frames.fault()) least = std::min(least, extent_of(frame.nodes));
+  }
+  const double extent = extent_of(scanned.cloud);
+  if (!(far_smaller * extent < least)) return {};
+  return invalid(
+      "{}: its points reach over {:.3g} mm, the shell over {:.3g} mm: is it in metres? "
+      "--unit m reads it so",
+      file, extent, least);
+}
+
 /// Errors: bad_input when the cloud holds no joints or far too many, or cannot be laid on any
 /// state.
 Result<ComparedScan> compared(const Scanned& scanned, const std::string& file, Watch& watch) {
+  if (auto sized = check_size(scanned, file); !sized) return tl::unexpected(sized.error());
   auto clusters = study::cluster_joint_tops(scanned.cloud, scanned.cylinder.diameter_mm);
   if (!clusters) return invalid("{}: {}", file, clusters.error().message);
   long most = 0;
@@ -329,6 +355,8 @@ Result<int> produce_scan(const ScanOptions& options) {
     return draw(*scan, best, *maker, partial, progress.next_phase());
   };
   TRY_DO(deliver({folder, "scan"}, phases, common.quiet, work));
+  if (!common.quiet && scanned->empty_rows > 0)
+    fmt::print("{}: {} rows hold no point (nan)\n", points.string(), scanned->empty_rows);
   if (!common.quiet) fmt::print("{}: {}", folder.string(), scan_text(*scan));
   return scan->of_best().shown ? ExitCode::done : ExitCode::different;
 }
@@ -338,9 +366,11 @@ Result<int> produce_scan(const ScanOptions& options) {
 void add_scan(CommandLine& program) {
   auto [command, options] = program.add<ScanOptions>(
       "scan", "which state a 3D scan shows, and how far its joints are off", produce_scan);
-  command.option("POINTS", options.common.input, "cloud of points: .ply, .xyz or .csv, mm")
+  command.option("POINTS", options.common.input, "cloud of points: .ply, .xyz, .pts or .csv")
       .required();
   command.option("RUN", options.runs, "folders of runs; of a search all of its states").required();
+  command.option("--unit", options.unit, "unit of the points where the file names none")
+      .one_of({"mm", "cm", "m", "in", "ft"});
   add_changes(command, options.common);
   add_work_options(command, options.common, "folder to write, by default out/<points>_scan");
   add_picture_options(command, options.common);

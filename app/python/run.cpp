@@ -73,9 +73,9 @@ py::array_t<Value> column(const Run& run, const Find& find) {
 }
 
 Run load(const std::filesystem::path& folder, const std::optional<std::string>& name,
-         bool unfinished) {
+         bool unfinished, bool unsealed) {
   auto runs =
-      value_of(interruptible([&](const Watch&) { return app::read_runs(folder, {}, false); }));
+      value_of(interruptible([&](const Watch&) { return app::read_runs(folder, {}, unsealed); }));
   std::string names;
   for (app::Run& run : runs) {
     names.append(names.empty() ? "" : ", ").append(run.name);
@@ -164,9 +164,10 @@ void add_run(py::module_& module) {
       });
   add_columns(type);
   module.def("load", &load, "folder"_a, py::kw_only(), "case"_a = py::none(),
-             "unfinished"_a = false,
+             "unfinished"_a = false, "unsealed"_a = false,
              "Reads a run's folder. Raises BadInput with the reason where it is no run, damaged, "
-             "or was cut short and unfinished is not set.\n\ncase: which of its cases.");
+             "or was cut short and unfinished is not set.\n\ncase: which of its cases. unsealed: "
+             "takes a trajectory.h5 that another program wrote or changed.");
 }
 
 }  // namespace gridshell::python

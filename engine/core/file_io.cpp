@@ -105,24 +105,40 @@ std::optional<std::string> ReadableFile::read(std::uint64_t at, std::uint64_t si
   return bytes;
 }
 
-Result<std::string> read_file(const std::filesystem::path& path, std::uintmax_t limit) {
-  TRY(opened, ReadableFile::open(path));
+namespace {
+
+/// What an open file holds from where it stands.
+Result<std::string> read_all(int file, const std::filesystem::path& path, std::uint64_t expected,
+                             std::uintmax_t limit) {
   const auto too_large = [&] {
     return fail(Fault::io, "cannot read '{}': it is larger than {} MB", path.string(), limit >> 20);
   };
-  if (opened->size() > limit) return too_large();
+  if (expected > limit) return too_large();
   // some files of the system say that they are empty, so the count is what decides
   std::string bytes;
-  bytes.reserve(std::size_t(opened->size()));
+  bytes.reserve(std::size_t(expected));
   std::vector<char> block(1 << 16);
   for (;;) {
-    const ssize_t got = ::read(opened->file_, block.data(), block.size());
+    const ssize_t got = ::read(file, block.data(), block.size());
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) return fail_io("read", path, errno);
     if (got == 0) return bytes;
     bytes.append(block.data(), std::size_t(got));
     if (bytes.size() > limit) return too_large();
   }
+}
+
+}  // namespace
+
+Result<std::string> read_file(const std::filesystem::path& path, std::uintmax_t limit) {
+  TRY(opened, ReadableFile::open(path));
+  return read_all(opened->file_, path, opened->size(), limit);
+}
+
+Result<std::string> read_pipe(const std::filesystem::path& path, std::uintmax_t limit) {
+  const Descriptor pipe(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY));
+  if (pipe < 0) return fail_io("read", path, errno);
+  return read_all(pipe, path, 0, limit);
 }
 
 Result<void> make_folder(const std::filesystem::path& folder) {

@@ -94,6 +94,9 @@ inline constexpr std::uintmax_t largest_text = std::uintmax_t(16) << 20,
 Result<std::string> read_file(const std::filesystem::path& path,
                               std::uintmax_t limit = largest_file);
 
+/// All that comes through a pipe, at most `limit` bytes; waits for it. Errors as read_file().
+Result<std::string> read_pipe(const std::filesystem::path& path, std::uintmax_t limit);
+
 /// Makes a folder and its parents; one that exists is fine. Errors: Fault::io, path and reason.
 Result<void> make_folder(const std::filesystem::path& folder);
 

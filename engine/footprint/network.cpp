@@ -89,7 +89,9 @@ class Roles {
 
   bool is_joint(int point) const {
     const auto [passes, ends] = visits_[point];
-    if (passes == 0) return ends > 1 && (network_.free[point] != 0 || is_sprung(point));
+    if (passes == 0)
+      return ends > 1 &&
+             (network_.free[point] != 0 || is_sprung(point) || network_.joined.contains(point));
     return passes + ends > 1 || is_supported(point) || corners_.contains(point);
   }
   bool is_supported(int point) const { return network_.supported[point] != 0; }
@@ -174,11 +176,22 @@ Result<FootprintRod> rod_of(const RodNetwork& network, std::size_t r, const Role
     rod.marks.push_back(position);
   }
   rod.span = {0, position};
-  if (rod.joints.empty())
+  if (rod.joints.empty()) {
+    const auto met =
+        std::ranges::find_if(numbers, [&](int point) { return roles.at(point).ends > 1; });
+    if (met != numbers.end())
+      return invalid(
+          "rods[{}]: is joined to no other rod: where rods only end, as at point {}, each is held "
+          "by "
+          "itself; {{\"point\": {}, \"to_mm\": \"free\"}} among the supports joins them by a "
+          "hinge, a "
+          "law among the joints as it says",
+          r, *met, *met);
     return invalid(
         "rods[{}]: is joined to no other rod, must share a point with one, or be the only "
         "rod and have points inside",
         r);
+  }
   TRY(begin, hold_of(network, roles, int(2 * r)));
   TRY(end, hold_of(network, roles, int(2 * r) + 1));
   rod.begin = *begin;

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <map>
+#include <set>
 #include <vector>
 
 #include "engine/core/result.h"
@@ -17,6 +18,7 @@ struct RodNetwork {
   std::vector<std::vector<int>> rods;        ///< numbers of points; a ring ends with its first one
   std::vector<char> supported;               ///< of each point: what it is on is held there
   std::vector<char> free;                    ///< of each point: rods' ends there are not held
+  std::set<int> joined{};                    ///< points at which rods' ends are joined
   std::map<int, Eigen::Vector3d> springs{};  ///< of supports on springs: along x, y, z, N/mm
   RodEnd hold = RodEnd::pinned;              ///< of ends that have supports of their own
   std::map<int, RodEnd> holds{};             ///< of single ones: begin of rod r at 2 r
@@ -34,6 +36,7 @@ struct NetworkFootprint {
 ///   an inner point of a rod that is not straight: a joint of this rod alone;
 ///   a point where rods only end: there each has an edge point of its own, held as `hold` says;
 ///   the same, but free or on a spring: with one rod its end, with several a joint of their ends;
+///   the same, but named as joined, of several rods: a joint of their ends (held, if supported);
 ///   where rods end at an inner point of another: they are joined to that joint.
 /// Rods are naturally straight and as long as their polyline. Rods that cross without a common
 /// point pass one another. Where all rods are in the plane and of a square grid about the origin,

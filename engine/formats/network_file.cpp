@@ -4,11 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/core/text.h"
 #include "engine/core/try.h"
-#include "engine/formats/obj_ply.h"
 #include "engine/formats/point_file.h"
-#include "engine/formats/surface_file.h"
 
 namespace gridshell::preset {
 namespace {
@@ -25,172 +22,11 @@ std::string coordinates_fault(const std::vector<double>& xyz) {
   return "";
 }
 
-// Networks as Wavefront OBJ: vertices and lines.
-
-Result<NetworkData> read_network_obj(std::string_view bytes, const std::string& name) {
-  NetworkBuilder draft;
-  const auto add_rod = [&](const std::vector<long>& vertices, const std::string& at) {
-    std::vector<int> points;
-    for (const long vertex : vertices) {
-      const auto point = draft.point(vertex, at);
-      if (!point) return Result<void>(tl::unexpected(point.error()));
-      points.push_back(*point);
-    }
-    return draft.add_rod(std::move(points), 0, at);
-  };
-  return read_obj_lines(
-             bytes, name, "l",
-             {[&](const auto& xyz, const auto& at) { return draft.add_point(xyz, at); }, add_rod})
-      .and_then([&] { return draft.join_crossings(name); })
-      .and_then([&] { return draft.take(name); });
-}
-
-// Networks as DXF: the lines and polylines of its entities.
-
-/// A code and what stands on the line after it.
-struct Group {
-  int code = 0;
-  std::string_view value;
-  int line = 0;  ///< of the value
-};
-
-std::string_view trimmed(std::string_view text) {
-  const auto words = words_in(text);
-  if (words.empty()) return {};
-  return {words.front().data(),
-          std::size_t(words.back().data() + words.back().size() - words.front().data())};
-}
-
-Result<std::vector<Group>> groups_of(std::string_view bytes, const std::string& name) {
-  std::vector<Group> groups;
-  for (int line = 1; !trimmed(bytes.substr(0, 64)).empty() || bytes.size() > 64; line += 2) {
-    const auto code = number_of(trimmed(next_line(bytes)));
-    if (!code || !(std::abs(*code) <= 2000) || bytes.empty())
-      return invalid("{}:{}: is no DXF text, must be a code and a value in turn", name, line);
-    groups.push_back({int(*code), trimmed(next_line(bytes)), line + 1});
-  }
-  return groups;
-}
-
-/// A line or polyline.
-struct Outline {
-  std::string layer{};
-  std::vector<std::vector<double>> points{};
-  bool closed = false;
-  int line = 0;
-};
-
-/// The numbers by which groups say what of a curve they hold.
-namespace code {
-constexpr int entity = 0, layer = 8, x = 10, last_coordinate = 31, elevation = 38, bulge = 42,
-              flags = 70;
-}
-
-/// Takes the curves out of the groups of a file.
-class Entities {
- public:
-  explicit Entities(const std::string& name) : name_(name) {}
-
-  Result<std::vector<Outline>> take(const std::vector<Group>& groups) {
-    std::string_view section;
-    for (std::size_t k = 0; k < groups.size(); ++k) {
-      const Group& group = groups[k];
-      if (group.code == code::entity && group.value == "SECTION")
-        section = k + 1 < groups.size() ? groups[k + 1].value : "";
-      if (section != "ENTITIES") continue;
-      if (group.code == code::entity)
-        begin(group);
-      else
-        TRY_DO(put(group));
-    }
-    return std::move(curves_);
-  }
-
- private:
-  enum class Kind { other, line, light, heavy, vertex };
-
-  void begin(const Group& group) {
-    const bool follows = kind_ == Kind::heavy || kind_ == Kind::vertex;
-    kind_ = group.value == "LINE"                ? Kind::line
-            : group.value == "LWPOLYLINE"        ? Kind::light
-            : group.value == "POLYLINE"          ? Kind::heavy
-            : follows && group.value == "VERTEX" ? Kind::vertex
-                                                 : Kind::other;
-    if (kind_ == Kind::other) return;
-    if (kind_ != Kind::vertex) {
-      curves_.emplace_back();
-      curves_.back().line = group.line;
-    }
-    if (kind_ == Kind::vertex) curves_.back().points.push_back({0, 0, 0});
-    if (kind_ == Kind::line) curves_.back().points.assign(2, {0, 0, 0});
-    elevation_ = 0;
-  }
-
-  Result<void> put(const Group& group) {
-    if (kind_ == Kind::other) return {};
-    Outline& curve = curves_.back();
-    if (group.code == code::layer && kind_ != Kind::vertex) curve.layer = group.value;
-    const bool coordinate =
-        group.code >= code::x && group.code <= code::last_coordinate && group.code % 10 < 2;
-    if (!coordinate && group.code != code::elevation && group.code != code::bulge &&
-        group.code != code::flags)
-      return {};
-    const auto value = number_of(group.value);
-    const auto wrong = [&](const char* what) {
-      return invalid("{}:{}: {}", name_, group.line, what);
-    };
-    if (!value) return wrong("must be a finite number");
-    if (group.code == code::flags && (kind_ == Kind::light || kind_ == Kind::heavy))
-      curve.closed = int(std::clamp(*value, 0.0, 1e6)) % 2 == 1;
-    if (group.code == code::bulge && *value != 0 && kind_ != Kind::line)
-      return wrong("an arc, must be a polyline of straight pieces");
-    if (group.code == code::elevation) elevation_ = *value;
-    if (coordinate) put_coordinate(group.code, *value);
-    return {};
-  }
-
-  /// x, y, z of the first point: 10, 20, 30; of the second of a line 11, 21, 31.
-  void put_coordinate(int number, double value) {
-    auto& points = curves_.back().points;
-    if (kind_ == Kind::light && number == code::x) points.push_back({0, 0, elevation_});
-    // a heavy polyline's own is its elevation, which its vertices repeat
-    if (kind_ == Kind::heavy || points.empty()) return;
-    auto& point = number % 10 == 0 && kind_ == Kind::line ? points.front() : points.back();
-    point[std::size_t(number / 10 - 1)] = value;
-  }
-
-  std::string name_;
-  Kind kind_ = Kind::other;
-  double elevation_ = 0;
-  std::vector<Outline> curves_;
-};
-
-Result<NetworkData> read_network_dxf(std::string_view bytes, const std::string& name) {
-  TRY(groups, groups_of(bytes, name));
-  TRY(curves, Entities(name).take(*groups));
-  const auto is_rod = [](const Outline& curve) { return curve.layer == "rods"; };
-  const bool by_layer = std::ranges::any_of(*curves, is_rod);
-  NetworkBuilder draft;
-  for (const Outline& curve : *curves) {
-    if (by_layer && !is_rod(curve)) continue;
-    const auto place = fmt::format("{}:{}", name, curve.line);
-    std::vector<int> points;
-    for (const auto& xyz : curve.points) {
-      TRY(point, draft.place(xyz, place));
-      points.push_back(*point);
-    }
-    if (curve.closed && !points.empty() && points.back() != points.front())
-      points.push_back(points.front());
-    TRY_DO(draft.add_rod(std::move(points), 0, place));
-  }
-  return draft.join_crossings(name).and_then([&] { return draft.take(name); });
-}
-
 }  // namespace
 
 int NetworkBuilder::known(const std::vector<double>& xyz) const {
   const auto cell = [&](std::size_t k, long beside) {
-    return long(std::floor(xyz[k] / one_point_mm)) + beside;
+    return long(std::floor(xyz[k] / near_mm_)) + beside;
   };
   for (long i = -1; i <= 1; ++i)
     for (long j = -1; j <= 1; ++j)
@@ -199,7 +35,7 @@ int NetworkBuilder::known(const std::vector<double>& xyz) const {
         if (found == at_.end()) continue;
         for (const int point : found->second) {
           const auto& other = network_.points[std::size_t(point)];
-          if (std::hypot(other[0] - xyz[0], other[1] - xyz[1], other[2] - xyz[2]) < one_point_mm)
+          if (std::hypot(other[0] - xyz[0], other[1] - xyz[1], other[2] - xyz[2]) < near_mm_)
             return point;
         }
       }
@@ -214,8 +50,8 @@ Result<void> NetworkBuilder::add_point(const std::vector<double>& xyz, const std
   same_as_.push_back(same >= 0 ? same : number);
   network_.points.push_back(place);
   if (same < 0)
-    at_[{long(std::floor(place[0] / one_point_mm)), long(std::floor(place[1] / one_point_mm)),
-         long(std::floor(place[2] / one_point_mm))}]
+    at_[{long(std::floor(place[0] / near_mm_)), long(std::floor(place[1] / near_mm_)),
+         long(std::floor(place[2] / near_mm_))}]
         .push_back(number);
   return {};
 }
@@ -238,6 +74,7 @@ Result<int> NetworkBuilder::point(long number, const std::string& at) const {
 
 Result<void> NetworkBuilder::add_rod(std::vector<int> points, double diameter_mm,
                                      const std::string& at) {
+  if (joins_near()) points.erase(std::unique(points.begin(), points.end()), points.end());
   if (std::ranges::count(points, points.empty() ? 0 : points.front()) == long(points.size()))
     return invalid(at + ": a rod of one point, must have at least two, apart");
   if (const auto same = std::ranges::adjacent_find(points); same != points.end())
@@ -251,6 +88,7 @@ Result<void> NetworkBuilder::add_rod(std::vector<int> points, double diameter_mm
   diameters_ = diameters_ || diameter_mm > 0;
   network_.rods.push_back(std::move(points));
   network_.diameters.push_back(diameter_mm);
+  places_.push_back(at);
   return {};
 }
 
@@ -344,13 +182,23 @@ std::string network_fault(const NetworkData& network) {
   return "";
 }
 
-Result<NetworkData> read_network(std::string_view bytes, const std::string& name) {
+Result<NetworkData> read_network(std::string_view bytes, const std::string& name,
+                                 const NetworkOptions& options, FileReport* report) {
   const std::string ending = ending_of(name);
-  if (ending == ".json") return read_network_json(bytes, name);
-  if (ending == ".obj") return read_network_obj(bytes, name);
-  if (ending == ".dxf") return read_network_dxf(bytes, name);
-  return invalid("{}: its name must end in .json (points, rods and supports), .obj or .dxf (rods)",
-                 name);
+  FileReport found;
+  const auto read = [&]() -> Result<NetworkData> {
+    if (ending == ".json") return read_network_json(bytes, name, options);
+    if (ending == ".obj") return read_network_obj(bytes, name, options, found);
+    if (ending == ".dxf") return read_network_dxf(bytes, name, options, found);
+    return invalid(
+        "{}: its name must end in .json (points, rods and supports), .obj or .dxf (rods)", name);
+  };
+  auto network = read();
+  if (!network || !report) return network;
+  report_network(*network, found);
+  found.text = name + ": " + found.text;
+  *report = std::move(found);
+  return network;
 }
 
 }  // namespace gridshell::preset

@@ -1,6 +1,7 @@
 // Networks of rods in files that a user brings.
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <string>
@@ -19,8 +20,20 @@ inline constexpr std::size_t largest_network_file = std::size_t(16) << 20;
 /// Points of a file nearer to one another than this are one.
 inline constexpr double one_point_mm = 1e-3;
 
+/// By how much lines that meet end to end may turn to be one rod.
+inline constexpr double most_turn_deg = 30;
+
 /// Stiffnesses of supports' springs, N/mm: far below and far above that of any rod.
 inline constexpr double softest_spring = 1e-6, stiffest_spring = 1e6;
+
+/// How a file of a network is read.
+struct NetworkOptions {
+  double unit_mm = 0;  ///< of a drawing; 0: the one that it names, else mm
+  /// Points nearer to one another are one, and an end that lies as near to a rod is joined to it;
+  /// 0: as one_point_mm says, ends joined only where they touch.
+  double join_mm = 0;
+  double rod_mm = 0;  ///< diameter of a rod, which tells a unit that cannot be meant; 0: not known
+};
 
 /// Reads a file as its name's ending says:
 ///   .json  {"points_mm": [[x, y], ...], "rods": [[0, 1, ...], ...], "supports": [...]}; a rod is a
@@ -33,14 +46,27 @@ inline constexpr double softest_spring = 1e-6, stiffest_spring = 1e6;
 ///          {"point": number or place, or "points": list, "law": "free", "hinge", "rigid" or
 ///          "spring" of "shear_Nmm" and "twist_Nmm", and "eccentricity_mm"}
 ///   .obj   "v x y z" and polylines "l a b c ..."
-///   .dxf   LINE, LWPOLYLINE and POLYLINE, where there is a layer "rods" of that one alone
-/// In the drawings of the last two rods are joined wherever they cross or touch, in JSON where they
-/// name the same point or place, or points of one listed joint.
-/// Points [x, y] lie at z = 0, others [x, y, z] in space; a rod that ends where it begins is a
-/// ring. Errors (bad_input), with `name` and the line: not of the format, NaN, a point that is not
-/// there, in JSON one named by its number that lies where an earlier one does, a stretch of no
-/// length, more than 100 000 points or rods, another ending.
-Result<NetworkData> read_network(std::string_view bytes, const std::string& name);
+///   .dxf   the curves of model space that are shown (dxf_file.h), where there is a layer "rods" of
+///          that one alone; a circle that marks a point of a rod is none
+/// In the drawings of the last two, lines that meet end to end and turn by at most 30 degrees are
+/// one rod, and rods are joined wherever they cross or touch; in JSON where they name the same
+/// point or place, or points of one listed joint. Points [x, y] lie at z = 0, others [x, y, z] in
+/// space; a rod that ends where it begins is a ring. Errors (bad_input), with `name` and the line:
+/// not of the format, NaN, a point that is not there, in JSON one named by its number that lies
+/// where an earlier one does, a stretch of no length, an entity of a drawing that may be a rod and
+/// is not understood, lines that lie on one another, more than 100 000 points or rods, another
+/// ending.
+Result<NetworkData> read_network(std::string_view bytes, const std::string& name,
+                                 const NetworkOptions& options = {}, FileReport* report = nullptr);
+
+/// Where a point of a network is, mm.
+inline Eigen::Vector3d place_of(const NetworkData& network, int point) {
+  const auto& at = network.points[std::size_t(point)];
+  return {at[0], at[1], at[2]};
+}
+
+/// The median distance of neighbouring joints and ends along the rods, mm.
+double spacing_of(const NetworkData& network);
 
 /// What is wrong with a spring's stiffnesses along x, y, z; empty: nothing.
 std::string spring_fault(const std::vector<double>& k);
@@ -52,6 +78,10 @@ std::string network_fault(const NetworkData& network);
 
 class NetworkBuilder {
  public:
+  /// Points nearer to one another than `join_mm`, at least than one_point_mm, are one.
+  explicit NetworkBuilder(double join_mm = 0) : near_mm_(std::max(join_mm, one_point_mm)) {}
+  /// Whether points further apart than one_point_mm are one.
+  bool joins_near() const { return near_mm_ > one_point_mm; }
   /// Number of the point at a place of two or three coordinates: of one that is there already, or
   /// new. `at` says where it stands in the file. Errors (bad_input): another number of coordinates,
   /// one that is not finite or above 1e9, too many points.
@@ -88,8 +118,21 @@ class NetworkBuilder {
   /// are not its two ends, a point further off the mean than a quarter of the shortest stretch of
   /// rod beside the joint.
   Result<void> join_listed();
-  /// Joins rods where they cross or touch, as drawings have them: a point more on each.
+  /// Lines that meet end to end become one rod, each end with the one that it turns least to, by
+  /// most_turn_deg at most. Returns how many meetings that were. Errors (bad_input): more than 100
+  /// ends at one point.
+  Result<int> join_in_line();
+  /// Ends that nothing is joined to and that lie within the builder's join_mm of another rod are
+  /// moved onto it and joined. Errors (bad_input): too many to be looked at.
+  Result<void> join_ends(const std::string& name);
+  /// Joins rods where they cross or touch, as drawings have them: a point more on each. Errors
+  /// (bad_input): rods that lie on one another, too many to be looked at.
   Result<void> join_crossings(const std::string& name);
+  /// Of the points of curved pieces so many are left that rods turn by some degrees at each; points
+  /// where lines met that were one are left out. Points that another rod has remain.
+  void thin_out();
+  /// A point of a curved piece, which may be left out.
+  void mark_sample(int point) { samples_.insert(point); }
   std::size_t points() const { return network_.points.size(); }
   /// Errors (bad_input): no rods; what network_fault() says.
   Result<NetworkData> take(const std::string& name);
@@ -107,7 +150,12 @@ class NetworkBuilder {
   Result<void> check_reach(const std::vector<int>& joint_of) const;
   void rename(const std::vector<int>& joint_of);
 
+  std::vector<int> rods_at_points() const;
+
+  double near_mm_;
   NetworkData network_;
+  std::vector<std::string> places_;  // of each rod, where the file has it
+  std::set<int> samples_, seams_;    // points that may be left out
   std::vector<Joint> joints_;
   std::set<int> listed_;      // points of joints_
   std::vector<int> same_as_;  // per point: the earliest one at its place
@@ -117,6 +165,14 @@ class NetworkBuilder {
 };
 
 // the formats; errors as read_network()
-Result<NetworkData> read_network_json(std::string_view bytes, const std::string& name);
+Result<NetworkData> read_network_json(std::string_view bytes, const std::string& name,
+                                      const NetworkOptions& options);
+Result<NetworkData> read_network_obj(std::string_view bytes, const std::string& name,
+                                     const NetworkOptions& options, FileReport& report);
+Result<NetworkData> read_network_dxf(std::string_view bytes, const std::string& name,
+                                     const NetworkOptions& options, FileReport& report);
+
+/// Adds to a report's sentence what network came of a file, and notes on what is not joined.
+void report_network(const NetworkData& network, FileReport& report);
 
 }  // namespace gridshell::preset

@@ -14,6 +14,7 @@
 #include "engine/core/text.h"
 #include "engine/core/try.h"
 #include "engine/formats/network_file.h"
+#include "engine/formats/plain_text.h"
 
 namespace gridshell::preset {
 namespace {
@@ -107,14 +108,18 @@ std::optional<std::vector<double>> numbers_in(const Json& value) {
 
 class Reader {
  public:
-  Reader(const Document& document, const std::string& name) : document_(document), name_(name) {}
+  Reader(const Document& document, const std::string& name, double join_mm)
+      : document_(document), name_(name), draft_(join_mm) {}
 
   Result<NetworkData> read() {
     const std::vector<std::string> known{"points_mm", "rods", "joints", "supports"};
     for (const auto& [key, value] : document_.json.items()) {
       if (std::ranges::find(known, key) == known.end())
         return invalid("{}: unknown key '{}', must be points_mm, rods, joints or supports{}", name_,
-                       key.substr(0, 40), did_you_mean(key, known));
+                       key.substr(0, 40),
+                       std::ranges::count(known, key + "_mm") > 0
+                           ? fmt::format("; did you mean '{}_mm'?", key)
+                           : did_you_mean(key, known));
       if (!value.is_array()) return invalid("{}: '{}' must be a list", name_, key);
     }
     return each("points_mm", &Reader::point)
@@ -122,6 +127,7 @@ class Reader {
         .and_then([&] { return each("joints", &Reader::joint); })
         .and_then([&] { return each("supports", &Reader::support); })
         .and_then([&] { return draft_.join_listed(); })
+        .and_then([&] { return draft_.join_ends(name_); })
         .and_then([&] { return draft_.take(name_); });
   }
 
@@ -157,7 +163,7 @@ class Reader {
         return wrong("names a point that is not there");
       const long number = value.get<long>();
       TRY(point, draft_.point(number, at_));
-      if (*point != number && !in_joint && !is_listed(value))
+      if (*point != number && !in_joint && !is_listed(value) && !draft_.joins_near())
         return wrong(fmt::format(
             "point {} lies where point {} does, must be named by that number, or moved away",
             number, *point));
@@ -323,9 +329,13 @@ class Reader {
 
 }  // namespace
 
-Result<NetworkData> read_network_json(std::string_view bytes, const std::string& name) {
-  TRY(document, parse(bytes, name));
-  return Reader(*document, name).read();
+Result<NetworkData> read_network_json(std::string_view bytes, const std::string& name,
+                                      const NetworkOptions& options) {
+  if (options.unit_mm > 0 && options.unit_mm != 1)
+    return invalid("{}: its points are points_mm: file_unit must be \"mm\", or left out", name);
+  std::string storage;
+  TRY(document, parse(plain_text(bytes, storage), name));
+  return Reader(*document, name, options.join_mm).read();
 }
 
 }  // namespace gridshell::preset

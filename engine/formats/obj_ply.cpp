@@ -10,6 +10,7 @@
 
 #include "engine/core/text.h"
 #include "engine/core/try.h"
+#include "engine/formats/plain_text.h"
 #include "engine/formats/point_file.h"
 #include "engine/formats/surface_file.h"
 
@@ -21,6 +22,40 @@ std::optional<long> obj_vertex(std::string_view word, long vertices) {
   const auto number = parse_number<long>(word);
   if (!number || *number == 0) return std::nullopt;
   return *number > 0 ? *number - 1 : vertices + *number;
+}
+
+/// The next line, with those that a backslash at its end continues it by; `number` is that of its
+/// last, `joined` holds it where it is of several.
+std::string_view obj_line(std::string_view& text, int& number, std::string& joined) {
+  std::string_view line = trimmed(next_line(text));
+  if (!line.ends_with('\\')) return line;
+  joined.clear();
+  while (line.ends_with('\\')) {
+    line.remove_suffix(1);
+    joined += line;
+    joined += ' ';
+    if (text.empty()) return joined;
+    line = trimmed(next_line(text));
+    ++number;
+  }
+  joined += line;
+  return joined;
+}
+
+/// x, y, z of "v x y z", behind which a weight or a colour may stand.
+Result<std::vector<double>> obj_coordinates(const std::vector<std::string_view>& words,
+                                            const std::string& place) {
+  std::vector<double> xyz;
+  bool commas = false;
+  for (std::size_t k = 1; k < words.size(); ++k) {
+    const auto value = number_of(words[k]);
+    commas = commas || words[k].find(',') != words[k].npos;
+    if (value && k < 4) xyz.push_back(*value);
+    if (!value) break;
+  }
+  if (xyz.size() == 3) return xyz;
+  return invalid("{}: a vertex must have three numbers, v x y z{}", place,
+                 commas ? ", with decimal points" : "");
 }
 
 enum class Form { text, little, big };
@@ -132,7 +167,10 @@ class Numbers {
     if (begin == std::string_view::npos) return std::nullopt;
     bytes_.remove_prefix(begin);
     const std::size_t end = std::min(bytes_.find_first_of(blanks), bytes_.size());
-    const auto value = number_of(bytes_.substr(0, end));
+    // a scanner's vertex may be nan
+    std::string_view word = bytes_.substr(0, end);
+    if (word.starts_with('+')) word.remove_prefix(1);
+    const auto value = parse_number<double>(word);
     bytes_.remove_prefix(end);
     return value;
   }
@@ -199,36 +237,50 @@ Result<PlyItem> read_item(const Element& element, std::size_t number, Numbers& n
   PlyItem item;
   item.element = element.name;
   item.number = number;
+  int coordinates = 0;
   for (const Property& property : element.properties) {
     const auto values = values_of(property, numbers);
     if (!values)
       return invalid(item.place(name) + ": the file ends there, or what stands there is no number");
     if (!property.count && property.name.size() == 1 && property.name[0] >= 'x' &&
-        property.name[0] <= 'z')
+        property.name[0] <= 'z') {
       item.xyz[property.name[0] - 'x'] = values->front();
+      ++coordinates;
+    }
     if (property.count && (property.name == "vertex_indices" || property.name == "vertex_index"))
       for (const double corner : *values)
         item.corners.push_back(std::abs(corner) < 1e9 ? long(corner) : -1);
   }
+  item.has_xyz = coordinates >= 3;
   return item;
 }
 
 }  // namespace
 
-Result<void> read_obj_lines(std::string_view bytes, const std::string& name,
-                            std::string_view element, const ObjCallbacks& lines) {
+Result<std::map<std::string, int>> read_obj_lines(std::string_view bytes, const std::string& name,
+                                                  std::string_view element,
+                                                  const ObjCallbacks& lines) {
+  std::string storage;
+  bytes = plain_text(bytes, storage);
+  std::map<std::string, int> others;
   long vertices = 0;
-  for (int number = 1; !bytes.empty(); ++number) {
-    const auto words = words_in(next_line(bytes));
-    if (words.empty() || (words[0] != "v" && words[0] != element)) continue;
-    const auto place = fmt::format("{}:{}", name, number);
+  std::string joined;
+  for (int number = 1, first = 1; !bytes.empty(); first = ++number) {
+    const std::string_view line = obj_line(bytes, number, joined);
+    const auto words = words_in(line.substr(0, line.find('#')));
+    if (words.empty()) continue;
+    const auto place = fmt::format("{}:{}", name, first);
+    if (words[0] == "curv" || words[0] == "curv2" || words[0] == "surf")
+      return invalid("{}: '{}', a free-form {}, must be {}", place, words[0],
+                     words[0] == "surf" ? "surface" : "curve",
+                     words[0] == "surf" ? "polygons (f)" : "a polyline (l)");
     if (words[0] == "v") {
-      std::vector<double> xyz;
-      for (std::size_t k = 1; k < words.size() && k < 4; ++k)
-        if (const auto value = number_of(words[k])) xyz.push_back(*value);
-      if (xyz.size() != 3) return invalid(place + ": a vertex must have three numbers, v x y z");
-      if (auto taken = lines.vertex(xyz, place); !taken) return taken;
+      TRY(xyz, obj_coordinates(words, place));
+      if (auto taken = lines.vertex(*xyz, place); !taken) return tl::unexpected(taken.error());
       ++vertices;
+    }
+    if (words[0] != element) {
+      if (words[0] == "f" || words[0] == "l" || words[0] == "p") ++others[std::string(words[0])];
       continue;
     }
     std::vector<long> corners;
@@ -238,9 +290,9 @@ Result<void> read_obj_lines(std::string_view bytes, const std::string& name,
         return invalid("{}: '{}' is no vertex, must be its number", place, words[k].substr(0, 40));
       corners.push_back(*corner);
     }
-    if (auto taken = lines.element(corners, place); !taken) return taken;
+    if (auto taken = lines.element(corners, place); !taken) return tl::unexpected(taken.error());
   }
-  return {};
+  return others;
 }
 
 std::string PlyItem::place(const std::string& name) const {

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <limits>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,11 +20,14 @@ struct ObjCallbacks {
   std::function<Result<void>(const std::vector<long>& vertices, const std::string& place)> element;
 };
 
-/// Hands on the vertices of a file and its elements of one kind, "f" or "l"; all other lines are
-/// left out. Errors (bad_input): a vertex that is not three finite numbers, an element with a word
-/// that is no number of a vertex ("7", "7/1/2", or "-1" from the last), what `lines` says.
-Result<void> read_obj_lines(std::string_view bytes, const std::string& name,
-                            std::string_view element, const ObjCallbacks& lines);
+/// Hands on the vertices of a file and its elements of one kind, "f" or "l". A line that ends in a
+/// backslash continues on the next, what follows "#" is a remark; other lines are left out. Returns
+/// how many elements of the other kind and points ("f", "l", "p") there are. Errors (bad_input): a
+/// vertex that is not three finite numbers, an element with a text that is no number of a vertex
+/// ("7", "7/1/2", or "-1" from the last), a free-form curve or surface, what `lines` says.
+Result<std::map<std::string, int>> read_obj_lines(std::string_view bytes, const std::string& name,
+                                                  std::string_view element,
+                                                  const ObjCallbacks& lines);
 
 // Stanford PLY: elements with properties that its header names, as text or as bytes.
 
@@ -33,6 +37,7 @@ struct PlyItem {
   std::size_t number = 0;  ///< from 0
   /// its properties x, y, z; NaN: it has none
   Eigen::Vector3d xyz = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  bool has_xyz = false;       ///< its element has all three
   std::vector<long> corners;  ///< its list vertex_indices
 
   /// "dome.ply: vertex 3"

@@ -24,6 +24,12 @@ Eigen::Matrix<double, rows, Eigen::Dynamic> matrix_of(const Points& points) {
   return matrix;
 }
 
+/// What came of a file.
+struct FileReport {
+  std::string text;                ///< one sentence: what it holds, its size, its unit
+  std::vector<std::string> notes;  ///< what may not be as it was meant
+};
+
 /// A surface that a file gives, mm: heights over a rectangular grid, or triangles.
 struct SurfaceData {
   std::vector<double> x, y;                   ///< of a grid, rising

@@ -10,15 +10,18 @@
 #include "engine/core/text.h"
 #include "engine/core/try.h"
 #include "engine/formats/obj_ply.h"
+#include "engine/formats/plain_text.h"
 
 namespace gridshell::preset {
 
-Result<void> MeshBuilder::add_vertex(const std::vector<double>& xyz, const std::string& place) {
+Result<void> MeshBuilder::add_vertex(std::vector<double> xyz, const std::string& place) {
   constexpr double largest = 1e9;
-  for (const double value : xyz)
+  for (double& value : xyz) {
+    value *= unit_mm_;
     if (!(std::abs(value) <= largest))
       return invalid("{}: a coordinate is {}, must be a number of at most 1e9", place,
                      std::isfinite(value) ? "too large" : "not a number");
+  }
   const auto [found, fresh] = at_.try_emplace(xyz, int(mesh_.vertices.size()));
   // a triangle that stands by itself brings three vertices
   if (mesh_.vertices.size() == most_vertices || number_.size() == 3 * most_triangles)
@@ -74,8 +77,8 @@ Result<void> add_corner(MeshBuilder& draft, const std::vector<double>& xyz,
   return draft.add_polygon({count - 3, count - 2, count - 1}, place);
 }
 
-Result<SurfaceData> read_binary(std::string_view bytes, const std::string& name) {
-  MeshBuilder draft;
+Result<SurfaceData> read_binary(std::string_view bytes, const std::string& name, double unit_mm) {
+  MeshBuilder draft(unit_mm);
   for (std::size_t k = 0; k < count_in(bytes); ++k)
     for (std::size_t corner = 0; corner < 3; ++corner) {
       float xyz[3];
@@ -87,11 +90,16 @@ Result<SurfaceData> read_binary(std::string_view bytes, const std::string& name)
   return draft.take(name);
 }
 
-Result<SurfaceData> read_text(std::string_view bytes, const std::string& name) {
-  MeshBuilder draft;
+Result<SurfaceData> read_text(std::string_view bytes, const std::string& name, double unit_mm) {
+  MeshBuilder draft(unit_mm);
+  bool ended = false;
   for (int number = 1; !bytes.empty(); ++number) {
     const auto words = words_in(next_line(bytes));
-    if (words.empty() || words[0] != "vertex") continue;
+    if (words.empty()) continue;
+    const std::string first = lower(words[0]);
+    if (first == "solid") ended = false;
+    if (first == "endsolid") ended = true;
+    if (first != "vertex") continue;
     const auto place = fmt::format("{}:{}", name, number);
     std::vector<double> xyz;
     for (std::size_t k = 1; k < words.size(); ++k)
@@ -103,6 +111,7 @@ Result<SurfaceData> read_text(std::string_view bytes, const std::string& name) {
   if (draft.vertices() % 3 != 0)
     return invalid("{}: ends within a triangle: {} vertices, must be three a triangle", name,
                    draft.vertices());
+  if (!ended) return invalid("{}: ends without \"endsolid\": is it cut short?", name);
   return draft.take(name);
 }
 
@@ -127,9 +136,22 @@ std::size_t nearest(const std::vector<double>& values, double value) {
   return k == values.size() || value - values[k - 1] < values[k] - value ? k - 1 : k;
 }
 
-Result<SurfaceData> read_heights(std::string_view bytes, const std::string& name) {
+/// What programs write where there is no height.
+bool marks_a_hole(double z) {
+  for (const double mark : {-9999.0, -99999.0, -999999.0, -32767.0, -32768.0})
+    if (z == mark) return true;
+  return std::abs(z) > 1e30;
+}
+
+Result<SurfaceData> read_heights(std::string_view bytes, const std::string& name, double unit_mm) {
   std::vector<int> lines;
-  TRY(points, points_in(std::string(bytes), name, {"x", "y", "z"}, {}, &lines));
+  TRY(points, points_in(bytes, name, {"x", "y", "z"}, {}, &lines, unit_mm));
+  for (std::size_t k = 0; k < points->size(); ++k)
+    if (const double z = (*points)[k][2] / unit_mm; marks_a_hole(z))
+      return invalid(
+          "{}:{}: a height of {:g}, which marks a place without one: a hole, must be a whole "
+          "rectangle",
+          name, lines[k], z);
   if (points->size() > most_heights)
     return invalid("{}: holds {} points, must be at most {}", name, points->size(), most_heights);
   SurfaceData grid{values_of(*points, 0), values_of(*points, 1), {}, {}, {}};
@@ -169,7 +191,7 @@ std::string rising_fault(const char* key, const std::vector<double>& values) {
 }
 
 std::string mesh_fault(const SurfaceData& mesh) {
-  MeshBuilder draft;
+  MeshBuilder draft(1);
   for (const auto& vertex : mesh.vertices) {
     if (vertex.size() != 3) return "vertices_mm must be points [x, y, z]";
     if (auto added = draft.add_vertex(vertex, "vertices_mm"); !added) return added.error().message;
@@ -182,32 +204,37 @@ std::string mesh_fault(const SurfaceData& mesh) {
 
 /// Each reads a whole file; `name` is what errors call it. Errors (bad_input): what is not of the
 /// format, with its line or the number of its vertex or triangle.
-Result<SurfaceData> read_obj(std::string_view bytes, const std::string& name) {
-  MeshBuilder draft;
+Result<SurfaceData> read_obj(std::string_view bytes, const std::string& name, double unit_mm) {
+  MeshBuilder draft(unit_mm);
   return read_obj_lines(
              bytes, name, "f",
              {[&](const auto& xyz, const auto& at) { return draft.add_vertex(xyz, at); },
               [&](const auto& corners, const auto& at) { return draft.add_polygon(corners, at); }})
-      .and_then([&] { return draft.take(name); });
+      .and_then([&](const auto&) { return draft.take(name); });
 }
 
-Result<SurfaceData> read_ply(std::string_view bytes, const std::string& name) {
-  MeshBuilder draft;
+Result<SurfaceData> read_ply(std::string_view bytes, const std::string& name, double unit_mm) {
+  MeshBuilder draft(unit_mm);
   const auto read = each_ply_item(bytes, name, [&](const PlyItem& item) -> Result<void> {
     if (item.element == "vertex")
       return draft.add_vertex({item.xyz.x(), item.xyz.y(), item.xyz.z()}, item.place(name));
     if (item.element == "face") return draft.add_polygon(item.corners, item.place(name));
+    if (item.element == "tristrips")
+      return invalid("{}: strips of triangles, must be faces", item.place(name));
     return {};
   });
   if (!read) return tl::unexpected(read.error());
   return draft.take(name);
 }
 
-Result<SurfaceData> read_stl(std::string_view bytes, const std::string& name) {
+Result<SurfaceData> read_stl(std::string_view bytes, const std::string& name, double unit_mm) {
   // a binary file may begin with "solid" too, and is told by its size
   if (bytes.size() >= header && bytes.size() == header + triangle * count_in(bytes))
-    return read_binary(bytes, name);
-  if (bytes.starts_with("solid")) return read_text(bytes, name);
+    return read_binary(bytes, name, unit_mm);
+  std::string storage;
+  const std::string_view text = plain_text(bytes, storage);
+  const std::size_t first = std::min(text.find_first_not_of(" \t\r\n"), text.size());
+  if (lower(text.substr(first, 5)) == "solid") return read_text(text, name, unit_mm);
   return invalid(
       "{}: no STL: begins without \"solid\", and its {} bytes are not those of the {} "
       "triangles that it says",
@@ -232,12 +259,12 @@ std::string surface_fault(const SurfaceData& surface) {
   return "";
 }
 
-Result<SurfaceData> read_surface(std::string_view bytes, const std::string& name) {
+Result<SurfaceData> read_surface(std::string_view bytes, const std::string& name, double unit_mm) {
   const std::string ending = ending_of(name);
-  if (ending == ".csv" || ending == ".txt") return read_heights(bytes, name);
-  if (ending == ".obj") return read_obj(bytes, name);
-  if (ending == ".ply") return read_ply(bytes, name);
-  if (ending == ".stl") return read_stl(bytes, name);
+  if (ending == ".csv" || ending == ".txt") return read_heights(bytes, name, unit_mm);
+  if (ending == ".obj") return read_obj(bytes, name, unit_mm);
+  if (ending == ".ply") return read_ply(bytes, name, unit_mm);
+  if (ending == ".stl") return read_stl(bytes, name, unit_mm);
   return invalid(
       "{}: its name must end in .csv or .txt (heights x, y, z over a grid), or .obj, .ply "
       "or .stl (triangles)",

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/core/text.h"
+#include "engine/formats/network_file.h"
 #include "engine/preset/preset.h"
 
 namespace gridshell::preset {
@@ -168,6 +169,31 @@ std::vector<KeyFault> conflicts(const Preset& preset) {
 
 std::vector<KeyFault> unused_keys(const Preset& preset) {
   return key_faults(preset, RuleKind::unused);
+}
+
+std::vector<std::string> doubtful_values(const Preset& preset) {
+  constexpr double stiffest_GPa = 1300, densest_kg_m3 = 23000;  // diamond, osmium
+  std::vector<std::string> found;
+  const auto look = [&](const Rod& rod, const std::string& table) {
+    for (const auto& [key, value] :
+         {std::pair("young_GPa", rod.young_GPa), {"shear_GPa", rod.shear_GPa}})
+      if (value > stiffest_GPa)
+        found.push_back(
+            fmt::format("{} {} = {:g}: stiffer than any material, given in MPa? {:g} GPa", table,
+                        key, value, value / 1000));
+    if (rod.density_kg_m3 > densest_kg_m3)
+      found.push_back(fmt::format("{} density_kg_m3 = {:g}: denser than any material", table,
+                                  rod.density_kg_m3));
+  };
+  look(preset.rod, "[rod]");
+  if (preset.rod_v.differs) look(preset.rod_v, "[rod_v]");
+  const bool network = preset.footprint.kind == FootprintKind::network;
+  const double spacing = network ? spacing_of(preset.footprint.file) : preset.footprint.spacing_mm;
+  if (const double across = preset.joints.diameter_mm; spacing > 0 && across > spacing)
+    found.push_back(fmt::format(
+        "[joints] diameter_mm = {:g}: joints are larger than their usual distance of {:.3g} mm",
+        across, spacing));
+  return found;
 }
 
 std::optional<NamedSide> side_named(const Preset& preset, const std::string& name) {

@@ -48,6 +48,10 @@ inline constexpr const char* side_names[] = {"east", "west", "north", "south"};
 /// "left.east"; empty when no block or side has that name.
 std::optional<NamedSide> side_named(const Preset& preset, const std::string& name);
 
+/// Values that are in their range and of no shell that is known: a material beyond all materials,
+/// joints larger than their distance. A sentence each.
+std::vector<std::string> doubtful_values(const Preset& preset);
+
 // Which rung of the model ladder a preset needs: no more than its scene asks for.
 
 /// The rung that a preset runs on: the one it asks for, else the lowest that is exact; `net` only

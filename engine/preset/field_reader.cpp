@@ -1,5 +1,8 @@
 // How the values of keys are read: one overload for each type of member.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -105,17 +108,37 @@ std::string read_parts(const toml::table& table, Data& data) {
     if (!wrong.empty() || (!needed && !table.contains(key))) return;
     const auto* value = table.get(key);
     const bool list = value && value->is_array();
-    wrong = list ? read_part(*value, part) : fmt::format("has no list {}", key);
+    const std::string_view name(key);
+    const std::string bare(name.ends_with("_mm") ? name.substr(0, name.size() - 3) : "");
+    wrong = list ? read_part(*value, part)
+                 : fmt::format("has no list {}{}", key,
+                               table.contains(bare)
+                                   ? fmt::format(" (it has {}, whose unit must be named)", bare)
+                                   : "");
     if (list && !wrong.empty()) wrong = fmt::format("{} {}", key, wrong);
   });
   return wrong;
 }
 
+std::string surface_text(const SurfaceData& surface) {
+  if (!surface.is_mesh())
+    return fmt::format("heights on a grid of {} x {}, {:.6g} x {:.6g} mm", surface.x.size(),
+                       surface.y.size(), surface.x.back() - surface.x.front(),
+                       surface.y.back() - surface.y.front());
+  Eigen::AlignedBox3d box;
+  for (const auto& at : surface.vertices) box.extend(Eigen::Vector3d(at[0], at[1], at[2]));
+  const Eigen::Vector3d size = box.sizes();
+  return fmt::format("{} triangles, {} vertices, {:.6g} x {:.6g} x {:.6g} mm",
+                     surface.triangles.size(), surface.vertices.size(), size.x(), size.y(),
+                     size.z());
+}
+
 /// Puts a value into a member, or says what is wrong.
 class Reader {
  public:
-  Reader(const Field& field, const toml::node& value, const FileContext& beside)
-      : field_(field), value_(value), beside_(beside) {}
+  Reader(const Field& field, const toml::node& value, const Preset& preset,
+         const FileContext& beside, FileReport* report)
+      : field_(field), value_(value), preset_(preset), beside_(beside), report_(report) {}
 
   /// Whatever its type, a member is changed only where nothing is wrong.
   template <class T>
@@ -202,13 +225,17 @@ class Reader {
   }
 
   std::string read(const toml::node& value, Points& points) {
-    if (const auto* name = value.as_string()) {
-      const auto file = beside_.folder / name->get();
-      auto found = read_points(file, field_.coordinates, field_.coordinate_words);
-      if (found) points = std::move(*found);
-      auto wrong = found ? points_fault(points) : found.error().message;
+    if (const auto* name = value.as_string(); name && !name->get().empty()) {
+      const auto read_rows = [&](std::string_view bytes, const std::string& file) {
+        return points_in(bytes, file, field_.coordinates, field_.coordinate_words);
+      };
+      if (auto wrong = read_file_of(name->get(), read_rows, largest_text, points); !wrong.empty())
+        return wrong;
+      report(name->get(),
+             fmt::format("{} points: {}", points.size(), fmt::join(field_.coordinates, ", ")));
+      const auto wrong = points_fault(points);
       told_in_full_ = !wrong.empty();
-      return found && told_in_full_ ? file.string() + ": " + wrong : wrong;
+      return told_in_full_ ? (beside_.folder / name->get()).string() + ": " + wrong : wrong;
     }
     const auto* list = value.as_array();
     if (!list) return "is " + type_text(value);
@@ -228,32 +255,52 @@ class Reader {
     return points_fault(points);
   }
   std::string read(const toml::node& value, SurfaceData& surface) {
-    if (const auto* name = value.as_string())
-      return read_file_of(name->get(), read_surface, largest_mesh_file, surface);
+    if (const auto* name = value.as_string()) {
+      const double unit = millimetres(preset_.net.file_unit);
+      const auto read = [&](std::string_view bytes, const std::string& file) {
+        return read_surface(bytes, file, unit > 0 ? unit : 1);
+      };
+      auto wrong = read_file_of(name->get(), read, largest_mesh_file, surface);
+      if (wrong.empty() && !surface.empty())
+        report(name->get(), surface_text(surface) + (unit > 0 ? ", unit by file_unit" : ", in mm"));
+      return wrong;
+    }
     if (!value.is_table()) return "is " + type_text(value);
     const auto wrong = read_parts(*value.as_table(), surface);
     return wrong.empty() ? surface_fault(surface) : wrong;
   }
   std::string read(const toml::node& value, NetworkData& network) {
-    if (const auto* name = value.as_string())
-      return read_file_of(name->get(), read_network, largest_network_file, network);
+    if (const auto* name = value.as_string()) {
+      const Footprint& of = preset_.footprint;
+      const Rod& rod = preset_.rod;
+      const NetworkOptions options{millimetres(of.file_unit), of.join_mm,
+                                   rod.rectangular() ? rod.thickness_mm : rod.diameter_mm};
+      const auto read = [&](std::string_view bytes, const std::string& file) {
+        return read_network(bytes, file, options, report_);
+      };
+      return read_file_of(name->get(), read, largest_network_file, network);
+    }
     if (!value.is_table()) return "is " + type_text(value);
     const auto wrong = read_parts(*value.as_table(), network);
     return wrong.empty() ? network_fault(network) : wrong;
   }
 
-  // a surface or network out of a file, or none where the name is empty
+  /// What a file held, for `check`.
+  void report(const std::string& name, const std::string& text) {
+    if (report_) report_->text = fmt::format("{}: {}", (beside_.folder / name).string(), text);
+  }
+
+  // points, a surface or a network out of a file, or none where the name is empty
   template <class Data>
-  std::string read_file_of(const std::string& name,
-                           Result<Data> (*read_data)(std::string_view, const std::string&),
-                           std::size_t largest, Data& data) {
+  std::string read_file_of(const std::string& name, const auto& read_data, std::size_t largest,
+                           Data& data) {
     if (name.empty()) return "";
     const bool known = beside_.built_in && beside_.built_in->contains(name);
     const auto file = beside_.folder / name;
-    auto found = known ? read_data(beside_.built_in->at(name), name)
-                       : read_file(file, largest).and_then([&](const std::string& bytes) {
-                           return read_data(bytes, file.string());
-                         });
+    Result<Data> found = known ? read_data(beside_.built_in->at(name), name)
+                               : read_file(file, largest).and_then([&](const std::string& bytes) {
+                                   return read_data(bytes, file.string());
+                                 });
     told_in_full_ = !found;
     if (!found) return found.error().message;
     data = std::move(*found);
@@ -262,7 +309,9 @@ class Reader {
 
   const Field& field_;
   const toml::node& value_;
+  const Preset& preset_;
   const FileContext& beside_;
+  FileReport* report_;
   const char* is_ = "is ";  // begins the sentence on what stands there instead
   bool told_in_full_ = false;
 };
@@ -270,8 +319,8 @@ class Reader {
 }  // namespace
 
 std::string assign(const Field& field, const toml::node& value, Preset& preset,
-                   const FileContext& beside, int item) {
-  Reader reader(field, value, beside);
+                   const FileContext& beside, int item, FileReport* report) {
+  Reader reader(field, value, preset, beside, report);
   const auto wrong = std::visit(reader, field.in(preset, item));
   if (wrong.empty() || reader.told_in_full()) return wrong;
   std::string text = wrong + ", must be " + allowed(field);

@@ -70,6 +70,14 @@ struct Curve {
   Points points;                                ///< (x, y) of a polygon or spline
 };
 
+/// The unit of a file's numbers; `file`: the one that it names, else mm.
+enum class FileUnit { file, mm, cm, m, in, ft };
+/// In millimetres; 0: as the file says.
+inline double millimetres(FileUnit unit) {
+  constexpr double sizes[] = {0, 1, 10, 1000, 25.4, 304.8};
+  return sizes[std::size_t(unit)];
+}
+
 enum class FootprintKind { circle, net, curve, blocks, network };
 struct Footprint {
   FootprintKind kind = FootprintKind::circle;
@@ -80,6 +88,9 @@ struct Footprint {
   double spacing_mm = 20.0;  ///< d
   Placement placement = Placement::half;
   NetworkData file;  ///< of kind network
+  /// How the file is read that `file` names; the defaults again once it is.
+  FileUnit file_unit = FileUnit::file;
+  double join_mm = 0;
 };
 
 enum class NetKind { sphere, cylinder, spool, beltrami, profile, translation, surface };
@@ -87,17 +98,18 @@ enum class NetKind { sphere, cylinder, spool, beltrami, profile, translation, su
 enum class NetAxis { principal, x };
 struct Net {
   NetKind kind = NetKind::sphere;
-  double radius_mm = 120.0;  ///< rho, the deviation's scale
-  double cut_height = 0;     ///< z*/rho of a cap
-  double length_mm = 240.0;  ///< between the end rings
-  double waist = 0.5;        ///< a
-  double crossing_deg = 90;  ///< omega in the middle of a surface of revolution
-  Points profile;            ///< (r, z)
-  Points curve_u, curve_v;   ///< (x, y, z) of a translation net
-  std::string implicit;      ///< F(x, y, z) of a surface F = 0
-  std::string height;        ///< h(x, y) of a surface z = h
-  SurfaceData file;          ///< heights over a grid, or a mesh
-  std::string within;        ///< G(x, y, z) < 0 inside the boundary; empty: z > cut_mm
+  double radius_mm = 120.0;             ///< rho, the deviation's scale
+  double cut_height = 0;                ///< z*/rho of a cap
+  double length_mm = 240.0;             ///< between the end rings
+  double waist = 0.5;                   ///< a
+  double crossing_deg = 90;             ///< omega in the middle of a surface of revolution
+  Points profile;                       ///< (r, z)
+  Points curve_u, curve_v;              ///< (x, y, z) of a translation net
+  std::string implicit;                 ///< F(x, y, z) of a surface F = 0
+  std::string height;                   ///< h(x, y) of a surface z = h
+  SurfaceData file;                     ///< heights over a grid, or a mesh
+  FileUnit file_unit = FileUnit::file;  ///< of the file that `file` names; once read the default
+  std::string within;                   ///< G(x, y, z) < 0 inside the boundary; empty: z > cut_mm
   double cut_mm = 0;
   std::vector<double> apex_mm{0, 0};  ///< where the axes cross; z may be left out of a height
   NetAxis axis = NetAxis::principal;

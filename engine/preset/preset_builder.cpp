@@ -39,6 +39,7 @@ void PresetBuilder::forget_items(const std::string& table) {
   };
   std::erase_if(set_at, [&](const auto& one) { return of_table(one.first); });
   std::erase_if(faulty, of_table);
+  std::erase_if(files, [&](const auto& one) { return of_table(one.first); });
 }
 
 namespace {

@@ -1,6 +1,7 @@
 // Where the values of a preset came from, and what is wrong with them.
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <set>
 #include <string>
@@ -41,6 +42,20 @@ class LocatedFaults {
   std::vector<LocatedFault> faults_;
 };
 
+/// Where the files lie that a preset names: in a folder, or with it in the program.
+struct FileContext {
+  std::filesystem::path folder;
+  const std::map<std::string, std::string>* built_in = nullptr;  ///< texts by name
+};
+
+/// A file that a key names: it is read once every other key is known.
+struct NamedFile {
+  std::string table, key;
+  int item = -1;  ///< of a list of tables
+  std::string name;
+  FileContext beside;
+};
+
 // A preset while its file is read, and what its keys say together once all are laid.
 
 /// A preset on its way, and where each of its keys was set.
@@ -48,6 +63,8 @@ struct PresetBuilder {
   Preset preset;
   std::map<std::string, SourceLocation> set_at;  ///< by bracketed name
   std::set<std::string> faulty;                  ///< keys whose value was refused
+  std::map<std::string, NamedFile> files;        ///< by bracketed name
+  std::vector<std::string> read, notes;          ///< what came of them, and what may not be meant
 
   /// A list of tables made empty again, and where its keys were set.
   void forget_items(const std::string& table);

@@ -50,10 +50,15 @@ Presets read_presets(const toml::table& root, const std::string& name,
   reading.apply(root, "case", base);  // and with it the lists of tables
   const auto finish = [&](PresetBuilder draft) {
     for (const auto& change : overrides) reading.apply_override(change, draft);
+    reading.read_files(draft);
     return draft;
   };
   const auto whole = finish(base);
   Presets presets{whole.preset, {}};
+  const auto add_once = [](const std::vector<std::string>& from, std::vector<std::string>& to) {
+    for (const std::string& one : from)
+      if (std::ranges::find(to, one) == to.end()) to.push_back(one);
+  };
   const auto* node = root.get("case");
   if (node && !node->is_array_of_tables()) {
     reading.faults().add(reading.place_of(node->source()), "case: must be tables, each [[case]]");
@@ -74,6 +79,11 @@ Presets read_presets(const toml::table& root, const std::string& name,
     presets.cases.push_back({own, std::move(draft.preset)});
   }
   if (runs.empty()) runs.push_back(whole);
+  for (const PresetBuilder& draft : runs) {
+    add_once(draft.read, presets.files);
+    add_once(draft.notes, presets.notes);
+    add_once(doubtful_values(draft.preset), presets.notes);
+  }
   for (const PresetBuilder& draft : runs)
     check_conflicts(draft, reading.source(), reading.faults());
   check_unused_keys(runs, reading.faults());

@@ -30,6 +30,8 @@ struct Case {
 struct Presets {
   Preset base;
   std::vector<Case> cases;
+  std::vector<std::string> files = {};  ///< what came of each file that it names, a sentence each
+  std::vector<std::string> notes = {};  ///< what may not be as it was meant
 };
 
 /// Why a case cannot have this name, which is that of a folder among a run's files; empty when it

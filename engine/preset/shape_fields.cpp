@@ -103,6 +103,21 @@ void add_footprint(std::vector<Field>& all) {
                    [=](const Footprint& of) { return network(of) && has_closed_rods(of.file); })
       .needs_twist("clamped ends of the file hold the rods' spin",
                    [=](const Footprint& of) { return network(of) && clamps(of.file); });
+  const char* of_a_file =
+      "is of a file that `file` names: rods listed here are in mm and as joined";
+  list.add<&Footprint::file_unit>(
+          "unit of the numbers of a drawing (.obj, .dxf); \"file\": the one that it names, else mm")
+      .used_by(&Footprint::kind, {Kinds::network})
+      .refused({"file"}, of_a_file,
+               [=](const Footprint& of) { return network(of) && of.file_unit != FileUnit::file; });
+  list.add<&Footprint::join_mm>(
+          between(0, 1000),
+          "of the file: points nearer to one another than this are one, and ends of rods that lie "
+          "as "
+          "near to another rod are joined to it; 0: where they touch to 0.001 mm")
+      .used_by(&Footprint::kind, {Kinds::network})
+      .refused({"file"}, of_a_file,
+               [=](const Footprint& of) { return network(of) && of.join_mm > 0; });
   list.add<&Footprint::rods>(between(1, 500), "rods a direction in a circle, n")
       .used_by(&Footprint::kind, {Kinds::circle});
   list.add<&Footprint::radius_mm>(above(0), "radius of a circle, R_o");
@@ -256,6 +271,9 @@ void add_surface(FieldList<Net> net) {
       "through, or triangles (.obj, .ply, .stl), to which a smooth surface is fitted; mm");
   surface().refused({"implicit", "height"}, twice,
                     [=](const Net& of) { return given(of) > 1 && !of.file.empty(); });
+  net.add<&Net::file_unit>("unit of the file's numbers; \"file\": the one that it names, else mm");
+  surface().refused({"file"}, "is of a file that `file` names: a surface listed here is in mm",
+                    [](const Net& of) { return of.file_unit != FileUnit::file; });
   net.add<&Net::apex_mm>(
       "[x, y, z], a point of the surface where the net's axes cross at right angles; of a height "
       "or a file [x, y]");

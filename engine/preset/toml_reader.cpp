@@ -92,6 +92,12 @@ bool in_list(const std::string& name) {
   });
 }
 
+/// Whether a key may name a file in the place of what is in it.
+bool takes_file(const Field& field) {
+  Preset any = default_items();  // only the type of its member counts
+  return field.as<Points>(any) || field.as<SurfaceData>(any) || field.as<NetworkData>(any);
+}
+
 /// Whether a table of keys can change a number of a run: those of pictures and of the sweep itself
 /// cannot.
 bool affects_results(const std::string& table) {
@@ -324,15 +330,41 @@ void TomlReader::assign_key(const std::string& table, const toml::key& key, cons
     read_sweep_axes(*value.as_table(), draft);
     return;
   }
-  const auto wrong =
-      assign(*field, value, draft.preset, override_.empty() ? beside_ : FileContext{}, item);
   draft.set_at[full] = place;
+  const FileContext beside = override_.empty() ? beside_ : FileContext{};
+  draft.files.erase(full);
+  if (const auto* file = value.as_string(); file && !file->get().empty() && takes_file(*field)) {
+    draft.faulty.erase(full);
+    draft.files[full] = {table, name, item, file->get(), beside};
+    return;
+  }
+  const auto wrong = assign(*field, value, draft.preset, beside, item);
   if (wrong.empty()) {
     draft.faulty.erase(full);
   } else {
     draft.faulty.insert(full);
     faults_.add(place, fmt::format("{} = {}: {}", full, toml_text(value), wrong));
   }
+}
+
+void TomlReader::read_files(PresetBuilder& draft) {
+  for (const auto& [full, file] : draft.files) {
+    const auto* field = find_field(file.table, file.key);
+    const toml::value<std::string> value(file.name);
+    FileReport report;
+    const auto wrong = assign(*field, value, draft.preset, file.beside, file.item, &report);
+    if (!report.text.empty()) draft.read.push_back(full + " = " + report.text);
+    for (const std::string& note : report.notes) draft.notes.push_back(full + ": " + note);
+    if (wrong.empty()) continue;
+    draft.faulty.insert(full);
+    faults_.add(draft.set_at.at(full), fmt::format("{} = {}: {}", full, toml_text(value), wrong));
+  }
+  // what is read stands in the preset in mm
+  if (draft.files.contains(key_label("footprint", "file"))) {
+    draft.preset.footprint.file_unit = FileUnit::file;
+    draft.preset.footprint.join_mm = 0;
+  }
+  if (draft.files.contains(key_label("net", "file"))) draft.preset.net.file_unit = FileUnit::file;
 }
 
 }  // namespace gridshell::preset

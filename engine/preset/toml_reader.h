@@ -14,17 +14,11 @@
 
 namespace gridshell::preset {
 
-/// Where the files lie that a preset names: in a folder, or with it in the program.
-struct FileContext {
-  std::filesystem::path folder;
-  const std::map<std::string, std::string>* built_in = nullptr;  ///< texts by name
-};
-
 /// Empty when `value` was put into `preset` (of a list of tables into an item, below 0: the last);
 /// else what is wrong and what is allowed, and `preset` is as it was. Files are looked for `beside`
-/// the preset.
+/// the preset; `report` takes what came of one.
 std::string assign(const Field& field, const toml::node& value, Preset& preset,
-                   const FileContext& beside, int item = -1);
+                   const FileContext& beside, int item = -1, FileReport* report = nullptr);
 
 /// The value as a fault shows it: TOML on one line, shortened when long.
 std::string toml_text(const toml::node& value);
@@ -54,6 +48,8 @@ class TomlReader {
   void apply(const toml::table& root, const std::string& apart, PresetBuilder& draft);
   /// One value of the command line over a draft.
   void apply_override(const Override& change, PresetBuilder& draft);
+  /// Reads the files that a draft names, once all that says how is laid over it.
+  void read_files(PresetBuilder& draft);
 
   const std::string& source() const { return source_; }
   SourceLocation place_of(const toml::source_region& region) const;

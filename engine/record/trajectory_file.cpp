@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <algorithm>
 #include <cerrno>
@@ -47,14 +48,16 @@ std::string header_fault(const ReadableFile& file, bool unsealed) {
   const auto start = file.read(0, std::min<std::uint64_t>(header_size, file.size()));
   if (start && start->starts_with("\x89HDF\r\n\x1a\n"))
     return unsealed ? ""
-                    : "it bears no seal, so another program wrote it ('render --unsealed' reads it "
-                      "all the same)";
+                    : "it bears no seal, so another program wrote it (--unsealed, in Python "
+                      "unsealed=True, reads it all the same)";
   if (!start || !start->starts_with(trajectory_format)) return "it is not an HDF5 file";
   if (start->size() < header_size) return "it is cut short";
   const bool older = start->find("FNV-1a") != start->npos;
   if (unsealed || start == expected_header(file, older ? ChecksumKind::fnv1a : ChecksumKind::crc32))
     return "";
-  return "it is cut short, damaged or was changed: its checksum does not match";
+  return "it is cut short, damaged or was changed: its checksum does not match (of one that "
+         "another "
+         "program changed, --unsealed, in Python unsealed=True, reads what there is)";
 }
 
 constexpr std::size_t longest_word = 60000;  // what an attribute takes
@@ -91,10 +94,28 @@ std::string write_fault(int descriptor, const AtomicFile& target, const Trajecto
   return put == ssize_t(header->size()) ? "" : words_of(put < 0 ? errno : ENOSPC);
 }
 
+/// How often this process has the file open: more than once, by another library (h5py), the HDF5
+/// library does not open it in another way.
+int times_open(const std::filesystem::path& path) {
+  struct stat file {
+  }, open{};
+  std::error_code error;
+  int times = 0;
+  if (::stat(path.c_str(), &file) != 0) return times;
+  for (const auto& one : std::filesystem::directory_iterator("/proc/self/fd", error))
+    if (::stat(one.path().c_str(), &open) == 0 && open.st_dev == file.st_dev &&
+        open.st_ino == file.st_ino)
+      ++times;
+  return times;
+}
+
 Result<Trajectory> read_checked(const std::filesystem::path& path) {
   const auto refuse = [](const std::string& reason) { return invalid(reason); };
+  const bool open = times_open(path) > 1;  // once by who asks
   const auto file = std::make_shared<hdf5::Reader>(path);
-  if (!file->good()) return refuse("it is cut short or damaged");
+  if (!file->good())
+    return refuse(open ? "it is open in this process (by h5py?), and must be closed there first"
+                       : "it is cut short or damaged");
   if (file->text_attribute("/", "format") != trajectory_format)
     return refuse(fmt::format("it does not say \"{}\"", trajectory_format));
   Trajectory trajectory;

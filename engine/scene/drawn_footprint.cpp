@@ -69,6 +69,7 @@ RodNetwork network_of(const preset::NetworkData& file, preset::EndKind ends,
   network.free.assign(file.points.size(), 0);
   for (const auto& row : file.supports) network.supported[std::size_t(row[0])] = 1;
   for (const int point : file.free) network.free[std::size_t(point)] = 1;
+  for (const auto& row : file.joint_laws) network.joined.insert(int(row[0]));
   network.hold = hold_as(ends);
   for (const auto& row : file.holds)
     network.holds[int(2 * row[0] + row[1])] = hold_as(preset::EndKind(int(row[2])));
@@ -166,8 +167,11 @@ Result<void> check_diameters(const preset::Preset& preset, const Footprint& foot
     if (!(across < footprint.spacing))
       return invalid(
           "rods[{}]: a {} of {:g} mm, must be less than the usual distance of {:g} mm "
-          "between joints",
-          drawn.number, rod.rectangular() ? "width" : "diameter", across, footprint.spacing);
+          "between joints{}",
+          drawn.number, rod.rectangular() ? "width" : "diameter", across, footprint.spacing,
+          across < 500 * footprint.spacing
+              ? "; is the drawing in metres? [footprint] file_unit = \"m\" reads it so"
+              : "");
   }
   return {};
 }

@@ -1,5 +1,7 @@
 #include "engine/scene/net_design.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -221,6 +223,31 @@ FlatFrame frame_of(const preset::Net& wanted, const NetPlace& place, const Eigen
   return frame;
 }
 
+/// What may be the cause where a file's surface bears no net: its unit, or its axes; or empty.
+std::string likely_cause(const preset::SurfaceData& file, double spacing_mm) {
+  Eigen::AlignedBox3d box;
+  for (const auto& at : file.vertices) box.extend(Eigen::Vector3d(at[0], at[1], at[2]));
+  const double width = file.is_mesh() ? box.sizes().maxCoeff()
+                       : file.empty() ? NAN
+                                      : file.x.back() - file.x.front();
+  if (width < 2 * spacing_mm)
+    return fmt::format(
+        "; the whole surface is {:.3g} mm wide and the rods {:.3g} mm apart: is the file in "
+        "metres? "
+        "[net] file_unit = \"m\" reads it so",
+        width, spacing_mm);
+  Eigen::Vector3d faced = Eigen::Vector3d::Zero();
+  for (const auto& [a, b, c] : file.triangles) {
+    const Eigen::Map<const Eigen::Vector3d> p(file.vertices[std::size_t(a)].data()),
+        q(file.vertices[std::size_t(b)].data()), r(file.vertices[std::size_t(c)].data());
+    faced += (q - p).cross(r - p).cwiseAbs();
+  }
+  return faced.y() > 1.5 * faced.z()
+             ? "; the surface faces y, not z: is y up in the file? Its y and z "
+               "must be exchanged"
+             : "";
+}
+
 /// F(x, y, z) = 0, z = h(x, y), heights over a grid or a mesh, from an apex where the surface faces
 /// up, as far as the boundary; the net's grid is an eighth of the rods' spacing. Errors
 /// (bad_input): an expression that does not parse, a mesh that is no smooth sheet, an apex off the
@@ -270,7 +297,10 @@ Result<NetDesign> net_design(const preset::Net& net, double spacing_mm) {
     case preset::NetKind::surface:
       break;
   }
-  return surface_design(net, spacing_mm);
+  return surface_design(net, spacing_mm).map_error([&](Error error) {
+    error.message += likely_cause(net.file, spacing_mm);
+    return error;
+  });
 }
 
 Result<NetDesign> block_design(const preset::Preset& preset) {

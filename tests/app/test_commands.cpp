@@ -211,6 +211,35 @@ TEST_CASE("a run says on the terminal what its path came past", "[shared]") {
              Contains("on its way: the path branches at progress 0.018"));
 }
 
+TEST_CASE("check says what came of each file, and what may not be meant") {
+  const Bench bench(small);
+  REQUIRE(
+      write_file(bench.at / "net.toml", "[footprint]\nkind = \"network\"\nfile = \"net.obj\"\n"));
+  const std::string rods =
+      "v -30 0 0\nv 30 0 0\nv -10 -30 0\nv -10 30 0\nv 10 -30 0\nv 10 9.996 0\n"
+      "v 10 10.004 0\nv 10 30 0\nl 1 2\nl 3 4\nl 5 6\nl 7 8\n";
+  REQUIRE(write_file(bench.at / "net.obj", rods + "v -30 20 0\nv 30 20 0\nl 9 10\n"));
+  const auto loose = bench.good("check net.toml --set rod.young_GPa=83000");
+  CHECK_THAT(loose.out,
+             Contains("net.obj: in mm, as OBJ names no unit; 5 rods, 4 joints, 10 sup") &&
+                 Contains("[footprint] join_mm = 0.0088 joins them") &&
+                 Contains("stiffer than any material"));
+  const auto joined = bench.good("check net.toml --set footprint.join_mm=0.01");
+  CHECK_THAT(joined.out, Contains("4 rods, 4 joints, 8 supports") && !Contains("note"));
+  // what is refused may be so because of it
+  REQUIRE(write_file(bench.at / "net.obj", rods));
+  check_refused("check net.toml", bench.at,
+                Contains("is joined to no other rod") && Contains("join_mm = 0.0088 joins them"));
+}
+
+TEST_CASE("a preset comes through a pipe") {
+  const Bench bench(small);
+  const std::string line = std::string("cat small.toml | ") + GRIDSHELL_PROGRAM + " check -";
+  const auto said = Running({"-c", line}, bench.at, "/bin/sh").wait();
+  CHECK(said.code == 0);
+  CHECK_THAT(said.out, Contains("pipe: "));
+}
+
 TEST_CASE("check explains what would run and writes nothing") {
   const Bench bench(small);
   const auto said = bench.good("check small.toml");

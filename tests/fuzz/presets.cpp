@@ -71,7 +71,7 @@ void points(std::string_view bytes) {
 void cloud(std::string_view bytes) {
   const std::string name = name_before(bytes);
   const auto read = preset::read_cloud(bytes, name);
-  if (!refused(read, name) && !(read->cols() > 0 && read->allFinite()))
+  if (!refused(read, name) && !(read->points.cols() > 0 && read->points.allFinite()))
     complain("holds no points", name);
 }
 

@@ -80,3 +80,14 @@ def test_what_is_no_run_says_so(small_run, tmp_path):
         gs.load(small_run, case="third")
     with pytest.raises(TypeError):
         gs.load(None)
+
+
+def test_a_changed_trajectory_is_read_where_that_is_asked(small_run, tmp_path):
+    shutil.copytree(small_run, tmp_path / "run")
+    file = tmp_path / "run" / "trajectory.h5"
+    bytes_ = file.read_bytes()
+    at = bytes_.index(b"CRC-32 ") + 7
+    file.write_bytes(bytes_[:at] + bytes([bytes_[at] ^ 1]) + bytes_[at + 1 :])
+    with pytest.raises(gs.BadInput, match="unsealed=True"):
+        gs.load(tmp_path / "run")
+    assert np.array_equal(gs.load(tmp_path / "run", unsealed=True).nodes, gs.load(small_run).nodes)

@@ -70,6 +70,24 @@ TEST_CASE("a rod that ends on another is joined there, ends alone at a free poin
   CHECK(mesh.flat.col(mesh.rods[1][1]).isApprox(Eigen::Vector2d(0, -5)));
 }
 
+TEST_CASE("a closed chain of rods whose ends meet is a frame where its joints are named") {
+  // four rods around a square, held at one corner and on springs at two
+  const std::vector<Eigen::Vector2d> square{{0, -7}, {7, 0}, {0, 7}, {-7, 0}};
+  RodNetwork net = network(square, {{0, 1}, {1, 2}, {2, 3}, {3, 0}}, {0, 1, 2});
+  net.springs = {{1, {0, 0, 9}}, {2, {9, 0, 9}}};
+  refused(net,
+          "rods[3]: is joined to no other rod: where rods only end, as at point 3, each is held");
+  refused(net, "{\"point\": 3, \"to_mm\": \"free\"}");
+  net.joined = {0, 1, 2, 3};
+  const auto made = value_of(network_footprint(net));
+  CHECK(made.footprint.joints.size() == 4);
+  CHECK(made.footprint.held_joints.size() == 3);
+  for (const FootprintRod& rod : made.footprint.rods) {
+    CHECK(rod.begin == RodEnd::joined);
+    CHECK(rod.end == RodEnd::joined);
+  }
+}
+
 TEST_CASE("a ring comes back to its first joint and a polyline is as long as its pieces") {
   const std::vector<Eigen::Vector2d> square{{1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
   const auto made = value_of(network_footprint(network(square, {{0, 1, 2, 3, 0}}, {1, 2, 3})));

@@ -28,11 +28,18 @@ TEST_CASE("points are read of lines, with remarks, normals, colours or columns i
            {"1 2 3 0 0 1 255 0 0\n-4 .5 6 0 0 1 9 9 9", "a.TXT"},
            {"x,y,z\n1,2,3\n-4,0.5,6\n", "a.csv"},
            {"i,z_mm,Y,x_mm\n7,3,2,1\n8,6,0.5,-4\n", "a.csv"},
+           {"x;y;z\n1,0;2;3\n-4;0,5;6\n", "a.csv"},
+           {"1,0 2,0 3,0\n-4,0 0,5 6,0\n", "a.xyz"},
+           {"2\n1 2 3 -900 255 0 0\n-4 0.5 6 -900 255 0 0\n", "a.pts"},
+           {"//X Y Z R G B\n2\n1 2 3 9 9 9\n-4 0.5 6 9 9 9\n", "a.asc"},
+           {"Point ID,Intensity,X,Y,Z\nA1,9,1,2,3\nA2,9,-4,0.5,6\n", "a.csv"},
+           {"\"Points:0\",\"Points:1\",\"Points:2\"\n1,2,3\n-4,0.5,6\n", "a.csv"},
+           {"X[m],Y[m],Z[m]\n0.001,0.002,0.003\n-0.004,0.0005,0.006\n", "a.csv"},
        }) {
     const auto read = read_cloud(text, name);
     INFO(text);
     REQUIRE(read);
-    CHECK(*read == points);
+    CHECK(read->points == points);
   }
 }
 
@@ -42,7 +49,7 @@ TEST_CASE("points are the vertices of a PLY, as text and as bytes") {
       "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
   const auto text = value_of(
       read_cloud("ply\nformat ascii 1.0\n" + head + "1 2 3 9\n-4 0.5 6 9\n3 0 1 1\n", "a.ply"));
-  CHECK(text == two_points());
+  CHECK(text.points == two_points());
   std::string bytes = "ply\nformat binary_little_endian 1.0\n" + head;
   const Eigen::Matrix3Xd points = two_points();
   for (Eigen::Index k = 0; k < points.cols(); ++k) {
@@ -56,24 +63,51 @@ TEST_CASE("points are the vertices of a PLY, as text and as bytes") {
   }
   bytes.append("\x03\0\0\0\0\1\0\0\0\1\0\0\0", 13);
   const auto binary = value_of(read_cloud(bytes, "a.ply"));
-  CHECK(binary == two_points());
+  CHECK(binary.points == two_points());
   CHECK(fault_of(bytes.substr(0, bytes.size() - 20), "a.ply") ==
         "a.ply: vertex 2: the file ends there, or what stands there is no number");
 }
 
+TEST_CASE("rows without a point are left out and counted, and a file may be in metres") {
+  const auto rows = value_of(read_cloud("nan nan nan\n1 2 3\nNaN NaN NaN 7\n-4 .5 6\n", "a.xyz"));
+  CHECK(rows.points == two_points());
+  CHECK(rows.empty_rows == 2);
+  const auto vertices = value_of(
+      read_cloud("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                 "property float z\nend_header\n1 2 3\nnan nan nan\n-4 0.5 6\n",
+                 "a.ply"));
+  CHECK(vertices.points == two_points());
+  CHECK(vertices.empty_rows == 1);
+  CHECK(value_of(read_cloud("1 2 3\n-4 .5 6\n", "a.xyz", 10)).points == 10 * two_points());
+  CHECK(value_of(read_cloud("x_mm y_mm z_mm\n1 2 3\n-4 .5 6\n", "a.xyz", 10)).points ==
+        two_points());
+}
+
+TEST_CASE("rows that may be read in two ways are refused") {
+  CHECK_THAT(fault_of("1,5,2,5,3,5\n4,5,5,5,6,5\n", "a.csv"),
+             Catch::Contains("a.csv:1: six whole numbers between commas: decimal commas, or"));
+  CHECK_THAT(fault_of("1 9 8 7\n2 8 7 6\n3 7 6 5\n", "a.xyz"),
+             Catch::Contains("a.xyz:1: the first column counts the rows"));
+  CHECK_THAT(fault_of("2\n2\n0 0 0\n", "a.txt"), Catch::Contains("a.txt:2: a second count"));
+  CHECK(fault_of("1 2 3 9 9\n4 5 6 9\n", "a.xyz") ==
+        "a.xyz:2: holds 4 values, must be 5, as in the rows before");
+}
+
 TEST_CASE("what is no cloud is refused with its place") {
-  CHECK(fault_of("", "a.xyz") == "a.xyz: holds no point");
-  CHECK(fault_of("x y z\n", "a.xyz") == "a.xyz: holds no point");
-  CHECK(fault_of("1 2\n", "a.xyz") == "a.xyz:1: holds 2 numbers, must be x, y, z");
-  CHECK(fault_of("1 2 3\n1 nan 3\n", "a.xyz") == "a.xyz:2: 'nan' is no number");
-  CHECK(fault_of("1 2 3\n1 2 inf\n", "a.csv") == "a.csv:2: 'inf' is no number");
-  CHECK(fault_of("1 2 3\nfoo 2 3\n", "a.csv") == "a.csv:2: 'foo' is no number");
+  const std::string numbers = ", must be 3 numbers: x, y, z",
+                    none = "a.xyz: holds no point, must hold one a line, 3 numbers: x, y, z";
+  CHECK(fault_of("", "a.xyz") == none);
+  CHECK(fault_of("x y z\n", "a.xyz") == none);
+  CHECK(fault_of("1 2\n", "a.xyz") == "a.xyz:1: holds 2 values" + numbers);
+  CHECK(fault_of("1 2 3\n1 nan 3\n", "a.xyz") == "a.xyz:2: 'nan' is no number" + numbers);
+  CHECK(fault_of("1 2 3\n1 2 inf\n", "a.csv") == "a.csv:2: 'inf' is no number" + numbers);
+  CHECK(fault_of("1 2 3\nfoo 2 3\n", "a.csv") == "a.csv:2: 'foo' is no number" + numbers);
   CHECK(fault_of("1 2 3e10\n", "a.csv") ==
         "a.csv:1: a coordinate is too large, must be a number of at most 1e9");
   CHECK(fault_of("u,v\n1,2\n", "a.csv") ==
-        "a.csv:1: names columns, of which x, y, z (or x_mm, y_mm, z_mm) are missing");
+        "a.csv:1: names columns 'u', 'v', of which x, y, z are missing (a remark begins with #)");
   CHECK(fault_of("1 2 3\n", "a.obj") ==
-        "a.obj: its name must end in .ply, .xyz, .txt, .asc or .csv");
+        "a.obj: its name must end in .ply, .xyz, .txt, .asc, .csv or .pts");
   CHECK(fault_of("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n",
                  "a.ply") ==
         "a.ply: vertex 1: a coordinate is not a number, must be a number of at most 1e9");

@@ -104,6 +104,7 @@ TEST_CASE("files of networks that are broken say where") {
   wrong("[1, 2]", "n.json", "must be an object");
   wrong("{}", "n.json", "holds no rods");
   changed("\"rods\"", "\"rod\"", "did you mean 'rods'");
+  changed("\"points_mm\"", "\"points\"", "did you mean 'points_mm'");
   changed("[-10, 0]", "[-10, 1e10]", "n.json:2: points_mm[0]: a coordinate");
   changed("[-10, 0]", "[-10, \"0\"]", "n.json:2: points_mm[0]: must be a point");
   changed("[0, 4, 1]", "[0, 4, 1000000000]", "n.json:4: rods[0]: names a point");
@@ -138,12 +139,12 @@ TEST_CASE("files of networks that are broken say where") {
   wrong("hello\nworld\n", "n.dxf", "n.dxf:1: is no DXF");
   wrong("", "n.dxf", "holds no rods");
   wrong("0\nSECTION\n2\nENTITIES\n0\nLINE\n10\nnan\n", "n.dxf", "n.dxf:8: must be a finite number");
-  wrong("0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n10\n0\n20\n0\n42\n1\n", "n.dxf",
-        "n.dxf:12: an arc");
-  wrong("0\nSECTION\n2\nENTITIES\n0\nLINE\n10\n1\n20\n1\n11\n1\n21\n1\n", "n.dxf",
+  wrong("0\nSECTION\n2\nENTITIES\n0\nLINE\n10\n1\n20\n1\n11\n1\n21\n1\n0\nENDSEC\n", "n.dxf",
         "n.dxf:6: a rod of one point");
-  wrong("0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n10\n1\n20\n1\n10\n1\n20\n1\n10\n9\n20\n1\n",
-        "n.dxf", "n.dxf:6: a stretch of no length");
+  wrong(
+      "0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n10\n1\n20\n1\n10\n1\n20\n1\n10\n9\n20\n1\n0\nENDSEC"
+      "\n",
+      "n.dxf", "n.dxf:6: a stretch of no length");
   wrong("x", "n.txt", "must end in .json");
 }
 

@@ -94,6 +94,30 @@ TEST_CASE("the same square comes out of every format") {
   }
 }
 
+TEST_CASE("the same square comes out of every spelling of OBJ and STL") {
+  const auto upper = [](std::string text) {
+    for (char& c : text) c = char(std::toupper((unsigned char)c));
+    return text;
+  };
+  const std::string wrapped =
+      "\xEF\xBB\xBFv 0\t0 0 # the first\nv 1 0 \\\n  0\nv 1 1 0.5 1 0 0\nv 0 1 0  \nf 1 2 \\\r\n 3 "
+      "-1 # all\n";
+  for (const auto& [name, bytes] : {std::pair<std::string, std::string>("a.obj", wrapped),
+                                    {"a.stl", upper(stl_text())},
+                                    {"b.stl", "\xEF\xBB\xBF \n" + stl_text()}}) {
+    INFO(name);
+    const auto mesh = value_of(read_surface(bytes, name));
+    CHECK(mesh.vertices == Points{{0, 0, 0}, {1, 0, 0}, {1, 1, 0.5}, {0, 1, 0}});
+    CHECK(mesh.triangles == std::vector<std::array<int, 3>>{{0, 1, 2}, {0, 2, 3}});
+  }
+  CHECK(value_of(read_surface(obj, "a.obj", 1000)).vertices[2] ==
+        std::vector<double>{1000, 1000, 500});
+  CHECK(value_of(read_surface(heights(), "h.csv", 10)).z[0][0] == 70);
+  wrong("v 1,5 0 0\n", "a.obj", "a.obj:1: a vertex must have three numbers, v x y z, with decimal");
+  wrong("v 0 0 0\nsurf 0 1 0 1\n", "a.obj", "a.obj:2: 'surf', a free-form surface");
+  wrong(stl_text().substr(0, stl_text().size() - 9), "a.stl", "is it cut short?");
+}
+
 TEST_CASE("heights come in any order, and a place without one is told") {
   const auto grid = read_surface(heights(), "h.csv");
   REQUIRE(grid.has_value());
@@ -107,6 +131,7 @@ TEST_CASE("heights come in any order, and a place without one is told") {
   wrong(heights() + "3,2.1,8\n", "h.csv", "h.csv:22: a second point at (3, 2.1)");
   wrong(heights() + "3,2.1\n", "h.csv", "h.csv:22: holds 2 values");
   wrong(heights() + "3,2.1,nan\n", "h.csv", "h.csv:22: 'nan' is no number");
+  wrong(heights() + "3,2.1,-9999\n", "h.csv", "h.csv:22: a height of -9999, which marks a place");
   wrong("0 0 1\n1 1 1\n2 2 1\n", "h.txt", "at least 4 x 4");
   std::string scattered;
   for (int k = 0; k < 40; ++k)

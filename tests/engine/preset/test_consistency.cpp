@@ -182,6 +182,20 @@ TEST_CASE("a preset is written without the keys that count for nothing, and read
   CHECK(again.cases[1].preset.net.waist == 0.4);
 }
 
+TEST_CASE("values beyond any material, and joints larger than their distance, are doubted") {
+  const auto notes = [](const std::string& text) { return good(text).notes; };
+  CHECK(notes("").empty());
+  const auto stiff = notes("[rod]\nyoung_GPa = 83000.0\n");
+  REQUIRE(stiff.size() == 1);
+  CHECK(stiff[0] == "[rod] young_GPa = 83000: stiffer than any material, given in MPa? 83 GPa");
+  CHECK(notes("[rod]\ndensity_kg_m3 = 78000.0\n").size() == 1);
+  const auto large = notes(
+      "[footprint]\nspacing_mm = 2.0\nradius_mm = 12.6\n"
+      "[actuation]\nradius_mm = 9.45\n");
+  REQUIRE(large.size() == 1);
+  CHECK_THAT(large[0], Catch::StartsWith("[joints] diameter_mm = 3: joints are larger than their"));
+}
+
 TEST_CASE("utilisation needs a strength, which is said once") {
   CHECK_THAT(faults_of("[limits]\nmax_utilisation = 0.8\n"),
              Catch::Contains("[rod] strength_MPa or yield_strain must be above 0"));

@@ -57,7 +57,8 @@ TEST_CASE("a fault names its place, key, value, what is wrong and what is right"
       {"[actuatoin]\nradius_mm = 3",
        "bad.toml:1:2: [actuatoin]: unknown table; did you mean 'actuation'?"},
       {"footprint = 3",
-       "bad.toml:1:1: footprint = 3: is a table, must hold keys: kind, file, rods, "
+       "bad.toml:1:1: footprint = 3: is a table, must hold keys: kind, file, file_unit, join_mm, "
+       "rods, "
        "radius_mm, longest_leg, "
        "spacing_mm, placement, boundary, half_x_mm, half_y_mm, exponent, points_mm"},
       {"[footprint]\nradius_mm = nan",
@@ -309,6 +310,38 @@ TEST_CASE("points stand in the preset or in a file beside it") {
              Catch::Contains("holds a point of 3 coordinates, must be a "
                              "list of points [x, y], or the name of a file"));
   CHECK_THAT(wrong("[[0, 0], [1, 1]]", ""), Catch::Contains("2 points, must be at least 3"));
+}
+
+TEST_CASE("a file is read once all that says how is known, and reported") {
+  const TemporaryFolder folder;
+  const auto file = folder / "shell.toml";
+  REQUIRE(write_file(folder / "grid.obj",
+                     "v -0.03 0 0\nv 0.03 0 0\nv -0.01 -0.03 0\nv -0.01 0.03 0\nv 0.01 -0.03 0\n"
+                     "v 0.01 0.03 0\nl 1 2\nl 3 4\nl 5 6\n"));
+  const auto read = [&](const std::string& keys, const std::string& named,
+                        const std::vector<Override>& overrides = {}) {
+    REQUIRE(write_file(file, "[footprint]\nkind = \"network\"\nfile = \"" + named + "\"\n" + keys));
+    return read_preset_file(file, overrides);
+  };
+  const auto metres = value_of(read("file_unit = \"m\"\n", "grid.obj"));
+  CHECK(metres.base.footprint.file.points[1] == std::vector<double>{30, 0, 0});
+  // what was read is in mm, and reads back so
+  CHECK(metres.base.footprint.file_unit == FileUnit::file);
+  CHECK(to_toml(good(to_toml(metres))) == to_toml(metres));
+  REQUIRE(metres.files.size() == 1);
+  CHECK_THAT(metres.files[0],
+             Catch::Contains("grid.obj: unit by file_unit; 3 rods, 2 joints, 6 supports"));
+  // an override takes the place of a file that is not there, and of the unit
+  const Override other{"--set", "footprint.file", (folder / "grid.obj").string()};
+  CHECK(value_of(read("", "none.obj", {other})).base.footprint.file.points[1][0] == 0.03);
+  CHECK(value_of(read("", "none.obj", {other, {"--set", "footprint.file_unit", "cm"}}))
+            .base.footprint.file.points[1][0] == Approx(0.3));
+  CHECK_THAT(refusal(read("", "none.obj")),
+             Catch::Contains("shell.toml:3:8: [footprint] file = \"none.obj\": cannot read"));
+  CHECK_THAT(
+      faults_of("[footprint]\nkind = \"network\"\njoin_mm = 0.1\nfile = {points_mm = [[-9, 0, 0], "
+                "[9, 0, 0], [0, 9, 0], [0, 0, 0]], rods = [[0, 3, 1], [3, 2]]}\n"),
+      Catch::Contains("join_mm = 0.1: is of a file that"));
 }
 
 TEST_CASE("a file is read under its own name") {

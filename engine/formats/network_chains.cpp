@@ -1,0 +1,143 @@
+// Lines of a drawing that meet end to end are one rod, and points that say nothing are left out.
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+#include <tuple>
+
+#include "engine/core/try.h"
+#include "engine/formats/network_file.h"
+
+namespace gridshell::preset {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr std::size_t most_ends = 100;  // at one point
+constexpr double turn_a_piece_deg = 3;  // of a curve
+constexpr double straight_deg = 0.1;
+
+/// By how much a polyline turns at its middle point, rad.
+double turn_at(const NetworkData& network, int before, int at, int after) {
+  const Eigen::Vector3d in = place_of(network, at) - place_of(network, before),
+                        out = place_of(network, after) - place_of(network, at);
+  return std::atan2(in.cross(out).norm(), in.dot(out));
+}
+
+/// The begin (2 r) or end (2 r + 1) of rod r.
+struct LineEnd {
+  int number, point, before;  ///< the point beside it
+};
+
+std::map<int, std::vector<LineEnd>> ends_at_points(const NetworkData& network) {
+  std::map<int, std::vector<LineEnd>> ends;
+  for (std::size_t r = 0; r < network.rods.size(); ++r) {
+    const std::vector<int>& rod = network.rods[r];
+    if (rod.front() == rod.back()) continue;
+    ends[rod.front()].push_back({int(2 * r), rod.front(), rod[1]});
+    ends[rod.back()].push_back({int(2 * r + 1), rod.back(), rod[rod.size() - 2]});
+  }
+  return ends;
+}
+
+/// Of each end the one that it goes on in; -1: none.
+Result<std::vector<int>> continuations(const NetworkData& network,
+                                       const std::vector<std::string>& places) {
+  std::vector<int> partner(2 * network.rods.size(), -1);
+  for (const auto& [point, ends] : ends_at_points(network)) {
+    if (ends.size() > most_ends)
+      return invalid("{}: ends where {} other lines do, must be at most {}",
+                     places[std::size_t(ends.back().number / 2)], ends.size() - 1, most_ends);
+    std::vector<std::tuple<double, int, int>> pairs;
+    for (std::size_t a = 0; a < ends.size(); ++a)
+      for (std::size_t b = a + 1; b < ends.size(); ++b)
+        if (const double turn = turn_at(network, ends[a].before, point, ends[b].before);
+            turn <= most_turn_deg * degree)
+          pairs.emplace_back(turn, ends[a].number, ends[b].number);
+    std::ranges::sort(pairs);
+    for (const auto& [turn, a, b] : pairs)
+      if (partner[std::size_t(a)] < 0 && partner[std::size_t(b)] < 0) {
+        partner[std::size_t(a)] = b;
+        partner[std::size_t(b)] = a;
+      }
+  }
+  return partner;
+}
+
+/// How many pieces a curve between points that stay needs.
+std::size_t pieces_of(const NetworkData& network, const std::vector<int>& rod, std::size_t first,
+                      std::size_t last) {
+  double turn = 0;
+  for (std::size_t k = first + 1; k < last; ++k)
+    turn += turn_at(network, rod[k - 1], rod[k], rod[k + 1]);
+  return std::max(std::size_t(1),
+                  std::size_t(std::ceil(turn / (turn_a_piece_deg * degree) - 1e-6)));
+}
+
+}  // namespace
+
+Result<int> NetworkBuilder::join_in_line() {
+  TRY(partner, continuations(network_, places_));
+  const int met = int(std::ranges::count_if(*partner, [](int other) { return other >= 0; }) / 2);
+  if (met == 0) return 0;
+  std::vector<std::vector<int>> rods;
+  std::vector<std::string> places;
+  std::vector<char> taken(network_.rods.size(), 0);
+  const auto follow = [&](std::size_t first, bool reversed) {
+    std::vector<int> chain;
+    places.push_back(places_[first]);
+    for (std::size_t rod = first; taken[rod] == 0;) {
+      taken[rod] = 1;
+      std::vector<int> points = network_.rods[rod];
+      if (reversed) std::ranges::reverse(points);
+      if (!chain.empty()) seams_.insert(points.front());
+      chain.insert(chain.end(), points.begin() + (chain.empty() ? 0 : 1), points.end());
+      const int next = (*partner)[2 * rod + (reversed ? 0 : 1)];
+      if (next < 0) break;
+      rod = std::size_t(next / 2);
+      reversed = next % 2 == 1;
+    }
+    rods.push_back(std::move(chain));
+  };
+  for (std::size_t r = 0; r < network_.rods.size(); ++r)
+    if (taken[r] == 0 && ((*partner)[2 * r] < 0 || (*partner)[2 * r + 1] < 0))
+      follow(r, (*partner)[2 * r] >= 0);
+  for (std::size_t r = 0; r < network_.rods.size(); ++r)
+    if (taken[r] == 0) follow(r, false);
+  network_.rods = std::move(rods);
+  network_.diameters.assign(network_.rods.size(), 0);
+  places_ = std::move(places);
+  return met;
+}
+
+void NetworkBuilder::thin_out() {
+  if (samples_.empty() && seams_.empty()) return;
+  const std::vector<int> rods_at = rods_at_points();
+  const auto alone = [&](const std::set<int>& of, int point) {
+    return of.contains(point) && rods_at[std::size_t(point)] == 1;
+  };
+  for (std::vector<int>& rod : network_.rods) {
+    std::vector<int> left{rod.front()};
+    for (std::size_t k = 1; k < rod.size(); ++k) {
+      const std::size_t first = k - 1;
+      while (k + 1 < rod.size() && alone(samples_, rod[k])) ++k;
+      const std::size_t pieces = k > first + 1 ? pieces_of(network_, rod, first, k) : 1;
+      for (std::size_t piece = 1; piece < pieces; ++piece)
+        left.push_back(rod[first + (piece * (k - first) + pieces / 2) / pieces]);
+      left.push_back(rod[k]);
+    }
+    left.erase(std::unique(left.begin(), left.end()), left.end());
+    std::vector<int> points{left.front()};
+    for (std::size_t k = 1; k < left.size(); ++k)
+      if (k + 1 == left.size() || !alone(seams_, left[k]) ||
+          turn_at(network_, points.back(), left[k], left[k + 1]) > straight_deg * degree)
+        points.push_back(left[k]);
+    rod = std::move(points);
+  }
+}
+
+}  // namespace gridshell::preset

@@ -1,0 +1,181 @@
+// Rods of a drawing are joined wherever they cross or touch.
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <tuple>
+
+#include "engine/core/try.h"
+#include "engine/formats/network_file.h"
+
+namespace gridshell::preset {
+namespace {
+
+constexpr std::size_t most_stretches = 40000;  // each is held against each
+
+Eigen::Vector3d place_of(const std::vector<double>& point) {
+  return {point[0], point[1], point[2]};
+}
+
+/// Two points of a rod that follow one another.
+struct Stretch {
+  std::size_t rod, first;  ///< of which rod, and after which of its points
+  int from, to;
+  Eigen::Vector3d begin, end;
+
+  Eigen::Vector3d way() const { return end - begin; }
+  Eigen::Vector3d at(double share) const { return begin + share * way(); }
+  double length() const { return way().norm(); }
+  double low() const { return std::min(begin.x(), end.x()) - one_point_mm; }
+  /// Whether they reach over one another along an axis.
+  bool near(const Stretch& other, int k, double by) const {
+    return std::min(begin[k], end[k]) <= std::max(other.begin[k], other.end[k]) + by &&
+           std::min(other.begin[k], other.end[k]) <= std::max(begin[k], end[k]) + by;
+  }
+  double high() const { return std::max(begin.x(), end.x()) + one_point_mm; }
+};
+
+/// A point to come into a stretch, at a share of its length.
+struct Cut {
+  std::size_t rod, first;
+  double at;
+  int point;
+};
+
+/// Where two stretches meet, as shares of their lengths; none: nowhere, or they run alike.
+std::optional<std::pair<double, double>> meeting(const Stretch& a, const Stretch& b, double near) {
+  const Eigen::Vector3d way_a = a.way(), way_b = b.way(), apart = b.begin - a.begin;
+  const Eigen::Vector3d normal = way_a.cross(way_b);
+  if (!(normal.norm() > 1e-9 * a.length() * b.length())) return std::nullopt;
+  // seen along the axis that is nearest to their normal, of a drawing in the plane z
+  const auto beyond = [&](int k) { return std::abs(normal[2]) < std::abs(normal[k]); };
+  const int view = !beyond(0) && !beyond(1) ? 2 : std::abs(normal[0]) < std::abs(normal[1]) ? 1 : 0;
+  const int x = (view + 1) % 3, y = (view + 2) % 3;
+  const double s = (apart[x] * way_b[y] - apart[y] * way_b[x]) / normal[view],
+               t = (apart[x] * way_a[y] - apart[y] * way_a[x]) / normal[view];
+  const double on_a = one_point_mm / a.length(), on_b = one_point_mm / b.length();
+  if (s < -on_a || s > 1 + on_a || t < -on_b || t > 1 + on_b) return std::nullopt;
+  // one passes over the other
+  if ((a.at(s) - b.at(t)).norm() > near) return std::nullopt;
+  return std::pair(s, t);
+}
+
+std::vector<Stretch> stretches_of(const NetworkData& network) {
+  std::vector<Stretch> all;
+  for (std::size_t r = 0; r < network.rods.size(); ++r)
+    for (std::size_t k = 1; k < network.rods[r].size(); ++k) {
+      const int from = network.rods[r][k - 1], to = network.rods[r][k];
+      all.push_back({r, k - 1, from, to, place_of(network.points[std::size_t(from)]),
+                     place_of(network.points[std::size_t(to)])});
+    }
+  std::ranges::sort(all, {}, &Stretch::low);
+  return all;
+}
+
+/// Puts the points of cuts into their rods.
+void put(std::vector<Cut> cuts, std::vector<std::vector<int>>& rods) {
+  std::ranges::sort(cuts, {}, [](const Cut& c) { return std::tuple(c.rod, c.first, c.at); });
+  auto next = cuts.begin();
+  for (std::size_t r = 0; r < rods.size(); ++r) {
+    std::vector<int> points;
+    for (std::size_t k = 0; k < rods[r].size(); ++k) {
+      points.push_back(rods[r][k]);
+      for (; next != cuts.end() && next->rod == r && next->first == k; ++next)
+        points.push_back(next->point);
+    }
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    rods[r] = std::move(points);
+  }
+}
+
+/// How far two stretches that run alike lie on one another; 0: they do not.
+double overlap(const Stretch& a, const Stretch& b) {
+  constexpr double alike = 1e-6;
+  const Eigen::Vector3d along = a.way().normalized();
+  if (along.cross(b.way()).norm() > alike * b.length()) return 0;
+  const Eigen::Vector3d apart = b.begin - a.begin;
+  if (along.cross(apart).norm() > one_point_mm) return 0;
+  const double from = along.dot(apart), to = along.dot(b.end - a.begin);
+  return std::min(a.length(), std::max(from, to)) - std::max(0.0, std::min(from, to));
+}
+
+/// The point of a stretch nearest to a place, as a share of its length.
+double nearest_share(const Stretch& stretch, const Eigen::Vector3d& place) {
+  const Eigen::Vector3d way = stretch.way();
+  return std::clamp((place - stretch.begin).dot(way) / way.squaredNorm(), 0.0, 1.0);
+}
+
+}  // namespace
+
+std::vector<int> NetworkBuilder::rods_at_points() const {
+  std::vector<int> rods(points(), 0);
+  for (const std::vector<int>& rod : network_.rods) {
+    const bool ring = rod.front() == rod.back();
+    for (std::size_t k = ring ? 1 : 0; k < rod.size(); ++k) ++rods[std::size_t(rod[k])];
+  }
+  return rods;
+}
+
+Result<void> NetworkBuilder::join_ends(const std::string& name) {
+  constexpr std::size_t most_looked_at = 1000000000;
+  if (!joins_near()) return {};
+  const std::vector<int> rods = rods_at_points();
+  const std::vector<Stretch> all = stretches_of(network_);
+  if (2 * network_.rods.size() * all.size() > most_looked_at)
+    return invalid("{}: holds too many rods for their ends to be joined, join_mm must be 0", name);
+  std::vector<Cut> cuts;
+  for (std::size_t r = 0; r < network_.rods.size(); ++r)
+    for (const int end : {network_.rods[r].front(), network_.rods[r].back()}) {
+      if (rods[std::size_t(end)] != 1) continue;
+      std::vector<double>& place = network_.points[std::size_t(end)];
+      const Eigen::Vector3d at = place_of(place);
+      const Stretch* nearest = nullptr;
+      double least = near_mm_;
+      for (const Stretch& one : all) {
+        if (one.low() - near_mm_ > at.x()) break;
+        const double away = (one.at(nearest_share(one, at)) - at).norm();
+        if (one.rod != r && away < least) least = away, nearest = &one;
+      }
+      if (!nearest) continue;
+      const double share = nearest_share(*nearest, at);
+      const Eigen::Vector3d foot = nearest->at(share);
+      place = {foot.x(), foot.y(), foot.z()};
+      cuts.push_back({nearest->rod, nearest->first, share, end});
+    }
+  put(std::move(cuts), network_.rods);
+  return {};
+}
+
+Result<void> NetworkBuilder::join_crossings(const std::string& name) {
+  const std::vector<Stretch> all = stretches_of(network_);
+  if (all.size() > most_stretches)
+    return invalid(
+        "{}: holds {} stretches of rods, must be at most {} for their crossings to be found", name,
+        all.size(), most_stretches);
+  std::vector<Cut> cuts;
+  for (std::size_t k = 0; k < all.size(); ++k)
+    for (std::size_t m = k + 1; m < all.size() && all[m].low() <= all[k].high() + near_mm_; ++m) {
+      const Stretch &a = all[k], &b = all[m];
+      if (!a.near(b, 1, near_mm_) || !a.near(b, 2, near_mm_)) continue;
+      if (const double length = overlap(a, b); length > near_mm_)
+        return invalid(
+            "{}: lies on what is drawn at {} over {:.4g} mm, one of them must be left out",
+            places_[std::max(a.rod, b.rod)], places_[std::min(a.rod, b.rod)], length);
+      if (a.from == b.from || a.from == b.to || a.to == b.from || a.to == b.to) continue;
+      const auto met = meeting(a, b, near_mm_);
+      if (!met) continue;
+      const auto [s, t] = *met;
+      const Eigen::Vector3d there = a.at(s);
+      TRY(point, place({there.x(), there.y(), there.z()}, name));
+      if (*point != a.from && *point != a.to) cuts.push_back({a.rod, a.first, s, *point});
+      if (*point != b.from && *point != b.to) cuts.push_back({b.rod, b.first, t, *point});
+    }
+  put(std::move(cuts), network_.rods);
+  return {};
+}
+
+}  // namespace gridshell::preset

@@ -1,0 +1,216 @@
+// Networks as drawings: Wavefront OBJ and DXF.
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "engine/core/try.h"
+#include "engine/formats/dxf_file.h"
+#include "engine/formats/network_file.h"
+#include "engine/formats/obj_ply.h"
+#include "engine/formats/plain_text.h"
+
+namespace gridshell::preset {
+namespace {
+
+std::string counted(std::size_t count, const std::string& what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+/// What every drawing comes to once its lines are in the builder.
+Result<NetworkData> finish(NetworkBuilder& builder, const std::string& name, std::size_t lines,
+                           FileReport& report) {
+  TRY(met, builder.join_in_line());
+  TRY_DO(builder.join_ends(name));
+  TRY_DO(builder.join_crossings(name));
+  builder.thin_out();
+  if (*met > 0)
+    report.text += fmt::format("{} of {}, which meet end to end at {}; ", "rods",
+                               counted(lines, "line"), counted(std::size_t(*met), "point"));
+  return builder.take(name);
+}
+
+/// Whether a circle marks a point of the lines: about it, and small beside the drawing.
+class Marks {
+ public:
+  explicit Marks(const std::vector<const DrawnEntity*>& drawn) : drawn_(drawn) {
+    for (const DrawnEntity* one : drawn)
+      for (const Eigen::Vector3d& point : one->points) box_.extend(point);
+  }
+
+  bool holds(const DrawnEntity& circle) const {
+    constexpr double small = 0.1;
+    const double radius = (circle.points.front() - circle.centre).norm();
+    if (circle.kind != "CIRCLE" || radius > small * box_.sizes().maxCoeff()) return false;
+    return std::ranges::any_of(drawn_, [&](const DrawnEntity* one) {
+      if (one->kind == "CIRCLE") return false;
+      for (std::size_t k = 1; k < one->points.size(); ++k)
+        if (distance(circle.centre, one->points[k - 1], one->points[k]) < 1e-3 * radius)
+          return true;
+      return false;
+    });
+  }
+
+ private:
+  static double distance(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
+                         const Eigen::Vector3d& b) {
+    const Eigen::Vector3d way = b - a;
+    const double length = way.squaredNorm();
+    const double share = length > 0 ? std::clamp((p - a).dot(way) / length, 0.0, 1.0) : 0;
+    return (a + share * way - p).norm();
+  }
+
+  const std::vector<const DrawnEntity*>& drawn_;
+  Eigen::AlignedBox3d box_;
+};
+
+/// "2 circles and 1 line on other layers", by why they are left out.
+class LeftOut {
+ public:
+  void add(const std::string& why, const std::string& kind) { ++counts_[why][name_of(kind)]; }
+  std::string text() const {
+    std::vector<std::string> all;
+    for (const auto& [why, kinds] : counts_) {
+      std::vector<std::string> some;
+      for (const auto& [kind, count] : kinds) some.push_back(counted(count, kind));
+      all.push_back(fmt::format("{}{}", fmt::join(some, ", "), why));
+    }
+    return all.empty() ? "" : fmt::format("; not used: {}", fmt::join(all, "; "));
+  }
+
+ private:
+  static std::string name_of(const std::string& kind) {
+    if (kind == "MTEXT" || kind == "ATTDEF" || kind == "ATTRIB" || kind == "RTEXT") return "text";
+    return kind == "LWPOLYLINE" ? "polyline" : lower(kind);
+  }
+  std::map<std::string, std::map<std::string, std::size_t>> counts_;
+};
+
+/// The entities of a drawing that are rods. Errors (bad_input): one that may be and is not
+/// understood.
+Result<std::vector<const DrawnEntity*>> choose(const DxfDrawing& drawing, const std::string& name,
+                                               LeftOut& left_out) {
+  const bool by_layer = std::ranges::any_of(drawing.entities, [](const DrawnEntity& one) {
+    return one.layer == "rods" && one.use != EntityUse::mark && one.space != DrawingSpace::paper;
+  });
+  std::vector<const DrawnEntity*> chosen;
+  for (const DrawnEntity& one : drawing.entities) {
+    if (one.space == DrawingSpace::paper)
+      left_out.add(" of paper space", one.kind);
+    else if (one.space == DrawingSpace::hidden)
+      left_out.add(" on layers that are frozen or switched off", one.kind);
+    else if (one.use == EntityUse::mark)
+      left_out.add("", one.kind);
+    else if (by_layer && one.layer != "rods")
+      left_out.add(" on other layers than \"rods\"", one.kind);
+    else if (one.use == EntityUse::refused)
+      return invalid("{}:{}: {} {}", name, one.line, one.kind, one.why);
+    else
+      chosen.push_back(&one);
+  }
+  const Marks marks(chosen);
+  std::vector<const DrawnEntity*> rods;
+  for (const DrawnEntity* one : chosen)
+    if (!by_layer && marks.holds(*one))
+      left_out.add(" that mark points of rods", one->kind);
+    else
+      rods.push_back(one);
+  return rods;
+}
+
+/// The unit of a drawing in mm, and how it is known.
+double unit_of(const DxfDrawing& drawing, const std::vector<const DrawnEntity*>& rods,
+               const NetworkOptions& options, FileReport& report) {
+  constexpr double longest = 1e5, shortest = 20;  // diameters
+  double length = 0;
+  for (const DrawnEntity* one : rods)
+    for (const Eigen::Vector3d& point : one->points)
+      length = std::max(length, (point - one->points.front()).norm());
+  if (options.unit_mm > 0) {
+    report.text += "unit by file_unit";
+    return options.unit_mm;
+  }
+  if (drawing.unit_mm <= 0) {
+    report.text += "in mm, as it names no unit ($INSUNITS)";
+    return 1;
+  }
+  const double rod = options.rod_mm;
+  if (rod > 0 && length * drawing.unit_mm > longest * rod && length > shortest * rod &&
+      length < longest * rod) {
+    report.text += fmt::format("in mm, although it says {} ($INSUNITS)", drawing.unit);
+    report.notes.push_back(fmt::format(
+        "the drawing says that it is in {} ($INSUNITS): {:.4g} mm long, its rods of {:g} mm would "
+        "be "
+        "{:.2g} times as long as thick; it is read in mm, file_unit = \"{}\" takes it at its word",
+        drawing.unit, length * drawing.unit_mm, rod, length * drawing.unit_mm / rod, drawing.unit));
+    return 1;
+  }
+  report.text += fmt::format("in {} ($INSUNITS)", drawing.unit);
+  return drawing.unit_mm;
+}
+
+}  // namespace
+
+Result<NetworkData> read_network_obj(std::string_view bytes, const std::string& name,
+                                     const NetworkOptions& options, FileReport& report) {
+  NetworkBuilder builder(options.join_mm);
+  const double unit = options.unit_mm > 0 ? options.unit_mm : 1;
+  std::size_t lines = 0;
+  const auto add_point = [&](std::vector<double> xyz, const std::string& at) {
+    for (double& value : xyz) value *= unit;
+    return builder.add_point(xyz, at);
+  };
+  const auto add_rod = [&](const std::vector<long>& vertices, const std::string& at) {
+    std::vector<int> points;
+    for (const long vertex : vertices) {
+      const auto point = builder.point(vertex, at);
+      if (!point) return Result<void>(tl::unexpected(point.error()));
+      points.push_back(*point);
+    }
+    ++lines;
+    return builder.add_rod(std::move(points), 0, at);
+  };
+  TRY(others, read_obj_lines(bytes, name, "l", {add_point, add_rod}));
+  if (lines == 0 && (*others)["f"] > 0)
+    return invalid("{}: holds {} and no line: rods must be lines (l)", name,
+                   counted(std::size_t((*others)["f"]), "face"));
+  LeftOut left_out;
+  for (const auto& [kind, count] : *others)
+    for (int k = 0; k < count; ++k) left_out.add("", kind == "f" ? "face" : "point");
+  report.text += options.unit_mm > 0 ? "unit by file_unit" : "in mm, as OBJ names no unit";
+  report.text += left_out.text() + "; ";
+  return finish(builder, name, lines, report);
+}
+
+Result<NetworkData> read_network_dxf(std::string_view bytes, const std::string& name,
+                                     const NetworkOptions& options, FileReport& report) {
+  TRY(drawing, read_dxf(bytes, name));
+  LeftOut left_out;
+  TRY(rods, choose(*drawing, name, left_out));
+  const double unit = unit_of(*drawing, *rods, options, report);
+  report.text += left_out.text() + "; ";
+  if (rods->empty())
+    return invalid("{}: holds no rods, must have one at least{}", name, left_out.text());
+  NetworkBuilder builder(options.join_mm);
+  for (const DrawnEntity* one : *rods) {
+    const auto place = fmt::format("{}:{}", name, one->line);
+    std::vector<int> points;
+    for (std::size_t k = 0; k < one->points.size(); ++k) {
+      const Eigen::Vector3d xyz = unit * one->points[k];
+      TRY(point, builder.place({xyz.x(), xyz.y(), xyz.z()}, place));
+      if (one->sampled[k]) builder.mark_sample(*point);
+      points.push_back(*point);
+    }
+    if (one->closed && !points.empty() && points.back() != points.front())
+      points.push_back(points.front());
+    TRY_DO(builder.add_rod(std::move(points), 0, place));
+  }
+  return finish(builder, name, rods->size(), report);
+}
+
+}  // namespace gridshell::preset

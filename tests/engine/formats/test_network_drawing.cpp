@@ -1,0 +1,175 @@
+// Networks as drawings: what of them is a rod, where rods are joined, and in which unit.
+#include "engine/formats/network_file.h"
+#include "tests/engine/formats/drawn_dxf.h"
+#include "tests/results.h"
+
+using namespace gridshell;
+using namespace gridshell::preset;
+
+namespace {
+
+std::string line(double x0, double y0, double x1, double y1, const std::string& layer = "0") {
+  return entity("LINE", fmt::format("8 {} 10 {} 20 {} 11 {} 21 {}", layer, x0, y0, x1, y1));
+}
+
+/// Three rods along x and three along y, 20 mm apart.
+std::string grid(const std::string& layer = "0") {
+  std::string text;
+  for (const int k : {-20, 0, 20}) text += line(-30, k, 30, k, layer) + line(k, -30, k, 30, layer);
+  return text;
+}
+
+struct Read {
+  NetworkData network;
+  FileReport report;
+};
+
+Read read(const std::string& entities, const NetworkOptions& options = {},
+          const std::string& before = "") {
+  Read read;
+  read.network =
+      value_of(read_network(drawn_dxf(entities, before), "d.dxf", options, &read.report));
+  return read;
+}
+
+std::string refused(const std::string& entities) {
+  return refusal(read_network(drawn_dxf(entities), "d.dxf"));
+}
+
+/// The places of a rod's points.
+Points places(const NetworkData& network, std::size_t rod) {
+  Points all;
+  for (const int point : network.rods[rod]) all.push_back(network.points[std::size_t(point)]);
+  return all;
+}
+
+std::string units(int number) {
+  return section("HEADER", fmt::format("9\n$INSUNITS\n70\n{}\n", number));
+}
+
+}  // namespace
+
+TEST_CASE("lines that meet end to end are one rod, in a drawing and as edges of a mesh") {
+  const auto whole = read(grid());
+  REQUIRE(whole.network.rods.size() == 6);
+  std::string halves;
+  for (const int k : {-20, 0, 20})
+    halves += line(-30, k, 5, k) + line(30, k, 5, k) + line(k, -30, k, 7) + line(k, 7, k, 30);
+  const auto broken = read(halves);
+  REQUIRE(broken.network.rods.size() == 6);
+  for (std::size_t r = 0; r < 6; ++r) CHECK(places(broken.network, r) == places(whole.network, r));
+  CHECK_THAT(broken.report.text, Catch::Contains("12 lines, which meet end to end at 6 points"));
+
+  const auto obj = [](const std::string& lines) {
+    return value_of(
+        read_network("v -30 0 0\nv -10 0 0\nv 10 0 0\nv 30 0 0\nv -10 -20 0\nv -10 20 0\n"
+                     "v 10 -20 0\nv 10 20 0\n" +
+                         lines,
+                     "n.obj"));
+  };
+  const auto edges = obj("l 3 2\nl 1 2\nl 3 4\nl 5 2\nl 2 6\nl 7 3\nl 8 3\n");
+  const auto rods = obj("l 1 2 3 4\nl 5 2 6\nl 7 3 8\n");
+  REQUIRE(edges.rods.size() == 3);
+  CHECK(edges.rods[0] == std::vector<int>{0, 1, 2, 3});
+  CHECK(edges.rods[1] == rods.rods[1]);
+  CHECK(edges.rods[2] == rods.rods[2]);
+  // four arcs of a circle are a ring, lines that meet at a right angle are not one rod
+  std::string arcs;
+  for (const int k : {0, 90, 180, 270})
+    arcs += entity("ARC", fmt::format("10 0 20 0 40 25 50 {} 51 {}", k, k + 90));
+  const auto ring = read(grid() + arcs).network;
+  REQUIRE(ring.rods.size() == 7);
+  CHECK(ring.rods[6].front() == ring.rods[6].back());
+  CHECK(read(line(0, 0, 10, 0) + line(10, 0, 10, 10) + line(0, 5, 20, 5)).network.rods.size() == 3);
+}
+
+TEST_CASE("a curve has as many points as it turns, and one at each crossing") {
+  const auto arc = read(grid() + entity("ARC", "10 0 20 100 40 110 50 254 51 286")).network;
+  REQUIRE(arc.rods.size() == 7);
+  const Points points = places(arc, 6);
+  int joints = 0;
+  for (const auto& point : points) {
+    CHECK(std::hypot(point[0], point[1] - 100) == Approx(110).epsilon(1e-4));
+    for (const double x : {-20.0, 0.0, 20.0}) joints += std::abs(point[0] - x) < 1e-9;
+  }
+  CHECK(joints == 3);
+  CHECK(points.size() >= 11);
+  CHECK(points.size() <= 16);
+  double shortest = INFINITY;
+  for (std::size_t k = 1; k < points.size(); ++k)
+    shortest = std::min(
+        shortest, std::hypot(points[k][0] - points[k - 1][0], points[k][1] - points[k - 1][1]));
+  CHECK(shortest > 1);
+}
+
+TEST_CASE("layers, sheets and marks are left out by rules that are reported") {
+  const std::string before =
+      section("TABLES", entity("LAYER", "2 dims 70 1 62 7") + entity("LAYER", "2 aux 70 0 62 -7"));
+  const auto shown = read(grid() + line(-30, -33, 30, 33, "dims") + line(-30, -33, 30, 33, "AUX") +
+                              entity("LINE", "67 1 10 0 20 0 11 297 21 0") + entity("TEXT", "1 a") +
+                              entity("MTEXT", "1 b") + entity("CIRCLE", "10 20 20 20 40 1.5"),
+                          {}, before);
+  CHECK(shown.network.rods.size() == 6);
+  for (const char* part : {"2 lines on layers that are frozen or switched off",
+                           "1 line of paper space", "2 texts", "1 circle that mark points of rods"})
+    CHECK_THAT(shown.report.text, Catch::Contains(part));
+  const auto layered = read(grid("RODS") + line(-30, -33, 30, 33) + entity("MLINE", "8 0"));
+  CHECK(layered.network.rods.size() == 6);
+  CHECK_THAT(layered.report.text, Catch::Contains("1 line, 1 mline on other layers than \"rods\""));
+  CHECK(read(grid() + entity("CIRCLE", "10 0 20 0 40 25")).network.rods.size() == 7);
+  CHECK(refused(grid() + entity("MLINE", "8 0")) ==
+        "d.dxf:78: MLINE must be exploded to lines and polylines");
+  CHECK_THAT(refused(grid() + line(-30, 0, 25, 0)),
+             Catch::Contains("lies on what is drawn at d.dxf:"));
+}
+
+TEST_CASE("the unit is that of the key, else that of the drawing, else mm") {
+  const auto width = [](const Read& read) {
+    double low = 0, high = 0;
+    for (const auto& point : read.network.points)
+      low = std::min(low, point[0]), high = std::max(high, point[0]);
+    return high - low;
+  };
+  CHECK(width(read(grid())) == 60);
+  const auto inches = read(grid(), {}, units(1));
+  CHECK(width(inches) == Approx(60 * 25.4));
+  CHECK_THAT(inches.report.text, Catch::StartsWith("d.dxf: in in ($INSUNITS)"));
+  CHECK(width(read(grid(), {.unit_mm = 10}, units(1))) == Approx(600));
+  // metres that would make rods of 0.25 mm 60 m long are a program's default
+  const auto likely = read(grid(), {.rod_mm = 0.25}, units(6));
+  CHECK(width(likely) == 60);
+  REQUIRE(likely.report.notes.size() == 1);
+  CHECK_THAT(likely.report.notes[0],
+             Catch::Contains("says that it is in m") && Catch::Contains("file_unit"));
+  CHECK(width(read(grid(), {.rod_mm = 25}, units(6))) == Approx(60000));
+  CHECK(value_of(read_network("v 0 0 0\nv 0.5 0 0\nl 1 2\n", "n.obj", {.unit_mm = 1000}))
+            .points[1][0] == 500);
+  CHECK_THAT(refusal(read_network("{}", "n.json", {.unit_mm = 1000})),
+             Catch::Contains("file_unit must be"));
+}
+
+TEST_CASE("what is near and not joined is reported, and join_mm joins it") {
+  // rods that fall 0.4 mm short of the outer ones, and one that was surveyed in two pieces
+  const std::string loose = line(-20, -30, -20, 30) + line(20, -30, 20, 30) +
+                            line(-30, -20, 30, -20) + line(-19.6, 0, 19.6, 0) +
+                            line(-30, 20, -0.003, 20) + line(0.003, 20, 30, 20);
+  const auto apart = read(loose);
+  REQUIRE(apart.report.notes.size() == 1);
+  CHECK_THAT(apart.report.notes[0], Catch::Contains("3 pairs of points lie nearer than a tenth") &&
+                                        Catch::Contains("join_mm = 0.44"));
+  const auto joined = read(loose, {.join_mm = 0.5});
+  CHECK(joined.report.notes.empty());
+  REQUIRE(joined.network.rods.size() == 5);
+  CHECK_THAT(joined.report.text, Catch::Contains("5 rods, 6 joints, 8 supports"));
+  CHECK(places(joined.network, 3).front() == std::vector<double>{-20, 0, 0});
+  // of a file by numbers too
+  const std::string twice = R"({"points_mm": [[-9, 0], [0, 0], [9, 0], [0, -9], [0.004, 0], [0, 9]],
+    "rods": [[0, 1, 2], [3, 4, 5]]})";
+  FileReport report;
+  CHECK(value_of(read_network(twice, "n.json", {}, &report)).rods[1] == std::vector<int>{3, 4, 5});
+  REQUIRE(report.notes.size() == 1);
+  CHECK_THAT(report.notes[0], Catch::StartsWith("a pair of points lies nearer"));
+  CHECK(value_of(read_network(twice, "n.json", {.join_mm = 0.01}, &report)).rods[1] ==
+        std::vector<int>{3, 1, 5});
+  CHECK(report.notes.empty());
+}
