@@ -138,6 +138,13 @@ if(GRIDSHELL_PICTURES)
     PROPERTIES LABELS full TIMEOUT 900 SKIP_RETURN_CODE 77)
 endif()
 
+# The two commands of the README on a fresh Debian of either kind.
+foreach(suite bookworm trixie)
+  add_test(NAME "a fresh Debian: ${suite}" COMMAND ${PROJECT_SOURCE_DIR}/tests/fresh.sh ${suite})
+  set_tests_properties("a fresh Debian: ${suite}" PROPERTIES LABELS full TIMEOUT 7200
+    SKIP_RETURN_CODE 77 RUN_SERIAL ON)
+endforeach()
+
 # How the source stands: format, clang-tidy on what changed, warnings as errors, nothing that stands
 # twice, no name of a file that is gone (tests/style.sh).
 foreach(check format tidy clang warnings equal names)
