@@ -1,5 +1,5 @@
-// The names of Catch2 2 for the tests where version 3 is installed (Debian 13): tests.cmake puts this
-// folder before the library's own headers there.
+// The names of Catch2 2 for the tests where version 3 is installed (Debian 13): tests.cmake puts
+// this folder before the library's own headers there.
 #pragma once
 
 #include <catch2/catch_all.hpp>  // IWYU pragma: export
