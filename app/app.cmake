@@ -29,8 +29,9 @@ target_link_libraries(gridshell_app PUBLIC gridshell_engine gridshell_render
           PkgConfig::IMGUI PkgConfig::FONTCONFIG)
 target_include_directories(gridshell_app SYSTEM PRIVATE ${GL_CORE_INCLUDE_DIR})
 gridshell_position_independent(gridshell_app)
-gridshell_read_once(gridshell_app ${PROJECT_SOURCE_DIR}/engine/gridshell.h)
-gridshell_compile_lightly(gridshell_app -O1)
+gridshell_compile_lightly(gridshell_app)
+gridshell_read_once(gridshell_app gridshell_page)
+gridshell_in_batches(gridshell_app 5)
 
 add_executable(gridshell app/cli/main.cpp)
 target_link_libraries(gridshell PRIVATE gridshell_app)

@@ -6,7 +6,7 @@ start=$PWD
 cd "$(dirname "$0")/.."
 root=$PWD
 . app/setup.sh
-install_missing_packages
+install_packages
 build gridshell
 [ $# -gt 0 ] || set -- movie s1_actuation -o "$root/out/s1_actuation"
 # paths among the arguments are meant from where the user stands

@@ -1,41 +1,61 @@
-# Sourced by app/run.sh and tests/run.sh: the Debian 12 packages that building, running and testing
-# take, and how to get the missing ones. Expects to run in the folder of the sources.
+# Sourced by app/run.sh and tests/run.sh: the packages of Debian 12 and 13 that the program takes, those
+# that its tests take besides, and how to get the missing ones. Expects to run in the folder of the
+# sources.
 
-packages="
+program_packages="
   g++ cmake make ninja-build pkg-config
   libeigen3-dev libspectra-dev libsuitesparse-dev libopenblas-serial-dev libmuparser-dev
   libexpected-dev libfmt-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libhdf5-dev
   libpango1.0-dev libcairo2-dev libpng-dev libdeflate-dev fonts-dejavu-core
   libgl-dev libegl-dev libegl1 libgl1-mesa-dri libosmesa6-dev libosmesa6 libglfw3-dev
-  libimgui-dev libfontconfig-dev
-  pybind11-dev python3-dev python3-numpy python3-pytest
-  catch2 ffmpeg parallel qemu-user clang clang-format clang-tidy
-  similarity-tester
+  libimgui-dev libfontconfig-dev ffmpeg
 "
+test_packages="catch2 pybind11-dev python3-dev python3-numpy python3-pytest"
+# a test that cannot have its checker is skipped and says so
+checker_packages="parallel qemu-user clang clang-format clang-tidy similarity-tester"
 
-install_missing_packages() {
+# what is not installed of PACKAGE...
+missing_packages() {
+  for package in "$@"; do
+    status=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null) || status=""
+    [ "$status" = installed ] || printf ' %s' "$package"
+  done
+}
+
+# install_packages [tests]: what is missing of what the program takes, and of what its tests take
+install_packages() {
   if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
-    echo "This is no Debian: make sure that the counterparts of these are installed:" $packages >&2
+    echo "This is no Debian: make sure that the counterparts of these are installed:" $program_packages $test_packages >&2
     return 0
   fi
-  missing=""
-  for package in $packages; do
-    status=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null) || status=""
-    [ "$status" = installed ] || missing="$missing $package"
-  done
-  [ -n "$missing" ] || return 0
+  missing=$(missing_packages $program_packages)
+  checkers=""
+  if [ "${1:-}" = tests ]; then
+    missing="$missing$(missing_packages $test_packages)"
+    checkers=$(missing_packages $checker_packages)
+  fi
+  [ -n "$missing$checkers" ] || return 0
   as_root=""
   if [ "$(id -u)" -ne 0 ]; then
     if ! command -v sudo >/dev/null; then
+      [ -n "$missing" ] || return 0
       echo "As root, install these packages first: apt-get install$missing" >&2
       return 1
     fi
     as_root="sudo"
   fi
+  $as_root apt-get update -q >&2 || return 1
+  for package in $checkers; do
+    if apt-cache show "$package" >/dev/null 2>&1; then
+      missing="$missing $package"
+    else
+      echo "This system has no package $package: the test that takes it is skipped" >&2
+    fi
+  done
+  [ -n "$missing" ] || return 0
   echo "Installing${as_root:+ with sudo}:$missing" >&2
-  $as_root apt-get update -q >&2 &&
-    $as_root env DEBIAN_FRONTEND=noninteractive \
-      apt-get install -q -y --no-install-recommends $missing >&2
+  $as_root env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -q -y --no-install-recommends $missing >&2
 }
 
 # build TARGET: a Release in build/, with all cores; what the tools say goes to stderr. Ninja, where it

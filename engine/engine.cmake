@@ -19,40 +19,44 @@ add_custom_command(OUTPUT ${embedded_page}
           -DOUTPUT=${embedded_page} -P ${PROJECT_SOURCE_DIR}/engine/record/embed_page.cmake
   DEPENDS ${page_parts} VERBATIM)
 
-add_library(gridshell_version OBJECT engine/core/version.cpp)
-target_compile_features(gridshell_version PUBLIC cxx_std_20)
-target_include_directories(gridshell_version PRIVATE ${PROJECT_SOURCE_DIR})
-target_include_directories(gridshell_version SYSTEM PRIVATE ${EIGEN_INCLUDE_DIR})
-target_compile_definitions(gridshell_version PRIVATE EIGEN_DONT_PARALLELIZE)
-target_link_libraries(gridshell_version PRIVATE fmt::fmt)
-gridshell_position_independent(gridshell_version)
-target_precompile_headers(gridshell_version PRIVATE ${read_by_all})
+# what computes for long lies in core, elastic, footprint, geometry and solve; the rest asks it, but
+# for what every frame has
+file(GLOB_RECURSE engine_sources CONFIGURE_DEPENDS engine/*.cpp engine/*.h)
+set(light_sources ${engine_sources})
+list(FILTER light_sources INCLUDE REGEX "/(design|formats|preset|record|scene|simulate|study)/")
+list(FILTER light_sources EXCLUDE REGEX "contacts|frames_between|frame_forces|shape_measures")
+list(REMOVE_ITEM engine_sources ${light_sources} ${PROJECT_SOURCE_DIR}/engine/core/version.cpp)
 
-file(GLOB_RECURSE ENGINE_SOURCES CONFIGURE_DEPENDS engine/*.cpp engine/*.h)
-list(FILTER ENGINE_SOURCES EXCLUDE REGEX "/core/version\\.cpp$")
-add_library(gridshell_engine STATIC ${ENGINE_SOURCES} ${embedded_page}
-  $<TARGET_OBJECTS:gridshell_version>)
+# two small files make the precompiled headers of both kinds, so that nothing else waits for long
+add_library(gridshell_version OBJECT engine/core/version.cpp)
+add_library(gridshell_page OBJECT ${embedded_page})
+add_library(gridshell_engine_light OBJECT ${light_sources})
+add_library(gridshell_engine STATIC ${engine_sources} $<TARGET_OBJECTS:gridshell_version>
+  $<TARGET_OBJECTS:gridshell_page> $<TARGET_OBJECTS:gridshell_engine_light>)
 add_library(gridshell::gridshell ALIAS gridshell_engine)
 set_target_properties(gridshell_engine PROPERTIES EXPORT_NAME gridshell)
-target_compile_features(gridshell_engine PUBLIC cxx_std_20)
-target_include_directories(gridshell_engine PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
-  $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/gridshell>)
-target_include_directories(gridshell_engine SYSTEM PUBLIC ${EIGEN_INCLUDE_DIR})
-target_include_directories(gridshell_engine SYSTEM PRIVATE ${SPECTRA_INCLUDE_DIR}
-  ${CHOLMOD_INCLUDE_DIR})
-target_compile_definitions(gridshell_engine PUBLIC EIGEN_DONT_PARALLELIZE)
-target_link_libraries(gridshell_engine PUBLIC fmt::fmt
-  PRIVATE tomlplusplus::tomlplusplus ${CHOLMOD_LIBRARY} ${MUPARSER_LIBRARY} ${DEFLATE_LIBRARY}
-  ${HDF5_HL_LIBRARY} PkgConfig::HDF5)
+foreach(part gridshell_version gridshell_page gridshell_engine_light gridshell_engine)
+  target_compile_features(${part} PUBLIC cxx_std_20)
+  target_include_directories(${part} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/gridshell>)
+  target_include_directories(${part} SYSTEM PUBLIC ${EIGEN_INCLUDE_DIR})
+  target_compile_definitions(${part} PUBLIC EIGEN_DONT_PARALLELIZE)
+  target_link_libraries(${part} PUBLIC fmt::fmt)
+  gridshell_position_independent(${part})
+endforeach()
+foreach(part gridshell_engine_light gridshell_engine)
+  target_include_directories(${part} SYSTEM PRIVATE ${SPECTRA_INCLUDE_DIR} ${CHOLMOD_INCLUDE_DIR})
+  target_link_libraries(${part} PRIVATE tomlplusplus::tomlplusplus ${CHOLMOD_LIBRARY}
+    ${MUPARSER_LIBRARY} ${DEFLATE_LIBRARY} ${HDF5_HL_LIBRARY} PkgConfig::HDF5)
+endforeach()
+gridshell_compile_lightly(gridshell_page)
+gridshell_compile_lightly(gridshell_engine_light)
+gridshell_read_once(gridshell_version ${read_by_all})
+gridshell_read_once(gridshell_page ${read_by_all})
+gridshell_read_once(gridshell_engine gridshell_version)
+gridshell_read_once(gridshell_engine_light gridshell_page)
 # the two hot loops may contract a*b+c; everything else rounds each operation
 set_source_files_properties(engine/solve/block_factor.cpp engine/elastic/assembly.cpp
   PROPERTIES COMPILE_OPTIONS -ffp-contract=fast SKIP_PRECOMPILE_HEADERS ON)
-# what computes for long lies in geometry, footprint, elastic, solve and design; the rest asks it,
-file(GLOB light CONFIGURE_DEPENDS engine/formats/*.cpp engine/preset/*.cpp
-  engine/record/*.cpp engine/scene/*.cpp engine/simulate/*.cpp engine/study/*.cpp)
-# but for what every frame has
-list(FILTER light EXCLUDE REGEX "contacts|frames_between|frame_forces|shape_measures")
-set_property(SOURCE ${light} ${embedded_page} APPEND PROPERTY
-  COMPILE_OPTIONS $<$<CONFIG:Release>:-O1>)
-gridshell_position_independent(gridshell_engine)
-gridshell_read_once(gridshell_engine)
+gridshell_in_batches(gridshell_engine_light 4)
+gridshell_in_batches(gridshell_engine 3)

@@ -18,12 +18,21 @@ add_custom_command(
   DEPENDS ${SHADER_FILES} render/gl/embed_shaders.cmake
   COMMENT "Embedding the shaders" VERBATIM)
 
-file(GLOB_RECURSE RENDER_SOURCES CONFIGURE_DEPENDS render/*.cpp render/*.h)
-add_library(gridshell_render STATIC ${RENDER_SOURCES} ${SHADER_TEXT})
-target_include_directories(gridshell_render SYSTEM PRIVATE
-  ${GL_CORE_INCLUDE_DIR} ${OSMESA_INCLUDE_DIR} ${EGL_INCLUDE_DIR}
-  ${GLFW_INCLUDE_DIR})
-target_link_libraries(gridshell_render PUBLIC gridshell_engine
-  PRIVATE PNG::PNG PkgConfig::DEFLATE PkgConfig::PANGOCAIRO ${CMAKE_DL_LIBS})
-gridshell_position_independent(gridshell_render)
-gridshell_read_once(gridshell_render)
+# of all that draws, gl goes through pixels itself
+file(GLOB_RECURSE render_sources CONFIGURE_DEPENDS render/gl/*.cpp render/*.h)
+file(GLOB_RECURSE light_sources CONFIGURE_DEPENDS render/canvas/*.cpp render/movie/*.cpp)
+add_library(gridshell_render_light OBJECT ${light_sources})
+add_library(gridshell_render STATIC ${render_sources} ${SHADER_TEXT}
+  $<TARGET_OBJECTS:gridshell_render_light>)
+foreach(part gridshell_render_light gridshell_render)
+  target_include_directories(${part} SYSTEM PRIVATE ${GL_CORE_INCLUDE_DIR} ${OSMESA_INCLUDE_DIR}
+    ${EGL_INCLUDE_DIR} ${GLFW_INCLUDE_DIR})
+  target_link_libraries(${part} PUBLIC gridshell_engine
+    PRIVATE PNG::PNG PkgConfig::DEFLATE PkgConfig::PANGOCAIRO ${CMAKE_DL_LIBS})
+  gridshell_position_independent(${part})
+endforeach()
+gridshell_compile_lightly(gridshell_render_light)
+gridshell_read_once(gridshell_render gridshell_version)
+gridshell_read_once(gridshell_render_light gridshell_page)
+gridshell_in_batches(gridshell_render 3)
+gridshell_in_batches(gridshell_render_light 5)

@@ -4,7 +4,7 @@
 set -e
 cd "$(dirname "$0")/.."
 . app/setup.sh
-install_missing_packages
+install_packages tests
 build all
 [ $# -gt 0 ] || set -- -LE full
 exec ctest --test-dir build --output-on-failure --no-tests=error -j "$(nproc)" "$@"

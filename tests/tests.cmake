@@ -2,9 +2,18 @@
 # Their tags are CTest labels: untagged tests are `quick`, [standard] those that take over a second,
 # [full] what a release needs besides. tests/run.sh runs all but `full`.
 # [shared] reads all of build/shared_runs, [s1] that of s1_actuation; both are made before.
-find_package(Catch2 2.13 REQUIRED)
+find_package(Catch2 QUIET)
+if(NOT Catch2_FOUND)
+  message(STATUS "No tests: they need the package catch2")
+  return()
+endif()
 include(Catch)
 find_package(nlohmann_json REQUIRED)
+# the tests use the names of version 2
+set(catch_names "")
+if(Catch2_VERSION VERSION_GREATER_EQUAL 3)
+  set(catch_names ${PROJECT_SOURCE_DIR}/tests/catch3)
+endif()
 
 # the sanitizers of the debug presets take some ten times as long
 set(quick_seconds 60)
@@ -30,7 +39,7 @@ function(gridshell_tests folder)
   add_executable(${target} ${sources} ${helpers})
   target_link_libraries(${target} PRIVATE ${ARGN} PkgConfig::HDF5 nlohmann_json::nlohmann_json
     Catch2::Catch2WithMain)
-  target_include_directories(${target} SYSTEM PRIVATE ${CHOLMOD_INCLUDE_DIR})
+  target_include_directories(${target} SYSTEM PRIVATE ${CHOLMOD_INCLUDE_DIR} ${catch_names})
   target_compile_definitions(${target} PRIVATE GRIDSHELL_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   # the first test program makes the precompiled header of all
   if(folder STREQUAL engine)
@@ -38,7 +47,8 @@ function(gridshell_tests folder)
   else()
     gridshell_read_once(${target} test_engine)
   endif()
-  gridshell_compile_lightly(${target} -O1)
+  gridshell_compile_lightly(${target})
+  gridshell_in_batches(${target} 6)
   # a name that CMake tears apart (at a semicolon) must fail instead of matching no test
   gridshell_tier(quick "~[full]~[standard]~[alone]~[shared]~[s1]" TIMEOUT ${quick_seconds})
   gridshell_tier(standard "[standard]~[shared]~[s1]" TIMEOUT 600)
@@ -128,6 +138,13 @@ if(GRIDSHELL_PICTURES)
     PROPERTIES LABELS full TIMEOUT 900 SKIP_RETURN_CODE 77)
 endif()
 
+# The two commands of the README on a fresh Debian of either kind.
+foreach(suite bookworm trixie)
+  add_test(NAME "a fresh Debian: ${suite}" COMMAND ${PROJECT_SOURCE_DIR}/tests/fresh.sh ${suite})
+  set_tests_properties("a fresh Debian: ${suite}" PROPERTIES LABELS full TIMEOUT 7200
+    SKIP_RETURN_CODE 77 RUN_SERIAL ON)
+endforeach()
+
 # How the source stands: format, clang-tidy on what changed, warnings as errors, nothing that stands
 # twice, no name of a file that is gone (tests/style.sh).
 foreach(check format tidy clang warnings equal names)
@@ -146,7 +163,7 @@ foreach(source IN LISTS examples)
   get_filename_component(example ${source} NAME_WE)
   add_executable(example_${example} ${source})
   target_link_libraries(example_${example} PRIVATE gridshell::gridshell)
-  gridshell_compile_lightly(example_${example} -O1)
+  gridshell_compile_lightly(example_${example})
   # a precompiled header is taken only with what it was made with
   target_compile_definitions(example_${example} PRIVATE GRIDSHELL_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   gridshell_read_once(example_${example} test_engine)

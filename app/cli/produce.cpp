@@ -128,7 +128,7 @@ std::string summary_of_cases(const std::string& preset, const std::vector<Run>& 
     one.update(parsed(record::to_json(run.summary)));
     all["cases"].push_back(std::move(one));
   }
-  return text_of(all);
+  return gridshell::text_of(all);
 }
 
 Result<void> write_runs(std::vector<Run>& runs, const preset::Presets& presets,

@@ -53,7 +53,7 @@ std::string completeness_text(const record::StateTables& states) {
 template <class Value>
 std::vector<render::Series> by_class(const std::vector<StateRow>& rows, const Value& value) {
   std::vector<render::Series> all;
-  for (const auto& [kind, word] : words_of<StateClass>()) {
+  for (const auto& [kind, word] : gridshell::words_of<StateClass>()) {
     const render::ClassLook look = render::look_of(kind);
     render::Series series = render::mark_series(class_text(kind), look.colour, look.marker);
     series.hollow = kind == StateClass::other;

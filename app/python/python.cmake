@@ -17,8 +17,9 @@ target_link_options(gridshell_python PRIVATE LINKER:--exclude-libs,ALL)
 target_link_libraries(gridshell_python PRIVATE gridshell_app gridshell_render gridshell_engine)
 set_target_properties(gridshell_python PROPERTIES OUTPUT_NAME gridshell
   LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/python)
-gridshell_read_once(gridshell_python gridshell_app)
-gridshell_compile_lightly(gridshell_python -O1)
+gridshell_compile_lightly(gridshell_python)
+gridshell_read_once(gridshell_python gridshell_page)
+gridshell_in_batches(gridshell_python 2)
 # the module's own signatures, for editors and type checkers
 add_custom_command(TARGET gridshell_python POST_BUILD
   COMMAND ${Python3_EXECUTABLE} -B ${PROJECT_SOURCE_DIR}/app/python/stubs.py ${PROJECT_BINARY_DIR}/python

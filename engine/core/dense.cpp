@@ -1,34 +1,12 @@
 #include "engine/core/dense.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
 #include <cmath>
 
 namespace gridshell {
-
-namespace {
-
-EigenPairs pairs_of(const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>& own) {
-  return {own.eigenvalues(), own.eigenvectors()};
-}
-
-}  // namespace
-
-EigenPairs eigen_pairs(const Eigen::MatrixXd& symmetric) {
-  return pairs_of(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric));
-}
-
-EigenPairs eigen_pairs(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
-  return pairs_of(Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(A, B));
-}
-
-Eigen::VectorXd eigenvalues(const Eigen::MatrixXd& symmetric) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric, Eigen::EigenvaluesOnly)
-      .eigenvalues();
-}
 
 Eigen::MatrixXd inverse(const Eigen::MatrixXd& A) { return A.inverse(); }
 

@@ -32,7 +32,7 @@ using record::StateClass;
 using record::StateCount;
 
 constexpr double high = 0.84;  // of the picture, over its width
-constexpr Colour grey{0.42f, 0.42f, 0.45f, 1};
+constexpr Colour grey_ink{0.42f, 0.42f, 0.45f, 1};
 
 /// How large a class is drawn, and where beside the point, in steps between points.
 struct ClassMark {
@@ -122,7 +122,7 @@ class PhasePlot {
   /// L_d over n at one shortest leg.
   void add_line(double leg) {
     constexpr int pieces = 120;
-    Series line = line_series(leg == 1 ? "*l̄*_{d} = 1, 0, −1 (from right to left)" : "", grey);
+    Series line = line_series(leg == 1 ? "*l̄*_{d} = 1, 0, −1 (from right to left)" : "", grey_ink);
     line.dash = leg == 1   ? std::vector<double>{}
                 : leg == 0 ? std::vector<double>{5, 2.5}
                            : std::vector<double>{1.5, 2};
@@ -150,14 +150,14 @@ class PhasePlot {
 
   /// A dot where each footprint belongs that its marks stand around.
   void add_places() {
-    Series dots = mark_series("", grey, Marker::circle, 1.6);
+    Series dots = mark_series("", grey_ink, Marker::circle, 1.6);
     for (const PhasePoint& point : points_) dots.add(point.longest_leg, point.rods);
     plot_.series.push_back(std::move(dots));
   }
 
   /// A row of the legend that says how to read a sign.
   void add_key(const std::string& text, Marker marker, bool hollow) {
-    plot_.series.push_back(mark_series(text, grey, marker, 5, hollow));
+    plot_.series.push_back(mark_series(text, grey_ink, marker, 5, hollow));
   }
 
   /// How many more states than the paper's classes, where there is room for it.
@@ -167,11 +167,11 @@ class PhasePlot {
     for (const PhasePoint& point : points_)
       if (const int others = point.of(StateClass::other).states; others > 0)
         plot_.notes.push_back({point.longest_leg + others_right * leg_step_, double(point.rods),
-                               fmt::format("+{}", others), AlignX::left, AlignY::middle, grey});
+                               fmt::format("+{}", others), AlignX::left, AlignY::middle, grey_ink});
   }
 
   void add_nothing() {
-    Series series = mark_series("none found", grey, Marker::cross);
+    Series series = mark_series("none found", grey_ink, Marker::cross);
     for (const PhasePoint& point : points_)
       if (!point.found) series.add(point.longest_leg, point.rods);
     plot_.add(std::move(series));
@@ -201,7 +201,7 @@ double radius_of(const record::Layout& layout) {
 
 ClassLook look_of(StateClass kind) {
   constexpr Marker markers[] = {Marker::circle, Marker::square, Marker::diamond, Marker::triangle};
-  if (kind == StateClass::other) return {grey, Marker::circle};
+  if (kind == StateClass::other) return {grey_ink, Marker::circle};
   return {series_colour(std::size_t(kind)), markers[std::size_t(kind)]};
 }
 

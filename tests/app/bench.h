@@ -11,7 +11,7 @@
 #include "tests/temporary_folder.h"
 
 namespace fs = std::filesystem;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 using gridshell::read_file;
 using gridshell::write_file;
 

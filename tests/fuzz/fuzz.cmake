@@ -34,6 +34,7 @@ elseif(GRIDSHELL_TESTS AND GRIDSHELL_PICTURES)
   add_executable(test_fuzz tests/fuzz/test_replay.cpp ${fuzz_sources})
   target_link_libraries(test_fuzz PRIVATE gridshell_render gridshell_engine PkgConfig::HDF5
     Catch2::Catch2WithMain)
+  target_include_directories(test_fuzz SYSTEM PRIVATE ${catch_names})
   target_compile_definitions(test_fuzz PRIVATE GRIDSHELL_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   catch_discover_tests(test_fuzz EXTRA_ARGS --warn NoTests
     PROPERTIES LABELS quick TIMEOUT ${quick_seconds})

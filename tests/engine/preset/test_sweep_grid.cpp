@@ -4,7 +4,7 @@
 
 using namespace gridshell;
 using namespace gridshell::preset;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

@@ -9,7 +9,7 @@
 
 using namespace gridshell;
 using namespace gridshell::record;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

@@ -48,5 +48,5 @@ TEST_CASE("a shader that does not compile is an error with the compiler's log", 
 
   // its functions are in light.glsl
   CHECK_THAT(refusal(Program::create(gl, {"screen.vert"}, {"ribbon.frag"}), Fault::io),
-             Catch::Matchers::Contains("ribbon.frag does not compile"));
+             Catch::Contains("ribbon.frag does not compile"));
 }

@@ -156,10 +156,10 @@ TEST_CASE("what cannot be drawn is refused with its reason", "[draw]") {
   CHECK(message(wrong, {}, 9, 9) == "the drawing has a node that is not finite");
   wrong = drawing;
   wrong.cell_colours.pop_back();
-  CHECK_THAT(message(wrong, {}, 9, 9), Catch::Matchers::Contains("cell colours for"));
+  CHECK_THAT(message(wrong, {}, 9, 9), Catch::Contains("cell colours for"));
   wrong = drawing;
   wrong.nodes.conservativeResize(3, 4);
-  CHECK_THAT(message(wrong, {}, 9, 9), Catch::Matchers::Contains("beyond its 4 nodes"));
+  CHECK_THAT(message(wrong, {}, 9, 9), Catch::Contains("beyond its 4 nodes"));
 }
 
 namespace {

@@ -12,7 +12,7 @@ using namespace gridshell::render;
 
 TEST_CASE("what lies behind the shell is hidden, what lies before it is not") {
   const auto run = synthetic::dome(2, 4);
-  const Drawing drawing = test::dome_drawing(run);
+  const Drawing drawing = render::test::dome_drawing(run);
   Camera above;
   above.elevation_deg = 90;
   Eigen::Matrix3Xd points(3, 3);
@@ -34,7 +34,7 @@ TEST_CASE("what lies behind the shell is hidden, what lies before it is not") {
 
 TEST_CASE("a shell of lines has fewer, or fainter, of them where it hides them") {
   const auto run = synthetic::dome(2, 4);
-  Drawing drawing = test::dome_drawing(run);
+  Drawing drawing = render::test::dome_drawing(run);
   drawing.rod_colour = {0, 0, 0, 1};
   drawing.joint_diameter_mm = 0;
   drawing.rings.clear();
