@@ -125,10 +125,11 @@ class TableReader {
     if (cells_.size() == 1 && wanted_.size() > 1 && is_whole(cells_[0]) && counts_here())
       return take_count(number);
     if (std::exchange(first_, false)) {
-      const bool header = std::ranges::all_of(cells_, [&](std::string_view cell) {
-        return (is_name(cell) || cell.empty()) && !is_word(cell);
-      });
-      if (header) return take_header(cells_, number);
+      const bool names = std::ranges::all_of(
+          cells_, [](std::string_view cell) { return is_name(cell) || cell.empty(); });
+      // a column may have a name that is a value of another: family, rod, end
+      const auto word = [&](std::string_view cell) { return is_word(cell); };
+      if (names && !std::ranges::all_of(cells_, word)) return take_header(cells_, number);
       take_remark();
     }
     return take_row(number);

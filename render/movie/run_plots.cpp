@@ -322,7 +322,7 @@ Plot bins_plot(const RunSummary& run, long cells, const record::Frame& frame,
   Plot plot;
   plot.font_size = font_size;
   plot.x = {.label = "*x* / *L*", .low = -1, .high = 1};
-  plot.y = {.label = "mean integrated Gauss curvature, *K*_{□} (rad)",
+  plot.y = {.label = "mean integrated *K*_{□} (rad)",
             .low = !range.empty() ? range[0] : low - (low < 0 ? margin : 0),
             .high = !range.empty() ? range[1] : high + margin};
   Series before = bins_of(run.first), now = bins_of(frame);

@@ -19,6 +19,8 @@ const std::set<std::string> for_people{"description"};
 // where the member has another name than the key, or stands behind what is worked out of it
 const std::map<std::string, std::string> member_names{{"points_mm", "points"},
                                                       {"do", "kind"},
+                                                      {"file_unit", "file"},
+                                                      {"join_mm", "file"},
                                                       {"longest_leg", "original_radius_mm"},
                                                       {"strength_MPa", "fibre_strength_MPa"},
                                                       {"yield_strain", "fibre_strength_MPa"},

@@ -123,7 +123,8 @@ TEST_CASE("a file that is missing, foreign or cut short is refused in a sentence
   const std::string whole = bytes_of(sample_trajectory());
   CHECK(refusal(whole.substr(0, 100)) == "it is cut short");
   const std::string damaged =
-      "it is cut short, damaged or was changed: its checksum does not match";
+      "it is cut short, damaged or was changed: its checksum does not match (of one that another "
+      "program changed, --unsealed, in Python unsealed=True, reads what there is)";
   for (const double part : {0.3, 0.9})
     CHECK(refusal(whole.substr(0, static_cast<std::size_t>(part * whole.size()))) == damaged);
   // one bit anywhere

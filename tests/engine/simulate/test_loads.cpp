@@ -168,6 +168,7 @@ TEST_CASE("a pinched ring goes on past its double mode on every mesh", "[standar
   }
   file.rods[0].push_back(0);
   preset::Preset p = network(file);
+  p.rod.shear_GPa = 31;  // a closed rod may twist
   const auto usual = run(p);
   const auto place = places_of(usual.summary.limit_reason);
   REQUIRE(place.size() == 1);

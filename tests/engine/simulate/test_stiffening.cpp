@@ -173,7 +173,6 @@ TEST_CASE("what is made stiff too early, or is not there, is named") {
   preset::Preset p = loaded_shell();
   p.step = {step(StepKind::brace)};
   p.step[0].cells = {{40, 2}};
-  Watch watch;
   CHECK(refusal(plan(p), Fault::bad_input) ==
         "[[step]] 1 cells: the footprint has no cell [40, 2]");
   p.step = {step(StepKind::release)};
