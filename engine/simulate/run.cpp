@@ -14,7 +14,7 @@
 #include "engine/simulate/first_state.h"
 #include "engine/simulate/frames.h"
 #include "engine/simulate/indentation.h"
-#include "engine/simulate/mesh_choice.h"
+#include "engine/simulate/mesh_policy.h"
 #include "engine/simulate/shell_symmetry.h"
 #include "engine/simulate/steps.h"
 #include "engine/solve/buckling.h"
@@ -166,22 +166,6 @@ std::string near_image(const EquilibriumPath& path) {
       off);
 }
 
-/// Of a path on which the leading mesh enters a branch late, long after the finest has lost the
-/// path: a sentence. Where several modes go soft at once it may then enter another of them.
-std::string late_on_branch(const EquilibriumPath& path) {
-  constexpr double late = 0.05;  // in the path parameter
-  for (const PathSegment& segment : path.segments)
-    for (const Event& event : segment.report.events)
-      if (path.single_motion && !event.leap && event.to && std::abs(*event.to - event.t) > late)
-        return fmt::format(
-            "of the branch that leaves the path at progress {:.4f} no state was found before "
-            "progress {:.4f}: which of several it is may hang on the mesh, [accuracy] "
-            "leading_edges = {} looks again",
-            progress_at(event.t), progress_at(*event.to),
-            2 * path.simulation.shell().plan().edges_per_segment.front());
-  return "";
-}
-
 /// What was followed, and on which meshes.
 void put_path(const EquilibriumPath& path, record::Summary& s) {
   const NestedShell& shell = path.simulation.shell();
@@ -191,7 +175,6 @@ void put_path(const EquilibriumPath& path, record::Summary& s) {
   s.limit = path.limit;
   s.limit_reason = path.limit_reason;
   s.doubt = path.mesh_disagreement;
-  if (s.doubt.empty()) s.doubt = late_on_branch(path);
   if (s.doubt.empty()) s.doubt = near_image(path);
   for (const ContactEvent& event : path.contacts)
     s.contact += (s.contact.empty() ? "" : "; ") + event.text;

@@ -10,6 +10,7 @@
 
 #include "engine/simulate/actuation.h"
 #include "engine/simulate/frames.h"
+#include "engine/simulate/mesh_policy.h"
 #include "engine/simulate/path_sampler.h"
 
 namespace gridshell::simulate {
@@ -128,9 +129,8 @@ class Show {
     if (fine && fine->end == Outcome::reached) return {};
     return fail(Fault::no_equilibrium,
                 "the steps end on {} edges a segment, which do not have the state {} "
-                "step {}; what may help: --set accuracy.leading_edges={}",
-                meshes_.edges_per_segment.back(), shown_ ? "after" : "before", step_ + 1,
-                meshes_.edges_per_segment.front());
+                "step {}",
+                meshes_.edges_per_segment.back(), shown_ ? "after" : "before", step_ + 1);
   }
 
   /// The frames on the way of a step, and the one at its end.
@@ -318,7 +318,7 @@ Result<StepsResult> run_steps(const std::shared_ptr<const Scene>& scene,
       watch);
   if (!work) return tl::unexpected<Error>(work.error());
   name_step_of_limit(*work, steps);
-  locate_contacts(*work, on_its_way, watch);
+  work->contacts = contact_events(*work, on_its_way);
   for (ContactEvent& event : work->contacts)
     event.text = fmt::format("step {} ({}): {}", event.segment + 1, text_of(steps[event.segment]),
                              event.text);

@@ -99,10 +99,9 @@ void Simulation::put_push_errors(record::Frame& frame) const {
 }
 
 Energies Simulation::energies() const {
-  const int last = shell_->levels() - 1;
+  const int last = shell_->last();
   const Energies fine = shell_->energies(last);
-  if (!shell_->plan().extrapolate_forces || last == 0) return fine;
-  return extrapolated(fine, shell_->energies(last - 1));
+  return shell_->extrapolates_forces() ? extrapolated(fine, shell_->energies(last - 1)) : fine;
 }
 
 bool Simulation::locked() const {
@@ -194,7 +193,7 @@ Report Simulation::begin_flat() {
 
 Result<Report> Simulation::begin_buckled(double shortening, const Watch& watch) {
   const CallBegin begin = call_begin();
-  TRY(t, parameter_of_shortening(shell_->mesh(0), shell_->motion(0), shortening));
+  TRY(t, parameter_of_shortening(shell_->finest(), shell_->motion(), shortening));
   TRY(first, buckled_state(*shell_, *scene_, rods(), *t, watch));
   const Report there = begin_at(*t, *first, watch);
   return report(there.end, there.t, begin);
@@ -210,12 +209,19 @@ Result<Report> Simulation::begin_as_drawn(const Watch& watch) {
   return begin_at(0, *rest, watch);
 }
 
-Report Simulation::begin_at(double t, const State& coarse, const Watch& watch) {
+Report Simulation::begin_refined(double t, const State& coarse, const Watch& watch) {
+  shell_->actuate(t, {}, load_scale_);
+  const auto fine = shell_->refined(t, coarse, watch);
+  if (fine) return begin_at(t, *fine, watch);
+  return report(watch.cancelled() ? Outcome::cancelled : Outcome::not_converged, t, call_begin());
+}
+
+Report Simulation::begin_at(double t, const State& fine, const Watch& watch) {
   const CallBegin begin = call_begin();
   actuating_ = true;
   holds_.clear();
   shell_->actuate(t, {}, load_scale_);
-  const NestedReport nested = shell_->start(t, coarse, watch);
+  const NestedReport nested = shell_->start(t, fine, watch);
   if (nested.end == Outcome::reached) set_progress(progress_at(t));
   return report(nested.end, nested.t, begin);
 }
@@ -231,7 +237,7 @@ void Simulation::set_progress(double progress) {
 /// stay.
 Result<Outcome> Simulation::replace_meshes(const LevelPlan& plan, bool nearby, const Watch& watch) {
   // joints on their way to other angles stand on the meshes that they open on
-  if (!nearby && shell_->outside(0).opening != 0) return Outcome::meshes_disagree;
+  if (!nearby && shell_->outside(shell_->last()).opening != 0) return Outcome::too_coarse;
   std::unique_ptr<NestedShell> before = std::move(shell_);
   const auto back = [&] {
     if (shell_) spent_ += shell_->effort();
@@ -247,9 +253,9 @@ Result<Outcome> Simulation::replace_meshes(const LevelPlan& plan, bool nearby, c
   State state = shell_->stay(*before, holds_);
   if (actuating_) shell_->actuate(t, holds_, load_scale_);
   if (nearby) {
-    shell_->motion(0).apply_loads(shell_->system(0), t);
+    shell_->motion().apply_loads(shell_->system(), t);
     if (auto rest =
-            find_equilibrium(shell_->system(0), state, 0.5 * scene_->footprint.spacing, watch))
+            find_equilibrium(shell_->system(), state, 0.5 * scene_->footprint.spacing, watch))
       state = std::move(*rest);
   }
   // a state that is not stable is one on finer meshes too

@@ -1,10 +1,10 @@
 // What finer meshes choose, followed on coarser ones.
-#include "engine/simulate/guided_path.h"
+#include "engine/simulate/mesh_policy.h"
 
 #include <cmath>
 #include <memory>
 
-#include "engine/simulate/mesh_choice.h"
+#include "engine/simulate/mesh_policy.h"
 #include "tests/engine/simulate/run.h"
 #include "tests/results.h"
 
