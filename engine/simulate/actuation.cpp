@@ -197,6 +197,7 @@ Result<EquilibriumPath> follow_whole_actuation(const std::shared_ptr<const Scene
                                                const LevelPlan& plan, std::string_view wanted_for,
                                                const Watch& watch) {
   auto actuated = follow_actuation(scene, plan, false, 1, watch);
+  if (actuated && actuated->too_coarse()) return actuated;
   if (actuated && actuated->limit != record::Limit::none && actuated->limit != record::Limit::snap)
     return fail(Fault::no_equilibrium, "there is no actuated shell {}: {}{}", wanted_for,
                 actuated->limit_reason,

@@ -41,12 +41,11 @@ const LoadStep& load_step_before(const PathSegment& segment, double t) {
   return *before;
 }
 
-bool EquilibriumPath::has_events() const {
-  const auto any = [](const PathSegment& segment) {
-    return !segment.report.events.empty() || segment.report.end != Outcome::reached;
+bool EquilibriumPath::too_coarse() const {
+  const auto ended_so = [](const PathSegment& segment) {
+    return segment.report.end == Outcome::too_coarse;
   };
-  return std::any_of(segments.begin(), segments.end(), any) ||
-         std::any_of(earlier.begin(), earlier.end(), any);
+  return std::ranges::any_of(segments, ended_so) || std::ranges::any_of(earlier, ended_so);
 }
 
 bool goes_on_between(const PathSegment& segment, const LoadStep& a, const LoadStep& b) {

@@ -50,8 +50,9 @@ struct EquilibriumPath {
   std::string limit_reason = {};
   std::vector<ContactEvent> contacts = {};
 
-  /// Whether a branch was lost, a limit met, or a segment ended early.
-  bool has_events() const;
+  /// Whether it ended as its mesh is too coarse (LevelPlan::allowed_mm): what comes after it is not
+  /// followed then.
+  bool too_coarse() const;
 };
 
 /// Largest distance of the joints where a simulation stands from those of nodes of its finest mesh,

@@ -113,6 +113,7 @@ Result<HeldShell> follow_push(const std::shared_ptr<const Scene>& scene,
                               const preset::Indentation& asked, const LevelPlan& plan,
                               const Watch& watch) {
   auto pushed = hold_to_push(scene, asked, plan, watch);
+  if (pushed && pushed->too_coarse()) return pushed;
   for (double to : asked.unload ? std::vector<double>{1, 0} : std::vector<double>{1}) {
     if (!pushed) break;
     const PathSegment& segment = follow_segment(*pushed, to, {}, watch);
@@ -215,6 +216,7 @@ Result<HeldShell> hold_to_push(const std::shared_ptr<const Scene>& scene,
                                const preset::Indentation& asked, const LevelPlan& plan,
                                const Watch& watch) {
   TRY(actuated, follow_whole_actuation(scene, plan, "to push", watch));
+  if (actuated->too_coarse()) return HeldShell{std::move(*actuated), {}, {}};
   Simulation& simulation = actuated->simulation;
   TRY(push, push_of(asked, *scene, simulation.shell().finest(), simulation.nodes()));
   const auto joints = Eigen::Index(scene->footprint.joints.size());

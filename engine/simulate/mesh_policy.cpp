@@ -12,14 +12,6 @@ namespace {
 
 int edges_of(const EquilibriumPath& path) { return path.meshes.edges_per_segment.back(); }
 
-bool ended_too_coarse(const EquilibriumPath& path) {
-  const auto too_coarse = [](const PathSegment& segment) {
-    return segment.report.end == Outcome::too_coarse;
-  };
-  return std::ranges::any_of(path.segments, too_coarse) ||
-         std::ranges::any_of(path.earlier, too_coarse);
-}
-
 /// Whether an event of a segment lies near a path parameter: meshes may differ there.
 bool near_event(const PathSegment& segment, double t) {
   return std::ranges::any_of(segment.report.events, [&](const Event& event) {
@@ -80,7 +72,7 @@ LevelPlan initial_levels(const Scene& scene) {
   // of 12 to 96 rods per direction
   std::size_t segments = mesh_tolerances.segments;
   for (const FootprintRod& rod : scene.footprint.rods)
-    segments = std::max(segments, rod.joints.size() + 1);
+    if (!scene.from_net) segments = std::max(segments, rod.joints.size() + 1);
   const double growth = double(segments) / mesh_tolerances.segments;
   LevelPlan plan = scene.edges_per_segment > 0
                        ? plan_of_mesh(scene.edges_per_segment)
@@ -133,14 +125,14 @@ Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follo
       found.simulation.charge(coarse->simulation.effort());
       found.seconds_setup += coarse->seconds_setup;
     }
-    const bool too_coarse = ended_too_coarse(found);
+    const bool too_coarse = found.too_coarse();
     auto missing = too_coarse ? std::nullopt : not_confirmed(found);
     if (asked || (!too_coarse && !missing)) {
       if (missing) found.mesh_disagreement = *missing;
       return path;
     }
     // two meshes that follow one another agree
-    if (missing && coarse && !ended_too_coarse(*coarse) && !mesh_disagreement(*coarse, found)) {
+    if (missing && coarse && !coarse->too_coarse() && !mesh_disagreement(*coarse, found)) {
       extrapolate_events(coarse->segments, found.segments);
       extrapolate_events(coarse->earlier, found.earlier);
       return path;

@@ -39,17 +39,28 @@ std::optional<Event> Simulation::beyond_limits() const { return beyond(limits())
 Result<Simulation> Simulation::open(std::shared_ptr<const Scene> scene, const LevelPlan& plan) {
   Simulation simulation(std::move(scene));
   simulation.set_progress(0);
-  TRY_DO(simulation.build(plan));
+  TRY(shell, simulation.build(plan));
+  simulation.use(std::move(*shell));
   return simulation;
 }
 
-Result<void> Simulation::build(const LevelPlan& plan) {
+/// The shell of rods() on the meshes of a plan, as it was built before if it was.
+Result<std::shared_ptr<NestedShell>> Simulation::build(const LevelPlan& plan) {
+  for (const auto& built : built_)
+    if (built->plan() == plan) return built;
   TRY(shell, NestedShell::make(scene_->footprint, rods(), scene_->solved_model(), scene_->motion,
                                plan, options_for(*scene_)));
-  if (shell_) spent_ += shell_->effort();
-  shell_ = std::make_unique<NestedShell>(std::move(*shell));
+  return built_.emplace_back(std::make_shared<NestedShell>(std::move(*shell)));
+}
+
+void Simulation::use(std::shared_ptr<NestedShell> shell) {
+  if (shell_) {
+    shell_->free_memory();
+    spent_ += shell_->effort();
+  }
+  shell_ = std::move(shell);
+  spent_ = spent_ - shell_->effort();  // that is counted already, or another's
   search_.emplace(simulate::parts_of(*scene_, shell_->finest()));
-  return {};
 }
 
 // ---- reports ----
@@ -233,21 +244,15 @@ void Simulation::set_progress(double progress) {
 
 // ---- keep ----
 
-/// Other meshes or rods in the place of these, at rest where these stand; if they are not, these
-/// stay.
+/// Other meshes or rods in the place of these, in equilibrium where these are; if they are not,
+/// these stay.
 Result<Outcome> Simulation::replace_meshes(const LevelPlan& plan, bool nearby, const Watch& watch) {
-  // joints on their way to other angles stand on the meshes that they open on
+  // joints on their way to other angles stay on the meshes that they open on
   if (!nearby && shell_->outside(shell_->last()).opening != 0) return Outcome::too_coarse;
-  std::unique_ptr<NestedShell> before = std::move(shell_);
-  const auto back = [&] {
-    if (shell_) spent_ += shell_->effort();
-    shell_ = std::move(before);
-    search_.emplace(simulate::parts_of(*scene_, shell_->finest()));
-  };
-  if (auto built = build(plan); !built) {
-    back();
-    return tl::unexpected<Error>(built.error());
-  }
+  TRY(built, build(plan));
+  if (*built == shell_) return Outcome::reached;
+  const std::shared_ptr<NestedShell> before = shell_;
+  use(*built);
   shell_->set_fields(field_, {});
   const double t = actuating_ ? before->state().t : 0;
   State state = shell_->stay(*before, holds_);
@@ -263,25 +268,21 @@ Result<Outcome> Simulation::replace_meshes(const LevelPlan& plan, bool nearby, c
   Outcome end = shell_->start(t, state, watch).end;
   shell_->allow_unstable(false);
   if (watch.cancelled()) end = Outcome::cancelled;
-  if (end == Outcome::reached)
-    spent_ += before->effort();
-  else
-    back();
+  if (end != Outcome::reached) use(before);
   return end;
 }
 
 Checkpoint Simulation::save() const {
-  return {shell_->state(),  shell_->plan(), rods_,      shell_->motions(), holds_,       field_,
-          load_scale_,      progress_,      actuating_, boundary,          grip_origins, cases,
+  return {shell_->state(),  shell_,    rods_,      shell_->motions(), holds_,       field_,
+          load_scale_,      progress_, actuating_, boundary,          grip_origins, cases,
           first_stiffness_, along_};
 }
 
 void Simulation::restore(const Checkpoint& kept) {
-  if (kept.rods.has_value() != rods_.has_value() || rods_.has_value() ||
-      kept.plan.edges_per_segment != shell_->plan().edges_per_segment) {
+  if (kept.shell != shell_) {
+    if (kept.rods.has_value() || rods_.has_value()) built_ = {kept.shell};
     rods_ = kept.rods;
-    // it was built before, so it can be built again
-    if (!build(kept.plan)) return;
+    use(kept.shell);
   }
   holds_ = kept.holds;
   load_scale_ = kept.load_scale;

@@ -117,10 +117,11 @@ struct CaseOnShell {
   double factor = 0;
 };
 
-/// A state to go back to; taking one and going back cost a copy.
+/// A state to go back to; taking one and going back cost a copy. It keeps the meshes that it was
+/// taken on, so that going back cannot fail.
 struct Checkpoint {
   NestedState state;
-  LevelPlan plan;
+  std::shared_ptr<NestedShell> shell;
   std::optional<ShellRods> rods;
   std::vector<PinnedMotion> motions;  ///< one a mesh
   std::vector<Constraint> holds;
@@ -259,7 +260,8 @@ class Simulation {
 
  private:
   Simulation(std::shared_ptr<const Scene> scene);
-  Result<void> build(const LevelPlan& plan);
+  Result<std::shared_ptr<NestedShell>> build(const LevelPlan& plan);
+  void use(std::shared_ptr<NestedShell> shell);
   struct CallBegin {
     Effort effort;
     double seconds;
@@ -287,7 +289,9 @@ class Simulation {
 
   std::shared_ptr<const Scene> scene_;
   std::optional<ShellRods> rods_;  // in the place of the scene's
-  std::unique_ptr<NestedShell> shell_;
+  std::shared_ptr<NestedShell> shell_;
+  /// Those of rods(), by their edges per segment: a drag changes between two of them.
+  std::vector<std::shared_ptr<NestedShell>> built_;
   std::optional<record::ContactSearch> search_;  // on its finest mesh
   std::vector<Constraint> holds_;
   std::vector<NodeAction> field_;  // that is there

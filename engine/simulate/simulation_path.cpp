@@ -173,7 +173,6 @@ void Simulation::Walk::keep() {
   note();
   tell();
   keep_companion();
-  if (getenv("DBG")) { fprintf(stderr, "t %.5f step %.4f lead %d comp %d measured %d err %g ev %zu pivots %d\n", now(), shell_.state().step, shell_.system(shell_.last()).effort().factorizations, shell_.system(0).effort().factorizations, shell_.state().measured, shell_.state().error_estimate_mm, events_.size(), shell_.state().inertia.negative_pivots); }
   if (watches_stability()) softening_.take(shell_.state());
 }
 

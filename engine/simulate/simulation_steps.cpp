@@ -183,8 +183,12 @@ Report Simulation::rest_in_time(const Watch& watch,
 Result<Report> Simulation::set_rods(const ShellRods& rods, const Watch& watch) {
   const CallBegin begin = call_begin();
   std::optional<ShellRods> old = std::exchange(rods_, rods);
+  auto built = std::exchange(built_, {});
   const auto taken = replace_meshes(shell_->plan(), true, watch);
-  if (!taken || *taken != Outcome::reached) rods_ = std::move(old);
+  if (!taken || *taken != Outcome::reached) {
+    rods_ = std::move(old);
+    built_ = std::move(built);
+  }
   if (!taken) return tl::unexpected<Error>(taken.error());
   return report(*taken, shell_->state().t, begin);
 }

@@ -38,6 +38,8 @@ struct LevelPlan {
   /// companion has had a state over so much of the path parameter.
   double allowed_mm = std::numeric_limits<double>::infinity();
   double events_apart = 0.05;
+
+  bool operator==(const LevelPlan&) const = default;
 };
 
 /// The cheapest plan worth trying for a tolerance of the largest joint error, relative to the

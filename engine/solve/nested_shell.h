@@ -188,7 +188,8 @@ class NestedShell {
   };
   /// What a level says of its held joints.
   struct HeldForces {
-    Eigen::Matrix3Xd force, stiffness;
+    Eigen::Matrix3Xd force;
+    Eigen::MatrixXd stiffness;
   };
   NestedShell(const LevelPlan& plan, const PathOptions& options);
   void forget();
