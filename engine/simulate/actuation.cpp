@@ -60,9 +60,9 @@ bool leads_to(EquilibriumPath& path, const Checkpoint& first, const Watch& watch
   const Checkpoint here = simulation.save();
   const Report there =
       simulation.sample(first.state.t, path.segments.front().load_steps.back(), false, watch);
-  const bool same =
-      there.end == Outcome::reached && distance_of_joints(simulation, first.state.x) <
-                                           mesh_tolerances.same_state * simulation.scene().footprint.spacing;
+  const bool same = there.end == Outcome::reached &&
+                    distance_of_joints(simulation, first.state.x) <
+                        mesh_tolerances.same_state * simulation.scene().footprint.spacing;
   simulation.restore(here);
   return same;
 }

@@ -40,11 +40,11 @@ struct EquilibriumPath {
   Simulation simulation;
   std::vector<PathSegment> segments = {};
   std::vector<PathSegment> earlier = {};  ///< of a push: those of the actuation before it
-  LevelPlan meshes = {};      ///< that it was followed on
+  LevelPlan meshes = {};                  ///< that it was followed on
   bool single_motion = true;  ///< whether all segments are of the motion that the simulation is on
   double seconds_setup = 0;
   std::string mesh_disagreement =
-      {};  ///< what is not confirmed, or missed, a sentence; empty: nothing
+      {};                         ///< what is not confirmed, or missed, a sentence; empty: nothing
   bool tolerance_missed = false;  ///< somewhere the error is above the tolerance, or not known
   record::Limit limit = record::Limit::none;
   std::string limit_reason = {};

@@ -44,7 +44,8 @@ using FindShape = decltype(drawn_rest);
 Result<State> chosen(FindShape& find, NestedShell& shell, const Scene& scene, const ShellRods& rods,
                      double t, const Watch& watch) {
   const RodMesh& mesh = shell.finest();
-  if (scene.solved_model() == RodModel::bend && shell.plan().edges_per_segment.back() == choosing_edges)
+  if (scene.solved_model() == RodModel::bend &&
+      shell.plan().edges_per_segment.back() == choosing_edges)
     return find(shell.system(), mesh, shell.motion(), t, scene, watch);
   MeshLevel chooser;
   TRY_DO(chooser.build(scene.footprint, rods, RodModel::bend, scene.motion, choosing_edges));

@@ -89,8 +89,7 @@ void put_forces(const Simulation& simulation, record::Frame& frame) {
   frame.brace_force_N =
       brace_forces(simulation.scene().footprint, shell.model(last), shell.state().levels.back().x);
   frame.energies = by_term.back();
-  if (extrapolate)
-    frame.energies = extrapolated(by_term.back(), by_term[by_term.size() - 2]);
+  if (extrapolate) frame.energies = extrapolated(by_term.back(), by_term[by_term.size() - 2]);
   frame.energy_error_mJ = certify_vectors(shell.model(last), energies, extrapolate, no_order).error;
 }
 
@@ -201,8 +200,7 @@ record::Frame frame_of(const Simulation& simulation) {
   const NestedShell& shell = simulation.shell();
   const int last = shell.levels() - 1;
   Eigen::VectorXd K = curvature(simulation, last);
-  if (shell.extrapolates())
-    K = ((4 * K - curvature(simulation, last - 1)) / 3).eval();
+  if (shell.extrapolates()) K = ((4 * K - curvature(simulation, last - 1)) / 3).eval();
   record::Frame frame;
   fill_shape(simulation.scene(), shell.finest(), simulation.nodes(), K, frame);
   const Certificate certificate = simulation.certificate();

@@ -196,8 +196,7 @@ std::optional<record::Frame> FramesBetween::between(double t, const Knots& knots
   const auto seen = [&](double off, double size, double Frame::*error) {
     return !(off <= std::max(share * size, share_of_errors * around(error)));
   };
-  if (!(nodes_mm <= allowed_mm) ||
-      seen(mJ, of_energies(frame.energies), &Frame::energy_error_mJ) ||
+  if (!(nodes_mm <= allowed_mm) || seen(mJ, of_energies(frame.energies), &Frame::energy_error_mJ) ||
       seen(N, largest(frame.reactions_N), &Frame::force_error_N))
     return {};
   frame.nodes += nodes->leftCols(frame.nodes.cols());

@@ -97,8 +97,9 @@ void put(auto& in, Is<Event> auto& s) {
   all(in, s.kind, s.t, s.error, s.to, s.leap, s.confirmed, s.what, s.placed);
 }
 void put(auto& in, Is<NestedState> auto& s) {
-  all(in, s.t, s.levels, s.measured, s.velocity, s.step, s.lowest_eigenvalue, s.lowest_mode, s.x, s.error_estimate_mm, s.residual_N, s.inertia, s.largest_strain,
-      s.reactions, s.reaction_error_N, s.held_stiffness, s.stiffness_error_N_per_mm);
+  all(in, s.t, s.levels, s.measured, s.velocity, s.step, s.lowest_eigenvalue, s.lowest_mode, s.x,
+      s.error_estimate_mm, s.residual_N, s.inertia, s.largest_strain, s.reactions,
+      s.reaction_error_N, s.held_stiffness, s.stiffness_error_N_per_mm);
 }
 void put(auto& in, Is<SegmentBegin> auto& s) { all(in, s.state, s.from, s.to, s.edges); }
 void put(auto& in, Is<Effort> auto& s) { all(in, s.newton_iterations, s.factorizations); }

@@ -110,8 +110,8 @@ Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follo
                                          const Watch& watch) {
   LevelPlan plan = initial_levels(scene);
   const bool asked = scene.edges_per_segment > 0;
-  const double allowed = asked ? std::numeric_limits<double>::infinity()
-                               : scene.tolerance * scene.length_scale_mm;
+  const double allowed =
+      asked ? std::numeric_limits<double>::infinity() : scene.tolerance * scene.length_scale_mm;
   plan.allowed_mm = allowed;
   plan.events_apart = mesh_tolerances.same_event;
   TRY_DO(fits_memory(scene, plan));

@@ -166,6 +166,20 @@ std::string near_image(const EquilibriumPath& path) {
       off);
 }
 
+/// Of a path that enters a branch long after it was lost: a sentence. Where several modes lose
+/// their stiffness at once it may then enter another of them.
+std::string late_on_branch(const EquilibriumPath& path) {
+  constexpr double late = 0.05;  // in the path parameter
+  for (const PathSegment& segment : path.segments)
+    for (const Event& event : segment.report.events)
+      if (path.single_motion && !event.leap && event.to && std::abs(*event.to - event.t) > late)
+        return fmt::format(
+            "of the branch that leaves the path at progress {:.4f} no state was found before "
+            "progress {:.4f}: which of several it is may depend on the mesh",
+            progress_at(event.t), progress_at(*event.to));
+  return "";
+}
+
 /// What was followed, and on which meshes.
 void put_path(const EquilibriumPath& path, record::Summary& s) {
   const NestedShell& shell = path.simulation.shell();
@@ -175,6 +189,7 @@ void put_path(const EquilibriumPath& path, record::Summary& s) {
   s.limit = path.limit;
   s.limit_reason = path.limit_reason;
   s.doubt = path.mesh_disagreement;
+  if (s.doubt.empty()) s.doubt = late_on_branch(path);
   if (s.doubt.empty()) s.doubt = near_image(path);
   for (const ContactEvent& event : path.contacts)
     s.contact += (s.contact.empty() ? "" : "; ") + event.text;

@@ -160,7 +160,8 @@ Report Simulation::rest(const Watch& watch, BranchSide side) {
   const double t = shell_->state().t;
   BranchSwitch departure = departure_of(*scene_, shell_->finest(), shell_->model());
   if (side != BranchSide::lower) departure.side = side;
-  const auto found = minimise_from(shell_->system(), shell_->state().levels.back(), watch, departure);
+  const auto found =
+      minimise_from(shell_->system(), shell_->state().levels.back(), watch, departure);
   Outcome end = watch.cancelled() ? Outcome::cancelled : Outcome::not_converged;
   if (found) end = shell_->start(t, *found, watch).end;
   if (end != Outcome::reached) restore(good);

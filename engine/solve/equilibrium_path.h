@@ -81,7 +81,7 @@ class PathFollower {
   PathPoint now_, before_;
   NewtonReport last_;
   bool has_before_ = false;
-  const PathPoint* across_ = nullptr;         // of resume(), until a step is taken
+  const PathPoint* across_ = nullptr;  // of resume(), until a step is taken
 };
 
 }  // namespace gridshell

@@ -279,8 +279,7 @@ void NestedShell::estimate(const Energies& energies) {
                margin * left_by_order(now, before)) +
       options_.tolerance_mm;
   if (!finest.model.joint_spins.empty())
-    state_.error_estimate_mm =
-        std::max(state_.error_estimate_mm, left_of_first_order(now, before));
+    state_.error_estimate_mm = std::max(state_.error_estimate_mm, left_of_first_order(now, before));
   // the correction is known at the companion's nodes; between them it is interpolated
   Eigen::Matrix3Xd correction;
   finest.from_coarser->meshes().nodes(step / 3, correction);

@@ -34,7 +34,7 @@ struct NestedState {
   /// directions, N/mm; likewise
   Eigen::MatrixXd held_stiffness;
   double stiffness_error_N_per_mm = std::numeric_limits<double>::quiet_NaN();
-  State velocity;                      ///< of the finest level on its path, by t
+  State velocity;                       ///< of the finest level on its path, by t
   double step = PathPoint::first_step;  ///< with which its path continues, in t
   /// of the finest level, N/mm^2 (lowest_eigenvalue()), roughly; NaN: not asked for, or not stable
   double lowest_eigenvalue = std::numeric_limits<double>::quiet_NaN();
@@ -197,12 +197,14 @@ class NestedShell {
   void reset_path();
   NestedReport certify(const PathFollower& path, const Watch& watch, const Inertia& known = {});
   void measure(const Watch& watch, const NestedState& before);
-  bool measure_on(std::size_t level, const State& base, const NestedState& before, const Watch& watch);
+  bool measure_on(std::size_t level, const State& base, const NestedState& before,
+                  const Watch& watch);
   State predicted(const Level& level, double t, const State& base) const;
   State clear_of_contact(Level& level, const State& before, State wanted) const;
   bool correct(Level& level, const State& base, State& state, NewtonReport& report,
                const Watch& watch);
-  static MeshDifference difference(const Level& level, double t, const State& base, const State& state);
+  static MeshDifference difference(const Level& level, double t, const State& base,
+                                   const State& state);
   std::vector<MeshDifference> differences() const;
   Inertia inertia_of(Level& level, const State& found, const NewtonReport& report) const;
   void polish(Level& finest, State& found);

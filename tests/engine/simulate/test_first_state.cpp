@@ -81,7 +81,7 @@ TEST_CASE("of a shell's mirror images it is the seed's, whichever mesh leads") {
   p.accuracy.tolerance = 3.6e-3;
   p.movie.frames = 2;
   const auto led = run(p);
-  p.accuracy.leading_edges = 8;
+  p.accuracy.edges_per_segment = 16;
   const auto by_finer = run(p);
   CHECK(distance(led, by_finer) <
         led.summary.error_estimate_mm + by_finer.summary.error_estimate_mm);
