@@ -121,15 +121,25 @@ std::vector<ContactEvent> contact_events(const EquilibriumPath& path, const At& 
     for (std::size_t k = 1; k < steps.size(); ++k) {
       const LoadStep &a = *steps[k - 1], &b = *steps[k];
       const bool smooth = goes_on_between(segment, segment.back ? b : a, segment.back ? a : b);
-      const bool tangents = a.point.velocity.x.size() > 0 && b.point.velocity.x.size() > 0;
+      // the states of the branch around, two on each side
+      std::vector<const PathPoint*> around;
+      const auto same_branch = [&](std::size_t n, std::size_t next) {
+        const LoadStep &first = *steps[segment.back ? next : n], &last = *steps[segment.back ? n : next];
+        return goes_on_between(segment, first, last);
+      };
+      if (smooth) {
+        if (k > 1 && same_branch(k - 2, k - 1)) around.push_back(&steps[k - 2]->point);
+        around.insert(around.end(), {&a.point, &b.point});
+        if (k + 1 < steps.size() && same_branch(k, k + 1)) around.push_back(&steps[k + 1]->point);
+      }
+      std::erase_if(around, [](const PathPoint* p) { return p->velocity.x.size() == 0; });
       for (const ContactKind kind : kinds) {
         Bracket bracket(kind, {a.point.t, a.contacts}, {b.point.t, b.contacts});
         if (!bracket.changes()) continue;
-        if (smooth && tangents && a.point.state.x.cols() == shell.model().columns()) {
+        if (around.size() > 1 && a.point.state.x.cols() == shell.model().columns()) {
           if (!search) search.emplace(parts_of(scene, shell.finest()));
           bracket.halve([&](double t) {
-            const PathPoint* ends[] = {&a.point, &b.point};
-            const State state = between(shell.model(), ends, t);
+            const State state = between(shell.model(), around, t);
             return search->in(nodes_of(shell.finest(), shell.model(), state.x));
           });
         }

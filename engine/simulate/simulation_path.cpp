@@ -165,7 +165,7 @@ void Simulation::Walk::note() {
 
 /// Tells who watches where the path stands.
 void Simulation::Walk::tell() const {
-  if (&watch_ != &unwatched) watch_.stand_at(now(), shell_.plan().edges_per_segment.front());
+  if (&watch_ != &unwatched) watch_.stand_at(now(), shell_.plan().edges_per_segment.back());
 }
 
 /// Notes a load step from which the path continues.
@@ -228,6 +228,7 @@ Outcome Simulation::Walk::step() {
   const double next = steps == 1 ? to_ : now() + left / steps;
   const NestedState good = shell_.state();
   const Outcome end = shell_.advance(next, watch_).end;
+  if (getenv("DBG")) fprintf(stderr, "t %.5f -> %.5f: %s at %.5f step %.4g piv %d measured %d/%d e %g\n", good.t, next, words_of(end).name, shell_.followed().t, shell_.state().step, shell_.state().inertia.negative_pivots, shell_.state().measured, shell_.last(), shell_.state().error_estimate_mm);
   if (end == Outcome::reached) return step_came(next, good);
   const bool ended = end == Outcome::unstable || end == Outcome::lost;
   const std::size_t most = shell_.model().contact.any() ? most_events_in_contact : most_events;

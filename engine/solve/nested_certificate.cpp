@@ -200,13 +200,19 @@ NestedReport NestedShell::certify(const PathFollower& path, const Watch& watch,
 }
 
 /// At the end of a path, and where a force is measured, the residual goes down to what round-off
-/// leaves: corrections are cheap. The assembly ends at the state found.
+/// leaves: corrections are cheap. Elsewhere one is made where the last correction strained the rods
+/// by a force that is seen. The assembly ends at the state found.
 void NestedShell::polish(Level& finest, State& found) {
+  constexpr double seen = 1e-5;  // of the largest axial force
   Linearisation& system = *finest.system;
   system.gradient_at(found);
-  if (state_.t < 1 && system.holds().empty()) return;
+  const bool to_the_end = state_.t >= 1 || !system.holds().empty();
+  if (!to_the_end &&
+      system.force_misfit(found) <= seen * found.force.cwiseAbs().maxCoeff())
+    return;
+  const int most = to_the_end ? 4 : 1;
   Eigen::Matrix3Xd dx;
-  for (int k = 0; k < 4 && state_.inertia.usable; ++k) {
+  for (int k = 0; k < most && state_.inertia.usable; ++k) {
     const double residual = system.residual();
     if (residual < 1e-9) return;
     State trial = found;

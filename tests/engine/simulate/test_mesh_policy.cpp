@@ -21,7 +21,7 @@ EquilibriumPath actuated(const preset::Preset& preset, const LevelPlan& plan) {
 
 /// A path that says what a test wants of each mesh.
 struct Said {
-  bool too_coarse = false;
+  bool too_coarse = false;        ///< and so far from the tolerance
   std::optional<bool> event = {};  ///< whether the companion has it
   double event_t = 0.5;
 };
@@ -41,6 +41,7 @@ Result<SharedPath> policy(const Scene& scene, const Say& said, std::vector<int>&
     PathSegment segment{{}, 0, 1, {}};
     LoadStep step{path->simulation.shell().point(), {}};
     step.point.t = 1;
+    step.certificate.error_estimate_mm = one.too_coarse ? 1 : 1e-3;
     segment.load_steps.push_back(step);
     if (one.too_coarse && std::isfinite(plan.allowed_mm)) segment.report.end = Outcome::too_coarse;
     if (one.event) {
@@ -73,12 +74,8 @@ TEST_CASE("a path that its companion confirms is followed once") {
 
 TEST_CASE("an event that the companion does not have takes twice the edges, until one has it") {
   std::vector<int> tried;
-  const auto path = value_of(policy(
-      small(),
-      [](int edges) {
-        return Said{false, edges >= 32};
-      },
-      tried));
+  const auto said = [](int edges) { return Said{false, edges >= 32, std::log2(edges) / 8}; };
+  const auto path = value_of(policy(small(), said, tried));
   CHECK(tried == std::vector<int>{8, 16, 32});
   CHECK(path->mesh_disagreement.empty());
 }
@@ -154,7 +151,9 @@ TEST_CASE("a companion that loses its stability decides nothing") {
   const EquilibriumPath path = actuated(p, {{4, 8}, false});
   CHECK(path.segments.back().report.events.empty());
   CHECK(path.segments.back().report.end == Outcome::reached);
-  CHECK_FALSE(not_confirmed(path));
+  // but no state of theirs is next to it then
+  CHECK(not_confirmed(path));
+  CHECK_FALSE(not_confirmed(actuated(p, {{8, 16}, false})));
 }
 
 TEST_CASE("an event has the error by which two meshes differ", "[standard]") {
