@@ -134,11 +134,14 @@ Result<void> EditSession::form(const preset::Preset& preset, const Watch& watch)
   const std::shared_ptr<const Scene>& scene = *made;
   if (scene->rung == RodModel::net)
     return invalid("the rung 'net' is geometry alone: there is nothing to push");
-  TRY(course, simulate::follow_actuation(scene, coarse_plan(*scene), false, 1, watch));
+  // on the mesh that a run follows, so that both come to the same states
+  const LevelPlan plan{{simulate::initial_levels(*scene).edges_per_segment.back()}, false};
+  TRY(course, simulate::follow_actuation(scene, plan, false, 1, watch));
   std::vector<PathMark> marks;
   for (const simulate::PathSegment& segment : course->segments)
     add_marks(marks, marks_of(segment, segment.report.events, -1, progress_at));
-  const bool snapped = course->has_events();
+  const bool snapped = std::ranges::any_of(
+      course->segments, [](const auto& segment) { return !segment.report.events.empty(); });
   set_shell(preset, scene, std::move(course->simulation));
   now_.marks = std::move(marks);
   now_.snapped = snapped;
