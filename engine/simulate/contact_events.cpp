@@ -124,7 +124,8 @@ std::vector<ContactEvent> contact_events(const EquilibriumPath& path, const At& 
       // the states of the branch around, two on each side
       std::vector<const PathPoint*> around;
       const auto same_branch = [&](std::size_t n, std::size_t next) {
-        const LoadStep &first = *steps[segment.back ? next : n], &last = *steps[segment.back ? n : next];
+        const LoadStep &first = *steps[segment.back ? next : n],
+                       &last = *steps[segment.back ? n : next];
         return goes_on_between(segment, first, last);
       };
       if (smooth) {

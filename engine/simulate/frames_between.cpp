@@ -121,7 +121,7 @@ std::optional<Eigen::Matrix3Xd> FramesBetween::nodes_at(double t, const Knots& k
   const State all = gridshell::between(shell.model(), points, t);
   points.pop_back();
   const State fewer = gridshell::between(shell.model(), points, t);
-  doubt_mm = 2 * max_column_norm((all.x - fewer.x).leftCols(nodes));
+  doubt_mm = 4 * max_column_norm((all.x - fewer.x).leftCols(nodes));
   return nodes_of(shell.finest(), shell.model(), all.x);
 }
 

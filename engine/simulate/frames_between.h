@@ -20,7 +20,8 @@ namespace gridshell::simulate {
 ///    polynomial through up to six load steps of that branch [Lagrange];
 /// 3. where either is in doubt, through the two load steps around it and three states solved at
 ///    quarters between them.
-/// Doubt is twice what the polynomial without its first or last state would change. A frame has the
+/// Doubt is twice what the polynomial without its first or last state would change, of 1. four
+/// times what it would without the farthest. A frame has the
 /// errors of the load steps around it and that. Its residual is not known; its pivots are those of
 /// the load steps around it.
 class FramesBetween {

@@ -59,8 +59,7 @@ std::string turning_back(Simulation& simulation, const PathSegment& segment, con
   const ArcOptions fine{.step_mm = 0.05, .largest_mm = 0.2, .parameter_mm = depth_mm};
   const auto turn = turning_point(simulation.shell().system(), simulation.shell().motion(),
                                   last->point, segment.sign(), fine, watch);
-  return turn ? fmt::format(" (on the leading mesh its path turns back at {:.3f} mm)",
-                            *turn * depth_mm)
+  return turn ? fmt::format(" (on its mesh the path turns back at {:.3f} mm)", *turn * depth_mm)
               : std::string();
 }
 

@@ -207,9 +207,7 @@ void NestedShell::polish(Level& finest, State& found) {
   Linearisation& system = *finest.system;
   system.gradient_at(found);
   const bool to_the_end = state_.t >= 1 || !system.holds().empty();
-  if (!to_the_end &&
-      system.force_misfit(found) <= seen * found.force.cwiseAbs().maxCoeff())
-    return;
+  if (!to_the_end && system.force_misfit(found) <= seen * found.force.cwiseAbs().maxCoeff()) return;
   const int most = to_the_end ? 4 : 1;
   Eigen::Matrix3Xd dx;
   for (int k = 0; k < most && state_.inertia.usable; ++k) {

@@ -27,8 +27,8 @@ NestedShell formed(const ShellRods& of, double t, const std::vector<int>& edges)
   NestedShell shell =
       NestedShell::make(fig1().footprint, of, RodModel::bend, fig1().motion, {edges, false}, {})
           .value();
-  const State first = value_of(
-      first_buckled(shell.system(), shell.finest(), shell.motion(), t, {}, {}, unwatched));
+  const State first =
+      value_of(first_buckled(shell.system(), shell.finest(), shell.motion(), t, {}, {}, unwatched));
   REQUIRE(shell.start(t, first, unwatched).end == Outcome::reached);
   return shell;
 }

@@ -47,8 +47,7 @@ TEST_CASE(
     INFO(frame.progress);
     CHECK((frame.contacts > 0) == (frame.progress > rods));
     // they part again and touch once more before 0.9
-    CHECK((frame.event.find("rods ") != std::string::npos) ==
-          (frame.progress > 0.75));
+    CHECK((frame.event.find("rods ") != std::string::npos) == (frame.progress > 0.75));
   }
   auto other = crowded(12);
   other.movie.frames = 2;

@@ -21,7 +21,7 @@ EquilibriumPath actuated(const preset::Preset& preset, const LevelPlan& plan) {
 
 /// A path that says what a test wants of each mesh.
 struct Said {
-  bool too_coarse = false;        ///< and so far from the tolerance
+  bool too_coarse = false;         ///< and so far from the tolerance
   std::optional<bool> event = {};  ///< whether the companion has it
   double event_t = 0.5;
 };
@@ -35,7 +35,8 @@ Result<SharedPath> policy(const Scene& scene, const Say& said, std::vector<int>&
     tried.push_back(edges);
     auto simulation = Simulation::open(shared, plan);
     if (!simulation) return tl::unexpected<Error>(simulation.error());
-    simulation->begin_flat();
+    if (simulation->begin_flat().end != Outcome::reached)
+      return fail(Fault::no_equilibrium, "the flat");
     auto path = std::make_shared<EquilibriumPath>(EquilibriumPath{std::move(*simulation)});
     const Said one = said(edges);
     PathSegment segment{{}, 0, 1, {}};
