@@ -41,13 +41,6 @@ double left_by_order(const Eigen::Matrix3Xd& step, const Eigen::Matrix3Xd& befor
   return std::min(std::abs(1 / (ratio - 1) - 1.0 / 3), 1.0) * max_column_norm(step);
 }
 
-/// What extrapolation at second order leaves of a part of first order, as where joints resist the
-/// spins of laths: of errors a + b of the finest mesh, b the first order's, steps are 3a + b and
-/// 12a + 2b, and 2b/3 is left.
-double left_of_first_order(const Eigen::Matrix3Xd& step, const Eigen::Matrix3Xd& before) {
-  return max_column_norm((4 * step - before) / 3);
-}
-
 Eigen::VectorXd weights_of(std::span<const LevelCorrection> known, double t) {
   std::vector<double> at;
   for (const LevelCorrection& one : known) at.push_back(one.t);
@@ -266,7 +259,7 @@ void NestedShell::estimate() {
   const int joints = finest.mesh.joints;
   const Eigen::Matrix3Xd step = state_.x.leftCols(joints) - coarser.leftCols(joints);
   const bool two = !plan_.extrapolate || last < 2;  // are looked at
-  if (order_unknown(finest.model, finest.system->assembly().energies, two ? 2 : 3)) {
+  if (order_unknown(finest.system->assembly().energies)) {
     state_.error_estimate_mm = margin * max_column_norm(step) + options_.tolerance_mm;
     return;
   }
@@ -280,9 +273,6 @@ void NestedShell::estimate() {
       std::max(margin_extrapolated * max_column_norm((4 * step - before) / 3) / 15,
                margin * left_by_order(step, before)) +
       options_.tolerance_mm;  // corrections stop there
-  if (!finest.model.joint_spins.empty())
-    state_.error_estimate_mm =
-        std::max(state_.error_estimate_mm, left_of_first_order(step, before));
   // the correction is known at the coarser nodes; between them it is interpolated
   Eigen::Matrix3Xd on_coarser, correction;
   finest.to_coarser->nodes(state_.x, on_coarser);
@@ -290,9 +280,7 @@ void NestedShell::estimate() {
   state_.x += correction;
 }
 
-bool order_unknown(const Model& model, const Energies& energies, std::size_t meshes) {
-  return energies[Term::contact] > 0 || (meshes == 2 && !model.joint_spins.empty());
-}
+bool order_unknown(const Energies& energies) { return energies[Term::contact] > 0; }
 
 CertifiedVectors certify_vectors(const std::vector<Eigen::Matrix3Xd>& levels, bool extrapolate,
                                  bool no_order) {
@@ -309,15 +297,6 @@ CertifiedVectors certify_vectors(const std::vector<Eigen::Matrix3Xd>& levels, bo
       extrapolate
           ? std::max(margin_extrapolated * max_column_norm((4 * step - before) / 3) / 15, by_order)
           : found.error + by_order;
-  return found;
-}
-
-CertifiedVectors certify_vectors(const Model& model, const std::vector<Eigen::Matrix3Xd>& levels,
-                                 bool extrapolate, bool no_order) {
-  CertifiedVectors found = certify_vectors(levels, extrapolate, no_order);
-  if (levels.size() == 3 && !model.joint_spins.empty())
-    found.error =
-        std::max(found.error, left_of_first_order(levels[2] - levels[1], levels[1] - levels[0]));
   return found;
 }
 
@@ -346,10 +325,8 @@ void NestedShell::take_reactions() {
     const auto entries = state_.held_stiffness.reshaped().transpose();
     stiffness.emplace_back(Eigen::Matrix3Xd::Zero(3, entries.cols())).row(0) = entries;
   }
-  const bool no_order =
-      order_unknown(levels_.back()->model, finest.assembly().energies, forces.size());
-  const CertifiedVectors force = certify_vectors(levels_.back()->model, forces,
-                                                 plan_.extrapolate_forces, no_order),
+  const bool no_order = order_unknown(finest.assembly().energies);
+  const CertifiedVectors force = certify_vectors(forces, plan_.extrapolate_forces, no_order),
                          growth = certify_vectors(stiffness, plan_.extrapolate_forces, no_order);
   state_.reactions.clear();
   for (const auto& on : force.value.colwise()) state_.reactions.emplace_back(on);
