@@ -164,8 +164,8 @@ struct ModelFollower {
 };
 
 /// A rod at a joint that keeps its section near the joint's normal n = side t_e x t_f/|...|, t the
-/// tangents of the two rods' centred edges: n is the first reference director of edge e, whose angle
-/// then is the spin phi beside the normal, E = k/2 phi^2, or is held (k infinite).
+/// tangents of the two rods' centred edges: n is the first reference director of edge e, whose
+/// angle then is the spin phi beside the normal, E = k/2 phi^2, or is held (k infinite).
 struct ModelHinge {
   Pair<JointSpin> pair;
   int other_half = -1;   ///< of edge e; -1: the rod ends there
