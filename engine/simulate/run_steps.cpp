@@ -242,8 +242,11 @@ void put_loads(const Work& work, const std::vector<preset::Step>& steps, record:
   for (std::size_t k = 0; k < work.done.size(); ++k) {
     if (steps[k].kind != StepKind::push) continue;
     const Checkpoint& end = work.done[k].end;
-    const int joint = end.holds.back().node;
-    const Eigen::Vector3d moved = end.state.x.col(joint) - end.grip_origins.at(joint);
+    const auto pushed = joint_of(steps[k], work.simulation.scene().footprint);
+    const auto origin = pushed ? end.grip_origins.find(*pushed) : end.grip_origins.end();
+    if (origin == end.grip_origins.end()) continue;  // a push that was refused holds nothing
+    const int joint = origin->first;
+    const Eigen::Vector3d moved = end.state.x.col(joint) - origin->second;
     const bool there = std::ranges::any_of(layout.loaded_joints,
                                            [&](const auto& load) { return load.joint == joint; });
     if (!there && moved.norm() > nearest_mm)

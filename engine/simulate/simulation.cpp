@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <new>
 
 #include "engine/core/system_info.h"
 #include "engine/core/try.h"
@@ -274,8 +275,8 @@ void Simulation::restore(const Checkpoint& kept) {
   if (kept.rods.has_value() != rods_.has_value() || rods_.has_value() ||
       kept.plan.edges_per_segment != shell_->plan().edges_per_segment) {
     rods_ = kept.rods;
-    // it was built before, so it can be built again
-    if (!build(kept.plan)) return;
+    // it was built before: what stops it now is memory, and half a state is worse than none
+    if (!build(kept.plan)) throw std::bad_alloc();
   }
   holds_ = kept.holds;
   load_scale_ = kept.load_scale;

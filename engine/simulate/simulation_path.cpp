@@ -279,6 +279,10 @@ Outcome Simulation::Walk::branch_ended(Outcome how, double next, const NestedSta
     // the rest beyond would need longer or thinner rods, or room where others are
     shell_.back_to(end_of_branch);
     events_.pop_back();
+    // its frames in time go with it: no load step is where it landed
+    if (record_ && !record_->snaps.empty() &&
+        record_->snaps.back().before + 1 >= record_->load_steps.size())
+      record_->snaps.pop_back();
     if (limit->kind == Event::Kind::locked) limit->what = "beyond a snap";
     return end_before(std::move(*limit), t, end_of_branch);
   }

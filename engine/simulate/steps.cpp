@@ -214,7 +214,11 @@ Result<Report> take_step(Simulation& simulation, const preset::Step& step, const
       // where it goes is measured on all meshes
       TRY(goal, goal_of(simulation, step));
       simulation.grip_origins.emplace(goal->joint, simulation.nodes().col(goal->joint));
-      return led([&] { return push(simulation, *goal, watch, way); });
+      return led([&] {
+        // of a mesh that was tried before, none of its load steps
+        if (way) *way = {};
+        return push(simulation, *goal, watch, way);
+      });
     }
     case preset::StepKind::release:
       if (step.what != preset::Released::joints) return take_out(simulation, step.what, watch);

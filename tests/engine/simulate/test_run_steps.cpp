@@ -169,3 +169,25 @@ TEST_CASE("steps on what is not there are errors with their number") {
   edge.edge_points = {{400, 1, 0, 0}};
   CHECK_THAT(refused(edge), Catch::Contains("there is no edge point 400, they go from 0 to 23"));
 }
+
+TEST_CASE("a push that no mesh follows ends the run with its reason, and draws no load") {
+  // cables come in, and the first joint that is pushed is held by no mesh: it ended the program
+  preset::Preset p = circle(7, 75, 60);
+  p.footprint.placement = Placement::on_axis;
+  p.rod.shear_GPa = 31;
+  p.rod.density_kg_m3 = 6450;
+  p.loads.gravity_m_s2 = 9.81;
+  p.loads.points = {{0, 0, 0, 0, -0.02}};
+  p.accuracy.tolerance = 1e-6;
+  preset::Step brace = of(StepKind::brace);
+  brace.EA_N = 50;
+  brace.brace = preset::BraceKind::cable;
+  brace.diagonals = preset::Diagonals::first;
+  p.step = {brace, push(1, 1, 4)};
+  const auto outcome = run(p);
+  CHECK(outcome.summary.steps.size() == 2);
+  CHECK_FALSE(outcome.trajectory.frames.empty());
+  if (outcome.summary.limit == record::Limit::none) return;  // it is followed then
+  CHECK_THAT(outcome.summary.limit_reason, Catch::StartsWith("step 2 (push [1, 1]): "));
+  CHECK(outcome.trajectory.layout.loaded_joints.size() <= 1);
+}
