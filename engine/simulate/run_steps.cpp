@@ -81,7 +81,10 @@ Result<Work> do_steps(const std::shared_ptr<const Scene>& scene,
     segment.report = std::move(*report);
     static_cast<PathRecord&>(segment) = std::move(way);
     close(segment, simulation);
-    work.done.push_back({std::move(way.end), simulation.save()});
+    Checkpoint end = simulation.save();
+    // a push that no mesh follows goes no way
+    if (way.end.plan.edges_per_segment.empty()) way.end = end;
+    work.done.push_back({std::move(way.end), std::move(end)});
     if (kind == StepKind::open) work.done.back().told = ", " + text_of_opened(simulation);
     if (segment.report.end != Outcome::reached) break;
   }
