@@ -35,6 +35,7 @@
 #include "engine/simulate/frames.h"            // IWYU pragma: export
 #include "engine/simulate/indentation.h"       // IWYU pragma: export
 #include "engine/simulate/kept_segments.h"     // IWYU pragma: export
+#include "engine/simulate/mesh_policy.h"       // IWYU pragma: export
 #include "engine/simulate/run.h"               // IWYU pragma: export
 #include "engine/simulate/simulation.h"        // IWYU pragma: export
 #include "engine/simulate/steps.h"             // IWYU pragma: export

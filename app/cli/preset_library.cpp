@@ -56,7 +56,12 @@ Result<preset::Presets> load_preset_or_run(const std::string& argument) {
 
 Result<preset::Presets> load(const Options& options) {
   TRY(overrides, overrides_of(options));
-  return load_preset(options.input, *overrides);
+  TRY(presets, load_preset(options.input, *overrides));
+  if (presets->base.accuracy.leading_edges > 0)
+    fmt::print(stderr,
+               "{}: [accuracy] leading_edges does nothing any more: the finest mesh is followed\n",
+               options.input);
+  return std::move(*presets);
 }
 
 Result<int> print_config(const preset::Presets& presets) {

@@ -19,9 +19,8 @@ ChangeKind kind_of_key(const preset::Preset& preset, const preset::Field& field)
   if (among({"", "movie", "style", "figure", "page", "sweep", "jitter", "inverse"}))
     return ChangeKind::looks;
   if (among({"rod", "rod_v", "joints", "loads"})) return ChangeKind::rods;
-  // the rung and the leading mesh decide where a shell goes, the rest how well that is known
-  if (field.table == "accuracy" && field.key != "model" && field.key != "leading_edges")
-    return ChangeKind::accuracy;
+  // the rod model decides where a shell goes, the rest how well that is known
+  if (field.table == "accuracy" && field.key != "model") return ChangeKind::accuracy;
   const bool circle = preset.footprint.kind == preset::FootprintKind::circle;
   if (circle && field.table == "actuation" && (field.key == "radius_mm" || field.key == "ratio"))
     return ChangeKind::boundary;

@@ -17,7 +17,11 @@ bool same_nodes(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) {
 }  // namespace
 
 LevelPlan coarse_plan(const Scene& scene) {
-  return {{simulate::initial_levels(scene).edges_per_segment.front()}, false};
+  // small shells are dragged on the meshes of a run, so that both come to the same states
+  constexpr std::size_t small = 600;  // joints
+  const LevelPlan plan = simulate::initial_levels(scene);
+  if (scene.footprint.joints.size() <= small) return plan;
+  return {{plan.edges_per_segment.front()}, false};
 }
 
 void EditSession::execute(const Command& command, const Watch& watch) {
@@ -134,11 +138,14 @@ Result<void> EditSession::form(const preset::Preset& preset, const Watch& watch)
   const std::shared_ptr<const Scene>& scene = *made;
   if (scene->rung == RodModel::net)
     return invalid("the rung 'net' is geometry alone: there is nothing to push");
-  TRY(course, simulate::follow_actuation(scene, coarse_plan(*scene), false, 1, watch));
+  // on the mesh that a run follows, so that both come to the same states
+  const LevelPlan plan{{simulate::initial_levels(*scene).edges_per_segment.back()}, false};
+  TRY(course, simulate::follow_actuation(scene, plan, false, 1, watch));
   std::vector<PathMark> marks;
   for (const simulate::PathSegment& segment : course->segments)
     add_marks(marks, marks_of(segment, segment.report.events, -1, progress_at));
-  const bool snapped = course->has_events();
+  const bool snapped = std::ranges::any_of(
+      course->segments, [](const auto& segment) { return !segment.report.events.empty(); });
   set_shell(preset, scene, std::move(course->simulation));
   now_.marks = std::move(marks);
   now_.snapped = snapped;

@@ -34,13 +34,6 @@ Result<void> make_folder_of(const fs::path& file) {
   return file.has_parent_path() ? make_folder(file.parent_path()) : Result<void>();
 }
 
-/// Whether meshes decided which state it came to.
-bool jumped(const ShellView& shell) {
-  return shell.snapped || std::ranges::any_of(shell.steps, [](const auto& step) {
-           return step->kind == preset::StepKind::jitter;
-         });
-}
-
 /// Of a file that is written, as a rule.
 const char* ending_of(FileUse use) {
   switch (use) {
@@ -127,8 +120,6 @@ preset::Preset ViewerState::preset_to_save() const {
   const bool moves = std::ranges::all_of(shell->steps, [](const auto& step) {
     return step->kind == preset::StepKind::move && step->edge_points.empty();
   });
-  if (jumped(*shell) && preset.accuracy.edges_per_segment == 0)
-    preset.accuracy.leading_edges = shell->leader;
   if (circle && moves && !shell->snapped) return preset;
   preset.step = steps_of(shell->steps);
   if (circle) preset.actuation.radius_mm = shell->radius_end_mm;

@@ -104,7 +104,6 @@ void EditSession::update_view() {
     s.preset.set_radii(now_.scene->radius_begin_mm, s.frame.boundary_radius_mm);
   s.certificate = session_->certificate();
   s.meshes = session_->shell().plan().edges_per_segment;
-  s.leader = coarse_plan(*now_.scene).edges_per_segment.front();
   s.accuracy_warning = accuracy_warning();
   s.radius_end_mm = now_.scene->radius_end_mm;
   s.edges_dragged.clear();

@@ -111,7 +111,6 @@ struct ShellView : ViewedState {
   record::Frame frame;
   Certificate certificate;
   std::vector<int> meshes;       ///< edges a segment, coarse to fine
-  int leader = 4;                ///< of the mesh that led when the shell was formed
   std::string accuracy_warning;  ///< of a refined state: what it lacks; empty: nothing
   double progress = 0;           ///< of the boundary; beyond 1 further than the preset has it
   double least_progress = 0;     ///< to which it can be released

@@ -33,7 +33,7 @@ constexpr std::int64_t most_bytes_aside = std::int64_t(8) << 30;
 /// Calls visit(array) for each of a checkpoint's arrays of numbers.
 template <class Kept, class Visit>
 void each_array(Kept& kept, const Visit& visit) {
-  visit(kept.state.x);
+  visit(kept.state.x), visit(kept.state.velocity.x), visit(kept.state.velocity.force);
   for (auto& level : kept.state.levels)
     visit(level.x), visit(level.force), visit(level.director), visit(level.reference_twist);
   for (auto& motion : kept.motions) visit(motion.begin), visit(motion.change);
@@ -100,7 +100,7 @@ bool EditSession::load_from_scratch(UndoStep& step) const {
 
 Result<void> EditSession::restore(const UndoStep& step) {
   if (step.state.scene != now_.scene) {
-    TRY(session, Simulation::open(step.state.scene, step.checkpoint.plan));
+    TRY(session, Simulation::open(step.state.scene, step.checkpoint.shell->plan()));
     session_ = std::move(*session);
   }
   session_->restore(step.checkpoint);

@@ -172,7 +172,6 @@ void add_inverse(FieldList<Inverse> list) {
 
 void add_accuracy(FieldList<Accuracy> list) {
   constexpr double net_tolerance = 0.05;
-  constexpr int least_leader = 4;
   const char* meshed = "a mesh is asked for";
   list.add<&Accuracy::tolerance>(
           between(1e-9, 1), "largest joint error allowed, over R_o of a circle or rho of a net")
@@ -184,24 +183,8 @@ void add_accuracy(FieldList<Accuracy> list) {
   list.add<&Accuracy::edges_per_segment>(
           between(0, 64), "edges between two joints of a rod; 0 chooses them from the tolerance")
       .needs_equilibrium(meshed, [](const Accuracy& of) { return of.edges_per_segment > 0; });
-  list.add<&Accuracy::leading_edges>(
-          between(0, 32),
-          "of the coarsest mesh, which leads over bifurcations and snaps, and finer ones follow: "
-          "its path is kept where a finer leader would go another, which is said; 0: 4, and the "
-          "finer leader's path then. The window writes it where a shell was shaken or snapped by "
-          "hand")
-      .needs_equilibrium(meshed, [](const Accuracy& of) { return of.leading_edges > 0; })
-      .refused({},
-               [=](const Accuracy& of) {
-                 return of.leading_edges > 0 && of.leading_edges < least_leader
-                            ? fmt::format(
-                                  "{} edges know bifurcations that the shell does not have, must "
-                                  "be 0 or at least {}",
-                                  of.leading_edges, least_leader)
-                            : "";
-               })
-      .refused({"edges_per_segment"}, "the mesh asked for says which one leads, must be 0",
-               [](const Accuracy& of) { return of.leading_edges > 0 && of.edges_per_segment > 0; });
+  list.add<&Accuracy::leading_edges>(between(0, 64),
+                                     "does nothing any more: the finest mesh is followed");
   list.add<&Accuracy::model>(
       "\"net\": the smooth net itself, nothing solved; \"bend\": stretching and bending, 3 "
       "unknowns a node; \"twist\": torsion too, 1 more an edge; \"auto\" takes the least that is "

@@ -219,7 +219,7 @@ struct SearchSettings {
 struct Accuracy {
   double tolerance = 1e-3;
   int edges_per_segment = 0;  ///< 0: chosen from the tolerance
-  int leading_edges = 0;      ///< of the mesh that leads; 0: 4, or more where finer ones disagree
+  int leading_edges = 0;      ///< of version 0.2, without effect
   RodModel model = RodModel::automatic;
   double memory_GB = 0;  ///< 0: half of the machine's
 };

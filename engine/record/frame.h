@@ -48,9 +48,10 @@ struct Frame {
   /// strength where it is known, and where the latter, or else the stress, is largest.
   double largest_stress_MPa = unknown, utilisation = unknown;
   std::string stress_at;
-  std::string event;       ///< a snap, a limit, a recovery; empty when nothing happened
-  Eigen::Matrix3Xd nodes;  ///< positions, mm
-  Eigen::VectorXd cell_K;  ///< integrated Gauss curvature of each cell, rad
+  std::string event;            ///< a snap, a limit, a recovery; empty when nothing happened
+  std::string kind = "solved";  ///< or "interpolated": between solved states, its residual unknown
+  Eigen::Matrix3Xd nodes;       ///< positions, mm
+  Eigen::VectorXd cell_K;       ///< integrated Gauss curvature of each cell, rad
   /// Of the finest mesh itself, but for the reactions, which are extrapolated as energies are; with
   /// the loads these balance to `residual_N`. Empty where they are not known (in motion, a net, an
   /// older version).

@@ -68,6 +68,7 @@ inline const std::vector<FrameColumn> frame_columns = [] {
       {"contacts", "1", &Frame::contacts},
       {"rod_gap_mm", "mm", &Frame::rod_gap_mm},
       {"joint_gap_mm", "mm", &Frame::joint_gap_mm},
+      {"kind", "", &Frame::kind},
   };
   columns.insert(columns.end(), others.begin(), others.end());
   return columns;

@@ -348,8 +348,6 @@ Result<Scene> scene_of(const preset::Preset& preset) {
                         preset.imperfection.form == preset::ImperfectionForm::soft_mode};
   scene.load_imperfection_mm = preset.loads.imperfection * scene.length_scale_mm;
   scene.edges_per_segment = preset.accuracy.edges_per_segment;
-  scene.leader_asked = preset.accuracy.leading_edges > 0;
-  if (scene.leader_asked) scene.leading_edges = preset.accuracy.leading_edges;
   scene.tolerance = preset.accuracy.tolerance;
   scene.memory_GB = preset.accuracy.memory_GB;
   scene.max_strain = preset.limits.max_strain;

@@ -54,9 +54,8 @@ struct Scene {
   double radius_end_mm = std::numeric_limits<double>::quiet_NaN();
   BuckleSeed seed;            ///< decides the first buckling
   Imperfection imperfection;  ///< and every later one
+  int base_edges = 4;  ///< the meshes that the tolerance chooses have so many times a power of two
   int edges_per_segment = 0;  ///< the mesh asked for; 0: as the tolerance asks
-  int leading_edges = 4;      ///< of the mesh that leads, where the tolerance chooses
-  bool leader_asked = false;  ///< whether its path is kept where finer leaders go another
   double load_step = 1;       ///< largest load steps, of the usual ones
   double tolerance = 1e-3;    ///< of the joints, over length_scale_mm
   double memory_GB = 0;       ///< that the meshes may take; 0: half of the machine's

@@ -9,7 +9,7 @@
 #include "engine/core/try.h"
 #include "engine/simulate/first_state.h"
 #include "engine/simulate/frames.h"
-#include "engine/simulate/guided_path.h"
+#include "engine/simulate/mesh_policy.h"
 #include "engine/simulate/path_sampler.h"
 #include "engine/simulate/shell_symmetry.h"
 #include "engine/solve/buckling.h"
@@ -23,7 +23,7 @@ constexpr double first_shortening[] = {0.02, 0.01, 0.005, 0.0025};
 /// Back from the first state towards the flat; whether it came there.
 bool follow_back(EquilibriumPath& path, const BifurcationPolicy& leaving, const Watch& watch) {
   const NestedShell& shell = path.simulation.shell();
-  const auto nearly_flat = parameter_of_shortening(shell.mesh(0), shell.motion(0), flat_shortening);
+  const auto nearly_flat = parameter_of_shortening(shell.finest(), shell.motion(), flat_shortening);
   const double t = shell.state().t;
   PathSegment& back =
       follow_segment(path, nearly_flat ? std::min(*nearly_flat, t) : 0, leaving, watch);
@@ -60,9 +60,9 @@ bool leads_to(EquilibriumPath& path, const Checkpoint& first, const Watch& watch
   const Checkpoint here = simulation.save();
   const Report there =
       simulation.sample(first.state.t, path.segments.front().load_steps.back(), false, watch);
-  const bool same =
-      there.end == Outcome::reached && distance_of_joints(simulation, first.state.x) <
-                                           near_spacings * simulation.scene().footprint.spacing;
+  const bool same = there.end == Outcome::reached &&
+                    distance_of_joints(simulation, first.state.x) <
+                        mesh_tolerances.same_state * simulation.scene().footprint.spacing;
   simulation.restore(here);
   return same;
 }
@@ -71,15 +71,15 @@ bool leads_to(EquilibriumPath& path, const Checkpoint& first, const Watch& watch
 /// images, which are as good, the one whose diagonal lies lower as the seed asks.
 void turn_to_seed(Simulation& simulation, const Watch& watch) {
   const NestedShell& shell = simulation.shell();
-  const RodMesh& mesh = shell.mesh(0);
-  const Model& model = shell.model(0);
+  const RodMesh& mesh = shell.finest();
+  const Model& model = shell.model();
   if (model.has_spins()) return;
   const double t = shell.state().t, diagonal = simulation.scene().seed.diagonal;
   const Checkpoint here = simulation.save();
-  const Eigen::Matrix3Xd nodes = shell.state().levels[0].x.leftCols(model.nodes);
+  const Eigen::Matrix3Xd nodes = shell.state().levels.back().x.leftCols(model.nodes);
   Eigen::Matrix3Xd best = nodes;
   for (const MeshSymmetry& symmetry :
-       symmetries_of_shell(simulation.scene(), mesh, symmetries_of(mesh, shell.motion(0).at(t)))) {
+       symmetries_of_shell(simulation.scene(), mesh, symmetries_of(mesh, shell.motion().at(t)))) {
     const Eigen::Matrix3Xd image = symmetry.of(nodes);
     if (!symmetry.turns_over() &&
         diagonal * (lower_on_diagonal(mesh, image) - lower_on_diagonal(mesh, best)) > 1e-6)
@@ -105,9 +105,9 @@ void follow_from_flat(EquilibriumPath& path, const Checkpoint& first, double to,
                        });
   if (connected && (stopped || simulation.scene().imperfection.chooses())) {
     const bool straight =
-        stable(back) && !breaks_more(simulation, first.state.x) && leads_to(path, first, watch);
+        all_stable(back) && !breaks_more(simulation, first.state.x) && leads_to(path, first, watch);
     const bool rests =
-        !straight && (stable(back) || simulation.rest(watch).end == Outcome::reached);
+        !straight && (all_stable(back) || simulation.rest(watch).end == Outcome::reached);
     if (rests || watch.cancelled()) {
       path.segments.clear();
       turn_to_seed(simulation, watch);
@@ -170,7 +170,7 @@ Result<EquilibriumPath> follow_actuation(const std::shared_ptr<const Scene>& sce
     return fail(Fault::no_equilibrium, "{} is not certified: {}", which, words_of(first->end).what);
   };
   const NestedShell& shell = path.simulation.shell();
-  if (begins_as_drawn(*scene, shell.mesh(0), shell.motion(0))) {
+  if (begins_as_drawn(*scene, shell.finest(), shell.motion())) {
     TRY(begun, certified(path.simulation.begin_as_drawn(watch), "the network as drawn"));
     follow_segment(path, parameter_at(to), {}, watch);
   } else if (to == 0) {
@@ -197,6 +197,7 @@ Result<EquilibriumPath> follow_whole_actuation(const std::shared_ptr<const Scene
                                                const LevelPlan& plan, std::string_view wanted_for,
                                                const Watch& watch) {
   auto actuated = follow_actuation(scene, plan, false, 1, watch);
+  if (actuated && actuated->too_coarse()) return actuated;
   if (actuated && actuated->limit != record::Limit::none && actuated->limit != record::Limit::snap)
     return fail(Fault::no_equilibrium, "there is no actuated shell {}: {}{}", wanted_for,
                 actuated->limit_reason,
@@ -215,21 +216,16 @@ Result<EquilibriumPath> run_actuation(std::shared_ptr<const Scene> scene,
       [&](const LevelPlan& plan, const Watch& w) {
         return follow_actuation(scene, plan, inner, progress.back(), w);
       },
-      watch, true);
+      watch);
   if (!path) return path;
   set_limit(*path, at_progress);
-  locate_contacts(*path, at_progress, watch);
+  path->contacts = contact_events(*path, at_progress);
   TRY(layout, layout_of(*scene, path->simulation.shell().finest()));
   layout->extrapolated = path->simulation.shell().plan().extrapolate;
   TRY_DO(sink.begin(std::move(*layout)));
   PathSampler sampler(*path, caption_of(*scene), sink, watch, progress.size());
   const Checkpoint end = path->simulation.save();
   std::optional<PathSample> last_taken;
-  std::vector<PathSample> samples;
-  for (std::size_t k = 0; k < progress.size(); ++k)
-    if (const double t = parameter_at(progress[k]); const auto segment = leg_at(*path, t))
-      samples.push_back({int(k), *segment, t, progress[k]});
-  sampler.expect(std::move(samples));
   for (std::size_t k = 0; k < progress.size(); ++k) {
     PathSample sample{int(k), 0, parameter_at(progress[k]), progress[k]};
     if (progress[k] == 0 && rests_flat(*scene)) {

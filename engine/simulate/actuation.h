@@ -26,7 +26,8 @@ Result<EquilibriumPath> follow_actuation(const std::shared_ptr<const Scene>& sce
                                          const Watch& watch);
 
 /// The same to progress 1, for what comes after it: an actuation that ends earlier is an error,
-/// no_equilibrium, "there is no actuated shell `wanted_for`: ...".
+/// no_equilibrium, "there is no actuated shell `wanted_for`: ..."; one whose mesh is too_coarse()
+/// is returned as far as it came.
 Result<EquilibriumPath> follow_whole_actuation(const std::shared_ptr<const Scene>& scene,
                                                const LevelPlan& plan, std::string_view wanted_for,
                                                const Watch& watch);

@@ -54,7 +54,7 @@ State perturbed_along_mode(Linearisation& system, const State& state, const Eige
 }
 
 BranchSwitch departure_for(Event::Kind kind, const Scene& scene, const NestedShell& shell) {
-  BranchSwitch departure = departure_of(scene, shell.mesh(0), shell.model(0));
+  BranchSwitch departure = departure_of(scene, shell.finest(), shell.model());
   // a path that turns back has one way on
   if (kind != Event::Kind::stability_lost) departure.side = BranchSide::lower;
   return departure;
@@ -123,10 +123,10 @@ BranchSwitch departure_of(const Scene& scene, const RodMesh& mesh, const Model& 
 Result<State> rest_after_bifurcation(NestedShell& shell, const Scene& scene, const PathPoint& last,
                                      Event::Kind kind, double there,
                                      std::vector<TimedState>& moments, const Watch& watch) {
-  Linearisation& system = shell.system(0);
-  const PinnedMotion& motion = shell.motion(0);
+  Linearisation& system = shell.system();
+  const PinnedMotion& motion = shell.motion();
   BranchSwitch departure = departure_for(kind, scene, shell);
-  departure.symmetries = symmetries_of(shell.mesh(0), motion.at(there));
+  departure.symmetries = symmetries_of(shell.finest(), motion.at(there));
   // the mode that went soft first, of several that are unstable beyond
   motion.apply_loads(system, last.t);
   system.at(last.state, false);
@@ -158,7 +158,7 @@ bool on_branch_from(NestedShell& shell, const Scene& scene, const PathPoint& las
   PathOptions options;
   options.spacing_mm = scene.footprint.spacing;
   options.allow_unstable = true;  // where two modes go soft a branch may be so next to the other
-  PathFollower back(shell.system(0), shell.motion(0), options);
+  PathFollower back(shell.system(), shell.motion(), options);
   if (back.start(there, rest, watch).end != Outcome::reached) return false;
   // a second mode may cut the way short, next to the path
   back.advance(near, watch);
@@ -166,7 +166,7 @@ bool on_branch_from(NestedShell& shell, const Scene& scene, const PathPoint& las
     Eigen::Matrix3Xd path = last.state.x;
     // of a path that has only begun it is not known
     if (last.velocity.x.size() > 0) path += (t - last.t) * last.velocity.x;
-    return max_column_norm((state.x - path).leftCols(shell.model(0).nodes));
+    return max_column_norm((state.x - path).leftCols(shell.model().nodes));
   };
   return off(back.point().state, back.point().t) < 2 * std::sqrt(share) * off(rest, there);
 }
@@ -175,7 +175,7 @@ Result<State> rest_in_time(NestedShell& shell, const Scene& scene, const State& 
                            const RestOptions& rest,
                            const std::function<void(const MovingState&)>& seen,
                            const Watch& watch) {
-  Linearisation& system = shell.system(0);
+  Linearisation& system = shell.system();
   TRY(mass, lumped_mass(system.model(), scene.mass_t_per_mm, scene.joint_masses()));
   DynamicsOptions options;
   options.step_s = scene.snap.step_s;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <optional>
 
 #include "engine/simulate/equilibrium_path.h"
 #include "engine/simulate/frames.h"
@@ -12,8 +14,7 @@ namespace {
 using record::ContactKind;
 using record::Contacts;
 
-constexpr int halvings = 5;      // of what lies between two load steps
-constexpr int most_located = 6;  // events; those beyond lie between load steps
+constexpr int halvings = 5;  // of what is between two load steps
 constexpr ContactKind kinds[] = {ContactKind::rods, ContactKind::joints, ContactKind::table};
 
 const char* words_of(ContactKind kind) {
@@ -28,7 +29,7 @@ const char* words_of(ContactKind kind) {
   return "";
 }
 
-/// A certified state of a segment.
+/// A state of a segment.
 struct Point {
   double t = 0;
   Contacts contacts;
@@ -43,14 +44,13 @@ class Bracket {
 
   bool begins() const { return after_.contacts.deepest(kind_) != nullptr; }
   bool changes() const { return begins() != (before_.contacts.deepest(kind_) != nullptr); }
-  void halve(EquilibriumPath& path, std::size_t segment, const Watch& watch) {
+  /// By what touches at t.
+  void halve(const std::function<Contacts(double t)>& contacts_at) {
     for (int k = 0; k < halvings; ++k) {
-      Point middle{0.5 * (before_.t + after_.t), {}};
-      const Report report = certify_sample(path, {0, segment, middle.t, 0}, watch).report;
-      if (report.end != Outcome::reached) return;
-      middle.contacts = path.simulation.contacts();
-      const bool there = middle.contacts.deepest(kind_) != nullptr;
-      (there == begins() ? after_ : before_) = std::move(middle);
+      const double middle = 0.5 * (before_.t + after_.t);
+      Point point{middle, contacts_at(middle)};
+      const bool there = point.contacts.deepest(kind_) != nullptr;
+      (there == begins() ? after_ : before_) = std::move(point);
     }
   }
   ContactEvent event(std::size_t segment, const Footprint& footprint, const At& at) const {
@@ -65,15 +65,6 @@ class Bracket {
   ContactKind kind_;
   Point before_, after_;
 };
-
-/// What a path begins with.
-void tell_first(EquilibriumPath& path, const Contacts& contacts, double t, const At& at) {
-  for (const ContactKind kind : kinds)
-    if (const record::Contact* first = contacts.deepest(kind))
-      path.contacts.push_back({0, t, 0,
-                               text_of(*first, path.simulation.scene().footprint) +
-                                   " touch from the begin, " + at(t, {})});
-}
 
 }  // namespace
 
@@ -109,34 +100,58 @@ std::string text_of(const record::Contact& contact, const Footprint& footprint) 
   return fmt::format("{} at ({:.1f}, {:.1f}, {:.1f}) mm", parts(), at.x(), at.y(), at.z());
 }
 
-void locate_contacts(EquilibriumPath& path, const At& at, const Watch& watch) {
-  const Checkpoint stood = path.simulation.save();
-  const Footprint& footprint = path.simulation.scene().footprint;
-  path.contacts.clear();
-  bool moved = false;
+std::vector<ContactEvent> contact_events(const EquilibriumPath& path, const At& at) {
+  const NestedShell& shell = path.simulation.shell();
+  const Scene& scene = path.simulation.scene();
+  std::vector<ContactEvent> events;
+  std::optional<record::ContactSearch> search;
   for (std::size_t s = 0; s < path.segments.size(); ++s) {
     const PathSegment& segment = path.segments[s];
-    const std::size_t first = path.contacts.size();
-    std::vector<Point> points;
-    for (const LoadStep& step : segment.load_steps) points.push_back({step.point.t, step.contacts});
+    const std::size_t first = events.size();
+    std::vector<const LoadStep*> steps;
+    for (const LoadStep& step : segment.load_steps) steps.push_back(&step);
     // a segment back is shown against its way
-    if (segment.back) std::ranges::reverse(points);
-    if (s == 0 && !points.empty()) tell_first(path, points[0].contacts, points[0].t, at);
-    for (std::size_t k = 1; k < points.size(); ++k)
-      for (const ContactKind kind : kinds) {
-        Bracket bracket(kind, points[k - 1], points[k]);
-        if (!bracket.changes() || watch.cancelled()) continue;
-        if (path.single_motion && path.contacts.size() < most_located) {
-          bracket.halve(path, s, watch);
-          moved = true;
-        }
-        path.contacts.push_back(bracket.event(s, footprint, at));
+    if (segment.back) std::ranges::reverse(steps);
+    if (s == 0 && !steps.empty())
+      for (const ContactKind kind : kinds)
+        if (const record::Contact* touch = steps[0]->contacts.deepest(kind))
+          events.push_back({0, steps[0]->point.t, 0,
+                            text_of(*touch, scene.footprint) + " touch from the start, " +
+                                at(steps[0]->point.t, {})});
+    for (std::size_t k = 1; k < steps.size(); ++k) {
+      const LoadStep &a = *steps[k - 1], &b = *steps[k];
+      const bool smooth = goes_on_between(segment, segment.back ? b : a, segment.back ? a : b);
+      // the states of the branch around, two on each side
+      std::vector<const PathPoint*> around;
+      const auto same_branch = [&](std::size_t n, std::size_t next) {
+        const LoadStep &first = *steps[segment.back ? next : n],
+                       &last = *steps[segment.back ? n : next];
+        return goes_on_between(segment, first, last);
+      };
+      if (smooth) {
+        if (k > 1 && same_branch(k - 2, k - 1)) around.push_back(&steps[k - 2]->point);
+        around.insert(around.end(), {&a.point, &b.point});
+        if (k + 1 < steps.size() && same_branch(k, k + 1)) around.push_back(&steps[k + 1]->point);
       }
+      std::erase_if(around, [](const PathPoint* p) { return p->velocity.x.size() == 0; });
+      for (const ContactKind kind : kinds) {
+        Bracket bracket(kind, {a.point.t, a.contacts}, {b.point.t, b.contacts});
+        if (!bracket.changes()) continue;
+        if (around.size() > 1 && a.point.state.x.cols() == shell.model().columns()) {
+          if (!search) search.emplace(parts_of(scene, shell.finest()));
+          bracket.halve([&](double t) {
+            const State state = between(shell.model(), around, t);
+            return search->in(nodes_of(shell.finest(), shell.model(), state.x));
+          });
+        }
+        events.push_back(bracket.event(s, scene.footprint, at));
+      }
+    }
     const double way = segment.back ? -segment.sign() : segment.sign();
-    std::ranges::stable_sort(path.contacts.begin() + long(first), path.contacts.end(), {},
+    std::ranges::stable_sort(events.begin() + long(first), events.end(), {},
                              [way](const ContactEvent& event) { return way * event.t; });
   }
-  if (moved) path.simulation.restore(stood);
+  return events;
 }
 
 }  // namespace gridshell::simulate

@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "engine/core/try.h"
-#include "engine/simulate/expected_cost.h"
-#include "engine/simulate/guided_path.h"
-#include "engine/simulate/mesh_choice.h"
 
 namespace gridshell::simulate {
 namespace {
@@ -23,26 +21,13 @@ const LoadStep& load_step_after(const PathSegment& segment, double t) {
 }  // namespace
 
 double worst_estimate_mm(const EquilibriumPath& path) {
-  double worst = 0;
+  double worst = std::numeric_limits<double>::quiet_NaN();
   for (const PathSegment& segment : path.segments)
-    for (const LoadStep& load_step : segment.load_steps) {
-      const double estimate = load_step.certificate.error_estimate_mm;
-      if (load_step.certificate.stable() && !(estimate <= worst)) worst = estimate;
-    }
+    for (const LoadStep& load_step : segment.load_steps)
+      if (load_step.certificate.stable())
+        worst = std::fmax(worst, load_step.certificate.error_estimate_mm);
   return worst;
 }
-
-namespace {
-
-/// Whether the path goes on beyond a loss of stability without leaving its branch.
-bool stays_beyond_event(const EquilibriumPath& path) {
-  return std::ranges::any_of(path.segments, [](const PathSegment& segment) {
-    return segment.report.end == Outcome::reached &&
-           std::ranges::any_of(segment.report.events, [](const Event& event) { return !event.to; });
-  });
-}
-
-}  // namespace
 
 double distance_of_joints(const Simulation& simulation, const Eigen::Matrix3Xd& nodes) {
   const Eigen::Index joints = simulation.shell().finest().joints;
@@ -56,21 +41,26 @@ const LoadStep& load_step_before(const PathSegment& segment, double t) {
   return *before;
 }
 
-bool EquilibriumPath::has_events() const {
-  const auto any = [](const PathSegment& segment) {
-    return !segment.report.events.empty() || segment.report.end != Outcome::reached;
+bool EquilibriumPath::too_coarse() const {
+  const auto ended_so = [](const PathSegment& segment) {
+    return segment.report.end == Outcome::too_coarse;
   };
-  return std::any_of(segments.begin(), segments.end(), any) ||
-         std::any_of(earlier.begin(), earlier.end(), any);
+  return std::ranges::any_of(segments, ended_so) || std::ranges::any_of(earlier, ended_so);
 }
 
 bool goes_on_between(const PathSegment& segment, const LoadStep& a, const LoadStep& b) {
   const double way = segment.sign(), from = way * a.point.t, to = way * b.point.t;
   if (!(from < to) || !a.certificate.stable() || !b.certificate.stable()) return false;
   return std::ranges::none_of(segment.report.events, [&](const Event& event) {
-    const auto [begin, end] = std::minmax({way * event.t, way * event.to.value_or(event.t)});
+    const double lost = event.placed.t;
+    const auto [begin, end] = std::minmax({way * lost, way * event.to.value_or(lost)});
     return begin < to && end > from;
   });
+}
+
+bool all_stable(const PathSegment& segment) {
+  return std::ranges::all_of(segment.load_steps,
+                             [](const LoadStep& step) { return step.certificate.stable(); });
 }
 
 bool within_snap(const PathSegment& segment, double t) {
@@ -93,118 +83,6 @@ PathSegment& follow_segment(EquilibriumPath& path, double to, const BifurcationP
   return path.segments.emplace_back(std::move(segment));
 }
 
-LevelPlan initial_levels(const Scene& scene) {
-  LevelPlan plan = scene.edges_per_segment > 0 ? plan_of_mesh(scene.edges_per_segment)
-                                               : plan_levels(scene.tolerance, scene.leading_edges);
-  if (scene.rods.contact.barrier.acts()) plan.extrapolate = false;  // as NestedShell::make()
-  return plan;
-}
-
-namespace {
-
-/// Whether a segment of the path ended where its leader alone loses the branch.
-bool lost_by_leader(const EquilibriumPath& path) {
-  const auto lost = [](const PathSegment& segment) {
-    const Report& last = segment.report;
-    return last.end != Outcome::reached && !last.events.empty() && !last.events.back().is_limit() &&
-           !last.events.back().to;
-  };
-  return path.simulation.shell().plan().finest_decides && std::ranges::any_of(path.segments, lost);
-}
-
-}  // namespace
-
-Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follow,
-                                         const Watch& watch, bool one_motion) {
-  LevelPlan plan = initial_levels(scene);
-  const double allowed = scene.tolerance * scene.length_scale_mm;
-  const bool asked = scene.edges_per_segment > 0;
-  // the finer path that settles nothing confirms the leader's own
-  SharedPath finer_path;
-  const Follow once = [&](const LevelPlan& wanted, const Watch& w) -> Result<SharedPath> {
-    if (finer_path && finer_path->asked.edges_per_segment == wanted.edges_per_segment &&
-        finer_path->asked.extrapolate == wanted.extrapolate)
-      return std::exchange(finer_path, nullptr);
-    return follow(wanted, w);
-  };
-  const auto located = [&](Result<SharedPath> path, const Watch& watch) {
-    if (path && finer_path) (*path)->simulation.charge(finer_path->simulation.effort());
-    finer_path = nullptr;
-    if (path) locate_on_meshes(**path, follow, watch);
-    return path;
-  };
-  plan.finest_decides = one_motion && !asked && !scene.leader_asked;
-  Effort spent;
-  double setup = 0;
-  for (;;) {
-    TRY_DO(fits_memory(scene, plan));
-    auto path = once(plan, watch);
-    if (!path || watch.cancelled()) return path;
-    (*path)->asked = plan;
-    // whoever confirms it follows its ways to their ends
-    (*path)->asked.finest_decides = false;
-    (*path)->seconds_setup += setup;
-    (*path)->simulation.charge(spent);
-    if (lost_by_leader(**path)) {
-      TRY(fine, led_by_twice_the_edges(scene, **path, follow, watch));
-      if (*fine && settles(**fine, **path)) {
-        take_over(**fine, **path);
-        return located(std::move(fine), watch);
-      }
-      finer_path = std::move(*fine);
-      if (finer_path) finer_path->simulation.shell().free_memory();
-      // else the leader's way is followed to its end, and confirmed
-      plan.finest_decides = false;
-      spent = (*path)->simulation.effort();
-      setup = (*path)->seconds_setup;
-      continue;
-    }
-    const double worst = worst_estimate_mm(**path);
-    if (asked) return located(led_by_finer(std::move(*path), follow, watch), watch);
-    if (!(worst > allowed))
-      return located(confirm_on_finer_meshes(scene, std::move(*path), once, watch, one_motion),
-                     watch);
-    // twice the edges leave a quarter, and may lose no stability where the leader does alone
-    if (stays_beyond_event(**path) && !plan.extrapolate && !scene.leader_asked &&
-        worst <= 4 * allowed) {
-      path = confirm_on_finer_meshes(scene, std::move(*path), once, watch, one_motion);
-      if (!path) return path;
-      if (uneventful(**path) && worst_estimate_mm(**path) <= allowed)
-        return located(std::move(path), watch);
-    }
-    const auto next = finer(plan);
-    const auto fits = next ? fits_memory(scene, *next) : Result<void>{};
-    if (!next || !fits)
-      return fail(
-          Fault::no_equilibrium,
-          fmt::format("the tolerance {:g} is not met: {} edges a segment leave an "
-                      "estimated error of {:.2g} mm, {:.2g} of the length scale{}",
-                      scene.tolerance, plan.edges_per_segment.back(), worst,
-                      worst / scene.length_scale_mm, fits ? "" : "; " + fits.error().message));
-    plan = *next;
-    spent = (*path)->simulation.effort();
-    setup = (*path)->seconds_setup;
-  }
-}
-
-namespace {
-
-/// The last load_step of a branch that the leading mesh left before t, where finer ones, as is
-/// told, leave it after t.
-const LoadStep* last_of_a_branch_left_early(const PathSegment& segment, double t) {
-  const auto& load_steps = segment.load_steps;
-  for (const Event& event : segment.report.events) {
-    if (!event.to || segment.sign() * (event.t - t) <= 0) continue;
-    for (std::size_t k = 1; k < load_steps.size(); ++k)
-      if (load_steps[k].point.t == *event.to &&
-          segment.sign() * (t - load_steps[k - 1].point.t) > 0)
-        return &load_steps[k - 1];
-  }
-  return nullptr;
-}
-
-}  // namespace
-
 CertifiedSample certify_sample(EquilibriumPath& path, const PathSample& sample,
                                const Watch& watch) {
   const PathSegment& segment = path.segments[sample.segment];
@@ -215,12 +93,6 @@ CertifiedSample certify_sample(EquilibriumPath& path, const PathSample& sample,
   const auto done = [&](const Report& report) {
     return report.end == Outcome::reached || watch.cancelled();
   };
-  const LoadStep* still = last_of_a_branch_left_early(segment, t);
-  if (still)
-    for (const bool leader_unstable : {false, true}) {
-      const Report held = from(*still, leader_unstable);
-      if (done(held) && held.certificate.stable()) return {held, still->point.t};
-    }
   const LoadStep &before = load_step_before(segment, t), &after = load_step_after(segment, t);
   const bool goes_on = goes_on_between(segment, before, after);
   Report report = path.simulation.sample(t, before, false, watch,
@@ -236,8 +108,6 @@ CertifiedSample certify_sample(EquilibriumPath& path, const PathSample& sample,
   if (done(report)) return {report, after.point.t};
   // or any equilibrium, which says what it is
   report = from(before, true);
-  // beside a bifurcation the meshes lie apart on the branch that leaves there
-  if (still && !done(report)) return {from(*still, true), still->point.t};
   return {report, t};
 }
 
@@ -260,7 +130,7 @@ record::Limit limit_of(Outcome end) {
     case Outcome::lost:
     case Outcome::folded:
     case Outcome::not_converged:
-    case Outcome::meshes_disagree:
+    case Outcome::too_coarse:
       break;
   }
   return record::Limit::branch_lost;
@@ -294,7 +164,7 @@ std::string how_it_ended(const PathSegment& segment, const At& at) {
   if (report.end == Outcome::contact) {
     const std::string& what = report.events.back().what;
     const bool touched = !segment.load_steps.back().contacts.places.empty();
-    if (touched && begun) return what + " touch from the begin, " + at(report.t, {});
+    if (touched && begun) return what + " touch from the start, " + at(report.t, {});
     if (touched) return place() + " what touched from the begin is next to overlap more: " + what;
     return fmt::format("{} is the last state without contact: beyond, {} touch", place(), what);
   }

@@ -40,27 +40,26 @@ struct EquilibriumPath {
   Simulation simulation;
   std::vector<PathSegment> segments = {};
   std::vector<PathSegment> earlier = {};  ///< of a push: those of the actuation before it
-  LevelPlan asked = {};       ///< meshes that it was followed on; steps may end on finer ones
+  LevelPlan meshes = {};                  ///< that it was followed on
   bool single_motion = true;  ///< whether all segments are of the motion that the simulation is on
   double seconds_setup = 0;
   std::string mesh_disagreement =
-      {};  ///< what meshes do not agree on, a sentence; empty: nothing is known
+      {};                         ///< what is not confirmed, or missed, a sentence; empty: nothing
+  bool tolerance_missed = false;  ///< somewhere the error is above the tolerance, or not known
   record::Limit limit = record::Limit::none;
   std::string limit_reason = {};
   std::vector<ContactEvent> contacts = {};
 
-  /// Whether a branch was lost, a limit met, or a segment ended early.
-  bool has_events() const;
+  /// Whether it ended as its mesh is too coarse (LevelPlan::allowed_mm): what comes after it is not
+  /// followed then.
+  bool too_coarse() const;
 };
-
-/// States whose joints lie so near are the same, of d.
-inline constexpr double near_spacings = 0.1;
 
 /// Largest distance of the joints where a simulation stands from those of nodes of its finest mesh,
 /// mm.
 double distance_of_joints(const Simulation& simulation, const Eigen::Matrix3Xd& nodes);
 
-/// Largest error estimate where stable states were certified, mm; NaN where one is not known.
+/// Largest error estimate of stable states, mm; NaN where none is known.
 double worst_estimate_mm(const EquilibriumPath& path);
 
 /// The load_step that a sample of a segment lies behind: the last one that the segment came past
@@ -71,42 +70,13 @@ const LoadStep& load_step_before(const PathSegment& segment, double t);
 /// stable.
 bool goes_on_between(const PathSegment& segment, const LoadStep& a, const LoadStep& b);
 
+/// Whether no state of a segment has a negative pivot.
+bool all_stable(const PathSegment& segment);
+
 /// From where the simulation stands on: follows the path to `to` and keeps the way as a segment.
 /// What begins beyond a limit goes nowhere, but back.
 PathSegment& follow_segment(EquilibriumPath& path, double to, const BifurcationPolicy& leaving,
                             const Watch& watch);
-
-/// Follows a path on the meshes of a plan. Errors: bad_input, no_equilibrium, cancelled.
-using SharedPath = std::shared_ptr<EquilibriumPath>;
-using Follow = std::function<Result<SharedPath>(const LevelPlan&, const Watch&)>;
-
-/// The meshes that the tolerance asks for, or those asked for by themselves.
-LevelPlan initial_levels(const Scene& scene);
-
-/// The path on the coarsest plan whose estimate meets the scene's tolerance. Its choices and events
-/// are confirmed (mesh_choice.h) where the tolerance chooses the meshes. Errors: those of `follow`;
-/// no_equilibrium where the finest meshes do not meet it; bad_input where they do not fit the
-/// memory. `one_motion`: `follow` follows one motion alone, which may end where a leader loses what
-/// finer meshes do not (LevelPlan::finest_decides).
-Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follow,
-                                         const Watch& watch, bool one_motion = false);
-
-/// The same of an EquilibriumPath or what is made from one: follow(plan, watch) gives a Result of
-/// it.
-template <class FollowPath>
-auto converged_path(const Scene& scene, const FollowPath& follow, const Watch& watch,
-                    bool one_motion = false) {
-  using Found = std::invoke_result_t<FollowPath, const LevelPlan&, const Watch&>;
-  using Path = typename Found::value_type;
-  const auto shared = [](Path&& path) -> SharedPath {
-    return std::make_shared<Path>(std::move(path));
-  };
-  return converged_shared_path(
-             scene,
-             [&](const LevelPlan& plan, const Watch& w) { return follow(plan, w).map(shared); },
-             watch, one_motion)
-      .map([](const SharedPath& path) { return std::move(static_cast<Path&>(*path)); });
-}
 
 /// A sample of a segment.
 struct PathSample {
@@ -127,9 +97,7 @@ struct CertifiedSample {
 };
 
 /// Certifies the path at a sample and leaves the simulation there; what the path itself found is
-/// not changed by it. Where the leading mesh left its branch before the place that is told of the
-/// event, the state stays on the branch up to that place, if the finest mesh is stable there.
-/// Outcomes as of a path.
+/// not changed by it. Outcomes as of a path.
 CertifiedSample certify_sample(EquilibriumPath& path, const PathSample& sample, const Watch& watch);
 
 /// Says where a path parameter lies, in the experiment's own words: "at progress 0.4312", with its
@@ -149,9 +117,8 @@ std::string branch_loss_places(std::span<const PathSegment> segments, const At& 
 /// where.
 void set_limit(EquilibriumPath& path, const At& at);
 
-/// Finds where on a path that was followed parts begin to touch and where they part again: between
-/// load steps, and more closely by samples between them where the simulation is still on the
-/// path's motion. It stands afterwards where it stood.
-void locate_contacts(EquilibriumPath& path, const At& at, const Watch& watch);
+/// Where on a path parts begin to touch and where they part again: between load steps of one branch
+/// by the cubic through both.
+std::vector<ContactEvent> contact_events(const EquilibriumPath& path, const At& at);
 
 }  // namespace gridshell::simulate

@@ -12,9 +12,9 @@
 
 #include "engine/core/system_info.h"
 #include "engine/core/try.h"
-#include "engine/simulate/equilibrium_path.h"
 #include "engine/simulate/frame_forces.h"
 #include "engine/simulate/frames.h"
+#include "engine/simulate/mesh_policy.h"
 #include "engine/simulate/steps.h"
 #include "engine/solve/buckling.h"
 

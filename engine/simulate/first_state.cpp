@@ -43,21 +43,22 @@ using FindShape = decltype(drawn_rest);
 /// What `find` finds on the mesh that chooses, at rest on the coarsest.
 Result<State> chosen(FindShape& find, NestedShell& shell, const Scene& scene, const ShellRods& rods,
                      double t, const Watch& watch) {
-  const RodMesh& mesh = shell.mesh(0);
-  if (scene.solved_model() == RodModel::bend && shell.plan().edges_per_segment[0] == choosing_edges)
-    return find(shell.system(0), mesh, shell.motion(0), t, scene, watch);
+  const RodMesh& mesh = shell.finest();
+  if (scene.solved_model() == RodModel::bend &&
+      shell.plan().edges_per_segment.back() == choosing_edges)
+    return find(shell.system(), mesh, shell.motion(), t, scene, watch);
   MeshLevel chooser;
   TRY_DO(chooser.build(scene.footprint, rods, RodModel::bend, scene.motion, choosing_edges));
   const auto shape = find(*chooser.system, chooser.mesh, chooser.motion, t, scene, watch);
-  shell.system(0).effort() += chooser.system->effort();
+  shell.system().effort() += chooser.system->effort();
   if (!shape) return shape;
   Eigen::Matrix3Xd nodes;
   MeshTransfer(chooser.mesh, mesh).nodes(nodes_of(chooser.mesh, chooser.model, shape->x), nodes);
-  const Model& model = shell.model(0);
-  State state = flat_state(model, mesh, shell.motion(0), scene.flat);
+  const Model& model = shell.model();
+  State state = flat_state(model, mesh, shell.motion(), scene.flat);
   move_to(model, columns_of(mesh, model, nodes), state);
-  shell.motion(0).impose(shell.system(0), t, state);
-  return minimise_from(shell.system(0), std::move(state), watch);
+  shell.motion().impose(shell.system(), t, state);
+  return minimise_from(shell.system(), std::move(state), watch);
 }
 
 }  // namespace
@@ -85,7 +86,7 @@ Result<State> state_as_drawn(NestedShell& shell, const Scene& scene, const Shell
                              const Watch& watch) {
   // rods that have axes or a shape of their own lie there as they are
   auto rest = scene.solved_model() == RodModel::twist
-                  ? drawn_rest(shell.system(0), shell.mesh(0), shell.motion(0), 0, scene, watch)
+                  ? drawn_rest(shell.system(), shell.finest(), shell.motion(), 0, scene, watch)
                   : chosen(drawn_rest, shell, scene, rods, 0, watch);
   return rest.map_error([](const Error& error) {
     return Error{error.fault, "from the network as drawn: " + error.message};
@@ -93,7 +94,7 @@ Result<State> state_as_drawn(NestedShell& shell, const Scene& scene, const Shell
 }
 
 Result<State> state_on_net(NestedShell& shell, const Scene& scene, const Watch& watch) {
-  const RodMesh& mesh = shell.mesh(0);
+  const RodMesh& mesh = shell.finest();
   const double spacing = scene.footprint.spacing;
   const Eigen::Matrix2Xd flat = within_boundary(scene.footprint, mesh);
   // blocks that meet with a gap would tear the rods between them
@@ -101,12 +102,12 @@ Result<State> state_on_net(NestedShell& shell, const Scene& scene, const Watch& 
   place_tails(scene, mesh, *net);
   net->conservativeResize(3, mesh.nodes());
   net->rightCols(mesh.beside_rods()) =
-      shell.motion(0).at(1).middleCols(mesh.rod_nodes(), mesh.beside_rods());
-  const Model& model = shell.model(0);
-  State state = flat_state(model, mesh, shell.motion(0), scene.flat);
+      shell.motion().at(1).middleCols(mesh.rod_nodes(), mesh.beside_rods());
+  const Model& model = shell.model();
+  State state = flat_state(model, mesh, shell.motion(), scene.flat);
   move_to(model, columns_of(mesh, model, *net), state);
-  shell.motion(0).impose(shell.system(0), 1, state);
-  auto rest = find_equilibrium(shell.system(0), state, 0.5 * spacing, watch);
+  shell.motion().impose(shell.system(), 1, state);
+  auto rest = find_equilibrium(shell.system(), state, 0.5 * spacing, watch);
   if (!rest) return fail(rest.error().fault, "next to the net there is " + rest.error().message);
   return rest;
 }

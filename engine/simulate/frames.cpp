@@ -79,7 +79,7 @@ void put_forces(const Simulation& simulation, record::Frame& frame) {
       put_rods(simulation.scene(), shell.mesh(k), shell.model(k), shell.state().levels.back(), at,
                frame);
   }
-  const bool extrapolate = shell.plan().extrapolate_forces;
+  const bool extrapolate = shell.extrapolates_forces();
   const bool no_order = order_unknown(shell.model(last), by_term.back(), by_term.size());
   CertifiedVectors force = certify_vectors(shell.model(last), reactions, extrapolate, no_order);
   put_reactions(std::move(force.value), frame);
@@ -89,8 +89,7 @@ void put_forces(const Simulation& simulation, record::Frame& frame) {
   frame.brace_force_N =
       brace_forces(simulation.scene().footprint, shell.model(last), shell.state().levels.back().x);
   frame.energies = by_term.back();
-  if (extrapolate && by_term.size() > 1)
-    frame.energies = extrapolated(by_term.back(), by_term[by_term.size() - 2]);
+  if (extrapolate) frame.energies = extrapolated(by_term.back(), by_term[by_term.size() - 2]);
   frame.energy_error_mJ = certify_vectors(shell.model(last), energies, extrapolate, no_order).error;
 }
 
@@ -201,8 +200,7 @@ record::Frame frame_of(const Simulation& simulation) {
   const NestedShell& shell = simulation.shell();
   const int last = shell.levels() - 1;
   Eigen::VectorXd K = curvature(simulation, last);
-  if (shell.plan().extrapolate && last > 0)
-    K = ((4 * K - curvature(simulation, last - 1)) / 3).eval();
+  if (shell.extrapolates()) K = ((4 * K - curvature(simulation, last - 1)) / 3).eval();
   record::Frame frame;
   fill_shape(simulation.scene(), shell.finest(), simulation.nodes(), K, frame);
   const Certificate certificate = simulation.certificate();
@@ -211,22 +209,6 @@ record::Frame frame_of(const Simulation& simulation) {
   frame.error_estimate_mm = certificate.error_estimate_mm;
   put_contacts(simulation.contacts(), frame);
   put_forces(simulation, frame);
-  return frame;
-}
-
-record::Frame leading_frame(const Simulation& simulation, const State& state,
-                            const Linearisation& system, const MeshTransfer& to_finest) {
-  const RodMesh& mesh = simulation.shell().mesh(0);
-  const Model& model = simulation.shell().model(0);
-  const Footprint& footprint = simulation.scene().footprint;
-  const Eigen::Matrix3Xd nodes = nodes_of(mesh, model, state.x);
-  record::Frame frame;
-  to_finest.nodes(nodes, frame.nodes);
-  frame.nodes.conservativeResize(3, simulation.shell().finest().rod_nodes());
-  frame.cell_K = cell_curvature(footprint, joint_tangents(footprint, mesh, nodes));
-  frame.energies = system.assembly().energies;
-  frame.reactions_N = reactions_of(mesh, model, system.assembly(), simulation.holds());
-  frame.loads_N = loads_on(mesh, model, state.x, system.outside);
   return frame;
 }
 
@@ -320,11 +302,11 @@ std::vector<record::Frame> frames_in_motion(Simulation& simulation,
   if (moments.empty()) return frames;
   const Scene& scene = simulation.scene();
   NestedShell& shell = simulation.shell();
-  const RodMesh& mesh = shell.mesh(0);
+  const RodMesh& mesh = shell.finest();
   const MeshTransfer to_finest(mesh, shell.finest());
-  Linearisation& system = shell.system(0);
+  Linearisation& system = shell.system();
   for (const TimedState* moment : shown(moments, scene.footprint.spacing)) {
-    const Eigen::Matrix3Xd nodes = nodes_of(mesh, shell.model(0), moment->state.x);
+    const Eigen::Matrix3Xd nodes = nodes_of(mesh, shell.model(), moment->state.x);
     Eigen::Matrix3Xd x;
     to_finest.nodes(nodes, x);
     record::Frame frame;

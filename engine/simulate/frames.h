@@ -35,11 +35,6 @@ void fill_shape(const Scene& scene, const RodMesh& mesh, const Eigen::Matrix3Xd&
 /// push and event are the experiment's to add.
 record::Frame frame_of(const Simulation& simulation);
 
-/// What is told of a frame by the coarsest mesh in equilibrium, whose forces `system` has: nodes
-/// carried to the finest, K, energies, reactions.
-record::Frame leading_frame(const Simulation& simulation, const State& state,
-                            const Linearisation& system, const MeshTransfer& to_finest);
-
 /// The largest stress of a fibre over its rod's strength, on the finest mesh; NaN where that is not
 /// known.
 double utilisation_of(const Simulation& simulation);

@@ -11,6 +11,7 @@
 #include "engine/scene/net_design.h"
 #include "engine/simulate/actuation.h"
 #include "engine/simulate/frames.h"
+#include "engine/simulate/mesh_policy.h"
 #include "engine/simulate/path_sampler.h"
 #include "engine/solve/arc_follower.h"
 
@@ -56,10 +57,9 @@ std::string turning_back(Simulation& simulation, const PathSegment& segment, con
   }
   if (!last) return {};
   const ArcOptions fine{.step_mm = 0.05, .largest_mm = 0.2, .parameter_mm = depth_mm};
-  const auto turn = turning_point(simulation.shell().system(0), simulation.shell().motion(0),
+  const auto turn = turning_point(simulation.shell().system(), simulation.shell().motion(),
                                   last->point, segment.sign(), fine, watch);
-  return turn ? fmt::format(" (on the leading mesh its path turns back at {:.3f} mm)",
-                            *turn * depth_mm)
+  return turn ? fmt::format(" (on its mesh the path turns back at {:.3f} mm)", *turn * depth_mm)
               : std::string();
 }
 
@@ -112,6 +112,7 @@ Result<HeldShell> follow_push(const std::shared_ptr<const Scene>& scene,
                               const preset::Indentation& asked, const LevelPlan& plan,
                               const Watch& watch) {
   auto pushed = hold_to_push(scene, asked, plan, watch);
+  if (pushed && pushed->too_coarse()) return pushed;
   for (double to : asked.unload ? std::vector<double>{1, 0} : std::vector<double>{1}) {
     if (!pushed) break;
     const PathSegment& segment = follow_segment(*pushed, to, {}, watch);
@@ -214,6 +215,7 @@ Result<HeldShell> hold_to_push(const std::shared_ptr<const Scene>& scene,
                                const preset::Indentation& asked, const LevelPlan& plan,
                                const Watch& watch) {
   TRY(actuated, follow_whole_actuation(scene, plan, "to push", watch));
+  if (actuated->too_coarse()) return HeldShell{std::move(*actuated), {}, {}};
   Simulation& simulation = actuated->simulation;
   TRY(push, push_of(asked, *scene, simulation.shell().finest(), simulation.nodes()));
   const auto joints = Eigen::Index(scene->footprint.joints.size());
@@ -240,7 +242,7 @@ Result<EquilibriumPath> run_indentation(std::shared_ptr<const Scene> scene,
       watch);
   if (!kept) return tl::unexpected<Error>(kept.error());
   set_push_limit(*kept, watch);
-  locate_contacts(*kept, at_depth(kept->depth_mm()), watch);
+  kept->contacts = contact_events(*kept, at_depth(kept->depth_mm()));
   TRY(layout, layout_of(*scene, kept->simulation.shell().finest()));
   layout->loaded_joints = {{kept->push.joint, kept->push.displacement.normalized()}};
   layout->extrapolated = kept->simulation.shell().plan().extrapolate;
@@ -250,7 +252,6 @@ Result<EquilibriumPath> run_indentation(std::shared_ptr<const Scene> scene,
   std::vector<PathSample> samples;
   for (std::size_t k = 0; k < progress.size(); ++k)
     samples.push_back(sample_of(k, progress[k], indentation.unload));
-  sampler.expect(samples);
   for (PathSample sample : samples) {
     Result<bool> taken = false;
     if (came_to(*kept, sample)) taken = sampler.at(sample);

@@ -74,10 +74,10 @@ void put(auto& in, Is<State> auto& s) { all(in, s.x, s.force, s.director, s.refe
 void put(auto& in, Is<Inertia> auto& s) {
   all(in, s.negative_pivots, s.usable, s.smallest_pivot, s.largest_pivot);
 }
-void put(auto& in, Is<LevelCorrection> auto& s) { all(in, s.t, s.x, s.force); }
-void put(auto& in, Is<PathPoint> auto& s) { all(in, s.t, s.state, s.velocity); }
+void put(auto& in, Is<MeshDifference> auto& s) { all(in, s.t, s.x, s.force); }
+void put(auto& in, Is<PathPoint> auto& s) { all(in, s.t, s.state, s.velocity, s.step); }
 void put(auto& in, Is<NestedPathPoint> auto& s) {
-  all(in, s.t, s.state, s.velocity, s.beyond, s.way);
+  all(in, s.t, s.state, s.velocity, s.step, s.companions, s.inertia);
 }
 void put(auto& in, Is<Certificate> auto& s) {
   all(in, s.residual_N, s.negative_pivots, s.error_estimate_mm, s.largest_strain);
@@ -92,19 +92,20 @@ void put(auto& in, Is<LoadStep> auto& s) { all(in, s.point, s.certificate, s.con
 void put(auto& in, Is<TimedState> auto& s) { all(in, s.time, s.state); }
 void put(auto& in, Is<PathRecord::Snap> auto& s) { all(in, s.before, s.moments); }
 void put(auto& in, Is<PathRecord> auto& s) { all(in, s.load_steps, s.snaps); }
-void put(auto& in, Is<Event::Place> auto& s) { all(in, s.edges, s.t, s.located); }
+void put(auto& in, Is<Event::Location> auto& s) { all(in, s.edges, s.t, s.located); }
 void put(auto& in, Is<Event> auto& s) {
-  all(in, s.kind, s.t, s.error, s.to, s.leap, s.what, s.placed);
+  all(in, s.kind, s.t, s.error, s.to, s.leap, s.confirmed, s.what, s.placed);
 }
 void put(auto& in, Is<NestedState> auto& s) {
-  all(in, s.t, s.levels, s.x, s.error_estimate_mm, s.residual_N, s.inertia, s.largest_strain,
-      s.reactions, s.reaction_error_N, s.held_stiffness, s.stiffness_error_N_per_mm);
+  all(in, s.t, s.levels, s.measured, s.velocity, s.step, s.lowest_eigenvalue, s.lowest_mode, s.x,
+      s.error_estimate_mm, s.residual_N, s.inertia, s.largest_strain, s.reactions,
+      s.reaction_error_N, s.held_stiffness, s.stiffness_error_N_per_mm);
 }
 void put(auto& in, Is<SegmentBegin> auto& s) { all(in, s.state, s.from, s.to, s.edges); }
 void put(auto& in, Is<Effort> auto& s) { all(in, s.newton_iterations, s.factorizations); }
 void put(auto& in, Is<Softness> auto& s) { all(in, s.t, s.stiffness); }
 void put(auto& in, Is<KeptSegment> auto& s) {
-  all(in, s.begin, s.end, s.state, s.record, s.events, s.effort, s.halvings, s.softening);
+  all(in, s.begin, s.end, s.state, s.record, s.events, s.effort, s.softening);
 }
 
 template <class T>

@@ -34,7 +34,6 @@ struct KeptSegment {
   PathRecord record;
   std::vector<Event> events;
   Effort effort;
-  int halvings = 0;
   std::vector<Softness> softening;
 };
 

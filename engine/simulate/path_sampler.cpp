@@ -14,9 +14,7 @@ PathSampler::PathSampler(EquilibriumPath& path, Caption caption, record::Sink& s
     : path_(path), caption_(std::move(caption)), sink_(sink), watch_(watch), count_(count) {}
 
 Result<bool> PathSampler::at(const PathSample& sample) {
-  if (!between_)
-    between_ =
-        std::make_shared<FramesBetween>(path_, caption_.measure, watch_, std::move(expected_));
+  if (!between_) between_ = std::make_shared<FramesBetween>(path_, caption_.measure, watch_);
   if (auto frame = between_->at(sample)) {
     TRY_DO(motions(sample, sample.t));
     return take_at(std::move(*frame), sample, events(sample, sample.t), sample.t).map([] {

@@ -32,9 +32,6 @@ class PathSampler {
   PathSampler(EquilibriumPath& path, Caption caption, record::Sink& sink, Watch& watch,
               std::size_t count);
 
-  /// Those that may come, in order: with a team, frames are made some ahead.
-  void expect(std::vector<PathSample> samples) { expected_ = std::move(samples); }
-
   /// One sample. False: it is not certified, which becomes the path's limit; within a jump that
   /// already is the limit, the limit's reason says it. Errors: cancelled, the sink's.
   Result<bool> at(const PathSample& sample);
@@ -54,7 +51,6 @@ class PathSampler {
 
   EquilibriumPath& path_;
   Caption caption_;
-  std::vector<PathSample> expected_;
   std::shared_ptr<FramesBetween> between_;
   record::Sink& sink_;
   Watch& watch_;

@@ -14,7 +14,7 @@
 #include "engine/simulate/first_state.h"
 #include "engine/simulate/frames.h"
 #include "engine/simulate/indentation.h"
-#include "engine/simulate/mesh_choice.h"
+#include "engine/simulate/mesh_policy.h"
 #include "engine/simulate/shell_symmetry.h"
 #include "engine/simulate/steps.h"
 #include "engine/solve/buckling.h"
@@ -166,8 +166,8 @@ std::string near_image(const EquilibriumPath& path) {
       off);
 }
 
-/// Of a path on which the leading mesh enters a branch late, long after the finest has lost the
-/// path: a sentence. Where several modes go soft at once it may then enter another of them.
+/// Of a path that enters a branch long after it was lost: a sentence. Where several modes lose
+/// their stiffness at once it may then enter another of them.
 std::string late_on_branch(const EquilibriumPath& path) {
   constexpr double late = 0.05;  // in the path parameter
   for (const PathSegment& segment : path.segments)
@@ -175,10 +175,8 @@ std::string late_on_branch(const EquilibriumPath& path) {
       if (path.single_motion && !event.leap && event.to && std::abs(*event.to - event.t) > late)
         return fmt::format(
             "of the branch that leaves the path at progress {:.4f} no state was found before "
-            "progress {:.4f}: which of several it is may hang on the mesh, [accuracy] "
-            "leading_edges = {} looks again",
-            progress_at(event.t), progress_at(*event.to),
-            2 * path.simulation.shell().plan().edges_per_segment.front());
+            "progress {:.4f}: which of several it is may depend on the mesh",
+            progress_at(event.t), progress_at(*event.to));
   return "";
 }
 

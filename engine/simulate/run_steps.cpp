@@ -10,6 +10,7 @@
 
 #include "engine/simulate/actuation.h"
 #include "engine/simulate/frames.h"
+#include "engine/simulate/mesh_policy.h"
 #include "engine/simulate/path_sampler.h"
 
 namespace gridshell::simulate {
@@ -49,10 +50,6 @@ bool snapped(const PathSegment& segment) {
 void close(PathSegment& segment, const Simulation& simulation) {
   if (!segment.load_steps.empty()) {
     segment.from = segment.load_steps.front().point.t;
-    // one mesh alone knows no error
-    for (LoadStep& load_step : segment.load_steps)
-      if (std::isnan(load_step.certificate.error_estimate_mm))
-        load_step.certificate.error_estimate_mm = simulation.certificate().error_estimate_mm;
     return;
   }
   segment.load_steps.push_back({simulation.shell().point(), simulation.certificate()});
@@ -65,6 +62,7 @@ Result<Work> do_steps(const std::shared_ptr<const Scene>& scene,
   TRY(actuated, follow_whole_actuation(scene, plan, "to begin with", watch));
   Checkpoint begin = actuated->simulation.save();
   Work work{std::move(*actuated), std::move(begin)};
+  if (work.too_coarse()) return work;
   work.earlier = std::exchange(work.segments, {});
   work.single_motion = false;
   Simulation& simulation = work.simulation;
@@ -81,10 +79,7 @@ Result<Work> do_steps(const std::shared_ptr<const Scene>& scene,
     segment.report = std::move(*report);
     static_cast<PathRecord&>(segment) = std::move(way);
     close(segment, simulation);
-    Checkpoint end = simulation.save();
-    // a push that no mesh follows goes no way
-    if (way.end.plan.edges_per_segment.empty()) way.end = end;
-    work.done.push_back({std::move(way.end), std::move(end)});
+    work.done.push_back({std::move(way.end), simulation.save()});
     if (kind == StepKind::open) work.done.back().told = ", " + text_of_opened(simulation);
     if (segment.report.end != Outcome::reached) break;
   }
@@ -107,12 +102,10 @@ class Show {
 
   Result<void> all() {
     Simulation& simulation = work_.simulation;
-    if (!work_.done.empty()) meshes_ = work_.done.back().end.plan;
-    if (auto stood = stand(work_.begin); !stood) return stood;
+    simulation.restore(work_.begin);
     boundary_ = {1, 1};
     // of no step
     if (auto first = sampler_->take_current({0, steps_.size(), 1, 0}, "", 1); !first) return first;
-    shown_ = true;
     for (step_ = 0; step_ < work_.done.size(); ++step_)
       if (auto shown = one(); !shown) return shown;
     simulation.restore(work_.done.empty() ? work_.begin : work_.done.back().end);
@@ -120,22 +113,6 @@ class Show {
   }
 
  private:
-  /// Stands in a state, on the meshes of the last one: frames have the same nodes. Errors:
-  /// no_equilibrium where these meshes do not have it.
-  Result<void> stand(const Checkpoint& state) {
-    Simulation& simulation = work_.simulation;
-    simulation.restore(state);
-    if (state.plan.edges_per_segment == meshes_.edges_per_segment) return {};
-    const auto fine = simulation.remesh(meshes_, watch_);
-    if (watch_.cancelled()) return stopped();
-    if (fine && fine->end == Outcome::reached) return {};
-    return fail(Fault::no_equilibrium,
-                "the steps end on {} edges a segment, which do not have the state {} "
-                "step {}; what may help: --set accuracy.leading_edges={}",
-                meshes_.edges_per_segment.back(), shown_ ? "after" : "before", step_ + 1,
-                meshes_.edges_per_segment.front());
-  }
-
   /// The frames on the way of a step, and the one at its end.
   Result<void> one() {
     const Done& done = work_.done[step_];
@@ -149,23 +126,18 @@ class Show {
                              : segment.from + part * (segment.end() - segment.from);
       if (auto taken = between(done, sample(t)); !taken) return taken;
     }
-    if (auto stood = stand(done.end); !stood) return stood;
+    work_.simulation.restore(done.end);
     const PathSample last = sample(segment.end());
     return sampler_->take_current(last, event(last), last.t);
   }
 
-  /// A sample of the way, on the meshes of its end; what has no state on them is left out.
+  /// A sample of the path of a step; what has no state is left out.
   Result<void> between(const Done& done, const PathSample& sample) {
     Simulation& simulation = work_.simulation;
     simulation.restore(done.way_end);
     const CertifiedSample stood = certify_sample(work_, sample, watch_);
     if (watch_.cancelled()) return stopped();
     if (stood.report.end != Outcome::reached) return {};
-    if (simulation.shell().plan().edges_per_segment != meshes_.edges_per_segment) {
-      const auto fine = simulation.remesh(meshes_, watch_);
-      if (watch_.cancelled()) return stopped();
-      if (!fine || fine->end != Outcome::reached) return {};
-    }
     return sampler_->take_current(sample, sampler_->events(sample, stood.past), stood.past);
   }
 
@@ -197,11 +169,9 @@ class Show {
   Work& work_;
   const std::vector<preset::Step>& steps_;
   Watch& watch_;
-  LevelPlan meshes_ = work_.begin.plan;  // of all frames
   std::vector<int> shares_;
   int count_ = 0, index_ = 0;
   std::size_t step_ = 0;
-  bool shown_ = false;                    // the state before the first step
   std::array<double, 2> boundary_{1, 1};  // progress before and after the step
   std::optional<PathSampler> sampler_;
 };
@@ -245,9 +215,11 @@ void put_loads(const Work& work, const std::vector<preset::Step>& steps, record:
   for (std::size_t k = 0; k < work.done.size(); ++k) {
     if (steps[k].kind != StepKind::push) continue;
     const Checkpoint& end = work.done[k].end;
-    const auto pushed = joint_of(steps[k], work.simulation.scene().footprint);
-    const auto origin = pushed ? end.grip_origins.find(*pushed) : end.grip_origins.end();
-    if (origin == end.grip_origins.end()) continue;  // a push that was refused holds nothing
+    const auto joint_pushed = joint_of(steps[k], work.simulation.scene().footprint);
+    // a push that was refused holds nothing
+    const auto origin =
+        joint_pushed ? end.grip_origins.find(*joint_pushed) : end.grip_origins.end();
+    if (origin == end.grip_origins.end()) continue;
     const int joint = origin->first;
     const Eigen::Vector3d moved = end.state.x.col(joint) - origin->second;
     const bool there = std::ranges::any_of(layout.loaded_joints,
@@ -324,7 +296,7 @@ Result<StepsResult> run_steps(const std::shared_ptr<const Scene>& scene,
       watch);
   if (!work) return tl::unexpected<Error>(work.error());
   name_step_of_limit(*work, steps);
-  locate_contacts(*work, on_its_way, watch);
+  work->contacts = contact_events(*work, on_its_way);
   for (ContactEvent& event : work->contacts)
     event.text = fmt::format("step {} ({}): {}", event.segment + 1, text_of(steps[event.segment]),
                              event.text);

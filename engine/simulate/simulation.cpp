@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <new>
 
 #include "engine/core/system_info.h"
 #include "engine/core/try.h"
@@ -40,17 +39,28 @@ std::optional<Event> Simulation::beyond_limits() const { return beyond(limits())
 Result<Simulation> Simulation::open(std::shared_ptr<const Scene> scene, const LevelPlan& plan) {
   Simulation simulation(std::move(scene));
   simulation.set_progress(0);
-  TRY_DO(simulation.build(plan));
+  TRY(shell, simulation.build(plan));
+  simulation.use(std::move(*shell));
   return simulation;
 }
 
-Result<void> Simulation::build(const LevelPlan& plan) {
+/// The shell of rods() on the meshes of a plan, as it was built before if it was.
+Result<std::shared_ptr<NestedShell>> Simulation::build(const LevelPlan& plan) {
+  for (const auto& built : built_)
+    if (built->plan() == plan) return built;
   TRY(shell, NestedShell::make(scene_->footprint, rods(), scene_->solved_model(), scene_->motion,
                                plan, options_for(*scene_)));
-  if (shell_) spent_ += shell_->effort();
-  shell_ = std::make_unique<NestedShell>(std::move(*shell));
+  return built_.emplace_back(std::make_shared<NestedShell>(std::move(*shell)));
+}
+
+void Simulation::use(std::shared_ptr<NestedShell> shell) {
+  if (shell_) {
+    shell_->free_memory();
+    spent_ += shell_->effort();
+  }
+  shell_ = std::move(shell);
+  spent_ = spent_ - shell_->effort();  // that is counted already, or another's
   search_.emplace(simulate::parts_of(*scene_, shell_->finest()));
-  return {};
 }
 
 // ---- reports ----
@@ -100,10 +110,9 @@ void Simulation::put_push_errors(record::Frame& frame) const {
 }
 
 Energies Simulation::energies() const {
-  const int last = shell_->levels() - 1;
+  const int last = shell_->last();
   const Energies fine = shell_->energies(last);
-  if (!shell_->plan().extrapolate_forces || last == 0) return fine;
-  return extrapolated(fine, shell_->energies(last - 1));
+  return shell_->extrapolates_forces() ? extrapolated(fine, shell_->energies(last - 1)) : fine;
 }
 
 bool Simulation::locked() const {
@@ -195,7 +204,7 @@ Report Simulation::begin_flat() {
 
 Result<Report> Simulation::begin_buckled(double shortening, const Watch& watch) {
   const CallBegin begin = call_begin();
-  TRY(t, parameter_of_shortening(shell_->mesh(0), shell_->motion(0), shortening));
+  TRY(t, parameter_of_shortening(shell_->finest(), shell_->motion(), shortening));
   TRY(first, buckled_state(*shell_, *scene_, rods(), *t, watch));
   const Report there = begin_at(*t, *first, watch);
   return report(there.end, there.t, begin);
@@ -211,12 +220,19 @@ Result<Report> Simulation::begin_as_drawn(const Watch& watch) {
   return begin_at(0, *rest, watch);
 }
 
-Report Simulation::begin_at(double t, const State& coarse, const Watch& watch) {
+Report Simulation::begin_refined(double t, const State& coarse, const Watch& watch) {
+  shell_->actuate(t, {}, load_scale_);
+  const auto fine = shell_->refined(t, coarse, watch);
+  if (fine) return begin_at(t, *fine, watch);
+  return report(watch.cancelled() ? Outcome::cancelled : Outcome::not_converged, t, call_begin());
+}
+
+Report Simulation::begin_at(double t, const State& fine, const Watch& watch) {
   const CallBegin begin = call_begin();
   actuating_ = true;
   holds_.clear();
   shell_->actuate(t, {}, load_scale_);
-  const NestedReport nested = shell_->start(t, coarse, watch);
+  const NestedReport nested = shell_->start(t, fine, watch);
   if (nested.end == Outcome::reached) set_progress(progress_at(t));
   return report(nested.end, nested.t, begin);
 }
@@ -228,29 +244,23 @@ void Simulation::set_progress(double progress) {
 
 // ---- keep ----
 
-/// Other meshes or rods in the place of these, at rest where these stand; if they are not, these
-/// stay.
+/// Other meshes or rods in the place of these, in equilibrium where these are; if they are not,
+/// these stay.
 Result<Outcome> Simulation::replace_meshes(const LevelPlan& plan, bool nearby, const Watch& watch) {
-  // joints on their way to other angles stand on the meshes that they open on
-  if (!nearby && shell_->outside(0).opening != 0) return Outcome::meshes_disagree;
-  std::unique_ptr<NestedShell> before = std::move(shell_);
-  const auto back = [&] {
-    if (shell_) spent_ += shell_->effort();
-    shell_ = std::move(before);
-    search_.emplace(simulate::parts_of(*scene_, shell_->finest()));
-  };
-  if (auto built = build(plan); !built) {
-    back();
-    return tl::unexpected<Error>(built.error());
-  }
+  // joints on their way to other angles stay on the meshes that they open on
+  if (!nearby && shell_->outside(shell_->last()).opening != 0) return Outcome::too_coarse;
+  TRY(built, build(plan));
+  if (*built == shell_) return Outcome::reached;
+  const std::shared_ptr<NestedShell> before = shell_;
+  use(*built);
   shell_->set_fields(field_, {});
   const double t = actuating_ ? before->state().t : 0;
   State state = shell_->stay(*before, holds_);
   if (actuating_) shell_->actuate(t, holds_, load_scale_);
   if (nearby) {
-    shell_->motion(0).apply_loads(shell_->system(0), t);
+    shell_->motion().apply_loads(shell_->system(), t);
     if (auto rest =
-            find_equilibrium(shell_->system(0), state, 0.5 * scene_->footprint.spacing, watch))
+            find_equilibrium(shell_->system(), state, 0.5 * scene_->footprint.spacing, watch))
       state = std::move(*rest);
   }
   // a state that is not stable is one on finer meshes too
@@ -258,25 +268,21 @@ Result<Outcome> Simulation::replace_meshes(const LevelPlan& plan, bool nearby, c
   Outcome end = shell_->start(t, state, watch).end;
   shell_->allow_unstable(false);
   if (watch.cancelled()) end = Outcome::cancelled;
-  if (end == Outcome::reached)
-    spent_ += before->effort();
-  else
-    back();
+  if (end != Outcome::reached) use(before);
   return end;
 }
 
 Checkpoint Simulation::save() const {
-  return {shell_->state(),  shell_->plan(), rods_,      shell_->motions(), holds_,       field_,
-          load_scale_,      progress_,      actuating_, boundary,          grip_origins, cases,
+  return {shell_->state(),  shell_,    rods_,      shell_->motions(), holds_,       field_,
+          load_scale_,      progress_, actuating_, boundary,          grip_origins, cases,
           first_stiffness_, along_};
 }
 
 void Simulation::restore(const Checkpoint& kept) {
-  if (kept.rods.has_value() != rods_.has_value() || rods_.has_value() ||
-      kept.plan.edges_per_segment != shell_->plan().edges_per_segment) {
+  if (kept.shell != shell_) {
+    if (kept.rods.has_value() || rods_.has_value()) built_ = {kept.shell};
     rods_ = kept.rods;
-    // it was built before: what stops it now is memory, and half a state is worse than none
-    if (!build(kept.plan)) throw std::bad_alloc();
+    use(kept.shell);
   }
   holds_ = kept.holds;
   load_scale_ = kept.load_scale;

@@ -32,18 +32,22 @@ struct Certificate {
 struct Event {
   enum class Kind { stability_lost, turned_back, locked, overbent, contact };
   Kind kind = Kind::stability_lost;
-  double t = 0;                 ///< where: as one mesh says, or extrapolated where two say it
-  std::optional<double> error;  ///< of t, where two meshes say it
-  std::optional<double> to;     ///< where the next rest stands, if one was found
-  bool leap = true;             ///< whether that lies apart; else on a branch that leaves there
+  double t = 0;                 ///< position on the path, extrapolated where two meshes have it
+  std::optional<double> error;  ///< of t, where two meshes have it
+  std::optional<double> to;     ///< path parameter of the next equilibrium, if one was found
+  bool leap = true;             ///< whether that is another state; else on a branch from there
+  bool confirmed = true;        ///< whether the companion has it too, if there is one
   /// of a contact: of which parts, and where in space; of rods strained too far: by which limit;
-  /// of rods at their length: not empty where they are so in the rest beyond a snap
+  /// of rods at their length: not empty where they are so in the equilibrium after a snap
   std::string what = {};
-  /// What one mesh, of so many edges a segment, says of t, and to how much it was looked for there.
-  struct Place {
+  /// The event on one mesh of so many edges per segment, and to how much it was located.
+  struct Location {
     int edges = 0;
     double t = 0, located = 0;
-  } placed = {};
+  } placed = {};  ///< on the mesh that was followed
+
+  /// Sets t and its error from where another mesh has the event, by second order.
+  void extrapolate(const Location& other);
 
   /// Whether the path ends there in the last state before.
   bool is_limit() const {
@@ -113,10 +117,11 @@ struct CaseOnShell {
   double factor = 0;
 };
 
-/// A state to go back to; taking one and going back cost a copy.
+/// A state to go back to; taking one and going back cost a copy. It keeps the meshes that it was
+/// taken on, so that going back cannot fail.
 struct Checkpoint {
   NestedState state;
-  LevelPlan plan;
+  std::shared_ptr<NestedShell> shell;
   std::optional<ShellRods> rods;
   std::vector<PinnedMotion> motions;  ///< one a mesh
   std::vector<Constraint> holds;
@@ -155,8 +160,10 @@ class Simulation {
   Result<Report> begin_on_net(const Watch& watch);
   /// The rest that a network drawn in space comes to.
   Result<Report> begin_as_drawn(const Watch& watch);
-  /// A state of the coarsest mesh, at rest or nearly.
-  Report begin_at(double t, const State& coarse, const Watch& watch);
+  /// A state of the finest mesh, in equilibrium or nearly.
+  Report begin_at(double t, const State& fine, const Watch& watch);
+  /// A state of the coarsest mesh, brought to the finest.
+  Report begin_refined(double t, const State& coarse, const Watch& watch);
 
   // ---- move ----
 
@@ -253,7 +260,8 @@ class Simulation {
 
  private:
   Simulation(std::shared_ptr<const Scene> scene);
-  Result<void> build(const LevelPlan& plan);
+  Result<std::shared_ptr<NestedShell>> build(const LevelPlan& plan);
+  void use(std::shared_ptr<NestedShell> shell);
   struct CallBegin {
     Effort effort;
     double seconds;
@@ -281,7 +289,9 @@ class Simulation {
 
   std::shared_ptr<const Scene> scene_;
   std::optional<ShellRods> rods_;  // in the place of the scene's
-  std::unique_ptr<NestedShell> shell_;
+  std::shared_ptr<NestedShell> shell_;
+  /// Those of rods(), by their edges per segment: a drag changes between two of them.
+  std::vector<std::shared_ptr<NestedShell>> built_;
   std::optional<record::ContactSearch> search_;  // on its finest mesh
   std::vector<Constraint> holds_;
   std::vector<NodeAction> field_;  // that is there

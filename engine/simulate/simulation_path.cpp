@@ -16,13 +16,21 @@
 
 namespace gridshell {
 
-/// Follows the stiffness of the softest mode on the leading mesh from load step to load step. A
+void Event::extrapolate(const Location& other) {
+  const double times = double(placed.edges) / other.edges;
+  const double left = (placed.t - other.t) / (times * times - 1);
+  // of a limit the finest mesh decides, and the state that is kept is its own
+  if (!is_limit()) t = placed.t + left;
+  error = std::abs(left) + placed.located + other.located;
+}
+
+/// Follows the stiffness of the lowest mode from load step to load step. A
 /// branch may lose its stability and regain it within one step, and the shell would have left it
 /// in between: where the stiffness heads for zero, steps become short enough to see that.
 class StabilityStepControl {
  public:
   /// After a load step that was certified.
-  void take(NestedShell& shell, const Watch& watch);
+  void take(const NestedState& state);
   /// Nothing is known of the path: it goes on from somewhere else.
   void forget() { known_.clear(); }
   /// The load step to take in the place of `step`, at least an eighth of it.
@@ -35,12 +43,9 @@ class StabilityStepControl {
   std::vector<simulate::Softness> known_;  // at the last two load steps
 };
 
-void StabilityStepControl::take(NestedShell& shell, const Watch& watch) {
-  constexpr double roughly = 0.02;  // the trend is enough
-  const Eigen::VectorXd alike = Eigen::VectorXd::Ones(shell.model(0).nodes);
+void StabilityStepControl::take(const NestedState& state) {
   if (known_.size() > 1) known_.erase(known_.begin());
-  known_.push_back({shell.state().t, lowest_eigenvalue(shell.system(0), shell.state().levels[0],
-                                                       alike, watch, roughly)});
+  known_.push_back({state.t, state.lowest_eigenvalue});
 }
 
 double StabilityStepControl::shortened(double step) const {
@@ -58,7 +63,6 @@ namespace {
 constexpr double push_step = 0.02;       // of the length scale: the largest load step
 constexpr double actuation_step = 0.05;  // in the path parameter
 constexpr double locate_mm = 5e-3;       // of prescribed move: to which a limit is located
-constexpr int most_halvings = 5;         // of a load step that a finer mesh does not follow
 constexpr double loads_ways = 4;         // of the loads, what counts as the length scale of a move
 // branches left on one way; where rods press on one another they slip past each other again and
 // again
@@ -87,17 +91,22 @@ class Simulation::Walk {
   void tell() const;
   void keep();
   bool goes_on();
+  bool watches_stability() const {
+    return record_ && of_.actuating_ && leaving_.wanted && scene_.imperfection.chooses();
+  }
   void keep_segment(std::optional<Outcome> end);
   Outcome step();
   Outcome step_came(double next, const NestedState& good);
   Outcome branch_ended(Outcome how, double next, const NestedState& good);
   Outcome end_at(Event limit);
   Outcome end_before(Event limit, double bad, const NestedState& good);
+  bool too_coarse();
   double located_to() const;
   double parameter_scale(double t) const;
   void bisect(double bad, const NestedState& good, const std::function<bool()>& accepted);
-  bool leave(Event& event);
-  bool finest_goes_on();
+  bool leave(Event& event, std::vector<TimedState>& moments);
+  void confirm(Event& event);
+  void keep_companion();
 
   Simulation& of_;
   NestedShell& shell_ = *of_.shell_;
@@ -110,8 +119,9 @@ class Simulation::Walk {
   Limits limits_ = of_.limits_here();
   bool from_beyond_ = of_.beyond_limits().has_value();
   StabilityStepControl softening_;
-  int halvings_ = 0;
   std::vector<Event> events_;
+  std::optional<double> unmeasured_since_;  // path parameter: no companion has a state since
+  std::optional<TimedState> companion_;     // its last state on this branch; time: path parameter
   // of a segment that is kept, as it was after the last step
   simulate::KeptSegments* kept_ = record_ ? scene_.kept.get() : nullptr;
   simulate::KeptSegment segment_;
@@ -126,6 +136,7 @@ Report Simulation::go(double t, const Watch& watch, const BifurcationPolicy& lea
 Report Simulation::Walk::all() {
   const CallBegin begin = of_.call_begin();
   shell_.allow_unstable(leaving_.through_unstable);
+  shell_.watch_stability(watches_stability());
   Outcome end = Outcome::reached;
   if (goes_on()) {
     end = segment_.end.value_or(end);
@@ -139,7 +150,8 @@ Report Simulation::Walk::all() {
   }
   if (end != Outcome::cancelled) keep_segment(end);
   shell_.allow_unstable(false);
-  // the leader may stand ahead of what is certified
+  shell_.watch_stability(false);
+  // the path may be ahead of what is certified
   if (end != Outcome::reached && !at_limit(end)) shell_.back_to(shell_.state());
   Report done = of_.report(end, now(), begin);
   done.events = std::move(events_);
@@ -153,15 +165,15 @@ void Simulation::Walk::note() {
 
 /// Tells who watches where the path stands.
 void Simulation::Walk::tell() const {
-  if (&watch_ != &unwatched) watch_.stand_at(now(), shell_.plan().edges_per_segment.front());
+  if (&watch_ != &unwatched) watch_.stand_at(now(), shell_.plan().edges_per_segment.back());
 }
 
-/// Notes a load step from which the path goes on.
+/// Notes a load step from which the path continues.
 void Simulation::Walk::keep() {
   note();
   tell();
-  if (record_ && of_.actuating_ && leaving_.wanted && scene_.imperfection.chooses())
-    softening_.take(shell_, watch_);
+  keep_companion();
+  if (watches_stability()) softening_.take(shell_.state());
 }
 
 // ---- what an earlier run kept of it ----
@@ -180,7 +192,6 @@ bool Simulation::Walk::goes_on() {
   of_.charge(segment_.effort);
   static_cast<PathRecord&>(*record_) = std::move(segment_.record);
   events_ = segment_.events;
-  halvings_ = segment_.halvings;
   softening_.know(segment_.softening);
   const bool stays = std::ranges::any_of(events_, [](const Event& event) {
     return event.kind == Event::Kind::stability_lost && !event.to;
@@ -199,7 +210,6 @@ void Simulation::Walk::keep_segment(std::optional<Outcome> end) {
   segment_.state = shell_.state();
   segment_.events = events_;
   segment_.effort = of_.effort() - effort_before_;
-  segment_.halvings = halvings_;
   segment_.softening = softening_.known();
   // lent, as it may be large
   std::swap<PathRecord>(segment_.record, *record_);
@@ -211,24 +221,16 @@ void Simulation::Walk::keep_segment(std::optional<Outcome> end) {
 
 Outcome Simulation::Walk::step() {
   if (watch_.cancelled()) return Outcome::cancelled;
-  const double left = to_ - now();
-  const double step = softening_.shortened(of_.load_step()) / (1 << halvings_);
+  const double left = to_ - now(), longest = softening_.shortened(of_.load_step());
+  // where the path itself needs short steps, its load steps are no much longer ones
+  const double step = std::clamp(shell_.state().step, longest / 8, longest);
   const int steps = std::max(1, int(std::ceil(std::abs(left) / step - 1e-9)));
   const double next = steps == 1 ? to_ : now() + left / steps;
   const NestedState good = shell_.state();
   const Outcome end = shell_.advance(next, watch_).end;
   if (end == Outcome::reached) return step_came(next, good);
-  // a finer mesh that did not follow is asked again nearer by
-  if (end == Outcome::meshes_disagree && ++halvings_ <= most_halvings) {
-    shell_.back_to(good);
-    return Outcome::reached;
-  }
-  // what it finds beside a leader that it followed with trouble alone is another state
-  const bool led = shell_.followed().t == next;
-  if (end == Outcome::unstable && led && halvings_ >= most_halvings)
-    return Outcome::meshes_disagree;
   const bool ended = end == Outcome::unstable || end == Outcome::lost;
-  const std::size_t most = shell_.model(0).contact.any() ? most_events_in_contact : most_events;
+  const std::size_t most = shell_.model().contact.any() ? most_events_in_contact : most_events;
   if (!ended || !leaving_.wanted || events_.size() >= most) return end;
   return branch_ended(end, next, good);
 }
@@ -239,102 +241,116 @@ Outcome Simulation::Walk::step_came(double next, const NestedState& good) {
     limits_ = of_.limits();
     from_beyond_ = false;
   }
-  halvings_ = std::max(halvings_ - 1, 0);
   keep();
-  return Outcome::reached;
+  return too_coarse() ? Outcome::too_coarse : Outcome::reached;
 }
 
-/// The branch ended between `good` and `next`: goes on from the next rest, along the states that
-/// are not stable, or not at all.
+/// Whether the path need not be followed further on this mesh: its estimate is above what the plan
+/// allows, or no companion has had a state for longer than events of two meshes lie apart.
+bool Simulation::Walk::too_coarse() {
+  const LevelPlan& plan = shell_.plan();
+  if (!std::isfinite(plan.allowed_mm) || !of_.certificate().stable()) return false;
+  if (shell_.state().measured < shell_.last()) {
+    unmeasured_since_.reset();
+    return of_.certificate().error_estimate_mm > plan.allowed_mm;
+  }
+  if (!unmeasured_since_) unmeasured_since_ = now();
+  return std::abs(now() - *unmeasured_since_) > plan.events_apart;
+}
+
+/// The branch ended between `good` and `next`: continues from the next equilibrium, along the
+/// states that are not stable, or not at all.
 Outcome Simulation::Walk::branch_ended(Outcome how, double next, const NestedState& good) {
   const auto kind =
       how == Outcome::unstable ? Event::Kind::stability_lost : Event::Kind::turned_back;
-  const double last = shell_.followed().t;
-  // what the finer meshes lost and the leader did not is not located yet
-  const bool ahead = last == next && kind == Event::Kind::stability_lost;
-  // nor is a limit that was asked for
-  const bool asked = scene_.stops_at_contact || scene_.limits_strength();
-  bool on_finest = ahead;
-  if (ahead || asked) {
-    on_finest = ahead || shell_.advance(last, watch_).end != Outcome::reached;
-    if (on_finest) bisect(next, good, [] { return true; });
-    if (auto limit = asked ? of_.beyond(limits_) : std::nullopt)
-      return end_before(std::move(*limit), now(), good);
-    if (now() != good.t) note();
-  }
+  // what is lost by the Hessian at the end of a step alone is not located yet, nor is a limit
+  if (shell_.followed().t == next && kind == Event::Kind::stability_lost)
+    bisect(next, good, [] { return true; });
+  else if (scene_.stops_at_contact || scene_.limits_strength())
+    shell_.advance(shell_.followed().t, watch_);
+  if (auto limit = of_.beyond(limits_)) return end_before(std::move(*limit), now(), good);
+  if (now() != good.t) note();
   const NestedState end_of_branch = shell_.state();
-  const double t = shell_.followed().t;
-  const std::vector<int>& edges = shell_.plan().edges_per_segment;
-  events_.push_back({.kind = kind, .t = t, .error = {}, .to = {}});
-  events_.back().placed =
-      on_finest ? Event::Place{edges.back(), t, located_to()} : Event::Place{edges.front(), t};
-  if (shell_.plan().finest_decides && !on_finest && finest_goes_on()) return how;
+  Event event{.kind = kind, .t = shell_.followed().t, .error = {}, .to = {}};
+  event.placed = {shell_.plan().edges_per_segment.back(), event.t, located_to()};
+  confirm(event);
   if (kind == Event::Kind::stability_lost && !scene_.imperfection.chooses()) {
+    events_.push_back(std::move(event));
     shell_.back_to(end_of_branch);
     shell_.allow_unstable(true);
     return Outcome::reached;
   }
-  if (!leave(events_.back())) return watch_.cancelled() ? Outcome::cancelled : how;
-  if (auto limit = of_.beyond(limits_)) {
-    // the rest beyond would need longer or thinner rods, or room where others are
-    shell_.back_to(end_of_branch);
-    events_.pop_back();
-    // its frames in time go with it: no load step is where it landed
-    if (record_ && !record_->snaps.empty() &&
-        record_->snaps.back().before + 1 >= record_->load_steps.size())
-      record_->snaps.pop_back();
-    if (limit->kind == Event::Kind::locked) limit->what = "beyond a snap";
-    return end_before(std::move(*limit), t, end_of_branch);
+  std::vector<TimedState> moments;
+  if (!leave(event, moments)) {
+    events_.push_back(std::move(event));
+    return watch_.cancelled() ? Outcome::cancelled : how;
   }
+  if (auto limit = of_.beyond(limits_)) {
+    // the state past it would need longer or thinner rods, or room where others are
+    shell_.back_to(end_of_branch);
+    if (limit->kind == Event::Kind::locked) limit->what = "beyond a snap";
+    return end_before(std::move(*limit), event.t, end_of_branch);
+  }
+  if (record_ && !moments.empty())
+    record_->snaps.push_back({record_->load_steps.size() - 1, std::move(moments)});
+  events_.push_back(std::move(event));
+  unmeasured_since_.reset();
+  companion_.reset();
   softening_.forget();
   keep();
   return Outcome::reached;
 }
 
-/// Whether the finest mesh, led by itself, comes clearly past the place where the leader lost the
-/// branch.
-bool Simulation::Walk::finest_goes_on() {
-  constexpr double clearly = 0.05;  // in the path parameter
-  const int finest = shell_.levels() - 1;
-  if (finest == 0) return false;
-  const NestedState here = shell_.state();
-  const PathPoint lost = shell_.followed();
-  const double past = lost.t + (to_ > lost.t ? clearly : -clearly);
+void Simulation::Walk::keep_companion() {
+  const int companion = shell_.last() - 1;
+  if (companion >= 0 && shell_.state().measured <= companion)
+    companion_ = TimedState{now(), shell_.state().levels[std::size_t(companion)]};
+}
+
+/// Looks for an event of the path on the companion, from its last state before: the path then
+/// stands where it stood, but for loads.
+void Simulation::Walk::confirm(Event& event) {
+  const int companion = shell_.last() - 1;
+  if (companion < 0) return;
+  keep_companion();
+  event.confirmed = false;
+  if (!companion_) return;
+  constexpr double found_to = 5e-5;  // in the path parameter
   PathOptions options;
   options.spacing_mm = scene_.footprint.spacing;
-  PathFollower path(shell_.system(finest), shell_.motion(finest), options);
-  const bool goes_on =
-      path.start(here.t, here.levels[std::size_t(finest)], watch_).end == Outcome::reached &&
-      path.advance(to_ > lost.t ? std::min(past, to_) : std::max(past, to_), watch_).end ==
-          Outcome::reached;
-  // the path stands where it was lost
-  shell_.back_to(here);
-  shell_.place(lost.t, lost.state);
-  return goes_on;
+  // the last step that was too long may be nearly twice the smallest
+  options.smallest_step = found_to / 2;
+  PathFollower path(shell_.system(companion), shell_.motion(companion), options);
+  if (path.start(companion_->time, companion_->state, watch_).end != Outcome::reached) return;
+  const double past = event.t + std::copysign(shell_.plan().events_apart, to_ - event.t);
+  if (path.advance(past, watch_).end == Outcome::reached) return;
+  event.confirmed = true;
+  const auto& edges = shell_.plan().edges_per_segment;
+  event.extrapolate({edges[std::size_t(companion)], path.point().t, found_to});
 }
 
 /// By how much the path parameter changes while the boundary moves by the length scale, or, where
 /// that is sooner, the loads by what they are.
 double Simulation::Walk::parameter_scale(double t) const {
-  const PinnedMotion& motion = shell_.motion(0);
+  const PinnedMotion& motion = shell_.motion();
   const double speed = motion.speed(t);
   // joints that are opened count by the whole way that they are to open
   if (motion.opening.change != 0) return 1;
   const double boundary = scene_.length_scale_mm / std::max(shell_.reach_mm() * speed, 0.1);
   const double rate = std::abs(speed * motion.load.change);
-  if (rate == 0 || shell_.model(0).loads.empty()) return boundary;
+  if (rate == 0 || shell_.model().loads.empty()) return boundary;
   return std::min(boundary, loads_ways * std::abs(motion.factor_at(motion.load, t)) / rate);
 }
 
-/// The branch ended: comes to rest again a little further on. The meshes lose it at slightly
-/// different places; beyond the last of them all find the new state.
-bool Simulation::Walk::leave(Event& event) {
+/// The branch ended: the next equilibrium a little further on, where it is far enough from the
+/// event to be found.
+bool Simulation::Walk::leave(Event& event, std::vector<TimedState>& moments) {
   const PathPoint last = shell_.followed();
   const double way = to_ > last.t ? 1 : -1;
   for (double beyond = 1e-3; beyond < 0.1; beyond *= 2) {
     double there = last.t + way * beyond * parameter_scale(last.t);
     if (way * (there - to_) > 0) there = to_;
-    std::vector<TimedState> moments;
+    moments.clear();
     const auto rest =
         rest_after_bifurcation(shell_, scene_, last, event.kind, there, moments, watch_);
     if (watch_.cancelled()) return false;
@@ -343,8 +359,6 @@ bool Simulation::Walk::leave(Event& event) {
       event.leap = event.kind != Event::Kind::stability_lost ||
                    !on_branch_from(shell_, scene_, last, there, *rest, watch_);
       shell_.apply_loads();
-      if (record_ && !moments.empty())
-        record_->snaps.push_back({record_->load_steps.size() - 1, std::move(moments)});
       return true;
     }
     if (there == to_) break;

@@ -43,7 +43,7 @@ Report Simulation::drive(const PrescribedMove& drive, std::vector<NodeAction> co
   holds_ = held;
   actuating_ = false;
   first_stiffness_ = 0;
-  const NestedReport started = shell_->start(0, shell_->state().levels[0], watch);
+  const NestedReport started = shell_->start(0, shell_->state().levels.back(), watch);
   if (started.end != Outcome::reached) return report(started.end, 0, begin);
   Report done = go(1, watch, {}, record);
   std::vector<NodeAction> field = field_;
@@ -60,7 +60,7 @@ Report Simulation::move_to(double progress, const Watch& watch, PathRecord* reco
     const double now = parameter_at(progress_);
     shell_->actuate(now, holds_, load_scale_);
     actuating_ = true;
-    const NestedReport started = shell_->start(now, shell_->state().levels[0], watch);
+    const NestedReport started = shell_->start(now, shell_->state().levels.back(), watch);
     if (started.end != Outcome::reached) return report(started.end, now, call_begin());
   }
   return go(t, watch, {}, record);
@@ -86,7 +86,7 @@ Report Simulation::begin_joint_push(std::vector<Constraint> holds,
   shell_->drive({.holds = holds, .displacements = std::move(displacements), .load = load});
   holds_ = std::move(holds);
   actuating_ = false;
-  const NestedReport nested = shell_->start(0, shell_->state().levels[0], watch);
+  const NestedReport nested = shell_->start(0, shell_->state().levels.back(), watch);
   if (nested.end == Outcome::reached) first_stiffness_ = push_stiffness();
   return report(nested.end, nested.t, begin);
 }
@@ -124,7 +124,7 @@ Report Simulation::release(int joint, const Watch& watch) {
   restore(held);
   shell_->drive({.holds = left, .load = load});
   holds_ = left;
-  const auto found = minimise_from(shell_->system(0), shell_->state().levels[0], watch);
+  const auto found = minimise_from(shell_->system(), shell_->state().levels.back(), watch);
   Outcome end = Outcome::not_converged;
   if (found) end = shell_->start(0, *found, watch).end;
   if (end != Outcome::reached) restore(held);
@@ -158,9 +158,10 @@ Report Simulation::rest(const Watch& watch, BranchSide side) {
   const CallBegin begin = call_begin();
   const Checkpoint good = save();
   const double t = shell_->state().t;
-  BranchSwitch departure = departure_of(*scene_, shell_->mesh(0), shell_->model(0));
+  BranchSwitch departure = departure_of(*scene_, shell_->finest(), shell_->model());
   if (side != BranchSide::lower) departure.side = side;
-  const auto found = minimise_from(shell_->system(0), shell_->state().levels[0], watch, departure);
+  const auto found =
+      minimise_from(shell_->system(), shell_->state().levels.back(), watch, departure);
   Outcome end = watch.cancelled() ? Outcome::cancelled : Outcome::not_converged;
   if (found) end = shell_->start(t, *found, watch).end;
   if (end != Outcome::reached) restore(good);
@@ -173,7 +174,7 @@ Report Simulation::rest_in_time(const Watch& watch,
   const Checkpoint good = save();
   Outcome end = Outcome::not_converged;
   if (const auto rest =
-          gridshell::rest_in_time(*shell_, *scene_, shell_->state().levels[0], {}, seen, watch))
+          gridshell::rest_in_time(*shell_, *scene_, shell_->state().levels.back(), {}, seen, watch))
     end = shell_->start(shell_->state().t, *rest, watch).end;
   if (watch.cancelled()) end = Outcome::cancelled;
   if (end != Outcome::reached) restore(good);
@@ -183,8 +184,12 @@ Report Simulation::rest_in_time(const Watch& watch,
 Result<Report> Simulation::set_rods(const ShellRods& rods, const Watch& watch) {
   const CallBegin begin = call_begin();
   std::optional<ShellRods> old = std::exchange(rods_, rods);
+  auto built = std::exchange(built_, {});
   const auto taken = replace_meshes(shell_->plan(), true, watch);
-  if (!taken || *taken != Outcome::reached) rods_ = std::move(old);
+  if (!taken || *taken != Outcome::reached) {
+    rods_ = std::move(old);
+    built_ = std::move(built);
+  }
   if (!taken) return tl::unexpected<Error>(taken.error());
   return report(*taken, shell_->state().t, begin);
 }

@@ -102,60 +102,6 @@ Result<Report> push(Simulation& simulation, const Goal& goal, const Watch& watch
   return report;
 }
 
-/// The meshes to try where finer ones do not have what `plan`'s leader came to.
-std::optional<LevelPlan> with_next_leader(const Scene& scene, const LevelPlan& plan) {
-  if (scene.edges_per_segment == 0) {
-    auto next = with_finer_leader(plan);
-    return next && fits_memory(scene, *next) ? next : std::nullopt;
-  }
-  // the mesh asked for stays the finest
-  LevelPlan next = plan;
-  auto& edges = next.edges_per_segment;
-  edges.erase(edges.begin());
-  return edges.empty() ? std::nullopt : std::optional(next);
-}
-
-/// Takes a step on the coarsest mesh of a plan alone, then brings the finer ones there; what they
-/// do not have is Outcome::meshes_disagree.
-template <class Do>
-Result<Report> do_led(Simulation& simulation, const LevelPlan& plan, const Watch& watch,
-                      const Do& take_step) {
-  const auto refused = [&] {
-    return watch.cancelled() ? Outcome::cancelled : Outcome::meshes_disagree;
-  };
-  auto coarse = simulation.remesh({{plan.edges_per_segment.front()}, false}, watch);
-  if (!coarse) return coarse;
-  if (coarse->end != Outcome::reached) return coarse->end = refused(), coarse;
-  auto report = take_step();
-  if (!report) return report;
-  const auto fine = simulation.remesh(plan, watch);
-  if (!fine) return fine;
-  if (fine->end != Outcome::reached) report->end = refused();
-  report->certificate = simulation.certificate();
-  return report;
-}
-
-/// A step led by the coarsest mesh alone, which finer ones follow: where a shell snaps or is shaken
-/// to then hangs on no other mesh, and each holds a joint where that one has it. Where they cannot
-/// follow, a finer one leads; last of all the shell stands where it was.
-template <class Do>
-Result<Report> led_by_coarsest(Simulation& simulation, const Watch& watch, const Do& take_step) {
-  constexpr int most_leaders = 3;
-  std::optional<LevelPlan> plan = simulation.shell().plan();
-  if (plan->edges_per_segment.size() == 1) return take_step();
-  const Checkpoint before = simulation.save();
-  Result<Report> report;
-  for (int tried = 0; plan && tried < most_leaders; ++tried) {
-    report = do_led(simulation, *plan, watch, take_step);
-    if (report && report->end != Outcome::meshes_disagree && report->end != Outcome::cancelled)
-      return report;
-    simulation.restore(before);
-    if (!report || report->end == Outcome::cancelled) return report;
-    plan = with_next_leader(simulation.scene(), *plan);
-  }
-  return report;
-}
-
 Result<Report> release(Simulation& simulation, const preset::Step& step, const Watch& watch) {
   std::vector<int> joints;
   if (step.joint.empty()) {
@@ -205,32 +151,26 @@ Result<Report> jitter(Simulation& simulation, const preset::Step& step, const Wa
 
 Result<Report> take_step(Simulation& simulation, const preset::Step& step, const Watch& watch,
                          StepPath* way) {
-  const auto led = [&](const auto& act) { return led_by_coarsest(simulation, watch, act); };
   switch (step.kind) {
     case preset::StepKind::move:
       return move(simulation, step, watch, way);
     case preset::StepKind::push:
     case preset::StepKind::hold: {
-      // where it goes is measured on all meshes
       TRY(goal, goal_of(simulation, step));
       simulation.grip_origins.emplace(goal->joint, simulation.nodes().col(goal->joint));
-      return led([&] {
-        // of a mesh that was tried before, none of its load steps
-        if (way) *way = {};
-        return push(simulation, *goal, watch, way);
-      });
+      return push(simulation, *goal, watch, way);
     }
     case preset::StepKind::release:
       if (step.what != preset::Released::joints) return take_out(simulation, step.what, watch);
-      return led([&] { return release(simulation, step, watch); });
+      return release(simulation, step, watch);
     case preset::StepKind::load:
       if (!step.load_case.empty())
         return bring_case(simulation, step.load_case, step.factor, watch);
       return simulation.load(step.factor, watch);
     case preset::StepKind::rest:
-      return led([&]() -> Result<Report> { return simulation.rest(watch, step.side); });
+      return simulation.rest(watch, step.side);
     case preset::StepKind::jitter:
-      return led([&] { return jitter(simulation, step, watch); });
+      return jitter(simulation, step, watch);
     case preset::StepKind::tighten:
       return tighten(simulation, step, watch);
     case preset::StepKind::open:

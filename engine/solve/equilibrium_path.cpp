@@ -8,6 +8,12 @@
 #include "engine/solve/equilibrium.h"
 
 namespace gridshell {
+namespace {
+
+// of the largest axial force: what a last correction leaves strains the rods by more than that
+constexpr double certified_misfit = 1e-5;
+
+}  // namespace
 
 PathFollower::PathFollower(Linearisation& system, const PinnedMotion& motion,
                            const PathOptions& options)
@@ -16,12 +22,11 @@ PathFollower::PathFollower(Linearisation& system, const PinnedMotion& motion,
 void PathFollower::resume(const PathPoint& point, const PathPoint* across) {
   motion_.apply_loads(system_, point.t);
   now_ = point;
-  way_.clear();
   has_before_ = false;
   across_ = nullptr;
   if (!across || across->velocity.x.size() == 0 || point.velocity.x.size() == 0) return;
   across_ = across;
-  step_ = std::abs(across->t - point.t);
+  now_.step = std::abs(across->t - point.t);
 }
 
 void PathFollower::take_velocity(PathPoint& point) {
@@ -33,9 +38,7 @@ PathReport PathFollower::start(double t, State state, const Watch& watch) {
   // from the same point the same path, whatever was followed before
   has_before_ = false;
   across_ = nullptr;
-  way_.clear();
-  step_ = first_step;
-  now_ = {t, std::move(state), {}};
+  now_ = {t, std::move(state)};
   NewtonOptions options;
   options.tolerance_mm = options_.tolerance_mm;
   options.widest_turn = options_.widest_turn;
@@ -63,7 +66,7 @@ State between(const Model& model, std::span<const PathPoint* const> points, doub
   auto nodes = x.leftCols(model.nodes);
   nodes.setZero();
   for (std::size_t k = 0; k < points.size(); ++k) {
-    const auto& [at, state, velocity] = *points[k];
+    const State &state = points[k]->state, &velocity = points[k]->velocity;
     const double of_value = weights(Eigen::Index(k), 0), of_slope = weights(Eigen::Index(k), 1);
     nodes += of_value * state.x.leftCols(model.nodes) + of_slope * velocity.x.leftCols(model.nodes);
     guess.force += of_value * state.force + of_slope * velocity.force;
@@ -100,9 +103,7 @@ State PathFollower::predict(double t) const {
 }
 
 Outcome PathFollower::step(double t, bool converge, NewtonReport& report, const Watch& watch) {
-  PathPoint next;
-  next.t = t;
-  next.state = predict(t);
+  PathPoint next{t, predict(t)};
   const Eigen::Matrix3Xd way = next.state.x - now_.state.x;
   if (system_.clear_share(now_.state, way) < 1) return Outcome::lost;
   const double predicted_move = max_column_norm(way);
@@ -124,6 +125,7 @@ Outcome PathFollower::step(double t, bool converge, NewtonReport& report, const 
   }
   newton_options.farthest_mm = allowed;
   newton_options.trusted_mm = newton_options.tolerance_mm;
+  if (converge) newton_options.trusted_misfit = certified_misfit;
   newton_options.widest_turn = options_.widest_turn;
   State guess = contact.any() ? next.state : State{};
   report = newton(system_, next.state, newton_options, watch);
@@ -151,7 +153,6 @@ Outcome PathFollower::step(double t, bool converge, NewtonReport& report, const 
 PathReport PathFollower::advance(double t, const Watch& watch) {
   PathReport report;
   report.t = now_.t;
-  way_.clear();
   const PathPoint from = now_;
   // every point is brought to the tolerance, not the last one alone
   bool exact = false;
@@ -162,29 +163,28 @@ PathReport PathFollower::advance(double t, const Watch& watch) {
     }
     const double left = t - now_.t;
     // the last two steps are made equal, so that none is tiny
-    double h = std::min({step_, options_.largest_step, std::abs(left)});
+    double h = std::min({now_.step, options_.largest_step, std::abs(left)});
     if (h < std::abs(left) && 2 * h > std::abs(left)) h = std::abs(left) / 2;
     const double target = h == std::abs(left) ? t : now_.t + std::copysign(h, left);
     const Outcome outcome = step(target, exact || target == t, report.last, watch);
     ++report.steps;
     if (outcome == Outcome::reached) {
       report.t = now_.t;
-      if (options_.keeps_way && now_.t != t) way_.push_back(now_);
       // the prediction is off by a term of third order in h
       const double aim = options_.target_move * options_.spacing_mm;
       const double grow = std::cbrt(aim / std::max(report.last.first_move_mm, 1e-3 * aim));
-      step_ = std::max(h * std::clamp(grow, 0.4, 2.5), options_.smallest_step);
+      now_.step = std::max(h * std::clamp(grow, 0.4, 2.5), options_.smallest_step);
       continue;
     }
     ++report.halvings;
-    step_ = h / 2;
-    if (step_ >= options_.smallest_step) continue;
+    now_.step = h / 2;
+    if (now_.step >= options_.smallest_step) continue;
     // with one correction a point next to the path's end may lie beyond it
     if (!exact) {
       exact = true;
       resume(from);
       report.t = from.t;
-      step_ = first_step;
+      now_.step = PathPoint::first_step;
       continue;
     }
     report.end = outcome;

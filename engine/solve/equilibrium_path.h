@@ -13,9 +13,11 @@ namespace gridshell {
 
 /// A state on the path with its derivative by t.
 struct PathPoint {
+  static constexpr double first_step = 0.05;  // in t
   double t = 0;
   State state;
-  State velocity;  ///< by t; it has no frames
+  State velocity = {};       ///< by t; it has no frames
+  double step = first_step;  ///< in t: the next one, by how well the last prediction did
 };
 
 /// The polynomial at t through states of a path and their tangents [Hermite]; angles, which count
@@ -32,7 +34,6 @@ struct PathOptions {
       1e-6;  ///< of points that are asked for; between them one correction is enough
   double widest_turn = -0.5;    ///< cosine of the turn at which two edges have folded
   bool allow_unstable = false;  ///< go on through states with negative pivots
-  bool keeps_way = false;       ///< PathFollower::way()
   Team* team = nullptr;         ///< who helps with large matrices
 };
 
@@ -57,9 +58,9 @@ class PathFollower {
   /// Follows the path to t and converges there. On failure the current point is the last good one.
   PathReport advance(double t, const Watch& watch);
 
-  /// Goes on from a point that was followed before, with the step that served there, under the
-  /// loads of that point. `across`: a point further on, which stays there meanwhile, to which its
-  /// branch goes on; what lies between them is looked for on the cubic through both, at once.
+  /// Continues from a point that was followed before, under the loads of that point, without a
+  /// factorisation. `across`: a point further on, which stays valid meanwhile, on the same branch:
+  /// states between them are predicted on the cubic through both, in one step.
   void resume(const PathPoint& point, const PathPoint* across = nullptr);
 
   /// Predicted state at t from the current point (by its tangent and that of the point before).
@@ -67,9 +68,6 @@ class PathFollower {
 
   void allow_unstable(bool allow) { options_.allow_unstable = allow; }
   const PathPoint& point() const { return now_; }
-  /// Where the last advance() that reached its end came past, in order, neither that nor its begin
-  /// among them, each but one correction from rest; none where the options do not keep it.
-  const std::vector<PathPoint>& way() const { return way_; }
   const NewtonReport& last() const { return last_; }  ///< of the current point
   const PinnedMotion& motion() const { return motion_; }
 
@@ -81,12 +79,9 @@ class PathFollower {
   PinnedMotion motion_;
   PathOptions options_;
   PathPoint now_, before_;
-  std::vector<PathPoint> way_;
   NewtonReport last_;
   bool has_before_ = false;
-  const PathPoint* across_ = nullptr;         // of resume(), until a step is taken
-  static constexpr double first_step = 0.05;  // in t
-  double step_ = first_step;
+  const PathPoint* across_ = nullptr;  // of resume(), until a step is taken
 };
 
 }  // namespace gridshell

@@ -21,6 +21,7 @@ Result<void> MeshLevel::build(const Footprint& footprint, const ShellRods& rods,
 namespace {
 
 constexpr int most_edges = 128;
+constexpr std::size_t most_meshes = 3;
 // on the safe side of what a plan leaves as a rule
 constexpr double plan_margin = 1.25;
 
@@ -34,41 +35,33 @@ double expected_error(const LevelPlan& plan) {
                           : plain_of_four * std::pow(4 / edges, 2);
 }
 
-LevelPlan plan_levels(double tolerance, int leader) {
-  LevelPlan plan{{leader, 2 * leader}, false, true};
+LevelPlan plan_levels(double tolerance, int base) {
+  LevelPlan plan{{base, 2 * base}, false, true};
   if (tolerance >= plan_margin * expected_error(plan)) return plan;
-  plan = {{leader, 2 * leader, 4 * leader}, true};
+  plan = {{2 * base, 4 * base}, false, true};
+  if (tolerance >= plan_margin * expected_error(plan)) return plan;
+  plan = {{base, 2 * base, 4 * base}, true};
   while (expected_error(plan) > tolerance)
-    plan.edges_per_segment.push_back(2 * plan.edges_per_segment.back());
+    for (int& edges : plan.edges_per_segment) edges *= 2;
   return plan;
 }
 
 LevelPlan plan_of_mesh(int edges) {
   LevelPlan plan{{edges}, false};
-  for (int k = edges; k % 2 == 0 && k / 2 >= 4; k /= 2)
+  for (int k = edges; k % 2 == 0 && k / 2 >= 4 && plan.edges_per_segment.size() < most_meshes;
+       k /= 2)
     plan.edges_per_segment.insert(plan.edges_per_segment.begin(), k / 2);
   return plan;
 }
 
 std::optional<LevelPlan> finer(const LevelPlan& plan) {
   LevelPlan next = plan;
-  const int finest = 2 * plan.edges_per_segment.back();
-  if (finest > most_edges) return std::nullopt;
-  next.edges_per_segment.push_back(finest);
-  next.extrapolate = next.edges_per_segment.size() > 2;
-  next.extrapolate_forces = true;
-  return next;
-}
-
-std::optional<LevelPlan> with_finer_leader(const LevelPlan& plan) {
-  LevelPlan next = plan;
   auto& edges = next.edges_per_segment;
-  if (2 * edges.back() <= most_edges) {
-    for (int& one : edges) one *= 2;
-    return next;
-  }
-  if (edges.size() <= (plan.extrapolate ? 3 : 2)) return std::nullopt;
-  edges.erase(edges.begin());
+  if (2 * edges.back() > most_edges) return std::nullopt;
+  edges.push_back(2 * edges.back());
+  if (edges.size() > most_meshes) edges.erase(edges.begin());
+  next.extrapolate = edges.size() == most_meshes;
+  next.extrapolate_forces = true;
   return next;
 }
 

@@ -1,6 +1,7 @@
 // A shell on one mesh: its model, how its ends move, and what is solved with.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -27,37 +28,36 @@ struct MeshLevel {
 
 // Which meshes a shell is solved on, from the accuracy asked for.
 
-/// Which meshes are solved and how they are used.
+/// Which meshes are solved and how they are used: the last is followed, those before measure it.
 struct LevelPlan {
-  std::vector<int> edges_per_segment;  ///< coarse to fine, each twice the one before
+  std::vector<int> edges_per_segment;  ///< coarse to fine, each twice the one before, at most three
   bool extrapolate = false;  ///< over the last two (needs three, the third for the estimate)
   /// And so forces and energies, of two meshes too: what they leave is far below the estimate then.
   bool extrapolate_forces = extrapolate;
-  /// A path ends where its leader loses a branch on which the finest mesh goes on.
-  bool finest_decides = false;
+  /// A path ends at the first load step whose estimate is above this, mm, or before which no
+  /// companion has had a state over so much of the path parameter.
+  double allowed_mm = std::numeric_limits<double>::infinity();
+  double events_apart = 0.05;
+
+  bool operator==(const LevelPlan&) const = default;
 };
 
 /// The cheapest plan worth trying for a tolerance of the largest joint error, relative to the
 /// length scale: the error of k edges falls as 1/k^2, extrapolated as 1/k^4, and is about 3e-3 at
 /// four edges for shells of the paper's kind. The estimate says afterwards whether it held; `finer`
-/// is what to try then. `leader`: edges a segment of the coarsest mesh.
-LevelPlan plan_levels(double tolerance, int leader = 4);
+/// is what to try then. The meshes are multiples of `base` edges per segment.
+LevelPlan plan_levels(double tolerance, int base = 4);
 
-/// The meshes that nest in one of `edges` a segment, from four edges up, itself the last. Where
-/// none nests in it there is one mesh, and no estimate of its error.
+/// A mesh of `edges` per segment with the companions that nest in it, at most two, from four edges
+/// up. Where none nests in it there is one mesh, and no estimate of its error.
 LevelPlan plan_of_mesh(int edges);
 
 /// What a plan leaves of the largest joint error, over the length scale, as a rule: for plans
 /// before a run.
 double expected_error(const LevelPlan& plan);
 
-/// The next plan: extrapolation, or one level more. Empty when the finest mesh would pass 128
-/// edges.
+/// The plan that follows a mesh of twice the edges, extrapolated. Empty when it would pass 128
+/// edges per segment.
 std::optional<LevelPlan> finer(const LevelPlan& plan);
-
-/// The plan whose leading mesh has twice the edges: events that only a coarse mesh has do not
-/// happen on it. Where its finest mesh would pass 128 edges, the same plan without its leader;
-/// empty where too few meshes are left for an estimate.
-std::optional<LevelPlan> with_finer_leader(const LevelPlan& plan);
 
 }  // namespace gridshell

@@ -1,5 +1,4 @@
-// How a state of the coarsest mesh is certified: finer meshes correct it, and what they add tells
-// the error.
+// How a state of the finest mesh is certified, and how its companions measure it.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -48,57 +47,21 @@ double left_of_first_order(const Eigen::Matrix3Xd& step, const Eigen::Matrix3Xd&
   return max_column_norm((4 * step - before) / 3);
 }
 
-Eigen::VectorXd weights_of(std::span<const LevelCorrection> known, double t) {
+Eigen::VectorXd weights_of(std::span<const MeshDifference> known, double t) {
   std::vector<double> at;
-  for (const LevelCorrection& one : known) at.push_back(one.t);
+  for (const MeshDifference& one : known) at.push_back(one.t);
   return polynomial_weights(at, t);
-}
-
-/// Nodes of a finer mesh on the edges of a coarser one: as these, they do not go through one
-/// another.
-Eigen::Matrix3Xd on_edges(const RodMesh& coarse, const Eigen::Matrix3Xd& x, const RodMesh& fine,
-                          Eigen::Matrix3Xd nodes) {
-  for (std::size_t r = 0; r < fine.rods.size(); ++r) {
-    const std::vector<double>& s = coarse.position[r];
-    std::size_t k = 1;
-    for (std::size_t n = 0; n < fine.rods[r].size(); ++n) {
-      const double at = fine.position[r][n];
-      while (k + 1 < s.size() && s[k] < at) ++k;
-      const double share = (at - s[k - 1]) / (s[k] - s[k - 1]);
-      nodes.col(fine.rods[r][n]) =
-          (1 - share) * x.col(coarse.rods[r][k - 1]) + share * x.col(coarse.rods[r][k]);
-    }
-  }
-  return nodes;
 }
 
 }  // namespace
 
-LevelCorrection NestedShell::correction_of(const Level& level, double t, const State& base,
-                                           const State& state) const {
-  // angles are counted from frames that each carry makes anew: only nodes are remembered
-  LevelCorrection added{t, (state.x - base.x).cast<float>(),
-                        (state.force - base.force).cast<float>()};
-  added.x.rightCols(level.model.columns() - level.model.nodes).setZero();
-  return added;
-}
-
-/// What an error of second order has level k add: a quarter of what the level below added.
-LevelCorrection NestedShell::expected_correction(std::size_t k,
-                                                 const LevelCorrection& below) const {
-  const Level& level = *levels_[k];
-  LevelCorrection quarter{below.t, Eigen::Matrix3Xf::Zero(3, level.model.columns()),
-                          Eigen::VectorXf::Zero(Eigen::Index(level.model.edges.size()))};
-  if (below.x.size() == 0) return quarter;
-  const Level& coarser = *levels_[k - 1];
-  const MeshTransfer& from = level.from_coarser->meshes();
-  Eigen::Matrix3Xd nodes;
-  Eigen::VectorXd force;
-  from.nodes(nodes_of(coarser.mesh, coarser.model, below.x.cast<double>()), nodes);
-  from.edges(below.force.cast<double>(), force);
-  quarter.x = (columns_of(level.mesh, level.model, nodes) / 4).cast<float>();
-  quarter.force = (force / 4).cast<float>();
-  return quarter;
+MeshDifference NestedShell::difference(const Level& level, double t, const State& base,
+                                       const State& state) {
+  // angles are counted from frames that each carry makes new: only nodes are remembered
+  MeshDifference found{t, (state.x - base.x).cast<float>(),
+                       (state.force - base.force).cast<float>()};
+  found.x.rightCols(level.model.columns() - level.model.nodes).setZero();
+  return found;
 }
 
 bool NestedShell::correct(Level& level, const State& base, State& state, NewtonReport& report,
@@ -107,111 +70,147 @@ bool NestedShell::correct(Level& level, const State& base, State& state, NewtonR
   options.tolerance_mm = options_.tolerance_mm;
   options.widest_turn = options_.widest_turn;
   options.trusted_mm = options_.tolerance_mm;
-  // what a correction leaves strains the rods: a force that is seen beside the finest state
-  if (&level == levels_.back().get()) options.trusted_misfit = 1e-5;
   report = newton(*level.system, state, options, watch);
   if (report.outcome != Outcome::reached) return false;
-  // a finer mesh moves no node by a cell, or it went to another state
+  // a companion moves no node by a cell, or it went to another state
   const int nodes = level.model.nodes;
   return max_column_norm(state.x.leftCols(nodes) - base.x.leftCols(nodes)) <
          0.5 * options_.spacing_mm;
 }
 
-/// What the mesh added beside the quarter that is expected carries on along the path, by the
-/// polynomial through the last states; fewer of them where it would make too much of their
-/// differences.
-State NestedShell::guess(const Level& level, double t, const State& base,
-                         LevelCorrection expected) const {
-  std::span<const LevelCorrection> known = level.beyond;
+/// The difference continues along the path by the polynomial through the last states; fewer of them
+/// where it would make too much of their own differences.
+State NestedShell::predicted(const Level& level, double t, const State& base) const {
+  std::span<const MeshDifference> known = level.differences;
+  while (!known.empty() && known.front().x.size() == 0) known = known.subspan(1);
+  for (std::size_t k = 1; k < known.size(); ++k)
+    if (known[k].x.size() == 0) known = known.first(k);
+  if (known.empty()) return base;
   Eigen::VectorXd weights = weights_of(known, t);
   while (known.size() > 1 && !(weights.cwiseAbs().sum() < most_weight)) {
     known = known.subspan(1);
     weights = weights_of(known, t);
   }
-  for (std::size_t k = 0; k < known.size(); ++k) {
-    expected.x += float(weights[Eigen::Index(k)]) * known[k].x;
-    expected.force += float(weights[Eigen::Index(k)]) * known[k].force;
-  }
   State state = base;
-  state.force += expected.force.cast<double>();
-  move_to(level.model, base.x + expected.x.cast<double>(), state);
+  Eigen::Matrix3Xd x = base.x;
+  for (std::size_t k = 0; k < known.size(); ++k) {
+    const double weight = weights[Eigen::Index(k)];
+    x += weight * known[k].x.cast<double>();
+    state.force += weight * known[k].force.cast<double>();
+  }
+  move_to(level.model, x, state);
   return state;
 }
 
-/// A level's state beside that of the coarser one. Up to three tries: Newton from the guess, Newton
-/// from the coarser state, and down the energy from there; the first counts that finds a state
-/// nearby, of the kind that is preferred if there is one.
-std::optional<NestedShell::Refined> NestedShell::refine(std::size_t k, double t,
-                                                        const Refined& coarser, Prefer prefer,
-                                                        const Watch& watch) {
-  enum class From { remembered, coarser, down };
-  Level& level = *levels_[k];
-  const State base = level.from_coarser->carry(coarser.state);
-  const LevelCorrection expected = expected_correction(k, coarser.added);
-  std::optional<Refined> found;
-  for (const From from : {From::remembered, From::coarser, From::down}) {
-    State trial = from == From::remembered ? guess(level, t, base, expected) : base;
-    if (level.model.contact.any()) {
-      const Level& below = *levels_[k - 1];
-      State clear = base;
-      move_to(level.model,
-              columns_of(level.mesh, level.model,
-                         on_edges(below.mesh, nodes_of(below.mesh, below.model, coarser.state.x),
-                                  level.mesh, nodes_of(level.mesh, level.model, base.x))),
-              clear);
-      const Eigen::Matrix3Xd way = trial.x - clear.x;
-      move_to(level.model, clear.x + level.system->clear_share(clear, way) * way, trial);
-    }
-    level.motion.impose(*level.system, t, trial);
-    if (from == From::down) minimise(*level.system, trial, {.most_iterations = 60}, watch);
-    NewtonReport tried;
-    if (watch.cancelled()) return {};
-    if (!correct(level, base, trial, tried, watch)) continue;
-    const bool stable =
-        prefer == Prefer::stable && inertia_of(level, trial, tried).positive_definite();
-    if (found && !stable) continue;
-    found = Refined{std::move(trial), {}, tried};
-    if (stable || prefer == Prefer::first) break;
-  }
-  if (!found) return {};
-  found->added = correction_of(level, t, base, found->state);
-  level.beyond.push_back(found->added - expected);
-  if (level.beyond.size() > 3) level.beyond.erase(level.beyond.begin());
-  return found;
+/// Where rods may touch, as far from the companion's last state towards one that is wanted as they
+/// do not go through one another: on longer edges that one need not be clear.
+State NestedShell::clear_of_contact(Level& level, const State& before, State wanted) const {
+  if (!level.model.contact.any() || before.x.cols() != wanted.x.cols()) return wanted;
+  State clear = before;
+  level.motion.impose(*level.system, state_.t, clear);
+  const Eigen::Matrix3Xd move = wanted.x - clear.x;
+  move_to(level.model, clear.x + level.system->clear_share(clear, move) * move, clear);
+  return clear;
 }
 
-NestedReport NestedShell::certify(double t, const PathPoint& coarse, const NewtonReport& last,
-                                  Prefer prefer, const Watch& watch) {
-  // where states that are not stable are wanted too, none is preferred
-  if (options_.allow_unstable) prefer = Prefer::first;
-  NestedState next;
-  next.t = t;
-  Refined at{coarse.state, {}, last};
-  for (std::size_t k = 1; k < levels_.size(); ++k) {
-    auto finer = refine(k, t, at, prefer, watch);
-    if (watch.cancelled()) return {Outcome::cancelled, state_.t};
-    if (!finer) return {Outcome::meshes_disagree, state_.t};
-    next.levels.push_back(std::exchange(at, std::move(*finer)).state);
+/// A companion's equilibrium beside the finer state, whose restriction is `base`: Newton from where
+/// its difference leads, else from the restriction, else, where nothing is known yet, down the
+/// energy from there. It need not be stable where the finer one is: coarse meshes lose their
+/// stability earlier. False: it has none.
+bool NestedShell::measure_on(std::size_t k, const State& base, const NestedState& before,
+                             const Watch& watch) {
+  enum class From { difference, restricted, down };
+  Level& level = *levels_[k];
+  const bool known = !level.differences.empty();
+  for (const From from : {From::difference, From::restricted, From::down}) {
+    if (known ? from == From::down : from == From::difference) continue;
+    State trial = from == From::difference ? predicted(level, state_.t, base) : base;
+    if (k < before.levels.size())
+      trial = clear_of_contact(level, before.levels[k], std::move(trial));
+    level.motion.impose(*level.system, state_.t, trial);
+    if (from == From::down) minimise(*level.system, trial, {.most_iterations = 60}, watch);
+    NewtonReport report;
+    if (watch.cancelled()) return false;
+    if (!correct(level, base, trial, report, watch)) continue;
+    state_.levels[k] = std::move(trial);
+    return true;
   }
-  next.levels.push_back(std::move(at.state));
-  NestedState before = std::exchange(state_, std::move(next));
-  finish(at.report);
-  if (state_.inertia.positive_definite()) return {Outcome::reached, t};
-  if (state_.inertia.usable && options_.allow_unstable) return {Outcome::reached, t};
-  // what is not certified takes no certified state's place
-  const Outcome end = state_.inertia.usable ? Outcome::unstable : Outcome::not_finite;
-  state_ = std::move(before);
-  return {end, state_.t};
+  return false;
+}
+
+/// Solves the companions, finer ones first, as far as they have states.
+void NestedShell::measure(const Watch& watch, const NestedState& before) {
+  const bool held = !system().holds().empty();
+  std::vector<HeldForces> forces;
+  if (held) forces.push_back(held_forces(*levels_.back(), state_.levels.back()));
+  state_.measured = last();
+  for (auto k = std::size_t(last()); k-- > 0;) {
+    Level& level = *levels_[k];
+    State base = level.from_finer->carry(state_.levels[k + 1]);
+    level.motion.impose(*level.system, state_.t, base);
+    MeshDifference found{state_.t};
+    if (state_.measured == int(k) + 1 && measure_on(k, base, before, watch)) {
+      state_.measured = int(k);
+      found = difference(level, state_.t, base, state_.levels[k]);
+      if (held) forces.insert(forces.begin(), held_forces(level, state_.levels[k]));
+    } else {
+      state_.levels[k] = std::move(base);
+    }
+    level.differences.push_back(std::move(found));
+    if (level.differences.size() > 3) level.differences.erase(level.differences.begin());
+  }
+  if (held) take_reactions(forces);
+}
+
+NestedReport NestedShell::certify(const PathFollower& path, const Watch& watch,
+                                  const Inertia& known) {
+  const PathPoint& point = path.point();
+  NestedState before = std::exchange(state_, {});
+  const auto refused = [&](Outcome end) {
+    // what is not certified takes no certified state's place
+    state_ = std::move(before);
+    return NestedReport{end, state_.t};
+  };
+  state_.t = point.t;
+  state_.levels.resize(levels_.size());
+  state_.levels.back() = point.state;
+  state_.velocity = point.velocity;
+  state_.step = point.step;
+  Level& finest = *levels_.back();
+  State& found = state_.levels.back();
+  state_.inertia = known.usable ? known : inertia_of(finest, found, path.last());
+  if (!state_.inertia.usable) return refused(Outcome::not_finite);
+  if (!state_.inertia.positive_definite() && !options_.allow_unstable)
+    return refused(Outcome::unstable);
+  polish(finest, found);
+  state_.residual_N = finest.system->residual();
+  state_.largest_strain = finest.system->assembly().largest_strain;
+  const Energies energies = finest.system->assembly().energies;
+  if (watches_stability_ && state_.inertia.positive_definite()) {
+    constexpr double roughly = 0.02;  // the trend is enough
+    const Eigen::VectorXd equal = Eigen::VectorXd::Ones(finest.model.nodes);
+    Eigen::Matrix3Xd mode = before.lowest_mode.cast<double>();
+    state_.lowest_eigenvalue = lowest_eigenvalue(*finest.system, equal, mode, watch, roughly);
+    state_.lowest_mode = mode.cast<float>();
+  }
+  measure(watch, before);
+  if (watch.cancelled()) return refused(Outcome::cancelled);
+  estimate(energies);
+  return {Outcome::reached, state_.t};
 }
 
 /// At the end of a path, and where a force is measured, the residual goes down to what round-off
-/// leaves: corrections are cheap. The assembly ends at the state found.
+/// leaves: corrections are cheap. Elsewhere one is made where the last correction strained the rods
+/// by a force that is seen. The assembly ends at the state found.
 void NestedShell::polish(Level& finest, State& found) {
+  constexpr double seen = 1e-5;  // of the largest axial force
   Linearisation& system = *finest.system;
   system.gradient_at(found);
-  if (state_.t < 1 && system.holds().empty()) return;
+  const bool to_the_end = state_.t >= 1 || !system.holds().empty();
+  if (!to_the_end && system.force_misfit(found) <= seen * found.force.cwiseAbs().maxCoeff()) return;
+  const int most = to_the_end ? 4 : 1;
   Eigen::Matrix3Xd dx;
-  for (int k = 0; k < 4 && state_.inertia.usable; ++k) {
+  for (int k = 0; k < most && state_.inertia.usable; ++k) {
     const double residual = system.residual();
     if (residual < 1e-9) return;
     State trial = found;
@@ -240,53 +239,54 @@ Inertia NestedShell::inertia_of(Level& level, const State& found,
   return level.system->at(found, false);
 }
 
-/// Certificate of the finest level, error estimate, extrapolation.
-void NestedShell::finish(const NewtonReport& report) {
-  Level& finest = *levels_.back();
-  State& found = state_.levels.back();
-  state_.inertia = inertia_of(finest, found, report);
-  polish(finest, found);
-  state_.residual_N = finest.system->residual();
-  state_.largest_strain = finest.system->assembly().largest_strain;
-  if (!finest.system->holds().empty()) take_reactions();
-  estimate();
-}
-
-void NestedShell::estimate() {
-  const std::size_t last = levels_.size() - 1;
-  const Level& finest = *levels_[last];
+/// Error of all nodes, by how much companions differ at the nodes that they share, and
+/// extrapolation where it is planned.
+void NestedShell::estimate(const Energies& energies) {
+  const auto last = std::size_t(this->last());
+  const Level& finest = *levels_.back();
   const auto nodes = [&](std::size_t k) {
     return nodes_of(levels_[k]->mesh, levels_[k]->model, state_.levels[k].x);
   };
+  // nodes of the finer level less those of level k, where both have one; ghosts are no part of rods
+  const auto step_to = [&](std::size_t k, const Eigen::Matrix3Xd& finer) -> Eigen::Matrix3Xd {
+    Eigen::Matrix3Xd on_coarser;
+    levels_[k]->from_finer->meshes().nodes(finer, on_coarser);
+    return on_coarser - nodes(k);
+  };
+  const auto largest = [](const RodMesh& mesh, const Eigen::Matrix3Xd& x) {
+    return max_column_norm(x.leftCols(mesh.rod_nodes()));
+  };
   state_.x = nodes(last);
   state_.error_estimate_mm = std::numeric_limits<double>::quiet_NaN();
-  if (last == 0) return;
+  if (state_.measured == int(last)) return;
 
-  const Eigen::Matrix3Xd coarser = nodes(last - 1);
-  const int joints = finest.mesh.joints;
-  const Eigen::Matrix3Xd step = state_.x.leftCols(joints) - coarser.leftCols(joints);
-  const bool two = !plan_.extrapolate || last < 2;  // are looked at
-  if (order_unknown(finest.model, finest.system->assembly().energies, two ? 2 : 3)) {
-    state_.error_estimate_mm = margin * max_column_norm(step) + options_.tolerance_mm;
+  const RodMesh& companion = levels_[last - 1]->mesh;
+  const Eigen::Matrix3Xd step = step_to(last - 1, state_.x);
+  const bool two = !extrapolates();
+  // corrections stop at the tolerance
+  if (order_unknown(finest.model, energies, two ? 2 : 3)) {
+    state_.error_estimate_mm = margin * largest(companion, step) + options_.tolerance_mm;
     return;
   }
   if (two) {
-    state_.error_estimate_mm = margin * max_column_norm(step) / 3 + options_.tolerance_mm;
+    state_.error_estimate_mm = margin * largest(companion, step) / 3 + options_.tolerance_mm;
     return;
   }
-  // (4 fine - coarse)/3 of these two meshes less that of the two before
-  const Eigen::Matrix3Xd before = coarser.leftCols(joints) - nodes(last - 2).leftCols(joints);
+  // (4 fine - coarse)/3 of these two meshes less that of the two before, where all three have nodes
+  const Eigen::Index shared = levels_[last - 2]->mesh.rod_nodes();
+  Eigen::Matrix3Xd restricted;
+  levels_[last - 2]->from_finer->meshes().nodes(step, restricted);
+  const Eigen::Matrix3Xd now = restricted.leftCols(shared),
+                         before = step_to(last - 2, nodes(last - 1)).leftCols(shared);
   state_.error_estimate_mm =
-      std::max(margin_extrapolated * max_column_norm((4 * step - before) / 3) / 15,
-               margin * left_by_order(step, before)) +
-      options_.tolerance_mm;  // corrections stop there
+      std::max(margin_extrapolated * max_column_norm((4 * now - before) / 3) / 15,
+               margin * left_by_order(now, before)) +
+      options_.tolerance_mm;
   if (!finest.model.joint_spins.empty())
-    state_.error_estimate_mm =
-        std::max(state_.error_estimate_mm, left_of_first_order(step, before));
-  // the correction is known at the coarser nodes; between them it is interpolated
-  Eigen::Matrix3Xd on_coarser, correction;
-  finest.to_coarser->nodes(state_.x, on_coarser);
-  finest.from_coarser->meshes().nodes((on_coarser - coarser) / 3, correction);
+    state_.error_estimate_mm = std::max(state_.error_estimate_mm, left_of_first_order(now, before));
+  // the correction is known at the companion's nodes; between them it is interpolated
+  Eigen::Matrix3Xd correction;
+  finest.from_coarser->meshes().nodes(step / 3, correction);
   state_.x += correction;
 }
 
@@ -321,39 +321,36 @@ CertifiedVectors certify_vectors(const Model& model, const std::vector<Eigen::Ma
   return found;
 }
 
-/// What each level says of its held joints. The stiffness is that of its last factorisation, which
-/// on finer meshes stands a correction away.
-void NestedShell::take_reactions() {
-  Linearisation& finest = *levels_.back()->system;
-  const std::vector<Constraint>& holds = finest.holds();
+/// Of its last factorisation, which is one correction away from the state.
+NestedShell::HeldForces NestedShell::held_forces(Level& level, const State& state) const {
+  Linearisation& system = *level.system;
+  system.gradient_at(state);
+  const std::vector<Constraint>& holds = system.holds();
+  HeldForces of{Eigen::Matrix3Xd(3, Eigen::Index(holds.size())), {}};
+  for (std::size_t h = 0; h < holds.size(); ++h)
+    of.force.col(Eigen::Index(h)) = system.reaction(holds[h]);
+  of.stiffness = system.held_stiffness();
+  return of;
+}
+
+/// `levels`: coarse to fine.
+void NestedShell::take_reactions(const std::vector<HeldForces>& levels) {
   std::vector<Eigen::Matrix3Xd> forces, stiffness;
-  for (std::size_t k = std::size_t(first_of_last_three()); k < levels_.size(); ++k) {
-    Linearisation& system = *levels_[k]->system;
-    if (&system != &finest) {
-      system.outside.load = finest.outside.load;
-      system.outside.field_factor = finest.outside.field_factor;
-      system.outside.opening = finest.outside.opening;
-      // the path's own factorisation may stand a load step away
-      if (k == 0)
-        system.at(state_.levels[k], false);
-      else
-        system.gradient_at(state_.levels[k]);
-    }
-    Eigen::Matrix3Xd& on = forces.emplace_back(3, Eigen::Index(holds.size()));
-    for (std::size_t h = 0; h < holds.size(); ++h)
-      on.col(Eigen::Index(h)) = system.reaction(holds[h]);
-    state_.held_stiffness = system.held_stiffness();
-    const auto entries = state_.held_stiffness.reshaped().transpose();
+  for (const HeldForces& level : levels) {
+    forces.push_back(level.force);
+    const auto entries = level.stiffness.reshaped().transpose();
     stiffness.emplace_back(Eigen::Matrix3Xd::Zero(3, entries.cols())).row(0) = entries;
   }
+  const Level& finest = *levels_.back();
+  const bool extrapolate = extrapolates_forces();
   const bool no_order =
-      order_unknown(levels_.back()->model, finest.assembly().energies, forces.size());
-  const CertifiedVectors force = certify_vectors(levels_.back()->model, forces,
-                                                 plan_.extrapolate_forces, no_order),
-                         growth = certify_vectors(stiffness, plan_.extrapolate_forces, no_order);
+      order_unknown(finest.model, finest.system->assembly().energies, forces.size());
+  const CertifiedVectors force = certify_vectors(finest.model, forces, extrapolate, no_order),
+                         growth = certify_vectors(stiffness, extrapolate, no_order);
   state_.reactions.clear();
   for (const auto& on : force.value.colwise()) state_.reactions.emplace_back(on);
   state_.reaction_error_N = force.error;
+  state_.held_stiffness = levels.back().stiffness;
   state_.held_stiffness.reshaped() = growth.value.row(0).transpose();
   state_.stiffness_error_N_per_mm = growth.error + stale_stiffness * max_column_norm(growth.value);
 }

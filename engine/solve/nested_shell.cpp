@@ -4,22 +4,9 @@
 
 #include "engine/core/try.h"
 #include "engine/solve/block_factor.h"
+#include "engine/solve/equilibrium.h"
 
 namespace gridshell {
-
-LevelCorrection operator-(const LevelCorrection& a, const LevelCorrection& b) {
-  return {a.t, a.x - b.x, a.force - b.force};
-}
-
-PathInterval interval_at(const NestedPathPoint& before, const NestedPathPoint& after, double t) {
-  PathInterval found{&before, &after};
-  for (const PathPoint& point : after.way) {
-    const bool in_front = after.t > before.t ? point.t < t : point.t > t;
-    (in_front ? found.from : found.to) = &point;
-    if (!in_front) break;
-  }
-  return found;
-}
 
 NestedShell::NestedShell(const LevelPlan& plan, const PathOptions& options)
     : plan_(plan), options_(options) {}
@@ -39,10 +26,11 @@ Result<NestedShell> NestedShell::make(const Footprint& footprint, const ShellRod
     level->system->outside.steady = &level->steady;
     level->system->outside.field = &level->field;
     if (!shell.levels_.empty()) {
-      const Level& coarser = *shell.levels_.back();
+      Level& coarser = *shell.levels_.back();
+      coarser.from_finer =
+          std::make_unique<StateTransfer>(level->mesh, level->model, coarser.mesh, coarser.model);
       level->from_coarser =
           std::make_unique<StateTransfer>(coarser.mesh, coarser.model, level->mesh, level->model);
-      level->to_coarser.emplace(level->mesh, coarser.mesh);
     }
     shell.levels_.push_back(std::move(level));
   }
@@ -51,9 +39,8 @@ Result<NestedShell> NestedShell::make(const Footprint& footprint, const ShellRod
 }
 
 void NestedShell::reset_path() {
-  PathOptions options = options_;
-  options.keeps_way = true;
-  path_ = std::make_unique<PathFollower>(*levels_[0]->system, levels_[0]->motion, options);
+  const Level& finest = *levels_.back();
+  path_ = std::make_unique<PathFollower>(*finest.system, finest.motion, options_);
 }
 
 std::vector<PinnedMotion> NestedShell::motions() const {
@@ -86,7 +73,7 @@ Assembly NestedShell::forces(int level) const {
 
 State NestedShell::stay(const NestedShell& other, const std::vector<Constraint>& holds) {
   const Level& theirs = *other.levels_.back();
-  State first;
+  State fine;
   for (auto& level : levels_) {
     State state = StateTransfer(theirs.mesh, theirs.model, level->mesh, level->model)
                       .carry(other.state_.levels.back());
@@ -95,12 +82,12 @@ State NestedShell::stay(const NestedShell& other, const std::vector<Constraint>&
                      PathLaw::even,
                      {theirs.system->outside.load, 0}};
     level->system->hold(holds);
-    if (first.x.size() == 0) first = std::move(state);
+    fine = std::move(state);
   }
   state_.t = 0;
   forget();
   reset_path();
-  return first;
+  return fine;
 }
 
 void NestedShell::set_fields(const std::vector<NodeAction>& steady,
@@ -114,8 +101,8 @@ void NestedShell::apply_loads() {
 
 void NestedShell::back_to(const NestedState& state) {
   state_ = state;
-  place(state.t, state.levels[0]);
-  set_corrections(beyond());
+  path_->resume({state.t, state.levels.back(), state.velocity, state.step});
+  remember(differences());
   apply_loads();
 }
 
@@ -130,86 +117,89 @@ void NestedShell::restore(const NestedState& state, const std::vector<PinnedMoti
 }
 
 void NestedShell::forget() {
-  for (auto& level : levels_) level->beyond.clear();
+  for (auto& level : levels_) level->differences.clear();
 }
 
-/// From now on finer levels look for their states where these were.
-void NestedShell::set_corrections(const std::vector<LevelCorrection>& beyond) {
+/// From now on companions look for their states where these were.
+void NestedShell::remember(const std::vector<MeshDifference>& differences) {
   forget();
-  for (std::size_t k = 0; k < beyond.size(); ++k) levels_[k + 1]->beyond = {beyond[k]};
+  for (std::size_t k = 0; k < differences.size(); ++k) levels_[k]->differences = {differences[k]};
 }
 
-/// What finer levels add at the current state beside what is expected.
-std::vector<LevelCorrection> NestedShell::beyond() const {
-  std::vector<LevelCorrection> all;
-  LevelCorrection below;
-  for (std::size_t k = 1; k < state_.levels.size(); ++k) {
-    const Level& level = *levels_[k];
-    const LevelCorrection added = correction_of(
-        level, state_.t, level.from_coarser->carry(state_.levels[k - 1]), state_.levels[k]);
-    all.push_back(added - expected_correction(k, below));
-    below = added;
+/// Of the current state's companions.
+std::vector<MeshDifference> NestedShell::differences() const {
+  std::vector<MeshDifference> all;
+  for (int k = 0; k < last(); ++k) {
+    const Level& level = *levels_[std::size_t(k)];
+    const std::vector<State>& states = state_.levels;
+    all.push_back(k < state_.measured
+                      ? MeshDifference{state_.t}
+                      : difference(level, state_.t,
+                                   level.from_finer->carry(states[std::size_t(k) + 1]),
+                                   states[std::size_t(k)]));
   }
   return all;
 }
 
 NestedPathPoint NestedShell::point() const {
-  // a cubic from end to end does without few; many take memory
-  constexpr std::size_t few = 2, most = 12;
-  NestedPathPoint point{followed(), beyond()};
-  const std::vector<PathPoint>& way = path_->way();
-  const std::size_t kept = way.size() > few ? std::min(way.size(), most) : 0;
-  for (std::size_t k = 0; k < kept; ++k) point.way.push_back(way[k * way.size() / kept]);
-  return point;
+  return {{state_.t, state_.levels.back(), state_.velocity, state_.step},
+          differences(),
+          state_.inertia};
 }
 
-NestedReport NestedShell::place(double t, const State& coarse, const Watch& watch) {
+NestedReport NestedShell::place(double t, const State& fine, const Watch& watch) {
   forget();
   path_->allow_unstable(options_.allow_unstable);
-  return {path_->start(t, coarse, watch).end, t};
+  return {path_->start(t, fine, watch).end, t};
 }
 
-NestedReport NestedShell::start(double t, const State& coarse, const Watch& watch) {
-  const NestedReport report = place(t, coarse, watch);
-  if (report.end != Outcome::reached) return report;
-  return certify(t, path_->point(), path_->last(), Prefer::stable, watch);
+NestedReport NestedShell::start(double t, const State& fine, const Watch& watch) {
+  const NestedReport report = place(t, fine, watch);
+  return report.end == Outcome::reached ? certify(*path_, watch) : report;
+}
+
+Result<State> NestedShell::refined(double t, State coarse, const Watch& watch) {
+  for (std::size_t k = 1; k < levels_.size(); ++k) {
+    Level& level = *levels_[k];
+    State fine = level.from_coarser->carry(coarse);
+    level.motion.impose(*level.system, t, fine);
+    TRY(found, find_equilibrium(*level.system, fine, 0.5 * options_.spacing_mm, watch));
+    coarse = std::move(*found);
+  }
+  return coarse;
 }
 
 NestedReport NestedShell::advance(double t, const Watch& watch) {
   path_->allow_unstable(options_.allow_unstable);
   const PathReport report = path_->advance(t, watch);
   if (report.end != Outcome::reached) return {report.end, report.t};
-  return certify(t, path_->point(), path_->last(), Prefer::first, watch);
+  return certify(*path_, watch);
 }
 
 NestedReport NestedShell::sample(double t, const NestedPathPoint& beside, const Watch& watch,
                                  const NestedPathPoint* across) {
-  struct Memory {  // what finer meshes added stays that of the path
+  struct Memory {  // what companions differ by stays that of the path
     std::vector<std::unique_ptr<Level>>& levels;
-    std::vector<std::vector<LevelCorrection>> beyond;
+    std::vector<std::vector<MeshDifference>> differences;
     explicit Memory(std::vector<std::unique_ptr<Level>>& all) : levels(all) {
-      for (const auto& level : all) beyond.push_back(level->beyond);
+      for (const auto& level : all) differences.push_back(level->differences);
     }
     ~Memory() {
-      for (std::size_t k = 0; k < levels.size(); ++k) levels[k]->beyond = std::move(beyond[k]);
+      for (std::size_t k = 0; k < levels.size(); ++k)
+        levels[k]->differences = std::move(differences[k]);
     }
   } memory(levels_);
-  PathFollower path(*levels_[0]->system, levels_[0]->motion, options_);
+  PathFollower path(system(), motion(), options_);
   path.allow_unstable(options_.allow_unstable);
-  const PathInterval next =
-      across ? interval_at(beside, *across, t) : PathInterval{&beside, nullptr};
-  path.resume(*next.from, next.to);
-  PathReport report = path.advance(t, watch);
-  // from the way, which is not at rest, it may not be found
-  if (report.end != Outcome::reached && next.from != &beside) {
-    path.resume(beside, across);
-    report = path.advance(t, watch);
-  }
+  path.resume(beside, across);
+  const PathReport report = path.advance(t, watch);
   if (report.end != Outcome::reached) return {report.end, report.t};
-  set_corrections(beside.beyond);
-  for (std::size_t k = 0; across && k < across->beyond.size(); ++k)
-    levels_[k + 1]->beyond.push_back(across->beyond[k]);
-  return certify(t, path.point(), path.last(), Prefer::stable, watch);
+  remember(beside.companions);
+  for (std::size_t k = 0; across && k < across->companions.size(); ++k)
+    levels_[k]->differences.push_back(across->companions[k]);
+  // held joints ask for the stiffness there, of a factorisation
+  const bool known = t == beside.t && system().holds().empty();
+  return certify(path, watch, known ? beside.inertia : Inertia{});
 }
 
 void NestedShell::drive(const PrescribedMove& drive) {

@@ -1,4 +1,4 @@
-// Equilibria on nested meshes: the coarsest follows the path, finer ones correct, and the
+// Equilibria on one mesh that is followed, and on coarser companions that measure it: the
 // differences between them give the error or, extrapolated, remove most of it [Richardson 1911].
 #pragma once
 
@@ -15,12 +15,15 @@
 
 namespace gridshell {
 
-/// One certified state on all levels.
+/// One certified state of the mesh that is followed, the finest, and of its companions.
 struct NestedState {
   double t = 0;
-  std::vector<State> levels;     ///< coarse to fine
+  /// coarse to fine, one a mesh; of a companion that has no equilibrium beside the finer state that
+  /// state restricted to its mesh
+  std::vector<State> levels;
+  int measured = 0;              ///< the coarsest level in equilibrium, as all finer ones are
   Eigen::Matrix3Xd x;            ///< nodes of the finest mesh, extrapolated where planned
-  double error_estimate_mm = 0;  ///< of the joints of x; NaN when only one level is solved
+  double error_estimate_mm = 0;  ///< largest, of all nodes of x; NaN without a companion's state
   double residual_N = 0;         ///< of the finest level's equilibrium
   Inertia inertia;               ///< of the finest level's Hessian
   double largest_strain = 0;     ///< by size, with its sign
@@ -31,6 +34,11 @@ struct NestedState {
   /// directions, N/mm; likewise
   Eigen::MatrixXd held_stiffness;
   double stiffness_error_N_per_mm = std::numeric_limits<double>::quiet_NaN();
+  State velocity;                       ///< of the finest level on its path, by t
+  double step = PathPoint::first_step;  ///< with which its path continues, in t
+  /// of the finest level, N/mm^2 (lowest_eigenvalue()), roughly; NaN: not asked for, or not stable
+  double lowest_eigenvalue = std::numeric_limits<double>::quiet_NaN();
+  Eigen::Matrix3Xf lowest_mode = {};  ///< over all columns, with it
 };
 
 /// Vectors that nested meshes know: those of the finest or, extrapolated, (4 fine - coarse)/3 of
@@ -46,7 +54,7 @@ struct CertifiedVectors {
 bool order_unknown(const Model& model, const Energies& energies, std::size_t meshes);
 
 /// `levels`: coarse to fine, of which the last three count. Where no order is known the error is
-/// the whole step between the last two.
+/// the complete step between the last two.
 CertifiedVectors certify_vectors(const std::vector<Eigen::Matrix3Xd>& levels, bool extrapolate,
                                  bool no_order);
 /// The same of a model: where its joints resist spin, three meshes count what a part of first order
@@ -54,33 +62,22 @@ CertifiedVectors certify_vectors(const std::vector<Eigen::Matrix3Xd>& levels, bo
 CertifiedVectors certify_vectors(const Model& model, const std::vector<Eigen::Matrix3Xd>& levels,
                                  bool extrapolate, bool no_order);
 
-/// What a finer mesh adds to the state of the one before it, interpolated: where its state is
-/// looked for nearby. A guess, so in single precision.
-struct LevelCorrection {
+/// By how much a companion's state differs from the finer one restricted to its mesh. It predicts
+/// the companion's next state, so single precision serves.
+struct MeshDifference {
   double t = 0;
-  Eigen::Matrix3Xf x = {};     ///< of the nodes
+  Eigen::Matrix3Xf x = {};     ///< of the nodes; empty: the companion has no state there
   Eigen::VectorXf force = {};  ///< of the edges
-
-  friend LevelCorrection operator-(const LevelCorrection& a, const LevelCorrection& b);
 };
 
-/// A point of the path of the coarsest mesh, and for each finer mesh by how much what it adds
-/// differs from a quarter of what the mesh before it adds.
+/// A point of the path of the finest mesh, with its companions' differences, coarse to fine.
 struct NestedPathPoint : PathPoint {
-  std::vector<LevelCorrection> beyond = {};  ///< coarse to fine; empty: not known
-  /// where the coarsest mesh took many steps from the point before: where they led
-  std::vector<PathPoint> way = {};
+  std::vector<MeshDifference> companions = {};
+  Inertia inertia = {};  ///< of the finest level's Hessian; not usable: not known
 };
-
-/// Points of the coarsest mesh that lie next to t, in front of it and behind.
-struct PathInterval {
-  const PathPoint *from, *to;
-};
-/// Those between two points that follow one another on a branch, themselves among them.
-PathInterval interval_at(const NestedPathPoint& before, const NestedPathPoint& after, double t);
 
 /// How far a shell came, and why it ended there: reached, unstable, folded, lost, not_finite,
-/// meshes_disagree, cancelled.
+/// cancelled.
 struct NestedReport {
   Outcome end = Outcome::reached;
   double t = 0;
@@ -97,39 +94,43 @@ struct PrescribedMove {
   LoadFactor opening{0, 0};  ///< and of the joints that are opened
 };
 
-/// A footprint meshed on several levels with one motion of its boundary.
+/// A footprint meshed on several levels with one motion of its boundary. The finest mesh is
+/// followed; at each certified state its companions are solved, each from the next finer state, and
+/// decide nothing.
 class NestedShell {
  public:
-  /// Errors (bad_input): rods that the rung cannot take.
+  /// Errors (bad_input): rods that the rod model cannot take.
   static Result<NestedShell> make(const Footprint& footprint, const ShellRods& rods, RodModel rung,
                                   const BoundaryMotion& motion, const LevelPlan& plan,
                                   const PathOptions& options);
 
-  /// From a state of the coarsest level at t, an equilibrium or near one: certifies it on all
-  /// levels. Of equilibria beside it a finer level takes the stable one.
-  NestedReport start(double t, const State& coarse, const Watch& watch);
-  /// The same without a certificate: only the coarsest level is brought to rest, to follow the path
-  /// on.
-  NestedReport place(double t, const State& coarse, const Watch& watch = unwatched);
+  /// From a state of the finest mesh at t, an equilibrium or near one: converges, certifies and
+  /// measures it.
+  NestedReport start(double t, const State& fine, const Watch& watch);
+  /// The same without certificate and companions, to follow the path from there.
+  NestedReport place(double t, const State& fine, const Watch& watch = unwatched);
+  /// A state of the coarsest mesh at t brought to the finest, mesh by mesh: Newton's corrections,
+  /// else down the energy. Errors: no_equilibrium, cancelled.
+  Result<State> refined(double t, State coarse, const Watch& watch);
   /// Follows the path to t and certifies there. The current state stays the last good one on
   /// failure.
   NestedReport advance(double t, const Watch& watch);
   /// Certifies the state at t, between points of the path that are known, and leaves the path
-  /// itself as it is: `beside` is the nearest of them, `across` the next one, beyond t, to which
-  /// its branch goes on, by its way. Finer levels choose as in start().
+  /// itself as it is: `beside` is the nearest of them, `across` the next one, past t, on the same
+  /// branch.
   NestedReport sample(double t, const NestedPathPoint& beside, const Watch& watch,
                       const NestedPathPoint* across = nullptr);
 
   /// From the current state on the shell is driven so, t = 0 being the current state. A start() at
-  /// t = 0 from the coarsest level's state follows.
+  /// t = 0 from the finest level's state follows.
   void drive(const PrescribedMove& drive);
   /// Back to the motion of the boundary that it was made with, joints held where they are; the
-  /// current state stands at t there.
+  /// current state is at t there.
   void actuate(double t, const std::vector<Constraint>& holds, double load_scale);
-  /// Stands where another shell of the same footprint stands, everything prescribed held there: no
-  /// motion. A start() at t = 0 from the state returned, of the coarsest mesh, follows.
+  /// Takes the state of another shell of the same footprint, everything prescribed held there: no
+  /// motion. A start() at t = 0 from the state returned, of the finest mesh, follows.
   State stay(const NestedShell& other, const std::vector<Constraint>& holds);
-  /// The field that is there, and the one that comes on with the field's growth in a drive.
+  /// The applied load that is there, and its increment in a drive.
   void set_fields(const std::vector<NodeAction>& steady, const std::vector<NodeAction>& field);
 
   const NestedState& state() const { return state_; }
@@ -138,23 +139,30 @@ class NestedShell {
   /// The same with the motions and holds that it had then.
   void restore(const NestedState& state, const std::vector<PinnedMotion>& motions,
                const std::vector<Constraint>& holds);
-  /// How far the coarsest mesh came: beyond the current state where an advance() failed.
+  /// How far the path came: past the current state where an advance() failed.
   const PathPoint& followed() const { return path_->point(); }
   /// The current state's point of the path.
   NestedPathPoint point() const;
   const LevelPlan& plan() const { return plan_; }
   int levels() const { return int(levels_.size()); }
+  int last() const { return levels() - 1; }  ///< the level that is followed
+  /// Whether the current state is extrapolated, and whether its forces and energies are.
+  bool extrapolates() const { return plan_.extrapolate && state_.measured + 2 <= last(); }
+  bool extrapolates_forces() const { return plan_.extrapolate_forces && state_.measured < last(); }
   const RodMesh& mesh(int level) const { return levels_[std::size_t(level)]->mesh; }
   const RodMesh& finest() const { return levels_.back()->mesh; }
   /// The first of the levels, up to the finest, that tell what forces and energies come to.
-  int first_of_last_three() const { return std::max(0, levels() - 3); }
+  int first_of_last_three() const { return std::max(state_.measured, levels() - 3); }
   const Model& model(int level) const { return levels_[std::size_t(level)]->model; }
+  const Model& model() const { return levels_.back()->model; }
   Linearisation& system(int level) { return *levels_[std::size_t(level)]->system; }
+  Linearisation& system() { return *levels_.back()->system; }
   /// What acts on a level from outside.
   const ExternalLoads& outside(int level) const {
     return levels_[std::size_t(level)]->system->outside;
   }
   const PinnedMotion& motion(int level) const { return levels_[std::size_t(level)]->motion; }
+  const PinnedMotion& motion() const { return levels_.back()->motion; }
   std::vector<PinnedMotion> motions() const;  ///< one a level
   /// Puts the loads of the current state on all levels.
   void apply_loads();
@@ -163,49 +171,46 @@ class NestedShell {
   /// Forces and tangents of a level's state under what acts there.
   Assembly forces(int level) const;
   /// Largest prescribed move, mm, while the motion comes all the way.
-  double reach_mm() const { return max_column_norm(levels_[0]->motion.change); }
+  double reach_mm() const { return max_column_norm(levels_.back()->motion.change); }
   Effort effort() const;
-  /// Gives back the memory of its matrices, most of what it has; whoever goes on takes it again.
+  /// Gives back the memory of its matrices, most of what it has; the next use takes it again.
   void free_memory();
+  /// Whether certified states know their lowest eigenvalue.
+  void watch_stability(bool watches) { watches_stability_ = watches; }
   /// Whether the path may go on through states with negative pivots (they stay in the report).
   void allow_unstable(bool allow) { options_.allow_unstable = allow; }
 
  private:
   struct Level : MeshLevel {
-    std::unique_ptr<StateTransfer> from_coarser;
-    std::optional<MeshTransfer> to_coarser;
+    std::unique_ptr<StateTransfer> from_finer, from_coarser;
     std::vector<NodeAction> steady, field;
-    std::vector<LevelCorrection> beyond;  // at the last three states
+    std::vector<MeshDifference> differences;  // at the last three states
   };
-  /// A state of one level, all that it adds to that of the coarser one, and how it was found.
-  struct Refined {
-    State state;
-    LevelCorrection added;
-    NewtonReport report;
+  /// What a level says of its held joints.
+  struct HeldForces {
+    Eigen::Matrix3Xd force;
+    Eigen::MatrixXd stiffness;
   };
   NestedShell(const LevelPlan& plan, const PathOptions& options);
-  // of equilibria of a finer level beside the coarser one's state: the first found, which tells
-  // where a branch loses its stability, or one that is stable
-  enum class Prefer { first, stable };
   void forget();
-  void set_corrections(const std::vector<LevelCorrection>& beyond);
-  std::vector<LevelCorrection> beyond() const;
+  void remember(const std::vector<MeshDifference>& differences);
   void reset_path();
-  NestedReport certify(double t, const PathPoint& coarse, const NewtonReport& last, Prefer prefer,
-                       const Watch& watch);
-  LevelCorrection expected_correction(std::size_t k, const LevelCorrection& below) const;
-  State guess(const Level& level, double t, const State& base, LevelCorrection expected) const;
-  std::optional<Refined> refine(std::size_t k, double t, const Refined& coarser, Prefer prefer,
-                                const Watch& watch);
+  NestedReport certify(const PathFollower& path, const Watch& watch, const Inertia& known = {});
+  void measure(const Watch& watch, const NestedState& before);
+  bool measure_on(std::size_t level, const State& base, const NestedState& before,
+                  const Watch& watch);
+  State predicted(const Level& level, double t, const State& base) const;
+  State clear_of_contact(Level& level, const State& before, State wanted) const;
   bool correct(Level& level, const State& base, State& state, NewtonReport& report,
                const Watch& watch);
-  LevelCorrection correction_of(const Level& level, double t, const State& base,
-                                const State& state) const;
+  static MeshDifference difference(const Level& level, double t, const State& base,
+                                   const State& state);
+  std::vector<MeshDifference> differences() const;
   Inertia inertia_of(Level& level, const State& found, const NewtonReport& report) const;
-  void finish(const NewtonReport& report);
   void polish(Level& finest, State& found);
-  void take_reactions();
-  void estimate();
+  HeldForces held_forces(Level& level, const State& state) const;
+  void take_reactions(const std::vector<HeldForces>& levels);
+  void estimate(const Energies& energies);
 
   LevelPlan plan_;
   PathOptions options_;
@@ -213,6 +218,7 @@ class NestedShell {
   std::vector<std::unique_ptr<Level>> levels_;
   std::unique_ptr<PathFollower> path_;
   NestedState state_;
+  bool watches_stability_ = false;
 };
 
 }  // namespace gridshell

@@ -230,11 +230,19 @@ Eigen::Matrix3Xd weighted(const Eigen::Matrix3Xd& v, const Eigen::VectorXd& leng
 
 double lowest_eigenvalue(Linearisation& system, const State& state, const Eigen::VectorXd& length,
                          const Watch& watch, double converged) {
-  constexpr int most_iterations = 200;
   if (!system.at(state, false).positive_definite()) return std::numeric_limits<double>::quiet_NaN();
-  // a start with a part along any mode
-  Eigen::Matrix3Xd v(3, system.model().columns());
-  for (Eigen::Index k = 0; k < v.size(); ++k) v.data()[k] = std::sin(1 + 1.7 * double(k));
+  Eigen::Matrix3Xd mode;
+  return lowest_eigenvalue(system, length, mode, watch, converged);
+}
+
+double lowest_eigenvalue(Linearisation& system, const Eigen::VectorXd& length, Eigen::Matrix3Xd& v,
+                         const Watch& watch, double converged) {
+  constexpr int most_iterations = 200;
+  if (v.size() == 0) {
+    // a start with a part along any mode
+    v.resize(3, system.model().columns());
+    for (Eigen::Index k = 0; k < v.size(); ++k) v.data()[k] = std::sin(1 + 1.7 * double(k));
+  }
   double lambda = std::numeric_limits<double>::infinity();
   for (int k = 0; k < most_iterations && !watch.cancelled(); ++k) {
     Eigen::Matrix3Xd next = weighted(v, length);

@@ -167,6 +167,10 @@ double product(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b);
 /// `converged`: relative change at which the iteration ends.
 double lowest_eigenvalue(Linearisation& system, const State& state, const Eigen::VectorXd& length,
                          const Watch& watch, double converged = 1e-7);
+/// The same of the last factorisation, which is positive definite; `mode` is where the iteration
+/// starts (empty: anywhere), and the lowest mode afterwards.
+double lowest_eigenvalue(Linearisation& system, const Eigen::VectorXd& length,
+                         Eigen::Matrix3Xd& mode, const Watch& watch, double converged);
 
 // Newton's method on the mixed form: positions and the axial force of every edge are unknowns; the
 // forces are eliminated edge by edge, so the system solved has the size and pattern of the Hessian.

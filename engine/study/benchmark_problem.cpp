@@ -81,17 +81,17 @@ Result<void> BenchmarkProblem::follow(int finest, Watch& watch) {
   NestedReport report;
   if (scene_->from_net) {
     t_ = 1;
-    TRY(net, on_net(*scene_, reference.mesh(0), reference.model(0), reference.motion(0)));
-    net = find_equilibrium(reference.system(0), *net, 0.5 * scene_->footprint.spacing, watch);
+    TRY(net, on_net(*scene_, reference.finest(), reference.model(), reference.motion()));
+    net = find_equilibrium(reference.system(), *net, 0.5 * scene_->footprint.spacing, watch);
     if (!net)
       return tl::unexpected<Error>(lost({Outcome::lost, 1}, "finds no rest beside the net"));
     report = reference.start(1, *net, watch);
   } else {
-    TRY(t, parameter_of_shortening(reference.mesh(0), reference.motion(0), first_shortening));
+    TRY(t, parameter_of_shortening(reference.finest(), reference.motion(), first_shortening));
     if (*t >= 1)
       return invalid("the boundary shortens the rods by less than 2 %: too little for a study");
     t_ = *t;
-    TRY(first, first_buckled(reference.system(0), reference.mesh(0), reference.motion(0), t_,
+    TRY(first, first_buckled(reference.system(), reference.finest(), reference.motion(), t_,
                              scene_->seed, scene_->flat, watch));
     report = reference.start(t_, *first, watch);
     if (report.end == Outcome::reached) start_ = reference.state().x;
@@ -154,11 +154,11 @@ Problem BenchmarkProblem::on_model(const Problem& problem, const ModelVariant& o
 
 NestedReport BenchmarkProblem::begin(NestedShell& shell, const Watch& watch) {
   if (task_ == Task::beside_net) return {Outcome::reached, 1};
-  const auto coarse = problem(shell.plan().edges_per_segment.front(), watch);
-  if (!coarse) return {Outcome::lost, t_};
-  const Model& model = shell.model(0);
-  State start = start_state(model, columns_of(shell.mesh(0), model, (*coarse)->start.x));
-  start.force = (*coarse)->start.force;
+  const auto known = problem(shell.plan().edges_per_segment.back(), watch);
+  if (!known) return {Outcome::lost, t_};
+  const Model& model = shell.model();
+  State start = start_state(model, columns_of(shell.finest(), model, (*known)->start.x));
+  start.force = (*known)->start.force;
   if (task_ == Task::actuation) return shell.place(t_, start);
   const NestedReport report = shell.start(1, start, watch);
   if (report.end == Outcome::reached) push(shell);
@@ -174,13 +174,13 @@ NestedReport BenchmarkProblem::go(NestedShell& shell, const Watch& watch, int st
     return report;
   }
   if (task_ == Task::beside_net) {
-    auto net = on_net(*scene_, shell.mesh(0), shell.model(0), shell.motion(0));
-    if (net) net = find_equilibrium(shell.system(0), *net, 0.5 * scene_->footprint.spacing, watch);
+    auto net = on_net(*scene_, shell.finest(), shell.model(), shell.motion());
+    if (net) net = find_equilibrium(shell.system(), *net, 0.5 * scene_->footprint.spacing, watch);
     if (!net) return {watch.cancelled() ? Outcome::cancelled : Outcome::lost, 1};
     return shell.start(1, *net, watch);
   }
   const int steps = std::max(1, int(std::ceil(displacement_.norm() / (push_step * scale_mm()))));
-  NestedReport report = shell.start(0, shell.state().levels[0], watch);
+  NestedReport report = shell.start(0, shell.state().levels.back(), watch);
   for (int k = 1; k <= steps && report.end == Outcome::reached; ++k)
     report = shell.advance(double(k) / steps, watch);
   return report;

@@ -11,6 +11,7 @@
 #include "engine/scene/scene.h"
 #include "engine/simulate/expected_cost.h"
 #include "engine/simulate/indentation.h"
+#include "engine/simulate/mesh_policy.h"
 #include "engine/simulate/simulation.h"
 #include "engine/solve/buckling.h"
 

@@ -10,6 +10,7 @@
 #include "engine/record/shape_measures.h"
 #include "engine/simulate/equilibrium_path.h"
 #include "engine/simulate/frames.h"
+#include "engine/simulate/mesh_policy.h"
 #include "engine/solve/buckling.h"
 #include "engine/solve/newton.h"
 #include "engine/study/state_search.h"
@@ -122,9 +123,10 @@ std::optional<ShellState> StateMeasures::of(const ShellState& met, bool life, co
   const Effort before = session_.effort() + path_.effort();
   ShellState one{met.row, {}, {}, met.energy_mJ};
   const State turned = upright(met.rest);
-  if (session_.begin_at(1, turned, watch).end != Outcome::reached || session_.locked())
+  if (session_.begin_refined(1, turned, watch).end != Outcome::reached || session_.locked())
     return std::nullopt;
-  one.rest = session_.shell().state().levels[0];
+  const NestedState& found = session_.shell().state();
+  one.rest = found.measured == 0 ? found.levels[0] : turned;
   one.frame = frame_of(session_);
   one.frame.progress = one.frame.actuation = 1;
   one.frame.boundary_radius_mm = scene_->radius_end_mm;

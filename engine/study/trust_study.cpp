@@ -186,7 +186,7 @@ Trial try_scene(preset::Preset preset, int count, bool fine, const TrustOptions&
     return trial;
   }
   if (fine) {
-    scene->leading_edges = 5;
+    scene->base_edges = 5;
     scene->load_step = 0.5;
     scene->tolerance /= 8;
   }

@@ -62,13 +62,13 @@ NestedShell shell_of(const Case& c, const LevelPlan& plan, double tolerance) {
 }
 
 State begun(NestedShell& shell) {
-  return first_buckled(shell.system(0), shell.mesh(0), shell.motion(0), parameter(0.98), {}, {},
+  return first_buckled(shell.system(), shell.finest(), shell.motion(), parameter(0.98), {}, {},
                        unwatched)
       .value();
 }
 
 double largest_joint_error(const NestedShell& shell, const NestedShell& reference) {
-  const int joints = shell.mesh(0).joints;
+  const int joints = shell.finest().joints;
   return max_column_norm(shell.state().x.leftCols(joints) - reference.state().x.leftCols(joints));
 }
 
@@ -81,17 +81,17 @@ void paper_shell(int runs, Figures& figures) {
   reference.advance(1, unwatched);
 
   // F, on the Hessian of a state of the path
-  Linearisation system(reference.model(0));
+  Linearisation system(reference.model());
   system.at(first, false);
   const auto cholmod =
-      make_cholmod(reference.model(0), {.supernodal = false, .own_ordering = false});
-  const auto block = make_block_cholesky(reference.model(0));
+      make_cholmod(reference.model(), {.supernodal = false, .own_ordering = false});
+  const auto block = make_block_cholesky(reference.model());
   const auto& hessian = system.assembly().hessian;
   cholmod->factor(hessian, 0);
   const double F = median(20 * runs, [&] { cholmod->factor(hessian, 0); });
   const double block_factor = median(20 * runs, [&] { block->factor(hessian, 0); });
   figures.say("F = {:.3f} ms (dof {})   block factorisation {:.2f} F\n", 1e3 * F,
-              reference.model(0).dof(), block_factor / F);
+              reference.model().dof(), block_factor / F);
   figures.add("block factorisation, F", block_factor / F);
 
   const auto path = [&](const char* name, const LevelPlan& plan, double tolerance, int frames,
@@ -144,8 +144,8 @@ void sizes(Figures& figures, bool largest) {
   for (int n : largest ? std::vector{24, 48, 96} : std::vector{24, 48}) {
     NestedShell shell = shell_of(circle(n), {{4}, false}, 1e-3);
     const State state = begun(shell);
-    shell.system(0).at(state, false);
-    const auto factorisation = [&] { return median(9, [&] { shell.system(0).shifted(0); }); };
+    shell.system().at(state, false);
+    const auto factorisation = [&] { return median(9, [&] { shell.system().shifted(0); }); };
     for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
       preset::Preset preset;
       preset.footprint.rods = n;
@@ -177,15 +177,15 @@ void growth(Figures& figures) {
     NestedShell shell = shell_of(c, {{4}, false}, 1e-3);
     const double setup = cpu_now() - begin;
     Assembly assembly;
-    Eigen::Matrix3Xd flat = Eigen::Matrix3Xd::Zero(3, shell.model(0).nodes);
-    flat.topRows(2) = shell.model(0).flat;
-    State state = start_state(shell.model(0), flat);
+    Eigen::Matrix3Xd flat = Eigen::Matrix3Xd::Zero(3, shell.model().nodes);
+    flat.topRows(2) = shell.model().flat;
+    State state = start_state(shell.model(), flat);
     const double assemble =
-        median(5, [&] { assemble_hessian(shell.model(0), state, {}, {}, assembly); });
-    shell.system(0).at(state, false);
-    const double factor = median(3, [&] { shell.system(0).shifted(0); });
+        median(5, [&] { assemble_hessian(shell.model(), state, {}, {}, assembly); });
+    shell.system().at(state, false);
+    const double factor = median(3, [&] { shell.system().shifted(0); });
     double start = cpu_now();
-    const auto first = first_buckled(shell.system(0), shell.mesh(0), shell.motion(0),
+    const auto first = first_buckled(shell.system(), shell.finest(), shell.motion(),
                                      parameter(0.98), {}, {}, unwatched);
     const double buckle = cpu_now() - start;
     start = cpu_now();
@@ -196,7 +196,7 @@ void growth(Figures& figures) {
     }
     const double path = cpu_now() - start;
     figures.say("{:4} {:8} {:10.4f} {:10.4f} {:10.4f} {:10.4f} {:10.4f}{}\n", n,
-                shell.model(0).dof(), setup, assemble, factor, buckle, path,
+                shell.model().dof(), setup, assemble, factor, buckle, path,
                 reached ? "" : "  not reached");
     figures.add(fmt::format("{} rods, factorisation, s", n), factor);
     figures.add(fmt::format("{} rods, first equilibrium, s", n), buckle);

@@ -27,14 +27,14 @@ NestedShell formed(const ShellRods& of, double t, const std::vector<int>& edges)
   NestedShell shell =
       NestedShell::make(fig1().footprint, of, RodModel::bend, fig1().motion, {edges, false}, {})
           .value();
-  const State first = value_of(
-      first_buckled(shell.system(0), shell.mesh(0), shell.motion(0), t, {}, {}, unwatched));
+  const State first =
+      value_of(first_buckled(shell.system(), shell.finest(), shell.motion(), t, {}, {}, unwatched));
   REQUIRE(shell.start(t, first, unwatched).end == Outcome::reached);
   return shell;
 }
 
 double energy(NestedShell& shell) {
-  return energies_of(shell.model(0), shell.state().levels[0]).total();
+  return energies_of(shell.model(), shell.state().levels.back()).total();
 }
 
 /// A rod from (0, 0, 0) to (100, 0, 0) with a joint in its middle, both ends on springs.
@@ -110,14 +110,14 @@ TEST_CASE("dead loads come on with the path: its tangent and the states agree") 
   NestedShell shell = formed(loaded, 0.6, {4, 8});
   REQUIRE(shell.advance(1, unwatched).end == Outcome::reached);
   CHECK(shell.state().residual_N < 1e-8);
-  const Eigen::Matrix3Xd there = shell.state().levels[0].x;
+  const Eigen::Matrix3Xd there = shell.state().levels.back().x;
 
   // no step of the path is needed to see the loads: the same state is found at once
-  State again = shell.state().levels[0], unloaded = again;
-  shell.system(0).outside.load = 1;
-  REQUIRE(newton(shell.system(0), again, {}).first_move_mm < 1e-5);
-  shell.system(0).outside.load = 0;
-  REQUIRE(newton(shell.system(0), unloaded, {}).outcome == Outcome::reached);
+  State again = shell.state().levels.back(), unloaded = again;
+  shell.system().outside.load = 1;
+  REQUIRE(newton(shell.system(), again, {}).first_move_mm < 1e-5);
+  shell.system().outside.load = 0;
+  REQUIRE(newton(shell.system(), unloaded, {}).outcome == Outcome::reached);
   CHECK(max_column_norm(unloaded.x - there) > 0.1);
 
   // the velocity is the derivative of the states by t

@@ -88,12 +88,6 @@ TEST_CASE("a fault names its place, key, value, what is wrong and what is right"
       {"[rod]\ndiameter_mm = 20.0",
        "bad.toml:2:15: [rod] diameter_mm = 20.0: neighbouring rods would touch, must be less than "
        "[footprint] spacing_mm = 20"},
-      {"[accuracy]\nleading_edges = 3",
-       "bad.toml:2:17: [accuracy] leading_edges = 3: 3 edges know bifurcations that the shell does "
-       "not have, must be 0 or at least 4"},
-      {"[accuracy]\nleading_edges = 8\nedges_per_segment = 8",
-       "bad.toml:2:17: [accuracy] leading_edges = 8: the mesh asked for says which one leads, must "
-       "be 0"},
       {"[figure]\nradii_mm = [126.0, 80.0]",
        "bad.toml:2:12: [figure] radii_mm = [126.0, 80.0]: 80 is not on the way, must fall from at "
        "most R_o = 126 to at least R_a = 94.5"},

@@ -61,8 +61,6 @@ Preset all_changed() {
   preset.indentation.depth = preset.indentation.depth_mm = 0;
   preset.dynamics.snap = false;
   preset.contact.model = ContactModel::none;
-  // a mesh asked for has a leader of its own
-  preset.accuracy.leading_edges = 0;
   // a strength is said once
   preset.rod.yield_strain = preset.rod_v.yield_strain = 0;
   // axes that lie apart are held by bolts

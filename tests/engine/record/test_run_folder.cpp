@@ -124,7 +124,7 @@ TEST_CASE("CSV files have the columns that others read") {
         "newton_iterations,event,reach_above_tenth,reach_above_half,lowest_latitude_deg,time_s,"
         "stiffness_N_per_mm,stiffness_error_N_per_mm,push_error_N,largest_force_N,force_error_N,"
         "energy_error_mJ,largest_bending_strain,bending_strain_at,largest_stress_MPa,"
-        "utilisation,stress_at,lowest_mm,contacts,rod_gap_mm,joint_gap_mm");
+        "utilisation,stress_at,lowest_mm,contacts,rod_gap_mm,joint_gap_mm,kind");
 }
 
 TEST_CASE("CSV lines hold the last frame, shortest numbers, and nothing for what is unknown") {
@@ -154,12 +154,12 @@ TEST_CASE("CSV lines hold the last frame, shortest numbers, and nothing for what
       frames,
       Catch::Contains("\n1,0.3333333333333333,125.9,,,1e-300,0.30000000000000004,-0,0,0,0,0,0,"
                       "0.14285714285714285,3.141592653589793,5e-324,1,,7,,,,,,,,,,,,,,,,,-0.5,1,,"
-                      "0.3333333333333333\n"));
+                      "0.3333333333333333,solved\n"));
   CHECK(
       frames.ends_with(",0.001,14,\"snap, \"\"fast\"\" \xC3\xA9\",,,,,,,,,2e-05,,,"
                        "\"u0, 45.00 mm from its begin, at joint [0, 1]\",,1.4,"
                        "\"u0, 45.00 mm from its begin, at joint [0, 1]\",-1,2,-0.1,"
-                       "0.3333333333333333\n"));
+                       "0.3333333333333333,solved\n"));
 }
 
 TEST_CASE("numbers do not follow the locale") {

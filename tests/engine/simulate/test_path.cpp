@@ -28,10 +28,11 @@ preset::Preset drawn_ellipse(double half_x_mm, double half_y_mm, double scale, d
   return p;
 }
 
-/// Led by a mesh of so many edges a segment, in load steps of so many of the usual ones.
+/// On meshes of so many edges per segment times a power of two, in load steps of so many of the
+/// usual ones.
 simulate::ExperimentResult led_by(int edges, const preset::Preset& preset, double load_step = 1) {
   Scene scene = scene_of(preset).value();
-  scene.leading_edges = edges;
+  scene.base_edges = edges;
   scene.load_step = load_step;
   record::MemorySink sink;
   Watch watch;
@@ -62,7 +63,7 @@ void check_frames(const simulate::ExperimentResult& outcome, int asked) {
   }
   for (std::size_t k = 0; k < frames.size(); ++k) {
     CAPTURE(k, frames[k].progress, frames[k].event);
-    CHECK(frames[k].residual_N < 1e-3);
+    CHECK((frames[k].kind == "interpolated" || frames[k].residual_N < 1e-3));
     if (frames[k].negative_pivots > 0) CHECK_FALSE(frames[k].event.empty());
     // rods bend, they do not stretch
     CHECK(frames[k].energies[Term::stretch] < 0.05 * frames[k].energies[Term::bend] + 1e-6);

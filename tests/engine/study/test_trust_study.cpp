@@ -19,22 +19,21 @@ TEST_CASE("random presets are the same from the same seed, of every kind, and re
   }
 }
 
-TEST_CASE("a branch that finer meshes leave for another is not confirmed by its states alone",
-          "[standard]") {
-  // at 0.44 of the way meshes finer than the leader's 4 edges go over to a branch 0.5 mm lower
+TEST_CASE("a branch that meshes of 4 edges alone have is not followed", "[standard]") {
+  // at 0.44 of the path meshes finer than 4 edges go over to a branch 0.5 mm lower
   std::mt19937 random(100003u + 32);
   preset::Preset p = study::random_preset(study::SceneKind::network, random);
   p.movie.frames = 2;
-  const auto height = [&](int leading_edges) {
+  const auto height = [&](int edges) {
     Watch watch;
-    p.accuracy.leading_edges = leading_edges;
+    p.accuracy.edges_per_segment = edges;
     const auto run = simulate::run(p, false, watch);
     REQUIRE(run);
     return run->summary.height_mm;
   };
-  const double led_by_finer = height(16);
-  CHECK(height(0) == Approx(led_by_finer).margin(1e-3));
-  CHECK(height(4) < led_by_finer - 0.3);
+  const double fine = height(32);
+  CHECK(height(0) == Approx(fine).margin(5e-2));
+  CHECK(height(4) < fine - 0.3);
 }
 
 TEST_CASE("sixty random scenes and twenty networks: none is silently wrong", "[full]") {

@@ -1,0 +1,185 @@
+#include "engine/simulate/mesh_policy.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/try.h"
+#include "engine/simulate/expected_cost.h"
+
+namespace gridshell::simulate {
+namespace {
+
+int edges_of(const EquilibriumPath& path) { return path.meshes.edges_per_segment.back(); }
+
+/// Whether an event of a segment lies near a path parameter: meshes may differ there.
+bool near_event(const PathSegment& segment, double t) {
+  return std::ranges::any_of(segment.report.events, [&](const Event& event) {
+    const auto [from, to] = std::minmax({event.placed.t, event.t, event.to.value_or(event.t)});
+    return t > from - mesh_tolerances.same_event && t < to + mesh_tolerances.same_event;
+  });
+}
+
+std::optional<std::string> not_confirmed(const PathSegment& segment, int companion) {
+  for (const Event& event : segment.report.events)
+    if (!event.confirmed)
+      return fmt::format("{} edges per segment do not have the event at path parameter {:.3f}",
+                         companion, event.t);
+  for (const LoadStep& step : segment.load_steps) {
+    const bool last = &step == &segment.load_steps.back();
+    if (std::isnan(step.certificate.error_estimate_mm) && step.certificate.stable() &&
+        (last || !near_event(segment, step.point.t)))
+      return fmt::format("{} edges per segment have no such state at path parameter {:.3f}",
+                         companion, step.point.t);
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> disagreement(const PathSegment& a, const PathSegment& b) {
+  const auto &seen = a.report.events, &found = b.report.events;
+  if (seen.size() != found.size())
+    return fmt::format("{} and {} losses of the branch", seen.size(), found.size());
+  const auto apart = [](double s, double t) {
+    return std::abs(s - t) > mesh_tolerances.same_event;
+  };
+  for (std::size_t k = 0; k < seen.size(); ++k) {
+    const bool limit = seen[k].is_limit() || found[k].is_limit();
+    if ((limit && seen[k].kind != found[k].kind) ||
+        seen[k].to.has_value() != found[k].to.has_value())
+      return "events of another kind";
+    if (apart(seen[k].t, found[k].t))
+      return fmt::format("path parameters {:.3f} and {:.3f} of an event", seen[k].t, found[k].t);
+  }
+  if (apart(a.end(), b.end()))
+    return fmt::format("ends at path parameters {:.3f} and {:.3f}", a.end(), b.end());
+  return std::nullopt;
+}
+
+/// The positions of events that a mesh's own companion does not have, extrapolated from those on
+/// two meshes.
+void extrapolate_events(const std::vector<PathSegment>& coarse, std::vector<PathSegment>& fine) {
+  for (std::size_t k = 0; k < fine.size(); ++k)
+    for (std::size_t e = 0; e < fine[k].report.events.size(); ++e) {
+      Event& event = fine[k].report.events[e];
+      if (!event.confirmed) event.extrapolate(coarse[k].report.events[e].placed);
+    }
+}
+
+}  // namespace
+
+LevelPlan initial_levels(const Scene& scene) {
+  // the error over the length scale grows with the number of segments of a rod; measured on circles
+  // of 12 to 96 rods per direction
+  std::size_t segments = mesh_tolerances.segments;
+  for (const FootprintRod& rod : scene.footprint.rods)
+    if (!scene.from_net) segments = std::max(segments, rod.joints.size() + 1);
+  const double growth = double(segments) / mesh_tolerances.segments;
+  LevelPlan plan = scene.edges_per_segment > 0
+                       ? plan_of_mesh(scene.edges_per_segment)
+                       : plan_levels(scene.tolerance / growth, scene.base_edges);
+  if (scene.rods.contact.barrier.acts()) plan.extrapolate = false;  // as NestedShell::make()
+  return plan;
+}
+
+std::optional<std::string> not_confirmed(const EquilibriumPath& path) {
+  const auto& edges = path.meshes.edges_per_segment;
+  if (edges.size() < 2) return std::nullopt;
+  for (const auto segments : {&path.earlier, &path.segments})
+    for (const PathSegment& segment : *segments)
+      if (auto found = not_confirmed(segment, edges[edges.size() - 2])) return found;
+  return std::nullopt;
+}
+
+std::optional<std::string> mesh_disagreement(const EquilibriumPath& coarse,
+                                             const EquilibriumPath& fine) {
+  for (const auto segments : {&EquilibriumPath::earlier, &EquilibriumPath::segments}) {
+    const auto &a = coarse.*segments, &b = fine.*segments;
+    if (a.size() != b.size()) return "another way from the flat";
+    for (std::size_t k = 0; k < a.size(); ++k)
+      if (auto found = disagreement(a[k], b[k])) return found;
+  }
+  if (coarse.segments.empty() || coarse.segments.back().end() != fine.segments.back().end())
+    return std::nullopt;  // both ended early, at states of their own
+  const double apart = distance_of_joints(coarse.simulation, fine.simulation.nodes()),
+               d = coarse.simulation.scene().footprint.spacing;
+  if (apart > mesh_tolerances.same_state * d) return fmt::format("ends {:.3g} mm apart", apart);
+  return std::nullopt;
+}
+
+Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follow,
+                                         const Watch& watch) {
+  LevelPlan plan = initial_levels(scene);
+  const bool asked = scene.edges_per_segment > 0;
+  const double allowed =
+      asked ? std::numeric_limits<double>::infinity() : scene.tolerance * scene.length_scale_mm;
+  plan.allowed_mm = allowed;
+  plan.events_apart = mesh_tolerances.same_event;
+  TRY_DO(fits_memory(scene, plan));
+  SharedPath coarse;
+  for (int doublings = 0;;) {
+    auto path = follow(plan, watch);
+    if (!path || watch.cancelled()) return path;
+    EquilibriumPath& found = **path;
+    found.meshes = plan;
+    if (coarse) {
+      found.simulation.charge(coarse->simulation.effort());
+      found.seconds_setup += coarse->seconds_setup;
+    }
+    const bool too_coarse = found.too_coarse();
+    auto missing = too_coarse ? std::nullopt : not_confirmed(found);
+    if (asked || (!too_coarse && !missing)) {
+      if (missing) found.mesh_disagreement = *missing;
+      return path;
+    }
+    // two meshes that follow one another agree
+    if (missing && coarse && !coarse->too_coarse() && !mesh_disagreement(*coarse, found)) {
+      extrapolate_events(coarse->segments, found.segments);
+      extrapolate_events(coarse->earlier, found.earlier);
+      return path;
+    }
+    const auto next = finer(plan);
+    const auto fits = next ? fits_memory(scene, *next) : Result<void>{};
+    if (missing && (!next || !fits || doublings >= mesh_tolerances.doublings)) {
+      found.mesh_disagreement = *missing;
+      return path;
+    }
+    if (too_coarse && (!next || !fits)) {
+      // what can be had is kept, and what is missed is said
+      plan.allowed_mm = std::numeric_limits<double>::infinity();
+      coarse = nullptr;
+      auto last = follow(plan, watch);
+      if (!last || watch.cancelled()) return last;
+      (*last)->meshes = plan;
+      (*last)->simulation.charge(found.simulation.effort());
+      const double worst = worst_estimate_mm(**last);
+      (*last)->tolerance_missed = worst > allowed || std::isnan(worst);
+      (*last)->mesh_disagreement = fmt::format(
+          "the tolerance {:g} is not met: {} edges per segment leave an estimated error of "
+          "{:.2g} mm, {:.2g} of the length scale{}",
+          scene.tolerance, plan.edges_per_segment.back(), worst, worst / scene.length_scale_mm,
+          fits ? "" : "; " + fits.error().message);
+      return last;
+    }
+    if (!too_coarse) ++doublings;
+    found.simulation.shell().free_memory();
+    coarse = std::move(*path);
+    plan = *next;
+    plan.allowed_mm = allowed;
+  }
+}
+
+std::string why_so_fine(const EquilibriumPath& path) {
+  const Scene& scene = path.simulation.scene();
+  const double allowed = scene.tolerance * scene.length_scale_mm, worst = worst_estimate_mm(path);
+  if (scene.edges_per_segment > 0 ||
+      !(worst > 0 && mesh_tolerances.clearly_finer * worst < allowed))
+    return "";
+  const std::string over =
+      fmt::format("the error estimate is {:.1g} of the tolerance, as ", worst / allowed);
+  if (edges_of(path) > initial_levels(scene).edges_per_segment.back())
+    return over + "coarser meshes do not have the events or states that finer ones have";
+  return over + (path.meshes.extrapolate ? "coarser meshes leave more than it, as a rule"
+                                         : "on fewer meshes the error would not be known");
+}
+
+}  // namespace gridshell::simulate

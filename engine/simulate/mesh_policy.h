@@ -1,0 +1,79 @@
+// Which mesh a path is followed on, and when that is enough: the one place that decides it.
+//
+//   k from the tolerance; the path is followed on k edges per segment, its companions (k/2, k/4)
+//   measure it (solve/nested_shell.h);
+//   twice the edges, where an error estimate is above the tolerance, where an event of k is not the
+//   companion's too, or where the companion has no state beside the fine one;
+//   enough, where nothing of this is so, or where two meshes that follow one another agree;
+//   else `doubt` says what is not confirmed.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include "engine/simulate/equilibrium_path.h"
+
+namespace gridshell::simulate {
+
+/// By what meshes are compared. Path parameters run from 0 to 1.
+struct MeshTolerances {
+  /// Events of two meshes that lie so near in the path parameter are the same: on 4 and 8 edges a
+  /// bifurcation of the paper's shells moves by up to 0.03.
+  double same_event = 0.05;
+  /// States whose joints lie so near are the same, of d: meshes of 4 and 8 edges differ by up to
+  /// 0.05 d where they are on one branch, and states of different branches by d and more.
+  double same_state = 0.1;
+  /// How often the edges are doubled for events alone, whose meshes may never agree.
+  int doublings = 3;
+  /// Segments of a rod up to which the first mesh is chosen by the tolerance alone.
+  int segments = 26;
+  /// An estimate below the tolerance by so much asks for a reason.
+  double clearly_finer = 10;
+};
+inline constexpr MeshTolerances mesh_tolerances;
+
+/// The meshes to begin with: those of the tolerance, or those asked for by themselves.
+LevelPlan initial_levels(const Scene& scene);
+
+using SharedPath = std::shared_ptr<EquilibriumPath>;
+/// Follows a path on the meshes of a plan. Errors: bad_input, no_equilibrium, cancelled.
+using Follow = std::function<Result<SharedPath>(const LevelPlan&, const Watch&)>;
+
+/// The path on the coarsest mesh that is enough. What is missed, or not confirmed, is its `doubt`:
+/// the tolerance, an event, a state. Errors: those of `follow`; bad_input where the first meshes do
+/// not fit the memory.
+Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follow,
+                                         const Watch& watch);
+
+/// The same of an EquilibriumPath or what is made from one: follow(plan, watch) gives a Result of
+/// it.
+template <class FollowPath>
+auto converged_path(const Scene& scene, const FollowPath& follow, const Watch& watch) {
+  using Found = std::invoke_result_t<FollowPath, const LevelPlan&, const Watch&>;
+  using Path = typename Found::value_type;
+  const auto shared = [](Path&& path) -> SharedPath {
+    return std::make_shared<Path>(std::move(path));
+  };
+  return converged_shared_path(
+             scene,
+             [&](const LevelPlan& plan, const Watch& w) { return follow(plan, w).map(shared); },
+             watch)
+      .map([](const SharedPath& path) { return std::move(static_cast<Path&>(*path)); });
+}
+
+/// What a path's own mesh and its companion do not agree on, a sentence; nothing: they agree.
+std::optional<std::string> not_confirmed(const EquilibriumPath& path);
+
+/// Whether two paths on different meshes say the same: the same segments with the same events,
+/// near each other, to the same end. Otherwise a sentence says what they differ in.
+std::optional<std::string> mesh_disagreement(const EquilibriumPath& coarse,
+                                             const EquilibriumPath& fine);
+
+/// Why a path is on meshes that are finer than its tolerance takes; empty: it is not.
+std::string why_so_fine(const EquilibriumPath& path);
+
+}  // namespace gridshell::simulate
