@@ -226,6 +226,8 @@ Result<void> EditSession::act(const Rest& command, const Watch& watch) {
 }
 
 Result<void> EditSession::act(const Jitter& command, const Watch& watch) {
+  // where a shaken shell converges to is chance: on the meshes of a run both come to one state
+  refine(watch);
   preset::Step step = step_of(preset::StepKind::jitter);
   step.seed = command.seed;
   step.force_N = 20 * now_.preset.jitter.field_N_per_mm * now_.scene->footprint.spacing;

@@ -16,12 +16,13 @@ bool same_nodes(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) {
 
 }  // namespace
 
-LevelPlan coarse_plan(const Scene& scene) {
-  // small shells are dragged on the meshes of a run, so that both come to the same states
-  constexpr std::size_t small = 600;  // joints
-  const LevelPlan plan = simulate::initial_levels(scene);
-  if (scene.footprint.joints.size() <= small) return plan;
-  return {{plan.edges_per_segment.front()}, false};
+LevelPlan drag_plan(const Scene& scene, const LevelPlan& now) {
+  // of joints and edges per segment: solved on all meshes within a frame of the window. What is
+  // held keeps its displacement on each of them, so that a run comes to the same state
+  constexpr std::size_t small = 4800;
+  if (scene.footprint.joints.size() * std::size_t(now.edges_per_segment.back()) <= small)
+    return now;
+  return {{simulate::initial_levels(scene).edges_per_segment.front()}, false};
 }
 
 void EditSession::execute(const Command& command, const Watch& watch) {
@@ -117,7 +118,7 @@ void EditSession::refine_meshes(const Watch& watch) {
 
 void EditSession::coarsen(const Watch& watch) {
   // where the coarse mesh does not have this state, the drag goes on on the finer ones
-  (void)session_->remesh(coarse_plan(*now_.scene), watch);
+  (void)session_->remesh(drag_plan(*now_.scene, session_->shell().plan()), watch);
 }
 
 /// Notes what a step came past; an end before its end is the error.
@@ -151,6 +152,7 @@ Result<void> EditSession::form(const preset::Preset& preset, const Watch& watch)
   now_.snapped = snapped;
   now_.first.reset();
   view_.message = view_.event = course->limit_reason;
+  if (!preset.step.empty()) refine(watch);  // its steps begin on the meshes of a run
   for (const preset::Step& step : preset.step) {
     // what stands before a step is what it is seen against
     update_view();

@@ -167,7 +167,8 @@ class EditSession {
 /// Why something was thrown, in words that fit into the line of errors.
 std::string error_text(const std::exception& thrown);
 
-/// The meshes that follow a drag: the coarsest of those that the scene asks for.
-LevelPlan coarse_plan(const Scene& scene);
+/// The meshes that follow a drag: those of now where the shell is small, else the coarsest of those
+/// that the scene asks for, alone.
+LevelPlan drag_plan(const Scene& scene, const LevelPlan& now);
 
 }  // namespace gridshell::window

@@ -122,6 +122,10 @@ preset::Preset ViewerState::preset_to_save() const {
   });
   if (circle && moves && !shell->snapped) return preset;
   preset.step = steps_of(shell->steps);
+  // where a shaken shell converges to is chance, but on one mesh
+  const bool shaken = std::ranges::any_of(
+      preset.step, [](const auto& step) { return step.kind == preset::StepKind::jitter; });
+  if (shaken) preset.accuracy.edges_per_segment = shell->meshes.back();
   if (circle) preset.actuation.radius_mm = shell->radius_end_mm;
   return preset;
 }
