@@ -236,7 +236,15 @@ Inertia NestedShell::inertia_of(Level& level, const State& found,
   constexpr double same_state = 1e-3;  // of d
   const bool near = report.factored_move_mm <= same_state * options_.spacing_mm;
   if (near && report.inertia.positive_definite()) return report.inertia;
-  return level.system->at(found, false);
+  Inertia inertia = level.system->at(found, false);
+  // a direction without stiffness takes its sign from what is left of the residual
+  if (inertia.usable && !inertia.positive_definite() && level.system->neutral_shift() > 0) {
+    State exact = found;
+    if (newton(*level.system, exact, {.tolerance_mm = 1e-3 * options_.tolerance_mm}, unwatched)
+            .outcome == Outcome::reached)
+      inertia = level.system->at(exact, false);
+  }
+  return inertia;
 }
 
 /// Error of all nodes, by how much companions differ at the nodes that they share, and
