@@ -182,7 +182,8 @@ NestedReport NestedShell::certify(const PathFollower& path, const Watch& watch,
   if (!state_.inertia.usable) return refused(Outcome::not_finite);
   if (!state_.inertia.positive_definite() && !options_.allow_unstable)
     return refused(Outcome::unstable);
-  polish(finest, found);
+  polish(finest, found, path.last());
+  if (!known.usable && state_.velocity.x.size() > 0) refine_velocity(finest, found);
   state_.residual_N = finest.system->residual();
   state_.largest_strain = finest.system->assembly().largest_strain;
   const Energies energies = finest.system->assembly().energies;
@@ -200,14 +201,18 @@ NestedReport NestedShell::certify(const PathFollower& path, const Watch& watch,
 }
 
 /// At the end of a path, and where a force is measured, the residual goes down to what round-off
-/// leaves: corrections are cheap. Elsewhere one is made where the last correction strained the rods
-/// by a force that is seen. The assembly ends at the state found.
-void NestedShell::polish(Level& finest, State& found) {
+/// leaves: corrections are cheap. Elsewhere one is made where the last correction was above the
+/// tolerance, as a soft direction may need another of its size, or where it strained the rods by a
+/// force that is seen. The assembly ends at the state found.
+void NestedShell::polish(Level& finest, State& found, const NewtonReport& last) {
   constexpr double seen = 1e-5;  // of the largest axial force
   Linearisation& system = *finest.system;
   system.gradient_at(found);
-  const bool to_the_end = state_.t >= 1 || !system.holds().empty();
-  if (!to_the_end && system.force_misfit(found) <= seen * found.force.cwiseAbs().maxCoeff()) return;
+  const bool to_the_end = state_.t >= 1 || !system.holds().empty(),
+             trusted = last.last_move_mm > options_.tolerance_mm;
+  if (!to_the_end && !trusted &&
+      system.force_misfit(found) <= seen * found.force.cwiseAbs().maxCoeff())
+    return;
   const int most = to_the_end ? 4 : 1;
   Eigen::Matrix3Xd dx;
   for (int k = 0; k < most && state_.inertia.usable; ++k) {
@@ -227,6 +232,31 @@ void NestedShell::polish(Level& finest, State& found) {
     }
     found = std::move(trial);
   }
+}
+
+/// The path's tangent at the state itself: the velocity was solved for at the factorisation, one
+/// correction before it. States a little before and after along it are corrected once; the assembly
+/// ends at the state.
+void NestedShell::refine_velocity(Level& finest, const State& found) {
+  constexpr double by = 2e-4;  // of t
+  Linearisation& system = *finest.system;
+  const State velocity = state_.velocity;
+  state_.velocity.x.setZero();
+  state_.velocity.force.setZero();
+  Eigen::Matrix3Xd dx;
+  for (const double sign : {-1.0, 1.0}) {
+    State beside = found;
+    beside.force += sign * by * velocity.force;
+    move_to(finest.model, found.x + sign * by * velocity.x, beside);
+    finest.motion.impose(system, state_.t + sign * by, beside);
+    system.residual_at(beside);
+    system.correction(dx);
+    system.apply(dx, beside);
+    state_.velocity.x += sign / (2 * by) * beside.x;
+    state_.velocity.force += sign / (2 * by) * beside.force;
+  }
+  finest.motion.apply_loads(system, state_.t);
+  system.gradient_at(found);
 }
 
 /// The factorisation of the last correction is the state's own but for that correction; where it

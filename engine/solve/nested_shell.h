@@ -207,7 +207,8 @@ class NestedShell {
                                    const State& state);
   std::vector<MeshDifference> differences() const;
   Inertia inertia_of(Level& level, const State& found, const NewtonReport& report) const;
-  void polish(Level& finest, State& found);
+  void polish(Level& finest, State& found, const NewtonReport& last);
+  void refine_velocity(Level& finest, const State& found);
   HeldForces held_forces(Level& level, const State& state) const;
   void take_reactions(const std::vector<HeldForces>& levels);
   void estimate(const Energies& energies);
