@@ -178,8 +178,7 @@ void EditSession::set_shell(const preset::Preset& preset, std::shared_ptr<const 
 /// What the preset itself pushes, from where the shell stands.
 Result<void> EditSession::set_preset_push() {
   if (!now_.preset.indentation.wanted()) return {};
-  TRY(push, simulate::push_of(now_.preset.indentation, *now_.scene, session_->shell().finest(),
-                              session_->nodes()));
+  TRY(push, simulate::push_of(now_.preset.indentation, *now_.scene, session_->shell()));
   now_.push = {push->joint, session_->nodes().col(push->joint), push->displacement};
   return {};
 }

@@ -26,6 +26,14 @@ Eigen::VectorXd curvature(const Simulation& simulation, int level) {
   return cell_curvature(footprint, joint_tangents(footprint, mesh, nodes));
 }
 
+Eigen::Vector3d normal_on(const Footprint& footprint, const NestedShell& shell, int level,
+                          int joint) {
+  const RodMesh& mesh = shell.mesh(level);
+  const Eigen::Matrix3Xd nodes =
+      nodes_of(mesh, shell.model(level), shell.state().levels[std::size_t(level)].x);
+  return joint_tangents(footprint, mesh, nodes).normal(joint);
+}
+
 /// K of the cells in bins of x/L, L the half-span of the actuated boundary and x from its middle,
 /// at the nodes x; rows: bins, columns: mean, deviation, cells.
 Eigen::MatrixX3d bins_of(const Scene& scene, const Eigen::Matrix3Xd& x, const Eigen::VectorXd& K) {
@@ -121,6 +129,12 @@ Result<void> record_blocks(const Assemblage& blocks, const FlatFrame& flat,
 }
 
 }  // namespace
+
+Eigen::Vector3d joint_normal(const Footprint& footprint, const NestedShell& shell, int joint) {
+  const Eigen::Vector3d fine = normal_on(footprint, shell, shell.last(), joint);
+  if (shell.state().measured == shell.last()) return fine;
+  return (4 * fine - normal_on(footprint, shell, shell.last() - 1, joint)).normalized();
+}
 
 record::Summary summary_before(const preset::Preset& preset, const Scene& scene) {
   record::Summary s;

@@ -42,6 +42,10 @@ double utilisation_of(const Simulation& simulation);
 double utilisation_of(const Scene& scene, const RodMesh& mesh, const Model& model,
                       const State& state, const Assembly& forces);
 
+/// The normal of the shell at a joint, t_u x t_v, extrapolated over the last two meshes where both
+/// have the state; zero where no two rods cross.
+Eigen::Vector3d joint_normal(const Footprint& footprint, const NestedShell& shell, int joint);
+
 /// What follows from a frame's nodes, K, reactions and curvature on the finest mesh.
 void complete_shape(const Simulation& simulation, const record::Contacts& contacts,
                     record::Frame& frame);

@@ -184,12 +184,12 @@ Result<int> pushed_joint(const preset::Indentation& indentation, const Footprint
                     joints.colwise().normalized().transpose() * direction_of(indentation));
 }
 
-Result<PushOf> push_of(const preset::Indentation& asked, const Scene& scene, const RodMesh& mesh,
-                       const Eigen::Matrix3Xd& nodes) {
+Result<PushOf> push_of(const preset::Indentation& asked, const Scene& scene,
+                       const NestedShell& shell) {
   const Eigen::Index joints = Eigen::Index(scene.footprint.joints.size());
-  Eigen::Matrix3Xd places = nodes.leftCols(joints);
+  Eigen::Matrix3Xd places = shell.state().x.leftCols(joints);
   if (scene.net) {
-    TRY(net, points_on(*scene.net, mesh.flat.leftCols(joints)));
+    TRY(net, points_on(*scene.net, shell.finest().flat.leftCols(joints)));
     places = std::move(*net);
   }
   TRY(joint, pushed_joint(asked, scene.footprint, places));
@@ -200,7 +200,7 @@ Result<PushOf> push_of(const preset::Indentation& asked, const Scene& scene, con
     TRY(point, scene.net->at(at.u, at.v));
     push.displacement = point->normal();
   } else {
-    push.displacement = joint_tangents(scene.footprint, mesh, nodes).normal(*joint);
+    push.displacement = joint_normal(scene.footprint, shell, *joint);
     if (push.displacement.isZero(0))
       return invalid(
           "[indentation]: no two rods cross at the joint pushed, so the "
@@ -217,7 +217,7 @@ Result<HeldShell> hold_to_push(const std::shared_ptr<const Scene>& scene,
   TRY(actuated, follow_whole_actuation(scene, plan, "to push", watch));
   if (actuated->too_coarse()) return HeldShell{std::move(*actuated), {}, {}};
   Simulation& simulation = actuated->simulation;
-  TRY(push, push_of(asked, *scene, simulation.shell().finest(), simulation.nodes()));
+  TRY(push, push_of(asked, *scene, simulation.shell()));
   const auto joints = Eigen::Index(scene->footprint.joints.size());
   Eigen::Matrix3Xd before = simulation.nodes().leftCols(joints);
   HeldShell held{std::move(*actuated), *push, std::move(before)};

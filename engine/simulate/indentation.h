@@ -26,10 +26,9 @@ struct PushOf {
   Eigen::Vector3d displacement = Eigen::Vector3d::Zero();  ///< mm
 };
 
-/// For the unloaded shell with the nodes of `mesh` at `nodes`. Errors (bad_input) as
-/// pushed_joint().
+/// For the unloaded shell. Errors (bad_input) as pushed_joint().
 Result<PushOf> push_of(const preset::Indentation& indentation, const Scene& scene,
-                       const RodMesh& mesh, const Eigen::Matrix3Xd& nodes);
+                       const NestedShell& shell);
 
 /// An actuated shell that is held at the joint to be pushed, and what is to be done to it.
 struct HeldShell : EquilibriumPath {

@@ -1,6 +1,8 @@
 #include "engine/simulate/path_sampler.h"
 
 #include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "engine/core/try.h"
@@ -8,6 +10,18 @@
 #include "engine/simulate/frames_between.h"
 
 namespace gridshell::simulate {
+namespace {
+
+/// Whether it is not known on which side of an event, where the branch changes, a position lies:
+/// that of the event is known to its error.
+bool at_event(const PathSegment& segment, double t) {
+  constexpr double times = 2;  // of an estimated error
+  return std::ranges::any_of(segment.report.events, [t](const Event& event) {
+    return !event.is_limit() && std::abs(t - event.t) <= times * event.error.value_or(0);
+  });
+}
+
+}  // namespace
 
 PathSampler::PathSampler(EquilibriumPath& path, Caption caption, record::Sink& sink, Watch& watch,
                          std::size_t count)
@@ -53,6 +67,8 @@ Result<void> PathSampler::take_current(const PathSample& sample, std::string eve
 Result<void> PathSampler::take_at(record::Frame frame, const PathSample& sample, std::string event,
                                   double past) {
   frame.event = std::move(event);
+  if (at_event(path_.segments[sample.segment], sample.t))     frame.error_estimate_mm = frame.force_error_N = frame.push_error_N = frame.energy_error_mJ =
+        frame.stiffness_error_N_per_mm = record::unknown;
   last_ = sample;
   last_reached_t_ = past;
   return take(std::move(frame), sample);

@@ -6,8 +6,8 @@
 
 #include "engine/core/algorithms.h"
 #include "engine/core/try.h"
-#include "engine/record/shape_measures.h"
 #include "engine/simulate/expected_cost.h"
+#include "engine/simulate/frames.h"
 #include "engine/simulate/indentation.h"
 
 namespace gridshell::simulate {
@@ -17,9 +17,7 @@ Eigen::Vector3d vector_of(const std::vector<double>& xyz) { return {xyz[0], xyz[
 
 /// t_u x t_v at a joint of the shell as it stands; zero where no two rods cross.
 Eigen::Vector3d normal_at(const Simulation& simulation, int joint) {
-  return joint_tangents(simulation.scene().footprint, simulation.shell().finest(),
-                        simulation.nodes())
-      .normal(joint);
+  return joint_normal(simulation.scene().footprint, simulation.shell(), joint);
 }
 
 /// Where a move has the edge points, off the scene's motion.

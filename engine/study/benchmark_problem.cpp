@@ -104,7 +104,7 @@ Result<void> BenchmarkProblem::follow(int finest, Watch& watch) {
   finest_ = reference.mesh(reference.levels() - 1);
   if (task_ == Task::push) {
     start_ = reference.state().x;
-    TRY(asked, simulate::push_of(pushed_, *scene_, reference.finest(), reference.state().x));
+    TRY(asked, simulate::push_of(pushed_, *scene_, reference));
     joint_ = asked->joint;
     displacement_ = asked->displacement;
     push(reference);
