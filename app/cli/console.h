@@ -9,7 +9,7 @@ namespace gridshell::app {
 
 enum ExitCode : int {
   done = 0,
-  failed = 1,     ///< no equilibrium, unstable, disk full
+  failed = 1,     ///< no equilibrium, unstable, tolerance missed, disk full
   bad_input = 2,  ///< or bad usage
   different = 3,  ///< compared and different
   interrupted = 130

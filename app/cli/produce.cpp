@@ -271,6 +271,7 @@ std::string failure_of(const record::Summary& summary, bool allow_unstable) {
         "ends in an unstable state with {} negative pivots; 'allow_unstable = true' "
         "accepts that",
         summary.negative_pivots);
+  if (!summary.tolerance_met) return summary.doubt;
   return "";
 }
 

@@ -34,7 +34,10 @@ struct Summary {
   int negative_pivots = 0;
   Limit limit = Limit::none;
   std::string limit_reason;  ///< what the path came past, sentences; never empty beside a limit
-  std::string doubt;         ///< what leading meshes do not agree on; empty: nothing is in doubt
+  std::string doubt;         ///< what is not confirmed; empty: nothing is in doubt
+  /// Whether no load step's estimated error is above the tolerance asked for; `doubt` says by how
+  /// much.
+  bool tolerance_met = true;
   double residual_N = 0;
   double largest_strain = unknown;  ///< of an edge along the rod, by size, with its sign
   double error_estimate_mm = unknown;
@@ -71,7 +74,7 @@ void fields(Run& run, const Visit& visit) {
              "edges_per_segment", run.edges_per_segment, "rods", run.rods, "joints", run.joints,
              "cells", run.cells, "dof", run.dof, "stable", run.stable, "negative_pivots",
              run.negative_pivots, "limit", run.limit, "limit_reason", run.limit_reason, "doubt",
-             run.doubt, "residual_N", run.residual_N, "largest_strain", run.largest_strain,
+             run.doubt, "tolerance_met", run.tolerance_met, "residual_N", run.residual_N, "largest_strain", run.largest_strain,
              "error_estimate_mm", run.error_estimate_mm, "force_N", run.force_N, "push_error_N",
              run.push_error_N, "stiffness_N_per_mm", run.stiffness_N_per_mm,
              "stiffness_error_N_per_mm", run.stiffness_error_N_per_mm, "largest_force_N",

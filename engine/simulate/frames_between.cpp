@@ -199,7 +199,8 @@ std::optional<record::Frame> FramesBetween::between(double t, const Knots& knots
   };
   const double curved = largest(sum(weights.all, &Frame::curvature_per_mm));
   if (!(nodes_mm <= allowed_mm) ||
-      !(doubt(&Frame::curvature_per_mm, largest) <= share_of_colour * curved) || seen(mJ, of_energies(frame.energies), &Frame::energy_error_mJ) ||
+      !(doubt(&Frame::curvature_per_mm, largest) <= share_of_colour * curved) ||
+      seen(mJ, of_energies(frame.energies), &Frame::energy_error_mJ) ||
       seen(N, largest(frame.reactions_N), &Frame::force_error_N))
     return {};
   frame.nodes += nodes->leftCols(frame.nodes.cols());

@@ -67,7 +67,9 @@ Result<void> PathSampler::take_current(const PathSample& sample, std::string eve
 Result<void> PathSampler::take_at(record::Frame frame, const PathSample& sample, std::string event,
                                   double past) {
   frame.event = std::move(event);
-  if (at_event(path_.segments[sample.segment], sample.t))     frame.error_estimate_mm = frame.force_error_N = frame.push_error_N = frame.energy_error_mJ =
+  // of some steps only the end is known
+  if (sample.segment < path_.segments.size() && at_event(path_.segments[sample.segment], sample.t))
+    frame.error_estimate_mm = frame.force_error_N = frame.push_error_N = frame.energy_error_mJ =
         frame.stiffness_error_N_per_mm = record::unknown;
   last_ = sample;
   last_reached_t_ = past;
