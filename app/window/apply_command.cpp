@@ -187,8 +187,9 @@ Result<void> EditSession::act(const Push& command, const Watch& watch) {
   if (still && session_->grip_origins.contains(command.joint)) return {};
   // a long way that was typed shows its equilibria as one that was dragged
   const bool dragged = this_drag_ == 0 || this_drag_ == steps_drag_;
-  const int parts =
-      dragged || !looks_between() ? 1 : int(std::clamp(way.norm() / part_mm, 1.0, most_parts));
+  const int parts = dragged || !looks_between()
+                        ? 1
+                        : int(std::clamp(std::round(way.norm() / part_mm), 1.0, most_parts));
   for (int k = 1; k < parts; ++k) {
     step.to_mm = xyz_of(command.to - (1 - double(k) / parts) * way);
     TRY_DO(do_step(step, watch));

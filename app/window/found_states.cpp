@@ -14,12 +14,12 @@ namespace gridshell::window {
 namespace {
 
 /// Where between a load step that is not stable and one that is an event says that stability ends,
-/// else half way.
+/// else the first: of what lies between nothing is known.
 double edge_between(double unstable, double stable, const std::vector<Event>& events) {
   for (const Event& event : events)
     if (event.kind == Event::Kind::stability_lost && (event.t - unstable) * (event.t - stable) <= 0)
       return event.t;
-  return (unstable + stable) / 2;
+  return unstable;
 }
 
 constexpr double touching = 1e-9;

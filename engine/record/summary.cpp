@@ -44,7 +44,8 @@ constexpr const char* of_a_solution[] = {"stable", "negative_pivots"};
 /// Whether an older version did not write the key.
 bool may_lack(const std::string& key) {
   static const auto later = words_in(
-      "kind finished largest_strain steps doubt tolerance_met force_N push_error_N stiffness_N_per_mm "
+      "kind finished largest_strain steps doubt tolerance_met force_N push_error_N "
+      "stiffness_N_per_mm "
       "stiffness_error_N_per_mm largest_force_N force_error_N largest_bending_strain "
       "bending_strain_at largest_stress_MPa utilisation stress_at lowest_mm contact contacts",
       " ");

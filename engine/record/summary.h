@@ -70,18 +70,18 @@ struct Summary {
 };
 template <RecordOf<Summary> Run, class Visit>
 void fields(Run& run, const Visit& visit) {
-  visit_each(visit, "preset", run.preset, "model", run.model, "model_reason", run.model_reason,
-             "edges_per_segment", run.edges_per_segment, "rods", run.rods, "joints", run.joints,
-             "cells", run.cells, "dof", run.dof, "stable", run.stable, "negative_pivots",
-             run.negative_pivots, "limit", run.limit, "limit_reason", run.limit_reason, "doubt",
-             run.doubt, "tolerance_met", run.tolerance_met, "residual_N", run.residual_N, "largest_strain", run.largest_strain,
-             "error_estimate_mm", run.error_estimate_mm, "force_N", run.force_N, "push_error_N",
-             run.push_error_N, "stiffness_N_per_mm", run.stiffness_N_per_mm,
-             "stiffness_error_N_per_mm", run.stiffness_error_N_per_mm, "largest_force_N",
-             run.largest_force_N, "force_error_N", run.force_error_N, "energy_error_mJ",
-             run.energy_error_mJ, "largest_bending_strain", run.largest_bending_strain,
-             "bending_strain_at", run.bending_strain_at, "largest_stress_MPa",
-             run.largest_stress_MPa, "utilisation", run.utilisation, "stress_at", run.stress_at);
+  visit_each(
+      visit, "preset", run.preset, "model", run.model, "model_reason", run.model_reason,
+      "edges_per_segment", run.edges_per_segment, "rods", run.rods, "joints", run.joints, "cells",
+      run.cells, "dof", run.dof, "stable", run.stable, "negative_pivots", run.negative_pivots,
+      "limit", run.limit, "limit_reason", run.limit_reason, "doubt", run.doubt, "tolerance_met",
+      run.tolerance_met, "residual_N", run.residual_N, "largest_strain", run.largest_strain,
+      "error_estimate_mm", run.error_estimate_mm, "force_N", run.force_N, "push_error_N",
+      run.push_error_N, "stiffness_N_per_mm", run.stiffness_N_per_mm, "stiffness_error_N_per_mm",
+      run.stiffness_error_N_per_mm, "largest_force_N", run.largest_force_N, "force_error_N",
+      run.force_error_N, "energy_error_mJ", run.energy_error_mJ, "largest_bending_strain",
+      run.largest_bending_strain, "bending_strain_at", run.bending_strain_at, "largest_stress_MPa",
+      run.largest_stress_MPa, "utilisation", run.utilisation, "stress_at", run.stress_at);
   visit_energies(run.energies, visit);
   visit_each(visit, "height_mm", run.height_mm, "lowest_mm", run.lowest_mm, "contacts",
              run.contacts, "rod_gap_mm", run.rod_gap_mm, "joint_gap_mm", run.joint_gap_mm,

@@ -180,23 +180,6 @@ std::string late_on_branch(const EquilibriumPath& path) {
   return "";
 }
 
-/// Of a state that breaks a symmetry of the shell though its path has no bifurcation: a sentence.
-/// Finer meshes may have one, and choose the side there.
-std::string broken_without_event(const EquilibriumPath& path) {
-  const Simulation& simulation = path.simulation;
-  const Scene& scene = simulation.scene();
-  if (!path.single_motion || !simulation.holds().empty() || !scene.imperfection.chooses())
-    return "";
-  for (const PathSegment& segment : path.segments)
-    if (std::ranges::any_of(segment.report.events, [](const Event& e) { return e.to.has_value(); }))
-      return "";
-  constexpr double broken = 0.02;  // of d
-  if (!std::isfinite(distance_of_image(simulation, broken * scene.footprint.spacing))) return "";
-  return "the state breaks a symmetry of the shell though its path has no bifurcation: its mirror "
-         "image is another state of the same energy, and which of them is found may depend on the "
-         "mesh";
-}
-
 /// What was followed, and on which meshes.
 void put_path(const EquilibriumPath& path, record::Summary& s) {
   const NestedShell& shell = path.simulation.shell();
@@ -209,7 +192,6 @@ void put_path(const EquilibriumPath& path, record::Summary& s) {
   s.tolerance_met = !path.tolerance_missed;
   if (s.doubt.empty()) s.doubt = late_on_branch(path);
   if (s.doubt.empty()) s.doubt = near_image(path);
-  if (s.doubt.empty()) s.doubt = broken_without_event(path);
   for (const ContactEvent& event : path.contacts)
     s.contact += (s.contact.empty() ? "" : "; ") + event.text;
   s.largest_strain = path.simulation.certificate().largest_strain;

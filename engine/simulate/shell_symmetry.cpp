@@ -67,7 +67,6 @@ double distance_of_image(const Simulation& simulation, double least_mm) {
   const Eigen::Matrix3Xd joints = simulation.nodes().leftCols(simulation.shell().finest().joints);
   double nearest = std::numeric_limits<double>::infinity();
   for (const MeshSymmetry& symmetry : symmetries_here(simulation)) {
-    if (symmetry.turns_over()) continue;
     const double off = distance_under(symmetry, joints, joints);
     if (off > least_mm) nearest = std::min(nearest, off);
   }

@@ -15,9 +15,9 @@ std::vector<MeshSymmetry> symmetries_of_shell(const Scene& scene, const RodMesh&
                                               const std::vector<MeshSymmetry>& of_mesh);
 
 /// Of a shell in the scene's own motion, nothing else held or moved: the largest distance between a
-/// joint and that of the state's image under a symmetry of the shell that keeps its upper side, mm;
-/// of all symmetries the least that is more than `least_mm`, infinity where there is none. The
-/// image is another equilibrium, as stable and of the same energy.
+/// joint and that of the state's image under a symmetry of the shell, mm; of all symmetries the
+/// least that is more than `least_mm`, infinity where there is none. The image is another
+/// equilibrium, as stable and of the same energy.
 double distance_of_image(const Simulation& simulation, double least_mm);
 
 /// Whether a state further along the path (nodes of the finest mesh) breaks a symmetry of the shell

@@ -56,7 +56,7 @@ struct StepsResult {
 /// Does the steps in order until one ends early, which is then the path's limit, and hands frames
 /// to the sink: the shell before, and of each step as many as frames_of_steps() says, each
 /// certified. They only sample the steps' ways. Meshes are chosen and events confirmed as for a
-/// path (mesh_choice.h). Errors: bad_input as apply_step(), no_equilibrium (no shell to begin
+/// path (mesh_policy.h). Errors: bad_input as apply_step(), no_equilibrium (no shell to begin
 /// with), cancelled, the sink's.
 Result<StepsResult> run_steps(const std::shared_ptr<const Scene>& scene,
                               const std::vector<preset::Step>& steps, int frames,

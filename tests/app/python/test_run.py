@@ -14,7 +14,7 @@ def test_arrays_are_what_the_folder_says(small_run):
         rows = list(csv.DictReader(file))
     assert len(run) == len(rows) == 3
     for name in ("progress", "boundary_radius_mm", "height_mm", "total_K", "residual_N"):
-        np.testing.assert_array_equal(getattr(run, name), [float(row[name]) for row in rows])
+        np.testing.assert_array_equal(getattr(run, name), [float(row[name] or "nan") for row in rows])
     np.testing.assert_array_equal(run.energies["bend"],
                                   [float(row["energy_bend_mJ"]) for row in rows])
     np.testing.assert_array_equal(run.negative_pivots, [int(row["negative_pivots"]) for row in rows])

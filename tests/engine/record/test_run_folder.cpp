@@ -39,7 +39,8 @@ TEST_CASE("summary.json has the keys of a run in order, and null for what is unk
   for (const auto& [key, value] : json.items()) keys += key + " ";
   CHECK(keys ==
         "preset model model_reason edges_per_segment rods joints cells dof stable "
-        "negative_pivots limit limit_reason doubt residual_N largest_strain error_estimate_mm "
+        "negative_pivots limit limit_reason doubt tolerance_met residual_N largest_strain "
+        "error_estimate_mm "
         "force_N push_error_N stiffness_N_per_mm stiffness_error_N_per_mm largest_force_N "
         "force_error_N energy_error_mJ largest_bending_strain bending_strain_at "
         "largest_stress_MPa utilisation stress_at energy_bend_mJ energy_stretch_mJ "
