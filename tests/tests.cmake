@@ -98,7 +98,7 @@ if(GRIDSHELL_PICTURES)
   if(TARGET test_app)
     add_dependencies(test_app gridshell)
     target_compile_definitions(test_app PRIVATE GRIDSHELL_PROGRAM="$<TARGET_FILE:gridshell>"
-      GRIDSHELL_SHARED_RUNS="${PROJECT_BINARY_DIR}/shared_runs"
+      GRIDSHELL_SHARED_RUNS="${PROJECT_BINARY_DIR}/shared_runs" GRIDSHELL_IMGUI="${IMGUI_VERSION}"
       GRIDSHELL_BUILT_WITH="${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION} ${CMAKE_BUILD_TYPE}")
     # the program with the plain one of all clones, which no processor of today would choose
     if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
