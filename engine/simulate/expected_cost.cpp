@@ -12,6 +12,7 @@
 
 #include "engine/core/system_info.h"
 #include "engine/core/try.h"
+#include "engine/elastic/model.h"
 #include "engine/simulate/equilibrium_path.h"
 #include "engine/simulate/frame_forces.h"
 #include "engine/simulate/frames.h"
