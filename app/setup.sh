@@ -6,7 +6,7 @@ program_packages="
   g++ cmake make ninja-build pkg-config
   libeigen3-dev libspectra-dev libsuitesparse-dev libopenblas-serial-dev libmuparser-dev
   libexpected-dev libfmt-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libhdf5-dev
-  libpango1.0-dev libcairo2-dev libpng-dev libdeflate-dev fonts-dejavu-core
+  libpango1.0-dev libcairo2-dev libpng-dev libdeflate-dev fonts-dejavu-core fonts-dejavu-extra
   libgl-dev libegl-dev libegl1 libgl1-mesa-dri libosmesa6-dev libosmesa6 libglfw3-dev
   libimgui-dev libfontconfig-dev ffmpeg
 "

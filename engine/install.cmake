@@ -72,7 +72,7 @@ if(PROJECT_IS_TOP_LEVEL)
   set(CPACK_DEBIAN_PACKAGE_SECTION science)
   set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
   # OpenGL is looked for at run time
-  set(CPACK_DEBIAN_PACKAGE_DEPENDS "libegl1, libgl1-mesa-dri, fonts-dejavu-core")
+  set(CPACK_DEBIAN_PACKAGE_DEPENDS "libegl1, libgl1-mesa-dri, fonts-dejavu-extra")
   set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "ffmpeg, libosmesa6, libglfw3")
   # what whoever compiles against the library needs
   set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libfmt-dev, libeigen3-dev, libexpected-dev, \

@@ -9,6 +9,7 @@
 
 #include "engine/core/result.h"
 #include "engine/core/watch.h"
+#include "engine/elastic/model.h"
 #include "engine/preset/preset.h"
 #include "engine/scene/rod_ends.h"
 #include "engine/scene/scene.h"

@@ -7,6 +7,7 @@
 #include "engine/core/block3.h"
 #include "engine/elastic/along_rods.h"
 #include "engine/elastic/edge_energies.h"
+#include "engine/elastic/model.h"
 
 namespace gridshell {
 namespace {

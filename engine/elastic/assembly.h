@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include "engine/core/energies.h"
+#include "engine/elastic/block_hessian.h"
 #include "engine/elastic/state.h"
 
 namespace gridshell {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/elastic/along_rods.h"
+#include "engine/elastic/model.h"
 
 namespace gridshell {
 namespace {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/elastic/along_rods.h"
+#include "engine/elastic/model.h"
 #include "engine/elastic/shell_rods.h"
 
 namespace gridshell {

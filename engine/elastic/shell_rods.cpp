@@ -1,6 +1,7 @@
 #include "engine/elastic/shell_rods.h"
 
 #include "engine/elastic/along_rods.h"
+#include "engine/elastic/model.h"
 #include "engine/elastic/rod_frame.h"
 
 #include <Eigen/Geometry>

@@ -6,12 +6,16 @@
 #include <memory>
 #include <vector>
 
-#include "engine/elastic/model.h"
+#include "engine/core/choices.h"
+#include "engine/core/result.h"
+#include "engine/elastic/contact.h"
+#include "engine/elastic/element_energies.h"
 #include "engine/elastic/rod_material.h"
 #include "engine/footprint/mesh.h"
 
 namespace gridshell {
 
+struct Model;
 struct State;
 
 /// A dead force on a joint, N.

@@ -5,6 +5,7 @@
 #include "engine/core/algorithms.h"
 #include "engine/elastic/along_rods.h"
 #include "engine/elastic/edge_energies.h"
+#include "engine/elastic/model.h"
 #include "engine/elastic/rod_frame.h"
 
 namespace gridshell {

@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 
-#include "engine/elastic/model.h"
 #include "engine/elastic/shell_rods.h"
 #include "engine/footprint/mesh.h"
 

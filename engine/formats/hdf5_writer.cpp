@@ -108,6 +108,10 @@ herr_t truncate(H5FD_t* file, hid_t, hbool_t) {
 hid_t driver() {
   static const hid_t registered = [] {
     H5FD_class_t driver{};
+#ifdef H5FD_CLASS_VERSION
+    driver.version = H5FD_CLASS_VERSION;
+    driver.value = 512;  // the first that is nobody's
+#endif
     driver.name = "gridshell_stream";
     driver.maxaddr = haddr_t(1) << 62;
     driver.fc_degree = H5F_CLOSE_WEAK;
@@ -180,8 +184,8 @@ bool File::check(hid_t result, const std::string& at) {
 Handle access_of(Stream& stream) {
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   Stream* const info = &stream;
-  H5Pset_driver(access, driver(), &info);
-  return access;
+  // with the library's own driver it would write to a file of that name
+  return H5Pset_driver(access, driver(), &info) < 0 ? Handle() : std::move(access);
 }
 
 Writer::Writer(const std::string& name) {

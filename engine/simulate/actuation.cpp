@@ -7,6 +7,7 @@
 
 #include "engine/core/system_info.h"
 #include "engine/core/try.h"
+#include "engine/elastic/model.h"
 #include "engine/simulate/first_state.h"
 #include "engine/simulate/frames.h"
 #include "engine/simulate/mesh_policy.h"

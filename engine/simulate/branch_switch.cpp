@@ -9,6 +9,7 @@
 
 #include "engine/core/algorithms.h"
 #include "engine/core/try.h"
+#include "engine/elastic/model.h"
 #include "engine/solve/buckling.h"
 #include "engine/solve/newton.h"
 

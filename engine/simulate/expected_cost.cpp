@@ -12,6 +12,11 @@
 
 #include "engine/core/system_info.h"
 #include "engine/core/try.h"
+<<<<<<< HEAD
+=======
+#include "engine/elastic/model.h"
+#include "engine/simulate/equilibrium_path.h"
+>>>>>>> a01c6c3e81f71a24b407d6368d63eea0f14d3665
 #include "engine/simulate/frame_forces.h"
 #include "engine/simulate/frames.h"
 #include "engine/simulate/mesh_policy.h"

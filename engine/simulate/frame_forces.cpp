@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "engine/elastic/model.h"
 #include "engine/record/frame_values.h"
 #include "engine/simulate/frames.h"
 

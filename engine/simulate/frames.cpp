@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/core/try.h"
+#include "engine/elastic/model.h"
 #include "engine/preset/consistency.h"
 #include "engine/record/frame_values.h"
 #include "engine/record/shape_measures.h"

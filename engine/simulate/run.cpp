@@ -7,6 +7,7 @@
 
 #include "engine/core/system_info.h"
 #include "engine/core/try.h"
+#include "engine/elastic/model.h"
 #include "engine/preset/consistency.h"
 #include "engine/record/shape_measures.h"
 #include "engine/simulate/actuation.h"

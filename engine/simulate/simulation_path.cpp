@@ -7,6 +7,7 @@
 #include "engine/core/file_io.h"
 #include "engine/core/system_info.h"
 #include "engine/core/watch.h"
+#include "engine/elastic/model.h"
 #include "engine/simulate/branch_switch.h"
 #include "engine/simulate/frames.h"
 #include "engine/simulate/kept_segments.h"

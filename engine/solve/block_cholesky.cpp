@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/core/block3.h"
+#include "engine/elastic/model.h"
 #include "engine/solve/block_factor.h"
 #include "engine/solve/linear_solver.h"
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <set>
 
+#include "engine/elastic/model.h"
 #include "engine/footprint/symmetry.h"
 #include "engine/solve/equilibrium.h"
 

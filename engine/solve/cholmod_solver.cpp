@@ -4,6 +4,7 @@
 #include <cmath>
 #include <new>
 
+#include "engine/elastic/model.h"
 #include "engine/solve/linear_solver.h"
 
 namespace gridshell {

@@ -1,4 +1,5 @@
 #include "engine/solve/dynamics.h"
+#include "engine/elastic/model.h"
 
 #include <fmt/format.h>
 #include <algorithm>

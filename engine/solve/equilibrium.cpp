@@ -1,4 +1,5 @@
 #include "engine/solve/equilibrium.h"
+#include "engine/elastic/model.h"
 
 #include <fmt/format.h>
 #include <algorithm>

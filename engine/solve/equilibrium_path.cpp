@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/core/dense.h"
+#include "engine/elastic/model.h"
 #include "engine/solve/equilibrium.h"
 
 namespace gridshell {

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "engine/elastic/model.h"
 #include "engine/solve/block_factor.h"
 
 namespace gridshell {

@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "engine/core/team.h"
-#include "engine/elastic/model.h"
+#include "engine/elastic/block_hessian.h"
 
 namespace gridshell {
+
+struct Model;
 
 /// What a factorisation found out about H + shift I.
 struct Inertia {

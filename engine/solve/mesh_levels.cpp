@@ -3,9 +3,13 @@
 #include <cmath>
 
 #include "engine/core/try.h"
+#include "engine/elastic/model.h"
 #include "engine/solve/buckling.h"
 
 namespace gridshell {
+
+MeshLevel::MeshLevel() : own_model(std::make_unique<Model>()), model(*own_model) {}
+MeshLevel::~MeshLevel() = default;
 
 Result<void> MeshLevel::build(const Footprint& footprint, const ShellRods& rods, RodModel rung,
                               const BoundaryMotion& boundary, int edges_per_segment) {

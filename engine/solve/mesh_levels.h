@@ -15,8 +15,12 @@ namespace gridshell {
 
 /// Stays where it was made: `system` refers to `model`.
 struct MeshLevel {
+  MeshLevel();
+  ~MeshLevel();
+
   RodMesh mesh;
-  Model model;
+  const std::unique_ptr<Model> own_model;  // what a model is, few who have a level need to know
+  Model& model;
   PinnedMotion motion;
   std::unique_ptr<Linearisation> system;
 

@@ -5,6 +5,7 @@
 #include "engine/core/algorithms.h"
 #include "engine/core/dense.h"
 #include "engine/core/try.h"
+#include "engine/elastic/model.h"
 #include "engine/solve/buckling.h"
 #include "engine/solve/equilibrium.h"
 

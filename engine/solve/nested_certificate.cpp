@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/core/dense.h"
+#include "engine/elastic/model.h"
 #include "engine/solve/equilibrium.h"
 #include "engine/solve/nested_shell.h"
 

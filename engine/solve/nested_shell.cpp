@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "engine/core/try.h"
+#include "engine/elastic/model.h"
 #include "engine/solve/block_factor.h"
 #include "engine/solve/equilibrium.h"
 

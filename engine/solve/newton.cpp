@@ -6,6 +6,7 @@
 
 #include "engine/core/dense.h"
 #include "engine/elastic/edge_energies.h"
+#include "engine/elastic/model.h"
 
 namespace gridshell {
 namespace {

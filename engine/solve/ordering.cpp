@@ -1,3 +1,4 @@
+#include "engine/elastic/model.h"
 #include "engine/solve/linear_solver.h"
 
 #include <algorithm>

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "engine/core/dense.h"
+#include "engine/elastic/model.h"
 
 namespace gridshell {
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/core/system_info.h"
+#include "engine/elastic/model.h"
 #include "engine/scene/net_design.h"
 #include "engine/solve/buckling.h"
 

@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "engine/core/result.h"
+#include "engine/elastic/model.h"
 #include "engine/elastic/shell_rods.h"
 #include "engine/preset/preset.h"
 #include "engine/scene/scene.h"

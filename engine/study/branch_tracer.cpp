@@ -1,4 +1,5 @@
 #include "engine/core/dense.h"
+#include "engine/elastic/model.h"
 #include "engine/study/bifurcation_diagram.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+#include "engine/elastic/model.h"
 #include "engine/study/formed_shell.h"
 
 #include <algorithm>

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/core/system_info.h"
+#include "engine/elastic/model.h"
 #include "engine/solve/newton.h"
 #include "engine/study/benchmark_methods.h"
 

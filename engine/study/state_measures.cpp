@@ -1,3 +1,4 @@
+#include "engine/elastic/model.h"
 #include "engine/study/state_library.h"
 
 #include <fmt/format.h>

@@ -7,6 +7,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/core/try.h"
+#include "engine/elastic/model.h"
 #include "engine/solve/mountain_pass.h"
 #include "engine/study/state_library.h"
 

@@ -205,7 +205,13 @@ Box Canvas::text(const std::string& marked, Point anchor, const TextStyle& style
     cairo_move_to(cairo_, at.x, at.y);
   }
   set_colour(style.colour);
-  if (!keeps_text_) pango_cairo_show_layout(cairo_, layout.get());
+  if (cairo_surface_get_type(cairo_get_target(cairo_)) == CAIRO_SURFACE_TYPE_IMAGE) {
+    // as outlines: letters of a font are put at whole pixels by Cairo 1.16 and at quarters by 1.18
+    pango_cairo_layout_path(cairo_, layout.get());
+    cairo_fill(cairo_);
+  } else if (!keeps_text_) {
+    pango_cairo_show_layout(cairo_, layout.get());
+  }
   cairo_restore(cairo_);
   cairo_new_path(cairo_);
 

@@ -2,6 +2,7 @@
 #include <GLFW/glfw3.h>
 
 #include <array>
+#include <cstdlib>
 #include <exception>
 #include <map>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "render/gl/context_backends.h"
 
 #define GRIDSHELL_GLFW(X)                       \
+  X(init_hint, glfwInitHint)                    \
   X(init, glfwInit)                             \
   X(terminate, glfwTerminate)                   \
   X(error, glfwGetError)                        \
@@ -196,6 +198,10 @@ Result<std::unique_ptr<Window>> Window::open(const WindowOptions& wish) {
   if (!library) return fail(Fault::io, "window: " + library.error().message);
   Glfw glfw;
   if (!glfw.load(*library)) return fail(Fault::io, "window: GLFW is too old; 3.3 is needed");
+#ifdef GLFW_PLATFORM
+  // GLFW 3.4 asks for Wayland first, whose library prints that this is missing
+  if (!std::getenv("XDG_RUNTIME_DIR")) glfw.init_hint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+#endif
   if (!glfw.init()) return fail(Fault::io, "window: " + reason_of(glfw));
 
   glfw.hint(GLFW_CONTEXT_VERSION_MAJOR, 3);

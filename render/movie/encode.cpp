@@ -63,7 +63,9 @@ std::vector<std::string> arguments_of(const std::vector<std::string>& input,
   }
   chain += ";[" + last + "]pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white,";
   chain += gif ? "split[a][b];[a]palettegen=stats_mode=full[p];[b][p]paletteuse=dither=none"
-               : "scale=out_color_matrix=bt709:out_range=tv";
+               // from version 7 on ffmpeg writes what its filters know, not the options below
+               : "scale=out_color_matrix=bt709:out_range=tv,"
+                 "setparams=color_primaries=bt709:color_trc=bt709";
   words.insert(words.end(), {"-filter_complex", chain});
   for (const std::string& option : output_options(kind)) words.push_back(option);
   words.push_back("file:" + movie.string());

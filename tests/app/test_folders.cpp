@@ -70,7 +70,10 @@ TEST_CASE("where memory is short a command ends with a sentence, wherever it run
     // GLib ends the process by itself, with a sentence of its own, where it cannot make a thread
     const bool by_glib = said.find("GLib-ERROR") != std::string::npos;
     CHECK((code <= 1 || by_glib));
-    if (code == 1) CHECK_THAT(said, Contains("memory") || Contains("cannot"));
+    // the last are the words of the loader, of a library that has no room
+    if (code == 1)
+      CHECK_THAT(said,
+                 Contains("memory") || Contains("cannot") || Contains("failed to map segment"));
   }
 }
 

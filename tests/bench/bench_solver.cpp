@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "engine/core/algorithms.h"
+#include "engine/elastic/model.h"
 #include "engine/simulate/run.h"
 #include "engine/solve/buckling.h"
 #include "engine/solve/multilevel_relaxation.h"

@@ -36,6 +36,6 @@ elseif(GRIDSHELL_TESTS AND GRIDSHELL_PICTURES)
     Catch2::Catch2WithMain)
   target_include_directories(test_fuzz SYSTEM PRIVATE ${catch_names})
   target_compile_definitions(test_fuzz PRIVATE GRIDSHELL_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  catch_discover_tests(test_fuzz EXTRA_ARGS --warn NoTests
+  catch_discover_tests(test_fuzz ${catch_arguments}
     PROPERTIES LABELS quick TIMEOUT ${quick_seconds})
 endif()
