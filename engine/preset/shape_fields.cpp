@@ -124,7 +124,8 @@ void add_footprint(std::vector<Field>& all) {
   radius_rules(list, &Footprint::boundary, &Footprint::longest_leg, "[footprint] longest_leg");
   list.add<&Footprint::longest_leg>(
           between(0, 1000),
-          "L_d of a circle, in the place of `radius_mm`: R_o = d (L_d + (n - 1)/2); 0: not given")
+          "L_d of a circle, in the place of `radius_mm`: from the outermost rod to the boundary on "
+          "an axis, of d; R_o = d (L_d + (n - 1)/2); 0: not given")
       .used_by(&Footprint::kind, {Kinds::circle});
   const char* in_the_file =
       "of a footprint of kind \"network\" the file says where rods and joints lie";
