@@ -170,7 +170,7 @@ std::string state_text(const record::Summary& at) {
   return fmt::format(
       "bend energy {}{}, {}, residual {:.1e} N", record::with_error(bend, at.energy_error_mJ, "mJ"),
       std::abs(all - bend) > worth_telling * std::max(std::abs(bend), least_mJ)
-          ? fmt::format(" of {:.4g} mJ in all", all)
+          ? " of " + record::with_error(all, at.energy_error_mJ, "mJ") + " in all"
           : "",
       at.stable ? "stable" : fmt::format("{} negative pivots", at.negative_pivots), at.residual_N);
 }
