@@ -73,7 +73,7 @@ struct Judged {
   py::object value = py::none();
 };
 
-/// {"footprint.rods": 14} as changes to a preset. Raises TypeError.
+/// {"footprint.rods": 14} or {"footprint": {"rods": 14}} as changes to a preset. Raises TypeError.
 std::vector<preset::Override> overrides_of(const py::dict& changes);
 
 /// A step with the keys of [[step]], those that are None left out, judged together with
