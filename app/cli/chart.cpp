@@ -203,7 +203,7 @@ Result<void> draw(const preset::Case& run, const ChartOptions& options, const fs
                   Progress& progress, Json& summary, std::string& text) {
   Watch& watch = progress.next_phase();
   TRY_DO(make_folder(folder));
-  TRY_DO(write_file(folder / "preset.toml", preset::to_toml(run.preset)));
+  TRY_DO(write_file(folder / "preset.toml", saved_preset(preset::to_toml(run.preset))));
   auto findings = options.kind == "accuracy"   ? draw_accuracy(run.preset, options, folder, watch)
                   : options.kind == "branches" ? draw_branches(run.preset, folder, watch)
                                                : draw_stability(run.preset, options, folder, watch);

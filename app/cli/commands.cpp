@@ -33,8 +33,10 @@ void print_plan(const preset::Preset& preset, const simulate::Plan& plan) {
   fmt::print("{}: {}\n", preset.name, preset.title);
   fmt::print("  footprint       {}\n", plan.footprint);
   if (preset.footprint.kind == preset::FootprintKind::circle)
-    fmt::print("  boundary        {} mm to {} mm\n", preset.original_radius_mm(),
-               preset.actuated_radius_mm());
+    fmt::print("  boundary        {} mm to {} mm; longest leg L_d = {:.3g}\n",
+               preset.original_radius_mm(), preset.actuated_radius_mm(),
+               preset.original_radius_mm() / preset.footprint.spacing_mm -
+                   0.5 * (preset.footprint.rods - 1));
   for (const auto& seam : plan.seams) fmt::print("  seam            {}\n", seam);
   fmt::print("  model           {}\n", plan.model_reason);
   fmt::print("  meshes          {} edges a segment{}\n", fmt::join(plan.levels, ", "),
@@ -129,7 +131,9 @@ void add_preset_command(CommandLine& program, const char* name, const char* mean
   add_picture_options(command, options);
   if (resumes)
     command.flag("--resume", options.resume,
-                 "go on where a run of this preset to the same folder was ended");
+                 "go on where a run of this preset to the same folder was ended; begins where "
+                 "there is none, "
+                 "ends at once where it is finished");
 }
 
 template <Pictures pictures>

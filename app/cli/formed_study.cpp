@@ -74,7 +74,7 @@ Result<void> study_one(const preset::Case& run, const FormedCommand& command,
     return tl::unexpected(found.error());
   }
   TRY_DO(make_folder(folder));
-  TRY_DO(write_file(folder / "preset.toml", preset::to_toml(run.preset)));
+  TRY_DO(write_file(folder / "preset.toml", saved_preset(preset::to_toml(run.preset))));
   for (const auto& [name, content] : found->files) TRY_DO(write_file(folder / name, content));
   found->summary.kind = record::Kind::figure;
   TRY_DO(record::write_summary(folder / "summary.json", found->summary));
@@ -138,10 +138,10 @@ std::string text_of(const record::LoadRow& row) {
                                               : "stability is not lost on the way followed";
   if (std::isfinite(row.linear_factor)) text += fmt::format(" (linear {:.4g})", row.linear_factor);
   if (row.strength_factor == 0)
-    text += "; beyond its strength before any of it";
+    text += "; the rods BREAK already without that load";
   else if (std::isfinite(row.strength_factor))
-    text +=
-        "; at its strength at " + record::with_error(row.strength_factor, row.strength_error, "");
+    text += "; a rod breaks at a factor of " +
+            record::with_error(row.strength_factor, row.strength_error, "");
   if (row.imperfections > 0)
     text += fmt::format("; {} that are not perfect: {:.3g} of it ({:.3g} to {:.3g})",
                         row.imperfections, row.knock_down_50, row.knock_down_5, row.knock_down_95);

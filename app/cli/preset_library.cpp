@@ -6,10 +6,16 @@
 
 #include "app/cli/console.h"
 #include "engine/core/file_io.h"
+#include "engine/core/system_info.h"
 #include "engine/core/text.h"
 #include "engine/core/try.h"
 
 namespace gridshell::app {
+namespace {
+
+constexpr std::string_view version_line = "# computed by gridshell ";
+
+}  // namespace
 
 Result<preset::Presets> load_preset(const std::string& argument,
                                     const std::vector<preset::Override>& overrides) {
@@ -62,6 +68,14 @@ Result<preset::Presets> load(const Options& options) {
                "{}: [accuracy] leading_edges does nothing any more: the finest mesh is followed\n",
                options.input);
   return std::move(*presets);
+}
+
+std::string saved_preset(const std::string& toml) {
+  return std::string(version_line).append(version()).append("\n").append(toml);
+}
+
+std::string without_version(const std::string& saved) {
+  return saved.starts_with(version_line) ? saved.substr(saved.find('\n') + 1) : saved;
 }
 
 Result<int> print_config(const preset::Presets& presets) {

@@ -45,6 +45,12 @@ Result<preset::Presets> load(const Options& options);
 /// Prints what default < preset < `--set` came to, as a preset; the exit code.
 Result<int> print_config(const preset::Presets& presets);
 
+/// What a folder keeps as preset.toml: the program's version in a first line of comment, and
+/// `toml`.
+std::string saved_preset(const std::string& toml);
+/// The same without that line; text of older versions has none.
+std::string without_version(const std::string& saved);
+
 /// The cases of a preset, or the preset itself as one run without a name.
 std::vector<preset::Case> runs_of(const preset::Presets& presets);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "app/cli/console.h"
 #include "app/cli/delivery.h"
@@ -104,7 +105,7 @@ Result<record::Summary> computed(Run& run, int threads, const fs::path& segments
 Result<void> simulate(Run& run, int threads, const fs::path& folder, const fs::path& segments,
                       Watch& watch) {
   TRY_DO(make_folder(folder));
-  TRY_DO(write_file(folder / "preset.toml", preset::to_toml(run.preset)));
+  TRY_DO(write_file(folder / "preset.toml", saved_preset(preset::to_toml(run.preset))));
   const record::Kind kind = kind_of(run.pictures);
   record::FolderSink sink(folder, {run.preset.name, kind, run.preset.title});
   auto summary = computed(run, threads, segments, sink, watch);
@@ -136,7 +137,7 @@ Result<void> write_runs(std::vector<Run>& runs, const preset::Presets& presets,
   const preset::Preset& base = presets.base;
   const bool cases = !runs.front().name.empty();
   // of a run that is cut short it says which cases there are
-  if (cases) TRY_DO(write_file(partial / "preset.toml", preset::to_toml(presets)));
+  if (cases) TRY_DO(write_file(partial / "preset.toml", saved_preset(preset::to_toml(presets))));
   std::optional<PictureMaker> maker;
   if (runs.front().pictures != Pictures::none) {
     TRY(made, PictureMaker::create(options.context, base.style.font));
@@ -169,13 +170,23 @@ std::string state_text(const record::Summary& at) {
   return fmt::format(
       "bend energy {}{}, {}, residual {:.1e} N", record::with_error(bend, at.energy_error_mJ, "mJ"),
       std::abs(all - bend) > worth_telling * std::max(std::abs(bend), least_mJ)
-          ? fmt::format(" of {:.4g} mJ in all", all)
+          ? " of " + record::with_error(all, at.energy_error_mJ, "mJ") + " in all"
           : "",
       at.stable ? "stable" : fmt::format("{} negative pivots", at.negative_pivots), at.residual_N);
 }
 
+/// "[-1, -1], 14.1 mm from the middle of the footprint": no joint may lie where "pole" points.
+std::string pushed_text(const record::Summary& at, const record::Layout& layout) {
+  for (const record::Joint& joint : layout.joints)
+    if (at.pushed_joint == fmt::format("[{}, {}]", joint.i, joint.j))
+      return fmt::format("{}, {:.3g} mm from the middle of the footprint", at.pushed_joint,
+                         std::hypot(joint.u_mm, joint.v_mm));
+  return at.pushed_joint;
+}
+
 /// In as many digits as hold.
-void print_forces(const record::Summary& at) {
+void print_forces(const record::Summary& at, const record::Layout& layout) {
+  if (!at.pushed_joint.empty()) fmt::print("\n  pushed at joint {}", pushed_text(at, layout));
   if (std::isfinite(at.force_N))
     fmt::print("\n  force of the push {}", record::with_error(at.force_N, at.push_error_N, "N"));
   if (std::isfinite(at.force_N) && std::isfinite(at.stiffness_N_per_mm))
@@ -195,8 +206,11 @@ void print_forces(const record::Summary& at) {
 void print_strength(const record::Summary& at, const preset::Limits& limits) {
   constexpr double worth_telling = 0.01;
   if (std::isfinite(at.utilisation))
-    return fmt::print("\n  stress of a fibre at most {:.4g} MPa, {:.3g} of its strength ({})",
-                      at.largest_stress_MPa, at.utilisation, at.stress_at);
+    return fmt::print("\n  {}: {:.4g} MPa in a fibre of {}",
+                      at.utilisation > 1
+                          ? at.breaking()
+                          : fmt::format("stress at most {:.3g} of the strength", at.utilisation),
+                      at.largest_stress_MPa, at.stress_at);
   if (limits.max_bending_strain > 0 || !(at.largest_bending_strain >= worth_telling)) return;
   fmt::print(
       "\n  bending strains a rod by {:.2g} % ({}): most materials do not bear 1 %, superelastic "
@@ -220,7 +234,7 @@ void print_result(const Run& run, const fs::path& folder) {
   if (!std::isnan(at.max_seam_gap_mm))
     fmt::print("\n  {:.2f} mm from its blocks at most; seams: gap {:.2f} mm, kink {:.1f} degrees",
                at.max_deviation * scale_mm, at.max_seam_gap_mm, at.max_seam_kink_deg);
-  print_forces(at);
+  print_forces(at, run.trajectory.layout);
   print_strength(at, run.preset.limits);
   // why it ended early is said as the error that it is
   if (!at.limit_reason.empty() && failure_of(at, true).empty())
@@ -237,17 +251,36 @@ void print_result(const Run& run, const fs::path& folder) {
   fmt::print("{}", how_to_make_movie(folder_of(folder, run.name), run.preset));
 }
 
-/// The folder that an ended run of these presets left. Errors (bad_input): there is none that can
-/// be gone on with.
+bool is_of(const fs::path& folder, const std::string& presets) {
+  const auto text = read_file(folder / "preset.toml", largest_text);
+  return text && without_version(*text) == presets;
+}
+
+/// The exit code of a run of these presets that is finished; nothing where `folder` is none.
+std::optional<int> finished(const fs::path& folder, const std::string& presets,
+                            const std::vector<Run>& runs) {
+  if (!is_of(folder, presets)) return std::nullopt;
+  bool whole = true;
+  for (const Run& run : runs) {
+    const auto summary = record::read_summary(folder_of(folder, run.name) / "summary.json");
+    if (!summary || !summary->finished || summary->kind != kind_of(run.pictures))
+      return std::nullopt;
+    whole = whole && failure_of(*summary, run.preset.allow_unstable).empty();
+  }
+  return whole ? ExitCode::done : ExitCode::failed;
+}
+
+/// The folder that an ended run of these presets left; empty: nothing is there yet. Errors
+/// (bad_input): what is there is another's.
 Result<fs::path> unfinished_run(const fs::path& folder, const std::string& presets) {
-  std::string why = fmt::format("no run to '{}' was left unfinished", folder.string());
+  std::string why;
   if (fs::exists(folder / "summary.json"))
-    why = fmt::format("'{}' is a finished run", folder.string());
+    why = fmt::format("'{}' is a finished run of another command or preset, or has other keys",
+                      folder.string());
   for (const fs::path& left : left_behind(folder)) {
     const auto made_by = read_file(left / segments_name / version_name, largest_text);
     if (!made_by) continue;
-    const auto text = read_file(left / "preset.toml", largest_text);
-    if (!text || *text != presets)
+    if (!is_of(left, presets))
       why = fmt::format("'{}' is a run of another preset, or of this one with other keys",
                         left.string());
     else if (*made_by != build_id())
@@ -256,6 +289,7 @@ Result<fs::path> unfinished_run(const fs::path& folder, const std::string& prese
     else
       return left;
   }
+  if (why.empty()) return fs::path();
   return invalid("--resume: {}: without it the run begins anew", why);
 }
 
@@ -293,9 +327,13 @@ Result<int> produce(const Options& options, Pictures pictures) {
   for (Phase& phase : drawing_phases(*runs)) phases.push_back(std::move(phase));
   fs::path left;
   if (options.resume) {
-    const bool cases = !runs->front().name.empty();
-    TRY(found, unfinished_run(folder, cases ? preset::to_toml(*presets)
-                                            : preset::to_toml(runs->front().preset)));
+    const std::string text = runs->front().name.empty() ? preset::to_toml(runs->front().preset)
+                                                        : preset::to_toml(*presets);
+    if (const auto code = finished(folder, text, *runs)) {
+      if (!options.quiet) fmt::print("{}: is finished already\n", folder.string());
+      return *code;
+    }
+    TRY(found, unfinished_run(folder, text));
     left = std::move(*found);
   }
   const auto work = [&](const fs::path& partial, Progress& progress) {

@@ -106,9 +106,10 @@ void add_geometry(Sheets& sheets, const Run& run, const exports::FabricationPlan
 void add_stresses(Sheets& sheets, const record::Summary& summary) {
   sheets.heading("Stresses");
   sheets.values({{"largest stress of a fibre", with_unit(summary.largest_stress_MPa, "MPa")},
-                 {"over the rods' strength", number(summary.utilisation)},
+                 {"over the strength of its rod", number(summary.utilisation)},
                  {"largest strain by bending", number(summary.largest_bending_strain)}});
   if (!summary.stress_at.empty()) sheets.text("It is largest in " + summary.stress_at + ".");
+  if (const std::string text = summary.breaking(); !text.empty()) sheets.text(text + ".");
   if (!std::isfinite(summary.utilisation))
     sheets.text("The rods' strength is not known: [rod] strength_MPa or yield_strain says it.");
 }
@@ -186,7 +187,7 @@ Result<void> add_loads(Sheets& sheets, study::FormedShell& shell, const ReportOp
                 {"sum *z* (N)", 44},
                 {"factor", 70},
                 {"linear", 40},
-                {"at its strength", 72},
+                {"breaks at", 72},
                 {"lost by", 0, AlignX::left}},
                rows);
   sheets.plot(render::load_plot(found->points, found->cases, ""));

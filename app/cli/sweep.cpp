@@ -207,7 +207,7 @@ std::string regions_text(const SweepJob& work, const record::SweepTable& table) 
 Result<std::string> finish(const SweepJob& work, const record::SweepLog& log) {
   const auto table = table_of(work.grid, work.points(), log.found());
   TRY_DO(write_file(work.folder / sweep_table_name, record::sweep_csv(table)));
-  TRY_DO(write_file(work.folder / "preset.toml", preset::to_toml(work.presets)));
+  TRY_DO(write_file(work.folder / "preset.toml", saved_preset(preset::to_toml(work.presets))));
   // a part of the points makes no picture
   if (!work.shard && table.axes.size() <= 2) TRY_DO(draw(work, table));
   std::string laws;

@@ -43,7 +43,10 @@ Result<Shard> parse_shard(const std::string& text) {
   const auto part = two_numbers(text, "/").value_or(std::pair(0, 0));
   const Shard shard{part.first, part.second};
   if (shard.index < 1 || shard.index > shard.count)
-    return invalid("--shard {}: must be i/N with i from 1 to N, for example 2/8", text);
+    return invalid(
+        "--shard {}: expected i/N with i from 1 to N, for example 2/8; where jobs are counted "
+        "from 0: --shard $((SLURM_ARRAY_TASK_ID + 1))/N",
+        text);
   return shard;
 }
 

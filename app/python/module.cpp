@@ -83,7 +83,15 @@ std::vector<preset::Override> overrides_of(const py::dict& changes) {
   for (const auto& [key, value] : changes) {
     if (!py::isinstance<py::str>(key))
       throw py::type_error("keys are strings such as \"footprint.rods\"");
-    overrides.push_back({"changes", key.cast<std::string>(), toml_of(value)});
+    const auto name = key.cast<std::string>();
+    if (!py::isinstance<py::dict>(value)) {
+      overrides.push_back({"changes", name, toml_of(value)});
+      continue;
+    }
+    for (preset::Override& inner : overrides_of(py::reinterpret_borrow<py::dict>(value))) {
+      inner.key.insert(0, name + ".");
+      overrides.push_back(std::move(inner));
+    }
   }
   return overrides;
 }

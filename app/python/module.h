@@ -73,7 +73,7 @@ struct Judged {
   py::object value = py::none();
 };
 
-/// {"footprint.rods": 14} as changes to a preset. Raises TypeError.
+/// {"footprint.rods": 14} or {"footprint": {"rods": 14}} as changes to a preset. Raises TypeError.
 std::vector<preset::Override> overrides_of(const py::dict& changes);
 
 /// A step with the keys of [[step]], those that are None left out, judged together with
@@ -139,7 +139,7 @@ inline constexpr std::array numbers{
            "Of reactions_N by size, N; nan: not known."},
     Number{"force_error_N", &record::Frame::force_error_N,
            "Of reactions_N and force_N, the largest, N; nan: not known, as on one mesh."},
-    Number{"energy_error_mJ", &record::Frame::energy_error_mJ,
+    Number{"energies_error_mJ", &record::Frame::energy_error_mJ,
            "Of the terms of energies and of their sum, the largest, mJ; nan: not known."},
     Number{"largest_bending_strain", &record::Frame::largest_bending_strain,
            "Of a fibre of a rod, by the curvature added to that at rest; nan: not known."},

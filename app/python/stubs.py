@@ -55,7 +55,7 @@ def class_of(name, made):
     for member, what in vars(made).items():
         if isinstance(what, property):
             text += property_of(made, member, what)
-        elif callable(what) and "->" in (what.__doc__ or "") and member != "__repr__":
+        elif callable(what) and "->" in (what.__doc__ or "") and member not in ("__repr__", "__getstate__", "__setstate__"):
             text += function(member, what.__doc__, "    ")
     return text
 

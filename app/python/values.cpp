@@ -1,12 +1,16 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <atomic>
 #include <iterator>
 #include <utility>
 
 #include "app/cli/pictures.h"
 #include "app/python/module.h"
+#include "app/python/pickled.h"
 #include "render/gl/image.h"
 #include "render/movie/stage.h"
 
@@ -33,8 +37,10 @@ void add_view(py::class_<Class, std::shared_ptr<Class>>& type, const char* name,
 }
 
 void add_certificate(py::module_& module) {
-  py::class_<Certificate>(module, "Certificate", "What is known of a state.")
-      .def_readonly("residual_N", &Certificate::residual_N, "Largest force that nothing holds, N.")
+  py::class_<Certificate, std::shared_ptr<Certificate>> type(module, "Certificate",
+                                                             "What is known of a state.");
+  add_pickling<Certificate>(type);
+  type.def_readonly("residual_N", &Certificate::residual_N, "Largest force that nothing holds, N.")
       .def_readonly("negative_pivots", &Certificate::negative_pivots,
                     "Of the Hessian with what is held held; 0: stable, -1: not known.")
       .def_readonly("error_estimate_mm", &Certificate::error_estimate_mm,
@@ -51,7 +57,10 @@ void add_certificate(py::module_& module) {
 }
 
 void add_report(py::module_& module) {
-  py::class_<Event>(module, "Event", "Something that happened to the shell on its way.")
+  py::class_<Event, std::shared_ptr<Event>> event(
+      module, "Event", "Something that happened to the shell on its way.");
+  add_pickling<Event>(event);
+  event
       .def_property_readonly(
           "kind", [](const Event& of) { return std::string(word_of(of.kind)); },
           "\"stability_lost\", \"turned_back\" (the path came to a limit point), \"locked\" (the "
@@ -67,7 +76,9 @@ void add_report(py::module_& module) {
         return fmt::format("Event({}, t={:.4f}{})", word_of(of.kind), of.t,
                            of.to ? fmt::format(", to={:.4f}", *of.to) : "");
       });
-  py::class_<Done>(module, "Report", "What a step came to.")
+  py::class_<Done, std::shared_ptr<Done>> report(module, "Report", "What a step came to.");
+  add_pickling<Done>(report);
+  report
       .def_property_readonly(
           "certificate", [](const Done& of) { return of.report.certificate; },
           "Of the state that the shell stands in.")
@@ -135,6 +146,12 @@ void add_state(py::module_& module) {
       module, "State",
       "One state. It never changes: a session that moves on has another. Its arrays look into it "
       "without a copy, are read-only and keep it alive.");
+  add_pickling<State>(type);
+  type.def("__repr__", [](const State& of) {
+    return fmt::format("State({} joints, height_mm={:.4g}, energy_mJ={:.4g}, {})",
+                       of.layout->joints.size(), of.frame.height_mm, of.frame.energies.total(),
+                       of.certificate.stable() ? "stable" : "not stable");
+  });
   add_view(type, "nodes", &record::Frame::nodes,
            "Positions, nodes x 3, mm; joints come first, z is up.");
   add_view(type, "cell_K", &record::Frame::cell_K, "Integrated Gauss curvature of each cell, rad.");
@@ -169,7 +186,7 @@ void add_state(py::module_& module) {
               terms[term.name] = of.frame.energies[term.term];
             return Judged<"dict[str, float]">{terms};
           },
-          "By term, mJ: bend, stretch, twist, joint, shear, load.")
+          "By term, mJ: bend, stretch, twist, joint, shear, load, support, contact.")
       .def_property_readonly(
           "energy_mJ", [](const State& of) { return of.frame.energies.total(); },
           "All of them, mJ: what an equilibrium minimises.")
@@ -221,6 +238,14 @@ void add_values(py::module_& module) {
 
 void draw(const State& state, const std::filesystem::path& path,
           const std::optional<std::pair<int, int>>& size, const std::string& context) {
+  // OpenGL has threads that a forked process does not have: there it would wait for them for ever
+  static std::atomic<pid_t> drawn_by = 0;
+  pid_t none = 0;
+  if (!drawn_by.compare_exchange_strong(none, getpid()) && none != getpid())
+    raise({Fault::io,
+           "this process was forked from one that had drawn a picture, and OpenGL does not bear "
+           "that: draw none before the fork, or start processes by "
+           "multiprocessing.get_context(\"spawn\")"});
   render::MovieStyle style = app::style_of(*state.preset, app::Pictures::movie);
   if (size) style.size = {size->first, size->second};
   value_of(interruptible([&](const Watch&) { return draw_on(state, style, path, context); }));

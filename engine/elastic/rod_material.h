@@ -28,6 +28,7 @@ inline RodSection circular_section(double diameter_mm, double young_GPa) {
 struct FibreReach {
   double about_1 = 0, about_2 = 0;  ///< bent about m1 and about m2
   bool round = true;                ///< else a rectangle, both add up at its corner
+  double area_mm2 = 0;              ///< of the section; 0: of a solid one that reaches so far
 
   /// Largest strain by the curvatures about m1 and m2, 1/mm.
   double strain(const Eigen::Vector2d& curvature) const {
@@ -86,6 +87,39 @@ inline RodMaterial rectangular_material(double width, double height, double youn
           {0, 0},
           0,
           {height / 2, width / 2, false}};
+}
+
+/// A tube of outer diameter D and inner diameter D - 2t: GJ = G pi (D^4 - (D - 2t)^4)/32.
+inline RodMaterial tube_material(double diameter_mm, double wall_mm, double young_GPa,
+                                 double shear_GPa) {
+  const auto solid = [&](double diameter) {
+    return circular_material(diameter, young_GPa, shear_GPa);
+  };
+  const double inner = diameter_mm - 2 * wall_mm;
+  RodMaterial tube = solid(diameter_mm);
+  const RodMaterial hollow = solid(inner);
+  tube.EA -= hollow.EA;
+  tube.EI1 = tube.EI2 -= hollow.EI1;
+  tube.GJ -= hollow.GJ;
+  tube.fibres.area_mm2 = M_PI / 4 * (diameter_mm * diameter_mm - inner * inner);
+  return tube;
+}
+
+/// A rectangular tube, measured outside as rectangular_material(): GJ = 4 G A^2 t/U by Bredt, A and
+/// U the area in the middle line of the wall and its length; for walls of up to a tenth of the
+/// smaller side within some percent.
+inline RodMaterial box_material(double width, double height, double wall, double young_GPa,
+                                double shear_GPa) {
+  const double w = width - 2 * wall, h = height - 2 * wall;
+  RodMaterial box = rectangular_material(width, height, young_GPa, shear_GPa);
+  const RodMaterial hollow = rectangular_material(w, h, young_GPa, shear_GPa);
+  box.EA -= hollow.EA;
+  box.EI1 -= hollow.EI1;
+  box.EI2 -= hollow.EI2;
+  const double middle = (width - wall) * (height - wall);
+  box.GJ = 1e3 * shear_GPa * 4 * middle * middle * wall / (2 * (width + height - 2 * wall));
+  box.fibres.area_mm2 = width * height - w * h;
+  return box;
 }
 
 }  // namespace gridshell

@@ -13,6 +13,7 @@
 #include "engine/formats/dxf_file.h"
 #include "engine/formats/network_file.h"
 #include "engine/formats/obj_ply.h"
+#include "engine/formats/outline_file.h"
 #include "engine/formats/plain_text.h"
 
 namespace gridshell::preset {
@@ -91,12 +92,12 @@ class LeftOut {
   std::map<std::string, std::map<std::string, std::size_t>> counts_;
 };
 
-/// The entities of a drawing that are rods. Errors (bad_input): one that may be and is not
-/// understood.
+/// The entities of a drawing that are lines, where there is a layer of that name on it alone.
+/// Errors (bad_input): one that may be a line and is not understood.
 Result<std::vector<const DrawnEntity*>> choose(const DxfDrawing& drawing, const std::string& name,
-                                               LeftOut& left_out) {
-  const bool by_layer = std::ranges::any_of(drawing.entities, [](const DrawnEntity& one) {
-    return one.layer == "rods" && one.use != EntityUse::mark && one.space != DrawingSpace::paper;
+                                               const std::string& layer, LeftOut& left_out) {
+  const bool by_layer = std::ranges::any_of(drawing.entities, [&](const DrawnEntity& one) {
+    return one.layer == layer && one.use != EntityUse::mark && one.space != DrawingSpace::paper;
   });
   std::vector<const DrawnEntity*> chosen;
   for (const DrawnEntity& one : drawing.entities) {
@@ -106,8 +107,8 @@ Result<std::vector<const DrawnEntity*>> choose(const DxfDrawing& drawing, const 
       left_out.add(" on layers that are frozen or switched off", one.kind);
     else if (one.use == EntityUse::mark)
       left_out.add("", one.kind);
-    else if (by_layer && one.layer != "rods")
-      left_out.add(" on other layers than \"rods\"", one.kind);
+    else if (by_layer && one.layer != layer)
+      left_out.add(fmt::format(" on other layers than \"{}\"", layer), one.kind);
     else if (one.use == EntityUse::refused)
       return invalid("{}:{}: {} {}", name, one.line, one.kind, one.why);
     else
@@ -187,11 +188,30 @@ Result<NetworkData> read_network_obj(std::string_view bytes, const std::string& 
   return finish(builder, name, lines, report);
 }
 
+Result<PlanDrawing> read_outline_dxf(std::string_view bytes, const std::string& name,
+                                     const NetworkOptions& options, FileReport& report) {
+  TRY(drawing, read_dxf(bytes, name));
+  LeftOut left_out;
+  TRY(chosen, choose(*drawing, name, "outline", left_out));
+  PlanDrawing plan;
+  FileReport unit;
+  plan.unit_mm = unit_of(*drawing, *chosen, options, unit);
+  plan.unit = unit.text;
+  report.notes = std::move(unit.notes);
+  for (const DrawnEntity* one : *chosen) {
+    PlanLine& line = plan.lines.emplace_back();
+    line.closed = one->closed;
+    for (const Eigen::Vector3d& point : one->points) line.points.emplace_back(point.head<2>());
+  }
+  plan.left_out = left_out.text();
+  return plan;
+}
+
 Result<NetworkData> read_network_dxf(std::string_view bytes, const std::string& name,
                                      const NetworkOptions& options, FileReport& report) {
   TRY(drawing, read_dxf(bytes, name));
   LeftOut left_out;
-  TRY(rods, choose(*drawing, name, left_out));
+  TRY(rods, choose(*drawing, name, "rods", left_out));
   const double unit = unit_of(*drawing, *rods, options, report);
   report.text += left_out.text() + "; ";
   if (rods->empty())

@@ -98,13 +98,13 @@ std::vector<KeyFault> model_conflicts(const Preset& preset) {
   const KeyFault cause =
       needs.empty() ? KeyFault{"accuracy", "model", -1, {}, "it is asked for"} : needs.front();
   const auto check = [&](const Rod& rod, const std::string& table) {
-    if (rod.shear_GPa == 0)
+    if (rod.shear_GPa == 0 && rod.GJ_Nmm2 == 0)
       found.push_back({cause.table,
                        cause.key,
                        -1,
                        {fmt::format("{} shear_GPa", table)},
                        fmt::format("twists the rods ({}), and their torsional stiffness is not "
-                                   "known: {} shear_GPa must be above 0",
+                                   "known: {} shear_GPa or GJ_Nmm2 must be above 0",
                                    cause.what, table)});
   };
   check(preset.rod, "[rod]");

@@ -208,8 +208,8 @@ void needs_mass(FieldList<Struct>& list, const char* what, bool (*asks)(const St
     list.refused({fmt::format("[{}] density_kg_m3", table)},
                  fmt::format("{} needs a mass, [{}] density_kg_m3 must be above 0", what, table),
                  [=, v = std::string(table) == "rod_v"](const Preset& preset, const Struct& of) {
-                   const bool lacks = v ? preset.rod_v.differs && preset.rod_v.density_kg_m3 == 0
-                                        : preset.rod.density_kg_m3 == 0;
+                   const bool lacks = v ? preset.rod_v.differs && !preset.rod_v.has_mass()
+                                        : !preset.rod.has_mass();
                    return asks(of) && lacks;
                  });
 }

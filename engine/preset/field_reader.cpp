@@ -12,6 +12,7 @@
 #include "engine/core/file_io.h"
 #include "engine/core/text.h"
 #include "engine/formats/network_file.h"
+#include "engine/formats/outline_file.h"
 #include "engine/formats/point_file.h"
 #include "engine/formats/surface_file.h"
 #include "engine/preset/toml_reader.h"
@@ -275,8 +276,10 @@ class Reader {
       const Rod& rod = preset_.rod;
       const NetworkOptions options{millimetres(of.file_unit), of.join_mm,
                                    rod.rectangular() ? rod.thickness_mm : rod.diameter_mm};
+      const bool rods = of.kind == FootprintKind::network;
       const auto read = [&](std::string_view bytes, const std::string& file) {
-        return read_network(bytes, file, options, report_);
+        return rods ? read_network(bytes, file, options, report_)
+                    : read_outline(bytes, file, options, report_);
       };
       return read_file_of(name->get(), read, largest_network_file, network);
     }

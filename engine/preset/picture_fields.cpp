@@ -147,7 +147,10 @@ void add_figure(FieldList<Figure> list) {
       .refused({"[footprint] kind", "[footprint] radius_mm", "[footprint] longest_leg",
                 "[actuation] radius_mm", "[actuation] ratio"},
                radii_fault);
-  list.add<&Figure::scale_bar_mm>(at_least(0), "length of the scale bar; 0: none");
+  list.add<&Figure::scale_bar_mm>(
+      at_least(0),
+      "length of the scale bar, a round one in its place where that would be a dot beside the "
+      "shell or longer than it; 0: none");
   list.add<&Figure::scan>(
           "joints measured by others, mm, in the frame of the net: red over shells on their nets, "
           "and in the latitude plot")

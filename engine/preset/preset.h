@@ -16,7 +16,11 @@
 
 namespace gridshell::preset {
 
+/// Materials by name, for young_GPa, shear_GPa, density_kg_m3 and strength_MPa.
+enum class Material { none, nitinol, gfrp, spruce, oak, steel, aluminium };
+
 struct Rod {
+  Material material = Material::none;
   double diameter_mm = 0.254;
   double young_GPa = 83.0;
   double shear_GPa = 0;                   ///< 0: not given
@@ -24,12 +28,16 @@ struct Rod {
   double strength_MPa = 0;                ///< 0: not given, or by yield_strain
   double yield_strain = 0;                ///< 0: not given, or by strength_MPa
   double width_mm = 0, thickness_mm = 0;  ///< of a rectangular section; 0: round
-  double curvature_per_mm = 0;            ///< at rest, upright
-  double curvature_sideways_per_mm = 0;   ///< at rest, in the flat
-  double twist_rad_per_mm = 0;            ///< at rest
-  bool as_drawn = false;                  ///< a network's: at rest along its line in the flat
+  double wall_mm = 0;                     ///< of a tube; 0: solid
+  /// Of a section that is none of these; 0: by the section
+  double EA_N = 0, EI_Nmm2 = 0, GJ_Nmm2 = 0, mass_g_per_m = 0, modulus_mm3 = 0;
+  double curvature_per_mm = 0;           ///< at rest, upright
+  double curvature_sideways_per_mm = 0;  ///< at rest, in the flat
+  double twist_rad_per_mm = 0;           ///< at rest
+  bool as_drawn = false;                 ///< a network's: at rest along its line in the flat
 
   bool rectangular() const { return width_mm > 0 && thickness_mm > 0; }
+  bool has_mass() const { return density_kg_m3 > 0 || mass_g_per_m > 0; }
   /// Stress that a fibre bears, MPa; 0: not given.
   double fibre_strength_MPa() const {
     return yield_strain > 0 ? 1e3 * young_GPa * yield_strain : strength_MPa;
@@ -61,7 +69,7 @@ struct Ends {
   Points table;               ///< a row an end: family, rod, end, x, y, z, leg, tx, ty, tz
 };
 
-enum class CurveKind { circle, ellipse, superellipse, polygon, spline };
+enum class CurveKind { circle, ellipse, superellipse, polygon, spline, file };
 /// A closed curve in the plane; the radius of a circle stands beside it.
 struct Curve {
   CurveKind kind = CurveKind::circle;
@@ -87,7 +95,7 @@ struct Footprint {
   double longest_leg = 0;    ///< L_d, of d; 0: `radius_mm` says how large a circle is
   double spacing_mm = 20.0;  ///< d
   Placement placement = Placement::half;
-  NetworkData file;  ///< of kind network
+  NetworkData file;  ///< of kind network; of a curve whose boundary is "file": one closed rod
   /// How the file is read that `file` names; the defaults again once it is.
   FileUnit file_unit = FileUnit::file;
   double join_mm = 0;
@@ -144,6 +152,7 @@ struct Actuation {
   double ratio = 0;         ///< R_a/R_o of a circle; 0: `radius_mm` says it
   double scale = 0;         ///< of the original boundary; 0: `boundary` is given by itself
   Curve boundary;
+  NetworkData file;  ///< of a boundary "file": one closed rod
   Correspondence correspondence = Correspondence::arc_length;
   Start start = Start::flat;
   Seed seed = Seed::up;

@@ -61,6 +61,10 @@ struct NamedFile {
 /// A preset on its way, and where each of its keys was set.
 struct PresetBuilder {
   Preset preset;
+  /// Gives the rods of a table what their material says, but for what the same layer or a later one
+  /// sets itself.
+  void take_material(const std::string& table);
+
   std::map<std::string, SourceLocation> set_at;  ///< by bracketed name
   std::set<std::string> faulty;                  ///< keys whose value was refused
   std::map<std::string, NamedFile> files;        ///< by bracketed name

@@ -5,7 +5,10 @@ namespace {
 
 /// The rods of a table: all, or those of one family.
 void add_rods(FieldList<Rod> rods, const std::string& table) {
-  rods.add<&Rod::diameter_mm>(above(0), "diameter of round rods")
+  rods.add<&Rod::material>(
+      "gives young_GPa, shear_GPa, density_kg_m3 and strength_MPa where they are not given; "
+      "values and sources under Materials in presets/README.md");
+  rods.add<&Rod::diameter_mm>(above(0), "diameter of round rods, of tubes the outer one")
       .unused({"width_mm", "thickness_mm"},
               fmt::format("[{}] width_mm and thickness_mm make the rods rectangular", table),
               &Rod::rectangular);
@@ -44,6 +47,28 @@ void add_rods(FieldList<Rod> rods, const std::string& table) {
                                "of a rectangular section, upright; 0: the rods are round")
       .refused({}, fmt::format(fmt::runtime(half), table, "width_mm"),
                [](const Rod& rod) { return rod.thickness_mm > 0 && rod.width_mm == 0; });
+  rods.add<&Rod::wall_mm>(at_least(0), "wall of a tube, round or rectangular; 0: solid")
+      .refused({}, [](const Rod& rod) {
+        const double across =
+            rod.rectangular() ? std::min(rod.width_mm, rod.thickness_mm) : rod.diameter_mm;
+        return rod.wall_mm > 0 && 2 * rod.wall_mm >= across
+                   ? fmt::format("a tube of {} mm has no hollow, must be below {}", across,
+                                 0.5 * across)
+                   : "";
+      });
+  const char* round = "is of a section that is alike in all directions, width_mm must be 0";
+  rods.add<&Rod::EA_N>(at_least(0), "stiffness against stretch; 0: by the section");
+  rods.add<&Rod::EI_Nmm2>(at_least(0), "against bending, in all directions; 0: by the section")
+      .unit("N mm²")
+      .refused({"width_mm"}, round,
+               [](const Rod& rod) { return rod.EI_Nmm2 > 0 && rod.rectangular(); });
+  rods.add<&Rod::GJ_Nmm2>(at_least(0), "against torsion; 0: by the section").unit("N mm²");
+  rods.add<&Rod::mass_g_per_m>(at_least(0), "mass; 0: by the section and its density").unit("g/m");
+  rods.add<&Rod::modulus_mm3>(at_least(0),
+                              "section modulus W, for the stress M/W; 0: by the section")
+      .unit("mm³")
+      .refused({"width_mm"}, round,
+               [](const Rod& rod) { return rod.modulus_mm3 > 0 && rod.rectangular(); });
   const char* curved = "rods curved at rest spin to keep their curve";
   rods.add<&Rod::curvature_per_mm>("curvature at rest in the upright plane; above 0 arches up")
       .needs_twist(curved, [](const Rod& rod) { return rod.curvature_per_mm != 0; });

@@ -76,10 +76,19 @@ void add_footprint(std::vector<Field>& all) {
       .needs_equilibrium("a footprint that was not designed on a net has none",
                          [](const Preset& preset) { return !preset.on_net(); });
   const auto network = [](const Footprint& of) { return of.kind == Kinds::network; };
+  const auto drawn = [=](const Footprint& of) {
+    return network(of) || (of.kind == Kinds::curve && of.boundary.kind == CurveKind::file);
+  };
   list.add<&Footprint::file>(
           "of a footprint of kind \"network\": its points, rods, supports and where these go "
-          "(.json), or its rods alone (.obj, .dxf); mm")
-      .used_by(&Footprint::kind, {Kinds::network})
+          "(.json), or its rods alone (.obj, .dxf); of boundary = \"file\": a drawing (.dxf, .svg, "
+          ".obj) whose largest closed line is the boundary, about the middle of the box around it; "
+          "mm")
+      .unused({"kind"}, "only a network, and a curve whose boundary is \"file\", use it",
+              [=](const Footprint& of) { return !drawn(of); })
+      .refused({"boundary"},
+               "boundary = \"file\" must have the name of a drawing in [footprint] file",
+               [=](const Footprint& of) { return drawn(of) && !network(of) && of.file.empty(); })
       .refused({"kind"}, "kind = \"network\" needs rods, must be the name of a file",
                [=](const Footprint& of) { return network(of) && of.file.empty(); })
       .refused({},
@@ -106,16 +115,18 @@ void add_footprint(std::vector<Field>& all) {
   const char* of_a_file =
       "is of a file that `file` names: rods listed here are in mm and as joined";
   list.add<&Footprint::file_unit>(
-          "unit of the numbers of a drawing (.obj, .dxf); \"file\": the one that it names, else mm")
-      .used_by(&Footprint::kind, {Kinds::network})
+          "unit of the numbers of a drawing (.obj, .dxf, .svg), of [actuation] file too; \"file\": "
+          "the one that it names, else mm")
+      .used_by(&Footprint::kind, {Kinds::network, Kinds::curve})
       .refused({"file"}, of_a_file,
                [=](const Footprint& of) { return network(of) && of.file_unit != FileUnit::file; });
   list.add<&Footprint::join_mm>(
           between(0, 1000),
           "of the file: points nearer to one another than this are one, and ends of rods that lie "
           "as "
-          "near to another rod are joined to it; 0: where they touch to 0.001 mm")
-      .used_by(&Footprint::kind, {Kinds::network})
+          "near to another rod are joined to it; gaps of an outline up to it are closed; 0: where "
+          "they touch to 0.001 mm")
+      .used_by(&Footprint::kind, {Kinds::network, Kinds::curve})
       .refused({"file"}, of_a_file,
                [=](const Footprint& of) { return network(of) && of.join_mm > 0; });
   list.add<&Footprint::rods>(between(1, 500), "rods a direction in a circle, n")
@@ -124,7 +135,8 @@ void add_footprint(std::vector<Field>& all) {
   radius_rules(list, &Footprint::boundary, &Footprint::longest_leg, "[footprint] longest_leg");
   list.add<&Footprint::longest_leg>(
           between(0, 1000),
-          "L_d of a circle, in the place of `radius_mm`: R_o = d (L_d + (n - 1)/2); 0: not given")
+          "L_d of a circle, in the place of `radius_mm`: from the outermost rod to the boundary on "
+          "an axis, of d; R_o = d (L_d + (n - 1)/2); 0: not given")
       .used_by(&Footprint::kind, {Kinds::circle});
   const char* in_the_file =
       "of a footprint of kind \"network\" the file says where rods and joints lie";
@@ -183,6 +195,21 @@ void add_actuation(std::vector<Field>& all) {
           "nothing move to this times their place from the middle of the box around the rods; 0: "
           "they stay")
       .used_by_footprint({Kinds::curve, Kinds::network});
+  list.add<&Actuation::file>(
+          "of boundary = \"file\": a drawing whose largest closed line is the actuated boundary, "
+          "as "
+          "[footprint] file; where both are drawn, the middle of the original is the origin of "
+          "both")
+      .unused({"boundary"}, "only boundary = \"file\" uses it",
+              [=](const Preset& preset, const Actuation& of) {
+                return !is_curve(preset) || of.boundary.kind != CurveKind::file || of.scale > 0;
+              })
+      .refused({"boundary"},
+               "boundary = \"file\" must have the name of a drawing in [actuation] file",
+               [=](const Preset& preset, const Actuation& of) {
+                 return is_curve(preset) && of.boundary.kind == CurveKind::file && of.scale == 0 &&
+                        of.file.empty();
+               });
   FieldList<Curve> boundary(all, "actuation",
                             [](Preset& preset) -> Curve& { return preset.actuation.boundary; });
   boundary.used_by_footprint({Kinds::curve}).unused({"scale"}, scaled, by_scale);

@@ -341,6 +341,9 @@ void TomlReader::assign_key(const std::string& table, const toml::key& key, cons
   const auto wrong = assign(*field, value, draft.preset, beside, item);
   if (wrong.empty()) {
     draft.faulty.erase(full);
+    // the strength by yield_strain may come after that of the material
+    if (table.starts_with("rod") && (name == "material" || name == "yield_strain"))
+      draft.take_material(table);
   } else {
     draft.faulty.insert(full);
     faults_.add(place, fmt::format("{} = {}: {}", full, toml_text(value), wrong));
@@ -360,7 +363,8 @@ void TomlReader::read_files(PresetBuilder& draft) {
     faults_.add(draft.set_at.at(full), fmt::format("{} = {}: {}", full, toml_text(value), wrong));
   }
   // what is read stands in the preset in mm
-  if (draft.files.contains(key_label("footprint", "file"))) {
+  if (draft.files.contains(key_label("footprint", "file")) ||
+      draft.files.contains(key_label("actuation", "file"))) {
     draft.preset.footprint.file_unit = FileUnit::file;
     draft.preset.footprint.join_mm = 0;
   }

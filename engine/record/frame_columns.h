@@ -1,5 +1,6 @@
 // The scalar quantities of a frame, once: the columns of frames.csv and of /frames in
-// trajectory.h5, in order.
+// trajectory.h5, in order: numbers first, text last, so that readers of plain tables find every
+// number.
 #pragma once
 
 #include <string>
@@ -14,7 +15,9 @@ namespace gridshell::record {
 struct FrameColumn {
   std::string name;
   const char* unit;
-  std::variant<int Frame::*, double Frame::*, std::string Frame::*, Term> field;
+  /// A function computes what a Frame does not store: it is written, and dropped when read back.
+  std::variant<int Frame::*, double Frame::*, std::string Frame::*, Term, double (*)(const Frame&)>
+      field;
 };
 
 /// The quantity of a frame that a column stands for: `visit(value)`, by reference.
@@ -24,6 +27,9 @@ decltype(auto) visit_column(const FrameColumn& column, FrameType& frame, Visit v
       [&](auto field) -> decltype(auto) {
         if constexpr (std::is_same_v<decltype(field), Term>) {
           return visit(frame.energies[field]);
+        } else if constexpr (std::is_same_v<decltype(field), double (*)(const Frame&)>) {
+          double value = field(frame);
+          return visit(value);
         } else {
           return visit(frame.*field);
         }
@@ -48,7 +54,6 @@ inline const std::vector<FrameColumn> frame_columns = [] {
       {"negative_pivots", "1", &Frame::negative_pivots},
       {"error_estimate_mm", "mm", &Frame::error_estimate_mm},
       {"newton_iterations", "1", &Frame::newton_iterations},
-      {"event", "", &Frame::event},
       {"reach_above_tenth", "1", &Frame::reach_above_tenth},
       {"reach_above_half", "1", &Frame::reach_above_half},
       {"lowest_latitude_deg", "deg", &Frame::lowest_latitude_deg},
@@ -58,17 +63,19 @@ inline const std::vector<FrameColumn> frame_columns = [] {
       {"push_error_N", "N", &Frame::push_error_N},
       {"largest_force_N", "N", &Frame::largest_force_N},
       {"force_error_N", "N", &Frame::force_error_N},
-      {"energy_error_mJ", "mJ", &Frame::energy_error_mJ},
+      {"energies_error_mJ", "mJ", &Frame::energy_error_mJ},
       {"largest_bending_strain", "1", &Frame::largest_bending_strain},
-      {"bending_strain_at", "", &Frame::bending_strain_at},
       {"largest_stress_MPa", "MPa", &Frame::largest_stress_MPa},
       {"utilisation", "1", &Frame::utilisation},
-      {"stress_at", "", &Frame::stress_at},
       {"lowest_mm", "mm", &Frame::lowest_mm},
       {"contacts", "1", &Frame::contacts},
       {"rod_gap_mm", "mm", &Frame::rod_gap_mm},
       {"joint_gap_mm", "mm", &Frame::joint_gap_mm},
+      {"energy_mJ", "mJ", [](const Frame& frame) { return frame.energies.total(); }},
       {"kind", "", &Frame::kind},
+      {"bending_strain_at", "", &Frame::bending_strain_at},
+      {"stress_at", "", &Frame::stress_at},
+      {"event", "", &Frame::event},
   };
   columns.insert(columns.end(), others.begin(), others.end());
   return columns;

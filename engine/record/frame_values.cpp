@@ -40,7 +40,22 @@ double curvature_between(const Eigen::Vector3d& te, const Eigen::Vector3d& tf, d
   return 2 * te.cross(tf).norm() / (1 + te.dot(tf)) / length;
 }
 
+namespace {
+
+/// The unit that values are given in from a size on.
+struct LargeUnit {
+  const char *unit, *larger;
+  double times, from;
+};
+constexpr LargeUnit large_units[] = {
+    {"mJ", "kJ", 1e6, 1e6}, {"mJ", "J", 1e3, 1e4}, {"N", "kN", 1e3, 1e4}};
+
+}  // namespace
+
 std::string with_error(double value, double error, const char* unit) {
+  for (const auto& [small, larger, times, from] : large_units)
+    if (std::string_view(small) == unit && std::abs(value) >= from && std::isfinite(value))
+      return with_error(value / times, error / times, larger);
   const std::string end = *unit ? fmt::format(" {}", unit) : "";
   if (!std::isfinite(error)) return fmt::format("{:.4g}{} (error not known)", value, end);
   if (error == 0) return fmt::format("{:.9g}{}", value, end);

@@ -12,7 +12,7 @@
 namespace gridshell::record {
 
 /// A value with its unit in as many digits as its error lets hold: "0.1234 ± 0.0007 N"; four digits
-/// and no error where that is not known.
+/// and no error where that is not known. From 10 J, 1 kJ and 10 kN on in these units.
 std::string with_error(double value, double error, const char* unit);
 
 /// Curvature at the node between two edges, |kb|/l, from their unit tangents and their mean length.

@@ -35,9 +35,9 @@ inline double longest_leg_at(double leg, double rods) {
 
 // What a search for states came to, as figures of a point of a sweep.
 
-// of a circle, whether states are looked for or not
+// of a circle, whether states are looked for or not: L_d and l_d
 inline constexpr const char* longest_leg_name = "longest_leg";
-inline constexpr const char* shortest_leg_name = "shortest_leg";
+inline constexpr const char* corner_leg_name = "corner_leg";
 
 /// How often states of one kind were found.
 struct StateCount {

@@ -1,5 +1,7 @@
 #include "engine/record/run_folder.h"
 
+#include <algorithm>
+
 #include "engine/core/file_io.h"
 #include "engine/core/system_info.h"
 #include "engine/core/try.h"
@@ -47,11 +49,13 @@ std::string seams_csv(const Layout& layout) {
   return std::move(csv).text();
 }
 
-/// a number that is not known is empty; counts are never below zero
+/// A count that is not known (below zero) is empty. Text has no comma, so that a reader that knows
+/// no quotes counts the columns right.
 void put(CsvWriter& csv, int value) { value < 0 ? csv.cell("") : csv.cell(value); }
-template <class T>
-void put(CsvWriter& csv, const T& value) {
-  csv.cell(value);
+void put(CsvWriter& csv, double value) { csv.cell(value); }
+void put(CsvWriter& csv, std::string text) {
+  std::ranges::replace(text, ',', ';');
+  csv.cell(text);
 }
 
 std::string bins_csv(const Trajectory& trajectory) {

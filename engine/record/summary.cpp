@@ -1,5 +1,7 @@
 #include "engine/record/summary.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -37,6 +39,11 @@ void Summary::take_state(const Frame& last) {
   total_K = last.total_K;
 }
 
+std::string Summary::breaking() const {
+  if (!(utilisation > 1)) return "";
+  return fmt::format("BREAKS: {:.3g} times the strength", utilisation);
+}
+
 namespace {
 
 constexpr const char* of_a_solution[] = {"stable", "negative_pivots"};
@@ -44,8 +51,8 @@ constexpr const char* of_a_solution[] = {"stable", "negative_pivots"};
 /// Whether an older version did not write the key.
 bool may_lack(const std::string& key) {
   static const auto later = words_in(
-      "kind finished largest_strain steps doubt tolerance_met force_N push_error_N "
-      "stiffness_N_per_mm "
+      "program energies_error_mJ pushed_joint kind finished largest_strain steps doubt "
+      "tolerance_met force_N push_error_N stiffness_N_per_mm "
       "stiffness_error_N_per_mm largest_force_N force_error_N largest_bending_strain "
       "bending_strain_at largest_stress_MPa utilisation stress_at lowest_mm contact contacts",
       " ");
@@ -65,8 +72,9 @@ Json json_of_run(const Summary& summary) {
 std::string to_json(const Summary& summary) { return text_of(json_of_run(summary)); }
 
 Figures figures_of(const Summary& summary) {
-  static const std::set<std::string> left_out{"preset",   "model_reason",      "steps",    "kind",
-                                              "finished", "bending_strain_at", "stress_at"};
+  static const std::set<std::string> left_out{
+      "program",           "preset",    "model_reason", "steps", "kind", "finished",
+      "bending_strain_at", "stress_at", "pushed_joint"};
   Figures figures;
   const Json json = json_of_run(summary);
   for (const auto& [key, value] : json.items()) {
@@ -90,6 +98,7 @@ Result<Summary> read_summary(const std::filesystem::path& path) {
   if (!json.is_object()) return refuse("not a JSON object");
   Summary summary;
   // what an older version did not say
+  summary.program.clear();
   for (const TermName& term : energy_terms) summary.energies[term.term] = unknown;
   summary.solved = !json.contains("stable") || !json["stable"].is_null();
   if (!summary.solved) {

@@ -8,6 +8,7 @@
 #include "engine/core/enum_words.h"
 #include "engine/core/fields.h"
 #include "engine/core/result.h"
+#include "engine/core/system_info.h"
 #include "engine/record/sweep_results.h"
 #include "engine/record/trajectory.h"
 
@@ -24,6 +25,7 @@ constexpr auto words(Kind) { return names_except<Kind>({{Kind::unknown, ""}}); }
 
 /// What a run came to, in its last frame unless said otherwise.
 struct Summary {
+  std::string program = std::string("gridshell ") + version();  ///< that computed it
   std::string preset;
   std::string model;         ///< "net", "bend" or "twist"
   std::string model_reason;  ///< one sentence: why this rung is enough
@@ -47,7 +49,8 @@ struct Summary {
          energy_error_mJ = unknown, largest_bending_strain = unknown, largest_stress_MPa = unknown,
          utilisation = unknown;
   std::string bending_strain_at, stress_at;
-  Energies energies;  ///< by term, mJ
+  std::string pushed_joint;  ///< of [indentation]: "[0, -1]"; empty: none is pushed
+  Energies energies;         ///< by term, mJ
   double height_mm = 0, lowest_mm = unknown;
   int contacts = -1;  ///< as of Frame
   double rod_gap_mm = unknown, joint_gap_mm = unknown;
@@ -67,22 +70,28 @@ struct Summary {
 
   /// Takes over what the last frame says of its state.
   void take_state(const Frame& last);
+  /// "BREAKS: 2.08 times the strength"; empty where no fibre is beyond its rod's strength.
+  std::string breaking() const;
 };
 template <RecordOf<Summary> Run, class Visit>
 void fields(Run& run, const Visit& visit) {
-  visit_each(
-      visit, "preset", run.preset, "model", run.model, "model_reason", run.model_reason,
-      "edges_per_segment", run.edges_per_segment, "rods", run.rods, "joints", run.joints, "cells",
-      run.cells, "dof", run.dof, "stable", run.stable, "negative_pivots", run.negative_pivots,
-      "limit", run.limit, "limit_reason", run.limit_reason, "doubt", run.doubt, "tolerance_met",
-      run.tolerance_met, "residual_N", run.residual_N, "largest_strain", run.largest_strain,
-      "error_estimate_mm", run.error_estimate_mm, "force_N", run.force_N, "push_error_N",
-      run.push_error_N, "stiffness_N_per_mm", run.stiffness_N_per_mm, "stiffness_error_N_per_mm",
-      run.stiffness_error_N_per_mm, "largest_force_N", run.largest_force_N, "force_error_N",
-      run.force_error_N, "energy_error_mJ", run.energy_error_mJ, "largest_bending_strain",
-      run.largest_bending_strain, "bending_strain_at", run.bending_strain_at, "largest_stress_MPa",
-      run.largest_stress_MPa, "utilisation", run.utilisation, "stress_at", run.stress_at);
+  visit_each(visit, "program", run.program, "preset", run.preset, "model", run.model,
+             "model_reason", run.model_reason, "edges_per_segment", run.edges_per_segment, "rods",
+             run.rods, "joints", run.joints, "cells", run.cells, "dof", run.dof, "stable",
+             run.stable, "negative_pivots", run.negative_pivots, "limit", run.limit, "limit_reason",
+             run.limit_reason, "doubt", run.doubt, "tolerance_met", run.tolerance_met, "residual_N",
+             run.residual_N, "largest_strain", run.largest_strain, "error_estimate_mm",
+             run.error_estimate_mm, "force_N", run.force_N, "push_error_N", run.push_error_N,
+             "stiffness_N_per_mm", run.stiffness_N_per_mm, "stiffness_error_N_per_mm",
+             run.stiffness_error_N_per_mm, "largest_force_N", run.largest_force_N, "force_error_N",
+             run.force_error_N, "energies_error_mJ", run.energy_error_mJ, "largest_bending_strain",
+             run.largest_bending_strain, "bending_strain_at", run.bending_strain_at,
+             "largest_stress_MPa", run.largest_stress_MPa, "utilisation", run.utilisation,
+             "stress_at", run.stress_at, "pushed_joint", run.pushed_joint);
   visit_energies(run.energies, visit);
+  // not stored: written, and dropped when read back
+  double energy_mJ = run.energies.total();
+  visit("energy_mJ", energy_mJ);
   visit_each(visit, "height_mm", run.height_mm, "lowest_mm", run.lowest_mm, "contacts",
              run.contacts, "rod_gap_mm", run.rod_gap_mm, "joint_gap_mm", run.joint_gap_mm,
              "contact", run.contact, "total_K", run.total_K, "max_deviation", run.max_deviation,
@@ -100,7 +109,7 @@ void fields(Run& run, const Visit& visit) {
 std::string to_json(const Summary& summary);
 
 /// The same as figures of a point of a sweep, without what differs from one time to the next
-/// (seconds) and what is the same for all (preset, model_reason, kind, finished).
+/// (seconds) and what is the same for all (program, preset, model_reason, kind, finished).
 Figures figures_of(const Summary& summary);
 
 /// Writes summary.json whole or not at all. Errors: Fault::io with path and reason.

@@ -14,7 +14,33 @@
 namespace gridshell {
 namespace {
 
-Result<ClosedCurve> curve_of(const preset::Curve& wanted, double radius, double scale) {
+/// The closed line of a drawing; of a network that is none, nothing.
+Eigen::Matrix2Xd outline_of(const preset::NetworkData& file) {
+  Eigen::Matrix2Xd line(2, 0);
+  if (file.rods.size() != 1) return line;
+  const Eigen::Matrix2Xd points = preset::matrix_of<2>(file.points);
+  return points(Eigen::all, std::vector<int>(file.rods[0].begin(), file.rods[0].end()));
+}
+
+/// What a drawn outline is moved by: the middle of the box around it comes to the origin, or, where
+/// that is outside of it, the centroid of its area.
+Eigen::Vector2d middle_of(const Eigen::Matrix2Xd& line) {
+  const Eigen::Vector2d middle = 0.5 * (line.rowwise().minCoeff() + line.rowwise().maxCoeff());
+  double twice = 0, turns = 0;
+  Eigen::Vector2d moment(0, 0);
+  for (Eigen::Index k = 0; k + 1 < line.cols(); ++k) {
+    const Eigen::Vector2d a = line.col(k) - middle, b = line.col(k + 1) - middle;
+    const double cross = a.x() * b.y() - a.y() * b.x();
+    twice += cross;
+    moment += cross / 3 * (a + b);
+    turns += std::atan2(cross, a.dot(b));
+  }
+  const bool inside = std::abs(turns) > M_PI;
+  return inside || twice == 0 ? middle : Eigen::Vector2d(middle + moment / twice);
+}
+
+Result<ClosedCurve> curve_of(const preset::Curve& wanted, double radius, double scale,
+                             const Eigen::Matrix2Xd& drawn) {
   const double x = scale * wanted.half_x_mm, y = scale * wanted.half_y_mm;
   switch (wanted.kind) {
     case preset::CurveKind::circle:
@@ -25,6 +51,8 @@ Result<ClosedCurve> curve_of(const preset::Curve& wanted, double radius, double 
       return ClosedCurve::superellipse(x, y, wanted.exponent);
     case preset::CurveKind::polygon:
       return ClosedCurve::polygon(scale * preset::matrix_of<2>(wanted.points));
+    case preset::CurveKind::file:
+      return ClosedCurve::polygon(scale * drawn);
     case preset::CurveKind::spline:
       break;
   }
@@ -186,13 +214,23 @@ Eigen::Matrix2Xd CurveDesign::actuated(const Eigen::Matrix2Xd& on_original) cons
 
 Result<CurveDesign> curve_design(const preset::Preset& preset) {
   const auto& footprint = preset.footprint;
-  auto original = curve_of(footprint.boundary, footprint.radius_mm, 1);
-  if (!original) return refuse("[footprint] boundary: ", original.error());
   const auto& to = preset.actuation;
-  auto actuated = to.scale > 0 ? curve_of(footprint.boundary, footprint.radius_mm, to.scale)
-                               : curve_of(to.boundary, to.radius_mm, 1);
+  using preset::CurveKind;
+  Eigen::Matrix2Xd drawn = outline_of(footprint.file), drawn_to = outline_of(to.file);
+  const bool from_file = footprint.boundary.kind == CurveKind::file && drawn.cols() > 0;
+  if (drawn_to.cols() > 0) drawn_to.colwise() -= middle_of(from_file ? drawn : drawn_to);
+  if (drawn.cols() > 0) drawn.colwise() -= middle_of(drawn);
+  auto original = curve_of(footprint.boundary, footprint.radius_mm, 1, drawn);
+  if (!original) return refuse("[footprint] boundary: ", original.error());
+  auto actuated = to.scale > 0 ? curve_of(footprint.boundary, footprint.radius_mm, to.scale, drawn)
+                               : curve_of(to.boundary, to.radius_mm, 1, drawn_to);
   if (!actuated) return refuse("[actuation] boundary: ", actuated.error());
-  TRY(map, BoundaryMap::make(*original, *actuated, to.correspondence));
+  auto map = BoundaryMap::make(*original, *actuated, to.correspondence);
+  if (!map && drawn_to.cols() > 0 && from_file)
+    map.error().message +=
+        "; both drawings are placed by the middle of the original outline: do they have one "
+        "origin?";
+  if (!map) return tl::unexpected(map.error());
   auto domain = std::make_unique<CurveDomain>(*original);
   const Eigen::Matrix2Xd ring = domain->boundary(1024);
   const double scale = 0.5 * (ring.rowwise().maxCoeff() - ring.rowwise().minCoeff()).norm();

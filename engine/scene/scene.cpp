@@ -18,22 +18,49 @@ namespace gridshell {
 
 namespace {
 
-double area_of(const preset::Rod& rod) {
-  return rod.rectangular() ? rod.width_mm * rod.thickness_mm
-                           : M_PI * rod.diameter_mm * rod.diameter_mm / 4;
+/// The diameter of a round rod as thick as a rod is drawn.
+double drawn_diameter_of(const preset::Rod& rod) {
+  return rod.rectangular() ? 2 * std::sqrt(rod.width_mm * rod.thickness_mm / M_PI)
+                           : rod.diameter_mm;
 }
 
-RodMaterial material_of(const preset::Rod& rod) {
+RodMaterial section_of(const preset::Rod& rod) {
+  const double E = rod.young_GPa, G = rod.shear_GPa;
   // the first director stands up: the thickness lies along it
-  RodMaterial material =
-      rod.rectangular()
-          ? rectangular_material(rod.thickness_mm, rod.width_mm, rod.young_GPa, rod.shear_GPa)
-          : circular_material(rod.diameter_mm, rod.young_GPa, rod.shear_GPa);
+  if (rod.rectangular())
+    return rod.wall_mm > 0 ? box_material(rod.thickness_mm, rod.width_mm, rod.wall_mm, E, G)
+                           : rectangular_material(rod.thickness_mm, rod.width_mm, E, G);
+  return rod.wall_mm > 0 ? tube_material(rod.diameter_mm, rod.wall_mm, E, G)
+                         : circular_material(rod.diameter_mm, E, G);
+}
+
+/// Its section's stiffnesses, and what is given in their place. A free section is as large as EA/E
+/// and reaches as far as EI/(E W).
+RodMaterial material_of(const preset::Rod& rod) {
+  RodMaterial material = section_of(rod);
+  const double young_MPa = 1e3 * rod.young_GPa;
+  if (rod.EI_Nmm2 > 0) material.EI1 = material.EI2 = rod.EI_Nmm2;
+  if (rod.GJ_Nmm2 > 0) material.GJ = rod.GJ_Nmm2;
+  if (rod.EA_N > 0) {
+    material.EA = rod.EA_N;
+    material.fibres.area_mm2 = rod.EA_N / young_MPa;
+  }
+  if (rod.modulus_mm3 > 0) {
+    if (material.fibres.area_mm2 == 0) material.fibres.area_mm2 = material.EA / young_MPa;
+    material.fibres.about_1 = material.fibres.about_2 =
+        material.EI1 / (young_MPa * rod.modulus_mm3);
+  }
   // about the second, a tangent that turns downwards turns backwards
   material.curvature = {rod.curvature_sideways_per_mm, -rod.curvature_per_mm};
   material.twist = rod.twist_rad_per_mm;
   material.as_drawn = rod.as_drawn;
   return material;
+}
+
+double mass_t_per_mm(const preset::Rod& rod, const RodMaterial& material) {
+  if (rod.mass_g_per_m > 0) return 1e-9 * rod.mass_g_per_m;
+  const double area = material.EA / (1e3 * rod.young_GPa);
+  return 1e-12 * rod.density_kg_m3 * area;  // 1 kg/m^3 = 1e-12 t/mm^3
 }
 
 /// The rod of a table or, of a network, of its file.
@@ -79,12 +106,13 @@ Result<void> put_rods(const preset::Preset& preset, Scene& scene) {
   TRY(rods, rods_of(preset, footprint));
   for (const preset::Rod& rod : *rods) {
     scene.diameters_mm.push_back(rod.diameter_mm);
-    scene.drawn_diameters_mm.push_back(2 * std::sqrt(area_of(rod) / M_PI));
+    scene.drawn_diameters_mm.push_back(drawn_diameter_of(rod));
     const bool lath = rod.rectangular();
     scene.laths_mm.insert(scene.laths_mm.end(),
                           {lath ? rod.width_mm : 0, lath ? rod.thickness_mm : 0});
-    const double mass = 1e-12 * rod.density_kg_m3 * area_of(rod);  // 1 kg/m^3 = 1e-12 t/mm^3
-    scene.rods.materials.push_back(material_of(rod));
+    const RodMaterial material = material_of(rod);
+    const double mass = mass_t_per_mm(rod, material);
+    scene.rods.materials.push_back(material);
     scene.mass_t_per_mm.push_back(mass);
     scene.strength_MPa.push_back(rod.fibre_strength_MPa());
     if (loads.gravity_m_s2 != 0 || loads.field_N_per_mm != 0)
@@ -106,7 +134,7 @@ Result<void> put_rods(const preset::Preset& preset, Scene& scene) {
     for (const double diameter : scene.drawn_diameters_mm)
       scene.rods.contact.radius_mm.push_back(0.5 * diameter);
   }
-  scene.rod_diameter_mm = 2 * std::sqrt(area_of(preset.rod) / M_PI);
+  scene.rod_diameter_mm = drawn_diameter_of(preset.rod);
   return {};
 }
 

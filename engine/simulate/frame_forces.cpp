@@ -234,6 +234,7 @@ void put_stress(const Scene& scene, const RodMesh& mesh, const Model& model,
 }  // namespace
 
 double area_of(const FibreReach& fibres) {
+  if (fibres.area_mm2 > 0) return fibres.area_mm2;
   return fibres.round ? M_PI * fibres.about_1 * fibres.about_1
                       : 4 * fibres.about_1 * fibres.about_2;
 }

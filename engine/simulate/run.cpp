@@ -297,8 +297,8 @@ Result<Plan> plan(const preset::Preset& preset) {
   // a ring has no legs
   if (const double d = scene->footprint.spacing; scene->footprint.longest_leg() > 0)
     plan.footprint +=
-        fmt::format("; longest leg {:.2f} d, shortest {:.2f} d", scene->footprint.longest_leg() / d,
-                    scene->footprint.shortest_leg() / d);
+        fmt::format("; {:.2f} to {:.2f} d from a rod's last joint to the boundary",
+                    scene->footprint.shortest_leg() / d, scene->footprint.longest_leg() / d);
   if (const int lone = scene->footprint.lone_lines; lone > 0)
     plan.footprint += fmt::format("; {} more would cross no other and {} left out", lone,
                                   lone == 1 ? "is" : "are");
@@ -326,6 +326,11 @@ Result<EquilibriumPath> follow(const preset::Preset& preset,
   summary = summary_of(preset, *scene, sink);
   put_path(*path, summary);
   summary.steps = std::move(told);
+  if (preset.indentation.wanted() && !path->simulation.holds().empty()) {
+    const int pushed = path->simulation.holds().front().node;
+    const FootprintJoint& at = scene->footprint.joints[std::size_t(pushed)];
+    summary.pushed_joint = fmt::format("[{}, {}]", at.i, at.j);
+  }
   summary.seconds_simulation = seconds_now() - begin - summary.seconds_setup;
   return path;
 }

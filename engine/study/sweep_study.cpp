@@ -59,7 +59,7 @@ record::Figures more_of(const Scene* scene, const record::Frame& last) {
 
 /// The legs of a circle; names alone where there is no preset.
 record::Figures legs_of(const preset::Preset* preset) {
-  record::Figures legs{{record::longest_leg_name, {}}, {record::shortest_leg_name, {}}};
+  record::Figures legs{{record::longest_leg_name, {}}, {record::corner_leg_name, {}}};
   if (!preset || preset->footprint.kind != preset::FootprintKind::circle) return legs;
   const double radius = preset->original_radius_mm() / preset->footprint.spacing_mm;
   legs[0].second = record::longest_leg(radius, preset->footprint.rods);

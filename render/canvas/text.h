@@ -46,6 +46,12 @@ std::string scientific(double value, int digits);
 
 /// The smallest of 1, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times a power of ten that is >= value (> 0).
 double nice_ceiling(double value);
+/// The length of a scale bar beside a thing of half size `size_mm`: the wanted one, or, where that
+/// would be a dot or longer than the thing, a round length; 0 stays 0.
+inline double scale_bar_beside(double wanted_mm, double size_mm) {
+  const bool fits = wanted_mm >= 0.03 * size_mm && wanted_mm <= 2 * size_mm;
+  return wanted_mm <= 0 || fits ? wanted_mm : nice_ceiling(0.2 * size_mm);
+}
 
 /// Ticks within [low, high] at multiples of 1, 2 or 5 times a power of ten, about `count` major
 /// ones and never fewer than two where that is possible, with minor ticks between.

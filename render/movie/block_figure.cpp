@@ -10,6 +10,7 @@
 #include "render/movie/stage.h"
 
 #include "engine/core/try.h"
+#include "render/canvas/text.h"
 
 namespace gridshell::render {
 namespace {
@@ -174,7 +175,7 @@ Result<PanelFigure> draw_blocks(const std::vector<NetRun>& runs, const MovieStyl
   PanelFigure figure = empty_figure(style, 1);
   TRY_DO(add_panel(figure, stage, std::move(drawing), {}, renderer, watch));
   figure.keys = kinds.keys();
-  figure.scale_bar_mm = style.scale_bar_mm;
+  figure.scale_bar_mm = scale_bar_beside(style.scale_bar_mm, blocks.layout.length_scale_mm);
   figure.pixels_per_mm = stage.pixels_per_mm();
   return figure;
 }

@@ -9,6 +9,7 @@
 #include "engine/core/text.h"
 #include "engine/core/try.h"
 #include "engine/record/frame_values.h"
+#include "render/canvas/text.h"
 #include "render/movie/run_summary.h"
 
 namespace gridshell::render {
@@ -50,7 +51,7 @@ Result<PanelFigure> panels_of(const std::vector<NetRun>& runs, const MovieStyle&
   figure.pixels_per_mm = stages.front().pixels_per_mm();
   for (const Stage& stage : stages)
     figure.pixels_per_mm = std::min(figure.pixels_per_mm, stage.pixels_per_mm());
-  figure.scale_bar_mm = style.scale_bar_mm;
+  figure.scale_bar_mm = scale_bar_beside(style.scale_bar_mm, states.front().layout.length_scale_mm);
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const double wider = stages[k].pixels_per_mm() / figure.pixels_per_mm;
     Drawing drawing = stages[k].drawing(states[k].frames.front());

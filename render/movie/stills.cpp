@@ -8,6 +8,7 @@
 #include "engine/core/file_io.h"
 #include "engine/core/try.h"
 #include "render/canvas/panels.h"
+#include "render/canvas/text.h"
 #include "render/gl/image.h"
 #include "render/movie/frame_overlay.h"
 #include "render/movie/run_figures.h"
@@ -105,7 +106,7 @@ Result<std::vector<std::filesystem::path>> write_stills(
   if (origin) survey.first = *origin;
   const Stage stage(run.layout, std::move(survey), style, bar);
   PanelFigure figure = empty_figure(style, columns_of(style, stage.frames()));
-  figure.scale_bar_mm = style.scale_bar_mm;
+  figure.scale_bar_mm = scale_bar_beside(style.scale_bar_mm, run.layout.length_scale_mm);
   figure.pixels_per_mm = stage.pixels_per_mm();
   figure.colour_bar = stage.colour_bar();
   figure.arrow = stage.arrow_key();

@@ -244,7 +244,8 @@ TEST_CASE("check explains what would run and writes nothing") {
   const Bench bench(small);
   const auto said = bench.good("check small.toml");
   CHECK_THAT(said.out, Contains("small: small") && Contains("model") && Contains("unknowns") &&
-                           Contains("8 rods") && !Contains("left out"));
+                           Contains("8 rods") && !Contains("left out") &&
+                           Contains("longest leg L_d = 0.75"));
   const auto thick = bench.good("check small.toml --set rod.diameter_mm=8");
   CHECK_THAT(thick.out, Contains("left out        rods of 8 mm are 2.5 diameters long") &&
                             Contains("some 35 % more, and the 8 mm between the axes"));

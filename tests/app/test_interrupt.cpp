@@ -107,7 +107,25 @@ TEST_CASE("a run that is ended goes on from there, to the same state", "[full]")
         Approx(b["energy_bend_mJ"].get<double>()).epsilon(1e-6));
   CHECK(a["edges_per_segment"] == b["edges_per_segment"]);
   CHECK(a["limit_reason"] == b["limit_reason"]);
-  check_refused(command("ended", "--resume"), folder, Contains("'ended' is a finished run"));
+  const std::string before = text_of(folder / "ended/summary.json");
+  CHECK_THAT(good(command("ended", "--resume"), folder).out, Contains("finished already"));
+  CHECK(text_of(folder / "ended/summary.json") == before);
+  check_refused(command("ended", "--resume --set limits.max_strain=0.002"), folder,
+                Contains("'ended' is a finished run of another command or preset"));
+}
+
+TEST_CASE("a job that is queued again needs no if: --resume begins, goes on or ends at once") {
+  const Bench bench(small_preset({}));
+  bench.good("run small.toml --resume");
+  const fs::path summary = bench.at / "out/small/summary.json";
+  const std::string before = text_of(summary);
+  CHECK_THAT(bench.good("run small.toml --resume").out, Contains("out/small: is finished already"));
+  CHECK(text_of(summary) == before);
+  check_refused("run small.toml --resume --set footprint.spacing_mm=19", bench.at,
+                Contains("'out/small' is a finished run of another command or preset"));
+  const auto first_line = [](const std::string& text) { return text.substr(0, text.find('\n')); };
+  CHECK(first_line(text_of(bench.at / "out/small/preset.toml")) ==
+        std::string("# computed by gridshell ") + gridshell::version());
 }
 
 TEST_CASE("a run that another build began is not gone on with") {

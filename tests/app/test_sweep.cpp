@@ -195,8 +195,10 @@ TEST_CASE("what a sweep is asked for in vain is told") {
   };
   refused({"--set", "sweep.plot=[\"height\"]"}, "did you mean 'height_mm'?");
   refused({"--set", "sweep.over={}"}, "sweeps nothing");
-  refused({"--shard", "4/3"}, "--shard 4/3: must be i/N");
-  refused({"--shard", "x"}, "must be i/N");
+  refused({"--shard", "4/3"}, "--shard 4/3: expected i/N");
+  refused({"--shard", "x"}, "expected i/N");
+  refused({"--shard", "0/8"},
+          "where jobs are counted from 0: --shard $((SLURM_ARRAY_TASK_ID + 1))");
   refused({"-o", "out", "--merge"}, "holds no shard");
   refused({"-o", "."}, "it is no sweep, and holds '");
   refused({"-o", "small.toml"}, "it is a file");

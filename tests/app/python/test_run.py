@@ -25,6 +25,16 @@ def test_arrays_are_what_the_folder_says(small_run):
     np.testing.assert_array_equal(run.nodes[-1, :len(joints)], joints)
 
 
+def test_frames_csv_is_a_table_for_numpy(small_run):
+    run = gs.load(small_run)
+    frames = np.genfromtxt(small_run / "frames.csv", delimiter=",", names=True)
+    np.testing.assert_array_equal(frames["energy_mJ"], run.energy_mJ)
+    assert frames.dtype.names[-1] == "event"
+    assert sum(frames[name] for name in frames.dtype.names
+               if name.startswith("energy_") and name != "energy_mJ") == pytest.approx(
+                   frames["energy_mJ"], rel=1e-12)
+
+
 def test_frames_are_states_that_outlive_the_run(small_run):
     run = gs.load(str(small_run))
     nodes, last = run.nodes, run[-1]

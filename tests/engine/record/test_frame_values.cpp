@@ -76,7 +76,10 @@ TEST_CASE("a value is told in the digits that its error lets hold") {
   CHECK(with_error(0.123456, 7.1e-4, "N") == "0.1235 ± 0.0007 N");
   CHECK(with_error(39.9791, 0.02, "mJ") == "39.98 ± 0.02 mJ");
   CHECK(with_error(1234.5, 30, "N") == "1234 ± 30 N");
-  CHECK(with_error(2108745.3, 595, "mJ") == "2108750 ± 600 mJ");
+  CHECK(with_error(2108745.3, 595, "mJ") == "2.1087 ± 0.0006 kJ");
+  CHECK(with_error(7604400, 28000, "mJ") == "7.60 ± 0.03 kJ");
+  CHECK(with_error(26168.5, 40, "mJ") == "26.17 ± 0.04 J");
+  CHECK(with_error(12345, 60, "N") == "12.35 ± 0.06 kN");
   CHECK(with_error(0.25, 0, "N") == "0.25 N");
   CHECK(with_error(0.123456, unknown, "N") == "0.1235 N (error not known)");
 }

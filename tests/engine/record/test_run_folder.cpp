@@ -3,7 +3,9 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/core/file_io.h"
+#include "engine/core/system_info.h"
 #include "engine/core/text.h"
+#include "engine/formats/csv.h"
 #include "engine/record/run_folder.h"
 #include "tests/engine/record/sample_run.h"
 #include "tests/results.h"
@@ -16,6 +18,17 @@ namespace fs = std::filesystem;
 namespace {
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+/// as a reader cuts them that knows no quotes
+std::vector<std::string> cut(const std::string& text, char at) {
+  std::vector<std::string> parts(1);
+  for (const char c : text)
+    if (c == at)
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  return parts;
+}
 
 /// text before `key` replaced in summary.json, as read back
 std::string refusal(const std::string& from, const std::string& to) {
@@ -38,14 +51,14 @@ TEST_CASE("summary.json has the keys of a run in order, and null for what is unk
   std::string keys;
   for (const auto& [key, value] : json.items()) keys += key + " ";
   CHECK(keys ==
-        "preset model model_reason edges_per_segment rods joints cells dof stable "
+        "program preset model model_reason edges_per_segment rods joints cells dof stable "
         "negative_pivots limit limit_reason doubt tolerance_met residual_N largest_strain "
         "error_estimate_mm "
         "force_N push_error_N stiffness_N_per_mm stiffness_error_N_per_mm largest_force_N "
-        "force_error_N energy_error_mJ largest_bending_strain bending_strain_at "
-        "largest_stress_MPa utilisation stress_at energy_bend_mJ energy_stretch_mJ "
+        "force_error_N energies_error_mJ largest_bending_strain bending_strain_at "
+        "largest_stress_MPa utilisation stress_at pushed_joint energy_bend_mJ energy_stretch_mJ "
         "energy_twist_mJ energy_joint_mJ energy_shear_mJ energy_load_mJ energy_support_mJ "
-        "energy_contact_mJ height_mm lowest_mm contacts rod_gap_mm joint_gap_mm contact "
+        "energy_contact_mJ energy_mJ height_mm lowest_mm contacts rod_gap_mm joint_gap_mm contact "
         "total_K max_deviation mean_deviation median_deviation deviation_p90 max_seam_gap_mm "
         "max_seam_kink_deg newton_iterations factorizations seconds_setup seconds_simulation "
         "seconds_render steps kind finished ");
@@ -54,6 +67,8 @@ TEST_CASE("summary.json has the keys of a run in order, and null for what is unk
   CHECK(json["max_deviation"] == 0.031029);
   CHECK(json["limit"] == "snap");
   CHECK(json["stable"] == true);
+  CHECK(json["program"] == std::string("gridshell ") + version());
+  CHECK(json["energy_mJ"] == sample_summary().energies.total());
 }
 
 TEST_CASE("a summary reads back as it was") {
@@ -92,10 +107,11 @@ TEST_CASE("a summary of version 0.1 is read, what it did not say is unknown") {
   const TemporaryFolder folder;
   auto json = nlohmann::ordered_json::parse(to_json(sample_summary()));
   for (const std::string_view key : words_in(
-           "energy_joint_mJ energy_shear_mJ energy_load_mJ energy_support_mJ energy_contact_mJ "
-           "kind "
+           "program energy_joint_mJ energy_shear_mJ energy_load_mJ energy_support_mJ "
+           "energy_contact_mJ energy_mJ pushed_joint kind "
            "finished force_N push_error_N stiffness_N_per_mm stiffness_error_N_per_mm "
-           "largest_force_N force_error_N energy_error_mJ largest_bending_strain bending_strain_at "
+           "largest_force_N force_error_N energies_error_mJ largest_bending_strain "
+           "bending_strain_at "
            "largest_stress_MPa utilisation stress_at lowest_mm contacts rod_gap_mm joint_gap_mm "
            "contact",
            " "))
@@ -109,6 +125,7 @@ TEST_CASE("a summary of version 0.1 is read, what it did not say is unknown") {
   CHECK(old.kind == Kind::unknown);
   CHECK(old.finished);
   CHECK(old.contacts == -1);
+  CHECK(old.program.empty());
   CHECK(std::isnan(old.rod_gap_mm));
 }
 
@@ -122,10 +139,11 @@ TEST_CASE("CSV files have the columns that others read") {
         "energy_contact_mJ,"
         "height_mm,total_K,"
         "residual_N,negative_pivots,error_estimate_mm,"
-        "newton_iterations,event,reach_above_tenth,reach_above_half,lowest_latitude_deg,time_s,"
+        "newton_iterations,reach_above_tenth,reach_above_half,lowest_latitude_deg,time_s,"
         "stiffness_N_per_mm,stiffness_error_N_per_mm,push_error_N,largest_force_N,force_error_N,"
-        "energy_error_mJ,largest_bending_strain,bending_strain_at,largest_stress_MPa,"
-        "utilisation,stress_at,lowest_mm,contacts,rod_gap_mm,joint_gap_mm,kind");
+        "energies_error_mJ,largest_bending_strain,largest_stress_MPa,"
+        "utilisation,lowest_mm,contacts,rod_gap_mm,joint_gap_mm,energy_mJ,kind,"
+        "bending_strain_at,stress_at,event");
 }
 
 TEST_CASE("CSV lines hold the last frame, shortest numbers, and nothing for what is unknown") {
@@ -151,16 +169,50 @@ TEST_CASE("CSV lines hold the last frame, shortest numbers, and nothing for what
         "i,j,u_mm,v_mm,cx_mm,cy_mm,cz_mm,K\n"
         "-1,-1,0,0,1,2,0.5,0.02\n");
   const std::string frames = frames_csv(run);
-  CHECK_THAT(
-      frames,
-      Catch::Contains("\n1,0.3333333333333333,125.9,,,1e-300,0.30000000000000004,-0,0,0,0,0,0,"
-                      "0.14285714285714285,3.141592653589793,5e-324,1,,7,,,,,,,,,,,,,,,,,-0.5,1,,"
-                      "0.3333333333333333,solved\n"));
+  CHECK_THAT(frames, Catch::Contains(
+                         "\n1,0.3333333333333333,125.9,,,1e-300,0.30000000000000004,-0,0,0,0,0,0,"
+                         "0.14285714285714285,3.141592653589793,5e-324,1,,7,,,,,,,,,,,,,,-0.5,1,,"
+                         "0.3333333333333333,0.30000000000000004,solved,,,\n"));
   CHECK(
-      frames.ends_with(",0.001,14,\"snap, \"\"fast\"\" \xC3\xA9\",,,,,,,,,2e-05,,,"
-                       "\"u0, 45.00 mm from its begin, at joint [0, 1]\",,1.4,"
-                       "\"u0, 45.00 mm from its begin, at joint [0, 1]\",-1,2,-0.1,"
-                       "0.3333333333333333,solved\n"));
+      frames.ends_with(",0.001,14,,,,,,,,,2e-05,,,,1.4,-1,2,-0.1,0.3333333333333333,0.5,solved,"
+                       "u0; 45.00 mm from its begin; at joint [0; 1],"
+                       "u0; 45.00 mm from its begin; at joint [0; 1],"
+                       "\"snap; \"\"fast\"\" \xC3\xA9\"\n"));
+}
+
+TEST_CASE("every line of frames.csv splits at its commas into as many cells, numbers first") {
+  std::vector<std::string> lines;
+  for (const std::string& line : cut(frames_csv(sample_trajectory()), '\n'))
+    if (!line.empty()) lines.push_back(line);
+  REQUIRE(lines.size() == sample_trajectory().frames.size() + 1);
+  const auto names = cut(lines.front(), ',');
+  for (const std::string& line : lines) {
+    const auto cells = cut(line, ',');
+    REQUIRE(cells.size() == names.size());
+    if (line == lines.front()) continue;
+    for (std::size_t k = 0; k + 4 < cells.size(); ++k)
+      CHECK((cells[k].empty() || parse_number<double>(cells[k])));
+  }
+}
+
+TEST_CASE("the energies by term in a table sum up to energy_mJ") {
+  const auto rows = csv_cells(frames_csv(sample_trajectory()));
+  double sum = 0, total = 0;
+  for (std::size_t k = 0; k < rows[0].size(); ++k) {
+    if (rows[0][k].starts_with("energy_") && rows[0][k] != "energy_mJ")
+      sum += *parse_number<double>(rows[1][k]);
+    if (rows[0][k] == "energy_mJ") total = *parse_number<double>(rows[1][k]);
+  }
+  CHECK(sum != 0);
+  CHECK(sum == total);
+}
+
+TEST_CASE("a rod beyond its strength breaks in plain words") {
+  Summary summary = sample_summary();
+  summary.utilisation = 2.083;
+  CHECK(summary.breaking() == "BREAKS: 2.08 times the strength");
+  summary.utilisation = 0.4;
+  CHECK(summary.breaking().empty());
 }
 
 TEST_CASE("numbers do not follow the locale") {

@@ -1,7 +1,10 @@
 // Footprints inside curves that a user gives, and nets from tables of points.
 #include <cmath>
 
+#include "engine/core/file_io.h"
+#include "engine/preset/preset_file.h"
 #include "tests/engine/simulate/run.h"
+#include "tests/temporary_folder.h"
 
 using namespace gridshell;
 
@@ -96,4 +99,37 @@ TEST_CASE("translation nets from two curves: certified, near the net") {
     std::swap(p.net.curve_u, p.net.curve_v);
     CHECK_THAT(refused(p), Catch::Contains("curve_v of the translation net must run to the left"));
   }
+}
+
+TEST_CASE("an outline of a drawing is a boundary, about its middle") {
+  const TemporaryFolder folder;
+  // a rectangle of 200 x 120 mm far off the origin, and one to draw it into
+  const auto obj = [&](const char* name, double x, double y, double half_x, double half_y) {
+    std::string text;
+    for (const auto& [a, b] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}})
+      text += fmt::format("v {} {} 0\n", x + a * half_x, y + b * half_y);
+    REQUIRE(write_file(folder / name, text + "l 1 2 3 4 1\n"));
+  };
+  obj("flat.obj", 5000, 300, 100, 60);
+  obj("built.obj", 5000, 300, 80, 50);
+  const auto read = [&](const std::string& more) {
+    REQUIRE(write_file(
+        folder / "own.toml",
+        "[footprint]\nkind = \"curve\"\nboundary = \"file\"\nfile = \"flat.obj\"\n" + more));
+    return preset::read_preset_file(folder / "own.toml", {});
+  };
+  const auto scene = value_of(
+      scene_of(value_of(read("[actuation]\nboundary = \"file\"\nfile = \"built.obj\"\n")).base));
+  CHECK(scene.motion.begin.row(0).maxCoeff() == Approx(100));
+  CHECK(scene.motion.begin.row(1).minCoeff() == Approx(-60));
+  CHECK(scene.motion.end.row(0).maxCoeff() == Approx(80));
+  CHECK(scene.motion.end.row(1).minCoeff() == Approx(-50));
+  const auto scaled = value_of(read("[actuation]\nscale = 0.9\n"));
+  CHECK(value_of(scene_of(scaled.base)).motion.end.row(0).maxCoeff() == Approx(90));
+  CHECK_THAT(scaled.files.at(0), Catch::Contains("an outline of 4 points, 200 x 120 mm, in mm"));
+  // the preset that a run keeps has the outline itself
+  const auto again = value_of(preset::read_preset_text(preset::to_toml(scaled.base), "a", "a"));
+  CHECK(value_of(scene_of(again.base)).motion.end.row(0).maxCoeff() == Approx(90));
+  CHECK_THAT(refusal(read("[actuation]\nboundary = \"file\"\n")),
+             Catch::Contains("must have the name of a drawing in [actuation] file"));
 }

@@ -83,7 +83,7 @@ TEST_CASE(
     CHECK(all > 0);
   }
   // legs longer than two cells leave every rod its first mode
-  CHECK(figure(1, "shortest_leg") > 2);
+  CHECK(figure(1, "corner_leg") > 2);
   CHECK(figure(1, "states_i") == 1);
   CHECK(figure(1, "met_first_order") == 4);
   // every figure that comes is one that can be drawn
