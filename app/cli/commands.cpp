@@ -36,6 +36,7 @@ void print_plan(const preset::Preset& preset, const simulate::Plan& plan) {
     fmt::print("  boundary        {} mm to {} mm\n", preset.original_radius_mm(),
                preset.actuated_radius_mm());
   for (const auto& seam : plan.seams) fmt::print("  seam            {}\n", seam);
+  for (const auto& sentence : plan.net) fmt::print("  net             {}\n", sentence);
   fmt::print("  model           {}\n", plan.model_reason);
   fmt::print("  meshes          {} edges a segment{}\n", fmt::join(plan.levels, ", "),
              plan.extrapolated ? ", extrapolated" : "");

@@ -197,8 +197,12 @@ class Reader {
                      text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
     return field_.colour && !hex && !text.empty() && text != "transparent" ? "is no colour" : "";
   }
-  std::string read(const toml::node& value, std::optional<int>& number) const {
-    if (const auto* text = value.as_string(); text && text->get() == "none") return "";
+  template <class Number>
+  std::string read(const toml::node& value, std::optional<Number>& number) const {
+    if (const auto* text = value.as_string(); text && text->get() == "none") {
+      number.reset();
+      return "";
+    }
     return read(value, number.emplace());
   }
   template <class T>

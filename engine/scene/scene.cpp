@@ -197,6 +197,7 @@ Result<void> build_net(const preset::Preset& preset, Scene& scene) {
   TRY_DO(clip(*design->domain, preset, scene));
   scene.net = design->net;
   scene.blocks = design->blocks;
+  scene.mesh_net = design->report;
   scene.flat = design->flat;
   scene.from_net = preset.actuation.start == preset::Start::net;
   scene.length_scale_mm = design->scale_mm;
