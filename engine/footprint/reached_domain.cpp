@@ -25,16 +25,34 @@ class ReachedPart final : public Domain {
     };
     const double step = net_->chord() / 2;
     std::vector<Interval> pieces;
-    std::optional<Eigen::Vector3d> before;
+    // places along the line that one rod joins
+    std::vector<std::pair<double, Eigen::Vector3d>> run;
+    const auto end_run = [&] {
+      // beside an edge where the net is rough the rod would not be as long as its way
+      const auto rough = [&](std::size_t a, std::size_t b) {
+        return !net_->joined(run[a].second, run[b].second, step, exact);
+      };
+      std::size_t first = 0, last = run.empty() ? 0 : run.size() - 1;
+      while (first < last && first < most_trimmed && rough(first, first + 1)) ++first;
+      for (int k = 0; first < last && k < int(most_trimmed) && rough(last - 1, last); ++k) --last;
+      if (first < last)
+        pieces.push_back({end_from(on_line, run[first].first, run[first].second, -1),
+                          end_from(on_line, run[last].first, run[last].second, 1)});
+      run.clear();
+    };
     const int last = 2 * (reach_ + 1);
     for (int k = -last; k <= last; ++k) {
       const double s = k * step;
       const auto here = position(on_line(s));
-      const bool goes_on = before && here && net_->joined(*before, *here, step);
-      if (before && !goes_on) pieces.back().end = end_from(on_line, s - step, *before, 1);
-      if (here && !goes_on) pieces.push_back({end_from(on_line, s, *here, -1), s});
-      before = here;
+      if (!run.empty() && !(here && net_->joined(run.back().second, *here, step, usual))) end_run();
+      if (here) run.emplace_back(s, *here);
     }
+    end_run();
+    for (Interval& piece : pieces) {
+      piece.begin = off_node(piece.begin, 1);
+      piece.end = off_node(piece.end, -1);
+    }
+    std::erase_if(pieces, [&](const Interval& one) { return one.end - one.begin < 2 * step; });
     return pieces;
   }
 
@@ -52,9 +70,21 @@ class ReachedPart final : public Domain {
   double reach() const override { return (reach_ + 1) * net_->chord(); }
 
  private:
+  // how far the straight way may be from as long as the rod, over that
+  static constexpr double usual = 0.02, exact = 0.003;
+  static constexpr std::size_t most_trimmed = 6;  // half chords
+
   std::optional<Eigen::Vector3d> position(const Eigen::Vector2d& uv) const {
     const auto point = net_->reached(uv.x(), uv.y());
     return point ? std::optional(point->position) : std::nullopt;
+  }
+
+  /// A rod that ends at a node of the grid, as there is none beyond, ends a little before: joints lie
+  /// on nodes, and a leg would be all but nothing.
+  double off_node(double s, int inward) const {
+    constexpr double at_node = 0.02, before = 0.4;
+    const double nodes = s / net_->chord();
+    return std::abs(nodes - std::round(nodes)) < at_node ? s + inward * before * net_->chord() : s;
   }
 
   /// How far a line goes on from its place s, which is at p.
@@ -62,7 +92,7 @@ class ReachedPart final : public Domain {
   double end_from(const Line& on_line, double s, const Eigen::Vector3d& p, int side) const {
     const auto goes_on = [&](double way) {
       const auto there = position(on_line(s + side * way));
-      return there && net_->joined(p, *there, way);
+      return there && net_->joined(p, *there, way, exact);
     };
     double inside = 0, outside = net_->chord() / 2;
     while (outside - inside > 1e-13 * reach()) {

@@ -62,6 +62,11 @@ bool MarchedGrid::joined(int i, int j, int way_u, int way_v) const {
   return way_v > 0 ? at(i, j).to_v : at(i, j - 1).to_v;
 }
 
+bool MarchedGrid::linked(int i, int j, int way_u, int way_v) const {
+  if (way_u != 0) return way_u > 0 ? at(i, j).on_u : at(i - 1, j).on_u;
+  return way_v > 0 ? at(i, j).on_v : at(i, j - 1).on_v;
+}
+
 /// One march outwards, by |i| + |j|.
 struct MarchedGrid::March {
   MarchedGrid& grid;
@@ -70,6 +75,7 @@ struct MarchedGrid::March {
   const Barriers* lines;    // null: of a grid that follows another
   const MarchedGrid* lead;  // that one
   double least_angle = 0;
+  int margin = 0;  // nodes beyond rims
   std::unordered_map<BoxGrid::Cell, std::vector<std::array<int, 2>>, BoxGrid::Hash> taken{};
 
   BoxGrid::Cell cell_of(const Eigen::Vector3d& p) const {
@@ -99,15 +105,17 @@ struct MarchedGrid::March {
     return line ? stop_at(*line) : RodStop::none;
   }
 
-  void accept(int i, int j, const Eigen::Vector3d& p, bool by_u, bool by_v) {
+  void accept(int i, int j, const Eigen::Vector3d& p, bool by_u, bool by_v, int beyond = 0) {
     Node& node = grid.node(i, j);
     node.p = p;
-    node.known = true;
-    node.stop = RodStop::none;
+    node.known = beyond == 0;
+    node.beyond = char(beyond);
     node.by = by_u && by_v ? Node::corner : by_u ? Node::straight_u : Node::straight_v;
-    if (by_u) grid.node(std::min(i, i - sign(i)), j).to_u = true;
-    if (by_v) grid.node(i, std::min(j, j - sign(j))).to_v = true;
-    if (lines) taken[cell_of(p)].push_back({i, j});
+    Node &to_u = grid.node(std::min(i, i - sign(i)), j),
+         &to_v = grid.node(i, std::min(j, j - sign(j)));
+    if (by_u) to_u.on_u = true, to_u.to_u = node.known;
+    if (by_v) to_v.on_v = true, to_v.to_v = node.known;
+    if (lines && node.known) taken[cell_of(p)].push_back({i, j});
   }
 
   /// On along the rod through (a, b), away from the axes.
@@ -117,13 +125,13 @@ struct MarchedGrid::March {
       return geodesic_chord(
           surface, here, way_u != 0 ? way_u * place.along_u : way_v * place.up.cross(place.along_u),
           grid.chord_);
-    if (!grid.joined(a, b, -way_u, -way_v)) return std::nullopt;
+    if (!grid.linked(a, b, -way_u, -way_v)) return std::nullopt;
     const Eigen::Vector3d last = (here - grid.at(a - way_u, b - way_v).p).normalized();
     Eigen::Vector3d along = last;
     // a rod that was bent sideways goes on along its tangent, half a chord after its last one
     const auto by = grid.at(a, b).by;
     const bool bent = by != (way_u != 0 ? Node::straight_u : Node::straight_v);
-    if (bent && grid.joined(a - way_u, b - way_v, -way_u, -way_v))
+    if (bent && grid.linked(a - way_u, b - way_v, -way_u, -way_v))
       along = (1.5 * last -
                0.5 * (grid.at(a - way_u, b - way_v).p - grid.at(a - 2 * way_u, b - 2 * way_v).p) /
                    grid.chord_)
@@ -146,10 +154,14 @@ struct MarchedGrid::March {
     return RodStop::none;
   }
 
-  /// Whether the four corners of the cell behind (i, j) but itself are there and joined.
+  /// Whether the four corners of the cell behind (i, j) but itself are there and linked.
   bool has_cell(int i, int j, int su, int sv) const {
-    return su != 0 && sv != 0 && grid.known(i - su, j) && grid.known(i, j - sv) &&
-           grid.known(i - su, j - sv) && grid.joined(i - su, j - sv, 0, sv) &&
+    return su != 0 && sv != 0 && grid.linked(i - su, j - sv, 0, sv) &&
+           grid.linked(i - su, j - sv, su, 0);
+  }
+  /// The same of rods that are there.
+  bool has_rods(int i, int j, int su, int sv) const {
+    return su != 0 && sv != 0 && grid.joined(i - su, j - sv, 0, sv) &&
            grid.joined(i - su, j - sv, su, 0);
   }
 
@@ -163,7 +175,7 @@ struct MarchedGrid::March {
     const bool by_u = su != 0 && grid.known(i - su, j), by_v = sv != 0 && grid.known(i, j - sv);
     bool try_u = by_u, try_v = by_v;
     RodStop stop = RodStop::none;
-    if (has_cell(i, j, su, sv)) {
+    if (has_rods(i, j, su, sv)) {
       const auto p = corner(i, j, su, sv);
       if (!p) return RodStop::surface;
       const Eigen::Vector3d &A = grid.at(i - su, j).p, &B = grid.at(i, j - sv).p;
@@ -186,6 +198,29 @@ struct MarchedGrid::March {
     return stop;
   }
 
+  /// A node beyond a rim, from what is there towards the axes.
+  void go_beyond(int i, int j) {
+    constexpr double least_sine = 0.12;
+    const int su = sign(i), sv = sign(j);
+    const auto& A = grid.at(i - su, j);
+    const auto& B = grid.at(i, j - sv);
+    const bool by_u = su != 0 && grid.present(i - su, j), by_v = sv != 0 && grid.present(i, j - sv);
+    const int beyond = 1 + std::min(by_u ? A.beyond : margin, by_v ? B.beyond : margin);
+    if (beyond > margin) return;
+    if (has_cell(i, j, su, sv)) {
+      const auto p = corner(i, j, su, sv);
+      if (p && (*p - A.p).cross(*p - B.p).norm() > least_sine * grid.chord_ * grid.chord_)
+        accept(i, j, *p, true, true, beyond);
+      return;
+    }
+    for (const bool along_u : {true, false}) {
+      if (!(along_u ? by_u : by_v)) continue;
+      const int way_u = along_u ? su : 0, way_v = along_u ? 0 : sv;
+      if (const auto p = straight(i - way_u, j - way_v, way_u, way_v))
+        return accept(i, j, *p, along_u, !along_u, beyond);
+    }
+  }
+
   /// The same of a grid that follows one of twice the chord.
   void follow_to(int i, int j) {
     const int su = sign(i), sv = sign(j);
@@ -193,15 +228,18 @@ struct MarchedGrid::March {
     const bool on_u = j % 2 == 0, on_v = i % 2 == 0;
     const auto& next_u = lead->at((i + (on_v ? 0 : su)) / 2, j / 2);
     const auto& next_v = lead->at(i / 2, (j + (on_u ? 0 : sv)) / 2);
-    if (su != 0 && on_u && next_u.known && next_u.by == Node::straight_u) {
+    const auto is = [](const Node& node, auto by) {
+      return (node.known || node.beyond > 0) && node.by == by;
+    };
+    if (su != 0 && on_u && is(next_u, Node::straight_u)) {
       if (grid.known(i - su, j)) go_straight(i, j, su, 0);
       return;
     }
-    if (sv != 0 && on_v && next_v.known && next_v.by == Node::straight_v) {
+    if (sv != 0 && on_v && is(next_v, Node::straight_v)) {
       if (grid.known(i, j - sv)) go_straight(i, j, 0, sv);
       return;
     }
-    if (on_u && on_v && !lead->known(i / 2, j / 2)) return;
+    if (on_u && on_v && !lead->present(i / 2, j / 2)) return;
     if (!has_cell(i, j, su, sv)) return;
     if (const auto p = corner(i, j, su, sv)) accept(i, j, *p, true, true);
   }
@@ -214,14 +252,17 @@ struct MarchedGrid::March {
       any = false;
       for (int i = -far; i <= far; ++i)
         for (const int j : {far - std::abs(i), std::abs(i) - far}) {
-          if (grid.known(i, j)) continue;
           const int su = sign(i), sv = sign(j);
-          if (!(su != 0 && grid.known(i - su, j)) && !(sv != 0 && grid.known(i, j - sv))) continue;
-          if (lead)
-            follow_to(i, j);
-          else
-            grid.node(i, j).stop = march_to(i, j);
-          any = any || grid.known(i, j);
+          const bool rods =
+              (su != 0 && grid.known(i - su, j)) || (sv != 0 && grid.known(i, j - sv));
+          if (lead && rods) follow_to(i, j);
+          if (!lead && rods) grid.node(i, j).stop = march_to(i, j);
+          const RodStop stop = grid.at(i, j).stop;
+          const bool ends = !rods || stop == RodStop::rim || stop == RodStop::hole;
+          if (margin > 0 && !grid.known(i, j) && ends &&
+              ((su != 0 && grid.present(i - su, j)) || (sv != 0 && grid.present(i, j - sv))))
+            go_beyond(i, j);
+          any = any || grid.present(i, j);
           if (j == 0) break;
         }
     }
@@ -229,9 +270,9 @@ struct MarchedGrid::March {
 };
 
 MarchedGrid::MarchedGrid(const Surface& surface, const NetPlace& place, const Barriers& lines,
-                         double least_angle, double chord, int most)
+                         double least_angle, double chord, int most, int margin)
     : MarchedGrid(chord, most) {
-  March{*this, surface, place, &lines, nullptr, least_angle}.run();
+  March{*this, surface, place, &lines, nullptr, least_angle, margin}.run();
 }
 
 MarchedGrid::MarchedGrid(const Surface& surface, const NetPlace& place, const MarchedGrid& lead)
@@ -242,12 +283,12 @@ MarchedGrid::MarchedGrid(const Surface& surface, const NetPlace& place, const Ma
 Result<MarchedNet> MarchedNet::make(const Surface& surface, const NetPlace& place,
                                     std::shared_ptr<const Barriers> lines, double least_angle,
                                     double chord_mm, int most) {
-  MarchedGrid grid(surface, place, *lines, least_angle, chord_mm, most);
+  MarchedGrid grid(surface, place, *lines, least_angle, chord_mm, most, net_reach);
   const MarchedGrid fine(surface, place, grid);
   double narrowest = M_PI_2;
   for (int j = -most; j <= most; ++j)
     for (int i = -most; i <= most; ++i) {
-      if (!grid.known(i, j)) continue;
+      if (!grid.present(i, j)) continue;
       MarchedGrid::Node& node = grid.node(i, j);
       if (grid.known(i - 1, j) && grid.known(i, j - 1) && grid.joined(i, j, -1, 0) &&
           grid.joined(i, j, 0, -1) && fine.known(2 * i, 2 * j))
@@ -255,16 +296,17 @@ Result<MarchedNet> MarchedNet::make(const Surface& surface, const NetPlace& plac
                              angle_between(fine.at(2 * i, 2 * j).p - fine.at(2 * i - 1, 2 * j).p,
                                            fine.at(2 * i, 2 * j).p - fine.at(2 * i, 2 * j - 1).p));
       if (fine.known(2 * i, 2 * j)) continue;
-      node.known = node.to_u = node.to_v = false;
-      node.stop = RodStop::surface;
-      if (i > -most) grid.node(i - 1, j).to_u = false;
-      if (j > -most) grid.node(i, j - 1).to_v = false;
+      if (node.known) node.stop = RodStop::surface;
+      node.known = node.to_u = node.to_v = node.on_u = node.on_v = false;
+      node.beyond = 0;
+      if (i > -most) grid.node(i - 1, j).to_u = grid.node(i - 1, j).on_u = false;
+      if (j > -most) grid.node(i, j - 1).to_v = grid.node(i, j - 1).on_v = false;
     }
   bool any = false;
   for (int j = -most; j <= most; ++j)
     for (int i = -most; i <= most; ++i) {
-      if (!grid.known(i, j)) continue;
-      any = any || i != 0 || j != 0;
+      if (!grid.present(i, j)) continue;
+      any = any || (grid.known(i, j) && (i != 0 || j != 0));
       grid.node(i, j).p = (4 * fine.at(2 * i, 2 * j).p - grid.at(i, j).p) / 3;
     }
   if (!any)
@@ -275,10 +317,10 @@ Result<MarchedNet> MarchedNet::make(const Surface& surface, const NetPlace& plac
   return net;
 }
 
-bool MarchedNet::joined(const Eigen::Vector3d& p, const Eigen::Vector3d& q, double way_mm) const {
-  // a rod is no shorter than the straight way
-  constexpr double longer = 1.05;
-  return (q - p).norm() <= longer * way_mm + 1e-6 * chord() && !lines_->crossed(p, q);
+bool MarchedNet::joined(const Eigen::Vector3d& p, const Eigen::Vector3d& q, double way_mm,
+                        double off) const {
+  return std::abs((q - p).norm() - way_mm) <= off * way_mm + 1e-6 * chord() &&
+         !lines_->crossed(p, q);
 }
 
 /// The net as it goes on from the node (i, j) to a place in a cell beside it.
@@ -305,7 +347,7 @@ std::optional<NetPoint> MarchedNet::from(int i, int j, double u, double v) const
     const auto [a, b] = open[k];
     for (const auto& [da, db] : ways)
       if (within(a + da, b + db) && !have[place(a + da, b + db)] &&
-          grid_.joined(first_i + a, first_j + b, da, db))
+          grid_.linked(first_i + a, first_j + b, da, db))
         take(a + da, b + db);
   }
   if (count < 3) return std::nullopt;

@@ -23,20 +23,23 @@ std::string text_of(RodStop stop);
 /// neighbours towards the axes are there, they decide [as in ChordGrid]; where only one is, as the
 /// other's rod has ended, its rod goes straight on as a geodesic: the axes are the first of these.
 /// A way that would cross a line of the mesh, leave what is wanted, or bring rods closer to
-/// parallel than the least angle is not gone.
+/// parallel than the least angle is not gone; but beyond rims and holes some nodes are found where
+/// the surface goes on, for what lies between the last nodes and there.
 class MarchedGrid {
  public:
   struct Node {
     Eigen::Vector3d p = Eigen::Vector3d::Zero();
     bool known = false;
-    bool to_u = false, to_v = false;  ///< joined to node (i + 1, j), (i, j + 1)
+    char beyond = 0;                  ///< of one beyond a rim or hole: how many nodes; 0: none
+    bool to_u = false, to_v = false;  ///< joined to node (i + 1, j), (i, j + 1) by a rod
+    bool on_u = false, on_v = false;  ///< the same, or as a rod would go on beyond its end
     enum : char { corner, straight_u, straight_v } by = corner;
     RodStop stop = RodStop::none;  ///< why it is not known; none: no rod comes there
   };
 
-  /// No further than `most` chords from the apex. `least_angle` in rad.
+  /// No further than `most` chords from the apex, and `margin` beyond rims. `least_angle` in rad.
   MarchedGrid(const Surface& surface, const NetPlace& place, const Barriers& lines,
-              double least_angle, double chord, int most);
+              double least_angle, double chord, int most, int margin = 0);
   /// Of half the chord, where `lead` has nodes, its rods straight where that one's are.
   MarchedGrid(const Surface& surface, const NetPlace& place, const MarchedGrid& lead);
 
@@ -47,8 +50,11 @@ class MarchedGrid {
     return std::abs(i) <= most_ && std::abs(j) <= most_ ? nodes_[index(i, j)] : outside;
   }
   bool known(int i, int j) const { return at(i, j).known; }
+  /// Or beyond a rim.
+  bool present(int i, int j) const { return at(i, j).known || at(i, j).beyond > 0; }
   /// Whether neighbours are joined; `way` a unit step along u or v.
   bool joined(int i, int j, int way_u, int way_v) const;
+  bool linked(int i, int j, int way_u, int way_v) const;  ///< or beyond a rim
   Node& node(int i, int j) { return nodes_[index(i, j)]; }
 
  private:
@@ -76,8 +82,8 @@ class MarchedNet final : public ChebyshevNet {
 
   /// The net at (u, v) where it is reached without crossing a line; else nothing.
   std::optional<NetPoint> reached(double u, double v) const;
-  /// Whether a rod goes from p to q, `way_mm` along it.
-  bool joined(const Eigen::Vector3d& p, const Eigen::Vector3d& q, double way_mm) const;
+  /// Whether a rod goes from p to q, `way_mm` along it and as far apart but for `off` of that.
+  bool joined(const Eigen::Vector3d& p, const Eigen::Vector3d& q, double way_mm, double off) const;
 
   double chord() const { return grid_.chord(); }
   const MarchedGrid& grid() const { return grid_; }  ///< its nodes are the net's

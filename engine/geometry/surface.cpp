@@ -80,9 +80,9 @@ constexpr double apart_over = 0.3;  // of a reach: so far off a patch another pa
 constexpr int few = 22;             // vertices that a patch is better fitted to at least
 constexpr std::size_t enough = 150;
 constexpr std::size_t most_entries = 30000000, most_fitted = 10000000;
-// radius of a fit over the distance of centres: the smoothest first, the usual one, closer ones
-constexpr std::array smooth_radii{7.0, 5.5, 4.0, 3.0, 2.3};
-constexpr std::array usual_radii{4.0, 3.0, 2.3};
+// radius of a fit over the distance of centres, the smoothest first
+constexpr std::array all_radii{9.0, 7.0, 5.5, 4.0, 3.0, 2.3};
+constexpr double usual_radii = 4, smooth = 1e-4;  // of the size: as far are vertices of a smooth mesh
 
 Eigen::AlignedBox3d box_about(const Eigen::Vector3d& p, double radius) {
   const Eigen::Vector3d half = Eigen::Vector3d::Constant(radius);
@@ -281,20 +281,18 @@ void MeshSurface::measure(const TriangleMesh& mesh) {
 Result<MeshSurface> MeshSurface::fit(const TriangleMesh& mesh, double detail_mm, double fit_mm) {
   const Barriers lines(mesh);
   const double wanted = fit_mm > 0 ? fit_mm : 1e-3 * mesh.size();
+  // vertices of a smooth surface lie on it to much less, and it is followed closely
+  if (fit_mm == 0) {
+    TRY(close, fitted(mesh, lines, detail_mm, usual_radii));
+    if (close->farthest_ <= smooth * mesh.size()) return std::move(*close);
+  }
   std::optional<MeshSurface> best;
-  const auto attempt = [&](const auto& all) -> Result<void> {
-    for (const double radii : all) {
-      TRY(surface, fitted(mesh, lines, detail_mm, radii));
-      if (best && surface->farthest_ > best->farthest_) continue;
-      best = std::move(*surface);
-      if (best->farthest_ <= wanted) break;
-    }
-    return {};
-  };
-  if (fit_mm > 0)
-    TRY_DO(attempt(smooth_radii));
-  else
-    TRY_DO(attempt(usual_radii));
+  for (const double radii : all_radii) {
+    TRY(surface, fitted(mesh, lines, detail_mm, radii));
+    if (best && surface->farthest_ > best->farthest_) continue;
+    best = std::move(*surface);
+    if (best->farthest_ <= wanted) break;
+  }
   if (fit_mm > 0 && best->farthest_ > fit_mm)
     return mesh_fault(fmt::format("the mesh is not that smooth: got fit_mm = {:g}, expected at "
                                   "least {:.2g}, as a vertex lies so far off the closest surface",

@@ -73,7 +73,7 @@ Result<NetDesign> mesh_design(const preset::Net& wanted, double spacing_mm) {
     report->start = std::move(*start);
   }
   const NetPlace& place = report->start.place;
-  const double size = mesh->size(), chord = std::max(spacing_mm / 4, size / 200);
+  const double size = mesh->size(), chord = std::max(spacing_mm / 8, size / 240);
   TRY(net_made, MarchedNet::make(shape.surface, place, lines, least_angle, chord,
                                  int(std::ceil(2.5 * size / chord))));
   const auto net = std::make_shared<const MarchedNet>(std::move(*net_made));
