@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/cli/console.h"
+#include "app/cli/figures.h"
 #include "app/cli/pictures.h"
 #include "app/cli/preset_library.h"
 #include "app/cli/produce.h"
@@ -73,6 +74,8 @@ Result<int> check(const Options& options) {
     }
     print_plan(run.preset, *plan);
   }
+  TRY(drawn, draw_net_plans(*presets, folder));
+  for (const std::string& plan : *drawn) fmt::print("  plan            {}\n", plan);
   for (const std::string& file : presets->files) fmt::print("  file            {}\n", file);
   for (const std::string& note : presets->notes) fmt::print("  note            {}\n", note);
   return printed();

@@ -79,8 +79,8 @@ class ReachedPart final : public Domain {
     return point ? std::optional(point->position) : std::nullopt;
   }
 
-  /// A rod that ends at a node of the grid, as there is none beyond, ends a little before: joints lie
-  /// on nodes, and a leg would be all but nothing.
+  /// A rod that ends at a node of the grid, as there is none beyond, ends a little before: joints
+  /// lie on nodes, and a leg would be all but nothing.
   double off_node(double s, int inward) const {
     constexpr double at_node = 0.02, before = 0.4;
     const double nodes = s / net_->chord();

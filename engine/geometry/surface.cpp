@@ -82,7 +82,8 @@ constexpr std::size_t enough = 150;
 constexpr std::size_t most_entries = 30000000, most_fitted = 10000000;
 // radius of a fit over the distance of centres, the smoothest first
 constexpr std::array all_radii{9.0, 7.0, 5.5, 4.0, 3.0, 2.3};
-constexpr double usual_radii = 4, smooth = 1e-4;  // of the size: as far are vertices of a smooth mesh
+constexpr double usual_radii = 4,
+                 smooth = 1e-4;  // of the size: as far are vertices of a smooth mesh
 
 Eigen::AlignedBox3d box_about(const Eigen::Vector3d& p, double radius) {
   const Eigen::Vector3d half = Eigen::Vector3d::Constant(radius);

@@ -14,6 +14,7 @@
 #include "engine/formats/network_file.h"
 #include "engine/formats/point_file.h"
 #include "engine/formats/surface_file.h"
+#include "engine/preset/likely_surface.h"
 #include "engine/preset/toml_reader.h"
 
 namespace gridshell::preset {
@@ -265,8 +266,12 @@ class Reader {
         return read_surface(bytes, file, unit > 0 ? unit : 1);
       };
       auto wrong = read_file_of(name->get(), read, largest_mesh_file, surface);
-      if (wrong.empty() && !surface.empty())
-        report(name->get(), surface_text(surface) + (unit > 0 ? ", unit by file_unit" : ", in mm"));
+      if (!wrong.empty() || surface.empty()) return wrong;
+      const auto notes = surface.is_mesh()
+                             ? make_likely(surface, preset_.footprint.spacing_mm, unit > 0)
+                             : std::vector<std::string>();
+      if (report_) report_->notes.insert(report_->notes.end(), notes.begin(), notes.end());
+      report(name->get(), surface_text(surface) + (unit > 0 ? ", unit by file_unit" : ""));
       return wrong;
     }
     if (!value.is_table()) return "is " + type_text(value);

@@ -289,6 +289,10 @@ struct Preset {
   bool on_net() const {
     return footprint.kind == FootprintKind::net || footprint.kind == FootprintKind::blocks;
   }
+  bool on_mesh() const {
+    return footprint.kind == FootprintKind::net && net.kind == NetKind::surface &&
+           net.file.is_mesh();
+  }
   /// R_o of a circle: by its longest leg L_d = R_o/d - (n - 1)/2 [Baek 2018], or as it is given.
   double original_radius_mm() const {
     const Footprint& of = footprint;

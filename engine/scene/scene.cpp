@@ -364,6 +364,20 @@ Result<Scene> scene_of(const preset::Preset& preset) {
   return scene;
 }
 
+Result<std::vector<Eigen::Matrix3Xd>> rods_on_net(const Scene& scene, double step_mm) {
+  std::vector<Eigen::Matrix3Xd> lines;
+  if (!scene.net) return lines;
+  for (const FootprintRod& rod : scene.footprint.rods) {
+    const double length = rod.span.end - rod.span.begin;
+    const int steps = std::max(1, int(std::ceil(length / step_mm)));
+    Eigen::Matrix2Xd uv(2, steps + 1);
+    for (int k = 0; k <= steps; ++k) uv.col(k) = rod.at(rod.span.begin + length * k / steps);
+    TRY(line, points_on(*scene.net, uv));
+    lines.push_back(std::move(*line));
+  }
+  return lines;
+}
+
 Result<std::shared_ptr<const Scene>> shared_scene_of(const preset::Preset& preset) {
   return scene_of(preset).map(
       [](Scene&& scene) { return std::make_shared<const Scene>(std::move(scene)); });

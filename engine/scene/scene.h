@@ -100,6 +100,10 @@ int joint_at(const Footprint& footprint, int i, int j);
 /// do not make a footprint.
 Result<Scene> scene_of(const preset::Preset& preset);
 
+/// The rods as they lie on the net that a scene was designed on, points no further apart than
+/// `step_mm`; none where there is no net.
+Result<std::vector<Eigen::Matrix3Xd>> rods_on_net(const Scene& scene, double step_mm);
+
 /// The same for several who hold it.
 Result<std::shared_ptr<const Scene>> shared_scene_of(const preset::Preset& preset);
 
