@@ -52,7 +52,9 @@ class ReachedPart final : public Domain {
       piece.begin = off_node(piece.begin, 1);
       piece.end = off_node(piece.end, -1);
     }
-    std::erase_if(pieces, [&](const Interval& one) { return one.end - one.begin < 2 * step; });
+    std::erase_if(pieces, [&](const Interval& one) {
+      return one.end - one.begin < shortest * net_->chord();
+    });
     return pieces;
   }
 
@@ -73,6 +75,7 @@ class ReachedPart final : public Domain {
   // how far the straight way may be from as long as the rod, over that
   static constexpr double usual = 0.02, exact = 0.003;
   static constexpr std::size_t most_trimmed = 6;  // half chords
+  static constexpr double shortest = 4;           // of a rod, chords: half the rods' spacing
 
   std::optional<Eigen::Vector3d> position(const Eigen::Vector2d& uv) const {
     const auto point = net_->reached(uv.x(), uv.y());

@@ -63,7 +63,7 @@ struct Trial {
   const Surface& surface;
   const Barriers& lines;
   const Surface::Function& outside;
-  double least_angle, chord;
+  double least_angle, chord, area;
   int most;
 
   std::optional<NetStart> from(const Eigen::Vector3d& near, double axis_deg,
@@ -82,6 +82,8 @@ struct Trial {
     double left_out = 0;
     for (const AreaSample& one : left_out_of(grid, lines, samples)) left_out += one.area;
     start.reached = 1 - left_out;
+    start.seams = double(std::ranges::count(ends_of(grid), RodStop::net, &End::why)) * chord *
+                  chord / area;
     start.least_angle_deg = 90;
     for (int j = -most; j <= most; ++j)
       for (int i = -most; i <= most; ++i) {
@@ -95,8 +97,10 @@ struct Trial {
   }
 };
 
-/// By the area, and where that is the same to half a per cent by the angle.
-double rank_of(const NetStart& start) { return start.reached + 0.005 * start.least_angle_deg / 90; }
+/// By the area without half of the seams, and where that is nearly the same by the angle.
+double rank_of(const NetStart& start) {
+  return start.reached - 0.5 * start.seams + 0.01 * start.least_angle_deg / 90;
+}
 
 /// `count` of the points, each as far as can be from those before.
 std::vector<Eigen::Vector3d> spread(const std::vector<AreaSample>& samples, std::size_t count) {
@@ -180,7 +184,8 @@ Result<std::vector<NetStart>> best_starts(const Surface& surface, const Triangle
   constexpr double turn_deg = 15;
   const double size = mesh.size(), chord = std::max(spacing_mm, size / 24);
   const Trial trial{surface,     lines, outside,
-                    least_angle, chord, int(std::ceil(2.5 * size / chord))};
+                    least_angle, chord, mesh.area(),
+                    int(std::ceil(2.5 * size / chord))};
   const auto samples = area_samples(mesh, std::sqrt(mesh.area() / 400));
   std::vector<NetStart> found;
   for (const Eigen::Vector3d& place : spread(samples, places))

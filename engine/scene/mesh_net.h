@@ -32,12 +32,14 @@ struct NetStart {
   double axis_deg = 0;         ///< of the u-axis from x, as seen from above
   double reached = 0;          ///< of the area
   double least_angle_deg = 0;  ///< between the rods
+  double seams = 0;            ///< where two parts of the net meet, a chord wide, over the area
 };
 
 /// The best start and the best of those a tenth of the mesh's size away or 20 degrees turned:
 /// nets on a coarse grid from places spread over the mesh, each in six directions, the best of
-/// them moved and turned as long as more is reached; of those that reach as much to half a per cent
-/// the one with the largest least angle. Errors (bad_input): no rod leaves any place.
+/// them moved and turned as long as more is reached. Seams, where two parts of the net meet, count
+/// half against the area; of those that reach as much the one with the largest least angle is
+/// best. Errors (bad_input): no place of the mesh faces up inside the boundary.
 Result<std::vector<NetStart>> best_starts(const Surface& surface, const TriangleMesh& mesh,
                                           const Barriers& lines, const Surface::Function& outside,
                                           double least_angle, double spacing_mm);
