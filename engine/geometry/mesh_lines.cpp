@@ -84,7 +84,13 @@ std::vector<MeshLine> creases_of(const std::map<MeshEdge, double>& turns) {
   Next next;
   std::map<MeshEdge, double> taken;
   for (const auto& [edge, turn] : turns) {
-    const auto median = [&](int end) { return around[end][around[end].size() / 2]; };
+    // of the others there
+    const auto median = [&](int end) {
+      const auto& all = around[end];
+      if (all.size() < 2) return 0.0;
+      const std::size_t middle = (all.size() - 2) / 2;
+      return all[all[middle] < turn ? middle : middle + 1];
+    };
     if (turn < bent || turn < over_others * std::max(median(edge[0]), median(edge[1]))) continue;
     taken[edge] = turn;
     next[edge[0]].push_back(edge[1]);

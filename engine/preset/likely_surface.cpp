@@ -25,7 +25,7 @@ std::vector<std::string> make_likely(SurfaceData& mesh, double spacing_mm, bool 
     for (auto& vertex : mesh.vertices)
       for (double& number : vertex) number *= unit;
     notes.push_back(fmt::format(
-        "[net] file: names no unit and would be {:.3g} mm wide, {:.2g} of the rods' spacing: read "
+        "names no unit and would be {:.3g} mm wide, {:.2g} of the rods' spacing: read "
         "in {}, {:.4g} mm wide{}; file_unit says otherwise",
         width, width / spacing_mm, unit == 10 ? "cm" : "m", unit * width,
         unit == 10 ? " (1 : 100 of a file in metres)" : ""));
@@ -35,7 +35,7 @@ std::vector<std::string> make_likely(SurfaceData& mesh, double spacing_mm, bool 
       std::swap(vertex[1], vertex[2]);
       vertex[1] *= -1;
     }
-    notes.emplace_back("[net] file: the surface faces y, not z: y is taken as up");
+    notes.emplace_back("the surface faces y, not z: y is taken as up");
   }
   return notes;
 }
