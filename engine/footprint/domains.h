@@ -55,9 +55,9 @@ Result<std::unique_ptr<Domain>> part_of(std::shared_ptr<const SurfaceNet> net,
                                         Surface::Function outside);
 
 /// All that a net's rods reach from its apex. Grid lines are cut to round-off where they meet a
-/// line of the mesh; pieces shorter than four of the net's chords are left out: rods that short bear
-/// no compression without stretching. boundary() is the
-/// outer edge, without holes, at points where it crosses the net's grid.
+/// line of the mesh; pieces shorter than four of the net's chords are left out: rods that short
+/// bear no compression without stretching. boundary() is the outer edge, without holes, at points
+/// where it crosses the net's grid.
 std::unique_ptr<Domain> reached_part(std::shared_ptr<const MarchedNet> net);
 
 }  // namespace gridshell

@@ -258,8 +258,8 @@ struct MarchedGrid::March {
           if (lead && rods) follow_to(i, j);
           if (!lead && rods) grid.node(i, j).stop = march_to(i, j);
           const RodStop stop = grid.at(i, j).stop;
-          const bool ends = !rods || stop == RodStop::rim || stop == RodStop::hole ||
-                            stop == RodStop::cut;
+          const bool ends =
+              !rods || stop == RodStop::rim || stop == RodStop::hole || stop == RodStop::cut;
           if (margin > 0 && !grid.known(i, j) && ends &&
               ((su != 0 && grid.present(i - su, j)) || (sv != 0 && grid.present(i, j - sv))))
             go_beyond(i, j);

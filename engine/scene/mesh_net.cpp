@@ -82,8 +82,8 @@ struct Trial {
     double left_out = 0;
     for (const AreaSample& one : left_out_of(grid, lines, samples)) left_out += one.area;
     start.reached = 1 - left_out;
-    start.seams = double(std::ranges::count(ends_of(grid), RodStop::net, &End::why)) * chord *
-                  chord / area;
+    start.seams =
+        double(std::ranges::count(ends_of(grid), RodStop::net, &End::why)) * chord * chord / area;
     start.least_angle_deg = 90;
     for (int j = -most; j <= most; ++j)
       for (int i = -most; i <= most; ++i) {
@@ -183,9 +183,8 @@ Result<std::vector<NetStart>> best_starts(const Surface& surface, const Triangle
   constexpr std::size_t places = 40, followed = 5;
   constexpr double turn_deg = 15;
   const double size = mesh.size(), chord = std::max(spacing_mm, size / 24);
-  const Trial trial{surface,     lines, outside,
-                    least_angle, chord, mesh.area(),
-                    int(std::ceil(2.5 * size / chord))};
+  const Trial trial{
+      surface, lines, outside, least_angle, chord, mesh.area(), int(std::ceil(2.5 * size / chord))};
   const auto samples = area_samples(mesh, std::sqrt(mesh.area() / 400));
   std::vector<NetStart> found;
   for (const Eigen::Vector3d& place : spread(samples, places))

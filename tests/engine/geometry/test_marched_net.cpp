@@ -32,8 +32,7 @@ struct Fitted {
   /// Upright at (x, y), the u-axis along x.
   NetPlace place(double x, double y) const {
     const Surface on = surface();
-    const Eigen::Vector3d apex =
-        value_of(on.nearest({x, y, highest_at(*mesh, x, y).value()}));
+    const Eigen::Vector3d apex = value_of(on.nearest({x, y, highest_at(*mesh, x, y).value()}));
     Eigen::Vector3d up = on.gradient(apex).normalized();
     if (up.z() < 0) up = -up;
     return {apex, (Eigen::Vector3d::UnitX() - up.x() * up).normalized(), up,
@@ -125,8 +124,8 @@ TEST_CASE("a marched net has rods of unit speed and obeys Hazzidakis' formula") 
   double integral = 0;
   for (int i = 0; i < parts; ++i)
     for (int j = 0; j < parts; ++j) {
-      const NetPoint p = point_of(net, u0 + (i + 0.5) * (u1 - u0) / parts,
-                                  v0 + (j + 0.5) * (v1 - v0) / parts);
+      const NetPoint p =
+          point_of(net, u0 + (i + 0.5) * (u1 - u0) / parts, v0 + (j + 0.5) * (v1 - v0) / parts);
       integral += p.K * std::sin(p.omega) * (u1 - u0) * (v1 - v0) / (parts * parts);
     }
   const auto omega = [&](double u, double v) { return point_of(net, u, v).omega; };
@@ -135,8 +134,10 @@ TEST_CASE("a marched net has rods of unit speed and obeys Hazzidakis' formula") 
   CHECK(corners == Approx(-integral).epsilon(1e-3));
 }
 
-TEST_CASE("meshes of 1 000 to 100 000 triangles have the hemisphere's net to less than their triangles lie off it",
-          "[standard]") {
+TEST_CASE(
+    "meshes of 1 000 to 100 000 triangles have the hemisphere's net to less than their triangles "
+    "lie off it",
+    "[standard]") {
   constexpr double rho = 120;
   for (const double edge : {15.0, 5.0, 1.46}) {
     const Fitted ball(ellipsoid_mesh({rho, rho, rho}, edge));
@@ -163,9 +164,8 @@ TEST_CASE("meshes of other surfaces have their nets to less than their triangles
 TEST_CASE("rods on a barrel's mesh are the barrel's") {
   // r = 90 - s^2/400 about x, the upper part
   const auto r = [](double x) { return 90 - x * x / 400; };
-  const Fitted barrel(mesh_of(80, 6, [&](double x, double y) {
-    return std::sqrt(r(x) * r(x) - y * y);
-  }));
+  const Fitted barrel(
+      mesh_of(80, 6, [&](double x, double y) { return std::sqrt(r(x) * r(x) - y * y); }));
   const auto exact = exact_net("z - sqrt((90 - x^2/400)^2 - y^2)", {0, 0, 90}, 75);
   CHECK(off(barrel.net(), exact, 0) < 6. * 6 / (8 * 45));
 }

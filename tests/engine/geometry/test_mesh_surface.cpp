@@ -86,13 +86,13 @@ TEST_CASE("what is no smooth sheet is refused with the place") {
     return dome;
   };
   // a hole, or a vertex off the others, is none
-  CHECK(fault_of(changed([](DomeMesh& d) { d.triangles.erase(d.triangles.begin() + 3); })) == "none");
+  CHECK(fault_of(changed([](DomeMesh& d) { d.triangles.erase(d.triangles.begin() + 3); })) ==
+        "none");
   const DomeMesh bumped = changed([](DomeMesh& d) { d.vertices.col(0).z() += 5; });
   CHECK(fault_of(bumped) == "none");
-  CHECK_THAT(
-      refusal(MeshSurface::fit(
-          value_of(TriangleMesh::make(bumped.vertices, bumped.triangles)), 20, 0.2)),
-      Catch::Contains("got fit_mm = 0.2, expected at least"));
+  CHECK_THAT(refusal(MeshSurface::fit(
+                 value_of(TriangleMesh::make(bumped.vertices, bumped.triangles)), 20, 0.2)),
+             Catch::Contains("got fit_mm = 0.2, expected at least"));
   wrong(changed([](DomeMesh& d) {
           d.triangles.push_back({0, 1, int(d.vertices.cols()) - 1});
         }),
