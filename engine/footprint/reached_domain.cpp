@@ -12,10 +12,9 @@ namespace {
 class ReachedPart final : public Domain {
  public:
   explicit ReachedPart(std::shared_ptr<const MarchedNet> net) : net_(std::move(net)) {
-    const MarchedGrid& grid = net_->grid();
-    for (int j = -grid.most(); j <= grid.most(); ++j)
-      for (int i = -grid.most(); i <= grid.most(); ++i)
-        if (grid.known(i, j)) reach_ = std::max({reach_, std::abs(i), std::abs(j)});
+    net_->grid().each_known([&](int i, int j) {
+      reach_ = std::max({reach_, std::abs(i), std::abs(j)});
+    });
     trace();
   }
 

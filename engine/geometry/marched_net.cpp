@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 
+#include "engine/core/point_grid.h"
 #include "engine/core/try.h"
 
 namespace gridshell {
@@ -57,16 +57,6 @@ MarchedGrid::MarchedGrid(double chord, int most) : chord_(chord), most_(most) {
   nodes_.resize(std::size_t(2 * most + 1) * std::size_t(2 * most + 1));
 }
 
-bool MarchedGrid::joined(int i, int j, int way_u, int way_v) const {
-  if (way_u != 0) return way_u > 0 ? at(i, j).to_u : at(i - 1, j).to_u;
-  return way_v > 0 ? at(i, j).to_v : at(i, j - 1).to_v;
-}
-
-bool MarchedGrid::linked(int i, int j, int way_u, int way_v) const {
-  if (way_u != 0) return way_u > 0 ? at(i, j).on_u : at(i - 1, j).on_u;
-  return way_v > 0 ? at(i, j).on_v : at(i, j - 1).on_v;
-}
-
 /// One march outwards, by |i| + |j|.
 struct MarchedGrid::March {
   MarchedGrid& grid;
@@ -76,28 +66,17 @@ struct MarchedGrid::March {
   const MarchedGrid* lead;  // that one
   double least_angle = 0;
   int margin = 0;  // nodes beyond rims
-  std::unordered_map<BoxGrid::Cell, std::vector<std::array<int, 2>>, BoxGrid::Hash> taken{};
-
-  BoxGrid::Cell cell_of(const Eigen::Vector3d& p) const {
-    BoxGrid::Cell cell;
-    for (int k = 0; k < 3; ++k) cell[std::size_t(k)] = std::int64_t(std::floor(p[k] / grid.chord_));
-    return cell;
-  }
+  PointGrid taken{grid.chord_};
+  std::vector<std::array<int, 2>> accepted{};  // by their numbers in it
 
   /// Whether a node that is none of those around (i, j) lies at p.
   bool is_taken(int i, int j, const Eigen::Vector3d& p) const {
     constexpr double as_near = 0.45;
-    const BoxGrid::Cell middle = cell_of(p);
-    for (int k = 0; k < 27; ++k) {
-      const auto found =
-          taken.find({middle[0] + k % 3 - 1, middle[1] + k / 3 % 3 - 1, middle[2] + k / 9 - 1});
-      if (found == taken.end()) continue;
-      for (const auto& [a, b] : found->second)
-        if (std::max(std::abs(a - i), std::abs(b - j)) > 2 &&
-            (grid.at(a, b).p - p).norm() < as_near * grid.chord_)
-          return true;
-    }
-    return false;
+    return taken.any_near(p, [&](int k) {
+      const auto [a, b] = accepted[std::size_t(k)];
+      return std::max(std::abs(a - i), std::abs(b - j)) > 2 &&
+             (grid.at(a, b).p - p).norm() < as_near * grid.chord_;
+    });
   }
 
   RodStop stop_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
@@ -115,7 +94,9 @@ struct MarchedGrid::March {
          &to_v = grid.node(i, std::min(j, j - sign(j)));
     if (by_u) to_u.on_u = true, to_u.to_u = node.known;
     if (by_v) to_v.on_v = true, to_v.to_v = node.known;
-    if (lines && node.known) taken[cell_of(p)].push_back({i, j});
+    if (!lines || !node.known) return;
+    taken.add(int(accepted.size()), p);
+    accepted.push_back({i, j});
   }
 
   /// On along the rod through (a, b), away from the axes.
@@ -154,15 +135,13 @@ struct MarchedGrid::March {
     return RodStop::none;
   }
 
-  /// Whether the four corners of the cell behind (i, j) but itself are there and linked.
-  bool has_cell(int i, int j, int su, int sv) const {
-    return su != 0 && sv != 0 && grid.linked(i - su, j - sv, 0, sv) &&
-           grid.linked(i - su, j - sv, su, 0);
-  }
-  /// The same of rods that are there.
-  bool has_rods(int i, int j, int su, int sv) const {
-    return su != 0 && sv != 0 && grid.joined(i - su, j - sv, 0, sv) &&
-           grid.joined(i - su, j - sv, su, 0);
+  /// Whether the four corners of the cell behind (i, j) but itself are there and joined, or linked.
+  bool has_cell(int i, int j, bool rods) const {
+    const int a = i - sign(i), b = j - sign(j);
+    const auto to = [&](int way_u, int way_v) {
+      return rods ? grid.joined(a, b, way_u, way_v) : grid.linked(a, b, way_u, way_v);
+    };
+    return i != 0 && j != 0 && to(0, sign(j)) && to(sign(i), 0);
   }
 
   std::optional<Eigen::Vector3d> corner(int i, int j, int su, int sv) const {
@@ -175,7 +154,7 @@ struct MarchedGrid::March {
     const bool by_u = su != 0 && grid.known(i - su, j), by_v = sv != 0 && grid.known(i, j - sv);
     bool try_u = by_u, try_v = by_v;
     RodStop stop = RodStop::none;
-    if (has_rods(i, j, su, sv)) {
+    if (has_cell(i, j, true)) {
       const auto p = corner(i, j, su, sv);
       if (!p) return RodStop::surface;
       const Eigen::Vector3d &A = grid.at(i - su, j).p, &B = grid.at(i, j - sv).p;
@@ -207,7 +186,7 @@ struct MarchedGrid::March {
     const bool by_u = su != 0 && grid.present(i - su, j), by_v = sv != 0 && grid.present(i, j - sv);
     const int beyond = 1 + std::min(by_u ? A.beyond : margin, by_v ? B.beyond : margin);
     if (beyond > margin) return;
-    if (has_cell(i, j, su, sv)) {
+    if (has_cell(i, j, false)) {
       const auto p = corner(i, j, su, sv);
       if (p && (*p - A.p).cross(*p - B.p).norm() > least_sine * grid.chord_ * grid.chord_)
         accept(i, j, *p, true, true, beyond);
@@ -240,7 +219,7 @@ struct MarchedGrid::March {
       return;
     }
     if (on_u && on_v && !lead->present(i / 2, j / 2)) return;
-    if (!has_cell(i, j, su, sv)) return;
+    if (!has_cell(i, j, false)) return;
     if (const auto p = corner(i, j, su, sv)) accept(i, j, *p, true, true);
   }
 
@@ -412,7 +391,7 @@ Result<NetPoint> MarchedNet::at(double u, double v) const {
       if (grid_.known(i + a, j + b) && std::abs(u / h - i - a) <= 1 && std::abs(v / h - j - b) <= 1)
         if (const auto point = from(i + a, j + b, u, v)) return *point;
   }
-  return invalid("the net of the surface ends before (u, v) = ({:g}, {:g}) mm", u, v);
+  return ended_before(u, v);
 }
 
 }  // namespace gridshell

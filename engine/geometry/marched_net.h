@@ -1,6 +1,7 @@
 // A net that is marched over a surface as far as there is one.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <optional>
@@ -52,9 +53,21 @@ class MarchedGrid {
   bool known(int i, int j) const { return at(i, j).known; }
   /// Or beyond a rim.
   bool present(int i, int j) const { return at(i, j).known || at(i, j).beyond > 0; }
-  /// Whether neighbours are joined; `way` a unit step along u or v.
-  bool joined(int i, int j, int way_u, int way_v) const;
-  bool linked(int i, int j, int way_u, int way_v) const;  ///< or beyond a rim
+  /// Whether a rod joins neighbours; `way` a unit step along u or v.
+  bool joined(int i, int j, int way_u, int way_v) const {
+    return way_u != 0 ? at(std::min(i, i + way_u), j).to_u : at(i, std::min(j, j + way_v)).to_v;
+  }
+  /// Or would, beyond a rim.
+  bool linked(int i, int j, int way_u, int way_v) const {
+    return way_u != 0 ? at(std::min(i, i + way_u), j).on_u : at(i, std::min(j, j + way_v)).on_v;
+  }
+  /// visit(i, j) of all that are known, row by row.
+  template <class Visit>
+  void each_known(const Visit& visit) const {
+    for (int j = -most_; j <= most_; ++j)
+      for (int i = -most_; i <= most_; ++i)
+        if (known(i, j)) visit(i, j);
+  }
   Node& node(int i, int j) { return nodes_[index(i, j)]; }
 
  private:

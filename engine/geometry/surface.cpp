@@ -330,9 +330,8 @@ double MeshSurface::at(const Eigen::Vector3d& p) const {
 std::optional<double> highest_at(const TriangleMesh& mesh, double x, double y) {
   constexpr double outside = -1e-9;
   std::optional<double> highest;
-  for (const auto& [a, b, c] : mesh.triangles()) {
-    const Eigen::Vector3d p = mesh.vertices().col(a), e = mesh.vertices().col(b) - p,
-                          f = mesh.vertices().col(c) - p;
+  for (const auto& triangle : mesh.triangles()) {
+    const auto [p, e, f] = mesh.corner_and_sides(triangle);
     const double area = e.x() * f.y() - e.y() * f.x();
     const double u = ((x - p.x()) * f.y() - (y - p.y()) * f.x()) / area,
                  v = (e.x() * (y - p.y()) - e.y() * (x - p.x())) / area;

@@ -48,6 +48,11 @@ class TriangleMesh {
   bool on_crease(int vertex) const { return on_crease_[std::size_t(vertex)] != 0; }
   double mean_edge() const { return mean_edge_; }
   double longest_edge(int vertex) const { return longest_[std::size_t(vertex)]; }
+  /// A corner of a triangle and the sides to the next and the last.
+  std::array<Eigen::Vector3d, 3> corner_and_sides(const std::array<int, 3>& triangle) const {
+    const Eigen::Vector3d p = vertices_.col(triangle[0]);
+    return {p, vertices_.col(triangle[1]) - p, vertices_.col(triangle[2]) - p};
+  }
   double area() const;
   double size() const;  ///< the longest side of the box around it
 

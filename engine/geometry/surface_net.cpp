@@ -94,6 +94,10 @@ std::optional<Eigen::Vector3d> chord_corner(const Surface& surface, const Eigen:
   });
 }
 
+tl::unexpected<Error> ended_before(double u, double v) {
+  return invalid("the net of the surface ends before (u, v) = ({:g}, {:g}) mm", u, v);
+}
+
 NetPoint net_point(const NetNodes& nodes, double t_u, double t_v, double chord) {
   const Weights along_u(t_u), along_v(t_v);
   const double H = chord;
@@ -345,7 +349,7 @@ Result<NetPoint> SurfaceNet::at(double u, double v) const {
   const double H = chord();
   const int i = int(std::floor(u / H)), j = int(std::floor(v / H));
   if (!(std::abs(u) < most_nodes * H && std::abs(v) < most_nodes * H) || !known_about(i, j))
-    return invalid("the net of the surface ends before (u, v) = ({:g}, {:g}) mm", u, v);
+    return ended_before(u, v);
   NetNodes nodes;
   for (int b = 0; b < 2 * reach; ++b)
     for (int a = 0; a < 2 * reach; ++a)

@@ -33,6 +33,9 @@ inline constexpr int net_reach = 3;
 /// Those around a cell of a grid, row by row along u.
 using NetNodes = std::array<Eigen::Vector3d, 4 * net_reach * net_reach>;
 
+/// The error of who asks for a net where there is none.
+tl::unexpected<Error> ended_before(double u, double v);
+
 /// The net at a place in the middle cell, t_u and t_v of it from 0 to 1, by a polynomial of degree
 /// 5 in u and in v.
 NetPoint net_point(const NetNodes& nodes, double t_u, double t_v, double chord);

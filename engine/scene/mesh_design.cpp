@@ -27,14 +27,9 @@ std::vector<std::string> lines_text(const TriangleMesh& mesh) {
 /// Where the preset says that the net begins.
 Result<NetStart> given_start(const preset::Net& wanted, const ShapedSurface& shape,
                              const Surface::Function& outside, double allowed_mm) {
-  TRY(apex, apex_of(wanted, shape, allowed_mm));
-  if (!(outside(*apex) < 0))
-    return invalid("[net] {}: the apex ({:.4g}, {:.4g}, {:.4g}) mm lies outside",
-                   wanted.within.empty() ? "cut_mm" : "within", apex->x(), apex->y(), apex->z());
-  TRY(place, place_of(wanted, shape.surface, *apex));
+  TRY(place, given_place(wanted, shape, outside, allowed_mm));
   NetStart start;
   start.place = std::move(*place);
-  start.place.outside = outside;
   const Eigen::Vector3d& up = start.place.up;
   const Eigen::Vector3d x = (Eigen::Vector3d::UnitX() - up.x() * up).normalized();
   start.axis_deg =
@@ -88,11 +83,8 @@ Result<NetDesign> mesh_design(const preset::Net& wanted, double spacing_mm) {
     report->drawn.push_back({line.kind, mesh->vertices()(Eigen::all, line.vertices)});
   NetDesign design;
   design.domain = reached_part(net);
-  TRY(ring, points_on(*net, design.domain->boundary(256)));
-  design.flat = flat_frame(wanted, place, *ring);
-  const Eigen::Vector2d middle = ring->topRows<2>().rowwise().mean();
-  design.scale_mm = (ring->topRows<2>().colwise() - middle).colwise().norm().maxCoeff();
   design.net = net;
+  TRY_DO(lay_flat(wanted, place, design));
   design.report = std::move(report);
   return design;
 }

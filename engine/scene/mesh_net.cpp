@@ -8,6 +8,8 @@
 #include <map>
 #include <numbers>
 
+#include "engine/core/point_grid.h"
+
 namespace gridshell {
 namespace {
 
@@ -30,33 +32,6 @@ std::vector<End> ends_of(const MarchedGrid& grid) {
     }
   return ends;
 }
-
-/// Things at points, found by cubes.
-class PointGrid {
- public:
-  explicit PointGrid(double size) : size_(size) {}
-  void add(int thing, const Eigen::Vector3d& p) { cells_[cell_of(p)].push_back(thing); }
-  /// Visits what is in the cubes around p until `visit` returns true.
-  template <class Visit>
-  bool any_near(const Eigen::Vector3d& p, const Visit& visit) const {
-    const auto middle = cell_of(p);
-    for (int k = 0; k < 27; ++k) {
-      const auto found =
-          cells_.find({middle[0] + k % 3 - 1, middle[1] + k / 3 % 3 - 1, middle[2] + k / 9 - 1});
-      if (found != cells_.end() && std::ranges::any_of(found->second, visit)) return true;
-    }
-    return false;
-  }
-
- private:
-  BoxGrid::Cell cell_of(const Eigen::Vector3d& p) const {
-    BoxGrid::Cell cell;
-    for (int k = 0; k < 3; ++k) cell[std::size_t(k)] = std::int64_t(std::floor(p[k] / size_));
-    return cell;
-  }
-  double size_;
-  BoxGrid::Cells cells_;
-};
 
 /// One march on a coarse grid.
 struct Trial {
@@ -85,14 +60,13 @@ struct Trial {
     start.seams =
         double(std::ranges::count(ends_of(grid), RodStop::net, &End::why)) * chord * chord / area;
     start.least_angle_deg = 90;
-    for (int j = -most; j <= most; ++j)
-      for (int i = -most; i <= most; ++i) {
-        if (!grid.joined(i, j, -1, 0) || !grid.joined(i, j, 0, -1)) continue;
-        const Eigen::Vector3d a = grid.at(i, j).p - grid.at(i - 1, j).p,
-                              b = grid.at(i, j).p - grid.at(i, j - 1).p;
-        const double angle = std::atan2(a.cross(b).norm(), std::abs(a.dot(b))) / degree;
-        start.least_angle_deg = std::min(start.least_angle_deg, angle);
-      }
+    grid.each_known([&](int i, int j) {
+      if (!grid.joined(i, j, -1, 0) || !grid.joined(i, j, 0, -1)) return;
+      const Eigen::Vector3d a = grid.at(i, j).p - grid.at(i - 1, j).p,
+                            b = grid.at(i, j).p - grid.at(i, j - 1).p;
+      const double angle = std::atan2(a.cross(b).norm(), std::abs(a.dot(b))) / degree;
+      start.least_angle_deg = std::min(start.least_angle_deg, angle);
+    });
     return start;
   }
 };
@@ -134,9 +108,8 @@ std::string text_of(const NetStart& start) {
 std::vector<AreaSample> area_samples(const TriangleMesh& mesh, double apart_mm) {
   std::vector<AreaSample> samples;
   const double whole = mesh.area();
-  for (const auto& [a, b, c] : mesh.triangles()) {
-    const Eigen::Vector3d p = mesh.vertices().col(a), e = mesh.vertices().col(b) - p,
-                          f = mesh.vertices().col(c) - p;
+  for (const auto& triangle : mesh.triangles()) {
+    const auto [p, e, f] = mesh.corner_and_sides(triangle);
     const double longest = std::max({e.norm(), f.norm(), (f - e).norm()});
     const int parts = std::clamp(int(std::ceil(longest / apart_mm)), 1, 200);
     const double area = 0.5 * e.cross(f).norm() / whole / (parts * parts);
@@ -155,12 +128,10 @@ std::vector<AreaSample> left_out_of(const MarchedGrid& grid, const Barriers& lin
   const double h = grid.chord();
   PointGrid near(h);
   std::vector<Eigen::Vector3d> nodes;
-  for (int j = -grid.most(); j <= grid.most(); ++j)
-    for (int i = -grid.most(); i <= grid.most(); ++i)
-      if (grid.known(i, j)) {
-        near.add(int(nodes.size()), grid.at(i, j).p);
-        nodes.push_back(grid.at(i, j).p);
-      }
+  grid.each_known([&](int i, int j) {
+    near.add(int(nodes.size()), grid.at(i, j).p);
+    nodes.push_back(grid.at(i, j).p);
+  });
   const auto ends = ends_of(grid);
   std::vector<AreaSample> rest;
   for (const AreaSample& one : samples) {
@@ -249,12 +220,8 @@ std::vector<std::string> MeshNetReport::sentences() const {
                     text_of(*second), 100 * second->reached));
   for (const auto& [why, fraction] : reasons())
     if (fraction >= 0.0005)
-      all.push_back(fmt::format("left out: {:.1f} % of the area, behind where rods end as {}",
-                                100 * fraction,
-                                why == RodStop::rim || why == RodStop::hole ||
-                                        why == RodStop::crease || why == RodStop::cut
-                                    ? "they meet " + gridshell::text_of(why)
-                                    : gridshell::text_of(why)));
+      all.push_back(fmt::format("left out: {:.1f} % of the area, rods end before it: {}",
+                                100 * fraction, gridshell::text_of(why)));
   return all;
 }
 

@@ -146,22 +146,14 @@ Result<NetDesign> surface_design(const preset::Net& wanted, double spacing_mm,
   TRY(shape, surface_of(wanted, spacing_mm));
   const Surface& surface = shape->surface;
   TRY(outside, outside_of(wanted));
-  TRY(apex, apex_of(wanted, *shape, 0.01 * spacing_mm));
-  if (!((*outside)(*apex) < 0))
-    return invalid("[net] {}: the apex ({:.4g}, {:.4g}, {:.4g}) mm lies outside",
-                   wanted.within.empty() ? "cut_mm" : "within", apex->x(), apex->y(), apex->z());
-  TRY(place, place_of(wanted, surface, *apex));
-  place->outside = *outside;
+  TRY(place, given_place(wanted, *shape, *outside, 0.01 * spacing_mm));
   TRY(made, SurfaceNet::make(surface, *place, spacing_mm / 8, so_far));
   NetDesign design;
   const auto net = std::make_shared<const SurfaceNet>(std::move(*made));
   TRY(part, part_of(net, *outside));
   design.domain = std::move(*part);
-  TRY(ring, points_on(*net, design.domain->boundary(256)));
-  design.flat = flat_frame(wanted, *place, *ring);
-  const Eigen::Vector2d middle = ring->topRows<2>().rowwise().mean();
-  design.scale_mm = (ring->topRows<2>().colwise() - middle).colwise().norm().maxCoeff();
   design.net = net;
+  TRY_DO(lay_flat(wanted, *place, design));
   return design;
 }
 

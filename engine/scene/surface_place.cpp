@@ -29,6 +29,9 @@ Result<Surface::Function> outside_of(const preset::Net& wanted) {
   return [cut = wanted.cut_mm.value_or(0)](const Eigen::Vector3d& p) { return cut - p.z(); };
 }
 
+namespace {
+
+/// The apex on the surface. Where its z is left out it is the surface's own.
 Result<Eigen::Vector3d> apex_of(const preset::Net& wanted, const ShapedSurface& shape,
                                 double allowed_mm) {
   const Surface& surface = shape.surface;
@@ -57,6 +60,7 @@ Result<Eigen::Vector3d> apex_of(const preset::Net& wanted, const ShapedSurface& 
   return *nearest;
 }
 
+/// Where the axes leave to, on the surface at its apex.
 Result<NetPlace> place_of(const preset::Net& wanted, const Surface& surface,
                           const Eigen::Vector3d& apex) {
   constexpr double steepest = 0.1;
@@ -86,6 +90,27 @@ FlatFrame flat_frame(const preset::Net& wanted, const NetPlace& place,
       (place.along_u + place.up.cross(place.along_u)).head<2>().normalized();
   frame.axes = axes_about(diagonal);
   return frame;
+}
+
+}  // namespace
+
+Result<NetPlace> given_place(const preset::Net& wanted, const ShapedSurface& shape,
+                             const Surface::Function& outside, double allowed_mm) {
+  TRY(apex, apex_of(wanted, shape, allowed_mm));
+  if (!(outside(*apex) < 0))
+    return invalid("[net] {}: the apex ({:.4g}, {:.4g}, {:.4g}) mm lies outside",
+                   wanted.within.empty() ? "cut_mm" : "within", apex->x(), apex->y(), apex->z());
+  TRY(place, place_of(wanted, shape.surface, *apex));
+  place->outside = outside;
+  return place;
+}
+
+Result<void> lay_flat(const preset::Net& wanted, const NetPlace& place, NetDesign& design) {
+  TRY(ring, points_on(*design.net, design.domain->boundary(256)));
+  design.flat = flat_frame(wanted, place, *ring);
+  const Eigen::Vector2d middle = ring->topRows<2>().rowwise().mean();
+  design.scale_mm = (ring->topRows<2>().colwise() - middle).colwise().norm().maxCoeff();
+  return {};
 }
 
 }  // namespace gridshell

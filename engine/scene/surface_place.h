@@ -30,19 +30,15 @@ Result<Surface::Function> parsed(const char* key, const std::string& text);
 /// so everywhere.
 Result<Surface::Function> outside_of(const preset::Net& wanted);
 
-/// The apex on the surface, no further off than `allowed_mm`. Where its z is left out it is the
-/// surface's own.
-Result<Eigen::Vector3d> apex_of(const preset::Net& wanted, const ShapedSurface& shape,
-                                double allowed_mm);
+/// Where the preset says that the net begins and its axes leave to: on the surface, no further off
+/// than `allowed_mm`, and inside the boundary.
+Result<NetPlace> given_place(const preset::Net& wanted, const ShapedSurface& shape,
+                             const Surface::Function& outside, double allowed_mm);
 
-/// Where the axes leave to, on the surface at its apex.
-Result<NetPlace> place_of(const preset::Net& wanted, const Surface& surface,
-                          const Eigen::Vector3d& apex);
-
-/// In the plane of the cut, or at the boundary's mean height, below the apex; as far to the right
-/// of the rods' diagonal as to its left.
-FlatFrame flat_frame(const preset::Net& wanted, const NetPlace& place,
-                     const Eigen::Matrix3Xd& ring);
+/// Sets where the flat footprint of a net with a domain lies, and its scale: in the plane of the
+/// cut, or at the boundary's mean height, below the apex; as far to the right of the rods' diagonal
+/// as to its left.
+Result<void> lay_flat(const preset::Net& wanted, const NetPlace& place, NetDesign& design);
 
 /// The net on a mesh: a smooth surface fitted to it, and the net marched over that from the apex,
 /// or from the best there is, as far as it comes. Errors (bad_input): a mesh that is no sheet, an
