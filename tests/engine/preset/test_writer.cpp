@@ -57,6 +57,8 @@ Preset all_changed() {
   preset.jitter.levels = {0.25, 1e0 / 3};
   preset.movie.target_mm = {1.5, -2, 1e2 / 3};
   preset.movie.bins_range = preset.style.range = {-0.02, 0.07};
+  // only a mesh is searched for an apex
+  preset.net.apex = NetApex::given;
   // each is checked apart: only circles have radii, only the bend rung pushes and snaps
   preset.figure.radii_mm.clear();
   preset.indentation.depth = preset.indentation.depth_mm = 0;
