@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/cli/console.h"
+#include "app/cli/figures.h"
 #include "app/cli/pictures.h"
 #include "app/cli/preset_library.h"
 #include "app/cli/produce.h"
@@ -38,6 +39,7 @@ void print_plan(const preset::Preset& preset, const simulate::Plan& plan) {
                preset.original_radius_mm() / preset.footprint.spacing_mm -
                    0.5 * (preset.footprint.rods - 1));
   for (const auto& seam : plan.seams) fmt::print("  seam            {}\n", seam);
+  for (const auto& sentence : plan.net) fmt::print("  net             {}\n", sentence);
   fmt::print("  model           {}\n", plan.model_reason);
   fmt::print("  meshes          {} edges a segment{}\n", fmt::join(plan.levels, ", "),
              plan.extrapolated ? ", extrapolated" : "");
@@ -74,6 +76,8 @@ Result<int> check(const Options& options) {
     }
     print_plan(run.preset, *plan);
   }
+  TRY(drawn, draw_net_plans(*presets, folder));
+  for (const std::string& plan : *drawn) fmt::print("  plan            {}\n", plan);
   for (const std::string& file : presets->files) fmt::print("  file            {}\n", file);
   for (const std::string& note : presets->notes) fmt::print("  note            {}\n", note);
   return printed();

@@ -60,6 +60,13 @@ record::Trajectory states_alone(const record::Trajectory& run,
 Result<void> draw_states(const Run& run, render::Renderer& renderer,
                          const std::filesystem::path& stem, Watch& watch);
 
+// Pictures of nets on meshes.
+
+/// Of every run whose net lies on a mesh: `<folder>_plan.png`, .svg and .pdf (with cases
+/// `<folder>_<case>_plan`): its rods in plan, what they do not reach and why. Returns their names.
+Result<std::vector<std::string>> draw_net_plans(const preset::Presets& presets,
+                                                const std::filesystem::path& folder);
+
 // Pictures of what was refused.
 
 /// Of every run whose net ends before its boundary: `<folder>_refused.png`, .svg and .pdf (with

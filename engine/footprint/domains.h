@@ -7,6 +7,7 @@
 #include "engine/footprint/footprint.h"
 #include "engine/geometry/chebyshev_net.h"
 #include "engine/geometry/closed_curve.h"
+#include "engine/geometry/marched_net.h"
 #include "engine/geometry/revolution_net.h"
 #include "engine/geometry/surface_net.h"
 
@@ -52,5 +53,11 @@ std::unique_ptr<Domain> all_of(const TranslationNet& net);
 /// angles in (u, v). Errors (bad_input): a ray from the apex crosses the boundary more than once.
 Result<std::unique_ptr<Domain>> part_of(std::shared_ptr<const SurfaceNet> net,
                                         Surface::Function outside);
+
+/// All that a net's rods reach from its apex. Grid lines are cut to round-off where they meet a
+/// line of the mesh; pieces shorter than four of the net's chords are left out: rods that short
+/// bear no compression without stretching. boundary() is the outer edge, without holes, at points
+/// where it crosses the net's grid.
+std::unique_ptr<Domain> reached_part(std::shared_ptr<const MarchedNet> net);
 
 }  // namespace gridshell

@@ -74,12 +74,16 @@ Surface::Curvature Surface::curvature(const Eigen::Vector3d& p) const {
 namespace {
 
 constexpr double finest = 0.25;     // of the detail: distance of centres at least
-constexpr double fit_over = 4;      // radius of a fit over that distance
-constexpr double reach_over = 2;    // radius of a patch over it
 constexpr double rim_reach = 1;     // of the detail: patches go on beyond the rim
-constexpr double rough = 0.01;      // of the detail: what a vertex may be off
 constexpr double least_turn = 0.1;  // cosine between a patch's normal and those around
+constexpr double apart_over = 0.3;  // of a reach: so far off a patch another part of the mesh is
+constexpr int few = 22;             // vertices that a patch is better fitted to at least
+constexpr std::size_t enough = 150;
 constexpr std::size_t most_entries = 30000000, most_fitted = 10000000;
+// radius of a fit over the distance of centres, the smoothest first
+constexpr std::array all_radii{9.0, 7.0, 5.5, 4.0, 3.0, 2.3};
+constexpr double usual_radii = 4,
+                 smooth = 1e-4;  // of the size: as far are vertices of a smooth mesh
 
 Eigen::AlignedBox3d box_about(const Eigen::Vector3d& p, double radius) {
   const Eigen::Vector3d half = Eigen::Vector3d::Constant(radius);
@@ -109,20 +113,32 @@ Result<std::vector<int>> spread_centres(const Eigen::Matrix3Xd& x, double apart)
   return centres;
 }
 
-/// Vertices within a radius of one, joined to it by such vertices.
-std::vector<int> joined_around(const TriangleMesh& mesh, int centre, double radius,
-                               std::vector<int>& mark, int now) {
+/// Vertices within a radius of one, joined to it by such vertices and not behind a crease.
+std::vector<int> joined_around(const TriangleMesh& mesh, const Barriers& lines, int centre,
+                               double radius, std::vector<int>& mark, int now) {
+  const Eigen::Vector3d middle = mesh.vertices().col(centre);
   std::vector<int> around{centre};
   mark[std::size_t(centre)] = now;
-  for (std::size_t k = 0; k < around.size(); ++k)
+  for (std::size_t k = 0; k < around.size(); ++k) {
+    // of a crease both sides have the vertices
+    if (mesh.on_crease(around[k])) continue;
     for (const int next : mesh.neighbours()[std::size_t(around[k])]) {
-      if (mark[std::size_t(next)] == now ||
-          (mesh.vertices().col(next) - mesh.vertices().col(centre)).norm() > radius)
-        continue;
+      const Eigen::Vector3d to = mesh.vertices().col(next);
+      if (mark[std::size_t(next)] == now || (to - middle).norm() > radius) continue;
       mark[std::size_t(next)] = now;
-      around.push_back(next);
+      if (!lines.crosses_crease(middle, middle + 0.999 * (to - middle))) around.push_back(next);
     }
+  }
   return around;
+}
+
+/// So many of the vertices around that a fit needs no more, evenly from near to far.
+std::vector<int> thinned(const std::vector<int>& around) {
+  if (around.size() <= 2 * enough) return around;
+  std::vector<int> some;
+  const std::size_t step = around.size() / enough;
+  for (std::size_t k = 0; k < around.size(); k += step) some.push_back(around[k]);
+  return some;
 }
 
 /// Whether a sign of equality stands in it that is no part of ==, <=, >= or !=.
@@ -146,9 +162,9 @@ Eigen::Matrix<double, MeshSurface::terms, 1> MeshSurface::powers(double u, doubl
   return all;
 }
 
-double MeshSurface::above(const Patch& patch, const Eigen::Vector3d& p) const {
+double MeshSurface::above(const Patch& patch, const Eigen::Vector3d& p) {
   const Eigen::Vector3d local = patch.axes * (p - patch.centre);
-  const double u = local.x() / fit_radius_, v = local.y() / fit_radius_;
+  const double u = local.x() / patch.radius, v = local.y() / patch.radius;
   // Horner's rule in v of polynomials in u
   const auto& c = patch.height;
   double height = 0;
@@ -160,84 +176,141 @@ double MeshSurface::above(const Patch& patch, const Eigen::Vector3d& p) const {
   return (local.z() - height) / patch.slope;
 }
 
-Result<void> MeshSurface::add_patch(const TriangleMesh& mesh, int vertex,
-                                    const std::vector<int>& around) {
+/// Nothing where the mesh turns too sharply.
+std::optional<MeshSurface::Patch> MeshSurface::patch_of(const TriangleMesh& mesh, int vertex,
+                                                        const std::vector<int>& around,
+                                                        double radius) {
   const auto& x = mesh.vertices();
   Patch patch;
   patch.centre = x.col(vertex);
+  patch.radius = radius;
   const Eigen::Vector3d normal = mesh.normals().col(vertex);
   patch.axes.row(0) = normal.unitOrthogonal();
   patch.axes.row(2) = normal;
   patch.axes.row(1) = normal.cross(patch.axes.row(0).transpose());
-  Eigen::MatrixXd rows(Eigen::Index(around.size()), terms);
-  Eigen::VectorXd heights(rows.rows());
-  for (Eigen::Index k = 0; k < rows.rows(); ++k) {
+  const auto count = Eigen::Index(around.size());
+  // of lower degree where that many coefficients would follow every vertex
+  const Eigen::Index used = count >= few ? terms : count >= 14 ? 10 : count >= 8 ? 6 : 3;
+  Eigen::MatrixXd rows(count, used);
+  Eigen::VectorXd heights(count);
+  for (Eigen::Index k = 0; k < count; ++k) {
     const int other = around[std::size_t(k)];
-    if (mesh.normals().col(other).dot(normal) < least_turn)
-      return mesh_fault(
-          fmt::format("the mesh turns by more than 84 degrees within {:.3g} mm", fit_radius_),
-          patch.centre);
+    if (!mesh.on_crease(other) && mesh.normals().col(other).dot(normal) < least_turn)
+      return std::nullopt;
     const Eigen::Vector3d local = patch.axes * (x.col(other) - patch.centre);
     const double weight =
-        std::sqrt(std::max(falling(0.9 * local.squaredNorm() / (fit_radius_ * fit_radius_)), 0.0));
-    rows.row(k) = weight * powers(local.x() / fit_radius_, local.y() / fit_radius_).transpose();
+        std::sqrt(std::max(falling(0.9 * local.squaredNorm() / (radius * radius)), 0.0));
+    rows.row(k) = weight * powers(local.x() / radius, local.y() / radius).head(used).transpose();
     heights[k] = weight * local.z();
   }
   // the shortest of all best coefficients: beside a rim not all of them may be told apart
-  patch.height = shortest_least_squares(rows, heights, 1e-7);
-  patch.slope = std::hypot(1.0, patch.height[1] / fit_radius_, patch.height[2] / fit_radius_);
-  const bool beside_rim = std::ranges::any_of(around, [&](int k) { return mesh.on_rim(k); });
-  patch.reach = beside_rim ? rim_reach_ : reach_;
-  if (!near_.add(int(patches_.size()), box_about(patch.centre, patch.reach), most_entries))
-    return invalid("the mesh is too large for the rods' spacing");
-  patches_.push_back(patch);
-  return {};
+  patch.height.setZero();
+  patch.height.head(used) = shortest_least_squares(rows, heights, 1e-7);
+  patch.slope = std::hypot(1.0, patch.height[1] / radius, patch.height[2] / radius);
+  return patch;
 }
 
-Result<MeshSurface> MeshSurface::fit(const TriangleMesh& mesh, double detail_mm) {
+Result<MeshSurface> MeshSurface::fitted(const TriangleMesh& mesh, const Barriers& lines,
+                                        double detail_mm, double radii) {
   const auto& x = mesh.vertices();
   const double apart = std::max(mesh.mean_edge(), finest * detail_mm);
-  const double reach = reach_over * apart;
-  MeshSurface surface(reach, std::max(reach, rim_reach * detail_mm), fit_over * apart);
+  MeshSurface surface(radii / 2 * apart);
+  surface.lines_ = lines;
   // of a coarse mesh all vertices but doubled ones
   const bool fine = apart > mesh.mean_edge();
   TRY(centres, spread_centres(x, fine ? apart : 0.1 * apart));
-  BoxGrid vertices(2 * reach);
+  BoxGrid vertices(radii * apart);
   for (int k = 0; k < int(x.cols()); ++k)
     if (!vertices.add(k, {x.col(k), x.col(k)}, most_entries))
       return invalid("the mesh is too large");
   std::vector<int> mark(std::size_t(x.cols()), -1);
-  std::size_t fitted = 0;
+  std::size_t visited = 0;
+  int now = 0;
   for (const int centre : *centres) {
-    const auto around = joined_around(mesh, centre, surface.fit_radius_, mark, centre);
-    fitted += around.size();
-    if (fitted > most_fitted)
+    if (mesh.on_crease(centre)) continue;
+    // wider where vertices are few, narrower where they turn too sharply
+    double radius = std::max(radii * apart, 1.6 * mesh.longest_edge(centre));
+    std::vector<int> around;
+    const auto look = [&] {
+      around = joined_around(mesh, lines, centre, radius, mark, ++now);
+      visited += around.size();
+    };
+    look();
+    for (int k = 0; k < 4 && int(around.size()) < few; ++k) radius *= 1.25, look();
+    auto patch = patch_of(mesh, centre, thinned(around), radius);
+    for (int k = 0; k < 3 && !patch; ++k) {
+      radius *= 0.7, look();
+      patch = patch_of(mesh, centre, thinned(around), radius);
+    }
+    if (visited > most_fitted)
       return invalid("the triangles of the mesh are too uneven in size to be fitted");
+    if (!patch) continue;
+    patch->reach = std::max(radius / 2, 1.1 * mesh.longest_edge(centre));
+    if (std::ranges::any_of(around, [&](int k) { return mesh.on_rim(k); }))
+      patch->reach = std::max(patch->reach, rim_reach * detail_mm);
+    patch->beside_crease = std::ranges::any_of(around, [&](int k) { return mesh.on_crease(k); });
     // another sheet beside this one
-    for (int corner = 0; corner < 8; ++corner) {
+    bool alone = true;
+    for (int corner = 0; corner < 8 && alone; ++corner) {
       const Eigen::Vector3d to(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
-      const auto* near = vertices.at(x.col(centre) + reach * to);
+      const auto* near = vertices.at(x.col(centre) + radii / 2 * apart * to);
       if (!near) continue;
       for (const int other : *near)
-        if (mark[std::size_t(other)] != centre && (x.col(other) - x.col(centre)).norm() < reach)
-          return mesh_fault(
-              fmt::format("two parts of the mesh come within {:.3g} mm of one another", reach),
-              x.col(centre));
+        alone = alone && (mark[std::size_t(other)] == now ||
+                          (x.col(other) - x.col(centre)).norm() > radii / 2 * apart ||
+                          std::abs(above(*patch, x.col(other))) < apart_over * patch->reach);
     }
-    TRY_DO(surface.add_patch(mesh, centre, around));
+    if (!alone) continue;
+    if (!surface.near_.add(int(surface.patches_.size()), box_about(patch->centre, patch->reach),
+                           most_entries))
+      return invalid("the mesh is too large for the rods' spacing");
+    surface.patches_.push_back(*patch);
   }
-  int worst = 0;
-  double farthest = 0;
-  for (int k = 0; k < int(x.cols()); ++k) {
-    const double off = std::abs(surface.at(x.col(k)));
-    if (!(off <= farthest)) farthest = off, worst = k;
-  }
-  if (!(farthest <= rough * detail_mm))
-    return mesh_fault(fmt::format("the mesh is not smooth: a vertex lies {:.2g} mm off the smooth "
-                                  "surface through those around it, must be less than {:.2g} mm,",
-                                  farthest, rough * detail_mm),
-                      x.col(worst));
+  if (surface.patches_.empty())
+    return invalid("the mesh is nowhere smooth enough for a surface through its vertices");
+  surface.measure(mesh);
   return surface;
+}
+
+void MeshSurface::measure(const TriangleMesh& mesh) {
+  for (int k = 0; k < int(mesh.vertices().cols()); ++k) {
+    const double off = mesh.on_crease(k) ? 0 : std::abs(at(mesh.vertices().col(k)));
+    if (off > farthest_) farthest_ = off, farthest_at_ = mesh.vertices().col(k);
+  }
+}
+
+Result<MeshSurface> MeshSurface::fit(const TriangleMesh& mesh, double detail_mm, double fit_mm) {
+  const Barriers lines(mesh);
+  const double wanted = fit_mm > 0 ? fit_mm : 1e-3 * mesh.size();
+  // vertices of a smooth surface lie on it to much less, and it is followed closely
+  if (fit_mm == 0) {
+    TRY(close, fitted(mesh, lines, detail_mm, usual_radii));
+    if (close->farthest_ <= smooth * mesh.size()) return std::move(*close);
+  }
+  std::optional<MeshSurface> best;
+  for (const double radii : all_radii) {
+    TRY(surface, fitted(mesh, lines, detail_mm, radii));
+    if (best && surface->farthest_ > best->farthest_) continue;
+    best = std::move(*surface);
+    if (best->farthest_ <= wanted) break;
+  }
+  if (fit_mm > 0 && best->farthest_ > fit_mm)
+    return mesh_fault(fmt::format("the mesh is not that smooth: got fit_mm = {:g}, expected at "
+                                  "least {:.2g}, as a vertex lies so far off the closest surface",
+                                  fit_mm, best->farthest_),
+                      best->farthest_at_);
+  return std::move(*best);
+}
+
+/// From a patch's centre, around the end of a crease that lies between.
+double MeshSurface::distance(const Patch& patch, const Eigen::Vector3d& p) const {
+  const double straight = (p - patch.centre).norm();
+  if (!patch.beside_crease || straight > patch.reach || !lines_.crosses_crease(patch.centre, p))
+    return straight;
+  double around = std::numeric_limits<double>::infinity();
+  for (const Eigen::Vector3d& tip : lines_.tips())
+    around = std::min(around, (p - tip).norm() + (tip - patch.centre).norm());
+  return around;
 }
 
 double MeshSurface::at(const Eigen::Vector3d& p) const {
@@ -246,7 +319,7 @@ double MeshSurface::at(const Eigen::Vector3d& p) const {
   double sum = 0, weights = 0;
   for (const int k : *near) {
     const Patch& patch = patches_[std::size_t(k)];
-    const double weight = falling((p - patch.centre).squaredNorm() / (patch.reach * patch.reach));
+    const double ratio = distance(patch, p) / patch.reach, weight = falling(ratio * ratio);
     if (weight == 0) continue;
     sum += weight * above(patch, p);
     weights += weight;
@@ -257,9 +330,8 @@ double MeshSurface::at(const Eigen::Vector3d& p) const {
 std::optional<double> highest_at(const TriangleMesh& mesh, double x, double y) {
   constexpr double outside = -1e-9;
   std::optional<double> highest;
-  for (const auto& [a, b, c] : mesh.triangles()) {
-    const Eigen::Vector3d p = mesh.vertices().col(a), e = mesh.vertices().col(b) - p,
-                          f = mesh.vertices().col(c) - p;
+  for (const auto& triangle : mesh.triangles()) {
+    const auto [p, e, f] = mesh.corner_and_sides(triangle);
     const double area = e.x() * f.y() - e.y() * f.x();
     const double u = ((x - p.x()) * f.y() - (y - p.y()) * f.x()) / area,
                  v = (e.x() * (y - p.y()) - e.y() * (x - p.x())) / area;

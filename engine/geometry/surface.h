@@ -11,6 +11,7 @@
 
 #include "engine/core/proximity.h"
 #include "engine/core/result.h"
+#include "engine/geometry/mesh_lines.h"
 
 namespace gridshell {
 
@@ -26,16 +27,15 @@ Result<std::optional<Eigen::Vector3d>> first_crossing(
 /// What is wrong with a mesh, with the place.
 tl::unexpected<Error> mesh_fault(const std::string& what, const Eigen::Vector3d& place);
 
-/// One connected, two-sided sheet of triangles, all turned the same way, with one rim or none, that
-/// neither folds nor meets itself.
+/// One connected, two-sided sheet of triangles, all turned the same way, that does not meet itself.
 class TriangleMesh {
  public:
   using Triangles = std::vector<std::array<int, 3>>;
 
   /// Vertices that no triangle has are left out. Errors (bad_input), with the place: a triangle of
-  /// no area, an edge of three triangles, several pieces, a hole (more than one rim), a mesh of one
-  /// side, neighbours folded onto one another, triangles that meet elsewhere than at their edges, a
-  /// number of a vertex that is not there.
+  /// no area, an edge of three triangles, several pieces, a mesh of one side, neighbours folded
+  /// onto one another, triangles that meet elsewhere than at their edges, a number of a vertex that
+  /// is not there; those of lines_of().
   static Result<TriangleMesh> make(const Eigen::Matrix3Xd& vertices, Triangles triangles);
 
   const Eigen::Matrix3Xd& vertices() const { return vertices_; }
@@ -43,14 +43,26 @@ class TriangleMesh {
   const Eigen::Matrix3Xd& normals() const { return normals_; }  ///< of the vertices, unit
   /// Vertices joined to each by an edge.
   const std::vector<std::vector<int>>& neighbours() const { return neighbours_; }
-  bool on_rim(int vertex) const { return on_rim_[std::size_t(vertex)] != 0; }
+  const std::vector<MeshLine>& lines() const { return lines_; }
+  bool on_rim(int vertex) const { return on_rim_[std::size_t(vertex)] != 0; }  ///< or at a hole
+  bool on_crease(int vertex) const { return on_crease_[std::size_t(vertex)] != 0; }
   double mean_edge() const { return mean_edge_; }
+  double longest_edge(int vertex) const { return longest_[std::size_t(vertex)]; }
+  /// A corner of a triangle and the sides to the next and the last.
+  std::array<Eigen::Vector3d, 3> corner_and_sides(const std::array<int, 3>& triangle) const {
+    const Eigen::Vector3d p = vertices_.col(triangle[0]);
+    return {p, vertices_.col(triangle[1]) - p, vertices_.col(triangle[2]) - p};
+  }
+  double area() const;
+  double size() const;  ///< the longest side of the box around it
 
  private:
   Eigen::Matrix3Xd vertices_, normals_;
   Triangles triangles_;
   std::vector<std::vector<int>> neighbours_;
-  std::vector<char> on_rim_;
+  std::vector<MeshLine> lines_;
+  std::vector<char> on_rim_, on_crease_;
+  std::vector<double> longest_;
   double mean_edge_ = 0;
 };
 
@@ -90,17 +102,24 @@ class Surface {
 /// plane of its centre, fitted to the vertices around by weighted least squares, so near the
 /// surface F is the distance from it (a partition of unity of local fits [Ohtake, Belyaev, Alexa,
 /// Turk, Seidel 2003]). Error of fifth order in the length of the edges; three times continuously
-/// differentiable. It goes on beyond the mesh's rim for some three quarters of `detail_mm`, further
-/// out it has no value.
+/// differentiable. Where few vertices are around, the degree is lower. It goes on beyond the mesh's
+/// rim for some three quarters of `detail_mm`, further out it has no value. At creases it has two
+/// sides that know nothing of one another: what lies behind a crease is as far away as the way
+/// around the crease's end is long. Where the mesh turns too sharply for a polynomial, or another
+/// part of it is too near, it has no value.
 class MeshSurface {
  public:
   /// `detail_mm`: what is a quarter as large is not followed any more, mm (the spacing of the
-  /// rods). Errors (bad_input): vertices off the fitted surface by more than a hundredth of that,
-  /// with the place; parts of the mesh that come so near to one another, or turn so sharply, that
-  /// no polynomial tells them apart; too large a mesh for its details, or too uneven a one.
-  static Result<MeshSurface> fit(const TriangleMesh& mesh, double detail_mm);
+  /// rods). `fit_mm`: how far vertices may lie off the surface, which is as smooth as this allows;
+  /// 0: a thousandth of the mesh's size, or what is needed. Errors (bad_input): vertices off the
+  /// fitted surface by more than `fit_mm`, with the place; no part of the mesh that is smooth; too
+  /// large a mesh for its details, or too uneven a one.
+  static Result<MeshSurface> fit(const TriangleMesh& mesh, double detail_mm, double fit_mm = 0);
 
   double at(const Eigen::Vector3d& p) const;  ///< not a number far from the mesh
+  /// Of the mesh's vertices, those at creases and without a value left out.
+  double largest_distance() const { return farthest_; }
+  const Eigen::Vector3d& farthest_vertex() const { return farthest_at_; }
 
  private:
   static constexpr int degree = 4, terms = (degree + 1) * (degree + 2) / 2;
@@ -108,18 +127,26 @@ class MeshSurface {
     Eigen::Vector3d centre;
     Eigen::Matrix3d axes;                    ///< rows: two tangents, the normal
     Eigen::Matrix<double, terms, 1> height;  ///< by u^a v^b over the fit's radius
+    double radius = 1;                       ///< of the fit
     double reach = 0;                        ///< where its weight comes to zero
     double slope = 1;                        ///< |grad| of the height above it at its centre
+    bool beside_crease = false;
   };
-  MeshSurface(double reach, double rim_reach, double fit_radius)
-      : reach_(reach), rim_reach_(rim_reach), fit_radius_(fit_radius), near_(reach / 2) {}
+  explicit MeshSurface(double reach) : near_(reach / 2) {}
+  static Result<MeshSurface> fitted(const TriangleMesh& mesh, const Barriers& lines,
+                                    double detail_mm, double radii);
   static Eigen::Matrix<double, terms, 1> powers(double u, double v);
-  double above(const Patch& patch, const Eigen::Vector3d& p) const;
-  Result<void> add_patch(const TriangleMesh& mesh, int vertex, const std::vector<int>& around);
+  static double above(const Patch& patch, const Eigen::Vector3d& p);
+  static std::optional<Patch> patch_of(const TriangleMesh& mesh, int vertex,
+                                       const std::vector<int>& around, double radius);
+  double distance(const Patch& patch, const Eigen::Vector3d& p) const;
+  void measure(const TriangleMesh& mesh);
 
-  double reach_, rim_reach_, fit_radius_;
   std::vector<Patch> patches_;
   BoxGrid near_;
+  Barriers lines_;
+  double farthest_ = 0;
+  Eigen::Vector3d farthest_at_ = Eigen::Vector3d::Zero();
 };
 
 /// The highest point of the mesh above or below (x, y); nothing: it has none.

@@ -38,7 +38,7 @@ std::optional<Eigen::Vector3d> solved(const Surface& surface, const Eigen::Vecto
   return std::nullopt;
 }
 
-constexpr int reach = 3;          // nodes to each side that a value between two nodes takes
+constexpr int reach = net_reach;
 constexpr int coarse_margin = 8;  // of the coarser grid around what is wanted
 constexpr int most_nodes = 600;   // from the apex to an end of an axis
 
@@ -70,6 +70,67 @@ std::string help() {
 
 }  // namespace
 
+std::optional<Eigen::Vector3d> geodesic_chord(const Surface& surface, const Eigen::Vector3d& here,
+                                              const Eigen::Vector3d& along, double chord) {
+  const Eigen::Vector3d sideways = surface.gradient(here).cross(along).normalized();
+  return solved(surface, here + chord * along, chord,
+                [&](const auto& p, auto& residual, auto& slope) {
+                  const Eigen::Vector3d way = p - here;
+                  residual[1] = (way.squaredNorm() / chord - chord) / 2;
+                  residual[2] = sideways.dot(way);
+                  slope.row(1) = way / chord;
+                  slope.row(2) = sideways;
+                });
+}
+
+std::optional<Eigen::Vector3d> chord_corner(const Surface& surface, const Eigen::Vector3d& guess,
+                                            const Eigen::Vector3d& A, const Eigen::Vector3d& B,
+                                            double chord) {
+  return solved(surface, guess, chord, [&](const auto& x, auto& residual, auto& slope) {
+    residual[1] = ((x - A).squaredNorm() / chord - chord) / 2;
+    residual[2] = ((x - B).squaredNorm() / chord - chord) / 2;
+    slope.row(1) = (x - A) / chord;
+    slope.row(2) = (x - B) / chord;
+  });
+}
+
+tl::unexpected<Error> ended_before(double u, double v) {
+  return invalid("the net of the surface ends before (u, v) = ({:g}, {:g}) mm", u, v);
+}
+
+NetPoint net_point(const NetNodes& nodes, double t_u, double t_v, double chord) {
+  const Weights along_u(t_u), along_v(t_v);
+  const double H = chord;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero(), C_u = position, C_v = position,
+                  C_uu = position, C_uv = position, C_vv = position;
+  for (std::size_t b = 0; b < 2 * reach; ++b) {
+    Eigen::Vector3d value = Eigen::Vector3d::Zero(), slope = value, second = value;
+    for (std::size_t a = 0; a < 2 * reach; ++a) {
+      const Eigen::Vector3d& p = nodes[b * 2 * reach + a];
+      value += along_u.value[a] * p;
+      slope += along_u.slope[a] * p;
+      second += along_u.second[a] * p;
+    }
+    position += along_v.value[b] * value;
+    C_u += along_v.value[b] * slope / H;
+    C_v += along_v.slope[b] * value / H;
+    C_uu += along_v.value[b] * second / (H * H);
+    C_uv += along_v.slope[b] * slope / (H * H);
+    C_vv += along_v.second[b] * value / (H * H);
+  }
+  NetPoint found;
+  found.position = position;
+  found.tangent_u = C_u.normalized();
+  found.tangent_v = C_v.normalized();
+  const Eigen::Vector3d across = found.tangent_u.cross(found.tangent_v);
+  found.omega = std::atan2(across.norm(), found.tangent_u.dot(found.tangent_v));
+  // second form over first form
+  const Eigen::Vector3d normal = across.normalized();
+  const double M = normal.dot(C_uv);
+  found.K = (normal.dot(C_uu) * normal.dot(C_vv) - M * M) / across.squaredNorm();
+  return found;
+}
+
 /// A geodesic from the apex, which is its first point; where the surface ends, so does it, with a
 /// last point that is none of the surface.
 struct ChordGrid::Axis {
@@ -85,15 +146,7 @@ Result<ChordGrid::Axis> ChordGrid::geodesic(const Surface& surface, const NetPla
   std::vector<Eigen::Vector3d>& points = axis.points;
   for (int out = 0; out < margin && int(points.size()) <= most;) {
     const Eigen::Vector3d here = points.back();
-    const Eigen::Vector3d sideways = surface.gradient(here).cross(along).normalized();
-    const auto next = solved(surface, here + chord * along, chord,
-                             [&](const auto& p, auto& residual, auto& slope) {
-                               const Eigen::Vector3d way = p - here;
-                               residual[1] = (way.squaredNorm() / chord - chord) / 2;
-                               residual[2] = sideways.dot(way);
-                               slope.row(1) = way / chord;
-                               slope.row(2) = sideways;
-                             });
+    const auto next = geodesic_chord(surface, here, along, chord);
     if (!next) {
       // whether that is too early, whoever asks for the net will say
       points.push_back(here + chord * along);
@@ -175,13 +228,7 @@ void ChordGrid::fill(const Surface& surface, const NetPlace& place, int margin, 
           node(a, b - sign_v) != Node::known)
         continue;
       const Eigen::Vector3d &A = at(a - sign_u, b), &B = at(a, b - sign_v);
-      const auto p = solved(surface, A + B - at(a - sign_u, b - sign_v), chord_,
-                            [&](const auto& x, auto& residual, auto& slope) {
-                              residual[1] = ((x - A).squaredNorm() / chord_ - chord_) / 2;
-                              residual[2] = ((x - B).squaredNorm() / chord_ - chord_) / 2;
-                              slope.row(1) = (x - A) / chord_;
-                              slope.row(2) = (x - B) / chord_;
-                            });
+      const auto p = chord_corner(surface, A + B - at(a - sign_u, b - sign_v), A, B, chord_);
       state = Node::lost;
       if (!p) continue;
       state = Node::folded;
@@ -302,36 +349,12 @@ Result<NetPoint> SurfaceNet::at(double u, double v) const {
   const double H = chord();
   const int i = int(std::floor(u / H)), j = int(std::floor(v / H));
   if (!(std::abs(u) < most_nodes * H && std::abs(v) < most_nodes * H) || !known_about(i, j))
-    return invalid("the net of the surface ends before (u, v) = ({:g}, {:g}) mm", u, v);
-  const Weights along_u(u / H - i), along_v(v / H - j);
-  Eigen::Vector3d position = Eigen::Vector3d::Zero(), C_u = position, C_v = position,
-                  C_uu = position, C_uv = position, C_vv = position;
-  for (std::size_t b = 0; b < 2 * reach; ++b) {
-    Eigen::Vector3d value = Eigen::Vector3d::Zero(), slope = value, second = value;
-    for (std::size_t a = 0; a < 2 * reach; ++a) {
-      const Eigen::Vector3d& p = point(i + 1 - reach + int(a), j + 1 - reach + int(b));
-      value += along_u.value[a] * p;
-      slope += along_u.slope[a] * p;
-      second += along_u.second[a] * p;
-    }
-    position += along_v.value[b] * value;
-    C_u += along_v.value[b] * slope / H;
-    C_v += along_v.slope[b] * value / H;
-    C_uu += along_v.value[b] * second / (H * H);
-    C_uv += along_v.slope[b] * slope / (H * H);
-    C_vv += along_v.second[b] * value / (H * H);
-  }
-  NetPoint found;
-  found.position = position;
-  found.tangent_u = C_u.normalized();
-  found.tangent_v = C_v.normalized();
-  const Eigen::Vector3d across = found.tangent_u.cross(found.tangent_v);
-  found.omega = std::atan2(across.norm(), found.tangent_u.dot(found.tangent_v));
-  // second form over first form
-  const Eigen::Vector3d normal = across.normalized();
-  const double M = normal.dot(C_uv);
-  found.K = (normal.dot(C_uu) * normal.dot(C_vv) - M * M) / across.squaredNorm();
-  return found;
+    return ended_before(u, v);
+  NetNodes nodes;
+  for (int b = 0; b < 2 * reach; ++b)
+    for (int a = 0; a < 2 * reach; ++a)
+      nodes[std::size_t(b * 2 * reach + a)] = point(i + 1 - reach + a, j + 1 - reach + b);
+  return net_point(nodes, u / H - i, v / H - j, H);
 }
 
 }  // namespace gridshell

@@ -1,6 +1,8 @@
 // A net of equal chords on a surface: what a Chebyshev net becomes on a grid.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <vector>
 
 #include "engine/geometry/chebyshev_net.h"
@@ -15,6 +17,28 @@ struct NetPlace {
   /// below zero where the net is wanted; not a number counts as outside
   Surface::Function outside;
 };
+
+/// The point a chord away from `here` in the plane of the surface's normal and `along`, a unit
+/// tangent; nothing: none is found near.
+std::optional<Eigen::Vector3d> geodesic_chord(const Surface& surface, const Eigen::Vector3d& here,
+                                              const Eigen::Vector3d& along, double chord);
+
+/// The point of the surface near `guess` a chord away from A and from B; nothing: none is near.
+std::optional<Eigen::Vector3d> chord_corner(const Surface& surface, const Eigen::Vector3d& guess,
+                                            const Eigen::Vector3d& A, const Eigen::Vector3d& B,
+                                            double chord);
+
+/// Nodes to each side that a value between two nodes takes.
+inline constexpr int net_reach = 3;
+/// Those around a cell of a grid, row by row along u.
+using NetNodes = std::array<Eigen::Vector3d, 4 * net_reach * net_reach>;
+
+/// The error of who asks for a net where there is none.
+tl::unexpected<Error> ended_before(double u, double v);
+
+/// The net at a place in the middle cell, t_u and t_v of it from 0 to 1, by a polynomial of degree
+/// 5 in u and in v.
+NetPoint net_point(const NetNodes& nodes, double t_u, double t_v, double chord);
 
 /// Points p(i, j) of a surface, neighbours a chord h apart. The axes i and j are geodesics, each
 /// point in the plane of the normal and the chord before; all others follow from their two

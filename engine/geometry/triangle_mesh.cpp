@@ -52,9 +52,8 @@ Eigen::Vector3d area_of(const Eigen::Matrix3Xd& x, const std::array<int, 3>& t) 
   return 0.5 * (x.col(t[1]) - x.col(t[0])).cross(x.col(t[2]) - x.col(t[0]));
 }
 
-/// An edge, and the triangles on it.
-using Edge = std::array<int, 2>;
-using Sides = std::map<Edge, std::vector<int>>;
+using Edge = MeshEdge;
+using Sides = EdgeSides;
 
 Edge edge_of(const std::array<int, 3>& triangle, int k) {
   const int a = triangle[std::size_t(k)], b = triangle[std::size_t((k + 1) % 3)];
@@ -139,49 +138,15 @@ Result<void> turn_alike(const Eigen::Matrix3Xd& x, const Sides& sides, Triangles
       x.col(triangles[other][0]));
 }
 
-/// There is one rim at most: whatever more there is is a hole, the shorter one.
-Result<void> check_rims(const Eigen::Matrix3Xd& x, const Sides& sides) {
-  std::map<int, std::vector<int>> next;
-  for (const auto& [edge, triangles] : sides)
-    if (triangles.size() == 1) {
-      next[edge[0]].push_back(edge[1]);
-      next[edge[1]].push_back(edge[0]);
-    }
-  struct Rim {
-    std::size_t vertices = 0;
-    int at = 0;
-  };
-  std::vector<Rim> rims;
-  std::map<int, bool> seen;
-  for (const auto& [begin, ways] : next) {
-    if (ways.size() != 2)
-      return mesh_fault("two parts of the mesh touch in one vertex", x.col(begin));
-    if (seen[begin]) continue;
-    Rim rim{0, begin};
-    std::vector<int> open{begin};
-    while (!open.empty()) {
-      const int here = open.back();
-      open.pop_back();
-      if (std::exchange(seen[here], true)) continue;
-      ++rim.vertices;
-      for (const int there : next.at(here)) open.push_back(there);
-    }
-    rims.push_back(rim);
-  }
-  if (rims.size() <= 1) return {};
-  const auto hole = std::ranges::min_element(
-      rims, [](const Rim& a, const Rim& b) { return a.vertices < b.vertices; });
-  return mesh_fault(fmt::format("the mesh has a hole of {} edges", hole->vertices),
-                    x.col(hole->at));
-}
-
 Result<void> check_folds(const Eigen::Matrix3Xd& x, const Sides& sides,
                          const Triangles& triangles) {
+  constexpr double back = -0.87;  // cosine: by more than 150 degrees
   for (const auto& [edge, both] : sides) {
     if (both.size() < 2) continue;
     const Eigen::Vector3d a = area_of(x, triangles[std::size_t(both[0])]),
                           b = area_of(x, triangles[std::size_t(both[1])]);
-    if (!(a.dot(b) > 0)) return mesh_fault("the mesh is folded", x.col(edge[0]));
+    if (a.dot(b) < back * a.norm() * b.norm())
+      return mesh_fault("the mesh is folded", x.col(edge[0]));
   }
   return {};
 }
@@ -227,19 +192,27 @@ Result<TriangleMesh> TriangleMesh::make(const Eigen::Matrix3Xd& vertices, Triang
   TRY(used, used_vertices(vertices, triangles));
   const Eigen::Matrix3Xd& x = *used;
   TRY(sides, sides_of(x, triangles));
-  auto sound = turn_alike(x, *sides, triangles)
-                   .and_then([&] { return check_rims(x, *sides); })
-                   .and_then([&] { return check_folds(x, *sides, triangles); });
-  if (!sound) return tl::unexpected(sound.error());
+  TRY_DO(turn_alike(x, *sides, triangles));
+  TRY_DO(check_folds(x, *sides, triangles));
   TriangleMesh mesh;
+  TRY(lines, lines_of(x, triangles, *sides));
+  mesh.lines_ = std::move(*lines);
+  mesh.on_crease_.assign(std::size_t(x.cols()), 0);
+  for (const MeshLine& line : mesh.lines_)
+    if (line.kind == LineKind::crease)
+      for (const int vertex : line.vertices) mesh.on_crease_[std::size_t(vertex)] = 1;
   mesh.neighbours_.resize(std::size_t(x.cols()));
   mesh.on_rim_.assign(std::size_t(x.cols()), 0);
+  mesh.longest_.assign(std::size_t(x.cols()), 0);
   for (const auto& [edge, on_it] : *sides) {
     const auto [a, b] = edge;
     if (on_it.size() == 1) mesh.on_rim_[std::size_t(a)] = mesh.on_rim_[std::size_t(b)] = 1;
     mesh.neighbours_[std::size_t(a)].push_back(b);
     mesh.neighbours_[std::size_t(b)].push_back(a);
-    mesh.mean_edge_ += (x.col(b) - x.col(a)).norm() / double(sides->size());
+    const double length = (x.col(b) - x.col(a)).norm();
+    for (const int end : edge)
+      mesh.longest_[std::size_t(end)] = std::max(mesh.longest_[std::size_t(end)], length);
+    mesh.mean_edge_ += length / double(sides->size());
   }
   mesh.normals_ = Eigen::Matrix3Xd::Zero(3, x.cols());
   for (const auto& triangle : triangles)
@@ -250,6 +223,16 @@ Result<TriangleMesh> TriangleMesh::make(const Eigen::Matrix3Xd& vertices, Triang
   mesh.vertices_ = std::move(*used);
   mesh.triangles_ = std::move(triangles);
   return mesh;
+}
+
+double TriangleMesh::area() const {
+  double sum = 0;
+  for (const auto& triangle : triangles_) sum += area_of(vertices_, triangle).norm();
+  return sum;
+}
+
+double TriangleMesh::size() const {
+  return (vertices_.rowwise().maxCoeff() - vertices_.rowwise().minCoeff()).maxCoeff();
 }
 
 }  // namespace gridshell

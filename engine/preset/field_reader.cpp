@@ -15,6 +15,7 @@
 #include "engine/formats/outline_file.h"
 #include "engine/formats/point_file.h"
 #include "engine/formats/surface_file.h"
+#include "engine/preset/likely_surface.h"
 #include "engine/preset/toml_reader.h"
 
 namespace gridshell::preset {
@@ -198,8 +199,12 @@ class Reader {
                      text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
     return field_.colour && !hex && !text.empty() && text != "transparent" ? "is no colour" : "";
   }
-  std::string read(const toml::node& value, std::optional<int>& number) const {
-    if (const auto* text = value.as_string(); text && text->get() == "none") return "";
+  template <class Number>
+  std::string read(const toml::node& value, std::optional<Number>& number) const {
+    if (const auto* text = value.as_string(); text && text->get() == "none") {
+      number.reset();
+      return "";
+    }
     return read(value, number.emplace());
   }
   template <class T>
@@ -262,8 +267,12 @@ class Reader {
         return read_surface(bytes, file, unit > 0 ? unit : 1);
       };
       auto wrong = read_file_of(name->get(), read, largest_mesh_file, surface);
-      if (wrong.empty() && !surface.empty())
-        report(name->get(), surface_text(surface) + (unit > 0 ? ", unit by file_unit" : ", in mm"));
+      if (!wrong.empty() || surface.empty()) return wrong;
+      const auto notes = surface.is_mesh()
+                             ? make_likely(surface, preset_.footprint.spacing_mm, unit > 0)
+                             : std::vector<std::string>();
+      if (report_) report_->notes.insert(report_->notes.end(), notes.begin(), notes.end());
+      report(name->get(), surface_text(surface) + (unit > 0 ? ", unit by file_unit" : ""));
       return wrong;
     }
     if (!value.is_table()) return "is " + type_text(value);

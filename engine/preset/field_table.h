@@ -42,9 +42,10 @@ using SomeWords = WordMember<std::vector<int>>;
 
 /// The member of a preset that a key fills.
 using Member =
-    std::variant<bool*, int*, double*, std::string*, std::optional<int>*, std::array<int, 2>*,
-                 std::vector<int>*, std::vector<double>*, std::vector<std::string>*,
-                 std::vector<SweepAxis>*, Points*, SurfaceData*, NetworkData*, OneWord, SomeWords>;
+    std::variant<bool*, int*, double*, std::string*, std::optional<int>*, std::optional<double>*,
+                 std::array<int, 2>*, std::vector<int>*, std::vector<double>*,
+                 std::vector<std::string>*, std::vector<SweepAxis>*, Points*, SurfaceData*,
+                 NetworkData*, OneWord, SomeWords>;
 
 /// What a key has to do with other keys.
 enum class RuleKind {

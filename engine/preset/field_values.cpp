@@ -27,7 +27,8 @@ std::string text_of(double value) {
 
 std::string text_of(int value) { return std::to_string(value); }
 std::string text_of(const bool& value) { return value ? "true" : "false"; }
-std::string text_of(const std::optional<int>& value) {
+template <class Number>
+std::string text_of(const std::optional<Number>& value) {
   return value ? text_of(*value) : "\"none\"";
 }
 
@@ -132,6 +133,9 @@ struct Describer {
   }
   std::string operator()(const std::optional<int>*) const {
     return "an integer" + bounds + ", or \"none\"";
+  }
+  std::string operator()(const std::optional<double>*) const {
+    return "a number" + bounds + ", or \"none\"";
   }
   std::string operator()(const std::vector<std::string>*) const { return "a list of strings"; }
   std::string operator()(const std::vector<SweepAxis>*) const {

@@ -104,6 +104,8 @@ struct Footprint {
 enum class NetKind { sphere, cylinder, spool, beltrami, profile, translation, surface };
 /// What the first rod of a net on a surface sets out along, or turned from it by axis_deg.
 enum class NetAxis { principal, x };
+/// Whether apex_mm says where it begins, or both place and direction are searched for.
+enum class NetApex { given, best };
 struct Net {
   NetKind kind = NetKind::sphere;
   double radius_mm = 120.0;             ///< rho, the deviation's scale
@@ -118,7 +120,11 @@ struct Net {
   SurfaceData file;                     ///< heights over a grid, or a mesh
   FileUnit file_unit = FileUnit::file;  ///< of the file that `file` names; once read the default
   std::string within;                   ///< G(x, y, z) < 0 inside the boundary; empty: z > cut_mm
-  double cut_mm = 0;
+  /// nothing: a mesh ends at its rim, other surfaces at z = 0
+  std::optional<double> cut_mm;
+  double fit_mm = 0;            ///< of a mesh: how far it may lie off its surface; 0: as needed
+  double least_angle_deg = 30;  ///< of a mesh: between rods, where they end
+  NetApex apex = NetApex::given;
   std::vector<double> apex_mm{0, 0};  ///< where the axes cross; z may be left out of a height
   NetAxis axis = NetAxis::principal;
   double axis_deg = 0;
@@ -291,6 +297,10 @@ struct Preset {
 
   bool on_net() const {
     return footprint.kind == FootprintKind::net || footprint.kind == FootprintKind::blocks;
+  }
+  bool on_mesh() const {
+    return footprint.kind == FootprintKind::net && net.kind == NetKind::surface &&
+           net.file.is_mesh();
   }
   /// R_o of a circle: by its longest leg L_d = R_o/d - (n - 1)/2 [Baek 2018], or as it is given.
   double original_radius_mm() const {

@@ -301,6 +301,26 @@ void add_surface(FieldList<Net> net) {
   net.add<&Net::file_unit>("unit of the file's numbers; \"file\": the one that it names, else mm");
   surface().refused({"file"}, "is of a file that `file` names: a surface listed here is in mm",
                     [](const Net& of) { return of.file_unit != FileUnit::file; });
+  const auto mesh = [](const Net& of) { return of.kind == NetKind::surface && of.file.is_mesh(); };
+  const auto of_mesh = [&] {
+    surface().unused({"file"}, "only a net on a mesh of triangles uses it",
+                     [=](const Net& of) { return of.kind == NetKind::surface && !mesh(of); });
+  };
+  net.add<&Net::fit_mm>(
+      at_least(0),
+      "of a mesh: how far its vertices may lie off the smooth surface, which is as smooth as this "
+      "allows; 0: a thousandth of the mesh's size, or what is needed");
+  of_mesh();
+  net.add<&Net::least_angle_deg>(between(7, 80),
+                                 "of a mesh: rods end where they would cross at less than this");
+  of_mesh();
+  net.add<&Net::apex>(
+      "\"given\": the net begins at `apex_mm`; \"best\", of a mesh: where and along which "
+      "directions its rods reach most of the surface, searched for in some seconds");
+  surface().refused({"file"}, "searches a mesh of triangles, must be \"given\" for other surfaces",
+                    [=](const Net& of) { return of.apex == NetApex::best && !mesh(of); });
+  const auto searched = [](const Net& of) { return of.apex == NetApex::best; };
+  const char* found = "apex = \"best\" finds it";
   net.add<&Net::apex_mm>(
       "[x, y, z], a point of the surface where the net's axes cross at right angles; of a height "
       "or a file [x, y]");
@@ -311,14 +331,17 @@ void add_surface(FieldList<Net> net) {
     return implicit ? "must be [x, y, z], a point of the surface where the net begins"
                     : "must be [x, y]";
   });
+  net.unused({"apex"}, found, searched);
   net.add<&Net::axis>(
       "what the u-axis leaves the apex along: the direction in which the surface curves most "
       "(where it curves alike in all, x), or x");
-  surface();
+  surface().unused({"apex"}, found, searched);
   net.add<&Net::axis_deg>(between(-180, 180),
                           "how far it is turned from there, to the left as seen from above");
-  surface();
-  net.add<&Net::cut_mm>("height of the plane that cuts the surface: the net is kept above it");
+  surface().unused({"apex"}, found, searched);
+  net.add<&Net::cut_mm>(
+      "height of the plane that cuts the surface: the net is kept above it; \"none\": a mesh ends "
+      "at its own rim, other surfaces at 0");
   surface().unused({"within"}, "[net] within is the boundary in the plane's place",
                    [](const Net& of) { return !of.within.empty(); });
   net.add<&Net::within>(

@@ -11,6 +11,7 @@
 #include "engine/geometry/chebyshev_net.h"
 #include "engine/geometry/surface_net.h"
 #include "engine/preset/preset.h"
+#include "engine/scene/mesh_net.h"
 
 namespace gridshell {
 
@@ -20,8 +21,9 @@ struct NetDesign {
   std::shared_ptr<const ChebyshevNet> net;
   std::unique_ptr<Domain> domain;
   FlatFrame flat;
-  double scale_mm = 0;                       ///< rho
-  std::shared_ptr<const Assemblage> blocks;  ///< where the net is one of blocks
+  double scale_mm = 0;                          ///< rho
+  std::shared_ptr<const Assemblage> blocks;     ///< where the net is one of blocks
+  std::shared_ptr<const MeshNetReport> report;  ///< where it is on a mesh
 };
 
 /// `spacing_mm`: d, finer than which nets on any surface are found. Errors (bad_input): what the

@@ -225,6 +225,7 @@ Result<void> build_net(const preset::Preset& preset, Scene& scene) {
   TRY_DO(clip(*design->domain, preset, scene));
   scene.net = design->net;
   scene.blocks = design->blocks;
+  scene.mesh_net = design->report;
   scene.flat = design->flat;
   scene.from_net = preset.actuation.start == preset::Start::net;
   scene.length_scale_mm = design->scale_mm;
@@ -387,6 +388,20 @@ Result<Scene> scene_of(const preset::Preset& preset) {
   scene.table = preset.limits.table;
   scene.snap = {preset.dynamics.snap, preset.dynamics.step_s, preset.dynamics.damping_per_s};
   return scene;
+}
+
+Result<std::vector<Eigen::Matrix3Xd>> rods_on_net(const Scene& scene, double step_mm) {
+  std::vector<Eigen::Matrix3Xd> lines;
+  if (!scene.net) return lines;
+  for (const FootprintRod& rod : scene.footprint.rods) {
+    const double length = rod.span.end - rod.span.begin;
+    const int steps = std::max(1, int(std::ceil(length / step_mm)));
+    Eigen::Matrix2Xd uv(2, steps + 1);
+    for (int k = 0; k <= steps; ++k) uv.col(k) = rod.at(rod.span.begin + length * k / steps);
+    TRY(line, points_on(*scene.net, uv));
+    lines.push_back(std::move(*line));
+  }
+  return lines;
 }
 
 Result<std::shared_ptr<const Scene>> shared_scene_of(const preset::Preset& preset) {

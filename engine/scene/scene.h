@@ -16,6 +16,7 @@
 #include "engine/geometry/chebyshev_net.h"
 #include "engine/preset/preset.h"
 #include "engine/scene/load_case.h"
+#include "engine/scene/mesh_net.h"
 
 namespace gridshell::simulate {
 class KeptSegments;
@@ -46,9 +47,10 @@ struct Scene {
   FlatFrame flat;                            ///< where the flat footprint lies
   std::shared_ptr<const ChebyshevNet> net;   ///< that it was designed on, if it was
   std::shared_ptr<const Assemblage> blocks;  ///< that the net is made of, if it is
-  bool from_net = false;                     ///< the path starts at the net, where progress is 1
-  bool drawn_in_space = false;               ///< as it is drawn, where progress is 0
-  Eigen::Matrix3Xd original_boundary;        ///< closed polylines in correspondence, for pictures
+  std::shared_ptr<const MeshNetReport> mesh_net;  ///< of a net on a mesh
+  bool from_net = false;               ///< the path starts at the net, where progress is 1
+  bool drawn_in_space = false;         ///< as it is drawn, where progress is 0
+  Eigen::Matrix3Xd original_boundary;  ///< closed polylines in correspondence, for pictures
   Eigen::Matrix3Xd actuated_boundary;
   double radius_begin_mm = std::numeric_limits<double>::quiet_NaN();  ///< of a circular boundary
   double radius_end_mm = std::numeric_limits<double>::quiet_NaN();
@@ -96,6 +98,10 @@ int joint_at(const Footprint& footprint, int i, int j);
 /// Builds the scene of a preset. Errors: Fault::bad_input with the reason when the preset's values
 /// do not make a footprint.
 Result<Scene> scene_of(const preset::Preset& preset);
+
+/// The rods as they lie on the net that a scene was designed on, points no further apart than
+/// `step_mm`; none where there is no net.
+Result<std::vector<Eigen::Matrix3Xd>> rods_on_net(const Scene& scene, double step_mm);
 
 /// The same for several who hold it.
 Result<std::shared_ptr<const Scene>> shared_scene_of(const preset::Preset& preset);

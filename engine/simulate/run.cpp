@@ -293,6 +293,7 @@ Result<Plan> plan(const preset::Preset& preset) {
   plan.expected_seconds = seconds_scene + expected_seconds(*scene, preset);
   plan.bending = expected_bending(*scene);
   plan.left_out = left_out_of(*scene);
+  if (scene->mesh_net) plan.net = scene->mesh_net->sentences();
   plan.footprint = fmt::format("{} rods, {} joints, {} cells", plan.rods, plan.joints, plan.cells);
   // a ring has no legs
   if (const double d = scene->footprint.spacing; scene->footprint.longest_leg() > 0)

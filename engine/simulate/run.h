@@ -35,6 +35,7 @@ struct Plan {
   double expected_seconds = record::unknown;
   double memory_GB = record::unknown;  ///< of the whole program
   std::vector<std::string> seams;      ///< of building blocks, a sentence each
+  std::vector<std::string> net;        ///< on a mesh: what it reaches and what not, the same
   std::string bending;                 ///< how much the rods will be bent; empty: not known
   std::vector<std::string> left_out;   ///< by the model, that is seen here: a sentence each
   std::string footprint;               ///< "12 + 12 rods, longest leg 0.80 d, corner leg -0.15 d"

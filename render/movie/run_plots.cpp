@@ -315,6 +315,54 @@ Plot refused_plot(const std::vector<Eigen::Matrix3Xd>& lines, const Eigen::Matri
   return plot;
 }
 
+Plot net_plan(const std::vector<PlanPart>& parts, const std::string& title) {
+  using Kind = PlanPart::Kind;
+  constexpr std::array<Colour, 4> left_out{{{0.93f, 0.6f, 0.2f, 1},
+                                            {0.75f, 0.2f, 0.25f, 1},
+                                            {0.55f, 0.35f, 0.65f, 1},
+                                            {0.6f, 0.6f, 0.6f, 1}}};
+  std::size_t reasons = 0;
+  Plot plot;
+  std::vector<Eigen::Matrix3Xd> all;
+  for (const PlanPart& part : parts) {
+    Series series;
+    switch (part.kind) {
+      case Kind::rods:
+        series = line_series(part.name, {0.2f, 0.35f, 0.55f, 1}, 0.5);
+        break;
+      case Kind::rim:
+        series = line_series(part.name, ink, 0.9);
+        break;
+      case Kind::hole:
+        series = line_series(part.name, ink, 0.9, {2, 1});
+        break;
+      case Kind::crease:
+        series = line_series(part.name, {0.75f, 0.1f, 0.15f, 1}, 1.1);
+        break;
+      case Kind::left_out:
+        series = mark_series(part.name, left_out[std::min(reasons++, left_out.size() - 1)],
+                             Marker::square, 2);
+        break;
+      case Kind::apex:
+        series = mark_series(part.name, {0.75f, 0.1f, 0.15f, 1}, Marker::cross, 6);
+        break;
+    }
+    for (const auto& line : part.lines) {
+      for (const auto& p : line.colwise()) series.add(p.x(), p.y());
+      series.part();
+      all.push_back(line);
+    }
+    for (const auto& p : part.points.colwise()) series.add(p.x(), p.y());
+    plot.add(std::move(series));
+  }
+  plot.title = title;
+  plot.x.label = "*x* (mm)";
+  plot.y.label = "*y* (mm)";
+  plot.legend = LegendPlace::above;
+  if (!all.empty()) frame_about(all, plot);
+  return plot;
+}
+
 Plot bins_plot(const RunSummary& run, long cells, const record::Frame& frame,
                const std::vector<double>& range, double font_size) {
   const double low = std::min(0.0, run.bins_rad.low), high = std::max(0.0, run.bins_rad.high);

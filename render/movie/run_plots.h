@@ -60,6 +60,20 @@ Result<void> write_footprints(const std::filesystem::path& stem, const std::vect
 Plot refused_plot(const std::vector<Eigen::Matrix3Xd>& lines, const Eigen::Matrix3Xd& narrow,
                   const Eigen::Vector3d& end, const std::string& title);
 
+// What of a mesh a net reaches, in plan.
+
+/// Lines, or points that stand for an area, seen from above, mm.
+struct PlanPart {
+  enum class Kind { rods, rim, hole, crease, left_out, apex };
+  Kind kind = Kind::rods;
+  std::string name;  ///< in the legend, marked text; empty: not in it
+  std::vector<Eigen::Matrix3Xd> lines = {};
+  Eigen::Matrix3Xd points = Eigen::Matrix3Xd(3, 0);
+};
+
+/// Parts above one another, the first below; those that are left out each in a colour of its own.
+Plot net_plan(const std::vector<PlanPart>& parts, const std::string& title);
+
 // Curvature of the cells along x, over that of the first frame.
 
 /// Mean and standard deviation of K in every bin of x/L as points with error bars, over the grey

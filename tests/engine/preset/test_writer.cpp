@@ -42,6 +42,7 @@ Preset all_changed() {
     if (auto* list = field.as<std::vector<int>>(preset)) *list = {3, 2};
     if (auto* list = field.as<std::vector<double>>(preset)) *list = {87.1, 1e2 / 1.5};
     if (auto* number = field.as<std::optional<int>>(preset)) *number = -3;
+    if (auto* number = field.as<std::optional<double>>(preset)) *number = -1.5;
     if (auto* points = field.as<Points>(preset))
       for (int n = 0; n < 4; ++n) {
         auto& point = points->emplace_back(field.coordinates.size(), 0.1 - 1e-7 * n);
@@ -56,6 +57,8 @@ Preset all_changed() {
   preset.jitter.levels = {0.25, 1e0 / 3};
   preset.movie.target_mm = {1.5, -2, 1e2 / 3};
   preset.movie.bins_range = preset.style.range = {-0.02, 0.07};
+  // only a mesh is searched for an apex
+  preset.net.apex = NetApex::given;
   // each is checked apart: only circles have radii, only the bend rung pushes and snaps
   preset.figure.radii_mm.clear();
   preset.indentation.depth = preset.indentation.depth_mm = 0;

@@ -90,9 +90,12 @@ TEST_CASE("heights and meshes of a cap have the sphere's own footprint and bound
     p.net.file.vertices.push_back({v.x(), v.y(), v.z()});
   p.net.file.triangles = dome.triangles;
   same_scene(value_of(scene_of(p)), there);
-  // its own rim, where the surface is gone
-  p.net.cut_mm = 20;
-  refused(p, "the surface ends");
+  // down to its own rim, where the surface is gone
+  p.net.cut_mm.reset();
+  const auto whole = value_of(scene_of(p));
+  const double rim = 120 * std::cos(1.3);
+  CHECK(whole.motion.end.row(2).minCoeff() == Approx(rim).margin(0.2));
+  CHECK(whole.motion.end.row(2).maxCoeff() < rim + 1.5);
   p.net.apex_mm = {130, 0};
   refused(p, "no point at (130, 0)");
   // 4 mm, and without the steep parts

@@ -1,0 +1,162 @@
+// The part of a net that is marched over a surface, as its rods reach it.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "engine/footprint/domains.h"
+
+namespace gridshell {
+namespace {
+
+class ReachedPart final : public Domain {
+ public:
+  explicit ReachedPart(std::shared_ptr<const MarchedNet> net) : net_(std::move(net)) {
+    net_->grid().each_known([&](int i, int j) {
+      reach_ = std::max({reach_, std::abs(i), std::abs(j)});
+    });
+    trace();
+  }
+
+  std::vector<Interval> intervals(Family family, double c) const override {
+    const auto on_line = [&](double s) {
+      return family == Family::u ? Eigen::Vector2d(s, c) : Eigen::Vector2d(c, s);
+    };
+    const double step = net_->chord() / 2;
+    std::vector<Interval> pieces;
+    // places along the line that one rod joins
+    std::vector<std::pair<double, Eigen::Vector3d>> run;
+    const auto end_run = [&] {
+      // beside an edge where the net is rough the rod would not be as long as its way
+      const auto rough = [&](std::size_t a, std::size_t b) {
+        return !net_->joined(run[a].second, run[b].second, step, exact);
+      };
+      std::size_t first = 0, last = run.empty() ? 0 : run.size() - 1;
+      while (first < last && first < most_trimmed && rough(first, first + 1)) ++first;
+      for (int k = 0; first < last && k < int(most_trimmed) && rough(last - 1, last); ++k) --last;
+      if (first < last)
+        pieces.push_back({end_from(on_line, run[first].first, run[first].second, -1),
+                          end_from(on_line, run[last].first, run[last].second, 1)});
+      run.clear();
+    };
+    const int last = 2 * (reach_ + 1);
+    for (int k = -last; k <= last; ++k) {
+      const double s = k * step;
+      const auto here = position(on_line(s));
+      if (!run.empty() && !(here && net_->joined(run.back().second, *here, step, usual))) end_run();
+      if (here) run.emplace_back(s, *here);
+    }
+    end_run();
+    for (Interval& piece : pieces) {
+      piece.begin = off_node(piece.begin, 1);
+      piece.end = off_node(piece.end, -1);
+    }
+    std::erase_if(pieces, [&](const Interval& one) {
+      return one.end - one.begin < shortest * net_->chord();
+    });
+    return pieces;
+  }
+
+  Eigen::Matrix2Xd boundary(int points) const override {
+    // those of the traced ring that lie next to even places along it
+    Eigen::Matrix2Xd ring(2, points);
+    for (int k = 0; k < points; ++k) {
+      const double at = ring_length_.back() * k / points;
+      const auto found = std::ranges::lower_bound(ring_length_, at) - ring_length_.begin();
+      ring.col(k) = ring_[std::size_t(found) % ring_.size()];
+    }
+    return ring;
+  }
+
+  double reach() const override { return (reach_ + 1) * net_->chord(); }
+
+ private:
+  // how far the straight way may be from as long as the rod, over that
+  static constexpr double usual = 0.02, exact = 0.003;
+  static constexpr std::size_t most_trimmed = 6;  // half chords
+  static constexpr double shortest = 4;           // of a rod, chords: half the rods' spacing
+
+  std::optional<Eigen::Vector3d> position(const Eigen::Vector2d& uv) const {
+    const auto point = net_->reached(uv.x(), uv.y());
+    return point ? std::optional(point->position) : std::nullopt;
+  }
+
+  /// A rod that ends at a node of the grid, as there is none beyond, ends a little before: joints
+  /// lie on nodes, and a leg would be all but nothing.
+  double off_node(double s, int inward) const {
+    constexpr double at_node = 0.02, before = 0.4;
+    const double nodes = s / net_->chord();
+    return std::abs(nodes - std::round(nodes)) < at_node ? s + inward * before * net_->chord() : s;
+  }
+
+  /// How far a line goes on from its place s, which is at p.
+  template <class Line>
+  double end_from(const Line& on_line, double s, const Eigen::Vector3d& p, int side) const {
+    const auto goes_on = [&](double way) {
+      const auto there = position(on_line(s + side * way));
+      return there && net_->joined(p, *there, way, exact);
+    };
+    double inside = 0, outside = net_->chord() / 2;
+    while (outside - inside > 1e-13 * reach()) {
+      const double middle = 0.5 * (inside + outside);
+      if (middle <= inside || middle >= outside) break;
+      (goes_on(middle) ? inside : outside) = middle;
+    }
+    return s + side * inside;
+  }
+
+  /// The outer edge, as it crosses the grid's lines (marching squares).
+  void trace() {
+    const MarchedGrid& grid = net_->grid();
+    const double h = net_->chord();
+    const auto known = [&](int i, int j) { return grid.known(i, j); };
+    // along the outermost node towards +u, whose next neighbour is not there
+    int i = 0;
+    while (known(i + 1, 0)) ++i;
+    std::array<int, 2> node{i, 0};
+    int way = 0;  // to the node that is not there: +u, +v, -u, -v
+    constexpr std::array<std::array<int, 2>, 4> ways{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+    const auto start = node;
+    const int start_way = way;
+    do {
+      const Eigen::Vector2d at = h * Eigen::Vector2d(node[0], node[1]);
+      const auto [du, dv] = ways[std::size_t(way)];
+      const auto on_line = [&, du = du, dv = dv](double s) -> Eigen::Vector2d {
+        return at + s * Eigen::Vector2d(du, dv);
+      };
+      double end = 0;
+      for (const double from : {0.0, h / 2}) {
+        const auto p = position(on_line(from));
+        if (!p || (from > 0 && end < from)) break;
+        end = end_from(on_line, from, *p, 1);
+      }
+      ring_.push_back(on_line(end));
+      // to the left: around this node, along the side of the next one, or around the corner
+      const auto [lu, lv] = ways[std::size_t((way + 1) % 4)];
+      if (!known(node[0] + lu, node[1] + lv)) {
+        way = (way + 1) % 4;
+      } else if (!known(node[0] + lu + du, node[1] + lv + dv)) {
+        node = {node[0] + lu, node[1] + lv};
+      } else {
+        node = {node[0] + lu + du, node[1] + lv + dv};
+        way = (way + 3) % 4;
+      }
+    } while (node != start || way != start_way);
+    ring_length_.push_back(0);
+    for (std::size_t k = 1; k <= ring_.size(); ++k)
+      ring_length_.push_back(ring_length_.back() + (ring_[k % ring_.size()] - ring_[k - 1]).norm());
+  }
+
+  std::shared_ptr<const MarchedNet> net_;
+  int reach_ = 0;  // nodes
+  std::vector<Eigen::Vector2d> ring_;
+  std::vector<double> ring_length_;  // up to each of its points
+};
+
+}  // namespace
+
+std::unique_ptr<Domain> reached_part(std::shared_ptr<const MarchedNet> net) {
+  return std::make_unique<ReachedPart>(std::move(net));
+}
+
+}  // namespace gridshell

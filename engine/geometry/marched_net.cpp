@@ -1,0 +1,397 @@
+#include "engine/geometry/marched_net.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/point_grid.h"
+#include "engine/core/try.h"
+
+namespace gridshell {
+namespace {
+
+RodStop stop_at(LineKind line) {
+  switch (line) {
+    case LineKind::rim:
+      return RodStop::rim;
+    case LineKind::hole:
+      return RodStop::hole;
+    case LineKind::crease:
+      break;
+  }
+  return RodStop::crease;
+}
+
+int sign(int k) { return (k > 0) - (k < 0); }
+
+double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  const double angle = std::atan2(a.cross(b).norm(), a.dot(b));
+  return std::min(angle, M_PI - angle);
+}
+
+}  // namespace
+
+std::string text_of(RodStop stop) {
+  switch (stop) {
+    case RodStop::none:
+      return "no rod comes there";
+    case RodStop::rim:
+      return "the surface's rim";
+    case RodStop::hole:
+      return "a hole";
+    case RodStop::crease:
+      return "a crease";
+    case RodStop::cut:
+      return "the boundary of [net] cut_mm or within";
+    case RodStop::angle:
+      return "rods too close to parallel ([net] least_angle_deg)";
+    case RodStop::surface:
+      return "the surface bends too sharply";
+    case RodStop::net:
+      break;
+  }
+  return "another part of the net is in the way";
+}
+
+MarchedGrid::MarchedGrid(double chord, int most) : chord_(chord), most_(most) {
+  nodes_.resize(std::size_t(2 * most + 1) * std::size_t(2 * most + 1));
+}
+
+/// One march outwards, by |i| + |j|.
+struct MarchedGrid::March {
+  MarchedGrid& grid;
+  const Surface& surface;
+  const NetPlace& place;
+  const Barriers* lines;    // null: of a grid that follows another
+  const MarchedGrid* lead;  // that one
+  double least_angle = 0;
+  int margin = 0;  // nodes beyond rims
+  PointGrid taken{grid.chord_};
+  std::vector<std::array<int, 2>> accepted{};  // by their numbers in it
+
+  /// Whether a node that is none of those around (i, j) lies at p.
+  bool is_taken(int i, int j, const Eigen::Vector3d& p) const {
+    constexpr double as_near = 0.45;
+    return taken.any_near(p, [&](int k) {
+      const auto [a, b] = accepted[std::size_t(k)];
+      return std::max(std::abs(a - i), std::abs(b - j)) > 2 &&
+             (grid.at(a, b).p - p).norm() < as_near * grid.chord_;
+    });
+  }
+
+  RodStop stop_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
+    const auto line = lines->crossed(from, to);
+    return line ? stop_at(*line) : RodStop::none;
+  }
+
+  void accept(int i, int j, const Eigen::Vector3d& p, bool by_u, bool by_v, int beyond = 0) {
+    Node& node = grid.node(i, j);
+    node.p = p;
+    node.known = beyond == 0;
+    node.beyond = char(beyond);
+    node.by = by_u && by_v ? Node::corner : by_u ? Node::straight_u : Node::straight_v;
+    Node &to_u = grid.node(std::min(i, i - sign(i)), j),
+         &to_v = grid.node(i, std::min(j, j - sign(j)));
+    if (by_u) to_u.on_u = true, to_u.to_u = node.known;
+    if (by_v) to_v.on_v = true, to_v.to_v = node.known;
+    if (!lines || !node.known) return;
+    taken.add(int(accepted.size()), p);
+    accepted.push_back({i, j});
+  }
+
+  /// On along the rod through (a, b), away from the axes.
+  std::optional<Eigen::Vector3d> straight(int a, int b, int way_u, int way_v) const {
+    const Eigen::Vector3d& here = grid.at(a, b).p;
+    if (a == 0 && b == 0)
+      return geodesic_chord(
+          surface, here, way_u != 0 ? way_u * place.along_u : way_v * place.up.cross(place.along_u),
+          grid.chord_);
+    if (!grid.linked(a, b, -way_u, -way_v)) return std::nullopt;
+    const Eigen::Vector3d last = (here - grid.at(a - way_u, b - way_v).p).normalized();
+    Eigen::Vector3d along = last;
+    // a rod that was bent sideways goes on along its tangent, half a chord after its last one
+    const auto by = grid.at(a, b).by;
+    const bool bent = by != (way_u != 0 ? Node::straight_u : Node::straight_v);
+    if (bent && grid.linked(a - way_u, b - way_v, -way_u, -way_v))
+      along = (1.5 * last -
+               0.5 * (grid.at(a - way_u, b - way_v).p - grid.at(a - 2 * way_u, b - 2 * way_v).p) /
+                   grid.chord_)
+                  .normalized();
+    return geodesic_chord(surface, here, along, grid.chord_);
+  }
+
+  /// Goes on from the neighbour towards the axis; why not.
+  RodStop go_straight(int i, int j, int way_u, int way_v) {
+    const int a = i - way_u, b = j - way_v;
+    const auto p = straight(a, b, way_u, way_v);
+    if (!p) return RodStop::surface;
+    if (lines) {
+      const Eigen::Vector3d& here = grid.at(a, b).p;
+      if (const RodStop stop = stop_between(here, *p); stop != RodStop::none) return stop;
+      if (!(place.outside(*p) < 0)) return RodStop::cut;
+      if (is_taken(i, j, *p)) return RodStop::net;
+    }
+    accept(i, j, *p, way_u != 0, way_v != 0);
+    return RodStop::none;
+  }
+
+  /// Whether the four corners of the cell behind (i, j) but itself are there and joined, or linked.
+  bool has_cell(int i, int j, bool rods) const {
+    const int a = i - sign(i), b = j - sign(j);
+    const auto to = [&](int way_u, int way_v) {
+      return rods ? grid.joined(a, b, way_u, way_v) : grid.linked(a, b, way_u, way_v);
+    };
+    return i != 0 && j != 0 && to(0, sign(j)) && to(sign(i), 0);
+  }
+
+  std::optional<Eigen::Vector3d> corner(int i, int j, int su, int sv) const {
+    const Eigen::Vector3d &A = grid.at(i - su, j).p, &B = grid.at(i, j - sv).p;
+    return chord_corner(surface, A + B - grid.at(i - su, j - sv).p, A, B, grid.chord_);
+  }
+
+  RodStop march_to(int i, int j) {
+    const int su = sign(i), sv = sign(j);
+    const bool by_u = su != 0 && grid.known(i - su, j), by_v = sv != 0 && grid.known(i, j - sv);
+    bool try_u = by_u, try_v = by_v;
+    RodStop stop = RodStop::none;
+    if (has_cell(i, j, true)) {
+      const auto p = corner(i, j, su, sv);
+      if (!p) return RodStop::surface;
+      const Eigen::Vector3d &A = grid.at(i - su, j).p, &B = grid.at(i, j - sv).p;
+      if (angle_between(*p - A, *p - B) < least_angle) return RodStop::angle;
+      const RodStop from_u = stop_between(A, *p), from_v = stop_between(B, *p);
+      stop = from_u != RodStop::none ? from_u : from_v;
+      if (stop == RodStop::none && !(place.outside(*p) < 0)) return RodStop::cut;
+      if (stop == RodStop::none && is_taken(i, j, *p)) return RodStop::net;
+      if (stop == RodStop::none) {
+        accept(i, j, *p, true, true);
+        return RodStop::none;
+      }
+      try_u = from_u == RodStop::none, try_v = from_v == RodStop::none;
+    }
+    // where rods have come too close together, others do not go on beside them
+    if (try_u && sv != 0 && grid.at(i, j - sv).stop == RodStop::angle) return RodStop::angle;
+    if (try_v && su != 0 && grid.at(i - su, j).stop == RodStop::angle) return RodStop::angle;
+    if (try_u && (stop = go_straight(i, j, su, 0)) == RodStop::none) return stop;
+    if (try_v && (stop = go_straight(i, j, 0, sv)) == RodStop::none) return stop;
+    return stop;
+  }
+
+  /// A node beyond a rim, from what is there towards the axes.
+  void go_beyond(int i, int j) {
+    constexpr double least_sine = 0.12;
+    const int su = sign(i), sv = sign(j);
+    const auto& A = grid.at(i - su, j);
+    const auto& B = grid.at(i, j - sv);
+    const bool by_u = su != 0 && grid.present(i - su, j), by_v = sv != 0 && grid.present(i, j - sv);
+    const int beyond = 1 + std::min(by_u ? A.beyond : margin, by_v ? B.beyond : margin);
+    if (beyond > margin) return;
+    if (has_cell(i, j, false)) {
+      const auto p = corner(i, j, su, sv);
+      if (p && (*p - A.p).cross(*p - B.p).norm() > least_sine * grid.chord_ * grid.chord_)
+        accept(i, j, *p, true, true, beyond);
+      return;
+    }
+    for (const bool along_u : {true, false}) {
+      if (!(along_u ? by_u : by_v)) continue;
+      const int way_u = along_u ? su : 0, way_v = along_u ? 0 : sv;
+      if (const auto p = straight(i - way_u, j - way_v, way_u, way_v))
+        return accept(i, j, *p, along_u, !along_u, beyond);
+    }
+  }
+
+  /// The same of a grid that follows one of twice the chord.
+  void follow_to(int i, int j) {
+    const int su = sign(i), sv = sign(j);
+    // of what is straight there the half steps are straight
+    const bool on_u = j % 2 == 0, on_v = i % 2 == 0;
+    const auto& next_u = lead->at((i + (on_v ? 0 : su)) / 2, j / 2);
+    const auto& next_v = lead->at(i / 2, (j + (on_u ? 0 : sv)) / 2);
+    const auto is = [](const Node& node, auto by) {
+      return (node.known || node.beyond > 0) && node.by == by;
+    };
+    if (su != 0 && on_u && is(next_u, Node::straight_u)) {
+      if (grid.known(i - su, j)) go_straight(i, j, su, 0);
+      return;
+    }
+    if (sv != 0 && on_v && is(next_v, Node::straight_v)) {
+      if (grid.known(i, j - sv)) go_straight(i, j, 0, sv);
+      return;
+    }
+    if (on_u && on_v && !lead->present(i / 2, j / 2)) return;
+    if (!has_cell(i, j, false)) return;
+    if (const auto p = corner(i, j, su, sv)) accept(i, j, *p, true, true);
+  }
+
+  void run() {
+    grid.node(0, 0).p = place.apex;
+    grid.node(0, 0).known = true;
+    bool any = true;
+    for (int far = 1; any && far <= grid.most_; ++far) {
+      any = false;
+      for (int i = -far; i <= far; ++i)
+        for (const int j : {far - std::abs(i), std::abs(i) - far}) {
+          const int su = sign(i), sv = sign(j);
+          const bool rods =
+              (su != 0 && grid.known(i - su, j)) || (sv != 0 && grid.known(i, j - sv));
+          if (lead && rods) follow_to(i, j);
+          if (!lead && rods) grid.node(i, j).stop = march_to(i, j);
+          const RodStop stop = grid.at(i, j).stop;
+          const bool ends =
+              !rods || stop == RodStop::rim || stop == RodStop::hole || stop == RodStop::cut;
+          if (margin > 0 && !grid.known(i, j) && ends &&
+              ((su != 0 && grid.present(i - su, j)) || (sv != 0 && grid.present(i, j - sv))))
+            go_beyond(i, j);
+          any = any || grid.present(i, j);
+          if (j == 0) break;
+        }
+    }
+  }
+};
+
+MarchedGrid::MarchedGrid(const Surface& surface, const NetPlace& place, const Barriers& lines,
+                         double least_angle, double chord, int most, int margin)
+    : MarchedGrid(chord, most) {
+  March{*this, surface, place, &lines, nullptr, least_angle, margin}.run();
+}
+
+MarchedGrid::MarchedGrid(const Surface& surface, const NetPlace& place, const MarchedGrid& lead)
+    : MarchedGrid(lead.chord_ / 2, 2 * lead.most_) {
+  March{*this, surface, place, nullptr, &lead}.run();
+}
+
+Result<MarchedNet> MarchedNet::make(const Surface& surface, const NetPlace& place,
+                                    std::shared_ptr<const Barriers> lines, double least_angle,
+                                    double chord_mm, int most) {
+  MarchedGrid grid(surface, place, *lines, least_angle, chord_mm, most, net_reach);
+  const MarchedGrid fine(surface, place, grid);
+  double narrowest = M_PI_2;
+  for (int j = -most; j <= most; ++j)
+    for (int i = -most; i <= most; ++i) {
+      if (!grid.present(i, j)) continue;
+      MarchedGrid::Node& node = grid.node(i, j);
+      if (grid.known(i - 1, j) && grid.known(i, j - 1) && grid.joined(i, j, -1, 0) &&
+          grid.joined(i, j, 0, -1) && fine.known(2 * i, 2 * j))
+        narrowest = std::min(narrowest,
+                             angle_between(fine.at(2 * i, 2 * j).p - fine.at(2 * i - 1, 2 * j).p,
+                                           fine.at(2 * i, 2 * j).p - fine.at(2 * i, 2 * j - 1).p));
+      if (fine.known(2 * i, 2 * j)) continue;
+      if (node.known) node.stop = RodStop::surface;
+      node.known = node.to_u = node.to_v = node.on_u = node.on_v = false;
+      node.beyond = 0;
+      if (i > -most) grid.node(i - 1, j).to_u = grid.node(i - 1, j).on_u = false;
+      if (j > -most) grid.node(i, j - 1).to_v = grid.node(i, j - 1).on_v = false;
+    }
+  bool any = false;
+  for (int j = -most; j <= most; ++j)
+    for (int i = -most; i <= most; ++i) {
+      if (!grid.present(i, j)) continue;
+      any = any || (grid.known(i, j) && (i != 0 || j != 0));
+      grid.node(i, j).p = (4 * fine.at(2 * i, 2 * j).p - grid.at(i, j).p) / 3;
+    }
+  if (!any)
+    return invalid("no rod leaves the apex ({:.4g}, {:.4g}, {:.4g}) mm: {}", place.apex.x(),
+                   place.apex.y(), place.apex.z(), text_of(grid.at(1, 0).stop));
+  MarchedNet net(std::move(grid), std::move(lines), place.outside);
+  net.least_angle_ = narrowest;
+  return net;
+}
+
+bool MarchedNet::joined(const Eigen::Vector3d& p, const Eigen::Vector3d& q, double way_mm,
+                        double off) const {
+  return std::abs((q - p).norm() - way_mm) <= off * way_mm + 1e-6 * chord() &&
+         !lines_->crossed(p, q);
+}
+
+/// The net as it goes on from the node (i, j) to a place in a cell beside it.
+std::optional<NetPoint> MarchedNet::from(int i, int j, double u, double v) const {
+  constexpr int width = 2 * net_reach;
+  const double h = chord();
+  const int first_i = int(std::floor(u / h)) + 1 - net_reach,
+            first_j = int(std::floor(v / h)) + 1 - net_reach;
+  NetNodes nodes;
+  std::array<bool, width * width> have{};
+  const auto place = [&](int a, int b) { return std::size_t(b * width + a); };
+  const auto within = [](int a, int b) { return a >= 0 && a < width && b >= 0 && b < width; };
+  // nodes that are joined to it
+  std::array<std::array<int, 2>, width * width> open;
+  std::size_t count = 0;
+  const auto take = [&](int a, int b) {
+    nodes[place(a, b)] = grid_.at(first_i + a, first_j + b).p;
+    have[place(a, b)] = true;
+    open[count++] = {a, b};
+  };
+  take(i - first_i, j - first_j);
+  constexpr std::array<std::array<int, 2>, 4> ways{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto [a, b] = open[k];
+    for (const auto& [da, db] : ways)
+      if (within(a + da, b + db) && !have[place(a + da, b + db)] &&
+          grid_.linked(first_i + a, first_j + b, da, db))
+        take(a + da, b + db);
+  }
+  if (count < 3) return std::nullopt;
+  // the others go on from these by polynomials of up to degree 3, the nearest first
+  while (count < have.size()) {
+    const auto before = have;
+    const std::size_t so_far = count;
+    for (int b = 0; b < width; ++b)
+      for (int a = 0; a < width; ++a) {
+        if (before[place(a, b)]) continue;
+        int degree = -1, times = 0;
+        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+        for (const auto& [da, db] : ways) {
+          int known = 0;
+          while (known < 4 && within(a + (known + 1) * da, b + (known + 1) * db) &&
+                 before[place(a + (known + 1) * da, b + (known + 1) * db)])
+            ++known;
+          if (known - 1 < degree || known == 0) continue;
+          if (known - 1 > degree) sum.setZero(), times = 0;
+          degree = known - 1;
+          constexpr std::array<std::array<double, 4>, 4> weights{
+              {{1, 0, 0, 0}, {2, -1, 0, 0}, {3, -3, 1, 0}, {4, -6, 4, -1}}};
+          for (int k = 0; k < known; ++k)
+            sum += weights[std::size_t(degree)][std::size_t(k)] *
+                   nodes[place(a + (k + 1) * da, b + (k + 1) * db)];
+          ++times;
+        }
+        if (times == 0) continue;
+        nodes[place(a, b)] = sum / times;
+        have[place(a, b)] = true;
+        ++count;
+      }
+    if (count == so_far) return std::nullopt;
+  }
+  return net_point(nodes, u / h - std::floor(u / h), v / h - std::floor(v / h), h);
+}
+
+std::optional<NetPoint> MarchedNet::reached(double u, double v) const {
+  const double h = chord();
+  const int i = int(std::floor(u / h)), j = int(std::floor(v / h));
+  std::array<std::array<int, 2>, 4> corners{{{i, j}, {i + 1, j}, {i, j + 1}, {i + 1, j + 1}}};
+  std::ranges::sort(corners, {},
+                    [&](const auto& at) { return std::hypot(u - at[0] * h, v - at[1] * h); });
+  for (const auto& [a, b] : corners) {
+    if (!grid_.known(a, b)) continue;
+    const auto point = from(a, b, u, v);
+    if (point && outside_(point->position) < 0 &&
+        !lines_->crossed(grid_.at(a, b).p, point->position))
+      return point;
+  }
+  return std::nullopt;
+}
+
+Result<NetPoint> MarchedNet::at(double u, double v) const {
+  const double h = chord();
+  if (std::abs(u) < grid_.most() * h && std::abs(v) < grid_.most() * h) {
+    if (const auto point = reached(u, v)) return *point;
+    // on a line itself
+    const int i = int(std::lround(u / h)), j = int(std::lround(v / h));
+    for (const auto& [a, b] : {std::array{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}})
+      if (grid_.known(i + a, j + b) && std::abs(u / h - i - a) <= 1 && std::abs(v / h - j - b) <= 1)
+        if (const auto point = from(i + a, j + b, u, v)) return *point;
+  }
+  return ended_before(u, v);
+}
+
+}  // namespace gridshell

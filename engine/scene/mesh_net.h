@@ -1,0 +1,67 @@
+// What a net reaches of a mesh, and where it is best begun.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/geometry/marched_net.h"
+
+namespace gridshell {
+
+/// A point of the mesh that stands for its share of the area.
+struct AreaSample {
+  Eigen::Vector3d at;
+  double area = 0;              ///< of the mesh's, 0 to 1
+  RodStop why = RodStop::none;  ///< it is left out
+};
+
+/// Points on the triangles of a mesh, no further from one another than about `apart_mm`.
+std::vector<AreaSample> area_samples(const TriangleMesh& mesh, double apart_mm);
+
+/// Splits them into what a grid's rods come to, within a chord and on their side of every line, and
+/// the rest, each with what ends the rods nearest to it; returns the rest.
+std::vector<AreaSample> left_out_of(const MarchedGrid& grid, const Barriers& lines,
+                                    const std::vector<AreaSample>& samples);
+
+/// A place and a direction from which a net is marched, and how far it comes.
+struct NetStart {
+  NetPlace place;
+  double axis_deg = 0;         ///< of the u-axis from x, as seen from above
+  double reached = 0;          ///< of the area
+  double least_angle_deg = 0;  ///< between the rods
+  double seams = 0;            ///< where two parts of the net meet, a chord wide, over the area
+};
+
+/// The best start and the best of those a tenth of the mesh's size away or 20 degrees turned:
+/// nets on a coarse grid from places spread over the mesh, each in six directions, the best of
+/// them moved and turned as long as more is reached. Seams, where two parts of the net meet, count
+/// half against the area; of those that reach as much the one with the largest least angle is
+/// best. Errors (bad_input): no place of the mesh faces up inside the boundary.
+Result<std::vector<NetStart>> best_starts(const Surface& surface, const TriangleMesh& mesh,
+                                          const Barriers& lines, const Surface::Function& outside,
+                                          double least_angle, double spacing_mm);
+
+/// Where a net begins on a mesh, what it reaches and what not.
+struct MeshNetReport {
+  double fit_mm = 0;  ///< largest distance of a vertex from the smooth surface, and where
+  Eigen::Vector3d fit_at = Eigen::Vector3d::Zero();
+  NetStart start;
+  std::optional<NetStart> second;    ///< of a search
+  std::vector<AreaSample> left_out;  ///< of the mesh
+  std::vector<std::string> lines;    ///< "1 hole", "2 creases"
+  struct Line {
+    LineKind kind;
+    Eigen::Matrix3Xd points;
+  };
+  std::vector<Line> drawn;  ///< rim, holes, creases
+
+  /// Of the area, by reason, the largest first.
+  std::vector<std::pair<RodStop, double>> reasons() const;
+  /// A sentence each: the fit, where it begins, what is reached, what is left out and why.
+  std::vector<std::string> sentences() const;
+};
+
+}  // namespace gridshell
