@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "app/cli/console.h"
-#include "app/cli/figures.h"
 #include "app/cli/pictures.h"
 #include "app/cli/preset_library.h"
 #include "app/cli/produce.h"
@@ -22,66 +21,7 @@ std::vector<CommandEntry> command_table() {
   return program.table();
 }
 
-// `gridshell check PRESET`: validates a preset and explains what would run.
-
 namespace {
-
-std::string or_unknown(double value, const char* unit) {
-  return std::isnan(value) ? "unknown" : fmt::format("{:.2g} {}", value, unit);
-}
-
-void print_plan(const preset::Preset& preset, const simulate::Plan& plan) {
-  fmt::print("{}: {}\n", preset.name, preset.title);
-  fmt::print("  footprint       {}\n", plan.footprint);
-  if (preset.footprint.kind == preset::FootprintKind::circle)
-    fmt::print("  boundary        {} mm to {} mm; longest leg L_d = {:.3g}\n",
-               preset.original_radius_mm(), preset.actuated_radius_mm(),
-               preset.original_radius_mm() / preset.footprint.spacing_mm -
-                   0.5 * (preset.footprint.rods - 1));
-  for (const auto& seam : plan.seams) fmt::print("  seam            {}\n", seam);
-  for (const auto& sentence : plan.net) fmt::print("  net             {}\n", sentence);
-  fmt::print("  model           {}\n", plan.model_reason);
-  fmt::print("  meshes          {} edges a segment{}\n", fmt::join(plan.levels, ", "),
-             plan.extrapolated ? ", extrapolated" : "");
-  fmt::print("  size            {} rods, {} joints, {} cells, {} unknowns\n", plan.rods,
-             plan.joints, plan.cells, plan.dof);
-  if (preset.jitter.wanted())
-    fmt::print("  search          {} trials, mode \"{}\", and {} from symmetric forms\n",
-               preset.jitter.trials, word_of(preset.jitter.mode), preset.jitter.confined);
-  fmt::print("  memory          about {:.1g} GB\n", plan.memory_GB);
-  fmt::print("  expected error  {}\n", or_unknown(plan.expected_error_mm, "mm"));
-  if (!plan.bending.empty()) fmt::print("  bending         {}\n", plan.bending);
-  for (const auto& sentence : plan.left_out) fmt::print("  left out        {}\n", sentence);
-  fmt::print("  expected time   {} to simulate, {} to draw the movie, {} the figure\n",
-             or_unknown(plan.expected_seconds, "s"),
-             or_unknown(expected_seconds(Pictures::movie, preset), "s"),
-             or_unknown(expected_seconds(Pictures::stills, preset), "s"));
-}
-
-Result<int> check(const Options& options) {
-  TRY(presets, load(options));
-  if (options.print_config) return print_config(*presets);
-  // what `run` and `movie` would say after it
-  const auto folder = output_of(options, presets->base);
-  if (const auto because = refusal_to_write(folder, ""); !because.empty())
-    return invalid("cannot write the folder '{}': {}", folder.string(), because);
-  for (const auto& run : runs_of(*presets)) {
-    const auto plan = plan_of(run.preset);
-    if (!plan) {
-      Error error = plan.error();
-      if (refused_net(run.preset))
-        error.message += "\n'gridshell figure' draws the net as far as it comes";
-      for (const std::string& note : presets->notes) error.message += "\nnote: " + note;
-      return tl::unexpected(error);
-    }
-    print_plan(run.preset, *plan);
-  }
-  TRY(drawn, draw_net_plans(*presets, folder));
-  for (const std::string& plan : *drawn) fmt::print("  plan            {}\n", plan);
-  for (const std::string& file : presets->files) fmt::print("  file            {}\n", file);
-  for (const std::string& note : presets->notes) fmt::print("  note            {}\n", note);
-  return printed();
-}
 
 // `gridshell list`: the presets that come with the program, and the reference of all keys, options
 // and commands.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/cli/command_line.h"
+#include "engine/preset/preset_file.h"
 
 namespace gridshell::window {
 struct ExportFormat;
@@ -24,6 +25,13 @@ void add_modes(CommandLine& program);
 void add_report(CommandLine& program);
 void add_scan(CommandLine& program);
 void add_compare(CommandLine& program);
+
+/// Validates a preset and prints what would run; the exit code.
+Result<int> check(const Options& options);
+
+/// Whether the figures that a sweep is asked for are some of a run. Errors (bad_input), with the
+/// list of what there is.
+Result<void> check_sweep(const preset::Presets& presets);
 
 /// Designs the shell of a preset and writes its folder. Prints what it came to; the exit code.
 Result<int> produce_design(const Options& options);

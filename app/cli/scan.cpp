@@ -159,6 +159,7 @@ struct ScanOptions {
   std::vector<std::string> runs;
   std::string unit = "mm";
   bool unsealed = false;
+  bool centres = false;     ///< the points are joints, not tops of cylinders
   double tolerance_mm = 0;  ///< 0: by the noise
 };
 
@@ -215,7 +216,7 @@ Result<Scanned> read_all(const ScanOptions& options) {
   if (scanned.candidates.empty())
     return invalid("'{}' holds no state to compare with", options.runs.front());
   const preset::Joints& joints = scanned.candidates.front().run->preset.joints;
-  scanned.cylinder = {joints.diameter_mm, joints.height_mm};
+  scanned.cylinder = {joints.diameter_mm, options.centres ? 0 : joints.height_mm};
   return scanned;
 }
 
@@ -232,11 +233,11 @@ std::optional<std::pair<double, std::string>> height_that_fits(const Scanned& sc
     std::optional<RegisteredScan> laid = scan.states[k].scan;
     // other tops may belong to its joints with the first height found
     for (int turn = 0; turn < 2 && laid; ++turn) {
-      cylinder.height_mm += study::beyond_height(*laid, form);
+      // tops do not lie below their joints; a fit of few may say so
+      cylinder.height_mm = std::max(0.0, cylinder.height_mm + study::beyond_height(*laid, form));
       laid = study::register_points(scan.clusters, form, cylinder);
     }
-    const bool shown =
-        laid && cylinder.height_mm >= 0 && study::scan_matches(*laid, scan.tolerance_mm);
+    const bool shown = laid && study::scan_matches(*laid, scan.tolerance_mm);
     const double cost = laid ? laid->cost / double(run.layout.joints.size()) : least;
     if (!shown || !(cost < least)) continue;
     least = cost;
@@ -375,6 +376,8 @@ void add_scan(CommandLine& program) {
   add_work_options(command, options.common, "folder to write, by default out/<points>_scan");
   add_picture_options(command, options.common);
   add_unsealed(command, options.unsealed);
+  command.flag("--centres", options.centres,
+               "the points are the joints themselves, not tops of cylinders");
   command
       .option("--tolerance", options.tolerance_mm,
               "how far off the joints may lie, mm rms; by default five times the scan's noise")

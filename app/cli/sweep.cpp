@@ -84,7 +84,7 @@ Result<void> check_asked(const preset::Presets& presets, const preset::SweepGrid
           "{}: [sweep] plot or x = \"{}\": is no figure of a run{}", presets.base.name, name,
           name == classes
               ? ", only of searches for states over footprint.longest_leg and footprint.rods alone"
-              : did_you_mean(name, names));
+              : did_you_mean(name, names) + fmt::format("; there are {}", fmt::join(names, ", ")));
   return {};
 }
 
@@ -303,6 +303,10 @@ Result<int> sweep(const SweepOptions& options) {
 }
 
 }  // namespace
+
+Result<void> check_sweep(const preset::Presets& presets) {
+  return check_asked(presets, preset::SweepGrid(presets));
+}
 
 // `gridshell sweep PRESET`: many runs of one preset, resumable, on several cores or machines.
 

@@ -24,6 +24,7 @@ const std::map<std::string, std::string> member_names{{"points_mm", "points"},
                                                       {"longest_leg", "original_radius_mm"},
                                                       {"strength_MPa", "fibre_strength_MPa"},
                                                       {"yield_strain", "fibre_strength_MPa"},
+                                                      {"material", "young_GPa"},
                                                       {"ratio", "actuated_radius_mm"}};
 
 // the members that are reached for in sources that work with presets, but for those that read,

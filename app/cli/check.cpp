@@ -1,0 +1,159 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "app/cli/commands.h"
+#include "app/cli/console.h"
+#include "app/cli/figures.h"
+#include "app/cli/pictures.h"
+#include "app/cli/preset_library.h"
+#include "app/cli/staged_folder.h"
+#include "engine/core/try.h"
+#include "engine/gridshell.h"
+#include "engine/simulate/indentation.h"
+#include "engine/simulate/steps.h"
+
+namespace gridshell::app {
+namespace {
+
+std::string or_unknown(double value, const char* unit) {
+  return std::isnan(value) ? "unknown" : fmt::format("{:.2g} {}", value, unit);
+}
+
+/// The joint that [indentation] pushes, as far as it is known before the shell is formed.
+std::string joint_text(const preset::Preset& preset) {
+  const preset::Indentation& push = preset.indentation;
+  if (push.joint.size() == 2) return fmt::format("joint [{}, {}]", push.joint[0], push.joint[1]);
+  const auto scene = scene_of(preset);
+  if (scene && scene->net) {
+    Eigen::Matrix2Xd uv(2, Eigen::Index(scene->footprint.joints.size()));
+    for (Eigen::Index k = 0; k < uv.cols(); ++k) {
+      const FootprintJoint& joint = scene->footprint.joints[std::size_t(k)];
+      uv.col(k) << joint.u, joint.v;
+    }
+    const auto points = points_on(*scene->net, uv);
+    const auto joint = points ? simulate::pushed_joint(push, scene->footprint, *points)
+                              : Result<int>(tl::unexpected(points.error()));
+    if (joint) {
+      const FootprintJoint& at = scene->footprint.joints[std::size_t(*joint)];
+      return fmt::format("joint [{}, {}]", at.i, at.j);
+    }
+  }
+  if (push.at == preset::IndentationPlace::highest) return "the highest joint of the formed shell";
+  if (push.latitude_deg == 90) return "the joint of the formed shell nearest to the pole";
+  return fmt::format(
+      "the joint of the formed shell nearest to latitude {:g}, longitude {:g} degrees",
+      push.latitude_deg, push.longitude_deg);
+}
+
+/// What a run does to the shell beside forming it, a line each.
+std::vector<std::string> what_is_done(const preset::Preset& preset) {
+  std::vector<std::string> lines;
+  if (const preset::Indentation& push = preset.indentation; push.wanted())
+    lines.push_back(fmt::format(
+        "push            {} {} by {}{}{}", joint_text(preset), word_of(push.direction),
+        push.depth_mm > 0 ? fmt::format("{:g} mm", push.depth_mm)
+                          : fmt::format("{:g} of the length scale", push.depth),
+        push.lateral == preset::Lateral::free ? ", free to move across" : ", held across",
+        push.unload ? ", and back" : ""));
+  std::vector<std::string> steps;
+  for (const preset::Step& step : preset.step) steps.push_back(simulate::text_of(step));
+  if (!steps.empty())
+    lines.push_back(fmt::format("steps           {}: {}", steps.size(), fmt::join(steps, ", ")));
+  const preset::Loads& loads = preset.loads;
+  std::vector<std::string> all;
+  if (loads.gravity_m_s2 != 0) all.push_back(fmt::format("gravity {:g} m/s²", loads.gravity_m_s2));
+  if (loads.field_N_per_mm != 0)
+    all.push_back(fmt::format("{:g} N/mm of rod", loads.field_N_per_mm));
+  if (!loads.points.empty()) all.push_back(fmt::format("{} point forces", loads.points.size()));
+  if (!all.empty()) lines.push_back(fmt::format("loads           {}", fmt::join(all, ", ")));
+  std::vector<std::string> cases;
+  for (const preset::LoadCase& one : preset.load_case) cases.push_back(one.name);
+  if (!cases.empty())
+    lines.push_back(fmt::format("load cases      {}, of 'gridshell load' and of steps",
+                                fmt::join(cases, ", ")));
+  return lines;
+}
+
+/// "11 points over actuation.ratio, of each of 2 cases; some 6 s one after the other"
+std::string sweep_text(const preset::Presets& presets, const preset::SweepGrid& grid,
+                       double seconds) {
+  std::vector<std::string> keys;
+  for (const auto& axis : grid.sweep().over) keys.push_back(axis.key);
+  const auto cases = runs_of(presets).size();
+  std::string text = fmt::format("{} runs", grid.size());
+  if (!keys.empty()) text += fmt::format(" over {}", fmt::join(keys, " and "));
+  if (cases > 1) text += fmt::format(", {} cases", cases);
+  if (std::isfinite(seconds))
+    text += fmt::format("; {} one after the other, if all take as long as this one",
+                        or_unknown(seconds / double(cases) * double(grid.size()), "s"));
+  return text + " ('gridshell sweep')";
+}
+
+void print_plan(const preset::Preset& preset, const simulate::Plan& plan) {
+  fmt::print("{}: {}\n", preset.name, preset.title);
+  fmt::print("  footprint       {}\n", plan.footprint);
+  if (preset.footprint.kind == preset::FootprintKind::circle)
+    fmt::print("  boundary        {} mm to {} mm; longest leg L_d = {:.3g}\n",
+               preset.original_radius_mm(), preset.actuated_radius_mm(),
+               preset.original_radius_mm() / preset.footprint.spacing_mm -
+                   0.5 * (preset.footprint.rods - 1));
+  for (const auto& seam : plan.seams) fmt::print("  seam            {}\n", seam);
+  for (const auto& sentence : plan.net) fmt::print("  net             {}\n", sentence);
+  fmt::print("  model           {}\n", plan.model_reason);
+  fmt::print("  meshes          {} edges a segment{}\n", fmt::join(plan.levels, ", "),
+             plan.extrapolated ? ", extrapolated" : "");
+  fmt::print("  size            {} rods, {} joints, {} cells, {} unknowns\n", plan.rods,
+             plan.joints, plan.cells, plan.dof);
+  if (preset.jitter.wanted())
+    fmt::print("  search          {} trials, mode \"{}\", and {} from symmetric forms\n",
+               preset.jitter.trials, word_of(preset.jitter.mode), preset.jitter.confined);
+  for (const std::string& line : what_is_done(preset)) fmt::print("  {}\n", line);
+  fmt::print("  memory          about {:.1g} GB\n", plan.memory_GB);
+  fmt::print("  expected error  {}\n", or_unknown(plan.expected_error_mm, "mm"));
+  if (!plan.bending.empty()) fmt::print("  bending         {}\n", plan.bending);
+  for (const auto& sentence : plan.left_out) fmt::print("  left out        {}\n", sentence);
+  fmt::print("  expected time   {} to simulate, {} to draw the movie, {} the figure\n",
+             or_unknown(plan.expected_seconds, "s"),
+             or_unknown(expected_seconds(Pictures::movie, preset), "s"),
+             or_unknown(expected_seconds(Pictures::stills, preset), "s"));
+}
+
+}  // namespace
+
+// `gridshell check PRESET`: validates a preset and explains what would run.
+
+Result<int> check(const Options& options) {
+  TRY(presets, load(options));
+  if (options.print_config) return print_config(*presets);
+  // what `run` and `movie` would say after it
+  const auto folder = output_of(options, presets->base);
+  if (const auto because = refusal_to_write(folder, ""); !because.empty())
+    return invalid("cannot write the folder '{}': {}", folder.string(), because);
+  const preset::SweepGrid grid(*presets);
+  if (grid.size() > 0) TRY_DO(check_sweep(*presets));
+  double seconds = 0;
+  for (const auto& run : runs_of(*presets)) {
+    const auto plan = plan_of(run.preset);
+    if (!plan) {
+      Error error = plan.error();
+      if (refused_net(run.preset))
+        error.message += "\n'gridshell figure' draws the net as far as it comes";
+      for (const std::string& note : presets->notes) error.message += "\nnote: " + note;
+      return tl::unexpected(error);
+    }
+    print_plan(run.preset, *plan);
+    seconds += plan->expected_seconds;
+  }
+  if (grid.size() > 0) fmt::print("  sweep           {}\n", sweep_text(*presets, grid, seconds));
+  TRY(drawn, draw_net_plans(*presets, folder));
+  for (const std::string& plan : *drawn) fmt::print("  plan            {}\n", plan);
+  for (const std::string& file : presets->files) fmt::print("  file            {}\n", file);
+  for (const std::string& note : presets->notes) fmt::print("  note            {}\n", note);
+  return printed();
+}
+
+}  // namespace gridshell::app
