@@ -127,7 +127,7 @@ class ReachedPart final : public Domain {
       double end = 0;
       for (const double from : {0.0, h / 2}) {
         const auto p = position(on_line(from));
-        if (!p || (from > 0 && end < from)) break;
+        if (!p || (from > 0 && end < 0.999 * from)) break;
         end = end_from(on_line, from, *p, 1);
       }
       ring_.push_back(on_line(end));
