@@ -13,8 +13,6 @@
 #include "app/cli/staged_folder.h"
 #include "engine/core/try.h"
 #include "engine/gridshell.h"
-#include "engine/simulate/indentation.h"
-#include "engine/simulate/steps.h"
 
 namespace gridshell::app {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/cli/command_line.h"
-#include "engine/preset/preset_file.h"
+#include "engine/gridshell.h"
 
 namespace gridshell::window {
 struct ExportFormat;

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "engine/core/file_io.h"
-#include "engine/record/journal.h"
+#include "engine/gridshell.h"
 
 namespace gridshell::python {
 namespace {

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "engine/core/dense.h"
-#include "engine/footprint/symmetry.h"
+#include "engine/simulate/shell_symmetry.h"
 
 namespace gridshell {
 namespace {

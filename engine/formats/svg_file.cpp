@@ -249,11 +249,10 @@ Tag tag_of(std::string_view text) {
 
 /// Size of a unit in mm; 0: it is none of a length.
 double unit_of(std::string_view unit) {
-  static const std::map<std::string_view, double> sizes{
-      {"mm", 1},         {"cm", 10},       {"m", 1000},       {"in", 25.4},
-      {"pt", 25.4 / 72}, {"pc", 25.4 / 6}, {"px", 25.4 / 96}, {"", 25.4 / 96}};
-  const auto found = sizes.find(unit);
-  return found == sizes.end() ? 0 : found->second;
+  if (unit == "pt") return 25.4 / 72;
+  if (unit == "pc") return 25.4 / 6;
+  if (unit == "px" || unit.empty()) return 25.4 / 96;
+  return millimetres_of(unit);
 }
 
 void take_unit(const Tag& svg, PlanDrawing& drawing) {

@@ -31,7 +31,7 @@ TEST_CASE("check says how many runs a sweep has, and refuses what it would refus
                     "actuation.radius_mm = {from = 44, to = 40, count = 5}\n");
   CHECK_THAT(bench.good("check small.toml").out,
              Contains("sweep           5 runs over actuation.radius_mm; "));
-  check_refused("check small.toml --set 'sweep.plot=[\"hight_mm\"]'", bench.at,
+  check_refused({"check", "small.toml", "--set", "sweep.plot=[\"hight_mm\"]"}, bench.at,
                 Contains("is no figure of a run") && Contains("height_mm") &&
                     Contains("; there are ") && Contains("energy_mJ"));
 }

@@ -187,7 +187,6 @@ def test_mistakes_are_answered(formed, wrong, said):
 @pytest.mark.parametrize("wrong", [
     lambda s: s.push("corner", 1, 2), lambda s: s.push((0, 0), object()), lambda s: s.restore(None),
     lambda s: gs.Session(7), lambda s: gs.Session("s1_actuation", {7: 1}),
-    lambda s: gs.Session("s1_actuation", {"rod": {"diameter_mm": 1}}),
 ])
 def test_wrong_types_are_type_errors(formed, wrong):
     with pytest.raises(TypeError):

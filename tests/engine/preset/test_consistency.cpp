@@ -60,10 +60,11 @@ TEST_CASE("a rung that cannot serve the scene, and physics that lacks something,
        "footprint was designed on, must be another, or [footprint] kind = \"net\" or \"blocks\""},
       {"[ends]\nkind = \"clamped\"",
        "bad.toml:2:8: [ends] kind = \"clamped\": twists the rods (clamped ends hold the rods' "
-       "spin), and their torsional stiffness is not known: [rod] shear_GPa must be above 0"},
+       "spin), and their torsional stiffness is not known: [rod] shear_GPa or GJ_Nmm2 must be "
+       "above 0"},
       {"[accuracy]\nmodel = \"twist\"",
        "bad.toml:2:9: [accuracy] model = \"twist\": twists the rods (it is asked for), and their "
-       "torsional stiffness is not known: [rod] shear_GPa must be above 0"},
+       "torsional stiffness is not known: [rod] shear_GPa or GJ_Nmm2 must be above 0"},
       {"[loads]\ngravity_m_s2 = 9.81",
        "bad.toml:2:16: [loads] gravity_m_s2 = 9.81: gravity needs a mass, [rod] density_kg_m3 must "
        "be above 0"},

@@ -64,8 +64,12 @@ Preset all_changed() {
   preset.indentation.depth = preset.indentation.depth_mm = 0;
   preset.dynamics.snap = false;
   preset.contact.model = ContactModel::none;
-  // a strength is said once
-  preset.rod.yield_strain = preset.rod_v.yield_strain = 0;
+  // a strength is said once; stiffnesses of their own are of rods that are no laths, tubes have a
+  // hollow
+  for (Rod* rod : {&preset.rod, static_cast<Rod*>(&preset.rod_v)}) {
+    rod->yield_strain = rod->wall_mm = 0;
+    rod->EA_N = rod->EI_Nmm2 = rod->GJ_Nmm2 = rod->mass_g_per_m = rod->modulus_mm3 = 0;
+  }
   // axes that lie apart are held by bolts
   preset.joints.eccentricity_mm = 0;
   // only pinned ends have tails
@@ -96,6 +100,9 @@ Preset of_curve(CurveKind kind, double scale) {
   preset.inverse = {};
   preset.footprint.boundary.kind = preset.actuation.boundary.kind = kind;
   preset.actuation.scale = scale;
+  if (kind == CurveKind::file)
+    preset.footprint.file = preset.actuation.file = {
+        {{0, 0, 0}, {1e2 / 3, 0, 0}, {0, 20, 0}}, {{0, 1, 2, 0}}, {}, {}, {}, {}, {}, {}, {}};
   return preset;
 }
 
@@ -122,6 +129,15 @@ Preset pushed(bool joint) {
   preset.rod.diameter_mm = 0.3;
   preset.rod.density_kg_m3 = 6450;
   preset.rod.yield_strain = 0.011;
+  if (joint) {
+    preset.rod.wall_mm = 0.07;
+  } else {
+    preset.rod.EA_N = 4000.5;
+    preset.rod.EI_Nmm2 = 30.25;
+    preset.rod.GJ_Nmm2 = 20.125;
+    preset.rod.mass_g_per_m = 0.4;
+    preset.rod.modulus_mm3 = 0.003;
+  }
   static_cast<Rod&>(preset.rod_v) = preset.rod;
   preset.rod_v.differs = true;
   preset.dynamics = {true, 0.0011, 13.7};
@@ -212,6 +228,7 @@ std::vector<Preset> samples() {
     all.back().net.implicit.clear();
     all.back().net.height.clear();
     all.back().net.file = file;
+    if (file.is_mesh()) all.back().net.apex = NetApex::best;
   }
   Preset network;
   network.footprint.kind = FootprintKind::network;
