@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "engine/core/try.h"
+#include "engine/formats/plain_text.h"
 
 namespace gridshell::preset {
 namespace {
