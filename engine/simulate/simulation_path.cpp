@@ -121,7 +121,7 @@ class Simulation::Walk {
   bool from_beyond_ = of_.beyond_limits().has_value();
   StabilityStepControl softening_;
   std::vector<Event> events_;
-  std::optional<double> unmeasured_since_;  // path parameter: no companion has a state since
+  std::optional<double> coarse_since_;      // path parameter: too coarse, or not measured, since
   std::optional<TimedState> companion_;     // its last state on this branch; time: path parameter
   // of a segment that is kept, as it was after the last step
   simulate::KeptSegments* kept_ = record_ ? scene_.kept.get() : nullptr;
@@ -246,17 +246,20 @@ Outcome Simulation::Walk::step_came(double next, const NestedState& good) {
   return too_coarse() ? Outcome::too_coarse : Outcome::reached;
 }
 
-/// Whether the path need not be followed further on this mesh: its estimate is above what the plan
-/// allows, or no companion has had a state for longer than events of two meshes lie apart.
+/// Whether the path need not be followed further on this mesh: for longer than events of two meshes
+/// lie apart its estimate has been above what the plan allows, or no companion has had a state. Next
+/// to an event, which each mesh has elsewhere, both are so on any mesh.
 bool Simulation::Walk::too_coarse() {
   const LevelPlan& plan = shell_.plan();
   if (!std::isfinite(plan.allowed_mm) || !of_.certificate().stable()) return false;
-  if (shell_.state().measured < shell_.last()) {
-    unmeasured_since_.reset();
-    return of_.certificate().error_estimate_mm > plan.allowed_mm;
+  if (of_.certificate().error_estimate_mm <= plan.allowed_mm) {
+    coarse_since_.reset();
+    return false;
   }
-  if (!unmeasured_since_) unmeasured_since_ = now();
-  return std::abs(now() - *unmeasured_since_) > plan.events_apart;
+  const bool measured = shell_.state().measured < shell_.last();
+  if (measured && now() == to_) return true;
+  if (!coarse_since_) coarse_since_ = now();
+  return std::abs(now() - *coarse_since_) > plan.events_apart;
 }
 
 /// The branch ended between `good` and `next`: continues from the next equilibrium, along the
@@ -295,7 +298,7 @@ Outcome Simulation::Walk::branch_ended(Outcome how, double next, const NestedSta
   if (record_ && !moments.empty())
     record_->snaps.push_back({record_->load_steps.size() - 1, std::move(moments)});
   events_.push_back(std::move(event));
-  unmeasured_since_.reset();
+  coarse_since_.reset();
   companion_.reset();
   softening_.forget();
   keep();
