@@ -23,6 +23,7 @@
 #include "app/window/viewer_state.h"
 #include "engine/core/file_io.h"
 #include "engine/core/json.h"
+#include "engine/core/scratch_folder.h"
 #include "engine/core/try.h"
 #include "render/gl/image.h"
 #include "render/movie/encode.h"
@@ -69,9 +70,8 @@ Result<void> make_movie(const fs::path& preset, const fs::path& folder,
 /// .xdmf reads its numbers from: FILE_run beside it.
 Result<void> export_shell(const preset::Preset& preset, const fs::path& file,
                           const window::ProgressListener& listener, const Watch& watch) {
-  std::string name = (fs::temp_directory_path() / "gridshell-XXXXXX").string();
-  if (!mkdtemp(name.data())) return fail(Fault::io, "cannot make a folder for the export");
-  const fs::path aside = name;
+  TRY(scratch, ScratchFolder::make());
+  const fs::path& aside = scratch->path();
   const auto run = [&](const std::vector<std::string>& arguments) {
     return run_this_program(arguments, watch, listener);
   };
@@ -79,16 +79,13 @@ Result<void> export_shell(const preset::Preset& preset, const fs::path& file,
   const std::string shell = (aside / "shell.toml").string(),
                     ran = kept ? (file.parent_path() / file.stem()).string() + "_run"
                                : (aside / "run").string();
-  const auto made = write_preset_with_tables(preset, shell)
-                        .and_then([&] {
-                          return run({"run", shell, "-o", ran});
-                        })
-                        .and_then([&] {
-                          return run({"export", ran, "--to", file.string()});
-                        });
-  std::error_code error;
-  fs::remove_all(aside, error);
-  return made;
+  return write_preset_with_tables(preset, shell)
+      .and_then([&] {
+        return run({"run", shell, "-o", ran});
+      })
+      .and_then([&] {
+        return run({"export", ran, "--to", file.string()});
+      });
 }
 
 /// The joints of a scan.csv, those that are missing left out; a line from each to its neighbours.

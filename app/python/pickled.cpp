@@ -2,36 +2,14 @@
 
 #include <pybind11/stl.h>
 
-#include <cstdlib>
-#include <filesystem>
 #include <string>
 
 #include "engine/core/file_io.h"
+#include "engine/core/scratch_folder.h"
 #include "engine/gridshell.h"
 
 namespace gridshell::python {
 namespace {
-
-/// A folder of its own that goes with this.
-class Scratch {
- public:
-  Scratch() {
-    std::string name = (std::filesystem::temp_directory_path() / "gridshell-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr)
-      raise({Fault::io,
-             "cannot make a folder in '" + std::filesystem::temp_directory_path().string() + "'"});
-    folder_ = name;
-  }
-  ~Scratch() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-  }
-  Scratch(const Scratch&) = delete;
-  std::filesystem::path file() const { return folder_ / "state"; }
-
- private:
-  std::filesystem::path folder_;
-};
 
 void check_size(const py::tuple& from, std::size_t size) {
   if (from.size() != size) throw py::value_error("not a pickle of this version of gridshell");
@@ -78,11 +56,12 @@ void unpack(const py::tuple& from, Done& to) {
 }
 
 py::tuple packed(const State& of) {
-  const Scratch scratch;
+  const ScratchFolder scratch = value_of(ScratchFolder::make());
+  const auto file = scratch.path() / "state";
   auto journal = value_of(record::JournalWriter::create(
-      scratch.file(), {of.preset->name, record::Kind::run, of.preset->title}, *of.layout));
+      file, {of.preset->name, record::Kind::run, of.preset->title}, *of.layout));
   value_of(journal.append(of.frame));
-  const std::string bytes = value_of(read_file(scratch.file()));
+  const std::string bytes = value_of(read_file(file));
   py::list pushed;
   for (const record::LoadedJoint& one : of.pushed)
     pushed.append(py::make_tuple(one.joint, one.direction.x(), one.direction.y(), one.direction.z(),
@@ -96,9 +75,10 @@ void unpack(const py::tuple& from, State& to) {
   const auto name = from[0].cast<std::string>();
   to.preset = std::make_shared<const preset::Preset>(
       value_of(preset::read_preset_text(from[1].cast<std::string>(), name, name)).base);
-  const Scratch scratch;
-  value_of(write_file(scratch.file(), from[2].cast<std::string>()));
-  const record::Journal journal = value_of(record::read_journal(scratch.file(), false));
+  const ScratchFolder scratch = value_of(ScratchFolder::make());
+  const auto file = scratch.path() / "state";
+  value_of(write_file(file, from[2].cast<std::string>()));
+  const record::Journal journal = value_of(record::read_journal(file, false));
   to.layout = std::make_shared<const record::Layout>(journal.trajectory.layout);
   to.frame = journal.trajectory.frames.front();
   unpack(from[3].cast<py::tuple>(), to.certificate);

@@ -15,11 +15,6 @@ namespace {
 
 Eigen::Vector3d vector_of(const std::vector<double>& xyz) { return {xyz[0], xyz[1], xyz[2]}; }
 
-/// t_u x t_v at a joint of the shell as it stands; zero where no two rods cross.
-Eigen::Vector3d normal_at(const Simulation& simulation, int joint) {
-  return joint_normal(simulation.scene().footprint, simulation.shell(), joint);
-}
-
 /// Where a move has the edge points, off the scene's motion.
 Result<Eigen::Matrix3Xd> dragged_of(const preset::Step& step, const Scene& scene) {
   Eigen::Matrix3Xd dragged = Eigen::Matrix3Xd::Zero(3, scene.motion.begin.cols());
@@ -72,7 +67,8 @@ Result<Goal> goal_of(const Simulation& simulation, const preset::Step& step) {
   Eigen::Vector3d way = Eigen::Vector3d::Zero();
   if (!holds && !step.to_mm.empty()) way = vector_of(step.to_mm) - at;
   if (!holds && step.to_mm.empty()) {
-    const Eigen::Vector3d normal = normal_at(simulation, *joint);
+    const Eigen::Vector3d normal =
+        joint_normal(simulation.scene().footprint, simulation.shell(), *joint);
     if (normal.isZero(0))
       return invalid(
           "no two rods cross at the joint, so the shell has no normal there: to_mm must "
