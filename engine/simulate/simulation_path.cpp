@@ -144,6 +144,7 @@ Report Simulation::Walk::all() {
   } else {
     keep();
     keep_segment({});
+    if (too_coarse()) end = Outcome::too_coarse;
   }
   while (end == Outcome::reached && now() != to_) {
     end = step();

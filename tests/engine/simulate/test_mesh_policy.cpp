@@ -181,6 +181,18 @@ TEST_CASE("a path whose estimate passes the tolerance ends there", "[standard]")
   CHECK(path.segments.back().end() < 1);
 }
 
+TEST_CASE("a path whose first state passes the tolerance is not followed", "[standard]") {
+  LevelPlan plan{{4, 8}, false};
+  const double first = actuated(circle(12, 126, 94.5, 3), plan)
+                           .segments.front()
+                           .load_steps.front()
+                           .certificate.error_estimate_mm;
+  plan.allowed_mm = 0.9 * first;
+  const EquilibriumPath path = actuated(circle(12, 126, 94.5, 3), plan);
+  CHECK(path.too_coarse());
+  CHECK(path.segments.front().load_steps.size() == 1);
+}
+
 TEST_CASE("48 rods rise evenly where a mesh of 4 edges alone loses their branch", "[full]") {
   preset::Preset p = circle(48, 486, 364.5, 120);
   p.accuracy.tolerance = 1e-2;
