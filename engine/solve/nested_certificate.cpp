@@ -179,12 +179,18 @@ NestedReport NestedShell::certify(const PathFollower& path, const Watch& watch,
   state_.step = point.step;
   Level& finest = *levels_.back();
   State& found = state_.levels.back();
+  const bool anew = !known.usable && !vouches(path.last());
   state_.inertia = known.usable ? known : inertia_of(finest, found, path.last());
   if (!state_.inertia.usable) return refused(Outcome::not_finite);
   if (!state_.inertia.positive_definite() && !options_.allow_unstable)
     return refused(Outcome::unstable);
   polish(finest, found, path.last());
-  if (!known.usable && state_.velocity.x.size() > 0) refine_velocity(finest, found);
+  if (!known.usable && state_.velocity.x.size() > 0) {
+    if (anew)
+      finest.motion.velocity(*finest.system, state_.t, found, state_.velocity);
+    else
+      refine_velocity(finest, found);
+  }
   state_.residual_N = finest.system->residual();
   state_.largest_strain = finest.system->assembly().largest_strain;
   const Energies energies = finest.system->assembly().energies;
@@ -260,13 +266,18 @@ void NestedShell::refine_velocity(Level& finest, const State& found) {
   system.gradient_at(found);
 }
 
-/// The factorisation of the last correction is the state's own but for that correction; where it
-/// moved the state too far to vouch for it, the energy's Hessian there is factorised anew.
+/// Whether the factorisation of the last correction, one correction before the state, is near
+/// enough to it to say whether it is stable.
+bool NestedShell::vouches(const NewtonReport& report) const {
+  constexpr double same_state = 1e-3;  // of d
+  return report.factored_move_mm <= same_state * options_.spacing_mm &&
+         report.inertia.positive_definite();
+}
+
+/// Of the last correction's factorisation, or of the energy's Hessian at the state, factorised anew.
 Inertia NestedShell::inertia_of(Level& level, const State& found,
                                 const NewtonReport& report) const {
-  constexpr double same_state = 1e-3;  // of d
-  const bool near = report.factored_move_mm <= same_state * options_.spacing_mm;
-  if (near && report.inertia.positive_definite()) return report.inertia;
+  if (vouches(report)) return report.inertia;
   Inertia inertia = level.system->at(found, false);
   // a direction without stiffness takes its sign from what is left of the residual
   if (inertia.usable && !inertia.positive_definite() && level.system->neutral_shift() > 0) {

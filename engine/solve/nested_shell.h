@@ -206,6 +206,7 @@ class NestedShell {
   static MeshDifference difference(const Level& level, double t, const State& base,
                                    const State& state);
   std::vector<MeshDifference> differences() const;
+  bool vouches(const NewtonReport& report) const;
   Inertia inertia_of(Level& level, const State& found, const NewtonReport& report) const;
   void polish(Level& finest, State& found, const NewtonReport& last);
   void refine_velocity(Level& finest, const State& found);
