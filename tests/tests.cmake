@@ -76,7 +76,7 @@ if(GRIDSHELL_PICTURES)
   foreach(name IN LISTS names ITEMS window)
     add_test(NAME "shared run: ${name}" COMMAND ${PROJECT_SOURCE_DIR}/tests/images/draw.sh
       $<TARGET_FILE:gridshell> ${PROJECT_BINARY_DIR}/shared_runs ${name})
-    set_tests_properties("shared run: ${name}" PROPERTIES LABELS standard TIMEOUT ${quick_seconds}
+    set_tests_properties("shared run: ${name}" PROPERTIES LABELS standard TIMEOUT 600
       FIXTURES_SETUP "shared_runs;shared_${name}")
   endforeach()
 endif()

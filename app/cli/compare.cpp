@@ -41,13 +41,14 @@ Result<std::optional<render::Image>> picture(const fs::path& folder, const fs::p
   return std::optional(std::move(*image));
 }
 
-/// All PNG files of both folders and the folders in them, by their path in the folder, in order.
-Result<std::vector<render::PicturePair>> pictures_of(const fs::path& before,
-                                                     const fs::path& after) {
+/// All PNG files of both folders and the folders in them, by their path in the folder, in order;
+/// with `selected` those of `before` alone.
+Result<std::vector<render::PicturePair>> pictures_of(const fs::path& before, const fs::path& after,
+                                                     bool selected) {
   TRY(old_names, names_in(before));
   TRY(new_names, names_in(after));
   std::set<fs::path> all = *old_names;
-  all.insert(new_names->begin(), new_names->end());
+  if (!selected) all.insert(new_names->begin(), new_names->end());
   std::vector<render::PicturePair> pairs;
   for (const fs::path& name : all) {
     TRY(a, picture(before, name, *old_names));
@@ -93,7 +94,7 @@ Result<void> update_baselines(const fs::path& before, const std::vector<render::
 
 struct CompareOptions {
   std::string a, b, difference, why;
-  bool update = false;
+  bool update = false, selected = false;
   double threshold = render::default_difference_threshold;
 };
 
@@ -111,7 +112,7 @@ Result<bool> compare_pictures(const CompareOptions& options) {
 }
 
 Result<bool> compare_folders(const CompareOptions& options) {
-  TRY(pairs, as_input(pictures_of(options.a, options.b)));
+  TRY(pairs, as_input(pictures_of(options.a, options.b, options.selected)));
   std::vector<render::PicturePair> different;
   for (const render::PicturePair& pair : *pairs) {
     const auto verdict = render::compare_versions(pair, options.threshold);
@@ -154,6 +155,8 @@ void add_compare(CommandLine& program) {
       .show_default();
   command.option("--difference", options.difference,
                  "PNG to write, differences in red; of folders a sheet of all that differ");
+  command.flag("--selected", options.selected,
+               "of folders only the pictures that A holds: B may hold more");
   command.flag("--update", options.update, "put B's pictures in the place of A's");
   command.option("--why", options.why, "with --update: the reason, kept in A/WHY.md");
 }

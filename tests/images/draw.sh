@@ -1,27 +1,18 @@
 #!/bin/sh
 # tests/images/draw.sh PROGRAM FOLDER [NAME...]: makes what list.txt says of each NAME anew, a whole run with
 # its pictures in FOLDER/NAME and what the program says of it in FOLDER/NAME.txt. The name `window` stands for
-# what the window shows at the end of each visit that is recorded in visits: FOLDER/window/VISIT.png; the name
-# `window_double` for a visit to each panel at 2560 x 1440 and twice the density. Without names all of them,
-# with $OPTIONS for the program. To keep the pictures:
-#   PROGRAM compare tests/images FOLDER --update --why "..."
+# what the window shows at the end of each visit that is recorded in visits: FOLDER/window/VISIT.png. Without
+# names all of them, with $OPTIONS for the program. To keep the pictures:
+#   PROGRAM compare tests/images FOLDER --selected --update --why "..."
 set -e
 program=$1 folder=$2 here=$(dirname "$0")
 shift 2
 mkdir -p "$folder"
 # shellcheck disable=SC2046
-[ $# -gt 0 ] || set -- $(sed -n 's/^\([a-z][^:]*\):.*/\1/p' "$here/list.txt") window window_double
+[ $# -gt 0 ] || set -- $(sed -n 's/^\([a-z][^:]*\):.*/\1/p' "$here/list.txt") window
 for name in "$@"; do
   rm -rf "${folder:?}/$name" "$folder/$name.txt"
-  if [ "$name" = window_double ]; then
-    mkdir "$folder/window_double"
-    for visit in dark design export help start states terms; do
-      { echo "size 2560 1440 2"; grep -v ^size "$here/visits/$visit.txt"; } >"$folder/visit.txt"
-      # shellcheck disable=SC2086
-      "$program" view --play "$folder/visit.txt" --shot "$folder/window_double/$visit.png" $OPTIONS >/dev/null
-    done
-    rm "$folder/visit.txt"
-  elif [ "$name" = window ]; then
+  if [ "$name" = window ]; then
     mkdir "$folder/window"
     for visit in "$here"/visits/*.txt; do
       # shellcheck disable=SC2086
