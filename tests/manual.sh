@@ -4,7 +4,7 @@
 #   ```sh             commands, run in order by `sh -e`; ```sh not run: shown alone, its syntax is checked
 #   ```text           lines of what the commands before printed; … stands for what differs from run to run
 #   ```toml, ```python, ... whose first line is `# NAME`, or ```json NAME: the file NAME
-#   ```python         without a name: a script
+#   ```python         without a name: a script; ```bibtex and ```math are not run
 #
 # PYTHONPATH leads to the Python module; scripts whose imports are missing are left out, with a word.
 set -u
@@ -104,7 +104,7 @@ $(tail -n 20 "$out")"
       *.text)
         grep -q ModuleNotFoundError "$out" || said "$block" "$out" || fail "$page: printed was
 $(cat "$out")" ;;
-      *.bibtex) ;;
+      *.bibtex | *.math) ;;
       *) fail "$page: what is ${block##*.}? a file has its name in its first line" ;;
     esac
   done
