@@ -217,7 +217,7 @@ words() {
     FNR == 1 { code = 0; ++files }
     /^ *```/ { code = !code; next }
     code { next }
-    { text = tolower($0); gsub(/`[^`]*`/, "`", text); gsub(/"[^"]*"/, "\"", text); gsub(/\]\([^)]*\)/, "]", text)
+    { text = tolower($0); gsub(/`[^`]*`/, "`", text); gsub(/"[^"]*"/, "\"", text); gsub(/[{][^}]*[}]/, "", text); gsub(/\]\([^)]*\)/, "]", text)
       gsub(/[^a-z]+/, " ", text); text = " " text " "
       for (k = 1; k <= n; ++k) if (match(text, " (" bad[k] ") ")) {
         printf "%s:%d: \"%s\": write %s\n", FILENAME, FNR, substr(text, RSTART + 1, RLENGTH - 2), good[k]; ++errors } }

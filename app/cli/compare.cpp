@@ -154,7 +154,7 @@ void add_compare(CommandLine& program) {
       .show_default();
   command.option("--difference", options.difference,
                  "PNG to write, differences in red; of folders a sheet of all that differ");
-  command.flag("--update", options.update, "put B's pictures in the place of A's");
+  command.flag("--update", options.update, "replace A's pictures by B's");
   command.option("--why", options.why, "with --update: the reason, kept in A/WHY.md");
 }
 
