@@ -176,7 +176,7 @@ def states():
         if row["class"] in ("i", "ii", "iii", "iv") and row["class"] not in met:
             met.add(row["class"])
             ratio = 1 - 0.25 * float(row["lives_to"])
-            yield [row["class"], row["group"], f"{float(row['energy_bend_mJ']):.3f}", f"{float(row['height_mm']):.2f}, {float(row['z_min_mm']):.2f}",
+            yield [row["class"], row["group"], f"{float(row['energy_bend_mJ']):.3f}", f"{float(row['z_max_mm']):.2f}, {float(row['z_min_mm']):.2f}",
                    f"{ratio:.3f}", number(row["eigenvalue_N_per_mm2"])]
 
 
