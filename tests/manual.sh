@@ -110,5 +110,4 @@ $(cat "$out")" ;;
   done
 done
 echo "$ran blocks of $# pages"
-[ "$ran" -gt 0 ] || status=1
 exit $status
