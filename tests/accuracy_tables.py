@@ -213,7 +213,7 @@ def table(name):
     shown = [command for k, command in enumerate(commands) if command not in commands[:k]]
     shown = shown[:2] + (["# and with the other values of the first column"] if len(shown) > 2 else [])
     return (f"```sh not run\n" + "\n".join(shown) + "\n```\n\n" + head + "\n|" + " --- |" * len(lines[0]) + "\n" + rest
-            + f"\n\n*{version}, {machine()}.*")
+            + f"\n\n*gridshell {version}, {machine()}.*")
 
 
 def without_times(text):
