@@ -194,10 +194,10 @@ lengths() {
     function bad(text) { print FILENAME ":" start ": " text; ++errors }
     function count(text, part) { return split(text, part, " ") }
     function end() { if (paragraph > words) bad("a paragraph of " paragraph " words, at most " words); paragraph = 0 }
-    FNR == 1 { end(); code = 0; version = ""; ++files }
+    FNR == 1 { end(); code = 0; recipe = 0; version = ""; ++files }
     /^ *```/ { end(); code = !code; next }
-    code { next }
-    /^## / { version = FILENAME ~ /CHANGELOG/ ? $2 : ""; since = FNR }
+    code { if (FILENAME ~ /recipes/ && ++recipe > 10) { start = FNR; bad("a recipe of more than ten lines") } next }
+    /^## / { recipe = 0; version = FILENAME ~ /CHANGELOG/ ? $2 : ""; since = FNR }
     version == "0.2.0," && FNR == since + 41 { start = FNR; bad("version 0.2.0 has more than 40 lines") }
     FILENAME ~ /^(\.\/)?README.md$/ && FNR == 121 { start = FNR; bad("the README has more than 120 lines") }
     /^\|/ {
