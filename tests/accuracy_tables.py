@@ -147,6 +147,16 @@ def designs():
                f"{found['eigenvalue_after'] / found['eigenvalue_before']:.2f}", f"{found['cpu_s']:.1f}"]
 
 
+def surfaces():
+    yield ["preset", "before: largest, mean", "after: largest, mean", "furthest move", "iterations", "CPU s"]
+    for preset in ("surface_paraboloid", "surface_ellipsoid", "surface_bump", "surface_mesh"):
+        run(["design", preset, "--quality", "draft", "--size", "160x100"], preset)
+        found = json.loads(pathlib.Path(preset, "design.json").read_text())
+        scale = found["length_scale_mm"]
+        yield [f"`{preset}`"] + [f"{scale * found['max_' + when]:.2f}, {scale * found['mean_' + when]:.2f} mm" for when in ("before", "after")] + [
+            f"{found['largest_move_mm']:.1f} mm", found["iterations"], f"{found['cpu_s']:.1f}"]
+
+
 def blocks():
     yield ["preset", "joints", "largest gap of a seam", "largest kink", "shell from its blocks, largest", "mean"]
     for preset in ("fig5_stadium", "fig5_peanut"):
