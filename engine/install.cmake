@@ -14,7 +14,15 @@ install(DIRECTORY engine/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gridshell/engi
 install(DIRECTORY presets/ DESTINATION ${CMAKE_INSTALL_DATADIR}/gridshell/presets
   FILES_MATCHING PATTERN "*.toml" PATTERN "*.obj" PATTERN "*.csv" PATTERN "*.json"
     PATTERN "*.dxf" PATTERN "pictures" EXCLUDE)
-install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+# the manual, with what its pages point to
+file(GLOB_RECURSE pages RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS app/*.md engine/*.md
+  presets/*.md render/*.md presets/pictures/*.png presets/pictures/*.svg app/python/examples/*.py)
+foreach(page IN LISTS pages ITEMS tests/images/window/push.png tests/images/window/states.png
+    tests/images/window/design.png)
+  get_filename_component(folder ${page} DIRECTORY)
+  install(FILES ${page} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder})
+endforeach()
 
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/gridshell)
 install(EXPORT gridshell-targets NAMESPACE gridshell:: DESTINATION ${package})

@@ -35,6 +35,16 @@ if [ -x "$work/prefix/bin/gridshell" ]; then
   test -s "$work/prefix/share/man/man1/gridshell.1"
   test -s "$work/prefix/share/bash-completion/completions/gridshell"
 fi
+# the pages of the manual are there, with what they point to
+pages=$(dirname "$(find "$work/prefix" -name CHANGELOG.md)")
+find "$pages" -name '*.md' >"$work/pages"
+test "$(wc -l <"$work/pages")" -gt 10
+while read -r page; do
+  grep -oE '\]\([^)]+\)' "$page" | sed 's/^](//; s/[#)].*//' | while read -r link; do
+    case $link in '' | http*) continue ;; esac
+    [ -e "$(dirname "$page")/$link" ] || { echo "$page: no $link"; exit 1; }
+  done
+done <"$work/pages"
 # headers name nothing that is not installed
 grep -rhoE '#include "[^"]+"' "$work/prefix/include" | sort -u | sed 's/#include "\(.*\)"/\1/' |
   while read -r header; do

@@ -5,6 +5,8 @@
 # tests/style.sh warnings        every source file is built with warnings as errors, none silenced
 # tests/style.sh equal           no 50 tokens stand twice in engine/ but where equal_tokens.txt says why
 # tests/style.sh names           every source file that a comment or a .md file names is there
+# tests/style.sh pages           pages have short paragraphs and cells; the README and versions of CHANGELOG are short
+# tests/style.sh words           pages use the words of the glossary, not those of tests/words.txt
 #
 # BUILD (default build) is a folder that cmake has configured. `tidy` and `clang` take the files that differ
 # from the merge base with the main branch (BASE, default main), where that is this commit itself
@@ -182,12 +184,55 @@ names() {
   return $status
 }
 
+# pages that people write; WHY.md is a log that `compare --update` writes
+pages() {
+  find ./*.md app engine render presets shaders tests -name '*.md' ! -name WHY.md | sort
+}
+
+lengths() {
+  awk -v cells=30 -v words=90 '
+    function bad(text) { print FILENAME ":" start ": " text; ++errors }
+    function count(text, part) { return split(text, part, " ") }
+    function end() { if (paragraph > words) bad("a paragraph of " paragraph " words, at most " words); paragraph = 0 }
+    FNR == 1 { end(); code = 0; recipe = 0; version = ""; ++files }
+    /^ *```/ { end(); code = !code; next }
+    code { if (FILENAME ~ /recipes/ && ++recipe > 10) { start = FNR; bad("a recipe of more than ten lines") } next }
+    /^## / { recipe = 0; version = FILENAME ~ /CHANGELOG/ ? $2 : ""; since = FNR }
+    version == "0.2.0," && FNR == since + 41 { start = FNR; bad("version 0.2.0 has more than 40 lines") }
+    FILENAME ~ /^(\.\/)?README.md$/ && FNR == 121 { start = FNR; bad("the README has more than 120 lines") }
+    /^\|/ {
+      end(); start = FNR; gsub(/\\\|/, "")
+      n = split($0, cell, "|")
+      for (k = 1; k <= n; ++k) if (count(cell[k]) > cells) bad("a cell of " count(cell[k]) " words, at most " cells)
+      next
+    }
+    /^$/ || /^#/ { end(); next }
+    /^ *([*-]|[0-9]+\.) / { end() }
+    { if (!paragraph) start = FNR; paragraph += count($0) }
+    END { end(); printf "%d pages, %d too long\n", files, errors; exit !(files > 10 && !errors) }' $(pages)
+}
+
+words() {
+  awk 'NR == FNR { if ($0 !~ /^#/) { split($0, part, "\t"); bad[++n] = part[1]; good[n] = part[2] } next }
+    FNR == 1 { code = 0; ++files }
+    /^ *```/ { code = !code; next }
+    code { next }
+    { text = tolower($0); gsub(/`[^`]*`/, "`", text); gsub(/"[^"]*"/, "\"", text); gsub(/[{][^}]*[}]/, "", text); gsub(/\]\([^)]*\)/, "]", text)
+      gsub(/[^a-z]+/, " ", text); text = " " text " "
+      for (k = 1; k <= n; ++k) if (match(text, " (" bad[k] ") ")) {
+        printf "%s:%d: \"%s\": write %s\n", FILENAME, FNR, substr(text, RSTART + 1, RLENGTH - 2), good[k]; ++errors } }
+    END { printf "%d pages, %d words to replace\n", files, errors; exit !(files > 10 && n > 20 && !errors) }' \
+    tests/words.txt $(pages)
+}
+
 case ${1:-} in
+  pages) lengths ;;
+  words) words ;;
   format) format "${2:-}" ;;
   tidy) tidy "${2:-}" ;;
   clang) clang "${2:-}" ;;
   warnings) warnings ;;
   equal) equal ;;
   names) names ;;
-  *) sed -n '2,7p' "$0"; exit 2 ;;
+  *) sed -n '2,9p' "$0"; exit 2 ;;
 esac

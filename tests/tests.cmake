@@ -148,9 +148,8 @@ foreach(suite bookworm trixie)
     SKIP_RETURN_CODE 77 RUN_SERIAL ON)
 endforeach()
 
-# How the source stands: format, clang-tidy on what changed, warnings as errors, nothing that stands
-# twice, no name of a file that is gone (tests/style.sh).
-foreach(check format tidy clang warnings equal names)
+# Style of the source and of the pages (tests/style.sh).
+foreach(check format tidy clang warnings equal names pages words)
   add_test(NAME "style: ${check}" COMMAND ${PROJECT_SOURCE_DIR}/tests/style.sh ${check})
   set_tests_properties("style: ${check}" PROPERTIES LABELS style TIMEOUT 600 SKIP_RETURN_CODE 77
     ENVIRONMENT BUILD=${PROJECT_BINARY_DIR})
@@ -159,6 +158,22 @@ endforeach()
 set_tests_properties("style: tidy" PROPERTIES LABELS "style;full" RUN_SERIAL ON)
 # of the files that changed the four that changed most; `tests/style.sh clang` takes ten
 set_tests_properties("style: clang" PROPERTIES ENVIRONMENT "BUILD=${PROJECT_BINARY_DIR};LIMIT=4")
+
+# The manual: every code block of every page is run (tests/manual.sh), no sentence is too long.
+if(GRIDSHELL_PICTURES)
+  set(python python3)
+  if(TARGET gridshell_python)
+    set(python ${Python3_EXECUTABLE})
+  endif()
+  file(GLOB pages RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS README.md app/README.md
+    app/manual/*.md app/python/README.md engine/*.md presets/README.md render/README.md)
+  foreach(page IN LISTS pages)
+    add_test(NAME "manual: ${page}"
+      COMMAND ${PROJECT_SOURCE_DIR}/tests/manual.sh $<TARGET_FILE:gridshell> ${python} ${page})
+    set_tests_properties("manual: ${page}" PROPERTIES LABELS quick TIMEOUT ${quick_seconds}
+      ENVIRONMENT "PYTHONPATH=${PROJECT_BINARY_DIR}/python")
+  endforeach()
+endif()
 
 # The programs of app/examples, 30 lines each over the library, run as tests.
 file(GLOB examples CONFIGURE_DEPENDS app/examples/*.cpp)

@@ -327,11 +327,10 @@ void add_chart(CommandLine& program) {
               "seconds after which a run is too slow: by default 30 for accuracy, 4 for "
               "stability, 20 for trust")
       .in_range(0.01, 1e6);
-  command
-      .option("--edges", options.edges, "edges a segment of the finest mesh that methods are given")
+  command.option("--edges", options.edges, "edges per segment of the finest mesh of the methods")
       .in_range(4, 32);
   command.option("--sizes", options.sizes,
-                 "of accuracy: instead, the program itself at so many rods a direction, 12,24,48");
+                 "for accuracy: compares sizes of the shell instead, rods per direction: 12,24,48");
   command.option("--scenes", options.scenes, "of trust: how many, of ten kinds in turn")
       .in_range(1, 100000);
   command

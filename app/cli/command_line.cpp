@@ -139,7 +139,7 @@ void add_changes(CommandArguments command, Options& options) {
   command.option("--size", options.size, "width and height of a picture: WxH");
   command.option("--quality", options.quality, "draft, movie or figure");
   command.option("--width", options.width, "width of a figure as printed: 85mm");
-  command.option("--dpi", options.dpi, "pixels of an inch, with --width");
+  command.option("--dpi", options.dpi, "pixels per inch, with --width");
   command.flag("--pdf", options.pdf, "stills as lines too, as PDF and SVG: figure.vector");
 }
 

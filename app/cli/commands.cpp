@@ -75,9 +75,8 @@ void add_preset_command(CommandLine& program, const char* name, const char* mean
   add_picture_options(command, options);
   if (resumes)
     command.flag("--resume", options.resume,
-                 "go on where a run of this preset to the same folder was ended; begins where "
-                 "there is none, "
-                 "ends at once where it is finished");
+                 "continue a run of this preset to the same folder; starts if there is none, ends "
+                 "at once if it is finished");
 }
 
 template <Pictures pictures>

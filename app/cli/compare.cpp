@@ -157,7 +157,7 @@ void add_compare(CommandLine& program) {
                  "PNG to write, differences in red; of folders a sheet of all that differ");
   command.flag("--selected", options.selected,
                "of folders only the pictures that A holds: B may hold more");
-  command.flag("--update", options.update, "put B's pictures in the place of A's");
+  command.flag("--update", options.update, "replace A's pictures by B's");
   command.option("--why", options.why, "with --update: the reason, kept in A/WHY.md");
 }
 

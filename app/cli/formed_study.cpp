@@ -298,7 +298,7 @@ void add_load(CommandLine& program) {
   add_picture_options(command, options.common);
   command
       .option("--imperfections", options.imperfections,
-              "shells more a case whose shape is off by loads.imperfection")
+              "more shells per case, displaced by loads.imperfection")
       .in_range(0, 1000);
 }
 

@@ -301,7 +301,7 @@ void add_report(CommandLine& program) {
   command.option("--count", options.modes, "how many frequencies").in_range(1, 200);
   command
       .option("--imperfections", options.imperfections,
-              "shells more a case whose shape is off by loads.imperfection")
+              "more shells per case, displaced by loads.imperfection")
       .in_range(0, 1000);
   add_unsealed(command, options.unsealed);
 }

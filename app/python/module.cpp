@@ -19,13 +19,12 @@ struct FaultClass {
 const std::vector<FaultClass>& fault_classes() {
   static const std::vector<FaultClass> all{
       {Fault::bad_input, "BadInput", PyExc_ValueError,
-       "A preset, a key, a value, a folder or a joint that is not right: names it, and what would "
-       "be."},
+       "A wrong preset, key, value, folder or joint; the message names it and what is allowed."},
       {Fault::no_equilibrium, "NoEquilibrium", nullptr,
-       "No certified state was found, or the path ended before its end. The session stands in its "
-       "last certified state."},
+       "No certified state was found, or the path ended early. The session is in its last "
+       "certified state."},
       {Fault::io, "IOFailure", PyExc_OSError,
-       "A file could not be written, or no OpenGL context be had."}};
+       "A file could not be written, or no OpenGL context is available."}};
   return all;
 }
 
@@ -63,7 +62,7 @@ std::string toml_of(const py::handle& value) {
 
 void add_errors(py::module_& module) {
   add_error(module, "Error",
-            "What went wrong, in the words of the program. Every other error of gridshell is one.",
+            "Base class of all errors of gridshell; the message is that of the program.",
             PyExc_Exception);
   const py::object error = module.attr("Error");
   for (const FaultClass& one : fault_classes())
@@ -119,8 +118,15 @@ PYBIND11_MODULE(gridshell, module) {
   using namespace gridshell;
   render::keep_compiled_shaders();
   module.doc() =
-      "Elastic gridshells: formed, pushed, measured and shown. Millimetres, newtons, millijoules; "
-      "z is up.";
+      "Elastic gridshells: form them, push them, measure them, draw them.\n\n    import gridshell "
+      "as gs\n    s = gs.Session(\"s1_actuation\", {\"footprint.rods\": 8, "
+      "\"footprint.radius_mm\": 84,\n                                    \"actuation.radius_mm\": "
+      "63})\n    s.actuate()                      # forms the shell\n    s.push((0, 0), "
+      "depth_mm=2)       # pushes the joint (i, j) inward\n    print(s.height_mm, s.force_N, "
+      "s.certificate)\n    run = gs.load(\"out/run\")         # reads what `gridshell run` "
+      "wrote\n\nSession commands a shell, State is one state of it with arrays, Run is a finished "
+      "run. Units: millimetres, newtons, millijoules, radians; z is up. K is the integrated Gauss "
+      "curvature of a cell, 2 pi less its four angles.";
   module.attr("__version__") = version();
   python::add_errors(module);
   python::add_values(module);

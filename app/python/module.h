@@ -122,39 +122,41 @@ struct Number {
 
 inline constexpr std::array numbers{
     Number{"progress", &record::Frame::progress,
-           "Of a session: of the boundary, 0 the original and 1 the actuated one. Of a run: of the "
-           "experiment, 0 its begin and 1 its end."},
+           "Progress. In a session: of the boundary, 0 the original, 1 the actuated one. In a run: "
+           "of the experiment, 0 at its start, 1 at its end."},
     Number{"boundary_radius_mm", &record::Frame::boundary_radius_mm,
-           "Of a circular boundary, mm; else nan."},
+           "Radius of a circular boundary, mm; else nan."},
     Number{"depth_mm", &record::Frame::depth_mm,
-           "How far the joint held last was moved the way it is held, mm; nan: none is held."},
+           "Displacement of the last prescribed joint along its direction, mm; nan: none is "
+           "prescribed."},
     Number{"force_N", &record::Frame::force_N,
-           "With what force the shell resists that move, N; nan: no joint is held."},
-    Number{"push_error_N", &record::Frame::push_error_N, "Of force_N, N; nan: not known."},
+           "Force with which the shell resists that displacement, N; nan: no joint is prescribed."},
+    Number{"push_error_N", &record::Frame::push_error_N, "Error of force_N, N; nan: unknown."},
     Number{"stiffness_N_per_mm", &record::Frame::stiffness_N_per_mm,
-           "What force_N grows by with depth_mm, N/mm; nan: no joint is held."},
+           "Increase of force_N with depth_mm, N/mm; nan: no joint is prescribed."},
     Number{"stiffness_error_N_per_mm", &record::Frame::stiffness_error_N_per_mm,
-           "Of stiffness_N_per_mm; nan: not known."},
+           "Error of stiffness_N_per_mm, N/mm; nan: unknown."},
     Number{"largest_force_N", &record::Frame::largest_force_N,
-           "Of reactions_N by size, N; nan: not known."},
+           "Largest of reactions_N, N; nan: unknown."},
     Number{"force_error_N", &record::Frame::force_error_N,
-           "Of reactions_N and force_N, the largest, N; nan: not known, as on one mesh."},
+           "Largest error of reactions_N and force_N, N; nan: unknown, as on one mesh."},
     Number{"energies_error_mJ", &record::Frame::energy_error_mJ,
-           "Of the terms of energies and of their sum, the largest, mJ; nan: not known."},
+           "Largest error of the energies and of their sum, mJ; nan: unknown."},
     Number{"largest_bending_strain", &record::Frame::largest_bending_strain,
-           "Of a fibre of a rod, by the curvature added to that at rest; nan: not known."},
+           "Largest bending strain of a fibre, from the change of curvature; nan: unknown."},
     Number{"largest_stress_MPa", &record::Frame::largest_stress_MPa,
-           "Of a fibre of a rod, by axial force and bending, MPa; nan: not known."},
+           "Largest stress of a fibre, by axial force and bending, MPa; nan: unknown."},
     Number{"utilisation", &record::Frame::utilisation,
-           "The largest stress of a fibre over the strength of its rod; nan: not known."},
+           "Largest stress of a fibre over the strength of its rod; nan: unknown."},
     Number{"height_mm", &record::Frame::height_mm,
-           "Of the highest joint above the original boundary's plane, mm."},
-    Number{"total_K", &record::Frame::total_K, "Sum of cell_K, rad."},
-    Number{"residual_N", &record::Frame::residual_N, "Largest force that nothing holds, N."},
+           "Height of the highest joint above the original boundary's plane, mm."},
+    Number{"total_K", &record::Frame::total_K, "Sum of cell_K over all complete cells, rad."},
+    Number{"residual_N", &record::Frame::residual_N,
+           "Largest force that is left on a free node, N."},
     Number{"error_estimate_mm", &record::Frame::error_estimate_mm,
-           "Of the joints' positions, mm; nan: not known."},
+           "Error estimate of all positions, mm; nan: unknown."},
     Number{"time_s", &record::Frame::time_s,
-           "Since the begin of a snap that was followed in time, s; else nan."},
+           "Time since the start of a snap that is integrated in time, s; else nan."},
 };
 
 /// Adds the classes State, Layout, Certificate, Report and Event to the module.
@@ -167,10 +169,9 @@ void draw(const State& state, const std::filesystem::path& path,
 
 /// What `picture` takes and does, for the methods of that name.
 inline constexpr const char* picture_doc =
-    "Draws the shell into a PNG, as the program draws a frame of a movie: colours, camera and look "
-    "are those of [movie] and [style] of the preset.\n\n"
-    "size: (width, height) in pixels, else the preset's. context: how OpenGL is had, \"auto\", "
-    "\"osmesa\", \"egl\" or \"window\".";
+    "Draws the shell into a PNG, as the program draws a frame of a movie, with [movie] and [style] "
+    "of the preset.\n\nsize: (width, height) in pixels, else the preset's. context: where OpenGL "
+    "comes from, \"auto\", \"osmesa\", \"egl\" or \"window\".";
 
 }  // namespace gridshell::python
 

@@ -97,13 +97,13 @@ void add_columns(py::class_<Run>& type) {
         [=](const Run& run) {
           return column<double>(run, [=](const auto& frame) { return frame.*number.member; });
         },
-        std::string("Of each frame. ").append(number.doc).c_str());
+        std::string("One value per frame. ").append(number.doc).c_str());
   type.def_property_readonly(
           "negative_pivots",
           [](const Run& run) {
             return column<int>(run, [](const auto& frame) { return frame.negative_pivots; });
           },
-          "Of each frame; 0: stable, -1: not known.")
+          "Number of negative pivots of each frame; 0: stable, -1: unknown.")
       .def_property_readonly(
           "stable",
           [](const Run& run) {
@@ -119,13 +119,13 @@ void add_columns(py::class_<Run>& type) {
                   column<double>(run, [&](const auto& frame) { return frame.energies[term.term]; });
             return Judged<"dict[str, numpy.ndarray[numpy.float64]]">{terms};
           },
-          "By term, of each frame, mJ.")
+          "Energy of each term by name, each an array over the frames, mJ.")
       .def_property_readonly(
           "energy_mJ",
           [](const Run& run) {
             return column<double>(run, [](const auto& frame) { return frame.energies.total(); });
           },
-          "All terms, of each frame, mJ.")
+          "Sum of all energies of each frame, mJ.")
       .def_property_readonly(
           "events",
           [](const Run& run) {
@@ -133,20 +133,19 @@ void add_columns(py::class_<Run>& type) {
             for (const record::Frame& frame : run.heads()) events.push_back(frame.event);
             return events;
           },
-          "Of each frame: a snap, a limit, a recovery; empty: nothing.")
+          "Event of each frame: a snap, a limit, a recovery; empty: nothing.")
       .def_property_readonly("nodes", &Run::nodes, "Positions, frames x nodes x 3, mm.");
 }
 
 }  // namespace
 
 void add_run(py::module_& module) {
-  py::class_<Run> type(module, "Run",
-                       "A run read back from its folder; run[k] is the State of its k-th frame.");
+  py::class_<Run> type(module, "Run", "A finished run; run[k] is the State of its k-th frame.");
   type.def("__len__", &Run::size)
       .def("__getitem__", &Run::state, "k"_a)
       .def_property_readonly(
           "preset", [](const Run& run) { return preset::to_toml(run.read().preset); },
-          "The preset that it came from, as TOML.")
+          "The preset of the run, as TOML.")
       .def_property_readonly(
           "summary",
           [](const Run& run) {
@@ -157,17 +156,18 @@ void add_run(py::module_& module) {
       .def_property_readonly(
           "layout",
           [](const Run& run) { return std::const_pointer_cast<record::Layout>(run.layout()); },
-          "The net.")
+          "Rods, joints and cells of the shell.")
       .def("__repr__", [](const Run& run) {
         return fmt::format("Run({}, {})", run.read().summary.preset,
                            app::progress_text(run.read()));
       });
   add_columns(type);
-  module.def("load", &load, "folder"_a, py::kw_only(), "case"_a = py::none(),
-             "unfinished"_a = false, "unsealed"_a = false,
-             "Reads a run's folder. Raises BadInput with the reason where it is no run, damaged, "
-             "or was cut short and unfinished is not set.\n\ncase: which of its cases. unsealed: "
-             "takes a trajectory.h5 that another program wrote or changed.");
+  module.def(
+      "load", &load, "folder"_a, py::kw_only(), "case"_a = py::none(), "unfinished"_a = false,
+      "unsealed"_a = false,
+      "Reads a run's folder. Raises BadInput with the reason if it is no run, is damaged, or was "
+      "cut short and unfinished is not set.\n\ncase: which of its cases. unsealed: reads a "
+      "trajectory.h5 with a missing or wrong checksum, as another program wrote it.");
 }
 
 }  // namespace gridshell::python

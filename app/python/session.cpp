@@ -108,12 +108,11 @@ void add_steps(py::class_<Session>& type) {
                                               "edge_points"_a = edges));
           },
           "progress"_a = 1.0, py::kw_only(), "radius_mm"_a = none, "edge_points"_a = none,
-          "Moves the boundary: progress 0 is the original, 1 the actuated one, beyond it further "
-          "on. The first time this forms the shell as a run of the preset does, on meshes that its "
-          "tolerance asks for.\n\n"
-          "radius_mm: of a circular boundary, in the place of progress, mm. edge_points: rows (k, "
-          "x, y, z): by how much edge points, counted from 0, lie off the motion, mm; others lie "
-          "on it.")
+          "Moves the boundary: progress 0 is the original, 1 the actuated one, above 1 further. "
+          "The first call forms the shell as a run of the preset does, on the meshes of its "
+          "tolerance.\n\nradius_mm: radius of a circular boundary instead of progress, mm. "
+          "edge_points: rows (k, x, y, z), the displacement of edge point k, counted from 0, "
+          "relative to the motion, mm.")
       .def(
           "push",
           [](Session& self, const Array& joint, const OptionalNumber& depth,
@@ -124,45 +123,45 @@ void add_steps(py::class_<Session>& type) {
           },
           "joint"_a, "depth_mm"_a = none, py::kw_only(), "to_mm"_a = none, "along"_a = none,
           "lateral"_a = "free",
-          "Moves the joint (i, j), which is held from then on: by depth_mm against the shell's "
-          "normal, inward (below 0 outward), or to the position to_mm, mm.\n\n"
-          "along: direction in which it is held, else that of the push: depth_mm takes the shell's "
-          "normal anew at each push, to_mm with along=session.directions[k] goes on along the "
-          "first. lateral: \"free\" or \"held\": whether it may move across the push.")
+          "Moves the joint (i, j), which remains prescribed: by depth_mm against the shell's "
+          "normal, inward (negative: outward), or to the position to_mm, mm.\n\nalong: direction "
+          "in which it is prescribed, else that of the push. depth_mm uses the shell's present "
+          "normal at each push; to_mm with along=session.directions[k] continues along the first. "
+          "lateral: \"free\" or \"held\", whether it may move across the push.")
       .def(
           "hold",
           [](Session& self, const Array& joint, const OptionalArray& along) {
             return self.step("hold", py::dict("joint"_a = joint, "along"_a = along));
           },
           "joint"_a, py::kw_only(), "along"_a = none,
-          "Holds the joint (i, j) where it is, along a direction or in all.")
+          "Fixes the joint (i, j) where it is, along a direction or in all.")
       .def(
           "release",
           [](Session& self, const OptionalArray& joint) {
             return self.step("release", py::dict("joint"_a = joint));
           },
-          "joint"_a = none, "Lets the joint (i, j) go, or all that are held.")
+          "joint"_a = none, "Releases the joint (i, j), or all prescribed joints.")
       .def(
           "load",
           [](Session& self, double factor) {
             return self.step("load", py::dict("factor"_a = factor));
           },
-          "factor"_a, "From now on what [loads] says counts `factor` times.")
+          "factor"_a, "Applies [loads] times `factor` from now on.")
       .def(
           "rest",
           [](Session& self, const std::string& side) {
             return self.step("rest", py::dict("side"_a = side));
           },
           "side"_a = "lower",
-          "Down the energy to rest. side: from a state that is not stable \"lower\", or \"plus\" "
-          "or \"minus\" its soft mode.")
+          "Descends to a stable state. side: from an unstable state to the \"lower\" energy, or "
+          "\"along\" or \"against\" its lowest mode.")
       .def(
           "jitter",
           [](Session& self, int seed, double force) {
             return self.step("jitter", py::dict("seed"_a = seed, "force_N"_a = force));
           },
           "seed"_a = 1, "force_N"_a = 0.4,
-          "Random forces on all joints come on and go away again; force_N: the largest along each "
+          "Applies random forces to all joints and removes them; force_N: the largest along each "
           "axis, N.")
       .def(
           "refine",
@@ -172,27 +171,28 @@ void add_steps(py::class_<Session>& type) {
             });
           },
           "tolerance_mm"_a = std::numeric_limits<double>::quiet_NaN(),
-          "Finer meshes until the error estimate is below tolerance_mm, else the preset's.");
+          "Takes finer meshes until the error estimate is below tolerance_mm (default: the "
+          "preset's tolerance).");
 }
 
 void add_looks(const py::module_& module, py::class_<Session>& type) {
   type.def_property_readonly("state", &Session::state,
-                             "The state that the shell stands in, as it is now and stays.")
+                             "The present State. It does not change when the session continues.")
       .def_property_readonly(
           "preset",
           [](Session& self) {
             return self.in_hand([](Shell& shell) { return preset::to_toml(shell.preset()); });
           },
-          "The preset as TOML, changes and defaults in it.")
+          "The preset as TOML, with changes and defaults.")
       .def_property_readonly(
           "edges_per_segment",
           [](Session& self) { return self.in_hand([](Shell& shell) { return shell.meshes(); }); },
-          "Of the meshes that it is solved on, coarse to fine.")
+          "Edges per segment of the meshes, coarse to fine.")
       .def(
           "save",
           [](Session& self) { return self.in_hand([](Shell& shell) { return shell.save(); }); },
-          "A state to go back to with restore().")
-      .def("restore", &Session::restore, "kept"_a, "Back to a state that this session saved.")
+          "A state to return to with restore().")
+      .def("restore", &Session::restore, "kept"_a, "Returns to a state that this session saved.")
       .def("__repr__",
            [](const Session& self) {
              const State& now = *self.state();
@@ -221,13 +221,14 @@ void add_looks(const py::module_& module, py::class_<Session>& type) {
 }  // namespace
 
 void add_session(py::module_& module) {
-  py::class_<Kept>(module, "Checkpoint", "A state that Session.restore() goes back to.");
+  py::class_<Kept>(module, "Checkpoint", "A state to which Session.restore() returns.");
   py::class_<Session> type(
       module, "Session",
-      "A shell in hand: flat at first, then actuated, pushed, loaded, let go. Every step ends in a "
-      "certified state, or raises and stays in the last one. Ctrl-C stops a step.\n\n"
-      "preset: name of a preset that comes with the program, or path of a TOML file. changes: what "
-      "is laid over it, {\"footprint.rods\": 14}. case: which of its cases.");
+      "A shell that you command: flat at first, then actuated, pushed, loaded, released. Every "
+      "step ends in a certified state, or raises and remains in the last one. Ctrl-C stops a "
+      "step.\n\npreset: name of a preset that comes with the program, or path of a TOML file. "
+      "changes: keys that replace those of the preset, {\"footprint.rods\": 14}. case: which of "
+      "its cases.");
   type.def(
       py::init<const std::filesystem::path&, const py::dict&, const std::optional<std::string>&>(),
       "preset"_a, "changes"_a = py::dict(), py::kw_only(), "case"_a = py::none());

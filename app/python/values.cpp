@@ -40,13 +40,15 @@ void add_certificate(py::module_& module) {
   py::class_<Certificate, std::shared_ptr<Certificate>> type(module, "Certificate",
                                                              "What is known of a state.");
   add_pickling<Certificate>(type);
-  type.def_readonly("residual_N", &Certificate::residual_N, "Largest force that nothing holds, N.")
-      .def_readonly("negative_pivots", &Certificate::negative_pivots,
-                    "Of the Hessian with what is held held; 0: stable, -1: not known.")
+  type.def_readonly("residual_N", &Certificate::residual_N,
+                    "Largest force that is left on a free node, N.")
+      .def_readonly(
+          "negative_pivots", &Certificate::negative_pivots,
+          "Number of negative pivots of the Hessian under the constraints; 0: stable, -1: unknown.")
       .def_readonly("error_estimate_mm", &Certificate::error_estimate_mm,
-                    "Of the joints' positions, mm; nan: not known, as on one mesh.")
+                    "Error estimate of all positions, mm; nan: unknown, as on one mesh.")
       .def_readonly("largest_strain", &Certificate::largest_strain,
-                    "Of an edge along its rod, by size; below 0 compressed, nan: not known.")
+                    "Axial strain of largest size of any edge; negative: compressed, nan: unknown.")
       .def_property_readonly("stable", &Certificate::stable, "Whether it has no negative pivot.")
       .def("__repr__", [](const Certificate& of) {
         return fmt::format(
@@ -58,39 +60,41 @@ void add_certificate(py::module_& module) {
 
 void add_report(py::module_& module) {
   py::class_<Event, std::shared_ptr<Event>> event(
-      module, "Event", "Something that happened to the shell on its way.");
+      module, "Event", "Something that happened to the shell on its path.");
   add_pickling<Event>(event);
   event
       .def_property_readonly(
           "kind", [](const Event& of) { return std::string(word_of(of.kind)); },
-          "\"stability_lost\", \"turned_back\" (the path came to a limit point), \"locked\" (the "
-          "rods came to their length), \"overbent\" (one came to [limits] max_bending_strain or "
-          "max_utilisation) or "
-          "\"contact\" (beyond, rods or joints touch).")
+          "\"stability_lost\" (bifurcation), \"turned_back\" (limit point), \"locked\" (strain "
+          "limit), \"overbent\" ([limits] max_bending_strain or max_utilisation) or \"contact\" "
+          "(rods or joints start to touch).")
       .def_readonly("t", &Event::t,
-                    "Where: the square root of the progress in an actuation, else from 0 at the "
-                    "begin of the step to 1 at its end.")
+                    "Path parameter: the square root of the progress in an actuation, else 0 at "
+                    "the start of the step and 1 at its end.")
       .def_readonly("to", &Event::to,
-                    "Where the state stands that it snapped to; None: it did not snap.")
+                    "Path parameter of the state to which it snapped; None: it did not snap.")
       .def("__repr__", [](const Event& of) {
         return fmt::format("Event({}, t={:.4f}{})", word_of(of.kind), of.t,
                            of.to ? fmt::format(", to={:.4f}", *of.to) : "");
       });
-  py::class_<Done, std::shared_ptr<Done>> report(module, "Report", "What a step came to.");
+  py::class_<Done, std::shared_ptr<Done>> report(module, "Report",
+                                                 "Result of a step: certificate, events, effort.");
   add_pickling<Done>(report);
   report
       .def_property_readonly(
           "certificate", [](const Done& of) { return of.report.certificate; },
-          "Of the state that the shell stands in.")
+          "Certificate of the present state.")
       .def_property_readonly(
-          "events", [](const Done& of) { return of.report.events; }, "What happened on the way.")
+          "events", [](const Done& of) { return of.report.events; },
+          "Events of the step, in order.")
       .def_property_readonly(
           "newton_iterations", [](const Done& of) { return of.report.effort.newton_iterations; },
-          "What it took.")
+          "Number of Newton iterations.")
       .def_property_readonly(
-          "seconds", [](const Done& of) { return of.report.seconds; }, "And for how long, s.")
-      .def_readonly("told", &Done::told,
-                    "Of the forming: what a run would tell as its limit; empty: nothing.")
+          "seconds", [](const Done& of) { return of.report.seconds; }, "Time of the step, s.")
+      .def_readonly(
+          "told", &Done::told,
+          "For the first actuation: what a run would report as limit_reason; empty: nothing.")
       .def("__repr__", [](const Done& of) {
         return fmt::format("Report({}, {} events, {:.2f} s)",
                            py::str(py::repr(py::cast(of.report.certificate))).cast<std::string>(),
@@ -100,12 +104,14 @@ void add_report(py::module_& module) {
 
 void add_layout(py::module_& module) {
   py::class_<Layout, std::shared_ptr<Layout>> type(module, "Layout",
-                                                   "The net, which no step changes.");
-  type.def_readonly("spacing_mm", &Layout::spacing_mm, "Between rods in the flat, d, mm.")
-      .def_readonly("rod_diameter_mm", &Layout::rod_diameter_mm, "mm.")
-      .def_readonly("length_scale_mm", &Layout::length_scale_mm,
-                    "What errors are over: R_o of a circle, the radius of a net, mm.")
-      .def_readonly("families", &Layout::families, "Of each rod, \"u\" or \"v\".")
+                                                   "Rods, joints and cells; no step changes it.");
+  type.def_readonly("spacing_mm", &Layout::spacing_mm,
+                    "Distance between neighbouring rods of the flat grid, d, mm.")
+      .def_readonly("rod_diameter_mm", &Layout::rod_diameter_mm, "Diameter of the rods, mm.")
+      .def_readonly(
+          "length_scale_mm", &Layout::length_scale_mm,
+          "Length that relative errors refer to: R_o of a circle, the radius of a net, mm.")
+      .def_readonly("families", &Layout::families, "Family of each rod, \"u\" or \"v\".")
       .def_property_readonly(
           "rods",
           [](const py::object& self) {
@@ -113,7 +119,7 @@ void add_layout(py::module_& module) {
             for (const auto& rod : self.cast<Layout&>().rods) rods.push_back(view(rod, self));
             return rods;
           },
-          "Of each rod its nodes, from edge point to edge point.")
+          "Node numbers of each rod, from edge point to edge point.")
       .def_property_readonly(
           "joints",
           [](const py::object& self) {
@@ -121,7 +127,7 @@ void add_layout(py::module_& module) {
             return view(&of.data()->i, {py::ssize_t(of.size()), 2}, {sizeof(of[0]), sizeof(int)},
                         self);
           },
-          "Of each joint its (i, j), joints x 2. Joint k is node k.")
+          "Indices (i, j) of each joint, joints x 2. Joint k is node k.")
       .def_property_readonly(
           "cells",
           [](const py::object& self) {
@@ -129,23 +135,25 @@ void add_layout(py::module_& module) {
             return view(of.empty() ? nullptr : of.data()->joints.data(),
                         {py::ssize_t(of.size()), 4}, {sizeof(of[0]), sizeof(int)}, self);
           },
-          "Of each complete cell its four joints around, cells x 4.");
+          "The four joints of each complete cell in order, cells x 4.");
   add_view(type, "edge_points", &Layout::edge_points, "Nodes on the boundary.");
   add_view(type, "supports", &Layout::supports,
-           "Nodes that something may hold: those of reactions_N.");
+           "Nodes that may be constrained: those of reactions_N.");
   add_view(type, "original_boundary", &Layout::original_boundary,
-           "Points of a closed polyline x 3, mm.");
+           "Closed polyline of the original boundary, points x 3, mm.");
   add_view(type, "actuated_boundary", &Layout::actuated_boundary,
-           "As many points, in correspondence, mm.");
+           "Closed polyline of the actuated boundary, points x 3, mm; point k corresponds to point "
+           "k of the original.");
   add_view(type, "net_nodes", &Layout::net_nodes,
-           "Where the nodes lie on the net designed on, mm; 0 x 3: none.");
+           "Positions of the nodes on the net that the footprint was designed on, nodes x 3, mm; 0 "
+           "x 3: none.");
 }
 
 void add_state(py::module_& module) {
   py::class_<State, std::shared_ptr<State>> type(
       module, "State",
-      "One state. It never changes: a session that moves on has another. Its arrays look into it "
-      "without a copy, are read-only and keep it alive.");
+      "One state. It never changes: a session that continues has another one. Its arrays are views "
+      "without a copy, read-only, and keep it alive.");
   add_pickling<State>(type);
   type.def("__repr__", [](const State& of) {
     return fmt::format("State({} joints, height_mm={:.4g}, energy_mJ={:.4g}, {})",
@@ -154,29 +162,31 @@ void add_state(py::module_& module) {
   });
   add_view(type, "nodes", &record::Frame::nodes,
            "Positions, nodes x 3, mm; joints come first, z is up.");
-  add_view(type, "cell_K", &record::Frame::cell_K, "Integrated Gauss curvature of each cell, rad.");
+  add_view(type, "cell_K", &record::Frame::cell_K,
+           "Integrated Gauss curvature of each complete cell, 2 pi less its four angles, rad.");
   add_view(type, "axial_force_N", &record::Frame::axial_force_N,
-           "Of each edge, rod after rod, N; below 0 compressed. Of the finest mesh itself, as the "
-           "curvature is.");
+           "Axial force of each edge, rod after rod, N; negative: compression. On the finest mesh, "
+           "not extrapolated.");
   add_view(type, "curvature_per_mm", &record::Frame::curvature_per_mm,
-           "At each point of each rod, rod after rod, 1/mm.");
+           "Curvature at each point of each rod, rod after rod, 1/mm. On the finest mesh.");
   add_view(type, "bending_mJ_per_m", &record::Frame::bending_mJ_per_m,
            "Bending energy over length at the same points, mJ/m.");
   add_view(type, "stress_MPa", &record::Frame::stress_MPa,
            "Largest stress of a fibre at the same points, MPa.");
   add_view(type, "reactions_N", &record::Frame::reactions_N,
-           "What holds each of layout.supports, supports x 3, N.");
+           "Force on each of layout.supports, supports x 3, N.");
   add_view(type, "loads_N", &record::Frame::loads_N,
-           "What loads the shell, handed on to layout.supports, supports x 3, N; 0 x 3: nothing.");
+           "Loads, distributed to layout.supports, supports x 3, N; 0 x 3: none.");
   add_view(type, "brace_force_N", &record::Frame::brace_force_N,
-           "Axial, along both diagonals of each cell, N; nan: no brace; empty: none at all.");
+           "Axial force of braces along both diagonals of each cell, N; nan: no brace; empty: none "
+           "at all.");
   for (const Number& number : numbers)
     type.def_property_readonly(
         number.name, [=](const State& of) { return of.frame.*number.member; }, number.doc);
   type.def_property_readonly(
           "layout",
           [](const State& of) { return std::const_pointer_cast<record::Layout>(of.layout); },
-          "The net that it is a state of.")
+          "Rods, joints and cells of the shell.")
       .def_readonly("certificate", &State::certificate, "Residual, stability and error.")
       .def_property_readonly(
           "energies",
@@ -186,13 +196,14 @@ void add_state(py::module_& module) {
               terms[term.name] = of.frame.energies[term.term];
             return Judged<"dict[str, float]">{terms};
           },
-          "By term, mJ: bend, stretch, twist, joint, shear, load, support, contact.")
+          "Energy of each term, mJ, by name: bend, stretch, twist, joint, shear, load, support, "
+          "contact.")
       .def_property_readonly(
           "energy_mJ", [](const State& of) { return of.frame.energies.total(); },
-          "All of them, mJ: what an equilibrium minimises.")
+          "Sum of all energies, mJ; an equilibrium minimises it.")
       .def_property_readonly(
           "event", [](const State& of) { return of.frame.event; },
-          "Of a run: a snap, a limit, a recovery; empty: nothing.")
+          "Event of a frame of a run: a snap, a limit, a recovery; empty: nothing.")
       .def_property_readonly(
           "held",
           [](const State& of) {
@@ -200,7 +211,7 @@ void add_state(py::module_& module) {
             for (const auto& [i, j] : of.held) held.emplace_back(i, j);
             return held;
           },
-          "Of a session: (i, j) of the joints that are held.")
+          "Indices (i, j) of the prescribed joints of a session.")
       .def_property_readonly(
           "directions",
           [](const State& of) {
@@ -208,8 +219,8 @@ void add_state(py::module_& module) {
             for (const auto& [x, y, z] : of.directions) directions.emplace_back(x, y, z);
             return directions;
           },
-          "Of a session: the unit vector (x, y, z) along which each of these was first pushed and "
-          "is held; nan: it is held in all directions.")
+          "Unit vector (x, y, z) along which each prescribed joint of a session was first pushed; "
+          "nan: it is prescribed in all directions.")
       .def("picture", &draw, py::arg("path"), py::kw_only(), py::arg("size") = py::none(),
            py::arg("context") = "auto", picture_doc);
 }

@@ -13,14 +13,13 @@ void add_imperfection(FieldList<Imperfection> list) {
       "with [imperfection] size = 0 nothing is chosen: the path stays on the symmetric branch";
   list.add<&Imperfection::size>(
       between(0, 0.05),
-      "with which a branch is entered that leaves a path where it loses its stability, of d; it "
-      "only chooses, each state being one of the perfect shell; 0: the symmetric branch, whose "
-      "frames say where it is not stable");
-  list.add<&Imperfection::seed>(between(0, 1e9), "of what is drawn by chance")
+      "amplitude over d with which a branch is entered at a bifurcation; it only chooses, states "
+      "are those of the perfect shell; 0: the symmetric branch, stable or not");
+  list.add<&Imperfection::seed>(between(0, 1e9), "seed of the random numbers")
       .unused({"size"}, why, perfect);
   list.add<&Imperfection::form>(
-          "\"random\": to the side on which a direction a joint points; \"soft_mode\": along the "
-          "mode that went soft, to one side with odd seeds and to the other with even ones")
+          "\"random\": the side to which random directions of the joints point; \"soft_mode\": "
+          "along the mode that loses its stability, one side for odd seeds, the other for even")
       .unused({"size"}, why, perfect);
 }
 
@@ -41,19 +40,19 @@ void add_indentation(FieldList<Indentation> list) {
                     [](const I& of) { return of.latitude_deg < 90; });
   list.add<&I::latitude_deg>(
       between(-90, 90),
-      "of the place pushed, as seen from the net's origin; below 90 in the place of `at`");
+      "latitude of the joint pushed, seen from the net's origin; below 90 it replaces `at`");
   by_place();
-  list.add<&I::longitude_deg>(between(-360, 360), "from +x towards +y");
+  list.add<&I::longitude_deg>(between(-360, 360),
+                              "longitude of the joint pushed, from +x towards +y");
   by_place().unused({"latitude_deg"}, "at a latitude of 90 degrees there is no longitude",
                     [](const I& of) { return of.latitude_deg >= 90; });
-  list.add<&I::joint>(
-          between(-500, 500),
-          "of the joint pushed, in the place of all of these; empty: not by its indices")
+  list.add<&I::joint>(between(-500, 500),
+                      "indices of the joint pushed, instead of all of these; empty: not given")
       .shape("[i, j]");
   pushed();
   list.add<&I::direction>(
-      "against or along the normal of the net, or of the unloaded shell, at the joint; fixed in "
-      "space");
+      "\"inward\": against the normal of the net, or of the unloaded shell, at the joint; "
+      "\"outward\": along it; fixed in space");
   pushed();
   list.add<&I::depth>(between(0, 10),
                       "depth of the push over rho of a net or R_o of a circle; 0: nothing is "
@@ -61,11 +60,10 @@ void add_indentation(FieldList<Indentation> list) {
       .unused({"depth_mm"}, "[indentation] depth_mm takes its place",
               [](const I& of) { return of.depth_mm > 0; })
       .needs_equilibrium("a net does not answer a push", [](const I& of) { return of.wanted(); });
-  list.add<&I::depth_mm>(at_least(0), "the same in millimetres, in the place of `depth`");
+  list.add<&I::depth_mm>(at_least(0), "depth of the push in mm, instead of `depth`");
   list.add<&I::lateral>("whether the joint pushed may move across the push");
   pushed();
-  list.add<&I::unload>(
-      "whether the push is taken back at the end, in the second half of the frames");
+  list.add<&I::unload>("whether the push is removed again, in the second half of the frames");
   pushed();
 }
 
@@ -74,7 +72,8 @@ void add_dynamics(FieldList<Dynamics> list) {
   const auto still = [](const Dynamics& of) { return !of.snap; };
   const char* why = "no snap is followed in time without it";
   list.add<&Dynamics::snap>(
-      "whether a loss of stability is followed in time to the next rest, with frames of its own");
+      "whether a loss of stability is integrated in time to the next equilibrium, with its own "
+      "frames");
   needs_mass<Dynamics>(list, "motion", [](const Dynamics& of) { return of.snap; });
   list.add<&Dynamics::step_s>(above(0), "time step").unused({"snap"}, why, still);
   list.add<&Dynamics::damping_per_s>(
@@ -92,8 +91,8 @@ void add_contact(FieldList<Contact> list) {
                  });
   };
   list.add<&Contact::model>(
-          "what keeps rods apart away from their joints: \"none\": they pass through one another, "
-          "and it is told; \"barrier\": they repel one another from a small gap on")
+          "\"none\": rods pass through each other, which is reported; \"barrier\": rods repel each "
+          "other within a small gap, away from their joints")
       .needs_equilibrium("a net's rods bear no forces", acts);
   unless("[jitter] trials", "a search throws rods through one another",
          [](const Preset& preset) { return preset.jitter.wanted(); });
@@ -103,12 +102,13 @@ void add_contact(FieldList<Contact> list) {
          [](const Preset& preset) { return !preset.inverse.vary.empty(); });
   const auto none = [=](const Contact& of) { return !acts(of); };
   const char* why = "nothing keeps rods apart: [contact] model is \"none\"";
-  list.add<&Contact::gap_mm>(above(0), "between the rods' surfaces, from which on they repel")
+  list.add<&Contact::gap_mm>(above(0),
+                             "gap between the rods' surfaces at which they start to repel")
       .unused({"model"}, why, none);
   list.add<&Contact::stiffness_N_per_mm>(
           above(0),
-          "half way through the gap they press with 1.2 times this times the gap, more where that "
-          "is not thin beside them")
+          "stiffness: at half the gap the force is 1.2 times this times the gap, more if the gap "
+          "is not thin compared with the rods")
       .unused({"model"}, why, none);
 }
 
@@ -118,10 +118,9 @@ void add_inverse(FieldList<Inverse> list) {
     return std::ranges::find(of.vary, one) != of.vary.end();
   };
   list.add<&I::vary>(
-          "what may change so that the shell meets its target: \"pins_radial\": where ends are "
-          "held, along the radius; \"pins\": in the boundary's plane; \"pins_3d\": in space; "
-          "\"legs\": their lengths; \"directions\": along which tangent ends are held; "
-          "\"diameters\": of every rod; empty: nothing is designed")
+          "what may change: pins along the radius (\"pins_radial\"), in the plane (\"pins\"), in "
+          "space (\"pins_3d\"); lengths of \"legs\"; \"directions\" of tangent ends; \"diameters\" "
+          "of rods; empty: no design")
       .refused({"[ends] kind"},
                "directions are held alone only with [ends] kind = \"tangent\", must not name "
                "\"directions\"",
@@ -144,26 +143,24 @@ void add_inverse(FieldList<Inverse> list) {
                 [](const I& of) { return of.vary.empty(); });
   };
   list.add<&I::target>(
-      "\"surface\": the joints on the net's surface; \"net\": each in its place on the net");
+      "\"surface\": joints on the net's surface; \"net\": each at its own point of the net");
   designed();
-  list.add<&I::norm>(
-      between(2, 32),
-      "p of the mean of |distance|^p that is made small in the last stage; the first has 2");
+  list.add<&I::norm>(between(2, 32),
+                     "exponent p of the mean of |distance|^p that is minimised in the last stage; "
+                     "in the first it is 2");
   designed();
-  list.add<&I::mu>(
-      at_least(0),
-      "weight of the mean square of all moves (mm; rad of a direction; a tenth of a rod's "
-      "diameter) beside that of the distances (mm)");
+  list.add<&I::mu>(at_least(0),
+                   "weight of the mean square of all changes (mm; rad of a direction; a tenth of a "
+                   "diameter) relative to that of the distances (mm)");
   designed();
-  list.add<&I::move_limit_mm>(above(0),
-                              "furthest that a pin is moved or a leg's length is changed");
+  list.add<&I::move_limit_mm>(above(0), "largest move of a pin, or change of a leg's length");
   designed();
   list.add<&I::round_mm>(
       at_least(0),
-      "to which a builder measures: the shell must be stable after rounding to it; 0: exact");
+      "step to which a builder measures: the shell must be stable after rounding to it; 0: exact");
   designed();
-  list.add<&I::min_stability>(between(0, 1),
-                              "of the smallest eigenvalue, over that of the shell before");
+  list.add<&I::min_stability>(
+      between(0, 1), "smallest allowed ratio of the lowest eigenvalue to that before the design");
   designed();
   list.add<&I::max_leg_force_N>(at_least(0),
                                 "largest force in a leg, unless it is larger before; 0: any");
@@ -186,9 +183,8 @@ void add_accuracy(FieldList<Accuracy> list) {
   list.add<&Accuracy::leading_edges>(between(0, 64),
                                      "does nothing any more: the finest mesh is followed");
   list.add<&Accuracy::model>(
-      "\"net\": the smooth net itself, nothing solved; \"bend\": stretching and bending, 3 "
-      "unknowns a node; \"twist\": torsion too, 1 more an edge; \"auto\" takes the least that is "
-      "exact");
+      "\"net\": the smooth net, nothing is solved; \"bend\": stretching and bending; \"twist\": "
+      "torsion too; \"auto\": the simplest that is exact");
   list.add<&Accuracy::memory_GB>(between(0, 1e6),
                                  "memory that the meshes may take; 0: half of the machine's")
       .unused({"model"}, nothing_solved, by_net_alone);
@@ -211,49 +207,49 @@ void add_jitter(FieldList<SearchSettings> list) {
     });
   };
   list.add<&S::mode>(
-      "\"gravity\": a partly actuated shell is put into a field of random direction and size, the "
-      "field is taken away and the actuation finished; \"random\": every joint is thrown by a "
-      "random vector; \"poke\": random joints are pushed and let go");
+      "\"gravity\": a partly actuated shell in a random uniform force, which is then removed; "
+      "\"random\": every joint is displaced by a random vector; \"poke\": random joints are pushed "
+      "and released");
   wanted();
   list.add<&S::trials>(
           between(0, most_trials),
-          "times that the shell is shaken; above 0 the run looks for states and makes no movie")
+          "number of random trials; above 0 the run is a search for states and makes no movie")
       .refused({"[indentation] depth", "[indentation] depth_mm", "confined"},
                "states are looked for of a shell that nothing pushes, must be 0, or the depth of "
                "[indentation]",
                [](const Preset& preset) {
                  return preset.jitter.wanted() && preset.indentation.wanted();
                });
-  list.add<&S::seed>(between(0, 1 << 30), "another seed shakes otherwise; the same finds the same");
+  list.add<&S::seed>(between(0, 1 << 30),
+                     "seed of the trials; the same seed finds the same states");
   wanted();
-  list.add<&S::levels>(
-      {0, 1, true},
-      "progress of the actuation at which the shell is shaken, taken in turn; empty: from 0.02 to "
-      "0.5 for \"gravity\", at the end for the others");
+  list.add<&S::levels>({0, 1, true},
+                       "progress of the actuation at which trials start, in turn; empty: 0.02 to "
+                       "0.5 for \"gravity\", the end for the others");
   wanted();
-  list.add<&S::field_N_per_mm>(above(0), "largest force of the field on a millimetre of rod");
+  list.add<&S::field_N_per_mm>(above(0), "largest force per millimetre of rod");
   of_mode(SearchMode::gravity, "mode", nullptr);
   list.add<&S::amplitude>({0, 10, true},
-                          "how far a random field throws a joint at most along each axis, of d");
+                          "largest random displacement of a joint along each axis, over d");
   of_mode(SearchMode::random, "confined", &S::confined);
-  list.add<&S::depth>({0, 50, true}, "how far a joint is pushed at most, of d");
+  list.add<&S::depth>({0, 50, true}, "largest push of a joint, over d");
   of_mode(SearchMode::poke, "transitions", &S::transitions);
   list.add<&S::confined>(between(0, most_trials),
-                         "trials more that begin in forms confined to each group of symmetries in "
-                         "turn, then released; counted apart");
+                         "additional trials that start in forms with each group of symmetries in "
+                         "turn; counted separately");
   list.add<&S::tolerance>({0, 1, true},
-                          "states whose joints lie nearer to one another are one, of d");
+                          "states whose joints differ by less than this are one state, over d");
   wanted();
   list.add<&S::drawn>(between(1, 24), "states in the picture");
   wanted();
   list.add<&S::transitions>(
       between(0, 1000),
-      "states, from the lowest in energy on, of which is found out where they go when the boundary "
-      "is released and contracted again and when joints are pushed");
+      "number of states, lowest first, for which it is found out what they become after release "
+      "and contraction of the boundary, and after pushes");
   wanted();
   list.add<&S::barriers>(
-      "whether the heights of the barriers between the states in the picture are looked for, on a "
-      "mesh of 4 edges");
+      "whether the barriers between the states in the picture are searched for, on 4 edges per "
+      "segment");
   wanted();
 }
 
@@ -269,10 +265,9 @@ void add_sweep(FieldList<Sweep> list) {
   list.add<&Sweep::plot>(
       "figures of summary.json that are drawn over the keys, a picture each; empty: height_mm");
   list.add<&Sweep::x>("figure that is the x axis of line charts; empty: the key that is swept");
-  list.add<&Sweep::departure>(
-      between(0, 10),
-      "share by which a figure has left its value at the right end of a line chart where that is "
-      "marked; 0: nowhere");
+  list.add<&Sweep::departure>(between(0, 10),
+                              "relative deviation of a figure from its value at the right end of a "
+                              "line chart at which a mark is drawn; 0: none");
 }
 
 }  // namespace
@@ -290,12 +285,12 @@ void add_experiment_fields(std::vector<Field>& all) {
           "\"locking\"")
       .add<&Limits::max_bending_strain>(
           at_least(0),
-          "strain of a fibre by bending, from the curvature added to that at rest, at which the "
-          "run stops with limit \"strength\"; 0: none stops it, and it is told from 0.01 on")
+          "strain of bending (change from the natural curvature) at which the run stops with limit "
+          "\"strength\"; 0: no limit, it is reported from 0.01 on")
       .add<&Limits::max_utilisation>(
           at_least(0),
-          "largest stress of a fibre over the rods' strength, bending and axial force added, at "
-          "which the run stops with limit \"strength\"; 0: none stops it, and it is told")
+          "largest stress of a fibre (bending and axial) over the strength at which the run stops "
+          "with limit \"strength\"; 0: no limit, it is reported")
       .refused({"[rod] strength_MPa", "[rod] yield_strain"},
                "utilisation is of a strength, which the rods have none of: [rod] strength_MPa or "
                "yield_strain must be above 0, those of [rod_v] too where these differ",
@@ -305,9 +300,9 @@ void add_experiment_fields(std::vector<Field>& all) {
                          (preset.rod_v.differs && preset.rod_v.fibre_strength_MPa() == 0));
                })
       .add<&Limits::contact>(
-          "what follows where rods come nearer than their radii away from their joints, the "
-          "joints' cylinders overlap, or a rod goes through the table: \"tell\", or \"stop\" in "
-          "the last state before, with limit \"contact\"")
+          "what happens if rods overlap away from their joints, joints' cylinders overlap, or a "
+          "rod passes the table: \"tell\" reports it, \"stop\" ends the run before, with limit "
+          "\"contact\"")
       .add<&Limits::table>(
           "whether the boundary's plane is a table: a rod more than its radius below it is in "
           "contact");

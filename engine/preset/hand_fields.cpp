@@ -36,38 +36,38 @@ bool meets_other_bolts(const Preset& preset, const Step& of) {
 void add_stiffening(FieldList<Step>& list) {
   using K = StepKind;
   list.add<&Step::stiffness_Nmm>(at_least(0),
-                                 "of a tighten: resistance of each joint to a change of its angle; "
-                                 "of an open: of each joint to "
-                                 "being off the angle that it is opened to; 0: rigid");
+                                 "tighten: resistance of each joint to a change of its angle; "
+                                 "open: to a deviation from the target angle; 0: rigid");
   list.used_by(&Step::kind, {K::tighten, K::open})
       .refused({},
                "bolts of another stiffness are there by then, must be the same, or a release of "
                "\"bolts\" before it",
                meets_other_bolts);
-  list.add<&Step::angle_deg>(between(0, 180),
-                             "of an open: to what all joints where two rods cross open on average, "
-                             "each by as much; between "
-                             "the directions in which their rods run; 0: `angles` says it");
+  list.add<&Step::angle_deg>(
+      between(0, 180),
+      "open: target for the average angle of all crossings of two rods, each turned equally; "
+      "between the directions of the rods; 0: `angles` is used");
   list.used_by(&Step::kind, {K::open})
       .refused({}, "an open has `angle_deg` or `angles`, must be one of the two",
                [](const Step& of) {
                  return of.kind == K::open && of.angles.empty() == (of.angle_deg == 0);
                });
-  list.add<&Step::angles>("of an open: joints and to what each opens; the others are let be")
+  list.add<&Step::angles>("open: target angles of single joints; the others are free")
       .points({"i", "j", "angle_deg"});
   list.used_by(&Step::kind, {K::open});
-  list.add<&Step::cells>("of a brace: the cells; empty: all complete ones").points({"i", "j"});
+  list.add<&Step::cells>("brace: the cells; empty: all complete ones").points({"i", "j"});
   list.used_by(&Step::kind, {K::brace});
   list.add<&Step::diagonals>(
-      "of a brace: \"first\" from joint (i, j) to (i + 1, j + 1), \"second\" the other");
+      "brace: \"first\" from joint (i, j) to (i + 1, j + 1), \"second\" the other");
   list.used_by(&Step::kind, {K::brace});
-  list.add<&Step::brace>("\"cable\": bears no compression; \"strut\"").named("as");
+  list.add<&Step::brace>("brace: \"cable\": bears no compression; \"strut\": bears both")
+      .named("as");
   list.used_by(&Step::kind, {K::brace});
-  list.add<&Step::EA_N>(at_least(0), "of a brace: axial stiffness").unit("N");
+  list.add<&Step::EA_N>(at_least(0), "brace: axial stiffness").unit("N");
   list.used_by(&Step::kind, {K::brace})
       .refused({}, "a brace needs a stiffness, must be above 0",
                [](const Step& of) { return of.kind == K::brace && of.EA_N == 0; });
-  list.add<&Step::what>("of a release: joints that are held, all bolts or all braces");
+  list.add<&Step::what>("release: prescribed joints, all bolts or all braces");
   list.used_by(&Step::kind, {K::release});
 }
 
@@ -77,20 +77,17 @@ void add_steps(FieldList<Step> list) {
     return list.used_by(&Step::kind, std::move(kinds));
   };
   list.add<&Step::kind>(
-          "\"move\" the boundary; \"push\" a joint, which is held from then on; \"hold\" one where "
-          "it is; \"release\" one; \"load\": more or less of what [loads] says; \"rest\": down the "
-          "energy; \"jitter\": random forces on all joints come on and go away again; "
-          "\"tighten\" bolts: all joints keep the angles that they have; \"brace\" cells along "
-          "diagonals; both free of stress at that moment; \"open\" joints to other angles")
+          "what is done: \"move\" the boundary; \"push\", \"hold\" or \"release\" joints; "
+          "\"load\"; \"rest\": descend; \"jitter\"; \"tighten\" bolts; \"brace\" cells; \"open\" "
+          "joints to other angles (see Steps)")
       .named("do");
   step_rules(list);
   list.add<&Step::progress>(
-      between(0, 10),
-      "of a move: 0 the original boundary, 1 the actuated one, beyond it further on");
+      between(0, 10), "move: 0 is the original boundary, 1 the actuated one, above 1 further");
   only({K::move}).unused({"radius_mm"}, "radius_mm takes its place",
                          [](const Step& of) { return of.radius_mm > 0; });
   list.add<&Step::radius_mm>(at_least(0),
-                             "of a move of a circle, in the place of `progress`; 0: not given");
+                             "move: radius of a circle, instead of `progress`; 0: not given");
   only({K::move})
       .refused({}, "only a circle's boundary has a radius, must be 0: `progress` serves all",
                [](const Preset& preset, const Step& of) {
@@ -103,8 +100,8 @@ void add_steps(FieldList<Step> list) {
                    : "";
       });
   list.add<&Step::edge_points>(
-          "of a move: by how much edge points, counted from 0, lie off the boundary's motion; "
-          "others lie on it")
+          "move: displacement of single edge points, counted from 0, relative to the boundary's "
+          "motion")
       .points({"edge_point", "x_mm", "y_mm", "z_mm"});
   only({K::move}).refused({},
                           "names an edge point that is no number, must be a whole number from 0 on",
@@ -113,8 +110,7 @@ void add_steps(FieldList<Step> list) {
                               return row[0] < 0 || row[0] != double(int(row[0]));
                             });
                           });
-  list.add<&Step::joint>(between(-500, 500),
-                         "of the joint; of a release that names none: all that are held")
+  list.add<&Step::joint>(between(-500, 500), "indices of the joint; release: empty releases all")
       .shape("[i, j]");
   only({K::push, K::hold, K::release})
       .unused({"what"}, "bolts and braces are taken out all together",
@@ -122,18 +118,17 @@ void add_steps(FieldList<Step> list) {
       .refused({}, "must be [i, j]", [](const Step& of) {
         return of.joint.empty() && (of.kind == K::push || of.kind == K::hold);
       });
-  list.add<&Step::to_mm>("place to which a push brings the joint; empty: `depth_mm` says how far")
+  list.add<&Step::to_mm>("push: position to which the joint is moved; empty: `depth_mm` is used")
       .shape("[x, y, z]");
   only({K::push});
   list.add<&Step::depth_mm>(
-      "by how much a push moves the joint against the shell's normal, inward, from where it is; "
-      "below 0 outward");
+      "push: displacement of the joint against the shell's normal, inward; negative: outward");
   only({K::push}).refused(
       {}, "a push goes to `to_mm` or by `depth_mm`, must be one of the two",
       [](const Step& of) { return of.kind == K::push && of.to_mm.empty() == (of.depth_mm == 0); });
   list.add<&Step::along>(
-          "direction in which a joint is held that may move across it; empty: the way of the push, "
-          "of a hold all directions")
+          "direction in which the joint is prescribed; it is free across it; empty: that of the "
+          "push, for \"hold\" all directions")
       .shape("[x, y, z]");
   only({K::push, K::hold})
       .refused({}, "is no direction, must have a length",
@@ -150,12 +145,11 @@ void add_steps(FieldList<Step> list) {
   list.add<&Step::lateral>("whether the joint pushed may move across the push");
   only({K::push});
   list.add<&Step::factor>(between(-1000, 1000),
-                          "how many times what [loads] or the case named says counts from then on; "
-                          "0: not at all");
+                          "multiple of [loads], or of the named case, from then on; 0: none");
   only({K::load});
   list.add<&Step::load_case>(
-          "of a load: name of a [[loads.case]], whose forces are worked out on the shape in which "
-          "it comes on; empty: what the shell was formed under")
+          "load: name of a [[loads.case]], evaluated on the shape at which it is applied; empty: "
+          "the loads under which the shell was formed")
       .named("case");
   only({K::load}).refused({"[[loads.case]] name"}, [](const Preset& preset, const Step& of) {
     const bool known = of.load_case.empty() ||
@@ -164,18 +158,18 @@ void add_steps(FieldList<Step> list) {
   });
   add_stiffening(list);
   list.add<&Step::side>(
-      "of a rest from a state that is not stable: where the energy ends lower, or along or against "
-      "its soft mode");
+      "\"rest\": from an unstable state to the side of lower energy, or along or against its "
+      "lowest mode");
   only({K::rest});
-  list.add<&Step::seed>(between(0, 1 << 30), "of a jitter: another one shakes otherwise");
+  list.add<&Step::seed>(between(0, 1 << 30), "jitter: seed of the random forces");
   only({K::jitter});
-  list.add<&Step::force_N>(above(0), "of a jitter: largest force on a joint along each axis");
+  list.add<&Step::force_N>(above(0), "jitter: largest force on a joint along each axis");
   only({K::jitter});
 }
 
 void add_loads(FieldList<Loads> list) {
   list.add<&Loads::gravity_m_s2>(
-      "gravity, downwards; loads come on with the actuation, in full at its end");
+      "gravity, downwards; loads grow with the actuation to their full value at its end");
   needs_mass<Loads>(list, "gravity", [](const Loads& of) { return of.gravity_m_s2 != 0; });
   list.add<&Loads::field_N_per_mm>(
       "artificial gravity: force on every millimetre of rod, downwards");
@@ -194,34 +188,32 @@ void add_area_loads(FieldList<Loads> list) {
   };
   list.add<&Loads::snow_N_m2>(
       at_least(0),
-      "of cases: snow on every square metre of the plan of the shape that it comes on; none lies "
-      "on what overhangs");
+      "cases: snow per area of plan, on the shape at which it is applied; none on overhangs");
   idle(&LoadCase::snow);
   list.add<&Loads::wind_N_m2>(
       at_least(0),
-      "of cases: pressure where the wind meets a face at right angles; elsewhere times the cosine "
-      "between wind and normal, inwards to windward, outwards to leeward");
+      "cases: wind pressure at normal incidence, elsewhere times the cosine between wind and "
+      "normal; inwards on the windward side, outwards on the leeward side");
   idle(&LoadCase::wind);
-  list.add<&Loads::wind_deg>(between(-360, 360), "where the wind blows to, from +x towards +y");
+  list.add<&Loads::wind_deg>(between(-360, 360),
+                             "direction to which the wind blows, from +x towards +y");
   idle(&LoadCase::wind);
-  list.add<&Loads::pressure_N_m2>(
-      at_least(0),
-      "of cases: pressure on every face against its normal, which turns with the shell; the edge "
-      "must be held");
+  list.add<&Loads::pressure_N_m2>(at_least(0),
+                                  "cases: pressure on every face against its normal; it turns with "
+                                  "the shell; the edge must be fixed");
   idle(&LoadCase::pressure);
-  list.add<&Loads::edge_N_m>(
-      at_least(0),
-      "of cases: on every metre of the edge, the sides of faces that no other face shares, of the "
-      "shape that it comes on");
+  list.add<&Loads::edge_N_m>(at_least(0),
+                             "cases: load per length of the edge (sides of faces that no other "
+                             "face shares), on the shape at which it is applied");
   idle(&LoadCase::edge);
   list.add<&Loads::edge_direction>(
-      "of that: \"down\"; \"normal\": against the shell's normal there; \"inward\": in the shell's "
-      "surface, across the edge; \"pressure\": in plan, inwards across the edge as it turns");
+      "direction of the load on the edge: \"down\"; \"normal\": against the shell's normal; "
+      "\"inward\": in the surface, across the edge; \"pressure\": in plan, across the moving edge");
   idle(&LoadCase::edge);
   list.add<&Loads::imperfection>(
       above(0),
-      "largest move by the shapes that `gridshell load --imperfections N` mixes of the softest "
-      "modes, over R_o, rho or half the bounding diagonal; `imperfection.seed` draws the first");
+      "largest displacement of the shapes of `gridshell load --imperfections N`, mixed from the "
+      "lowest modes, over R_o, rho or half the bounding diagonal");
 }
 
 void add_load_cases(FieldList<LoadCase> list) {
@@ -231,32 +223,30 @@ void add_load_cases(FieldList<LoadCase> list) {
       return of.*factor != 0 && preset.loads.*load == 0;
     };
   };
-  list.add<&C::name>("by which steps, tables and pictures call it");
+  list.add<&C::name>("name of the case in steps, tables and pictures");
   list.refused({}, "must be a name of its own", [](const Preset& preset, const C& of) {
     return of.name.empty() || std::ranges::count(preset.load_case, of.name, &C::name) > 1;
   });
   list.needs_equilibrium("a net does not answer loads", [](const C&) { return true; });
   list.add<&C::dead>(between(-1000, 1000),
-                     "how many times what [loads] says of gravity, field and points comes on, "
-                     "beside the once that the shell was formed under")
+                     "multiple of gravity, field and points of [loads], in addition to those under "
+                     "which the shell was formed")
       .refused(
           {"[loads] gravity_m_s2"}, "[loads] says nothing that acts, must be 0",
           [](const Preset& preset, const C& of) { return of.dead != 0 && !preset.loads.any(); });
-  list.add<&C::snow>(between(-1000, 1000), "how many times snow_N_m2")
+  list.add<&C::snow>(between(-1000, 1000), "multiple of snow_N_m2")
       .refused({"[loads] snow_N_m2"}, "there is no snow: [loads] snow_N_m2 must be above 0",
                lacks(&C::snow, &Loads::snow_N_m2));
-  list.add<&C::snow_side>(
-          "half of the shell, as seen from the middle of its joints, that the snow lies on")
+  list.add<&C::snow_side>("half of the shell, seen from the middle of its joints, that has snow")
       .unused({"snow"}, "the case has no snow", [](const C& of) { return of.snow == 0; });
-  list.add<&C::wind>(between(-1000, 1000), "how many times wind_N_m2")
+  list.add<&C::wind>(between(-1000, 1000), "multiple of wind_N_m2")
       .refused({"[loads] wind_N_m2"}, "there is no wind: [loads] wind_N_m2 must be above 0",
                lacks(&C::wind, &Loads::wind_N_m2));
-  list.add<&C::pressure>(between(-1000, 1000),
-                         "how many times pressure_N_m2; below 0 it blows the shell up")
+  list.add<&C::pressure>(between(-1000, 1000), "multiple of pressure_N_m2; negative: from inside")
       .refused({"[loads] pressure_N_m2"},
                "there is no pressure: [loads] pressure_N_m2 must be above 0",
                lacks(&C::pressure, &Loads::pressure_N_m2));
-  list.add<&C::edge>(between(-1000, 1000), "how many times edge_N_m")
+  list.add<&C::edge>(between(-1000, 1000), "multiple of edge_N_m")
       .refused({"[loads] edge_N_m"},
                "there is no load on the edge: [loads] edge_N_m must be above 0",
                lacks(&C::edge, &Loads::edge_N_m));

@@ -22,10 +22,8 @@ void add_movie(FieldList<Movie> list) {
   list.add<&M::quality>(
       "draft: no shadow; movie: a soft shadow; figure: many passes with jittered light");
   list.add<&M::colour_by>(
-          "none; the cells by their integrated Gauss curvature K, by how much it changed since the "
-          "first frame, or by how far their joints lie off the net, over rho; or the rods by how "
-          "far they moved over the depth of the push, by their bending energy over length, their "
-          "axial force, the largest stress of their fibres or that over their strength")
+          "cells by K, its change since the first frame, or their deviation over rho; rods by "
+          "displacement over depth, bending energy over length, axial force, stress or utilisation")
       .refused(
           {"[footprint] kind"},
           "\"deviation\" is from the net that a footprint was designed on, must be another, or "
@@ -55,35 +53,35 @@ void add_movie(FieldList<Movie> list) {
   list.add<&M::zoom>({0, 100, true}, "1 fits the whole run into the picture");
   list.add<&M::inset>("whether to draw the small top view");
   list.add<&M::bins>(
-      "whether to plot K of the cells in bins along x beside the shell, in wide "
-      "pictures");
+      "whether to plot K of the cells in bins along x next to the shell, in wide pictures");
   list.add<&M::captions>("whether to write radius, height and frame");
   list.add<&M::beside>(
-      "whether a movie shows the cases of a preset beside one another; else each has its own");
-  list.add<&M::view>("a standard view, in the place of azimuth_deg and elevation_deg");
+      "whether a movie shows the cases of a preset next to each other; else each has its own "
+      "movie");
+  list.add<&M::view>("a standard view, instead of azimuth_deg and elevation_deg");
   list.add<&M::target_mm>(
-          "what stands in the middle of the shell's panel; empty: the middle of all that moves")
+          "point in the middle of the shell's panel; empty: the middle of all that moves")
       .shape("[x, y, z]");
-  list.add<&M::orthographic>("whether what is far is as large as what is near");
+  list.add<&M::orthographic>("whether the projection is parallel, without perspective");
   list.add<&M::bins_range>(
-          "of the axis of the plot of bins, so that movies compare; empty: the "
-          "run's own")
+          "range of the axis of the plot of bins, so that movies can be compared; empty: from the "
+          "run")
       .unit("rad")
       .unused({"bins"}, "no bins are drawn: [movie] bins is false",
               [](const M& of) { return !of.bins; });
   rises(list, &M::bins_range);
-  list.add<&M::views>("more views in each frame, beside one another, degrees")
+  list.add<&M::views>("more views in each frame, next to each other, degrees")
       .points({"azimuth", "elevation"});
   list.add<&M::seconds>(at_least(0),
-                        "how long the movie is without hold and title card; 0: frames / fps")
+                        "duration of the movie without title and final still; 0: frames / fps")
       .unit("s");
-  list.add<&M::hold_s>(between(0, 60), "how long the last frame stands");
+  list.add<&M::hold_s>(between(0, 60), "duration for which the last frame is shown");
   list.add<&M::title_s>(between(0, 60),
-                        "how long a card with title and source stands at the begin; 0: none");
+                        "duration of a card with title and source at the start; 0: none");
   list.add<&M::pace>("eased: slow at both ends");
   list.add<&M::webm>("whether movie.webm is made too");
   list.add<&M::gif>("whether movie.gif is made too");
-  list.add<&M::poster>("whether the last frame is kept as poster.png");
+  list.add<&M::poster>("whether the last frame is saved as poster.png");
 }
 
 void add_style(FieldList<Style> list) {
@@ -93,17 +91,17 @@ void add_style(FieldList<Style> list) {
       "figures");
   list.add<&S::rod_width_mm>(at_least(0),
                              "width of rods as drawn, no less than a pixel; 0: the theme's");
-  list.add<&S::joint_width_mm>(at_least(0), "of joints; 0: the theme's");
-  list.add<&S::ring_width_mm>(at_least(0), "of the boundary; 0: the theme's");
-  list.add<&S::rod_colour>("of rods; empty: the theme's").colour();
-  list.add<&S::joint_colour>("of joints").colour();
-  list.add<&S::ring_colour>("of the boundary").colour();
-  list.add<&S::background>("behind the shell; \"transparent\" leaves it out of the PNG").colour();
+  list.add<&S::joint_width_mm>(at_least(0), "width of joints; 0: the theme's");
+  list.add<&S::ring_width_mm>(at_least(0), "width of the boundary; 0: the theme's");
+  list.add<&S::rod_colour>("colour of rods; empty: the theme's").colour();
+  list.add<&S::joint_colour>("colour of joints; empty: the theme's").colour();
+  list.add<&S::ring_colour>("colour of the boundary; empty: the theme's").colour();
+  list.add<&S::background>("colour behind the shell; \"transparent\" leaves it out of the PNG")
+      .colour();
   list.add<&S::colour_map>("auto: sequential of sizes, diverging about zero of what has a sign");
   list.add<&S::range>(
-      "of the colours, in the unit of the colour bar; empty: where nine tenths of the values of "
-      "all "
-      "cases lie, of stress and utilisation all of them");
+      "range of the colours, in the unit of the colour bar; empty: nine tenths of the values of "
+      "all cases, for stress and utilisation all values");
   rises(list, &S::range);
   list.add<&S::cells>("whether cells are shown");
   list.add<&S::joints>("whether joints are shown");
@@ -111,14 +109,13 @@ void add_style(FieldList<Style> list) {
   list.add<&S::floor>("whether there is a floor");
   list.add<&S::shadow>("whether shadows are cast");
   list.add<&S::loads>(
-      "whether what loads the shell is shown as arrows, all to one scale, each at its joint; a "
-      "push "
-      "has its own");
+      "whether loads are shown as arrows to one scale, each at its joint; a push has its own "
+      "arrow");
   list.add<&S::braces>("whether braces are shown");
-  list.add<&S::far_fade>(between(0, 1), "by how much the far side pales into the background");
-  list.add<&S::letters>("whether the panels of a figure bear letters");
-  list.add<&S::font>("family of all text, in all cases; empty: DejaVu Sans, which has every sign");
-  list.add<&S::font_size>(between(0.5, 2), "of all text, over its usual size");
+  list.add<&S::far_fade>(between(0, 1), "how far the far side fades into the background");
+  list.add<&S::letters>("whether the panels of a figure have letters");
+  list.add<&S::font>("font of all text, in all cases; empty: DejaVu Sans, which has every sign");
+  list.add<&S::font_size>(between(0.5, 2), "size of all text, over its usual size");
 }
 
 /// Why the radii of a circle's stills do not fall from R_o to R_a; empty: they do.
@@ -147,35 +144,33 @@ void add_figure(FieldList<Figure> list) {
       .refused({"[footprint] kind", "[footprint] radius_mm", "[footprint] longest_leg",
                 "[actuation] radius_mm", "[actuation] ratio"},
                radii_fault);
-  list.add<&Figure::scale_bar_mm>(
-      at_least(0),
-      "length of the scale bar, a round one in its place where that would be a dot beside the "
-      "shell or longer than it; 0: none");
+  list.add<&Figure::scale_bar_mm>(at_least(0),
+                                  "length of the scale bar; a round length instead if it would be "
+                                  "a dot or longer than the shell; 0: none");
   list.add<&Figure::scan>(
           "joints measured by others, mm, in the frame of the net: red over shells on their nets, "
           "and in the latitude plot")
       .points({"x", "y", "z"});
-  list.add<&Figure::quality>("of stills, as [movie] quality");
+  list.add<&Figure::quality>("quality of stills, as [movie] quality");
   list.add<&Figure::width_mm>(
-      at_least(0), "width of a whole figure as printed; 0: as many pixels as [movie] size says");
-  list.add<&Figure::dpi>(between(30, 2400), "pixels of an inch, where a width is given")
-      .unit("1/inch");
+      at_least(0), "width of a complete figure as printed; 0: the pixels of [movie] size");
+  list.add<&Figure::dpi>(between(30, 2400), "pixels per inch, if a width is given").unit("1/inch");
   list.add<&Figure::cut_step_mm>(
       between(0, 10), "lengths and marks of exported cut lists are multiples of it; 0: all digits");
   list.add<&Figure::vector>(
-      "whether stills are also drawn as lines, as SVG and PDF, hidden ones faded");
+      "whether stills are also drawn as lines, as SVG and PDF, hidden lines faded");
 }
 
 void add_page(FieldList<Page> list) {
   list.unused({"kind"}, "no page is made: [page] kind is \"none\"",
               [](const Page& of) { return of.kind == PageKind::none; });
   list.add<&Page::kind>(
-      "figure of the paper that `figure` lays out on one page; \"literature\": all cases alike");
-  list.add<&Page::photo>("a PNG in the photograph's place; empty: an empty frame");
+      "figure of the paper that `figure` lays out on one page; \"literature\": all cases in one "
+      "style");
+  list.add<&Page::photo>("a PNG instead of the photograph; empty: an empty frame");
   list.add<&Page::sweep>(
-          "finished sweep over legs and rods in the phase diagram's place: its folder, its "
-          "sweep.csv, or fig2_phase_diagram.csv, which comes with the presets; empty: an empty "
-          "frame")
+          "finished sweep over legs and rods for the phase diagram: its folder, its sweep.csv, or "
+          "fig2_phase_diagram.csv, which comes with the presets; empty: an empty frame")
       .unused({"kind"}, "[page] kind is not \"fig2\"",
               [](const Page& of) { return of.kind != PageKind::fig2; });
 }

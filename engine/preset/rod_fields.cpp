@@ -28,23 +28,26 @@ void add_rods(FieldList<Rod> rods, const std::string& table) {
       at_least(0), "shear modulus G; 0: not given, which is enough where no rod is twisted");
   rods.add<&Rod::density_kg_m3>(
       at_least(0), "density; 0: not given, which is enough without gravity and motion");
-  rods.add<&Rod::strength_MPa>(
-      at_least(0), "stress that a fibre bears, over which its utilisation is told; 0: not given");
-  rods.add<&Rod::yield_strain>(at_least(0),
-                               "strain that it bears, in the place of strength_MPa; 0: not given")
+  rods.add<&Rod::strength_MPa>(at_least(0),
+                               "strength: largest stress that a fibre bears; utilisation is the "
+                               "stress over it; 0: not given");
+  rods.add<&Rod::yield_strain>(
+          at_least(0), "largest strain that a fibre bears, instead of strength_MPa; 0: not given")
       .refused({"strength_MPa"}, "strength_MPa says what the rods bear, one of both must be 0",
                [](const Rod& rod) { return rod.yield_strain > 0 && rod.strength_MPa > 0; });
   const std::string half = "a rectangular section has both, [{}] {} must be above 0 too";
   const auto two_axes = [](const Rod& rod) {
     return rod.rectangular() && rod.width_mm != rod.thickness_mm;
   };
-  rods.add<&Rod::width_mm>(at_least(0),
-                           "of a rectangular section, in the flat; 0: the rods are round")
+  rods.add<&Rod::width_mm>(
+          at_least(0),
+          "width of a rectangular section, in the plane of the grid; 0: the rods are round")
       .needs_twist("rods that are not alike in all directions spin as they bend", two_axes)
       .refused({}, fmt::format(fmt::runtime(half), table, "thickness_mm"),
                [](const Rod& rod) { return rod.width_mm > 0 && rod.thickness_mm == 0; });
-  rods.add<&Rod::thickness_mm>(at_least(0),
-                               "of a rectangular section, upright; 0: the rods are round")
+  rods.add<&Rod::thickness_mm>(
+          at_least(0),
+          "thickness of a rectangular section, across the plane of the grid; 0: the rods are round")
       .refused({}, fmt::format(fmt::runtime(half), table, "width_mm"),
                [](const Rod& rod) { return rod.thickness_mm > 0 && rod.width_mm == 0; });
   rods.add<&Rod::wall_mm>(at_least(0), "wall of a tube, round or rectangular; 0: solid")
@@ -57,26 +60,28 @@ void add_rods(FieldList<Rod> rods, const std::string& table) {
                    : "";
       });
   const char* round = "is of a section that is alike in all directions, width_mm must be 0";
-  rods.add<&Rod::EA_N>(at_least(0), "stiffness against stretch; 0: by the section");
-  rods.add<&Rod::EI_Nmm2>(at_least(0), "against bending, in all directions; 0: by the section")
+  rods.add<&Rod::EA_N>(at_least(0), "axial stiffness; 0: from the section");
+  rods.add<&Rod::EI_Nmm2>(at_least(0),
+                          "bending stiffness, equal in all directions; 0: from the section")
       .unit("N mm²")
       .refused({"width_mm"}, round,
                [](const Rod& rod) { return rod.EI_Nmm2 > 0 && rod.rectangular(); });
-  rods.add<&Rod::GJ_Nmm2>(at_least(0), "against torsion; 0: by the section").unit("N mm²");
-  rods.add<&Rod::mass_g_per_m>(at_least(0), "mass; 0: by the section and its density").unit("g/m");
+  rods.add<&Rod::GJ_Nmm2>(at_least(0), "torsional stiffness; 0: from the section").unit("N mm²");
+  rods.add<&Rod::mass_g_per_m>(at_least(0), "mass per length; 0: from the section and its density")
+      .unit("g/m");
   rods.add<&Rod::modulus_mm3>(at_least(0),
-                              "section modulus W, for the stress M/W; 0: by the section")
+                              "section modulus W, for the stress M/W; 0: from the section")
       .unit("mm³")
       .refused({"width_mm"}, round,
                [](const Rod& rod) { return rod.modulus_mm3 > 0 && rod.rectangular(); });
   const char* curved = "rods curved at rest spin to keep their curve";
-  rods.add<&Rod::curvature_per_mm>("curvature at rest in the upright plane; above 0 arches up")
+  rods.add<&Rod::curvature_per_mm>("natural curvature in the vertical plane; above 0 arches up")
       .needs_twist(curved, [](const Rod& rod) { return rod.curvature_per_mm != 0; });
   rods.add<&Rod::curvature_sideways_per_mm>(
-          "curvature at rest in the flat; above 0 turns left, seen from above")
+          "natural curvature in the plane of the grid; above 0 turns left, seen from above")
       .needs_twist(curved, [](const Rod& rod) { return rod.curvature_sideways_per_mm != 0; });
   // a round straight rod whose ends spin freely untwists by itself
-  rods.add<&Rod::twist_rad_per_mm>("twist at rest")
+  rods.add<&Rod::twist_rad_per_mm>("natural twist")
       .needs_twist(
           "rods twisted at rest turn their axes", [=](const Preset& preset, const Rod& rod) {
             const bool curved = rod.curvature_per_mm != 0 || rod.curvature_sideways_per_mm != 0;
@@ -86,8 +91,8 @@ void add_rods(FieldList<Rod> rods, const std::string& table) {
           });
   if (table == "rod")
     rods.add<&Rod::as_drawn>(
-            "whether a network's rods are cut as they are drawn in the flat, so that their lines "
-            "are their shapes at rest, or are straight at rest")
+            "whether a network's rods are cut as they are drawn, so that their lines are their "
+            "shapes without stress; else they are naturally straight")
         .needs_twist("rods cut as drawn keep their curves", &Rod::as_drawn)
         .unused(
             {"[footprint] kind"}, "the rods of a grid are straight as they are drawn",
@@ -108,8 +113,8 @@ constexpr const char* in_the_file = "it names rods of a square grid, a network's
 void add_joints(FieldList<Joints> joints) {
   joints
       .add<&Joints::kind>(
-          "\"shared\": crossing rods share the joint's node; \"spring\": each has its own, held "
-          "together by a spring")
+          "\"shared\": crossing rods share the joint's node; \"spring\": each has its own node, "
+          "and a spring connects them")
       .needs_twist("spring joints give each rod a node of its own",
                    [](const Joints& of) { return of.kind == JointKind::spring; })
       .refused({"stiffness_N_per_mm"},
@@ -118,7 +123,7 @@ void add_joints(FieldList<Joints> joints) {
                [](const Joints& of) {
                  return of.kind == JointKind::spring && of.stiffness_N_per_mm == 0;
                });
-  joints.add<&Joints::stiffness_N_per_mm>(at_least(0), "of spring joints")
+  joints.add<&Joints::stiffness_N_per_mm>(at_least(0), "stiffness of spring joints")
       .refused({"kind"},
                "shared joints have no stiffness, must be 0, or [joints] kind = \"spring\"",
                [](const Joints& of) {
@@ -129,39 +134,38 @@ void add_joints(FieldList<Joints> joints) {
           at_least(0), "resistance to the change of the crossing angle; 0: joints shear freely")
       .needs_twist("the joints resist shear", [](const Joints& of) { return of.shear_Nmm > 0; });
   joints
-      .add<&Joints::twist_Nmm>(
-          at_least(0),
-          "resistance to a rod's spin beside the joint's normal; 0: joints pass no "
-          "twist")
+      .add<&Joints::twist_Nmm>(at_least(0),
+                               "resistance to the rotation of a rod relative to the joint's "
+                               "normal; 0: joints pass no twist")
       .needs_twist("the joints pass twist", [](const Joints& of) { return of.twist_Nmm > 0; });
   const auto eccentric = [](const Joints& of) { return of.eccentricity_mm != 0; };
   joints
       .add<&Joints::eccentricity_mm>(
           between(-1000, 1000),
-          "how far the axis of a joint's second rod (of a grid the v-rod, of a network the one "
-          "that is listed later) lies above the first's along the joint's normal; below 0: below")
+          "distance of the second rod's axis (v-rod; in a network the one listed later) above the "
+          "first's, along the joint's normal; negative: below it")
       .refused({"kind"},
                "axes that lie apart are held by a bolt, must be 0, or [joints] kind = \"shared\"",
                [=](const Joints& of) { return eccentric(of) && of.kind == JointKind::spring; })
       .needs_equilibrium("a net's rods cross in a point", eccentric);
   joints.add<&Joints::diameter_mm>(above(0),
-                                   "of the joint's cylinder, of which a scan sees the top");
+                                   "diameter of the joint's cylinder, whose top a scan sees");
   joints.add<&Joints::height_mm>(
       at_least(0),
-      "how far the top of that cylinder lies above the rods' crossing, along the shell's normal");
-  joints.add<&Joints::mass_g>(at_least(0),
-                              "of each joint, beside that of its rods, for gravity and motion");
+      "height of the cylinder's top above the rods' crossing, along the shell's normal");
+  joints.add<&Joints::mass_g>(
+      at_least(0), "mass of each joint, in addition to that of its rods, for gravity and motion");
 }
 
 void add_ends(FieldList<Ends> ends) {
   ends.add<&Ends::kind>(
-          "\"pinned\": position held, direction and spin free; \"tangent\": direction held too, "
-          "along the net's tangents or, in a circle, as in the flat; \"clamped\": spin held too")
+          "\"pinned\": position prescribed; \"tangent\": direction too, along the net's tangents "
+          "or, in a circle, as in the flat grid; \"clamped\": rotation about the axis too")
       .needs_twist("clamped ends hold the rods' spin",
                    [](const Ends& of) { return of.kind == EndKind::clamped; });
   const char* no_net = "a network has no net whose end rings it could be";
   ends.add<&Ends::rings>(
-          "whether the ends on the rings of a surface of revolution are held like the others or "
+          "whether ends on the rings of a surface of revolution are pinned like the others, or "
           "free")
       .unused({"[footprint] kind"}, no_net, is_network)
       .refused({"[footprint] kind", "[net] kind"},
@@ -171,8 +175,8 @@ void add_ends(FieldList<Ends> ends) {
                });
   ends.add<&Ends::second_ring_mm>(
           at_least(0),
-          "length of tails without joints beyond the boundary, their far ends pinned so that the "
-          "rods keep the net's tangents at it; 0: none")
+          "length of tails outside the boundary, without joints; their far ends are pinned so that "
+          "the rods keep the net's tangents at the boundary; 0: none")
       .unused({"[footprint] kind"}, no_net, is_network)
       .refused({"[footprint] kind"},
                "the far ends are pinned along the tangents of a net, and this footprint has none, "
@@ -187,8 +191,8 @@ void add_ends(FieldList<Ends> ends) {
       .needs_equilibrium("a net has no tails",
                          [](const Ends& of) { return of.second_ring_mm > 0; });
   ends.add<&Ends::table>(
-          "of a designed shell, in the place of the boundary: where ends are held, how long their "
-          "legs are, and along which direction of the rod where one is held")
+          "ends of a designed shell, instead of the boundary: position, length of the leg, and "
+          "direction where it is prescribed")
       .points({"family", "rod", "end", "x_mm", "y_mm", "z_mm", "leg_mm", "tx", "ty", "tz"},
               {{"u", "v"}, {}, {"begin", "end"}})
       .unused({"[footprint] kind"}, in_the_file, is_network)
@@ -201,7 +205,7 @@ void add_ends(FieldList<Ends> ends) {
 void add_rod_fields(std::vector<Field>& all) {
   add_rods({all, "rod", &Preset::rod}, "rod");
   FieldList<Preset>(all, "rod", [](Preset& preset) -> Preset& { return preset; })
-      .add<&Preset::rod_table>("rods that have diameters of their own, by family and number")
+      .add<&Preset::rod_table>("diameters of single rods, by family and number")
       .named("table")
       .points({"family", "rod", "diameter_mm"}, {{"u", "v"}})
       .unused({"[footprint] kind"}, in_the_file, is_network);
@@ -209,7 +213,7 @@ void add_rod_fields(std::vector<Field>& all) {
   FieldList<RodV>(all, "rod_v", &Preset::rod_v)
       .unused({"[footprint] kind"}, one_kind, is_network)
       .add<&RodV::differs>(
-          "whether the v rods are others than those of [rod]; the keys below then count")
+          "whether the v-rods differ from those of [rod]; the keys below then count")
       .refused(
           {}, "the other keys of [rod_v] would count for nothing, must be true",
           [](const RodV& rod) { return !rod.differs && static_cast<const Rod&>(rod) != Rod(); });

@@ -28,7 +28,7 @@ void add_curve(FieldList<Curve> curve, const std::string& meaning) {
   const auto ellipses = {CurveKind::ellipse, CurveKind::superellipse};
   curve.add<&Curve::half_x_mm>(above(0), "half axis of an ellipse or superellipse along x")
       .used_by(&Curve::kind, ellipses);
-  curve.add<&Curve::half_y_mm>(above(0), "and along y").used_by(&Curve::kind, ellipses);
+  curve.add<&Curve::half_y_mm>(above(0), "half axis along y").used_by(&Curve::kind, ellipses);
   curve.add<&Curve::exponent>(between(1, 100), "n of a superellipse, |x/a|^n + |y/b|^n = 1")
       .used_by(&Curve::kind, {CurveKind::superellipse});
   curve.add<&Curve::points>("corners of a polygon, or points that a closed spline goes through")
@@ -66,9 +66,8 @@ void radius_rules(FieldList<Struct>& list, Curve Struct::*boundary, double Struc
 void add_footprint(std::vector<Field>& all) {
   FieldList<Footprint> list(all, "footprint", &Preset::footprint);
   list.add<&Footprint::kind>(
-          "boundary that cuts the flat square grid: a circle, the one that a net maps to the "
-          "boundary wanted, a curve of your own, or that of blocks joined; or \"network\": any "
-          "rods of a file")
+          "what cuts the flat square grid: a circle, the boundary that fits a net, a curve of your "
+          "own, or joined blocks; \"network\": any rods from a file")
       .refused({}, "there is no block, must have at least one [[block]]",
                [](const Preset& preset) {
                  return preset.footprint.kind == Kinds::blocks && preset.block.empty();
@@ -80,10 +79,8 @@ void add_footprint(std::vector<Field>& all) {
     return network(of) || (of.kind == Kinds::curve && of.boundary.kind == CurveKind::file);
   };
   list.add<&Footprint::file>(
-          "of a footprint of kind \"network\": its points, rods, supports and where these go "
-          "(.json), or its rods alone (.obj, .dxf); of boundary = \"file\": a drawing (.dxf, .svg, "
-          ".obj) whose largest closed line is the boundary, about the middle of the box around it; "
-          "mm")
+          "kind \"network\": points, rods, supports (.json), or rods alone (.obj, .dxf); boundary "
+          "= \"file\": a drawing (.dxf, .svg, .obj) whose largest closed line is the boundary")
       .unused({"kind"}, "only a network, and a curve whose boundary is \"file\", use it",
               [=](const Footprint& of) { return !drawn(of); })
       .refused({"boundary"},
@@ -115,28 +112,25 @@ void add_footprint(std::vector<Field>& all) {
   const char* of_a_file =
       "is of a file that `file` names: rods listed here are in mm and as joined";
   list.add<&Footprint::file_unit>(
-          "unit of the numbers of a drawing (.obj, .dxf, .svg), of [actuation] file too; \"file\": "
-          "the one that it names, else mm")
+          "unit of a drawing (.obj, .dxf, .svg), of [actuation] file too; \"file\": the one that "
+          "it names, else mm")
       .used_by(&Footprint::kind, {Kinds::network, Kinds::curve})
       .refused({"file"}, of_a_file,
                [=](const Footprint& of) { return network(of) && of.file_unit != FileUnit::file; });
   list.add<&Footprint::join_mm>(
           between(0, 1000),
-          "of the file: points nearer to one another than this are one, and ends of rods that lie "
-          "as "
-          "near to another rod are joined to it; gaps of an outline up to it are closed; 0: where "
-          "they touch to 0.001 mm")
+          "points of the file within this distance become one, ends so near to a rod are joined to "
+          "it, gaps of an outline are closed; 0: 0.001 mm")
       .used_by(&Footprint::kind, {Kinds::network, Kinds::curve})
       .refused({"file"}, of_a_file,
                [=](const Footprint& of) { return network(of) && of.join_mm > 0; });
-  list.add<&Footprint::rods>(between(1, 500), "rods a direction in a circle, n")
+  list.add<&Footprint::rods>(between(1, 500), "rods per direction in a circle, n")
       .used_by(&Footprint::kind, {Kinds::circle});
   list.add<&Footprint::radius_mm>(above(0), "radius of a circle, R_o");
   radius_rules(list, &Footprint::boundary, &Footprint::longest_leg, "[footprint] longest_leg");
-  list.add<&Footprint::longest_leg>(
-          between(0, 1000),
-          "L_d of a circle, in the place of `radius_mm`: from the outermost rod to the boundary on "
-          "an axis, of d; R_o = d (L_d + (n - 1)/2); 0: not given")
+  list.add<&Footprint::longest_leg>(between(0, 1000),
+                                    "L_d of a circle, instead of `radius_mm`: longest leg over d; "
+                                    "R_o = d (L_d + (n - 1)/2); 0: not given")
       .used_by(&Footprint::kind, {Kinds::circle});
   const char* in_the_file =
       "of a footprint of kind \"network\" the file says where rods and joints lie";
@@ -166,11 +160,11 @@ void add_actuation(std::vector<Field>& all) {
       });
   radius_rules(list, &Actuation::boundary, &Actuation::ratio, "[actuation] ratio");
   list.add<&Actuation::ratio>(between(0, 1),
-                              "R_a/R_o of a circle, in the place of `radius_mm`; 0: not given")
+                              "R_a/R_o of a circle, instead of `radius_mm`; 0: not given")
       .used_by_footprint({Kinds::circle});
   list.add<&Actuation::start>(
-          "\"flat\": patiently from the flat footprint; \"net\": at once to the equilibrium next "
-          "to the net")
+          "\"flat\": along the path from the flat grid; \"net\": directly to the equilibrium near "
+          "the net")
       .refused({"[footprint] kind"}, [](const Preset& preset) {
         return preset.on_net() || preset.actuation.start == Start::flat
                    ? ""
@@ -185,21 +179,16 @@ void add_actuation(std::vector<Field>& all) {
   };
   list.add<&Actuation::seed>("side to which the flat shell buckles")
       .unused({"start"}, at_net, from_net);
-  list.add<&Actuation::seed_diagonal>(
-          "of the corner pairs on the two diagonals, the one whose joints lie lower")
+  list.add<&Actuation::seed_diagonal>("diagonal at whose two corners the joints are lower")
       .unused({"start"}, at_net, from_net);
-  list.add<&Actuation::scale>(
-          between(0, 1),
-          "of a footprint of kind \"curve\": the actuated boundary is the original one times "
-          "this; 0: it is given by `boundary`. Of kind \"network\": ends of which the file says "
-          "nothing move to this times their place from the middle of the box around the rods; 0: "
-          "they stay")
+  list.add<&Actuation::scale>(between(0, 1),
+                              "\"curve\": the actuated boundary is the original one times this; 0: "
+                              "`boundary` gives it. \"network\": supports without `to_mm` move "
+                              "towards the middle by this factor; 0: they stay")
       .used_by_footprint({Kinds::curve, Kinds::network});
   list.add<&Actuation::file>(
-          "of boundary = \"file\": a drawing whose largest closed line is the actuated boundary, "
-          "as "
-          "[footprint] file; where both are drawn, the middle of the original is the origin of "
-          "both")
+          "boundary = \"file\": a drawing whose largest closed line is the actuated boundary; if "
+          "both are drawn, the middle of the original is the origin of both")
       .unused({"boundary"}, "only boundary = \"file\" uses it",
               [=](const Preset& preset, const Actuation& of) {
                 return !is_curve(preset) || of.boundary.kind != CurveKind::file || of.scale > 0;
@@ -235,17 +224,17 @@ void made_of(FieldList<Net>& net, NetKind kind, Points Net::*points) {
 FieldList<Net> add_net(FieldList<Net> net, bool block) {
   using K = NetKind;
   net.add<&Net::kind>(
-      "\"sphere\": a cap of Chebyshev's net; \"translation\": the sum of two curves; \"surface\": "
-      "any surface by an expression or a file ([net] alone); the others: the upper half of a "
-      "surface of revolution about the x-axis, \"spool\" and \"beltrami\" of constant K = "
-      "-1/rho^2");
+      "\"sphere\": a cap; \"translation\": the sum of two curves; \"surface\": an expression or a "
+      "file; others: half a surface of revolution about x (\"spool\", \"beltrami\": Gauss "
+      "curvature -1/rho^2)");
   if (block)
     net.refused({},
                 "blocks are parts of spheres, translation nets and surfaces of revolution, must be "
                 "one of these",
                 [](const Net& of) { return of.kind == K::surface; });
   net.add<&Net::radius_mm>(
-         above(0), "radius rho of the sphere or cylinder; K = -1/rho^2 of spool and beltrami")
+         above(0),
+         "radius rho of sphere or cylinder; spool and beltrami have the Gauss curvature -1/rho^2")
       .used_by(&Net::kind, {K::sphere, K::cylinder, K::spool, K::beltrami});
   net.add<&Net::cut_height>(between(0, 0.999),
                             "height of a cap's boundary over rho, z*/rho; 0: the hemisphere")
@@ -263,13 +252,13 @@ FieldList<Net> add_net(FieldList<Net> net, bool block) {
          between(1, 179),
          "angle between the rods, seen along the axis, in the middle of a surface of revolution")
       .used_by(&Net::kind, revolution);
-  net.add<&Net::profile>("points of a profile, mm: radius and place along the axis")
+  net.add<&Net::profile>("points of a profile, mm: radius and position along the axis")
       .points({"r", "z"});
   made_of(net, K::profile, &Net::profile);
   net.add<&Net::curve_u>("points of the curve X of a translation net X(u) + Y(v), mm")
       .points({"x", "y", "z"});
   made_of(net, K::translation, &Net::curve_u);
-  net.add<&Net::curve_v>("and of Y").points({"x", "y", "z"});
+  net.add<&Net::curve_v>("points of the curve Y").points({"x", "y", "z"});
   made_of(net, K::translation, &Net::curve_v);
   return net;
 }
@@ -290,12 +279,13 @@ void add_surface(FieldList<Net> net) {
                     "kind = \"surface\" needs an expression, must be F(x, y, z), or height must "
                     "be h(x, y), or file a surface",
                     [=](const Net& of) { return given(of) == 0; });
-  net.add<&Net::height>("h(x, y) of a surface z = h, mm, in the place of `implicit`");
+  net.add<&Net::height>("h(x, y) of a surface z = h, mm, instead of `implicit`");
   surface().refused({"implicit"}, twice,
                     [=](const Net& of) { return given(of) > 1 && of.file.empty(); });
   net.add<&Net::file>(
-      "in their place: heights x, y, z over a rectangular grid (.csv, .txt), which a spline goes "
-      "through, or triangles (.obj, .ply, .stl), to which a smooth surface is fitted; mm");
+      "instead of an expression: heights x, y, z over a rectangular grid (.csv, .txt), "
+      "interpolated by a spline, or triangles (.obj, .ply, .stl), to which a smooth surface is "
+      "fitted");
   surface().refused({"implicit", "height"}, twice,
                     [=](const Net& of) { return given(of) > 1 && !of.file.empty(); });
   net.add<&Net::file_unit>("unit of the file's numbers; \"file\": the one that it names, else mm");
@@ -306,17 +296,16 @@ void add_surface(FieldList<Net> net) {
     surface().unused({"file"}, "only a net on a mesh of triangles uses it",
                      [=](const Net& of) { return of.kind == NetKind::surface && !mesh(of); });
   };
-  net.add<&Net::fit_mm>(
-      at_least(0),
-      "of a mesh: how far its vertices may lie off the smooth surface, which is as smooth as this "
-      "allows; 0: a thousandth of the mesh's size, or what is needed");
+  net.add<&Net::fit_mm>(at_least(0),
+                        "mesh: largest distance of its vertices from the fitted surface, which is "
+                        "as smooth as this allows; 0: a thousandth of the size, or what is needed");
   of_mesh();
   net.add<&Net::least_angle_deg>(between(7, 80),
-                                 "of a mesh: rods end where they would cross at less than this");
+                                 "mesh: rods end where they would cross at less than this angle");
   of_mesh();
   net.add<&Net::apex>(
-      "\"given\": the net begins at `apex_mm`; \"best\", of a mesh: where and along which "
-      "directions its rods reach most of the surface, searched for in some seconds");
+      "\"given\": the net starts at `apex_mm`; \"best\", for a mesh: at the point and direction "
+      "from which rods reach most of the surface (a search of some seconds)");
   surface().refused({"file"}, "searches a mesh of triangles, must be \"given\" for other surfaces",
                     [=](const Net& of) { return of.apex == NetApex::best && !mesh(of); });
   const auto searched = [](const Net& of) { return of.apex == NetApex::best; };
@@ -333,19 +322,19 @@ void add_surface(FieldList<Net> net) {
   });
   net.unused({"apex"}, found, searched);
   net.add<&Net::axis>(
-      "what the u-axis leaves the apex along: the direction in which the surface curves most "
-      "(where it curves alike in all, x), or x");
+      "direction of the u-axis at the apex: that of the largest curvature (x, if all are equal), "
+      "or x");
   surface().unused({"apex"}, found, searched);
   net.add<&Net::axis_deg>(between(-180, 180),
                           "how far it is turned from there, to the left as seen from above");
   surface().unused({"apex"}, found, searched);
   net.add<&Net::cut_mm>(
-      "height of the plane that cuts the surface: the net is kept above it; \"none\": a mesh ends "
+      "height of the plane that cuts the surface, whose upper part remains; \"none\": a mesh ends "
       "at its own rim, other surfaces at 0");
   surface().unused({"within"}, "[net] within is the boundary in the plane's place",
                    [](const Net& of) { return !of.within.empty(); });
   net.add<&Net::within>(
-      "G(x, y, z), below zero where the net is kept, in the place of the plane; empty: the plane");
+      "G(x, y, z), negative where the net is retained, instead of the plane; empty: the plane");
   surface();
 }
 
@@ -384,19 +373,19 @@ void add_blocks(std::vector<Field>& all) {
   FieldList<Block> block(
       all, "block", [=](Preset& preset, int item) -> Block& { return at(preset.block, item); });
   block.used_by_footprint({Kinds::blocks}).where(joined);
-  block.add<&Block::name>("of the block, its own");
+  block.add<&Block::name>("name of the block, unique");
   name_rule(block);
   FieldList<Net> net(all, "block",
                      [=](Preset& preset, int item) -> Net& { return at(preset.block, item).net; });
   net.used_by_footprint({Kinds::blocks}).where(joined);
   add_net(net, true);
   const Range cuts = between(-500, 500);
-  block.add<&Block::east>(cuts,
-                          "row m of joints at which it is cut: kept where u + v <= m d, u and v "
-                          "its net's own");
-  block.add<&Block::west>(cuts, "kept where u + v >= m d");
-  block.add<&Block::north>(cuts, "kept where v - u <= m d");
-  block.add<&Block::south>(cuts, "kept where v - u >= m d");
+  block.add<&Block::east>(
+      cuts,
+      "row m of joints at which it is cut: the part u + v <= m d remains, u and v of its own net");
+  block.add<&Block::west>(cuts, "the part u + v >= m d remains");
+  block.add<&Block::north>(cuts, "the part v - u <= m d remains");
+  block.add<&Block::south>(cuts, "the part v - u >= m d remains");
   FieldList<Join> join(all, "join",
                        [=](Preset& preset, int item) -> Join& { return at(preset.join, item); });
   join.used_by_footprint({Kinds::blocks}).where(joined);

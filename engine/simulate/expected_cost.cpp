@@ -84,7 +84,7 @@ struct UnitCost {
 
 UnitCost unit_cost(const Scene& scene, int edges) {
   constexpr int trials = 3;
-  // too large to try: as 96 and 192 rods take (engine/README.md)
+  // too large to try: as 96 and 192 rods take, measured on version 0.2
   constexpr double large = 1e5, of_large = 4e-9, power = 1.45, an_unknown = 4e-8;
   const double unknowns = unknowns_of(scene.footprint, scene.rung, edges);
   if (unknowns > large) return {an_unknown * unknowns, of_large * std::pow(unknowns, power)};

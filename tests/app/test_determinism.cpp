@@ -1,4 +1,4 @@
-// Which bits of a run are equal over what (engine/README.md, "The same bits").
+// Which bits of a run are equal over what (engine/accuracy.md, "The same bits").
 #include <gnu/libc-version.h>
 
 #include "engine/record/trajectory_file.h"

@@ -8,13 +8,32 @@ namespace {
 
 const fs::path root = GRIDSHELL_SOURCE_DIR;
 
-// those at the top and one a folder that has one
+// All pages, by their names from the top on.
 std::vector<fs::path> documents() {
   std::vector<fs::path> found{"README.md", "CONTRIBUTING.md", "CHANGELOG.md"};
-  for (const auto& entry : fs::directory_iterator(root))
-    if (fs::exists(entry.path() / "README.md"))
-      found.push_back(entry.path().filename() / "README.md");
+  for (const char* folder : {"app", "engine", "presets", "render"})
+    for (const auto& page : files_under(root / folder, ".md"))
+      found.push_back(fs::relative(page, root));
   return found;
+}
+
+// What GitHub calls the section of that title.
+std::string anchor_of(const std::string& title) {
+  std::string anchor;
+  for (const char c : title)
+    if (std::isalnum(static_cast<unsigned char>(c)) || c == '_' || (c & 0x80))
+      anchor += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    else if (c == ' ' || c == '-')
+      anchor += '-';
+  return anchor;
+}
+
+// Whether a page has a section of that anchor.
+bool has_section(const std::string& text, const std::string& anchor) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with("#") && anchor_of(line.substr(line.find(' ') + 1)) == anchor) return true;
+  return false;
 }
 
 // the commands in the rows of a table, "| `gridshell COMMAND"
@@ -38,7 +57,7 @@ TEST_CASE("presets/README.md holds the reference of all keys, word for word") {
   CHECK_THAT(text_of(root / "presets/README.md"), Contains(printed));
 }
 
-TEST_CASE("the READMEs name every command of the program, and no other") {
+TEST_CASE("app/README.md names every command of the program, and no other") {
   const TemporaryFolder folder;
   const auto help = gridshell_program("--help", folder).out;
   std::set<std::string> in_help;
@@ -47,44 +66,30 @@ TEST_CASE("the READMEs name every command of the program, and no other") {
     if (line.starts_with("  ") && line[2] != ' ')
       in_help.insert(line.substr(2, line.find(' ', 2) - 2));
   CHECK(in_help.size() >= 7);
-  CHECK(commands_in(text_of(root / "README.md")) == in_help);
   CHECK(commands_in(text_of(root / "app/README.md")) == in_help);
 }
 
-TEST_CASE("the README names every preset, and is short") {
-  const auto text = text_of(root / "README.md");
+TEST_CASE("the gallery of the manual names every preset and shows its picture") {
+  const auto text = text_of(root / "app/manual/gallery.md");
   for (const auto& file : files_under(root / "presets", ".toml")) {
-    std::string quoted = "`";
-    quoted.append(file.stem().string()).append("`");
-    CHECK_THAT(text, Contains(quoted));
-  }
-  CHECK(std::count(text.begin(), text.end(), '\n') < 200);
-}
-
-TEST_CASE("the presets shown in the READMEs run", "[standard]") {
-  for (const char* document : {"README.md", "presets/README.md"}) {
-    const TemporaryFolder folder;
-    const auto text = text_of(root / document);
-    // an indented block from its title to the first line that is not indented
-    std::istringstream lines(text.substr(text.find("    title = ")));
-    std::string preset;
-    for (std::string line; std::getline(lines, line) && (line.empty() || line[0] == ' ');)
-      preset += line.empty() ? "\n" : line.substr(4) + "\n";
-    REQUIRE(write_file(folder / "shown.toml", preset));
-    const auto ended = gridshell_program("run shown.toml --quiet", folder);
-    INFO(document << ":\n" << preset << ended.err);
-    CHECK(ended.code == 0);
+    const auto name = file.stem().string();
+    CHECK_THAT(text, Contains("`" + name + "`"));
+    CHECK_THAT(text, Contains("(../../presets/pictures/cards/" + name + ".png)"));
   }
 }
 
-TEST_CASE("pictures and pages that the READMEs point to exist") {
+TEST_CASE("pictures, pages and sections that the pages point to exist") {
   for (const auto& document : documents()) {
     const auto text = text_of(root / document);
     for (auto at = text.find("]("); at != std::string::npos; at = text.find("](", at + 1)) {
-      const auto target = text.substr(at + 2, text.find_first_of(")#", at) - at - 2);
-      if (target.starts_with("http")) continue;
-      INFO(document << " points to " << target);
-      CHECK(fs::exists((root / document).parent_path() / target));
+      const auto link = text.substr(at + 2, text.find(')', at) - at - 2);
+      if (link.starts_with("http")) continue;
+      const auto target = link.substr(0, link.find('#'));
+      INFO(document << " points to " << link);
+      const auto page = target.empty() ? root / document : (root / document).parent_path() / target;
+      REQUIRE(fs::exists(page));
+      if (link.size() > target.size())
+        CHECK(has_section(text_of(page), link.substr(target.size() + 1)));
     }
   }
 }
