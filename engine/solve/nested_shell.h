@@ -50,7 +50,7 @@ struct NestedState {
 struct CertifiedVectors {
   /// 3 x as many columns as each level has, in the unit of the levels.
   Eigen::Matrix3Xd value;
-  /// of the largest column, by the observed order of three meshes; NaN on one mesh
+  /// largest error of a column, by the observed order of three meshes; NaN on one mesh
   double error = 0;
 };
 
@@ -95,7 +95,7 @@ struct NestedReport {
 /// A motion prescribed from the current state, linear in t from 0 to 1 on every level.
 struct PrescribedMove {
   std::vector<Constraint> holds;  ///< all constrained joints during the motion
-  /// of the constrained components, mm, one per constraint
+  /// displacements of the constrained components, mm, one per constraint
   std::vector<Eigen::Vector3d> displacements = {};
   std::optional<BoundaryMotion> boundary =
       {};                    ///< final positions of the edge points; empty: they stay
