@@ -53,11 +53,11 @@ struct StepsResult {
   std::vector<std::string> messages = {};  ///< a sentence a step that was begun
 };
 
-/// Does the steps in order until one ends early, which is then the path's limit, and hands frames
-/// to the sink: the shell before, and of each step as many as frames_of_steps() says, each
-/// certified. They only sample the steps' ways. Meshes are chosen and events confirmed as for a
-/// path (mesh_policy.h). Errors: bad_input as apply_step(), no_equilibrium (no shell to begin
-/// with), cancelled, the sink's.
+/// Applies the steps in order until one ends early, which is then the path's limit, and passes
+/// certified frames to the sink: the shell before the steps, and as many frames of each step as
+/// frames_of_steps() gives. Frames only sample the paths of the steps. Meshes are chosen and events
+/// confirmed as for a path (mesh_policy.h). Errors: bad_input as apply_step(), no_equilibrium (no
+/// initial shell), cancelled, those of the sink.
 Result<StepsResult> run_steps(const std::shared_ptr<const Scene>& scene,
                               const std::vector<preset::Step>& steps, int frames,
                               record::Sink& sink, Watch& watch);
@@ -69,22 +69,23 @@ struct StepPath;
 /// All joints keep the angles that they have. Errors (bad_input): a shell that is flat yet.
 Result<Report> tighten(Simulation& simulation, const preset::Step& step, const Watch& watch);
 
-/// Bolts in the joints strive for other angles, evenly along a path: each is a spring at the joint
-/// that is tightened where the joint stands, and whose angle of rest goes to the step's. Errors
-/// (bad_input): a flat shell, a joint where not two rods cross, an angle that no joint has, bolts
-/// of another stiffness.
+/// Drives the crossing angles of joints linearly along a path by bolts: each is a spring at the
+/// joint, tightened at its current angle, whose natural angle is driven to the target of the step.
+/// Errors (bad_input): a flat shell, a joint where not two rods cross, an angle that no joint can
+/// have, bolts of another stiffness.
 Result<Report> open(Simulation& simulation, const preset::Step& step, const Watch& watch,
                     StepPath* way);
 
-/// What joints that were opened came to: "joints at 62.1 degrees on average, ...".
+/// Text on the crossing angles that a joint actuation reached: "joints at 62.1 degrees on average,
+/// ...".
 std::string text_of_opened(const Simulation& simulation);
 
 /// Diagonals come into cells, as long as these are now. Errors (bad_input): a cell that is not
 /// there, a flat shell.
 Result<Report> brace(Simulation& simulation, const preset::Step& step, const Watch& watch);
 
-/// All bolts or braces go again, and the shell goes to the rest beside. Errors (bad_input): there
-/// are none.
+/// Removes all bolts or braces; the shell relaxes to the equilibrium nearby. Errors (bad_input):
+/// there are none.
 Result<Report> take_out(Simulation& simulation, preset::Released what, const Watch& watch);
 
 /// From now on the scene's load case of that name acts `factor` times. Errors (bad_input): there is
