@@ -17,24 +17,25 @@
 
 namespace gridshell {
 
-/// A motion of space that takes the shell to itself: x goes to turn x + shift, and the end k of a
-/// rod (2r the begin, 2r + 1 the end of rod r) to the place of end to[k].
+/// A rigid motion that maps the shell to itself: x maps to turn x + shift, and the end k of a rod
+/// (2r the start, 2r + 1 the end of rod r) to the position of end to[k].
 struct ShellSymmetry {
   std::vector<int> to;
   Eigen::Matrix3d turn;
 };
 
-/// All of the eight symmetries of the square grid that leave the footprint, the ends' places and
-/// the joints as they are (3 x joints, mm) where they were, and up up; the identity is the first.
-/// `near_mm`: how near counts as the same.
+/// Those of the eight symmetries of the square grid that preserve the footprint, the positions of
+/// ends and joints (3 x joints, mm) and the upward direction; the identity is the first. `near_mm`:
+/// largest distance of equal positions.
 std::vector<ShellSymmetry> symmetries_of(const Scene& scene, const Eigen::Matrix3Xd& joints,
                                          double near_mm);
 
 // What a design changes, as numbers.
 
-/// One number at one end: a pin's move along `way` (mm), a leg's change of length (mm), or the turn
-/// of a held direction towards `way` (the direction is the old one plus the sum of q `way`, made
-/// unit: rad for small ones); of a rod, at its begin, its diameter: the old one times exp(q/10).
+/// One variable at one end: displacement of a pin along `way` (mm), change of a leg's length (mm),
+/// or rotation of a prescribed direction towards `way` (the new direction is the old one plus the
+/// sum of q `way`, normalised: rad for small ones). For a rod, at its start: the diameter, the old
+/// one times exp(q/10).
 struct DesignVariable {
   preset::Vary kind = preset::Vary::pins;
   int end = 0;
@@ -46,7 +47,7 @@ struct DesignVariable {
 /// basis z, the basis orthonormal, with as many z as the symmetries leave free.
 class DesignVariables {
  public:
-  /// `vary` at all ends of the scene that are held.
+  /// The variables `vary` at all constrained ends of the scene.
   DesignVariables(const Scene& scene, const std::vector<preset::Vary>& vary,
                   const std::vector<ShellSymmetry>& symmetries);
 
@@ -83,27 +84,27 @@ struct Sensitivity {
   Eigen::MatrixXd leg_force;        ///< ends x changes, N
 };
 
-/// An equilibrium g(x, q) = dE/dx = 0 on the bend rung and what it becomes when pins, legs, held
-/// directions and diameters q change: dx/dq = -H^-1 dg/dq with the factor at hand.
+/// An equilibrium g(x, q) = dE/dx = 0 of the bend model and its sensitivity to pins, legs,
+/// prescribed directions and diameters q: dx/dq = -H^-1 dg/dq with the current factor.
 class DesignShell {
  public:
-  /// From a state of the scene's model on a mesh, at rest with the scene's ends. Errors:
-  /// bad_input, no_equilibrium, cancelled.
+  /// Starts from a state of the scene's model on a mesh, in equilibrium with the scene's ends.
+  /// Errors: bad_input, no_equilibrium, cancelled.
   static Result<std::unique_ptr<DesignShell>> make(const Scene& scene, int edges_per_segment,
                                                    const RodMesh& mesh, const Model& model,
                                                    const State& state,
                                                    const Watch& watch = unwatched);
 
-  /// Gives it other ends: predicted by its sensitivity to them, then brought to rest by Newton's
-  /// method, which may lead no further than `farthest_mm` from there. Errors (no_equilibrium): no
-  /// convergence, a jump, a state that is not stable; cancelled; the shell then stays as it was.
+  /// Changes the ends: the new state is predicted by its sensitivity and corrected by Newton's
+  /// method, at most `farthest_mm` from the prediction. Errors (no_equilibrium): no convergence, a
+  /// snap, an unstable state; cancelled; the shell is then unchanged.
   Result<void> move(const ShellEnds& ends, double farthest_mm, const Watch& watch = unwatched);
 
-  /// The same from where it is, in as many steps as it takes, evenly, of at least 1/64 of the way.
+  /// Changes the ends in as many equal steps as necessary, each at least 1/64 of the change.
   Result<void> move_in_steps(const ShellEnds& ends, double farthest_mm,
                              const Watch& watch = unwatched);
 
-  /// Where it stands, to go back to.
+  /// A saved state of the shell.
   struct ShellPosition {
     State state;
     ShellEnds ends;
@@ -129,7 +130,7 @@ class DesignShell {
   Eigen::VectorXd leg_forces() const;
   const Energies& energies() const { return system_->assembly().energies; }
   double residual() const { return system_->residual(); }
-  /// Of the state, under what acts.
+  /// Forces and tangents of the current state under its loads.
   const Assembly& forces() const { return system_->assembly(); }
 
  private:
@@ -159,7 +160,7 @@ class DesignShell {
     std::vector<int> edges;
     int at_end = -1;           ///< the edge at the edge point
     std::vector<int> bends;    ///< that one of its edges takes part in
-    int ghost = -1, far = -1;  ///< nodes beyond its edge point
+    int ghost = -1, far = -1;  ///< nodes outside its edge point
 
     /// How many of the bend's two edges are among them.
     int edges_of(const ModelBend& bend) const {

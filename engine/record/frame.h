@@ -22,8 +22,8 @@ struct Frame {
   double boundary_radius_mm = unknown;
   double depth_mm = unknown;
   double force_N = unknown;  ///< positive when the shell resists
-  /// Of a push: fraction of the joints that moved more than 0.1 and more than 0.5 of the depth, and
-  /// the lowest latitude, degrees, among the former.
+  /// During a push, the fraction of the joints that moved more than 0.1 and more than 0.5 of the
+  /// depth, and the lowest latitude, degrees, among the former.
   double reach_above_tenth = unknown, reach_above_half = unknown, lowest_latitude_deg = unknown;
   Energies energies;           ///< by term, mJ
   double height_mm = 0;        ///< z of the highest joint above the plane of the boundary
@@ -38,7 +38,7 @@ struct Frame {
   int negative_pivots = 0;  ///< of the Hessian; 0: stable, -1: not known
   /// Largest error of a joint's position, by the difference of two meshes, mm.
   double error_estimate_mm = unknown;
-  /// Of the solves of this state.
+  /// Newton iterations for this state.
   int newton_iterations = 0;
   double time_s = unknown;  ///< since the start of a dynamic snap
   /// derivative of force_N by depth_mm, and its error

@@ -1,12 +1,11 @@
 // Choice of the mesh on which a path is followed, and when it is fine enough. Nothing else decides
 // it.
 //
-// k from the tolerance; the path is followed on k edges per segment; the coarser meshes k/2, k/4
-// give the error estimate (solve/nested_shell.h);
-// twice the edges, if an error estimate is above the tolerance, if an event of k is missing on
-// the coarser mesh, or if the coarser mesh has no state near the fine one;
-// enough, if none of this applies, or if two consecutive meshes agree;
-// else `doubt` reports what is not confirmed.
+//   k from the tolerance: the path is followed on k edges per segment, and the coarser meshes k/2
+//   and k/4 give the error estimate (solve/nested_shell.h);
+//   twice the edges, if an error estimate is above the tolerance, if an event of k is missing on
+//   the coarser mesh, or if the coarser mesh has no state near the fine one; enough, if none of
+//   this applies, or if two consecutive meshes agree; else `doubt` reports what is not confirmed.
 #pragma once
 
 #include <functional>
