@@ -154,7 +154,7 @@ void Interface::feed() {
   while (!events_.empty()) {
     const InputEvent event = events_.front();
     if (turns_one(event) && turns++ > 0) return;
-    // a position passed on the way to a press must be shown before it
+    // a position that the mouse passes before a press must be shown before it
     if (turns > 0 && event.kind == InputKind::mouse) return;
     events_.pop_front();
     feed(event);

@@ -106,7 +106,7 @@ std::optional<PowerLaw> power_law(const SweepTable& table, const std::string& ca
                                   const std::string& figure);
 
 // The log of a sweep, `sweep.jsonl`: a line that identifies the sweep, then one line per finished
-// point, each JSON with a checksum; lines are only appended. The writer holds the file's lock.
+// point, each JSON with a checksum; lines are only appended. The writer has the file's lock.
 
 inline constexpr const char* sweep_log_name = "sweep.jsonl";
 

@@ -18,7 +18,7 @@ namespace gridshell::simulate {
 /// followed towards the flat state.
 inline constexpr double flat_shortening = 1e-3;
 
-/// A monotonic stretch of the path of a simulation. PathRecord holds its load steps and snaps in
+/// A monotonic stretch of the path of a simulation. PathRecord has its load steps and snaps in
 /// order.
 struct PathSegment : PathRecord {
   double from = 0,

@@ -36,7 +36,8 @@ struct MeshLevel {
 struct LevelPlan {
   std::vector<int> edges_per_segment;  ///< coarse to fine, each twice the one before, at most three
   bool extrapolate = false;  ///< over the last two (needs three, the third for the estimate)
-  /// And so forces and energies, of two meshes too: what they leave is far below the estimate then.
+  /// Whether forces and energies are extrapolated, also from two meshes: their error is then far
+  /// below the estimate.
   bool extrapolate_forces = extrapolate;
   /// A path ends at the first load step whose estimate is above this, mm, or before which no
   /// companion has had a state over so much of the path parameter.

@@ -173,7 +173,7 @@ record::Barrier barrier_of(const Crossing& crossing) {
   return barrier;
 }
 
-/// Of several passes between the same two states the lowest, in the order of the states; a pass
+/// The lowest of several passes between the same two states, in the order of the states; a pass
 /// between two states that were not found is ignored.
 std::vector<record::Barrier> lowest_each(std::vector<record::Barrier> all) {
   std::erase_if(all, [](const record::Barrier& one) { return one.from == 0; });

@@ -252,7 +252,7 @@ double off_energies(const record::Frame& a, const record::Frame& b) {
 
 constexpr double least_error = 1e-5;  // of forces and energies: below is what a residual leaves
 
-/// Of the common frames, the one whose error is largest relative to its estimate.
+/// The frame of both runs whose error is largest relative to its estimate.
 void compare(const ExperimentResult& asked, const ExperimentResult& fine, record::TrustRow& row) {
   WorstError joints(row.error, row.estimate, 1e-9);
   WorstError forces(row.force_error, row.force_estimate, least_error);
