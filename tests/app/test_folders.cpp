@@ -213,7 +213,7 @@ TEST_CASE("meshes that do not fit into memory are refused with what they would t
   const Bench bench(small);
   for (const char* command : {"check", "run"}) {
     check_refused({command, "small.toml", "--set", "accuracy.memory_GB=0.0001"}, bench.at,
-                  Contains("2 edges a segment") && Contains("unknowns, take about") &&
+                  Contains("2 edges per segment") && Contains("unknowns, take about") &&
                       Contains("more than the 0.0001 GB of [accuracy] memory_GB"));
   }
   const auto fine = bench.run(

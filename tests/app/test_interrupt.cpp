@@ -87,7 +87,7 @@ TEST_CASE("a run that is ended goes on from there, to the same state", "[full]")
     const Running running(command("ended", ""), folder);
     REQUIRE(wait_until(kept));
     CHECK_THAT(running.interrupt(SIGTERM).err,
-               Catch::EndsWith("the same command with --resume goes on from there\n"));
+               Catch::EndsWith("the same command with --resume continues from there\n"));
   }
   {
     const Running running(command("ended", "--resume"), folder);

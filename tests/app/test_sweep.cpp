@@ -181,7 +181,7 @@ TEST_CASE("two sweeps into one folder do not meet, another preset is refused") {
   first.signal(SIGINT);
   const auto stopped = first.wait();
   CHECK(stopped.code == 130);
-  CHECK_THAT(stopped.err, Contains("of 200 points are in 'out'; the same command goes on"));
+  CHECK_THAT(stopped.err, Contains("of 200 points are in 'out'; the same command continues it"));
   check_refused("sweep small.toml -o out --set rod.young_GPa=70", folder,
                 Contains("of another preset"));
 }

@@ -6,7 +6,7 @@
 using namespace gridshell;
 using namespace gridshell::preset;
 
-TEST_CASE("auto takes the lowest rung that is exact") {
+TEST_CASE("auto takes the simplest model that is exact") {
   using Row = std::pair<std::string, std::string>;
   const auto [text, rung] = GENERATE(values<Row>({
       {"", "bend"},

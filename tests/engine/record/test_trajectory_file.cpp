@@ -194,9 +194,10 @@ TEST_CASE("a trajectory that another program rewrote is read only where that is 
   const fs::path path = folder / "a.h5";
   const Trajectory run = sample_trajectory();
   const std::string bytes = changed([](hid_t) {}, run);
-  CHECK(refusal(bytes) ==
-        "it bears no seal, so another program wrote it (--unsealed, in Python unsealed=True, reads "
-        "it all the same)");
+  CHECK(
+      refusal(bytes) ==
+      "it has no checksum, so another program wrote it (--unsealed, in Python unsealed=True, reads "
+      "it all the same)");
   REQUIRE(write_file(path, bytes));
   const auto back = value_of(read_trajectory(path, {.unsealed = true}));
   CHECK(same_bits(back.frames[2].nodes, run.frames[2].nodes));

@@ -72,7 +72,7 @@ TEST_CASE("a run that is to stop at contact ends in the last state before") {
   CHECK(s.contact.empty());
   CHECK(s.rod_gap_mm > 0);
   CHECK(s.rod_gap_mm < 0.01);
-  CHECK_THAT(s.limit_reason, Catch::Contains(" is the last state without contact: beyond, rods "));
+  CHECK_THAT(s.limit_reason, Catch::Contains(" is the last state without contact: past it rods "));
   const record::Frame& last = last_frame(stopped);
   CHECK(last.event == "last state without contact");
   CHECK(last.progress == Approx(number_after(told, "touch at progress ")).margin(3e-3));

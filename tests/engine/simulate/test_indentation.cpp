@@ -183,7 +183,7 @@ TEST_CASE("unloading follows the way back, after a snap on another branch", "[st
   const auto snapped = run(fig1);
   CHECK(snapped.summary.limit == record::Limit::snap);
   CHECK_THAT(snapped.summary.limit_reason,
-             Catch::Contains("on its mesh the path turns back at 33.8"));
+             Catch::Contains("on its mesh the path has a limit point at 33.8"));
   const auto& way = snapped.trajectory.frames;
   REQUIRE(way.size() == 21);
   // there and back differ between the snap on the way in and the one on the way out: hysteresis

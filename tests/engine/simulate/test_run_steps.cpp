@@ -162,9 +162,9 @@ TEST_CASE("steps on what is not there are errors with their number") {
   };
   CHECK_THAT(refused(push(40, 0, 1)), Catch::Contains("[[step]] 2") &&
                                           Catch::Contains("joint = [40, 0]: the footprint has no"));
-  CHECK_THAT(refused(of(StepKind::release)), Catch::Contains("[[step]] 2: no joint is held"));
+  CHECK_THAT(refused(of(StepKind::release)), Catch::Contains("[[step]] 2: no joint is fixed"));
   // which `check` says as well
-  CHECK_THAT(refusal(simulate::plan(preset)), Catch::StartsWith("[[step]] 2: no joint is held"));
+  CHECK_THAT(refusal(simulate::plan(preset)), Catch::StartsWith("[[step]] 2: no joint is fixed"));
   preset::Step edge = of(StepKind::move);
   edge.edge_points = {{400, 1, 0, 0}};
   CHECK_THAT(refused(edge), Catch::Contains("there is no edge point 400, they go from 0 to 23"));
