@@ -36,7 +36,7 @@ gridshell::record::FrameList frames_of(const fs::path& run) {
   return value_of(gridshell::record::read_trajectory(run / "trajectory.h5")).frames;
 }
 
-// of a picture
+// width of a picture
 int width_of(const fs::path& file) { return value_of(gridshell::render::read_png(file)).width; }
 
 }  // namespace
@@ -311,7 +311,7 @@ TEST_CASE("chart accuracy of sizes draws a curve a number of rods") {
   const auto said = bench.good("chart accuracy small.toml --sizes 5,6 --edges 16 -o sizes");
   CHECK_THAT(said.out, Contains("5 rods: ") && Contains("6 rods: "));
   const auto table = text_of(bench.at / "sizes/accuracy.csv");
-  // 1e-2 and 1e-3 come to the same meshes
+  // 1e-2 and 1e-3 lead to the same meshes
   CHECK(std::ranges::count(table, '\n') == 5);
   CHECK_THAT(table, Contains("\n5 rods,") && Contains("\n6 rods,"));
   CHECK(fs::exists(bench.at / "sizes/accuracy.png"));
@@ -330,7 +330,7 @@ TEST_CASE("chart accuracy writes tables and pictures and says how auto stands", 
                 "scaling.csv", "scaling.pdf", "scaling.png", "scaling.svg", "summary.json",
                 "unknowns.pdf", "unknowns.png", "unknowns.svg"}));
   CHECK(json_of(folder / "summary.json")["chart"] == "accuracy");
-  // maps go beside it, and the next chart takes their place
+  // maps are written next to it, and the next chart replaces them
   const auto maps = bench.good("chart stability small.toml --limit 0.05");
   CHECK_THAT(maps.out, Contains("default: ") && Contains(" 0 silently wrong"));
   CHECK(files_in(bench.at / "out/small_stability") ==

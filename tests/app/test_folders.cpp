@@ -11,7 +11,7 @@ namespace {
 
 const std::string small = small_preset({.frames = 4});
 
-// runs a line of the shell, `gridshell` standing for the program
+// runs a line of the shell, with `gridshell` as the program
 int shell(const Bench& bench, const std::string& line) {
   const auto whole = "cd '" + bench.at.string() + "' && gridshell() { '" + GRIDSHELL_PROGRAM +
                      "' \"$@\"; } && " + line;
@@ -132,7 +132,7 @@ TEST_CASE("frames of a run that was cut short are drawn, and it says that it is 
   const auto again = bench.good("render r.partial-7 -o elsewhere");
   CHECK_THAT(again.err, Contains("'r.partial-7' is not finished"));
   CHECK(files_under(bench.at / "elsewhere/frames", ".png").size() == 3);
-  // a whole one is not told so
+  // a complete one has no such message
   CHECK_THAT(bench.good("render whole").err, !Contains("finished"));
 }
 

@@ -44,8 +44,8 @@ void done(const TemporaryFolder& folder, const std::vector<std::string>& argumen
   REQUIRE(ended.code == 0);
 }
 
-/// Kills the sweep into cut/ so often, each after `least` to `least` + `range` milliseconds; whole
-/// lines of its log stand where they stood. The log in the end.
+/// Kills the sweep into cut/ `kills` times, each after `least` to `least` + `range` milliseconds;
+/// complete lines of its log do not move. Returns the final log.
 std::string killed_at_random(const fs::path& folder, int kills, unsigned seed, unsigned least,
                              unsigned range) {
   std::mt19937 random(seed);

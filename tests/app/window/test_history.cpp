@@ -1,4 +1,4 @@
-// Numbers put aside for steps to undo, and work beside the window.
+// Numbers stored for steps to undo, and work in the background.
 #include <chrono>
 #include <cmath>
 

@@ -10,7 +10,7 @@ using preset::Vary;
 
 namespace {
 
-/// A shell on a mesh, at rest beside its net, that a test moves.
+/// A shell on a mesh, in equilibrium next to its net, that a test moves.
 struct Moved {
   std::shared_ptr<const Scene> scene;
   std::unique_ptr<DesignShell> shell;
@@ -305,7 +305,7 @@ TEST_CASE("a design that is watched hands over every step that both meshes hold"
   CHECK(handed.steps.front().iteration == 0);
   CHECK(handed.steps.back().max_mm < 0.35 * handed.steps.front().max_mm);
   for (const DesignStep& step : handed.steps) CHECK(step.taken);
-  // it comes to what the design that nobody watches does
+  // its result is that of a design without a listener
   Watch watch;
   const auto whole = value_of(design(low_cap(), watch));
   CHECK(handed.steps.back().max_mm == Approx(whole.after.front().max_mm).epsilon(1e-4));

@@ -60,7 +60,7 @@ TEST_CASE("footprint: what makes no sense is refused with its reason") {
       message(100, 12, 20, Placement::half) ==
       "12 rods a direction at d = 20 mm reach 110 mm, beyond the boundary: the longest leg R_o/d - "
       "(n-1)/2 = -0.5 must be above 0; take R_o >= 110.02 mm or n <= 10");
-  // the outermost rods of each family lie beyond the reach of all others
+  // the outermost rods of each family are outside the reach of all others
   CHECK(
       message(50.5, 6, 20, Placement::half) ==
       "the u-rod at v = -50 mm crosses no other rod: it would hang on its two ends alone; move the "

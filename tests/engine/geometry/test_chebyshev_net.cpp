@@ -9,7 +9,7 @@ using namespace gridshell;
 
 namespace {
 
-/// visit(u, v) over the square that holds the hemisphere's footprint, without the folded corners
+/// visit(u, v) over the square that contains the hemisphere's footprint, without the folded corners
 template <class Visit>
 void each_point(double radius, Visit visit) {
   for (double u = -1.5; u <= 1.58; u += 0.0771)

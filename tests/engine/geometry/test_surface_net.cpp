@@ -43,7 +43,7 @@ double off_sphere(const ChebyshevNet& net, double cut_mm, double turned = 0) {
   return largest;
 }
 
-/// the same of the nodes of a grid of equal chords
+/// distance of the nodes of a grid of equal chords from the sphere
 double grid_off_sphere(double chord) {
   const SphereNet exact(rho);
   const auto grid =
@@ -116,7 +116,7 @@ TEST_CASE("a net on a surface has rods of unit speed, and obeys Gauss' equation"
 }
 
 TEST_CASE("where a net folds, or its surface or boundary does not serve, it is refused") {
-  // most of a sphere: beyond the equator the net folds
+  // most of a sphere: past the equator the net folds
   CHECK_THAT(refused(sphere, on_top({0, 0, rho}, -100)), Catch::Contains("the net folds"));
   // a boundary that no axis reaches
   CHECK_THAT(refused("z - 10", on_top({0, 0, 10}, 0)), Catch::Contains("does not cross"));

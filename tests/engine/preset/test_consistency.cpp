@@ -1,5 +1,5 @@
-// Which rung a preset runs on, what is refused with its reason, and keys that a kind does not use:
-// refused where they are set, and left out where a preset is written.
+// Which rod model a preset runs on, what is refused with its reason, and keys that a kind does not
+// use: refused where they are set, and left out where a preset is written.
 #include "engine/preset/consistency.h"
 #include "tests/presets.h"
 

@@ -268,7 +268,7 @@ TEST_CASE("a case's list of tables stands in the place of the file's") {
   // nothing is left of the file's
   CHECK(one.block[0].net.radius_mm == default_items().block[0].net.radius_mm);
   CHECK(one.join.size() == 1);
-  // written down it comes to the same, and only where it differs
+  // written again it is the same, and only where it differs
   const std::string text = to_toml(presets);
   CHECK(text.find("[[case.block]]") != text.npos);
   CHECK(text.find("[[case.block]]") == text.rfind("[[case.block]]"));
@@ -325,7 +325,7 @@ TEST_CASE("a file is read once all that says how is known, and reported") {
   REQUIRE(metres.files.size() == 1);
   CHECK_THAT(metres.files[0],
              Catch::Contains("grid.obj: unit by file_unit; 3 rods, 2 joints, 6 supports"));
-  // an override takes the place of a file that is not there, and of the unit
+  // an override replaces a missing file, and the unit
   const Override other{"--set", "footprint.file", (folder / "grid.obj").string()};
   CHECK(value_of(read("", "none.obj", {other})).base.footprint.file.points[1][0] == 0.03);
   CHECK(value_of(read("", "none.obj", {other, {"--set", "footprint.file_unit", "cm"}}))

@@ -75,7 +75,7 @@ second = "middle.west"
   CHECK(layout.seam_rods.size() == 2 * 22);
   for (const record::Part& part : layout.parts) CHECK(part.net.allFinite());
 
-  // from flat it comes to the same state
+  // from flat it reaches the same state
   stadium.actuation.start = preset::Start::flat;
   const auto flat = run_to_end(stadium, true);
   CHECK(distance(flat, outcome) < 1e-3);

@@ -1,4 +1,4 @@
-// Shells designed on Chebyshev nets: footprints, boundaries, deviations, and both ways to start.
+// Shells designed on Chebyshev nets: footprints, boundaries, deviations, and both kinds of start.
 #include <cmath>
 
 #include "tests/engine/simulate/run.h"
@@ -49,7 +49,7 @@ TEST_CASE("from flat, through snaps, and from the net a saddle comes to the same
   CHECK(net.summary.limit == record::Limit::none);
   CHECK(flat.summary.limit == record::Limit::snap);
   CHECK(flat.summary.stable);
-  // what happened on the way from flat asked for finer meshes
+  // events on the path from flat required finer meshes
   CHECK(distance(net, flat) < net.summary.error_estimate_mm + flat.summary.error_estimate_mm);
 }
 

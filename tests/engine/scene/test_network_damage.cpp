@@ -1,4 +1,4 @@
-// Damaged files of networks: each is answered by its place and by what would be right.
+// Damaged files of networks: each message has the position and what would be valid.
 #include "engine/formats/network_file.h"
 #include "tests/presets.h"
 

@@ -1,4 +1,4 @@
-// Tails beyond the boundary whose far ends keep the net's tangents.
+// Tails outside the boundary whose far ends have the net's tangents.
 #include <cmath>
 
 #include "engine/scene/rod_ends.h"

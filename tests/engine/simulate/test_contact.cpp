@@ -52,7 +52,7 @@ TEST_CASE(
   auto other = crowded(12);
   other.movie.frames = 2;
   CHECK(run(other).summary.contact == s.contact);
-  // told, nothing else: the same states
+  // reported, nothing else: the same states
   other.limits.table = true;
   const auto with_table = run(other);
   CHECK(distance(with_table, six) == 0);
@@ -99,7 +99,7 @@ TEST_CASE("a contact inside the load step in which the equilibrium is lost is fo
   preset.limits.contact = preset::OnContact::stop;
   preset.indentation.at = preset::IndentationPlace::highest;
   std::vector<double> depths;
-  // steps end at 33.6, before the path turns back at 33.64, and at 32.5 and 35
+  // steps end at 33.6, before the limit point at 33.64, and at 32.5 and 35
   for (const double depth_mm : {36.0, 40.0}) {
     preset.indentation.depth_mm = depth_mm;
     const auto pushed = run(preset);
@@ -149,7 +149,7 @@ TEST_CASE("shells of the paper do not touch themselves: a rod near its joint is 
 
 TEST_CASE("a barrier keeps rods apart on the whole path, of wires and of rods that twist",
           "[full]") {
-  // further in, at 12 mm, meshes that the tolerance chooses go on for minutes
+  // further in, at 12 mm, meshes that the tolerance chooses continue for minutes
   auto preset = crowded(17);
   preset.accuracy.tolerance = 5e-3;
   preset.imperfection.size = 1e-4;  // the symmetric branch ends unstable
@@ -161,7 +161,7 @@ TEST_CASE("a barrier keeps rods apart on the whole path, of wires and of rods th
   preset.contact.model = preset::ContactModel::barrier;
   const auto apart = run(preset);
   INFO(apart.summary.limit_reason << "; " << apart.summary.contact);
-  // it snaps on its way, as told
+  // it snaps on its path, as reported
   CHECK(apart.summary.limit == record::Limit::snap);
   CHECK(apart.trajectory.frames.back().progress == 1);
   CHECK(apart.summary.stable);

@@ -1,4 +1,4 @@
-// What is built by hand has the model's own lengths and places.
+// The fabrication plan has the model's own lengths and positions.
 #include "engine/footprint/mesh.h"
 #include "engine/simulate/run.h"
 #include "tests/engine/simulate/run.h"

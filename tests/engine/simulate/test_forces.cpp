@@ -1,5 +1,5 @@
-// Axial forces, curvature, reactions and energies of frames: what they must add up to, closed forms
-// that they come to, and their errors.
+// Axial forces, curvature, reactions and energies of frames: their balance, closed forms, and their
+// errors.
 #include <cmath>
 
 #include "tests/engine/simulate/run.h"
@@ -16,7 +16,7 @@ preset::Preset four_rods() {
 
 Eigen::Vector3d sum_of(const record::Frame& frame) { return frame.reactions_N.rowwise().sum(); }
 
-/// What a value at every place of the rods comes to over their length.
+/// The integral over the rods' length of a value at every point.
 template <class Value>
 double over_rods(const record::Trajectory& run, const Value& value) {
   const auto& nodes = run.frames.back().nodes;
@@ -162,7 +162,7 @@ double off_energy(const record::Frame& a, const record::Frame& b) {
   return largest;
 }
 
-/// What a run asked for at one tolerance is off a much finer one, by its own estimates.
+/// Compares a run at one tolerance with a much finer one, by its own estimates.
 void check_against_finer(preset::Preset p, double tolerance) {
   p.accuracy.tolerance = 1e-5;
   const auto fine = run(p);
@@ -188,7 +188,7 @@ TEST_CASE("forces, energies and bending strain of pinned elasticas, as exact as 
       const auto outcome = run(p);
       const record::Frame& frame = last_frame(outcome);
       CAPTURE(m, tolerance, exact.force, frame.force_error_N, exact.energy, frame.energy_error_mJ);
-      // these rods give way by P L/EA along their length, which the inextensible ones do not
+      // these rods shorten by P L/EA along their length, which the inextensible ones do not
       const double EA = 83e3 * M_PI * radius * radius, stretch = 1e-5,
                    work = 2 * exact.force * exact.force * 2 * half_length / EA;
       const double off_force = std::abs(frame.largest_force_N - exact.force),

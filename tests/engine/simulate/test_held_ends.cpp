@@ -1,4 +1,4 @@
-// Crossed rods with pinned ends and with ends whose direction is held, against the elastica.
+// Crossed rods with pinned ends and with ends of prescribed direction, against the elastica.
 #include "tests/engine/simulate/run.h"
 #include "tests/engine/solve/elastica.h"
 
@@ -8,7 +8,7 @@ namespace {
 
 constexpr double length = 200;
 
-/// Two rods that cross in their middle, their ends held so and drawn in.
+/// Two rods that cross in their middle, with this end condition, contracted.
 preset::Preset held_cross(preset::EndKind hold, double shorter) {
   preset::Preset p = network(cross(length / 2, length / 2), 0, 1);
   p.actuation.scale = shorter;

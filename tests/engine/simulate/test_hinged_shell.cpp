@@ -25,7 +25,7 @@ V cross(const V& a, const V& b) {
 T norm(const V& a) { return sqrt(dot(a, a)); }
 V unit(const V& a) { return T(1 / norm(a)) * a; }
 
-/// Beside a joint: an edge's tangent, its material director and its length at rest.
+/// Next to a joint: an edge's tangent, its material director and its natural length.
 struct Beside {
   V tangent, director;
   double length = 0;
@@ -67,7 +67,7 @@ struct Laths {
   RodMesh mesh;
   RodMaterial lath;
   double spring = 0;         ///< N mm/rad
-  std::vector<double> rest;  ///< angles at which they rest, of every joint
+  std::vector<double> rest;  ///< natural angles, of every joint
 
   std::vector<int> free() const {
     std::vector<int> nodes;
@@ -81,8 +81,8 @@ struct Laths {
     return sum;
   }
 
-  /// E of positions and, for every edge, the angle of its section beside a frame without twist;
-  /// the edges beside the joints into `at`.
+  /// E of positions and, for every edge, the angle of its section relative to a frame without
+  /// twist; the edges next to the joints are stored in `at`.
   T energy(const std::vector<V>& x, const std::vector<T>& angle, std::vector<Hinge>& at) const {
     T sum(0);
     at.assign(std::size_t(mesh.joints), {});
@@ -106,7 +106,7 @@ struct Laths {
           const double l = 0.5 * (last + length);
           const T twist = angle[edge] - angle[edge - 1],
                   turn = 0.5 * (angle[edge] + angle[edge - 1]);
-          // kb stands across both tangents, so that both frames see it alike
+          // kb is perpendicular to both tangents, so that both frames see it equally
           const V kb = T(2.0 / (1.0 + dot(before, t))) * cross(before, t);
           const T a = dot(kb, frame), b = dot(kb, side);
           const T w1 = a * cos(turn) + b * sin(turn), w2 = b * cos(turn) - a * sin(turn);
@@ -136,7 +136,7 @@ struct Laths {
     return sum;
   }
 
-  /// The same with its slopes by the free places and the angles, which are in `at`.
+  /// The energy with its derivatives by the free positions and the angles, which are in `at`.
   T at_place(const Eigen::Matrix3Xd& nodes, const Eigen::VectorXd& by,
              std::vector<Hinge>& at) const {
     const Eigen::Index size = by.size();
@@ -166,7 +166,7 @@ struct Laths {
     }
   };
 
-  /// The energy where its slopes vanish, looked for from a little beside these places.
+  /// The energy at its minimum, searched for from these perturbed positions.
   double least(const Eigen::Matrix3Xd& nodes) const {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> off(-0.01, 0.01);
@@ -211,7 +211,7 @@ TEST_CASE("a hinged X-shell, formed and opened, is where its energy is least") {
   CHECK(formed.summary.energies[Term::joint] > 1e-3);
   CHECK(laths.least(rest) == Approx(formed.summary.energies.total()).epsilon(1e-8));
 
-  // as its joints stand, and by how much they are to open
+  // the current angles of its joints, and the requested change
   constexpr double target = 1.2;
   laths.spring = 300;
   std::vector<Hinge> at;

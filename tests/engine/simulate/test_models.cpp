@@ -1,4 +1,4 @@
-// The rungs from a preset on: each where it is exact, against one another.
+// The rod models of a preset: each where it is exact, compared with one another.
 #include <cmath>
 #include <random>
 
@@ -25,8 +25,8 @@ preset::Preset twelve_rods() {
   return p;
 }
 
-/// The largest joint distance between the two rungs at rest, over the shell's scale: on the twist
-/// rung from random edge angles.
+/// The largest joint distance between the two models in equilibrium, over the shell's scale: with
+/// the twist model from random edge angles.
 double distance_of_rungs(preset::Preset preset, int edges) {
   preset.accuracy.tolerance = 1e-6;
   const auto scene = shared_scene(preset);
@@ -42,7 +42,7 @@ double distance_of_rungs(preset::Preset preset, int edges) {
   std::mt19937 random(11);
   std::normal_distribution<double> normal;
   Eigen::Matrix3Xd x = state.x;
-  for (int node = 0; node < mesh.joints; ++node)  // and off the bend rung's rest
+  for (int node = 0; node < mesh.joints; ++node)  // and away from the bend model's equilibrium
     x.col(node) += 0.2 * Eigen::Vector3d(normal(random), normal(random), normal(random));
   move_to(model, x, state);
   std::uniform_real_distribution<double> radian(-1, 1);
@@ -158,7 +158,7 @@ TEST_CASE("joints that resist shear: joints and energies at second order, beside
 }
 
 TEST_CASE("a cylinder whose ends are held along the helices is its net, to second order") {
-  // held against spin as well its rods are twisted
+  // with ends of prescribed twist too its rods are twisted
   for (const auto hold : {preset::EndKind::tangent, preset::EndKind::clamped}) {
     const bool clamped = hold == preset::EndKind::clamped;
     preset::Preset p = on_net(preset::NetKind::cylinder, clamped ? 60 : 80, clamped ? 280 : 200);
@@ -184,10 +184,10 @@ TEST_CASE("a strip lies down or stands up, and an arched rod rises by itself") {
   p.rod.curvature_per_mm = 0.005;
   const auto arched = run(p);
   CHECK(arched.summary.stable);
-  // curved as the dome is, it has less to bend; in the flat it is not at rest straight
+  // curved as the dome is, it bends less; in the flat it is not straight in equilibrium
   CHECK(arched.trajectory.frames.front().height_mm > 0.01);
   CHECK(arched.trajectory.frames.front().residual_N < 1e-6);
-  // the other way round its rods roll over, as their ends spin freely, and come to the same
+  // inverted, its rods roll over, as their ends rotate freely, and reach the same state
   p.rod.curvature_per_mm = -0.005;
   CHECK(run(p).summary.energies[Term::bend] ==
         Approx(arched.summary.energies[Term::bend]).epsilon(1e-9));
@@ -250,7 +250,7 @@ TEST_CASE("a push that snaps is followed in time to the rest that ends it", "[st
   }
   CHECK(moving > 5);
   CHECK(moving <= 24);
-  // without it there is the same rest
+  // without it the equilibrium is the same
   p.dynamics.snap = false;
   CHECK(distance(outcome, run(p)) < 1e-3);
 }
