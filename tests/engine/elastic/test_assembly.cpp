@@ -1,4 +1,4 @@
-// The assembly of both rungs against differences of the energy.
+// The assembly of both rod models against differences of the energy.
 #include "engine/elastic/assembly.h"
 
 #include <Eigen/Geometry>
@@ -13,7 +13,7 @@ using namespace gridshell;
 
 namespace {
 
-/// A small dome with noise: every term of the bend rung's energy is at work.
+/// A small dome with noise: every term of the bend model's energy contributes.
 BentDome noisy_dome(int edges) {
   BentDome dome = bent_dome(52, 4, edges);
   std::mt19937 random(7);
@@ -28,8 +28,9 @@ const RodMaterial strip{900, 5, 12, 4, {0.02, -0.01}, 0.03};
 const RodMaterial wire{700, 6, 6, 3, {0, 0}, 0};
 const ExternalLoads outside{.load = 0.7};
 
-/// Two rods that share a node, one of them clamped, with axes and a shape at rest, sheared at the
-/// joint; a third hung on by a spring and bolted above the second; loads, pressures and ground.
+/// Two rods with a common node, one of them clamped, with section axes and a natural shape, sheared
+/// at the joint; a third connected by a spring and bolted above the second; loads, pressures and
+/// ground.
 Model sample_model() {
   const ModelRod a{{0, 1, 2, 3, 4}, {0, 4, 9, 13, 18}, strip, {}, RodEnd::clamped, RodEnd::pinned};
   const ModelRod b{{5, 6, 2, 7, 8}, {0, 5, 9, 14, 18}, wire, {}, RodEnd::tangent, RodEnd::free};
@@ -217,7 +218,7 @@ TEST_CASE("strain by bending: how far from rest the outermost fibre is bent") {
   const auto is = [](const Eigen::VectorXd& strain, double value) {
     return strain.size() == edges - 1 && (strain.array() - value).abs().maxCoeff() < 1e-9;
   };
-  // a round wire bends alike on both rungs and to every side
+  // a round wire bends equally in both models and to every side
   for (const RodModel rung : {RodModel::bend, RodModel::twist})
     for (const int up : {1, 2})
       CHECK(is(strain_of(circular_material(0.254, 83, 31), rung, 0, up), curvature * 0.127));
@@ -227,7 +228,7 @@ TEST_CASE("strain by bending: how far from rest the outermost fibre is bent") {
   CHECK(is(strain_of(strip, RodModel::twist, 0, 1), curvature * 0.2));
   CHECK(strip.fibres.strain({curvature, -2 * curvature}) ==
         Approx(curvature * 0.2 + 2 * curvature * 0.1));
-  // what it is bent to at rest strains nothing; across it both add up at a corner
+  // its natural curvature strains nothing; across it both add up at a corner
   strip.curvature = {0, curvature};
   CHECK(is(strain_of(strip, RodModel::twist, 0, 2), 0));
   strip.curvature = {0, -curvature};

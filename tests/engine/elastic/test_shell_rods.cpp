@@ -50,7 +50,7 @@ Footprint rod_on_springs() {
   return net;
 }
 
-/// Its rest, supports where `motion` ends.
+/// Its equilibrium, with supports at the end of `motion`.
 struct Rested {
   RodMesh mesh = mesh_rods(rod_on_springs(), 20);
   Model model;
@@ -190,7 +190,7 @@ TEST_CASE("springs of supports: gradient and Hessian are the energy's derivative
   const RodMesh mesh = mesh_rods(net, 3);
   for (const RodModel rung : {RodModel::bend, RodModel::twist}) {
     const Model model = build_model(mesh, rods, rung).value();
-    // the supports and the joint that is held firmly, not what hangs on springs
+    // the supports and the fixed joint, not what is on springs
     for (const MeshSpring& spring : mesh.springs) {
       CHECK(model.pinned(spring.support));
       CHECK_FALSE(model.pinned(spring.node));

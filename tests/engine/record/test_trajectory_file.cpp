@@ -134,7 +134,7 @@ TEST_CASE("a file that is missing, foreign or cut short is refused in a sentence
     wrong[at] = static_cast<char>(wrong[at] ^ 4);
     CHECK(refusal(wrong) == damaged);
   }
-  // what another program rewrote has no seal, but must still be whole
+  // a file that another program rewrote has no checksum, but must still be complete
   CHECK(refusal(whole.substr(512, 2000), true) == "it is cut short or damaged");
 }
 

@@ -1,4 +1,4 @@
-// Rests from rough states over meshes that grow finer, and how stiff they are.
+// Equilibria from rough states over meshes of increasing fineness, and their stiffness.
 #include "engine/solve/multilevel_relaxation.h"
 
 #include <random>

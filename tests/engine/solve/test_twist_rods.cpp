@@ -1,5 +1,5 @@
-// Twisted rods with known answers: shapes at rest (the elastica, a cantilever, a helix, the
-// localised helix), loads at which they buckle (Euler, Greenhill, Michell), and a joint's shear.
+// Twisted rods with known solutions: equilibrium shapes (the elastica, a cantilever, a helix, the
+// localised helix), buckling loads (Euler, Greenhill, Michell), and a joint's shear.
 #include "engine/elastic/rod_frame.h"
 #include "tests/engine/solve/elastica.h"
 #include "tests/engine/solve/rod_cases.h"
@@ -42,8 +42,8 @@ Eigen::Vector2d cantilever(int edges, double load) {
   return {state.x(0, edges) / length, -state.x(2, edges) / length};
 }
 
-/// The same, shooting for the slope at its root: theta'' = -a cos theta, theta(0) = 0, theta'(1) =
-/// 0.
+/// Solution by shooting for the slope at its root: theta'' = -a cos theta, theta(0) = 0, theta'(1)
+/// = 0.
 Eigen::Vector2d cantilever_exact(double a) {
   const auto end = [&](double slope) {
     return shot(0, slope, 1, [&](double, double theta) { return -a * std::cos(theta); });
@@ -95,7 +95,7 @@ double michell(int edges, double ratio) {
     x.col(k) << r * std::cos(a), r * std::sin(a), 0;
   }
   Model model = build_model(edges, {rod}, RodModel::twist).value();
-  // six unknowns that hold the ring in space and do no more
+  // six unknowns that fix the ring in space and nothing more
   const int third = edges / 3;
   model.pin(0);
   model.hold(third, 0);
@@ -109,11 +109,12 @@ double michell(int edges, double ratio) {
              0.5 * expected, 1.5 * expected,
              [&](double twist) {
                State state = flat;
-               // cut, turned and closed again: the last bend rests turned, all share it
+               // cut, twisted and closed again: the last torsion element has the natural angle, all
+               // edges twist
                std::get<std::vector<Pair<Torsion>>>(model.pairs).back().law.rest = -twist;
                for (int k = 0; k < edges; ++k) set_angle(model, state, k, twist * k / edges);
                REQUIRE(newton(system, state, {.tolerance_mm = 1e-6}).outcome == Outcome::reached);
-               // of 40 mm: still plane
+               // with 40 mm: still plane
                REQUIRE(state.x.row(2).leftCols(edges).cwiseAbs().maxCoeff() < 1e-4);
                return system.at(state, false).positive_definite();
              }) /
@@ -161,7 +162,7 @@ TEST_CASE("twist rung: a rod curved and twisted at rest is the exact helix witho
     const double L = 2 * M_PI * w;  // one turn
     const SingleRod single(edges, L, spring, RodEnd::free, RodEnd::free);
     Model model = single.model();
-    // six unknowns that hold it in space
+    // six unknowns that fix it in space
     model.pin(0);
     model.hold(1, 1);
     model.hold(1, 2);
@@ -220,7 +221,7 @@ TEST_CASE("twist rung: the localised helix of a long twisted rod", "[standard]")
   }
   CAPTURE(widest * 180 / M_PI, middle);
   CHECK(widest == Approx(exact).epsilon(0.01));
-  // nothing holds the coil along the rod: its middle lies between edges, where phi is widest
+  // nothing constrains the coil along the rod: its middle is between edges, where phi is largest
   const double left = phi[std::size_t(middle - 1)], right = phi[std::size_t(middle + 1)];
   const double centre = middle + 0.5 * (left - right) / (left - 2 * widest + right);
   for (int e = middle - 80; e <= middle + 80; ++e) {
@@ -246,7 +247,7 @@ TEST_CASE("Michell's ring buckles at 2 pi sqrt(3) EI/GJ") {
 }
 
 TEST_CASE("joint shear: two rigid crossing rods turn by moment over stiffness") {
-  // stiff rods, one held, the other turned about the joint by a couple at its ends
+  // stiff rods, one fixed, the other rotated about the joint by a couple at its ends
   const RodMaterial stiff{1e6, 1e7, 1e7, 1e7, {0, 0}, 0};
   ModelRod a{{0, 1, 2}, {0, 10, 20}, stiff};
   ModelRod b{{3, 1, 4}, {0, 10, 20}, stiff, {}, RodEnd::free, RodEnd::free};

@@ -53,7 +53,7 @@ TEST_CASE("modes: masses and stiffness set the time, shapes and states stay") {
     CHECK(heavy.modes[k].frequency_Hz == Approx(light.modes[k].frequency_Hz / 2).epsilon(1e-9));
     CHECK(light.shapes[k].cols() == light.state.frames.back().nodes.cols());
     CHECK(light.shapes[k].colwise().norm().maxCoeff() == Approx(1));
-    // what is held does not move
+    // constrained nodes do not move
     for (const int node : light.state.layout.edge_points)
       CHECK(light.shapes[k].col(node).norm() < 1e-9);
   }
