@@ -99,7 +99,7 @@ TEST_CASE("a footprint that cannot be built is refused before anything runs") {
   CHECK(folder.entries().empty());
 }
 
-TEST_CASE("a net that ends before its boundary is refused with its place, and drawn by figure",
+TEST_CASE("a net that ends before its boundary is refused with its position, and drawn by figure",
           "[standard]") {
   const TemporaryFolder folder;
   check_refused("figure surface_ellipsoid --set net.cut_mm=-50 -o deep", folder,

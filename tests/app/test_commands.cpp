@@ -41,7 +41,7 @@ int width_of(const fs::path& file) { return value_of(gridshell::render::read_png
 
 }  // namespace
 
-TEST_CASE("run writes a whole run folder and replaces the one before") {
+TEST_CASE("run writes a complete run folder and replaces the one before") {
   const Bench bench(small);
   bench.good("run small.toml");
   const auto run = bench.at / "out/small";
@@ -77,7 +77,7 @@ TEST_CASE("the same preset gives the same frames, from the run's own preset.toml
   CHECK(text_of(bench.at / "a/frames.csv") != text_of(bench.at / "c/frames.csv"));
 }
 
-TEST_CASE("a printed config (--print-config) comes to the same, and nothing runs") {
+TEST_CASE("a printed config (--print-config) gives the same preset, and nothing runs") {
   const Bench bench(small);
   const auto first = bench.good(
       "movie small.toml --set actuation.seed=down --size 320x200 --frames 9 --print-config");
@@ -160,7 +160,7 @@ TEST_CASE("figures of building blocks, drawn again from the run", "[shared]") {
   }
 }
 
-TEST_CASE("every case is a whole run folder, and summary.json on top lists them") {
+TEST_CASE("every case is a complete run folder, and summary.json on top lists them") {
   const Bench bench(two_cases);
   bench.good("movie small.toml -o run --set movie.beside=false");
   CHECK(files_in(bench.at / "run") == listed({"far", "near", "preset.toml", "summary.json"}));
@@ -181,7 +181,7 @@ TEST_CASE("every case is a whole run folder, and summary.json on top lists them"
   CHECK(width_of(bench.at / "run/near/frames/frame_00000.png") == 80);
 }
 
-TEST_CASE("cases are shown beside one another in one movie, drawn again by render") {
+TEST_CASE("cases are shown side by side in one movie, drawn again by render") {
   const Bench bench(two_cases);
   bench.good({"movie", "small.toml", "-o", "run", "--set", "title=Two shells"});
   CHECK(files_in(bench.at / "run") ==

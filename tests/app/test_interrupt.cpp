@@ -69,7 +69,7 @@ TEST_CASE("Ctrl-C before anything is finished leaves nothing", "[alone]") {
   CHECK(files_under(folder, "").empty());
 }
 
-TEST_CASE("a run that is ended goes on from there, to the same state", "[full]") {
+TEST_CASE("a run that is ended continues from there, to the same state", "[full]") {
   const TemporaryFolder folder;
   const auto command = [](const char* output, const char* more) -> Arguments {
     const std::string line = fmt::format(

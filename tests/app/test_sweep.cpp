@@ -186,7 +186,7 @@ TEST_CASE("two sweeps into one folder do not meet, another preset is refused") {
                 Contains("of another preset"));
 }
 
-TEST_CASE("what a sweep is asked for in vain is told") {
+TEST_CASE("a sweep's requests that cannot be met are reported") {
   const TemporaryFolder folder;
   write_sweep(folder, 3);
   const auto refused = [&](std::vector<std::string> arguments, const std::string& why) {

@@ -369,7 +369,7 @@ TEST_CASE("a number is found by a word and goes back to its default") {
   CHECK(number(back, "energy_bend_mJ") > 1.5 * number(found, "energy_bend_mJ"));
 }
 
-TEST_CASE("a movie of what was done is made beside the window, and a picture of any size kept") {
+TEST_CASE("a movie of what was done is made in the background, and a picture of any size kept") {
   const TemporaryFolder folder;
   const json told = played(
       folder, drag({"@joint:0,0 0 0", "@joint:0,0 0 10"}) + "do save_picture\ndo save_movie\n",

@@ -169,7 +169,7 @@ TEST_CASE("every call and solve of a movie fails once, and nothing is lost or fa
   bench.try_out_all({Call::factorisation, Call::solve}, 20);
 }
 
-TEST_CASE("every solve of a push and on the twist rung fails once, and nothing false is written",
+TEST_CASE("every solve of a push and on the twist model fails once, and nothing false is written",
           "[full]") {
   for (const char* more : {"[indentation]\nat = \"highest\"\ndepth_mm = 0.5\n",
                            "[ends]\nkind = \"clamped\"\n[rod]\nshear_GPa = 31.0\n"})

@@ -74,7 +74,7 @@ TEST_CASE("a shell is designed step by step, kept, put back and done again to th
   CHECK(shell.nodes() == before.frame.nodes);
 }
 
-TEST_CASE("a design that is stopped leaves the step in hand that was seen last") {
+TEST_CASE("a design that is stopped leaves the step in the window that was seen last") {
   EditedShell shell(small_cap());
   Watch watch;
   ShellView last;

@@ -36,7 +36,7 @@ TEST_CASE("the edited shell is the one that a run ends in") {
   CHECK(shell.view().certificate.error_estimate_mm < 1e-3 * 66);
 }
 
-TEST_CASE("the symmetry of a state is told once it is refined") {
+TEST_CASE("the symmetry of a state is reported once it is refined") {
   EditedShell shell;
   CHECK(shell.view().symmetry == "two diagonal mirrors");
   shell.drag(Move{0.9}, 7);
@@ -141,8 +141,9 @@ TEST_CASE("steps that are put aside into a file are undone and done again to the
   }
 }
 
-TEST_CASE("a shell that was shaken is saved with its mesh, and a run converges to the same state",
-          "[standard]") {
+TEST_CASE(
+    "a shell that was perturbed is saved with its mesh, and a run converges to the same state",
+    "[standard]") {
   preset::Preset preset = small_shell();
   preset.footprint.rods = 8;
   preset.footprint.radius_mm = 88;

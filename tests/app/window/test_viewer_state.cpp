@@ -218,7 +218,7 @@ TEST_CASE("a line that is no event is refused with what would be right") {
   CHECK(read_event("press thumb").error().message.find("left") != std::string::npos);
 }
 
-TEST_CASE("a recording's fault names its line") {
+TEST_CASE("a recording's error names its line") {
   const auto events = read_events("# a comment\n\nmouse 1 2\r\nmouse one two\n", "visit.txt");
   REQUIRE_FALSE(events);
   CHECK(events.error().message.find("visit.txt:4:") == 0);

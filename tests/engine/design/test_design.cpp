@@ -96,7 +96,7 @@ void check_met(const DesignResult& found, double largest, double mean) {
 
 }  // namespace
 
-TEST_CASE("joints and leg forces follow pins, legs and directions as states solved anew do") {
+TEST_CASE("joints and leg forces follow pins, legs and directions as states solved again do") {
   check_sensitivity(cap(0.7), {Vary::diameters}, 8);
   check_sensitivity(cap(0.7), {Vary::pins_3d}, 8);
   check_sensitivity(cap(0.7), {Vary::legs}, 8);
@@ -116,7 +116,7 @@ TEST_CASE("the same on the meshes that are designed on and certified", "[standar
   }
 }
 
-TEST_CASE("the objective's gradient agrees with differences of states solved anew") {
+TEST_CASE("the objective's gradient agrees with differences of states solved again") {
   Moved moved(cap(0.7), 8);
   DesignShell& shell = *moved.shell;
   const DesignVariables variables(*moved.scene, {Vary::pins, Vary::legs, Vary::diameters},
@@ -204,7 +204,7 @@ TEST_CASE("the table of ends gives back the same scene, and says what is wrong w
   refused(6, -1, "longer than 0");
 }
 
-TEST_CASE("rods have the diameters of their table, and what is wrong with it is told") {
+TEST_CASE("rods have the diameters of their table, and what is wrong with it is reported") {
   auto p = cap(0.7);
   p.ends.kind = preset::EndKind::tangent;
   auto scene = value_of(scene_of(p));

@@ -195,7 +195,7 @@ TEST_CASE("twist model: bad rods are refused with their reason") {
   refused("node 7", [](ModelRod& bad) { bad.nodes = {0, 1, 7}; });
 }
 
-TEST_CASE("strain by bending: how far from rest the outermost fibre is bent") {
+TEST_CASE("strain by bending: how far from its natural shape the outermost fibre is bent") {
   // on a circle's arc in the plane of the axes c and s, over so many equal edges
   constexpr int edges = 20;
   constexpr double edge = 2, curvature = 0.01;

@@ -195,7 +195,7 @@ TEST_CASE("bend at a held end: derivatives, and half of what the edge and its mi
   }
 }
 
-TEST_CASE("material bend: equal stiffness and no curvature at rest is the round rod's bend") {
+TEST_CASE("material bend: equal stiffness and no natural curvature is the round rod's bend") {
   std::mt19937 random(7);
   for (int trial = 0; trial < 20; ++trial) {
     Sample at = random_sample(random, 0.3);

@@ -88,7 +88,7 @@ Footprint shell() { return circular_footprint(126.0, 12, 20.0, Placement::half).
 
 }  // namespace
 
-TEST_CASE("mesh: nodes, edges and rest lengths") {
+TEST_CASE("mesh: nodes, edges and natural lengths") {
   const Footprint net = shell();
   const RodMesh mesh = mesh_rods(net, 4);
   CHECK(mesh.nodes() - mesh.edge_points == 912);  // 2736 degrees of freedom

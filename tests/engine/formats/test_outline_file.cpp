@@ -122,7 +122,7 @@ TEST_CASE("an OBJ is an outline by its lines, else by its faces") {
   CHECK_THAT(refused(points + "l 1 2 9\n", "a.obj"), Contains("names vertex 9"));
 }
 
-TEST_CASE("what is no outline is refused with its place") {
+TEST_CASE("what is no outline is refused with its position") {
   CHECK_THAT(refused("<html/>", "a.svg"), Contains("a.svg: is no SVG"));
   CHECK_THAT(refused(svg("\n<path d=\"M 0 0 L 5\"/>"), "a.svg"),
              Contains("a.svg:4: <path> has a 'L' with fewer numbers than 2"));

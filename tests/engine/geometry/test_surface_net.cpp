@@ -90,7 +90,8 @@ TEST_CASE("a surface's curvatures are those of the sphere, the saddle and the cy
   CHECK(std::abs(pipe.axes(1, 0)) == Approx(1).epsilon(1e-6));
 }
 
-TEST_CASE("a grid of equal chords comes to the sphere's net at second order, 0.5 um at d/64") {
+TEST_CASE(
+    "a grid of equal chords converges to the sphere's net with second order, 0.5 um at d/64") {
   const double at_8 = grid_off_sphere(d / 8), at_16 = grid_off_sphere(d / 16);
   CHECK(at_8 / at_16 == Approx(4).epsilon(0.05));
   CHECK(at_16 / 16 <= 5e-4);  // d/64 takes seconds

@@ -72,7 +72,7 @@ TEST_CASE("a node bears the mean force of its edges, and the energy of what goes
   CHECK(bending_of_nodes_mJ_per_m(tee(), old).size() == 0);
 }
 
-TEST_CASE("a value is told in the digits that its error lets hold") {
+TEST_CASE("a value is reported in the digits that its error lets hold") {
   CHECK(with_error(0.123456, 7.1e-4, "N") == "0.1235 ± 0.0007 N");
   CHECK(with_error(39.9791, 0.02, "mJ") == "39.98 ± 0.02 mJ");
   CHECK(with_error(1234.5, 30, "N") == "1234 ± 30 N");

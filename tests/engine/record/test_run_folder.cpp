@@ -207,7 +207,7 @@ TEST_CASE("the energies by term in a table sum up to energy_mJ") {
   CHECK(sum == total);
 }
 
-TEST_CASE("a rod beyond its strength breaks in plain words") {
+TEST_CASE("a rod above its strength breaks in plain words") {
   Summary summary = sample_summary();
   summary.utilisation = 2.083;
   CHECK(summary.breaking() == "BREAKS: 2.08 times the strength");

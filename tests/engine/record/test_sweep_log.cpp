@@ -67,7 +67,7 @@ TEST_CASE("a log gives back what was put into it, to the bit") {
   CHECK_THAT(text_of(file), Contains(R"("keys":{"rod.diameter_mm":3.5,"actuation.seed":"up"})"));
 }
 
-TEST_CASE("a log that was cut anywhere keeps every whole line, and goes on") {
+TEST_CASE("a log that was cut anywhere keeps every whole line, and continues") {
   const TemporaryFolder folder;
   const auto file = folder / "sweep.jsonl";
   three_points(file);

@@ -189,7 +189,7 @@ TEST_CASE("a column that an older version did not write is unknown") {
   CHECK(frame.event.empty());
 }
 
-TEST_CASE("a trajectory that another program rewrote is read only where that is asked for") {
+TEST_CASE("a trajectory that another program rewrote is read only where that is requested") {
   TemporaryFolder folder;
   const fs::path path = folder / "a.h5";
   const Trajectory run = sample_trajectory();

@@ -28,7 +28,7 @@ start = "net"
 
 }  // namespace
 
-TEST_CASE("two quarter-spheres come to rest as the hemisphere does") {
+TEST_CASE("two quarter-spheres relax to the hemisphere") {
   const auto joined = run_stills(read(two_quarters)).summary;
   const auto whole = run_stills(on_net());
   const double scale = run_stills(read(two_quarters)).trajectory.layout.length_scale_mm;

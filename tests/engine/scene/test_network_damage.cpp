@@ -41,7 +41,7 @@ struct Damage {
 
 }  // namespace
 
-TEST_CASE("damaged files of networks are answered by their place and what would be right") {
+TEST_CASE("damaged files of networks are answered by their position and what would be right") {
   CHECK(told(whole) == "none");
   const Damage all[] = {
       {"[20, 0]", "[20, NaN]", "n.json:2: is no JSON here"},

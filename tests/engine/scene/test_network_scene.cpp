@@ -60,7 +60,7 @@ std::vector<int> same_nodes(const RodMesh& from, const RodMesh& to, double turn)
 
 }  // namespace
 
-TEST_CASE("the circle of Fig. 1 as a network comes to the circle's states", "[standard]") {
+TEST_CASE("the circle of Fig. 1 as a network reaches the circle's states", "[standard]") {
   Simulation circle = open(fig1());
   for (const double turn : {0.0, 0.3}) {
     preset::Preset p = fig1();

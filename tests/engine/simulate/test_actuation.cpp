@@ -83,7 +83,7 @@ TEST_CASE("the seed names the diagonal whose corner joints lie lower, and up or 
     }
 }
 
-TEST_CASE("the first frame is flat, the last does not depend on how many are asked for") {
+TEST_CASE("the first frame is flat, the last does not depend on how many are requested") {
   const auto few = run(fig1(2, 1e-3)), many = run(fig1(25, 1e-3));
   CHECK(last_frame(few).nodes == last_frame(many).nodes);
   CHECK(few.summary.energies[Term::bend] == many.summary.energies[Term::bend]);
@@ -152,7 +152,8 @@ TEST_CASE("a boundary that takes no rod out of the flat is refused before a run"
   CHECK(simulate::plan(small_shell()));
 }
 
-TEST_CASE("a still of the flat alone is the flat, and of rods curved at rest there is none") {
+TEST_CASE(
+    "a still of the flat alone is the flat, and of rods with natural curvature there is none") {
   preset::Preset p = circle(4, 42, 36);
   p.figure.radii_mm = {42};
   const auto flat = run_stills(p);

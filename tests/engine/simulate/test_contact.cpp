@@ -31,7 +31,7 @@ double number_after(const std::string& text, const std::string& words) {
 }  // namespace
 
 TEST_CASE(
-    "a shell that comes into contact says where on its path, whatever frames were asked for") {
+    "a shell that comes into contact says where on its path, whatever frames were requested") {
   const auto six = run(crowded(12));
   const record::Summary& s = six.summary;
   CHECK(s.limit == record::Limit::none);

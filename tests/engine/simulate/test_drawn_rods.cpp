@@ -95,7 +95,7 @@ TEST_CASE("the error that a rod cut with a corner reports holds") {
   CHECK(error < outcome.summary.error_estimate_mm + 5e-5);
 }
 
-TEST_CASE("a rod that is closed keeps the twist that it has at rest") {
+TEST_CASE("a rod that is closed keeps the twist of its natural shape") {
   constexpr double radius = 50;
   preset::Preset p = drawn(ring(radius, 24), 4);
   const double L = 24 * 2 * radius * std::sin(std::numbers::pi / 24);

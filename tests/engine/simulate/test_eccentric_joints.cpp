@@ -58,7 +58,8 @@ TEST_CASE("a bolt between two layers puts force times eccentricity on the rod th
   }
 }
 
-TEST_CASE("eccentric joints come to their limit at second order, on both rungs", "[standard]") {
+TEST_CASE("eccentric joints converge to their limit with second order, on both rod models",
+          "[standard]") {
   for (const bool hinged : {false, true}) {
     double energy[3];
     for (const int k : {0, 1, 2}) energy[k] = layered(1, 4 << k, hinged).summary.energies.total();

@@ -47,7 +47,7 @@ TEST_CASE("rods too thick to buckle while they are soft go to the side of the se
   }
 }
 
-TEST_CASE("a state next to its own image is told as doubtful", "[standard]") {
+TEST_CASE("a state next to its own image is reported as doubtful", "[standard]") {
   // legs of a sixth of the spacing buckle sideways, each to either side by 0.006 mm
   preset::Preset p = circle(5, 18.288596114, 12.958769254);
   p.footprint.spacing_mm = 8.419622877;

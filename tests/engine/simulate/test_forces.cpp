@@ -80,7 +80,7 @@ TEST_CASE("bending over length adds up to the bending energy, of any section and
   preset::Preset p = four_rods();
   p.accuracy.edges_per_segment = 8;
   SECTION("round rods") {}
-  SECTION("strips curved at rest") {
+  SECTION("strips with natural curvature") {
     p.rod.shear_GPa = 31;
     p.rod.width_mm = 0.4;
     p.rod.thickness_mm = 0.2;
@@ -179,7 +179,7 @@ void check_against_finer(preset::Preset p, double tolerance) {
 
 }  // namespace
 
-TEST_CASE("forces, energies and bending strain of pinned elasticas, as exact as is asked") {
+TEST_CASE("forces, energies and bending strain of pinned elasticas, as exact as requested") {
   for (const double m : {0.04968353, 0.24165275, 0.46400983})
     for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-6}) {
       const Elastica exact = elastica(m);
@@ -204,7 +204,7 @@ TEST_CASE("forces, energies and bending strain of pinned elasticas, as exact as 
     }
 }
 
-TEST_CASE("a mesh that is asked for tells its own forces, and alone no error") {
+TEST_CASE("a requested mesh reports its own forces, and without coarser ones no error") {
   const Elastica exact = elastica(0.24165275);
   preset::Preset p = crossed_rods(exact.shortening);
   double before = 0;
@@ -235,7 +235,7 @@ TEST_CASE("forces and energies are as exact as they say where loads act and rods
     p.loads.gravity_m_s2 = 9.81;
     p.rod.density_kg_m3 = 6450;
   }
-  SECTION("strips curved at rest") {
+  SECTION("strips with natural curvature") {
     p.rod.shear_GPa = 31;
     p.rod.width_mm = 0.4;
     p.rod.thickness_mm = 0.2;
@@ -275,7 +275,8 @@ TEST_CASE("the curve of a push lies within its error, and its stiffness is its s
   }
 }
 
-TEST_CASE("bending strain and utilisation end a path, and of two limits the first met is told") {
+TEST_CASE(
+    "bending strain and utilisation end a path, and of two limits the first met is reported") {
   const Elastica exact = elastica(0.46400983), limit = elastica(0.24165275);
   const auto ended = [&](double most_bending, double most_utilisation, const char* why) {
     preset::Preset p = crossed_rods(exact.shortening);

@@ -206,7 +206,7 @@ TEST_CASE("a joint that is not there is refused") {
   CHECK_THAT(refused_run(p), Catch::Contains("no such joint"));
 }
 
-TEST_CASE("pushes on the twist rung are those of the bend rung, to a millionth of rho") {
+TEST_CASE("pushes on the twist model are those of the bend model, to a millionth of rho") {
   for (const Case which : {Case::pole_inward, Case::pole_outward}) {
     preset::Preset p = hemisphere(which, 120, Placement::on_axis, 0.05, 3);
     p.accuracy.edges_per_segment = 4;

@@ -69,7 +69,7 @@ void check_same(const Run& a, const Run& b, double within_mm) {
 
 }  // namespace
 
-TEST_CASE("a run that is stopped on its path goes on from there, to the same states",
+TEST_CASE("a run that is stopped on its path continues from there, to the same states",
           "[standard]") {
   const TemporaryFolder folder;
   const Run whole = run_with({});

@@ -103,7 +103,7 @@ TEST_CASE("a heavy column branches at its critical weight and is the elastica be
   }
 }
 
-TEST_CASE("a column's state at a load does not hang on how much more was asked for") {
+TEST_CASE("a column's state at a load does not hang on how much more was requested") {
   // past a load of 1.2160 there is no arch left: it turns over and hangs below its base
   preset::Preset less = column(1.1), more = column(1.5), most = column(11);
   for (preset::Preset* p : {&less, &more, &most}) p->accuracy.edges_per_segment = 32;
@@ -156,7 +156,7 @@ TEST_CASE("a column buckles to any side, each as stable as the others") {
   CHECK(std::abs(sides[0] - sides[1]) > 0.01);
 }
 
-TEST_CASE("a pinched ring goes on past its double mode on every mesh", "[standard]") {
+TEST_CASE("a pinched ring continues past its double mode on every mesh", "[standard]") {
   preset::NetworkData file;
   file.rods.resize(1);
   for (int k = 0; k < 24; ++k) {

@@ -57,17 +57,17 @@ double distance_of_rungs(preset::Preset preset, int edges) {
 
 }  // namespace
 
-TEST_CASE("twist rung: shells from random edge angles are the bend rung's") {
+TEST_CASE("twist model: shells from random edge angles are the bend model's") {
   for (const preset::Preset& preset : {on_net(), spool(), twelve_rods()})
     CHECK(distance_of_rungs(preset, 4) < 1e-8);
 }
 
-TEST_CASE("twist rung: the shell of Fig. 1 from random angles is the bend rung's, 16 edges",
+TEST_CASE("twist model: the shell of Fig. 1 from random angles is the bend model's, 16 edges",
           "[standard]") {
   CHECK(distance_of_rungs(twelve_rods(), 16) < 1e-7);
 }
 
-TEST_CASE("a circle on the twist rung ends where it does on the bend rung, without twist") {
+TEST_CASE("a circle on the twist model ends where it does on the bend model, without twist") {
   preset::Preset p = four_rods();
   p.accuracy.tolerance = 1e-6;
   const auto bend = run(p);
@@ -84,7 +84,7 @@ TEST_CASE("a circle on the twist rung ends where it does on the bend rung, witho
   CHECK(distance(bend, twist) < 1e-6 * p.footprint.radius_mm);
 }
 
-TEST_CASE("loads on the bend rung are those of the twist rung, and lower the shell") {
+TEST_CASE("loads on the bend model are those of the twist model, and lower the shell") {
   preset::Preset p = four_rods();
   p.accuracy.tolerance = 1e-6;
   const auto unloaded = run(p);
@@ -107,7 +107,7 @@ TEST_CASE("loads on the bend rung are those of the twist rung, and lower the she
       Catch::StartsWith("[loads] points: the footprint has no joint [7, 0], must be one of its "));
 }
 
-TEST_CASE("spring joints come to the shared ones as they stiffen, on both rungs") {
+TEST_CASE("spring joints converge to the shared ones as they stiffen, on both rod models") {
   preset::Preset p = four_rods();
   p.accuracy.model = GENERATE(RodModel::bend, RodModel::twist);
   p.accuracy.tolerance = 1e-5;
@@ -200,7 +200,7 @@ TEST_CASE("a strip lies down or stands up, and an arched rod rises by itself") {
   CHECK(flat.summary.height_mm != Approx(round).epsilon(1e-3));
 }
 
-TEST_CASE("the net rung says that nothing was solved for") {
+TEST_CASE("the net model says that nothing was solved for") {
   preset::Preset p;
   p.footprint.kind = preset::FootprintKind::net;
   p.accuracy.tolerance = 0.05;

@@ -62,7 +62,7 @@ TEST_CASE("a vault drawn in space is the same however it is turned, moved suppor
   }
 }
 
-TEST_CASE("ends of a vault in space that hold directions, on both rungs, turned too") {
+TEST_CASE("ends of a vault in space that hold directions, on both rod models, turned too") {
   std::vector<double> tangent;
   for (const auto kind : {preset::EndKind::tangent, preset::EndKind::clamped}) {
     preset::Preset p = network(vault(0.96), 4);
@@ -80,7 +80,7 @@ TEST_CASE("ends of a vault in space that hold directions, on both rungs, turned 
   CHECK(tangent[1] >= tangent[0] * (1 - 1e-9));
 }
 
-TEST_CASE("straight strips laid flat by their geodesic lengths come to the sphere", "[standard]") {
+TEST_CASE("straight strips laid flat by their geodesic lengths reach the sphere", "[standard]") {
   const auto outcome = run_to_end(shipped("lit_geodesic"), true);
   // the acute corners lie 40 degrees off the pole
   const Eigen::Vector3d middle(0, 0, -240 * std::cos(40 * std::numbers::pi / 180));

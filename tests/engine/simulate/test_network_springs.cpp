@@ -137,7 +137,7 @@ TEST_CASE("symmetries of a mesh keep what is held, and how stiffly") {
   CHECK(count(p) < all);
 }
 
-TEST_CASE("the cantilever of a public code comes to the elastica, and near what that code says") {
+TEST_CASE("the cantilever of a public code agrees with the elastica, and nearly with that code") {
   const auto outcome = run_stills(shipped("lit_drm_cantilever"));
   CHECK(outcome.summary.stable);
   // by shooting along theta'' = -P L^2/EI cos theta, of P L^2/EI = 1.185185

@@ -158,7 +158,7 @@ TEST_CASE("rhombi of straight rods open in the flat, against their shear alone")
   CHECK(outcome.summary.height_mm == Approx(0).margin(1e-6));
 }
 
-TEST_CASE("one joint opens all rhombi, and what is wrong with a step is told") {
+TEST_CASE("one joint opens all rhombi, and what is wrong with a step is reported") {
   preset::Preset p = linkage();
   preset::Step step = opened(0, 100);
   step.angles = {{12, 0, 70}};

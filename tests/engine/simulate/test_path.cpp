@@ -72,7 +72,7 @@ void check_frames(const simulate::ExperimentResult& outcome, int asked) {
 
 }  // namespace
 
-TEST_CASE("every frame asked for is there and at rest, or the run says why not") {
+TEST_CASE("every requested frame is there and in equilibrium, or the run says why not") {
   preset::Preset thick = on_net(), barely = circle(8, 77.9, 77.0, 3),
                  pipe = on_net(preset::NetKind::cylinder, 120, 125);
   thick.accuracy.tolerance = 1e-3;
@@ -100,7 +100,7 @@ TEST_CASE("a snap that only the coarsest mesh sees is none of the shell") {
   CHECK(bend(outcome) == Approx(31.4).epsilon(5e-3));
 }
 
-TEST_CASE("a loss of stability that two leading meshes see and the finest does not is none",
+TEST_CASE("a loss of stability that two coarse meshes have and the finest does not is none",
           "[standard]") {
   // the smallest eigenvalue comes within a tenth of its size to zero: 4, 5 and 10 edges cross it,
   // 16 and 20 do not
@@ -196,7 +196,7 @@ TEST_CASE(
   CHECK(run(p).summary.stable);
 }
 
-TEST_CASE("a saddle from flat loses its branch where two leading meshes say", "[standard]") {
+TEST_CASE("a saddle from flat loses its branch where two coarse meshes do", "[standard]") {
   const auto events = [](const LevelPlan& plan) {
     return value_of(simulate::follow_actuation(shared_scene(spool(preset::Start::flat)), plan,
                                                false, 1, unwatched))
@@ -210,7 +210,7 @@ TEST_CASE("a saddle from flat loses its branch where two leading meshes say", "[
   CHECK(bend(confirmed) == Approx(bend(run(spool()))).epsilon(5e-3));
 }
 
-TEST_CASE("the frame after a jump is the one that tells it, and it jumps where that is told",
+TEST_CASE("the frame after a jump is the one that tells it, and it jumps where that is reported",
           "[standard]") {
   // of two snaps the second is a limit point of the path, which a mesh of twice the edges has later
   preset::Preset p = ellipse(60);
@@ -243,7 +243,7 @@ TEST_CASE("estimates hold where the meshes show another order than the second", 
   CHECK(error < 1e-3 * 162.305);
 }
 
-TEST_CASE("the diagonal asked for lies lower, whatever the dome went to first") {
+TEST_CASE("the requested diagonal is lower, whichever one the dome buckled along first") {
   for (auto diagonal : {preset::SeedDiagonal::y_eq_x, preset::SeedDiagonal::y_eq_minus_x}) {
     preset::Preset p = circle(7, 36.058, 35.7);
     p.footprint.spacing_mm = 10.944;
@@ -253,7 +253,7 @@ TEST_CASE("the diagonal asked for lies lower, whatever the dome went to first") 
   }
 }
 
-TEST_CASE("the last frame is the state that the path came to, no leg flipped between joints") {
+TEST_CASE("the last frame is the state that the path reached, no leg flipped between joints") {
   // sampled without the path's history, Newton's method on 8 edges left errors of 1 mm at the
   // joints and 12 mm inside a leg, for an unstable equilibrium
   preset::Preset p = drawn_ellipse(133.62545281648636, 85.78375160704122, 0.7903740280121565, 0);

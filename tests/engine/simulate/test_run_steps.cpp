@@ -54,7 +54,7 @@ TEST_CASE("frames fall to the steps that have a way, one to each of the others")
         std::vector{1, 1, 1, 7});
 }
 
-TEST_CASE("a push let go is the shell before, and every step says what it came to") {
+TEST_CASE("a released push gives the shell before, and every step reports its result") {
   preset::Preset preset = small_shell_on_four_edges();
   preset.step = {push(0, 0, 3), of(StepKind::release)};
   preset.movie.frames = 6;

@@ -49,7 +49,7 @@ double shell_progress(const Scene& scene, double ratio) {
 
 }  // namespace
 
-TEST_CASE("a session goes through all that a hand does, and back by its checkpoints to the bit") {
+TEST_CASE("a session goes through all that a user does, and back by its checkpoints to the bit") {
   const auto model = GENERATE(RodModel::bend, RodModel::twist);
   CAPTURE(word_of(model));
   const auto shell = shared_scene(six_rods(1e-3, model));
@@ -133,7 +133,7 @@ TEST_CASE("what fails leaves the last certified state, what is cancelled says so
   CHECK(pulled.certificate.largest_strain < 1.1 * session.scene().max_strain);
 }
 
-TEST_CASE("a shell in motion comes to rest where the static solver finds it") {
+TEST_CASE("a shell in motion reaches the equilibrium of the static solver") {
   Simulation session = formed(six_rods(1e-3));
   const Eigen::Matrix3Xd before = session.nodes();
   certified(session, session.set_field({{3, {0, 0, -0.15}}}, unwatched));
@@ -190,7 +190,7 @@ TEST_CASE("a session begins flat, on other meshes, holds a joint where it is and
   CHECK(max_column_norm(session.nodes().leftCols(joints) - plain.leftCols(joints)) < 2 * estimate);
 }
 
-TEST_CASE("a session of 24 rods answers a wish to stop within 0.2 s on both rungs", "[standard]") {
+TEST_CASE("a session of 24 rods answers a cancel within 0.2 s on both rod models", "[standard]") {
   const auto model = GENERATE(RodModel::bend, RodModel::twist);
   preset::Preset p = six_rods(1e-3, model);
   p.footprint = paper_circle(24).footprint;

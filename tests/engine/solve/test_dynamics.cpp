@@ -80,7 +80,7 @@ TEST_CASE("damped motion: second order in the step, a slow vibration dies as its
         Approx(std::exp(-0.2)).epsilon(5e-3));
 }
 
-TEST_CASE("a shallow arch of two crossing rods snaps in time and ends at a certified rest") {
+TEST_CASE("a shallow arch of two crossing rods snaps in time and ends in a certified equilibrium") {
   const Model model = build_model(crossing_rods(6), circular_section(diameter, 83)).value();
   Linearisation system(model);
   State state = crossing_arch(model);  // its ends come 2 % together

@@ -54,7 +54,7 @@ double exact(int n, double strain) {
 
 }  // namespace
 
-TEST_CASE("softest modes: those of a dense decomposition, every copy of equal ones among them") {
+TEST_CASE("lowest modes: those of a dense decomposition, every copy of equal ones among them") {
   // two equal rods under tension: all modes come in pairs or fours
   const Model model = build_model(crossing_rods(4), section).value();
   Eigen::Matrix3Xd x = Eigen::Matrix3Xd::Zero(3, model.nodes);
@@ -167,7 +167,7 @@ TEST_CASE("frequencies: a shallow arch that a beam buckled to") {
   CHECK(found[3] == Approx(72).epsilon(1e-3));
 }
 
-TEST_CASE("softest modes: stopped when asked to") {
+TEST_CASE("lowest modes: stopped when cancelled") {
   const Model model = build_model(single_rod(16, L), section).value();
   Linearisation system(model);
   system.at(start_state(model, straight(model)), false);

@@ -28,7 +28,7 @@ Eigen::Matrix3Xd thrown(const MultilevelRelaxation& cascade, unsigned seed) {
 
 }  // namespace
 
-TEST_CASE("cascade: nineteen of twenty rough states of eight rods come to a stable rest") {
+TEST_CASE("cascade: nineteen of twenty rough states of eight rods reach a stable equilibrium") {
   MultilevelRelaxation cascade = cascade_of(8);
   int at_rest = 0;
   for (unsigned seed = 0; seed < 20; ++seed) {

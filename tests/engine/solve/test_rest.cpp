@@ -63,7 +63,7 @@ TEST_CASE("of two ways down that are mirror images one is gone, and it is the sa
   }
 }
 
-TEST_CASE("beyond a fold one way down is gone, and every side asked for ends there") {
+TEST_CASE("beyond a fold one way down is gone, and every requested side ends there") {
   Model model = build_model(mesh, circular_section(0.254, 83)).value();
   model.loads.push_back({0, {0, 0, -1}});  // N: far more than the arch bears
   Linearisation system(model);

@@ -132,7 +132,7 @@ void check_second_order(const Found& found, int edges, double exact, double near
 
 }  // namespace
 
-TEST_CASE("twist rung: the pinned elastica from random edge angles, second order") {
+TEST_CASE("twist model: the pinned elastica from random edge angles, second order") {
   for (const auto& [shortening, m] : {std::pair(0.1, 0.09871763), {0.5, 0.46400983}}) {
     const double exact = std::sqrt(m) / std::comp_ellint_1(std::sqrt(m));
     check_second_order([&](int edges) { return elastica_height(edges, shortening); }, 26, exact,
@@ -140,7 +140,7 @@ TEST_CASE("twist rung: the pinned elastica from random edge angles, second order
   }
 }
 
-TEST_CASE("twist rung: a cantilever under an end load, large deflection, second order") {
+TEST_CASE("twist model: a cantilever under an end load, large deflection, second order") {
   // the table of Bisshopp and Drucker [1945]: deflection over L
   for (const auto& [load, deflection] : {std::pair(1.0, 0.30172), {5.0, 0.71379}}) {
     const Eigen::Vector2d exact = cantilever_exact(load);
@@ -153,7 +153,7 @@ TEST_CASE("twist rung: a cantilever under an end load, large deflection, second 
   }
 }
 
-TEST_CASE("twist rung: a rod curved and twisted at rest is the exact helix without energy") {
+TEST_CASE("twist model: a rod with natural curvature and twist is the exact helix without energy") {
   // curvature and torsion of a helix of radius r and pitch 2 pi c: r/(r^2+c^2), c/(r^2+c^2)
   const double r = 10, c = 4, w2 = r * r + c * c, w = std::sqrt(w2);
   double before = 0;
@@ -185,7 +185,7 @@ TEST_CASE("twist rung: a rod curved and twisted at rest is the exact helix witho
   }
 }
 
-TEST_CASE("twist rung: the localised helix of a long twisted rod", "[standard]") {
+TEST_CASE("twist model: the localised helix of a long twisted rod", "[standard]") {
   // [Bergou 2008, section 8]; the envelope's closed form is [van der Heijden, Thompson 2000]
   const double L = 100, bending = 1.345, torsion = 0.789, slack = 3, turns = 27;
   const int edges = 400;

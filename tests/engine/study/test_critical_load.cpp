@@ -91,7 +91,7 @@ LoadStudy studied(const preset::Preset& preset, int imperfections = 0) {
 
 }  // namespace
 
-TEST_CASE("a shallow sinusoidal arch turns back at its limit point") {
+TEST_CASE("a shallow sinusoidal arch has a limit point") {
   const CriticalLoad coarse = shallow_arch(32), fine = shallow_arch(64);
   CHECK(fine.event == BranchEvent::turn);
   CHECK((4 * fine.factor - coarse.factor) / 3 == Approx(1).epsilon(1e-3));
@@ -211,7 +211,7 @@ TEST_CASE("a portal frame sways and a ring turns oval where their closed forms s
   }
 }
 
-TEST_CASE("a beam comes to its strength where M c/I says") {
+TEST_CASE("a beam reaches its strength where M c/I says") {
   constexpr double span = 200, diameter = 0.254, strength = 2;
   preset::NetworkData file = cross(span / 2, span / 2);
   file.supports = {{0}, {1}, {2}, {3}};

@@ -83,7 +83,7 @@ TEST_CASE("modes: a joint that is pushed is held along the push, and free across
   CHECK(across > 0.1);
 }
 
-TEST_CASE("modes: the twist rung sways as the bend rung does") {
+TEST_CASE("modes: the twist model vibrates as the bend model does") {
   preset::Preset p = massive();
   p.accuracy.edges_per_segment = 4;
   const Vibrations bend = vibrations(p, 4);

@@ -157,7 +157,7 @@ TEST_CASE("half a shell over a table is found, and one seen from one side") {
   CHECK(shows(matrix_of(among), circle()));
 }
 
-TEST_CASE("a joint that lies elsewhere is told with its distance") {
+TEST_CASE("a joint that lies elsewhere is reported with its distance") {
   ScanTarget bent = circle();
   bent.joints.col(40) += Eigen::Vector3d(0, 0, 1.2);
   const auto scan = value_of(laid(make_scan(bent, {}), circle()));
