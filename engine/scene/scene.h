@@ -24,52 +24,54 @@ class KeptSegments;
 
 namespace gridshell {
 
-/// Whether and how a snap is followed in time.
+/// Whether a snap is computed in time, and with which settings.
 struct SnapDynamics {
   bool wanted = false;
   double step_s = 0, damping_per_s = 0;
 };
 
-/// What will be formed, and how exactly.
+/// The shell of a preset, and the accuracy with which it is computed; scene_of() fills it.
 struct Scene {
   Footprint footprint;
   ShellRods rods;
-  RodModel rung = RodModel::bend;          ///< chosen: net, bend or twist
-  std::vector<double> mass_t_per_mm;       ///< one a rod; 0: not known
-  std::vector<double> strength_MPa;        ///< one a rod; empty: not known
+  RodModel rung = RodModel::bend;          ///< rod model chosen: net, bend or twist
+  std::vector<double> mass_t_per_mm;       ///< one per rod; 0: not known
+  std::vector<double> strength_MPa;        ///< one per rod; empty: not known
   double joint_mass_t = 0;                 ///< of each joint, in addition to its rods
-  double rod_diameter_mm = 0;              ///< as it is drawn
-  std::vector<double> drawn_diameters_mm;  ///< one a rod, of round sections of their areas
-  std::vector<double> laths_mm;            ///< record::Layout's
-  std::vector<double> diameters_mm;        ///< one a rod; of no meaning where it is rectangular
+  double rod_diameter_mm = 0;              ///< diameter in pictures
+  std::vector<double> drawn_diameters_mm;  ///< one per rod, for round sections of the rods' areas
+  std::vector<double> laths_mm;            ///< as in record::Layout
+  /// one per rod; without meaning for rectangular sections
+  std::vector<double> diameters_mm;
   BoundaryMotion motion;
-  double length_scale_mm = 0;                ///< R_o, rho or half a diagonal: what errors are over
-  FlatFrame flat;                            ///< where the flat footprint lies
-  std::shared_ptr<const ChebyshevNet> net;   ///< that it was designed on, if it was
-  std::shared_ptr<const Assemblage> blocks;  ///< that the net is made of, if it is
-  std::shared_ptr<const MeshNetReport> mesh_net;  ///< of a net on a mesh
-  bool from_net = false;               ///< the path starts at the net, where progress is 1
-  bool drawn_in_space = false;         ///< as it is drawn, where progress is 0
+  double length_scale_mm = 0;                ///< R_o, rho or half a diagonal: the scale of errors
+  FlatFrame flat;                            ///< position of the flat footprint
+  std::shared_ptr<const ChebyshevNet> net;   ///< on which the shell was designed, if any
+  std::shared_ptr<const Assemblage> blocks;  ///< building blocks of the net, if any
+  std::shared_ptr<const MeshNetReport> mesh_net;  ///< report of a net on a mesh
+  bool from_net = false;               ///< whether the path starts at the net, at progress 1
+  bool drawn_in_space = false;         ///< whether it starts at the drawn shape, at progress 0
   Eigen::Matrix3Xd original_boundary;  ///< closed polylines in correspondence, for pictures
   Eigen::Matrix3Xd actuated_boundary;
-  double radius_begin_mm = std::numeric_limits<double>::quiet_NaN();  ///< of a circular boundary
+  /// radius of a circular boundary
+  double radius_begin_mm = std::numeric_limits<double>::quiet_NaN();
   double radius_end_mm = std::numeric_limits<double>::quiet_NaN();
-  BuckleSeed seed;            ///< decides the first buckling
-  Imperfection imperfection;  ///< and every later one
-  int base_edges = 4;  ///< the meshes that the tolerance chooses have so many times a power of two
+  BuckleSeed seed;            ///< selects the branch of the first buckling
+  Imperfection imperfection;  ///< selects the branch at later bifurcations
+  int base_edges = 4;  ///< edges per segment of the chosen meshes are this times a power of two
   int edges_per_segment = 0;  ///< the requested mesh; 0: chosen from the tolerance
-  double load_step = 1;       ///< largest load steps, of the usual ones
+  double load_step = 1;       ///< largest load step, as a factor of the usual one
   double tolerance = 1e-3;    ///< of the joints, over length_scale_mm
-  double memory_GB = 0;       ///< that the meshes may take; 0: half of the machine's
+  double memory_GB = 0;       ///< limit of the meshes' memory; 0: half of the machine's
   double max_strain = 1e-3;
-  double max_bending_strain = 0, max_utilisation = 0;  ///< 0: any
+  double max_bending_strain = 0, max_utilisation = 0;  ///< limits; 0: none
   double joint_diameter_mm = 0, joint_height_mm = 0;   ///< of the joints' cylinders
   bool stops_at_contact = false;
-  bool table = false;  ///< whether no rod passes the plane of the flat
+  bool table = false;  ///< whether rods must not pass the plane of the flat footprint
   SnapDynamics snap;
   std::vector<LoadCase> load_cases;
-  double load_imperfection_mm = 0;  ///< of shells that are not perfect
-  std::shared_ptr<Team> team;  ///< of whoever follows one path alone: who helps with large shells
+  double load_imperfection_mm = 0;  ///< size of the imperfection in a load study
+  std::shared_ptr<Team> team;       ///< threads for large shells, if a single path is followed
   /// Saved segments of the path, for a run that continues from them (simulate/kept_segments.h).
   std::shared_ptr<simulate::KeptSegments> kept;
 
@@ -77,7 +79,7 @@ struct Scene {
   RodModel solved_model() const {
     return rung == RodModel::twist ? RodModel::twist : RodModel::bend;
   }
-  /// Whether rods bear so much and no more.
+  /// Whether rods have a limit of bending strain or utilisation.
   bool limits_strength() const { return max_bending_strain > 0 || max_utilisation > 0; }
   /// Masses of the joints, which are the first nodes of every mesh, t.
   Eigen::RowVectorXd joint_masses() const;

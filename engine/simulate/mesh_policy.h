@@ -19,19 +19,19 @@
 
 namespace gridshell::simulate {
 
-/// By what meshes are compared. Path parameters run from 0 to 1.
+/// Tolerances for the comparison of meshes. Path parameters run from 0 to 1.
 struct MeshTolerances {
-  /// Events of two meshes that lie so near in the path parameter are the same: on 4 and 8 edges a
+  /// Largest difference in the path parameter of equal events of two meshes: on 4 and 8 edges a
   /// bifurcation of the paper's shells moves by up to 0.03.
   double same_event = 0.05;
-  /// States whose joints lie so near are the same, of d: meshes of 4 and 8 edges differ by up to
-  /// 0.05 d where they are on one branch, and states of different branches by d and more.
+  /// Largest difference of the joints of equal states, in units of d: meshes of 4 and 8 edges
+  /// differ by up to 0.05 d on one branch, and states of different branches by d and more.
   double same_state = 0.1;
-  /// How often the edges are doubled for events alone, whose meshes may never agree.
+  /// How often the edges are doubled for events alone, on which meshes may never agree.
   int doublings = 3;
   /// Segments of a rod up to which the first mesh is chosen by the tolerance alone.
   int segments = 26;
-  /// An estimate below the tolerance by so much asks for a reason.
+  /// Ratio of the estimate to the tolerance below which finer meshes need a reason.
   double clearly_finer = 10;
 };
 inline constexpr MeshTolerances mesh_tolerances;
@@ -43,9 +43,9 @@ using SharedPath = std::shared_ptr<EquilibriumPath>;
 /// Follows a path on the meshes of a plan. Errors: bad_input, no_equilibrium, cancelled.
 using Follow = std::function<Result<SharedPath>(const LevelPlan&, const Watch&)>;
 
-/// The path on the coarsest mesh that is enough. What is missed, or not confirmed, is its `doubt`:
-/// the tolerance, an event, a state. Errors: those of `follow`; bad_input where the first meshes do
-/// not fit the memory.
+/// The path on the coarsest mesh that is fine enough. `doubt` reports what is missed or not
+/// confirmed: the tolerance, an event, a state. Errors: those of `follow`; bad_input if the first
+/// meshes do not fit the memory.
 Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follow,
                                          const Watch& watch);
 
@@ -65,15 +65,15 @@ auto converged_path(const Scene& scene, const FollowPath& follow, const Watch& w
       .map([](const SharedPath& path) { return std::move(static_cast<Path&>(*path)); });
 }
 
-/// What a path's own mesh and its companion do not agree on, a sentence; nothing: they agree.
+/// What a path's finest mesh and the next coarser one disagree on, a sentence; empty: they agree.
 std::optional<std::string> not_confirmed(const EquilibriumPath& path);
 
-/// Whether two paths on different meshes say the same: the same segments with the same events,
-/// near each other, to the same end. Otherwise a sentence says what they differ in.
+/// Compares two paths on different meshes: empty if they have the same segments with the same
+/// events, near each other, to the same end; else a sentence on the difference.
 std::optional<std::string> mesh_disagreement(const EquilibriumPath& coarse,
                                              const EquilibriumPath& fine);
 
-/// Why a path is on meshes that are finer than its tolerance takes; empty: it is not.
+/// Why a path is on finer meshes than its tolerance needs; empty: it is not.
 std::string why_so_fine(const EquilibriumPath& path);
 
 }  // namespace gridshell::simulate

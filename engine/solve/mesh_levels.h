@@ -1,4 +1,5 @@
-// A shell on one mesh: its model, how its ends move, and what is solved with.
+// MeshLevel: a shell on one mesh, with its model, the motion of its ends and the solver. LevelPlan:
+// the meshes of a shell.
 #pragma once
 
 #include <limits>
@@ -13,13 +14,14 @@
 
 namespace gridshell {
 
-/// Stays where it was made: `system` refers to `model`.
+/// A shell on one mesh. It must not be moved, since `system` refers to `model`.
 struct MeshLevel {
   MeshLevel();
   ~MeshLevel();
 
   RodMesh mesh;
-  const std::unique_ptr<Model> own_model;  // what a model is, few who have a level need to know
+  const std::unique_ptr<Model>
+      own_model;  // a pointer, so that this header does not include the model
   Model& model;
   PinnedMotion motion;
   std::unique_ptr<Linearisation> system;
@@ -32,15 +34,16 @@ struct MeshLevel {
 
 // Choice of the meshes from the requested accuracy.
 
-/// Which meshes are solved and how they are used: the last is followed, those before measure it.
+/// Edges per segment of the meshes and their use: the last is followed, the others give its error.
 struct LevelPlan {
   std::vector<int> edges_per_segment;  ///< coarse to fine, each twice the one before, at most three
-  bool extrapolate = false;  ///< over the last two (needs three, the third for the estimate)
+  /// whether positions are extrapolated over the last two (needs three, the third for the estimate)
+  bool extrapolate = false;
   /// Whether forces and energies are extrapolated, also from two meshes: their error is then far
   /// below the estimate.
   bool extrapolate_forces = extrapolate;
-  /// A path ends at the first load step whose estimate is above this, mm, or before which no
-  /// companion has had a state over so much of the path parameter.
+  /// A path ends at the first load step with an estimate above this, mm, or before which no coarser
+  /// mesh has had a state over an interval of `events_apart` of the path parameter.
   double allowed_mm = std::numeric_limits<double>::infinity();
   double events_apart = 0.05;
 
@@ -53,16 +56,15 @@ struct LevelPlan {
 /// is the next plan to try. The meshes are multiples of `base` edges per segment.
 LevelPlan plan_levels(double tolerance, int base = 4);
 
-/// A mesh of `edges` per segment with the companions that nest in it, at most two, from four edges
-/// up. Where none nests in it there is one mesh, and no estimate of its error.
+/// The plan of a mesh with `edges` per segment and its nested coarser meshes, at most two, from
+/// four edges up. If none is nested, there is one mesh and no error estimate.
 LevelPlan plan_of_mesh(int edges);
 
-/// What a plan leaves of the largest joint error, over the length scale, as a rule: for plans
-/// before a run.
+/// Expected largest joint error of a plan, over the length scale: an estimate before a run.
 double expected_error(const LevelPlan& plan);
 
-/// The plan that follows a mesh of twice the edges, extrapolated. Empty when it would pass 128
-/// edges per segment.
+/// The plan with a finest mesh of twice the edges, extrapolated. Empty if it would exceed 128 edges
+/// per segment.
 std::optional<LevelPlan> finer(const LevelPlan& plan);
 
 }  // namespace gridshell
