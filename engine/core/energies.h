@@ -14,7 +14,7 @@ namespace gridshell {
 /// What stores energy in a shell. A term more: a line here, one in `energy_terms`, its energy.
 enum class Term { bend, stretch, twist, joint, shear, load, support, contact };
 
-/// A term's word, as in `energy_bend_mJ`, and what it is.
+/// Name of a term, as in `energy_bend_mJ`, and its meaning.
 struct TermName {
   Term term;
   const char* name;

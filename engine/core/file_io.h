@@ -67,7 +67,7 @@ class ReadableFile {
   /// Errors: Fault::io, "cannot read 'path': reason".
   static Result<ReadableFile> open(const std::filesystem::path& path);
   std::uint64_t size() const { return size_; }
-  /// Exactly so many bytes from `at`, or nothing.
+  /// Reads exactly `size` bytes from `at`; empty if there are fewer.
   std::optional<std::string> read(std::uint64_t at, std::uint64_t size) const;
 
  private:
@@ -76,10 +76,12 @@ class ReadableFile {
   std::uint64_t size_ = 0;
 };
 
-/// Writes all of `bytes` to an open file. 0, or the system's error number, ENOSPC for a full disk.
+/// Writes all of `bytes` to an open file. Returns 0, or the system's error number, ENOSPC for a
+/// full disk.
 int write_all(int descriptor, std::string_view bytes);
 
-/// Appends `bytes` to an open file of `size` bytes, or takes back what was cut short. As above.
+/// Appends `bytes` to an open file of `size` bytes, or removes a partial write. Returns as
+/// write_all().
 int append_whole(int descriptor, std::string_view bytes, std::uint64_t& size);
 
 /// Writes `bytes` to `path` as one AtomicFile; a full disk is noticed at write, flush or close.

@@ -25,10 +25,10 @@ std::string text_of(const Json& json);
 /// JSON on one line without a newline; `ascii`: other letters as \uXXXX.
 std::string line_of(const Json& json, bool ascii = false);
 
-/// Takes a value of the right kind; says what it must be where it is none, else nothing.
+/// Assigns a value of the right kind. Returns what it must be if it is another, else an empty text.
 std::string take(const Json& json, int& value);
 std::string take(const Json& json, bool& value);
-/// null is a number that is not known, NaN.
+/// null is an unknown number, NaN.
 std::string take(const Json& json, double& value);
 std::string take(const Json& json, std::string& value);
 std::string take(const Json& json, std::vector<std::string>& value);

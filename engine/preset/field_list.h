@@ -86,8 +86,8 @@ class AnyFieldList {
   std::vector<Rule> common_;
 };
 
-/// The keys of a struct. What is said after a key speaks of that key; what is said before the
-/// first, of all. Conditions take the preset, the struct, or both.
+/// The keys of a struct. A rule after a key applies to that key; a rule before the first key
+/// applies to all. Conditions take the preset, the struct, or both.
 template <class Struct>
 class FieldList : AnyFieldList {
  public:
@@ -131,7 +131,7 @@ class FieldList : AnyFieldList {
   FieldList& where(std::function<bool(const Preset&)> holds) {
     return where_ = std::move(holds), *this;
   }
-  /// `fault` says what is wrong, or is empty.
+  /// `fault` returns the error, or an empty text.
   template <class Say>
   FieldList& rule(RuleKind kind, Keys others, Say fault) {
     add_rule(kind, others, [fault](const Preset& preset, const void* one) {

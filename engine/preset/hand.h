@@ -12,7 +12,7 @@ namespace gridshell::preset {
 /// is the number of that word among those of its key.
 using Points = std::vector<std::vector<double>>;
 
-/// The words of [[step]]: what a hand can do to a shell.
+/// The kinds of [[step]]: what a user can do to a shell.
 enum class StepKind { move, push, hold, release, load, rest, jitter, tighten, brace, open };
 
 enum class IndentationPlace { pole, highest };

@@ -26,7 +26,7 @@ struct Case {
   Preset preset;     ///< its `name` is "<file>/<case>"
 };
 
-/// A preset file: what it says outside of any case, and its cases.
+/// A preset file: the preset without its cases, and the cases.
 struct Presets {
   Preset base;
   std::vector<Case> cases;
@@ -56,8 +56,8 @@ Result<Presets> read_preset_file(const std::filesystem::path& file,
 
 // Writes presets as text: as TOML that runs again, and as the reference of all keys.
 
-/// Every key that counts for something in this preset, with value, unit and meaning: what it reads
-/// back as does the same.
+/// Every key that has an effect in this preset, with value, unit and meaning. Reading the text
+/// gives an equivalent preset.
 std::string to_toml(const Preset& preset);
 
 /// The base as above, then a [[case]] each with the keys in which it differs from the base.

@@ -14,9 +14,9 @@
 
 namespace gridshell::preset {
 
-/// Empty when `value` was put into `preset` (of a list of tables into an item, below 0: the last);
-/// else what is wrong and what is allowed, and `preset` is as it was. Files are looked for `beside`
-/// the preset; `report` takes what came of one.
+/// Assigns `value` to a member of `preset` (for a list of tables of item `item`, below 0: the
+/// last). Returns an empty text, or the error and the allowed values, with `preset` unchanged.
+/// Files are searched for in the folder of the preset; `report` receives the contents of one.
 std::string assign(const Field& field, const toml::node& value, Preset& preset,
                    const FileContext& beside, int item = -1, FileReport* report = nullptr);
 
@@ -26,7 +26,7 @@ std::string toml_text(const toml::node& value);
 /// Whether a table of that name is a list of tables.
 bool is_list_name(const std::string& name);
 
-// Reads what a sweep goes over: `[sweep.over]` with keys in dotted form.
+// Reads the axes of a sweep: `[sweep.over]` with keys in dotted form.
 //   rod.diameter_mm = [0.2, 0.3]
 //   actuation.radius_mm = { from = 90, to = 110, count = 5 }
 

@@ -43,7 +43,7 @@ class JournalWriter {
   static Result<JournalWriter> create(const std::filesystem::path& path, const RunIdentity& name,
                                       const Layout& layout);
 
-  /// Errors: io with path and reason; what was cut short is taken back.
+  /// Appends a frame. Errors: io with path and reason; a partial write is removed.
   Result<void> append(const Frame& frame);
 
   /// number of different frames in it

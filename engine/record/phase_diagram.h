@@ -58,9 +58,9 @@ Figures search_figures(const StateSearch& search, const std::vector<StateRow>& r
 std::optional<StateCount> state_count(const PointResult& result, const std::string& kind);
 
 // A sweep of searches for states over the longest leg and the number of rods, as the phase diagram
-// of [Baek 2018, Fig. 2B], and what it says of the paper's sentences about it.
+// of [Baek 2018, Fig. 2B], and its comparison with the paper's statements.
 
-/// A footprint that was searched.
+/// A footprint whose states were searched.
 struct PhasePoint {
   double longest_leg = 0;   ///< L_d
   int rods = 0;             ///< n

@@ -183,9 +183,9 @@ void fields(Row& row, const Visit& visit) {
              row.event);
 }
 
-// What a shell carries: a line of load.csv a point of a case's path, a line of cases.csv a case.
+// Load study of a shell: load.csv has a row per point of a case's path, cases.csv a row per case.
 
-/// A state under so many times the case's loads.
+/// A state under a multiple of the case's loads.
 struct LoadPoint {
   std::string load_case;
   double factor = 0;

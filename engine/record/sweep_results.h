@@ -89,11 +89,11 @@ struct PowerLaw {
   std::vector<LawRow> keys;
   double factor = 0;
   double scatter = 0;  ///< root mean square of the logarithms' residuals
-  /// How many neighbours in the order of the law lie on one side of it, of all neighbours: a half
-  /// where what it leaves is chance, near 1 where another curve is what the figures follow.
+  /// Fraction of the pairs of neighbours in the order of the law that are on the same side of it: a
+  /// half if the residuals are random, near 1 if the results follow another curve.
   double same_side = 0;
-  /// Whether the figures follow it: within a tenth, each exponent known to a twentieth of itself or
-  /// of one; and what it leaves is chance, or so small (a fiftieth at most) that the law is close.
+  /// Whether the results follow the law: within a tenth, with each exponent known to a twentieth of
+  /// itself or of one, and with residuals that are random or at most a fiftieth.
   bool holds() const;
   /// Value of the law and the result at each point, and the first key there.
   std::vector<double> law, found, first_key;
@@ -110,10 +110,10 @@ std::optional<PowerLaw> power_law(const SweepTable& table, const std::string& ca
 
 inline constexpr const char* sweep_log_name = "sweep.jsonl";
 
-/// Which sweep a log is of.
+/// Identity of the sweep that a log belongs to.
 struct SweepIdentity {
-  std::string preset;        ///< for whoever reads the log
-  std::uint64_t config = 0;  ///< hash of what its numbers depend on
+  std::string preset;        ///< for readers of the log
+  std::uint64_t config = 0;  ///< hash of everything that its numbers depend on
   std::size_t points = 0;    ///< in all
 
   bool same_sweep(const SweepIdentity& other) const {

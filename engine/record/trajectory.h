@@ -96,7 +96,7 @@ class FrameList {
   mutable std::optional<Error> fault_;
 };
 
-// What a run leaves behind for whoever shows, stores or compares it: the net's layout, which does
+// The results of a run for programs that show, store or compare it: the net's layout, which does
 // not change, and one frame per sampled state. Millimetres, newtons, millijoules, z up.
 
 /// A crossing of a u-rod and a v-rod at grid position (u, v) of the flat footprint.
@@ -211,8 +211,8 @@ inline Eigen::Index points_of_rods(const Layout& layout) {
   return points;
 }
 
-// Whether the parts of a trajectory fit each other, so that whoever reads one may trust its
-// indices and numbers.
+// Checks of the consistency of a trajectory's parts, so that its readers may trust indices and
+// numbers.
 
 /// Checks that every index of the layout refers to a part of a shell of `nodes` nodes, that rods
 /// have at most that many, that the two boundaries have equally many points, that nets have the

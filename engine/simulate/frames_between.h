@@ -16,27 +16,27 @@ namespace gridshell::simulate {
 /// Interpolates frames between two load steps of one stable branch:
 /// 1. the finest mesh's nodes, and K with them, by the polynomial through states and tangents of up
 ///    to four load steps [Hermite];
-/// 2. what companions add to them, energies, reactions and what lies along the rods by the
-///    polynomial through up to six load steps of that branch [Lagrange];
-/// 3. where either is in doubt, through the two load steps around it and three states solved at
-///    quarters between them.
-/// Doubt is twice what the polynomial without its first or last state would change, of 1. four
-/// times what it would without the farthest. A frame has the
-/// errors of the load steps around it and that. Its residual is not known; its pivots are those of
-/// the load steps around it.
+/// 2. corrections from coarser meshes, energies, reactions and values along the rods by the
+/// polynomial through up to six load steps of that branch [Lagrange];
+/// 3. where either is not accurate, through the two load steps around it and three states solved at
+/// quarters between them.
+/// The accuracy is estimated by twice the change of the polynomial without its first or last state,
+/// for 1. four times its change without the farthest. A frame has the errors of the load steps
+/// around it and this estimate. Its residual is not known; its pivots are those of the load steps
+/// around it.
 class FramesBetween {
  public:
-  /// `measure`: as of Caption.
+  /// `measure`: as in Caption.
   FramesBetween(EquilibriumPath& path, std::function<void(record::Frame&, double, bool)> measure,
                 const Watch& watch);
 
-  /// The frame of a sample, without its position on the path and event. Nothing: it must be solved,
-  /// as it is a load step, or none of one smooth branch, or the interpolation leaves more than a
-  /// tenth of the tolerance.
+  /// The frame of a sample, without its position on the path and event. Empty if it must be solved:
+  /// it is a load step, is on no smooth branch, or the interpolation error exceeds a tenth of the
+  /// tolerance.
   std::optional<record::Frame> at(const PathSample& sample);
 
  private:
-  /// A solved state and its frame, whose nodes and K are what companions add.
+  /// A solved state and its frame, with nodes and K of the corrections from coarser meshes.
   struct Knot {
     NestedPathPoint point;
     record::Frame frame;

@@ -44,12 +44,12 @@ class KeptSegments {
   /// What takes less than `worth_s` to follow is not worth a file; 0: everything is, at any cost.
   explicit KeptSegments(std::filesystem::path folder, double worth_s = 2);
 
-  /// The next segment of the run, if something of it is kept.
+  /// The next segment of the run, if a part of it was saved.
   std::optional<KeptSegment> next(const SegmentBegin& begin);
-  /// Whether so much was followed since the last file that it is worth another; a segment that has
-  /// one is written at its end too, as those after it begin there.
+  /// Whether enough was followed since the last file to write another; a saved segment is written
+  /// at its end too, since later ones start there.
   bool wants(bool at_its_end) const;
-  /// Writes the segment that was begun last.
+  /// Saves the segment that was started last.
   void keep(const KeptSegment& segment);
 
  private:

@@ -36,18 +36,20 @@ struct Plan {
   double expected_seconds = record::unknown;
   double memory_GB = record::unknown;  ///< of the whole program
   std::vector<std::string> seams;      ///< of building blocks, a sentence each
-  std::vector<std::string> net;        ///< on a mesh: what it reaches and what not, the same
-  std::string bending;                 ///< how much the rods will be bent; empty: not known
-  std::vector<std::string> left_out;   ///< by the model, that is seen here: a sentence each
-  std::string footprint;               ///< "12 + 12 rods, longest leg 0.80 d, corner leg -0.15 d"
+  /// on a mesh: the parts that it reaches and those that it does not, a sentence each
+  std::vector<std::string> net;
+  std::string bending;  ///< expected bending of the rods; empty: not known
+  /// effects that the model neglects and that matter here: a sentence each
+  std::vector<std::string> left_out;
+  std::string footprint;  ///< "12 + 12 rods, longest leg 0.80 d, corner leg -0.15 d"
 };
 
 /// Builds the scene of a preset and describes the run. Errors: Fault::bad_input with the reason.
 Result<Plan> plan(const preset::Preset& preset);
 
-/// Runs the experiment and hands every certified frame to `sink`. Frames sample the path at
-/// `preset.movie.frames` even steps, or at its end or `preset.figure.radii_mm` when `stills` is
-/// set. Errors: bad_input, no_equilibrium, cancelled, and what the sink says.
+/// Runs the experiment and passes every certified frame to `sink`. Frames sample the path at
+/// `preset.movie.frames` even steps, or with `stills` at its end or at `preset.figure.radii_mm`.
+/// Errors: bad_input, no_equilibrium, cancelled, those of the sink.
 Result<record::Summary> run(const preset::Preset& preset, bool stills, record::Sink& sink,
                             Watch& watch);
 
@@ -63,7 +65,7 @@ Result<EquilibriumPath> follow(const preset::Preset& preset,
 /// Runs a preset and stores all frames in memory.
 Result<ExperimentResult> run(const preset::Preset& preset, bool stills, Watch& watch);
 
-// From a preset to what is built by hand.
+// Fabrication plan of a preset.
 
 /// The rods, marks, boundaries and pins of a preset's footprint. Errors: bad_input, as scene_of().
 Result<exports::FabricationPlan> fabrication_plan_of(const preset::Preset& preset);

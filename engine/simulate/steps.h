@@ -27,8 +27,8 @@ struct StepPath : PathRecord {
   Checkpoint end = {};
 };
 
-/// Steps name joints and cells that are there, and let go of what a step before took. Errors:
-/// bad_input with the step's number.
+/// Checks that steps name existing joints and cells, and release only what an earlier step fixed.
+/// Errors: bad_input with the step's number.
 Result<void> check_steps(const std::vector<preset::Step>& steps, const Footprint& footprint);
 
 /// Does one step. A step that ends early leaves the simulation in its last certified state, a
@@ -62,11 +62,11 @@ Result<StepsResult> run_steps(const std::shared_ptr<const Scene>& scene,
                               const std::vector<preset::Step>& steps, int frames,
                               record::Sink& sink, Watch& watch);
 
-// What makes a formed shell stiff and what it carries then: bolts, braces, load cases.
+// Stiffening and loading of a formed shell: bolts, braces, load cases.
 
 struct StepPath;
 
-/// All joints keep the angles that they have. Errors (bad_input): a shell that is flat yet.
+/// Fixes the current angles of all joints. Errors (bad_input): a shell that is still flat.
 Result<Report> tighten(Simulation& simulation, const preset::Step& step, const Watch& watch);
 
 /// Drives the crossing angles of joints linearly along a path by bolts: each is a spring at the

@@ -79,8 +79,8 @@ class Linearisation {
   /// order of the constraints and their directions, N/mm; of the last factorisation.
   Eigen::MatrixXd held_stiffness() const;
 
-  /// From here on factorisations may end at the first negative pivot: whoever wants positive
-  /// definite matrices alone need not know how far from it they are.
+  /// Sets whether factorisations stop at the first negative pivot, which is enough for callers that
+  /// need positive definite matrices.
   void stop_at_negative(bool stop) {
     solver_->most_negative = stop ? 0 : std::numeric_limits<int>::max();
   }

@@ -33,9 +33,9 @@ struct EndRotation {
   Eigen::Vector3d arm{0, 0, 0};   ///< at t = 0, mm
   Eigen::Vector3d axis{0, 0, 1};  ///< unit
   double angle = 0;               ///< to t = 1, rad
-  double stretch = 0;             ///< the arm's length is 1 + t stretch times what it was
+  double stretch = 0;             ///< the arm's length is multiplied by 1 + t stretch
 
-  /// The arm at t, and how it changes by t.
+  /// The arm at t; the next function: its derivative by t.
   Eigen::Vector3d at(double t) const;
   Eigen::Vector3d rate(double t) const;
 };
@@ -48,13 +48,13 @@ EndRotation rotation_between(int node, int about, const Eigen::Vector3d& from,
 /// the factors of the dead loads and of the applied load. By default loads are applied in
 /// proportion to the progress; the flat shell carries none.
 struct PinnedMotion {
-  Eigen::Matrix3Xd begin;   ///< 3 x nodes at t = 0 (what is free is ignored)
+  Eigen::Matrix3Xd begin;   ///< 3 x nodes at t = 0, mm; free components are ignored
   Eigen::Matrix3Xd change;  ///< to t = 1
   PathLaw law = PathLaw::square;
   LoadFactor load{0, 1};
   LoadFactor field{0, 0};
-  LoadFactor opening{0, 0};             ///< of the joints that are opened
-  std::vector<EndRotation> turns = {};  ///< these nodes do not move straight
+  LoadFactor opening{0, 0};             ///< of the joint actuation
+  std::vector<EndRotation> turns = {};  ///< nodes that move on circles instead of lines
 
   double progress(double t) const { return law == PathLaw::square ? progress_at(t) : t; }
   double speed(double t) const { return law == PathLaw::square ? 2 * t : 1.0; }
@@ -65,9 +65,9 @@ struct PinnedMotion {
   }
   /// Sets the loads of `system` to those at t.
   void apply_loads(Linearisation& system, double t) const;
-  /// Puts what is prescribed where it belongs at t, and the loads on.
+  /// Sets the prescribed components of `state` and the loads of `system` to their values at t.
   void impose(Linearisation& system, double t, State& state) const;
-  /// How all columns follow at a state just factorised, and the axial forces with them; by t.
+  /// Derivative by t of all columns and of the axial forces at a state just factorised.
   void velocity(Linearisation& system, double t, const State& state, State& velocity) const;
 };
 
