@@ -7,11 +7,14 @@
 #include <vector>
 
 #include "engine/core/watch.h"
-#include "engine/design/design_shell.h"
+#include "engine/design/variables.h"
 #include "engine/preset/preset.h"
 #include "engine/scene/scene.h"
 
 namespace gridshell {
+
+class DesignShell;
+struct Sensitivity;
 
 /// The distance of each joint from the target as a vector in space, 3 x joints, mm, and the part of
 /// a joint's move that changes it: all of the move where the joint's own place on the net is the

@@ -274,7 +274,8 @@ bool NestedShell::vouches(const NewtonReport& report) const {
          report.inertia.positive_definite();
 }
 
-/// Of the last correction's factorisation, or of the energy's Hessian at the state, factorised anew.
+/// Of the last correction's factorisation, or of the energy's Hessian at the state, factorised
+/// anew.
 Inertia NestedShell::inertia_of(Level& level, const State& found,
                                 const NewtonReport& report) const {
   if (vouches(report)) return report.inertia;

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/elastic/assembly.h"
+#include "engine/elastic/model.h"
 
 namespace gridshell {
 

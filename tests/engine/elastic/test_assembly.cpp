@@ -5,6 +5,7 @@
 #include <array>
 #include <random>
 
+#include "engine/elastic/model.h"
 #include "tests/engine/elastic/bent_dome.h"
 #include "tests/engine/elastic/differences.h"
 #include "tests/results.h"

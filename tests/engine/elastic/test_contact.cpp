@@ -4,6 +4,7 @@
 #include <random>
 
 #include "engine/core/proximity.h"
+#include "engine/elastic/model.h"
 #include "tests/engine/elastic/differences.h"
 
 using namespace gridshell;

@@ -2,6 +2,7 @@
 #include <limits>
 #include <random>
 
+#include "engine/elastic/model.h"
 #include "tests/engine/elastic/bent_dome.h"
 #include "tests/engine/elastic/differences.h"
 #include "tests/results.h"

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <random>
 
+#include "engine/elastic/model.h"
 #include "tests/engine/simulate/run.h"
 #include "tests/engine/solve/rod_cases.h"
 

@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "engine/elastic/assembly.h"
+#include "engine/elastic/model.h"
 #include "engine/elastic/shell_rods.h"
 #include "tests/engine/elastic/differences.h"
 #include "tests/engine/simulate/mixed_network.h"

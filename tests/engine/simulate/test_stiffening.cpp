@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/elastic/model.h"
 #include "engine/scene/load_case.h"
 #include "tests/engine/simulate/run.h"
 

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "engine/elastic/model.h"
 #include "engine/solve/equilibrium.h"
 
 namespace gridshell {

@@ -3,6 +3,7 @@
 #include <functional>
 #include <string>
 
+#include "engine/elastic/model.h"
 #include "tests/engine/solve/elastica.h"
 #include "tests/engine/solve/rod_cases.h"
 

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/core/proximity.h"
+#include "engine/elastic/model.h"
 #include "engine/solve/equilibrium.h"
 
 using namespace gridshell;

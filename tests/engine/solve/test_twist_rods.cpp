@@ -1,5 +1,6 @@
 // Twisted rods with known answers: shapes at rest (the elastica, a cantilever, a helix, the
 // localised helix), loads at which they buckle (Euler, Greenhill, Michell), and a joint's shear.
+#include "engine/elastic/model.h"
 #include "engine/elastic/rod_frame.h"
 #include "tests/engine/solve/elastica.h"
 #include "tests/engine/solve/rod_cases.h"
