@@ -135,8 +135,8 @@ void check_second_order(const Found& found, int edges, double exact, double near
 TEST_CASE("twist rung: the pinned elastica from random edge angles, second order") {
   for (const auto& [shortening, m] : {std::pair(0.1, 0.09871763), {0.5, 0.46400983}}) {
     const double exact = std::sqrt(m) / std::comp_ellint_1(std::sqrt(m));
-    check_second_order([&](int edges) { return elastica_height(edges, shortening); }, 26, exact,
-                       5e-4 / exact, 0.15);
+    check_second_order([by = shortening](int edges) { return elastica_height(edges, by); }, 26,
+                       exact, 5e-4 / exact, 0.15);
   }
 }
 
