@@ -135,12 +135,13 @@ void add_others(const Model& model, const State& state, const ExternalLoads& out
   each_pair_list(model, [&]<class Law>(const std::vector<Pair<Law>>& list) {
     for (const Pair<Law>& pair : list) {
       PairEnergy energy;
-      out.energies[Law::term] += pair.law.add(pair_geometry(model, state, pair), energy);
+      const auto at = pair_geometry(model, state, pair, outside.opening);
+      out.energies[Law::term] += pair.law.add(at, energy);
       add_pair_gradient(model, pair, energy, out);
       if (with_hessian) add_pair_hessian(model, pair, energy.hessian, out.hessian);
     }
   });
-  add_joints(model, state, outside.opening, with_hessian, out);
+  add_links(model, state, with_hessian, out);
   for (const ModelSpring& spring : model.springs) {
     const Eigen::Vector3d gap = gap_of(state, spring.law), pull = spring.law.gradient(gap);
     out.energies[spring.law.term] += spring.law.value(gap);
@@ -280,6 +281,7 @@ void assemble(const Model& model, const State& state, const ExternalLoads& outsi
     keep_largest(out.largest_strain, sum.largest_strain);
   }
   add_others(model, state, outside, with_hessian, out);
+  reduce_to_free(model, state, with_hessian, out);
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ struct ExternalLoads {
   const std::vector<NodeAction>* steady = nullptr;
   const std::vector<NodeAction>* field = nullptr;
   double field_factor = 0;
-  double opening = 0;  ///< what has come of ModelShear::opening
+  double opening = 0;  ///< what has come of JointAngle::opening
 };
 
 /// How the Hessian's stretch is taken.
@@ -62,11 +62,11 @@ Eigen::VectorXd bending_strain_of(const Model& model, const State& state);
 void assemble_gradient(const Model& model, const State& state, const ExternalLoads& outside,
                        Assembly& out, Team* team = nullptr);
 
-/// What joints store, so much of their opening having come: their part of an assembly, and of
-/// energies alone.
-void add_joints(const Model& model, const State& state, double opening, bool with_hessian,
-                Assembly& out);
-void add_joint_energies(const Model& model, const State& state, double opening, Energies& sum);
+/// What bolts of eccentric joints store, and the spins of hinged rods.
+void add_joint_energies(const Model& model, const State& state, Energies& sum);
+/// Adds what bolts store to an assembly; carries it over to the joints' own unknowns.
+void add_links(const Model& model, const State& state, bool with_hessian, Assembly& out);
+void reduce_to_free(const Model& model, const State& state, bool with_hessian, Assembly& out);
 
 /// How the gradient changes with the opening of the joints, N.
 Eigen::Matrix3Xd opening_rate(const Model& model, const State& state);

@@ -341,20 +341,38 @@ double EndBending::add(const PairGeometry& at, PairEnergy& out) const {
 }
 
 double JointAngle::excess(const PairGeometry& at) const {
-  return weight * (std::acos(std::clamp(at.e.tangent.dot(at.f.tangent), -1.0, 1.0)) - rest);
+  return std::acos(std::clamp(at.e.tangent.dot(at.f.tangent), -1.0, 1.0)) - rest -
+         at.opening * opening;
+}
+
+double JointAngle::value(const PairGeometry& at) const {
+  return 0.5 * stiffness * excess(at) * excess(at);
 }
 
 double JointAngle::add(const PairGeometry& at, PairEnergy& out) const {
-  const double c = at.e.tangent.dot(at.f.tangent), slope = 1 / std::sqrt(1 - c * c);
-  add_cosine(-weight * slope, -weight * c * slope * slope * slope, at.e, at.f, out);
-  return excess(at);
+  const double c = at.e.tangent.dot(at.f.tangent), slope = -1 / std::sqrt(1 - c * c),
+               torque = stiffness * excess(at);
+  add_cosine(torque * slope, stiffness * slope * slope + torque * c * slope * slope * slope, at.e,
+             at.f, out);
+  return value(at);
 }
 
 double JointSpin::excess(const PairGeometry& at) const {
-  return weight * joint_spin(side, at.angle_e, at.e, at.director_e, at.f);
+  return joint_spin(side, at.angle_e, at.e, at.director_e, at.f);
+}
+
+double JointSpin::value(const PairGeometry& at) const {
+  return 0.5 * stiffness * excess(at) * excess(at);
 }
 
 double JointSpin::add(const PairGeometry& at, PairEnergy& out) const {
+  const PairEnergy phi = slopes(at);
+  out.gradient += stiffness * excess(at) * phi.gradient;
+  out.hessian += stiffness * (excess(at) * phi.hessian + phi.gradient * phi.gradient.transpose());
+  return value(at);
+}
+
+PairEnergy JointSpin::slopes(const PairGeometry& at) {
   using Complex = Eigen::Vector3cd;
   const Eigen::Vector3d &t = at.e.tangent, &s = at.f.tangent, &director = at.director_e;
   const double c = t.dot(s);
@@ -380,12 +398,11 @@ double JointSpin::add(const PairGeometry& at, PairEnergy& out) const {
   curvature.block<3, 3>(0, 3) = -zi * qt.transpose() - squares(gp, gq);
   curvature.block<3, 3>(3, 0) = curvature.block<3, 3>(0, 3).transpose();
 
-  PairEnergy here;
-  here.gradient = weight * slope;
-  here.hessian = -weight * curvature;
-  scale_to_edges(at.e.length, at.f.length, here);
-  out += here;
-  return excess(at);
+  PairEnergy phi;
+  phi.gradient = slope;
+  phi.hessian = -curvature;
+  scale_to_edges(at.e.length, at.f.length, phi);
+  return phi;
 }
 
 }  // namespace gridshell

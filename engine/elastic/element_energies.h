@@ -75,6 +75,7 @@ struct PairGeometry {
   double angle_e = 0, angle_f = 0;         ///< theta of each edge, rad
   Eigen::Vector3d director_e, director_f;  ///< of their reference frames
   double reference_twist = 0;              ///< m_ref from e to f, of edges that follow one another
+  double opening = 0;                      ///< how much joints that are opened have come
 
   /// tau = theta_f - theta_e + m_ref
   double twist() const { return angle_f - angle_e + reference_twist; }
@@ -222,33 +223,38 @@ struct EndBending {
   double add(const PairGeometry& at, PairEnergy& out) const;
 };
 
-// The resistances of a joint, to shear and to spin: each acts on a mean over its pairs of edges.
+// The resistances of a joint, to shear and to spin, on the edges that are centred on it.
 
-/// The angle of a pair of edges at a joint, one part w (angle - rest) of their mean.
+/// The angle between two rods at a joint, E = k/2 (angle - rest - opening)^2.
 struct JointAngle {
   static constexpr Term term = Term::shear;
-  double weight = 0.25;  ///< w
+  double stiffness = 0;  ///< k, N mm/rad
   double rest = M_PI / 2;
+  double opening = 0;  ///< in all, rad
+  int joint = 0;
 
   double excess(const PairGeometry& at) const;
+  double value(const PairGeometry& at) const;
   double add(const PairGeometry& at, PairEnergy& out) const;
 };
 
 // The spin of a rod at a joint that passes twist: its director beside the joint's normal.
 
-/// The spin of the first edge of a pair, one part w phi of the mean of its rod. With the complex
-/// director d = d1 + i d2 and z = d/(s.d), alpha = Im log(s.d), and d carried in time
+/// The spin phi of the first edge of a pair, E = k/2 phi^2. With the complex director d = d1 + i d2 and z = d/(s.d), alpha = Im log(s.d), and d carried in time
 /// d(t') = d - (d.t')/(1 + t.t') (t + t'),
 ///   (s.d)'/(s.d)  = z.Qq - c z.p,
 ///   (s.d)''/(s.d) = 2 [c (t.p)(z.p) - (s.q)(z.Qq) - (z.p)(t.Qq + s.Pp/2)] + a real part,
 /// p = de/|e|, q = df/|f|.
 struct JointSpin {
   static constexpr Term term = Term::joint;
-  double weight = 0.25;  ///< w
+  double stiffness = 0;  ///< k, N mm/rad
   int side = 1;          ///< +1: the normal is t_e x t_f; -1: t_f x t_e
 
   double excess(const PairGeometry& at) const;
+  double value(const PairGeometry& at) const;
   double add(const PairGeometry& at, PairEnergy& out) const;
+  /// phi by edge vectors and angles.
+  static PairEnergy slopes(const PairGeometry& at);
 };
 
 }  // namespace gridshell

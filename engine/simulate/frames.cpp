@@ -89,8 +89,8 @@ void put_forces(const Simulation& simulation, record::Frame& frame) {
                frame);
   }
   const bool extrapolate = shell.extrapolates_forces();
-  const bool no_order = order_unknown(shell.model(last), by_term.back(), by_term.size());
-  CertifiedVectors force = certify_vectors(shell.model(last), reactions, extrapolate, no_order);
+  const bool no_order = order_unknown(by_term.back());
+  CertifiedVectors force = certify_vectors(reactions, extrapolate, no_order);
   put_reactions(std::move(force.value), frame);
   frame.force_error_N = force.error;
   frame.loads_N = loads_on(shell.finest(), shell.model(last), shell.state().levels.back().x,
@@ -98,8 +98,9 @@ void put_forces(const Simulation& simulation, record::Frame& frame) {
   frame.brace_force_N =
       brace_forces(simulation.scene().footprint, shell.model(last), shell.state().levels.back().x);
   frame.energies = by_term.back();
-  if (extrapolate) frame.energies = extrapolated(by_term.back(), by_term[by_term.size() - 2]);
-  frame.energy_error_mJ = certify_vectors(shell.model(last), energies, extrapolate, no_order).error;
+  if (extrapolate && by_term.size() > 1)
+    frame.energies = extrapolated(by_term.back(), by_term[by_term.size() - 2]);
+  frame.energy_error_mJ = certify_vectors(energies, extrapolate, no_order).error;
 }
 
 /// Adds the blocks on their own nets and the rods across their seams to a layout.

@@ -32,7 +32,7 @@ Result<std::vector<double>> openings(const preset::Step& step, const Footprint& 
                                      const Bolts& now) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN(), rad = M_PI / 180;
   const auto rest = [&](std::size_t joint) {
-    return angle_between(now.rods[joint]) + (now.opened.empty() ? 0 : now.opened[joint]);
+    return now.angle(int(joint)) + (now.opened.empty() ? 0 : now.opened[joint]);
   };
   std::vector<double> by(now.rods.size(), none);
   for (const auto& row : step.angles) {
@@ -122,7 +122,7 @@ std::string text_of_opened(const Simulation& simulation) {
   int count = 0;
   for (std::size_t joint = 0; joint < now.rods.size(); ++joint) {
     if (now.rods[joint].size() != 2) continue;
-    const double angle = angle_between(now.rods[joint]);
+    const double angle = now.angle(int(joint));
     sum += angle, ++count;
     least = std::min(least, angle), most = std::max(most, angle);
     torque = std::max(torque, std::abs(torques[joint]));

@@ -28,26 +28,6 @@ constexpr double most_weight = 8;
 // of a stiffness, whose factorisation stands one correction before the state: measured up to 2e-4
 constexpr double stale_stiffness = 1e-3;
 
-/// What extrapolation at second order leaves where three meshes show another: with steps between
-/// them whose sizes have the ratio r, r = 4 at second order, |step| (1/(r - 1) - 1/3). Within
-/// `near` of second order the difference is that of the next order, which is estimated by itself.
-double left_by_order(const Eigen::Matrix3Xd& step, const Eigen::Matrix3Xd& before) {
-  constexpr double near = 0.1;
-  const double size = step.norm();
-  if (size == 0) return 0;
-  const double ratio = before.norm() / size;
-  if (std::abs(ratio - 4) < 4 * near) return 0;
-  if (ratio <= 1) return max_column_norm(step);
-  return std::min(std::abs(1 / (ratio - 1) - 1.0 / 3), 1.0) * max_column_norm(step);
-}
-
-/// What extrapolation at second order leaves of a part of first order, as where joints resist the
-/// spins of laths: of errors a + b of the finest mesh, b the first order's, steps are 3a + b and
-/// 12a + 2b, and 2b/3 is left.
-double left_of_first_order(const Eigen::Matrix3Xd& step, const Eigen::Matrix3Xd& before) {
-  return max_column_norm((4 * step - before) / 3);
-}
-
 Eigen::VectorXd weights_of(std::span<const MeshDifference> known, double t) {
   std::vector<double> at;
   for (const MeshDifference& one : known) at.push_back(one.t);
@@ -303,7 +283,7 @@ void NestedShell::estimate(const Energies& energies) {
   const Eigen::Matrix3Xd step = step_to(last - 1, state_.x);
   const bool two = !extrapolates();
   // corrections stop at the tolerance
-  if (order_unknown(finest.model, energies, two ? 2 : 3)) {
+  if (order_unknown(energies)) {
     state_.error_estimate_mm = margin * largest(companion, step) + options_.tolerance_mm;
     return;
   }
@@ -321,17 +301,13 @@ void NestedShell::estimate(const Energies& energies) {
       std::max(margin_extrapolated * max_column_norm((4 * now - before) / 3) / 15,
                margin * left_by_order(now, before)) +
       options_.tolerance_mm;
-  if (!finest.model.joint_spins.empty())
-    state_.error_estimate_mm = std::max(state_.error_estimate_mm, left_of_first_order(now, before));
   // the correction is known at the companion's nodes; between them it is interpolated
   Eigen::Matrix3Xd correction;
   finest.from_coarser->meshes().nodes(step / 3, correction);
   state_.x += correction;
 }
 
-bool order_unknown(const Model& model, const Energies& energies, std::size_t meshes) {
-  return energies[Term::contact] > 0 || (meshes == 2 && !model.joint_spins.empty());
-}
+bool order_unknown(const Energies& energies) { return energies[Term::contact] > 0; }
 
 CertifiedVectors certify_vectors(const std::vector<Eigen::Matrix3Xd>& levels, bool extrapolate,
                                  bool no_order) {
@@ -348,15 +324,6 @@ CertifiedVectors certify_vectors(const std::vector<Eigen::Matrix3Xd>& levels, bo
       extrapolate
           ? std::max(margin_extrapolated * max_column_norm((4 * step - before) / 3) / 15, by_order)
           : found.error + by_order;
-  return found;
-}
-
-CertifiedVectors certify_vectors(const Model& model, const std::vector<Eigen::Matrix3Xd>& levels,
-                                 bool extrapolate, bool no_order) {
-  CertifiedVectors found = certify_vectors(levels, extrapolate, no_order);
-  if (levels.size() == 3 && !model.joint_spins.empty())
-    found.error =
-        std::max(found.error, left_of_first_order(levels[2] - levels[1], levels[1] - levels[0]));
   return found;
 }
 
@@ -382,9 +349,8 @@ void NestedShell::take_reactions(const std::vector<HeldForces>& levels) {
   }
   const Level& finest = *levels_.back();
   const bool extrapolate = extrapolates_forces();
-  const bool no_order =
-      order_unknown(finest.model, finest.system->assembly().energies, forces.size());
-  const CertifiedVectors force = certify_vectors(finest.model, forces, extrapolate, no_order),
+  const bool no_order = order_unknown(finest.system->assembly().energies);
+  const CertifiedVectors force = certify_vectors(forces, extrapolate, no_order),
                          growth = certify_vectors(stiffness, extrapolate, no_order);
   state_.reactions.clear();
   for (const auto& on : force.value.colwise()) state_.reactions.emplace_back(on);

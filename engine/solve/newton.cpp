@@ -110,11 +110,14 @@ void Linearisation::solve(Eigen::Matrix3Xd& right_hand_side) const {
     ++effort_.factorizations;
     solver_->factor(assembly_.hessian, shift_);
   }
+  model_.fold(right_hand_side);
   solver_->solve(right_hand_side);
-  if (holds_.empty()) return;
-  const Eigen::VectorXd force = solution(compliance_, held_part(right_hand_side));
-  for (std::size_t k = 0; k < border_.size(); ++k)
-    right_hand_side -= force[Eigen::Index(k)] * border_[k];
+  if (!holds_.empty()) {
+    const Eigen::VectorXd force = solution(compliance_, held_part(right_hand_side));
+    for (std::size_t k = 0; k < border_.size(); ++k)
+      right_hand_side -= force[Eigen::Index(k)] * border_[k];
+  }
+  model_.follow(right_hand_side);
 }
 
 Eigen::MatrixXd Linearisation::held_stiffness() const {
@@ -162,6 +165,7 @@ void Linearisation::tangent(const Eigen::Matrix3Xd& prescribed,
     velocity -= outside_velocity.opening * opening_rate(model_, state);
   solve(velocity);
   velocity += moved;
+  model_.follow(velocity);
 }
 
 Eigen::VectorXd Linearisation::force_change(const Eigen::Matrix3Xd& dx) const {
@@ -191,10 +195,7 @@ void Linearisation::apply(const Eigen::Matrix3Xd& dx, State& state, double share
     return;
   }
   state.force = assembly_.force + force_change(dx);
-  if (model_.has_spins())
-    move_to(model_, state.x + dx, state);
-  else
-    state.x += dx;
+  move_to(model_, state.x + dx, state);
 }
 
 void Linearisation::restore_lengths(const Eigen::VectorXd& force, State& state) const {

@@ -204,6 +204,7 @@ TEST_CASE("an X-shell that its joints open leaves the flat at a branch and bears
 
 TEST_CASE("how forces change as joints open, against differences") {
   preset::Preset p = network_of_rods(rhombi(50 * degree), 2);
+  p.step = {opened(60, 100)};
   const Scene scene = value_of(scene_of(p));
   const RodMesh mesh = mesh_rods(scene.footprint, 2);
   const Model loose = value_of(build_model(mesh, scene.rods, RodModel::bend));
