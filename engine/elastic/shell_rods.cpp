@@ -59,6 +59,16 @@ ModelRod rod_of(const RodMesh& mesh, std::size_t r, const RodMaterial& material,
   // a closed rod comes back to its first node
   if (rod.nodes.front() == rod.nodes.back()) rod.nodes.pop_back();
   for (const int node : rod.nodes) rod.centred.push_back(mesh.is_centred(node));
+  // the piece beside an end is as long as one beside a centred joint: half an edge
+  const auto halve_end = [&](int end, auto first, auto last, char& centred) {
+    const bool tail = !mesh.far_ends.empty() && mesh.far_ends[std::size_t(end)] >= 0;
+    const auto joint =
+        std::find_if(first, last, [&](int node) { return mesh.joint_of(node) >= 0; });
+    if (!tail && !holds_direction(mesh.end_of(end)) && joint != last)
+      centred |= mesh.is_centred(*joint);
+  };
+  halve_end(int(2 * r), rod.nodes.begin(), rod.nodes.end(), rod.centred.front());
+  halve_end(int(2 * r + 1), rod.nodes.rbegin(), rod.nodes.rend(), rod.centred.back());
   if (material.as_drawn && std::ranges::count(rod.centred, 1) > 0)
     for (std::size_t k = 1; k < rod.position.size(); ++k)
       rod.position[k] = rod.position[k - 1] + (place(mesh, rod.nodes[k % rod.nodes.size()]) -

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "engine/core/try.h"
+#include "engine/formats/network_file.h"
 #include "engine/preset/consistency.h"
 #include "engine/scene/drawn_footprint.h"
 #include "engine/scene/net_design.h"
@@ -329,6 +330,11 @@ Result<void> put_laws(const preset::Preset& preset, Scene& scene) {
           "turned: a rod that is cut so must have two ends",
           scene.footprint.rods[r].number);
   for (const auto& row : preset.footprint.file.joint_laws) {
+    if (row[0] == preset::every_joint) {
+      scene.rods.joints.shear_Nmm = stiffness(row[1]);
+      scene.rods.joints.twist_Nmm = stiffness(row[2]);
+      continue;
+    }
     const int joint = joint_at(scene.footprint, int(row[0]), 0);
     if (joint < 0)
       return invalid(

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
+#include <utility>
 
 #include "engine/core/try.h"
 #include "engine/elastic/model.h"
@@ -143,11 +145,36 @@ record::Summary summary_before(const preset::Preset& preset, const Scene& scene)
   s.preset = preset.name;
   s.model = word_of(scene.rung);
   s.model_reason = preset::model_reason(preset);
+  if (const std::string balls = ends_on_balls(scene); !balls.empty())
+    s.model_reason += "; " + balls;
   s.solved = scene.rung != RodModel::net;
   s.rods = int(scene.footprint.rods.size());
   s.joints = int(scene.footprint.joints.size());
   s.cells = int(scene.footprint.cells.size());
   return s;
+}
+
+std::string ends_on_balls(const Scene& scene) {
+  const auto passes = [&](int joint) { return scene.rods.law(joint).twist_Nmm > 0; };
+  const auto joints = int(scene.footprint.joints.size());
+  int held = 0, ends = 0;
+  for (int joint = 0; joint < joints; ++joint) held += passes(joint);
+  if (held == 0 || held == joints || scene.rung != RodModel::twist) return "";
+  std::set<int> balls;
+  for (const FootprintRod& rod : scene.footprint.rods)
+    for (const auto& [end, joint] : {std::pair(rod.begin, rod.joints.front()),
+                                     {rod.end, rod.joints.back()}}) {
+      if (end != RodEnd::joined || rod.closed() || passes(joint)) continue;
+      ++ends;
+      balls.insert(joint);
+    }
+  if (ends == 0) return "";
+  std::string text = fmt::format(
+      "{} ends of rods lie on balls, at {} joints without a law ([{}, {}] first), though laws hold "
+      "{} other joints: rods turn freely there and pass no bending or twist to one another",
+      ends, balls.size(), scene.footprint.joints[std::size_t(*balls.begin())].i,
+      scene.footprint.joints[std::size_t(*balls.begin())].j, held);
+  return text + "; \"law\": \"hinge\" in the network's file gives all joints one";
 }
 
 record::Layout parts_of(const Scene& scene, const RodMesh& mesh) {
