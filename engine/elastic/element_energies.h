@@ -240,8 +240,9 @@ struct JointAngle {
 
 // The spin of a rod at a joint that passes twist: its director beside the joint's normal.
 
-/// The spin phi of the first edge of a pair, E = k/2 phi^2. With the complex director d = d1 + i d2 and z = d/(s.d), alpha = Im log(s.d), and d carried in time
-/// d(t') = d - (d.t')/(1 + t.t') (t + t'),
+/// The spin phi of the first edge of a pair, E = k/2 phi^2. With the complex director d = d1 + i d2
+/// and z = d/(s.d), alpha = Im log(s.d), and d carried in time d(t') = d - (d.t')/(1 + t.t') (t +
+/// t'),
 ///   (s.d)'/(s.d)  = z.Qq - c z.p,
 ///   (s.d)''/(s.d) = 2 [c (t.p)(z.p) - (s.q)(z.Qq) - (z.p)(t.Qq + s.Pp/2)] + a real part,
 /// p = de/|e|, q = df/|f|.

@@ -92,8 +92,8 @@ void reduce(const ModelHinge& hinge, const Model& model, const State& state, boo
   if (!with_hessian) return;
   auto own = out.hessian.diagonal[std::size_t(place / 3)].matrix();
   PairMatrix both = -length * moment * phi.hessian;
-  both.topLeftCorner<6, 6>() += own(row, row) * length * length * phi.gradient.head<6>() *
-                                phi.gradient.head<6>().transpose();
+  both.topLeftCorner<6, 6>() +=
+      own(row, row) * length * length * phi.gradient.head<6>() * phi.gradient.head<6>().transpose();
   add_vector_hessian(model, pair, both, out.hessian);
   for (const auto& [column, slot, slots] : blocks.beside) {
     const Eigen::RowVector3d couples = slot < 0 ? own.row(row) : row_of(out.hessian, slot, row);
@@ -208,8 +208,7 @@ void reduce_to_free(const Model& model, const State& state, bool with_hessian, A
 }
 
 void add_joint_energies(const Model& model, const State& state, Energies& sum) {
-  for (const ModelHinge& hinge : model.hinges)
-    sum[Term::joint] += spin_energy(hinge, model, state);
+  for (const ModelHinge& hinge : model.hinges) sum[Term::joint] += spin_energy(hinge, model, state);
   for (const ModelLink& link : model.links)
     sum[Term::joint] += energy_of(link, model, state.x).value;
 }

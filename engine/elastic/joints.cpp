@@ -1,5 +1,7 @@
 // How rods that cross hold on to each other: what a joint adds to a model, and what it bears.
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -24,7 +26,26 @@ void release_spin(Model& model, int rod) {
   model.held[std::size_t(place / 3)] &= (unsigned char)~(1 << place % 3);
 }
 
+double turn_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
 }  // namespace
+
+double bending_length(const Model& model, int edge) {
+  const ModelEdge& one = model.edges[std::size_t(edge)];
+  return one.EA > 0 ? (one.centre < 0 ? 1 : 2) * one.rest_length : 0;
+}
+
+double length_between(const Model& model, int e, int f) {
+  return 0.5 * (bending_length(model, e) + bending_length(model, f));
+}
+
+int Model::dof() const {
+  int count = 0;
+  for (unsigned char bits : held) count += 3 - std::popcount((unsigned char)(bits & all_held));
+  return count;
+}
 
 std::vector<int> edges_beside(const Model& model, int rod, int node) {
   std::vector<int> edges;
@@ -36,7 +57,9 @@ std::vector<int> edges_beside(const Model& model, int rod, int node) {
 
 Eigen::Vector3d tangent_at(const Model& model, const Eigen::Matrix3Xd& x, int rod, int node) {
   const std::vector<int> edges = edges_beside(model, rod, node);
-  const auto tangent = [&](int edge) { return geometry_of(x, model.edges[std::size_t(edge)]).tangent; };
+  const auto tangent = [&](int edge) {
+    return geometry_of(x, model.edges[std::size_t(edge)]).tangent;
+  };
   const auto length = [&](int edge) { return model.edges[std::size_t(edge)].rest_length; };
   const int first = edges.front(), last = edges.back();
   return (length(last) * tangent(first) + length(first) * tangent(last)).normalized();
@@ -52,7 +75,8 @@ void add_joint_hinge(Model& model, const Crossing& at, double stiffness, int sid
   const auto a = halves_at(model, at.rod_a, at.node_a), b = halves_at(model, at.rod_b, at.node_b);
   const bool rigid = std::isinf(stiffness);
   const auto add = [&](const auto& of, const auto& with, int rod, int turned) {
-    model.hinges.push_back({{of.first, with.first, -1, {0, turned}}, of.second, rigid ? 0 : stiffness});
+    model.hinges.push_back(
+        {{of.first, with.first, -1, {0, turned}}, of.second, rigid ? 0 : stiffness});
     release_spin(model, rod);
     if (rigid) model.hold_spin(of.first);
   };
@@ -74,14 +98,34 @@ void add_joint_link(Model& model, const Crossing& at, double eccentricity) {
   const int a = halves_at(model, at.rod_a, at.node_a).first,
             b = halves_at(model, at.rod_b, at.node_b).first;
   const auto EA = [&](int edge) { return model.edges[std::size_t(edge)].EA; };
-  model.links.push_back({at.node_a, at.node_b, a, b, eccentricity,
-                         std::min(EA(a), EA(b)) / std::abs(eccentricity)});
+  model.links.push_back(
+      {at.node_a, at.node_b, a, b, eccentricity, std::min(EA(a), EA(b)) / std::abs(eccentricity)});
 }
 
 std::array<int, 4> nodes_of(const ModelLink& link, const Model& model) {
   const ModelEdge &a = model.edges[std::size_t(link.edge_a)],
                   &b = model.edges[std::size_t(link.edge_b)];
   return {a.from, a.to, b.from, b.to};
+}
+
+double Bolts::angle(int joint) const {
+  const auto& [first, second] = std::pair(rods[std::size_t(joint)][0], rods[std::size_t(joint)][1]);
+  return turn_between(first, second);
+}
+
+JointAngle Bolts::law(int joint, std::size_t k, std::size_t m, double share, double most) const {
+  const auto of = [&](const std::vector<double>& angles) {
+    return angles.empty() ? 0 : angles[std::size_t(joint)];
+  };
+  const auto& held = rods[std::size_t(joint)];
+  return {share * std::min(stiffness_Nmm, most), of(opened) + turn_between(held[k], held[m]),
+          of(opening), joint};
+}
+
+Footprint centred(Footprint footprint, const Bolts* bolts) {
+  for (std::size_t joint = 0; bolts && joint < footprint.joints.size(); ++joint)
+    footprint.joints[joint].centred |= bolts->rods[joint].size() > 1;
+  return footprint;
 }
 
 std::vector<double> joint_torques(const RodMesh& mesh, const Model& model, const State& state) {

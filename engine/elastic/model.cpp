@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
-#include <bit>
 #include <cmath>
 
 #include "engine/core/try.h"
@@ -109,8 +108,7 @@ class Builder {
     crossings.resize(std::size_t(model_.nodes), 0);
     mark_shared(rods, crossings);
     for (const ModelEdge& edge : model_.edges)
-      if (edge.centre >= 0)
-        crossings[std::size_t(edge.from)] = crossings[std::size_t(edge.to)] = 1;
+      if (edge.centre >= 0) crossings[std::size_t(edge.from)] = crossings[std::size_t(edge.to)] = 1;
     model_.held.assign(std::size_t(model_.nodes), 0);
     if (twist_) place_spins(crossings);
     for (std::size_t r = 0; r < rods.size(); ++r) hold(rods[r], model_.rods[r]);
@@ -141,8 +139,8 @@ class Builder {
                 const Eigen::Vector2d& turn) {
     const auto [e, f] = edges;
     // at a held end only the half edge on the rod's side bends, between two halves nothing does
-    const double length = length_between(model_, e, f),
-                 round = 2 * std::min(m.EI1, m.EI2) / length;
+    const double before = bending_length(model_, e), after = bending_length(model_, f),
+                 length = 0.5 * (before + after), round = 2 * std::min(m.EI1, m.EI2) / length;
     const bool plain = !twist_ || m.round_and_straight(), at_end = share != 0.5;
     const int bend = int(model_.bends.size());
     const bool halves = are_halves(e, f);
@@ -359,20 +357,6 @@ void place_followers(Model& model) {
 }
 
 }  // namespace
-
-double length_between(const Model& model, int e, int f) {
-  const auto length = [&](int edge) {
-    const ModelEdge& one = model.edges[std::size_t(edge)];
-    return one.EA > 0 ? (one.centre < 0 ? 1 : 2) * one.rest_length : 0;
-  };
-  return 0.5 * (length(e) + length(f));
-}
-
-int Model::dof() const {
-  int count = 0;
-  for (unsigned char bits : held) count += 3 - std::popcount((unsigned char)(bits & all_held));
-  return count;
-}
 
 Result<Model> build_model(int nodes, const std::vector<ModelRod>& rods, RodModel rung,
                           const std::vector<char>& crossings) {

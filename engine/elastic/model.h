@@ -95,8 +95,8 @@ struct ModelFollower {
 };
 
 /// A rod at a joint that keeps its section near the joint's normal n = side t_e x t_f/|...|, t the
-/// tangents of the two rods' centred edges: n is the first reference director of edge e, whose angle
-/// then is the spin phi beside the normal, E = k/2 phi^2, or is held (k infinite).
+/// tangents of the two rods' centred edges: n is the first reference director of edge e, whose
+/// angle then is the spin phi beside the normal, E = k/2 phi^2, or is held (k infinite).
 struct ModelHinge {
   Pair<JointSpin> pair;
   int other_half = -1;   ///< of edge e; -1: the rod ends there
@@ -202,8 +202,10 @@ struct Model {
   }
 };
 
-/// What bends between two edges, mm: the mean of their rest lengths; a ghost has none, and of half
-/// a centred edge the whole counts.
+/// The length of an edge that bends at its two nodes, mm: none of a ghost, of a half that of the
+/// whole centred edge.
+double bending_length(const Model& model, int edge);
+/// What bends between two edges, mm: the mean of their lengths.
 double length_between(const Model& model, int e, int f);
 
 /// Puts rods together; nodes that rods share are shared joints. `crossings` marks more nodes at

@@ -71,9 +71,9 @@ ModelRod rod_of(const RodMesh& mesh, std::size_t r, const RodMaterial& material,
   halve_end(int(2 * r + 1), rod.nodes.rbegin(), rod.nodes.rend(), rod.centred.back());
   if (material.as_drawn && std::ranges::count(rod.centred, 1) > 0)
     for (std::size_t k = 1; k < rod.position.size(); ++k)
-      rod.position[k] = rod.position[k - 1] + (place(mesh, rod.nodes[k % rod.nodes.size()]) -
-                                               place(mesh, rod.nodes[k - 1]))
-                                                  .norm();
+      rod.position[k] =
+          rod.position[k - 1] +
+          (place(mesh, rod.nodes[k % rod.nodes.size()]) - place(mesh, rod.nodes[k - 1])).norm();
   if (material.as_drawn) rod.turns = turns_of(mesh, rod);
   // what hangs on a spring is free in itself
   const auto held = [&](RodEnd end) {
@@ -224,8 +224,8 @@ void add_links(const RodMesh& mesh, const Crossings& crossings,
 }
 
 /// What a law without a stiffness of its own counts at a rod: so many times that of the piece of
-/// an edge, as many as there are edges a segment, of the stiffness `of` that it has, N mm/rad. So it
-/// gives less than what the mesh leaves out, and vanishes at second order as that does.
+/// an edge, as many as there are edges a segment, of the stiffness `of` that it has, N mm/rad. So
+/// it gives less than what the mesh leaves out, and vanishes at second order as that does.
 double stiff_limit(const RodMesh& mesh, const Model& model, const Crossing& at,
                    const std::array<double, 2>& of) {
   constexpr double times = 20;
@@ -245,8 +245,8 @@ Result<void> add_laws(const RodMesh& mesh, const ShellRods& shell, const Crossin
   for (int joint = 0; joint < mesh.joints; ++joint) {
     const std::vector<RodAt>& rods = crossings[std::size_t(joint)];
     if (springs)
-      model.springs.push_back({{joint, mesh.nodes() + joint,
-                                Eigen::Vector3d::Constant(shell.joints.spring_N_per_mm)}});
+      model.springs.push_back(
+          {{joint, mesh.nodes() + joint, Eigen::Vector3d::Constant(shell.joints.spring_N_per_mm)}});
     const JointLaw law = twist ? shell.law(joint) : JointLaw();
     const bool bolted = shell.bolts && !shell.bolts->rods[std::size_t(joint)].empty();
     if (rods.size() < 2 || (law.shear_Nmm == 0 && law.twist_Nmm == 0 && !bolted)) continue;
@@ -259,22 +259,20 @@ Result<void> add_laws(const RodMesh& mesh, const ShellRods& shell, const Crossin
                         &b = shell.material(std::size_t(at.rod_b));
       const double most = stiff_limit(mesh, model, at, {a.EI1, b.EI1});
       if (law.shear_Nmm > 0)
-        add_joint_shear(model, at,
-                        {share * std::min(law.shear_Nmm, most),
-                         angle_between(direction_at(mesh, rods[k]), direction_at(mesh, rods[m])), 0,
-                         joint});
-      if (bolted)
-        add_joint_shear(model, at, shell.bolts->law(joint, k, m, share, most));
+        add_joint_shear(
+            model, at,
+            {share * std::min(law.shear_Nmm, most),
+             angle_between(direction_at(mesh, rods[k]), direction_at(mesh, rods[m])), 0, joint});
+      if (bolted) add_joint_shear(model, at, shell.bolts->law(joint, k, m, share, most));
       if (law.twist_Nmm == 0) return;
       const int side = side_of(mesh, rods[k], rods[m], normals[std::size_t(joint)]);
       if (rods.size() == 2)
         add_joint_hinge(model, at, law.twist_Nmm, side);
       else
-        add_joint_spin(
-            model, at,
-            share * std::min(law.twist_Nmm,
-                             stiff_limit(mesh, model, at, {a.EI2 + a.GJ, b.EI2 + b.GJ})),
-            side);
+        add_joint_spin(model, at,
+                       share * std::min(law.twist_Nmm,
+                                        stiff_limit(mesh, model, at, {a.EI2 + a.GJ, b.EI2 + b.GJ})),
+                       side);
     });
   }
   return {};
@@ -346,20 +344,6 @@ std::vector<NodeAction> dead_loads(const RodMesh& mesh, const ShellRods& rods) {
   return loads;
 }
 
-double Bolts::angle(int joint) const {
-  const auto& [first, second] = std::pair(rods[std::size_t(joint)][0], rods[std::size_t(joint)][1]);
-  return angle_between(first, second);
-}
-
-JointAngle Bolts::law(int joint, std::size_t k, std::size_t m, double share, double most) const {
-  const auto of = [&](const std::vector<double>& angles) {
-    return angles.empty() ? 0 : angles[std::size_t(joint)];
-  };
-  const auto& held = rods[std::size_t(joint)];
-  return {share * std::min(stiffness_Nmm, most), of(opened) + angle_between(held[k], held[m]),
-          of(opening), joint};
-}
-
 Bolts tightened(const RodMesh& mesh, const Model& model, const Eigen::Matrix3Xd& columns,
                 double stiffness_Nmm) {
   Bolts bolts{stiffness_Nmm, {}, {}, {}};
@@ -368,16 +352,10 @@ Bolts tightened(const RodMesh& mesh, const Model& model, const Eigen::Matrix3Xd&
   for (int joint = 0; joint < mesh.joints; ++joint) {
     auto& held = bolts.rods.emplace_back();
     for (const auto& [rod, own] : crossings[std::size_t(joint)])
-      held.push_back(tangent_at(model, columns, rod,
-                                springs && !held.empty() ? mesh.nodes() + joint : own));
+      held.push_back(
+          tangent_at(model, columns, rod, springs && !held.empty() ? mesh.nodes() + joint : own));
   }
   return bolts;
-}
-
-Footprint centred(Footprint footprint, const Bolts* bolts) {
-  for (std::size_t joint = 0; bolts && joint < footprint.joints.size(); ++joint)
-    footprint.joints[joint].centred |= bolts->rods[joint].size() > 1;
-  return footprint;
 }
 
 Result<Model> build_model(const RodMesh& mesh, const ShellRods& shell, RodModel rung) {

@@ -49,8 +49,7 @@ std::vector<Stop> stops_of(const Footprint& footprint, std::size_t r, std::vecto
     const int joint = rod.joints[k];
     const int node =
         node_at(footprint.joints[std::size_t(joint)], joint, int(r), first_rod, next, mesh);
-    stops.push_back(
-        {node, rod.marks[k], true, footprint.joints[std::size_t(joint)].centred});
+    stops.push_back({node, rod.marks[k], true, footprint.joints[std::size_t(joint)].centred});
   }
   if (rod.end != RodEnd::joined) stops.push_back({first + 1, rod.span.end});
   if (rod.tail_end > 0) far_end(first + 1, rod.span.end + rod.tail_end);
@@ -77,8 +76,12 @@ std::vector<double> cuts_of(const std::vector<Stop>& stops, std::size_t k,
   // half the centred edge between two stretches; of a rod that ends there one is missing
   const auto half = [&](std::size_t before, std::size_t after) {
     const bool begins = before == 0 && !ring, ends = after > last && !ring;
-    const double h = piece(begins ? after : before == 0 ? last : before),
-                 g = piece(ends ? before : after > last ? 1 : after);
+    const double h = piece(begins        ? after
+                           : before == 0 ? last
+                                         : before),
+                 g = piece(ends           ? before
+                           : after > last ? 1
+                                          : after);
     return h * g / (h + g);
   };
   const Stop &from = stops[k - 1], &to = stops[k];

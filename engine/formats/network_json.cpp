@@ -259,7 +259,8 @@ class Reader {
     at_ = name_ + ": law";
     const Json value = law->is_object() ? *law : Json{{"law", *law}};
     if (value.contains("point") || value.contains("points") || value.contains("eccentricity_mm"))
-      return wrong("is that of all joints, must have \"law\", \"shear_Nmm\" and \"twist_Nmm\" alone");
+      return wrong(
+          "is that of all joints, must have \"law\", \"shear_Nmm\" and \"twist_Nmm\" alone");
     TRY(row, law_of(value, every_joint));
     draft_.add_law(std::move(*row));
     return {};

@@ -162,8 +162,8 @@ std::string ends_on_balls(const Scene& scene) {
   if (held == 0 || held == joints || scene.rung != RodModel::twist) return "";
   std::set<int> balls;
   for (const FootprintRod& rod : scene.footprint.rods)
-    for (const auto& [end, joint] : {std::pair(rod.begin, rod.joints.front()),
-                                     {rod.end, rod.joints.back()}}) {
+    for (const auto& [end, joint] :
+         {std::pair(rod.begin, rod.joints.front()), {rod.end, rod.joints.back()}}) {
       if (end != RodEnd::joined || rod.closed() || passes(joint)) continue;
       ++ends;
       balls.insert(joint);

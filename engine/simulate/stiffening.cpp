@@ -137,13 +137,12 @@ std::string text_of_opened(const Simulation& simulation) {
   }
   std::array<double, 4> value{}, error{};
   for (std::size_t k = 0; k < found.size(); ++k) {
-    const CertifiedVectors one =
-        certify_vectors(found[k], shell.plan().extrapolate_forces, false);
+    const CertifiedVectors one = certify_vectors(found[k], shell.plan().extrapolate_forces, false);
     value[k] = one.value(0, 0), error[k] = one.error;
   }
-  std::string text = fmt::format(
-      "joints at {:.2f} degrees on average, {:.2f} to {:.2f}, torques to {:.4g} N mm", value[0],
-      value[1], value[2], value[3]);
+  std::string text =
+      fmt::format("joints at {:.2f} degrees on average, {:.2f} to {:.2f}, torques to {:.4g} N mm",
+                  value[0], value[1], value[2], value[3]);
   // of one mesh none is known
   if (std::isfinite(error[0]))
     text += fmt::format(" (errors to {:.2g} degrees on average, {:.2g} of a joint, {:.2g} N mm)",

@@ -32,10 +32,10 @@ const ExternalLoads outside{.load = 0.7, .opening = 0.6};
 /// shape at rest, hinged and sheared at the joint; a third hung on by a spring, that ends at a bolt
 /// above the second; loads, pressures and ground.
 Model sample_model(double hinge = 3.5) {
-  const ModelRod a{{0, 1, 2, 3, 4},       {0, 4, 9, 14, 18}, strip, {}, {0, 0, 1, 0, 0},
-                   RodEnd::clamped, RodEnd::pinned};
-  const ModelRod b{{5, 6, 2, 7, 8},       {0, 5, 9, 13, 18}, wire, {}, {0, 0, 1, 0, 0},
-                   RodEnd::tangent, RodEnd::free};
+  const ModelRod a{{0, 1, 2, 3, 4}, {0, 4, 9, 14, 18}, strip,         {},
+                   {0, 0, 1, 0, 0}, RodEnd::clamped,   RodEnd::pinned};
+  const ModelRod b{{5, 6, 2, 7, 8}, {0, 5, 9, 13, 18}, wire,        {},
+                   {0, 0, 1, 0, 0}, RodEnd::tangent,   RodEnd::free};
   const ModelRod c{{9, 10, 11}, {0, 5, 10}, wire, {}, {1, 0, 0}, RodEnd::free, RodEnd::pinned};
   Model model = build_model(12, {a, b, c}, RodModel::twist).value();
   model.springs.push_back({{3, 9, {40, 40, 40}}});
