@@ -223,9 +223,9 @@ void add_links(const RodMesh& mesh, const Crossings& crossings,
   }
 }
 
-/// What a law without a stiffness of its own counts at a rod: so many times that of the piece of
-/// an edge, as many as there are edges a segment, of the stiffness `of` that it has, N mm/rad. So
-/// it gives less than what the mesh leaves out, and vanishes at second order as that does.
+/// The largest stiffness of a law, N mm/rad: k edges a segment times 20 of what an edge of each rod
+/// has, `of` over its length. A rigid joint so gives less than what the mesh leaves out, and at
+/// second order.
 double stiff_limit(const RodMesh& mesh, const Model& model, const Crossing& at,
                    const std::array<double, 2>& of) {
   constexpr double times = 20;
