@@ -228,14 +228,13 @@ void add_links(const RodMesh& mesh, const Crossings& crossings,
 /// second order.
 double stiff_limit(const RodMesh& mesh, const Model& model, const Crossing& at,
                    const std::array<double, 2>& of) {
-  constexpr double times = 20;
   double sum = 0;
   for (const auto& [rod, node, EI] :
        {std::tuple(at.rod_a, at.node_a, of[0]), std::tuple(at.rod_b, at.node_b, of[1])}) {
     const int edge = edges_beside(model, rod, node).front();
     sum += EI / length_between(model, edge, edge);
   }
-  return times * mesh.edges_per_segment * sum;
+  return 20.0 * mesh.edges_per_segment * sum;
 }
 
 /// Every two of the rods of every joint, by the law there, and by bolts that keep angles.

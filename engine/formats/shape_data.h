@@ -61,8 +61,8 @@ struct NetworkData {
   Points supports;                     ///< number of a point and where it goes: x, y, z, mm
   Points springs;         ///< number of a support's point, stiffness along x, y, z, N/mm
   std::vector<int> free;  ///< numbers of points at rods' ends that nothing holds
-  /// A joint's point, its shear_Nmm and twist_Nmm; below 0: rigid; and its eccentricity_mm, if it
-  /// has one of its own.
+  /// A joint's point (-1: all that have no row), its shear_Nmm and twist_Nmm; below 0: rigid; and
+  /// its eccentricity_mm, if it has one of its own.
   Points joint_laws;
   Points holds;  ///< a rod, 0 (its begin) or 1 (its end), the number of an EndKind
 
