@@ -349,12 +349,11 @@ double JointAngle::value(const PairGeometry& at) const {
   return 0.5 * stiffness * excess(at) * excess(at);
 }
 
-double JointAngle::add(const PairGeometry& at, PairEnergy& out) const {
-  const double c = at.e.tangent.dot(at.f.tangent), slope = -1 / std::sqrt(1 - c * c),
-               torque = stiffness * excess(at);
-  add_cosine(torque * slope, stiffness * slope * slope + torque * c * slope * slope * slope, at.e,
-             at.f, out);
-  return value(at);
+PairEnergy JointAngle::slopes(const PairGeometry& at) {
+  const double c = at.e.tangent.dot(at.f.tangent), slope = -1 / std::sqrt(1 - c * c);
+  PairEnergy angle;
+  add_cosine(slope, c * slope * slope * slope, at.e, at.f, angle);
+  return angle;
 }
 
 double JointSpin::excess(const PairGeometry& at) const {

@@ -225,7 +225,8 @@ struct EndBending {
 
 // The resistances of a joint, to shear and to spin, on the edges that are centred on it.
 
-/// The angle between two rods at a joint, E = k/2 (angle - rest - opening)^2.
+/// The angle between two rods at a joint, E = k/2 (angle - rest - opening)^2. The mixed form has
+/// its torque T = k (angle - rest - opening) for an unknown, as an edge its axial force.
 struct JointAngle {
   static constexpr Term term = Term::shear;
   double stiffness = 0;  ///< k, N mm/rad
@@ -235,7 +236,8 @@ struct JointAngle {
 
   double excess(const PairGeometry& at) const;
   double value(const PairGeometry& at) const;
-  double add(const PairGeometry& at, PairEnergy& out) const;
+  /// The angle by edge vectors.
+  static PairEnergy slopes(const PairGeometry& at);
 };
 
 // The spin of a rod at a joint that passes twist: its director beside the joint's normal.

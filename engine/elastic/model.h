@@ -183,6 +183,10 @@ struct Model {
   std::vector<int> segment;       ///< per column: the segment of a rod it is inside of, or -1
   std::vector<int> inside;        ///< columns inside segments, in order along the rods
 
+  /// Unknowns of the mixed form: axial forces of edges, then torques of joints with a spring.
+  Eigen::Index forces() const {
+    return Eigen::Index(edges.size() + std::get<std::vector<Pair<JointAngle>>>(pairs).size());
+  }
   int columns() const { return int(held.size()); }
   int free() const { return int(free_columns.size()); }
   int dof() const;

@@ -145,8 +145,7 @@ double twist_at(const Model& model, const State& state, int bend) {
 }  // namespace
 
 State start_state(const Model& model, const Eigen::Matrix3Xd& x) {
-  const Eigen::Index edges = Eigen::Index(model.edges.size());
-  State state{Eigen::Matrix3Xd::Zero(3, model.columns()), Eigen::VectorXd::Zero(edges)};
+  State state{Eigen::Matrix3Xd::Zero(3, model.columns()), Eigen::VectorXd::Zero(model.forces())};
   state.x.leftCols(x.cols()) = x;
   centre(model, state.x);
   if (x.cols() < model.nodes) put_ghosts(model, state.x);
@@ -192,7 +191,9 @@ State StateTransfer::carry(const State& state) const {
   Eigen::Matrix3Xd nodes;
   meshes_.nodes(nodes_of(from_mesh_, from_, state.x), nodes);
   State carried = start_state(to_, columns_of(to_mesh_, to_, nodes));
-  meshes_.edges(state.force, carried.force);
+  Eigen::VectorXd axial;
+  meshes_.edges(state.force, axial);
+  carried.force << axial, state.force.tail(to_.forces() - axial.size());
   if (to_.has_spins()) carry_spins(state, carried);
   return carried;
 }

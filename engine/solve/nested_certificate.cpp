@@ -204,9 +204,7 @@ void NestedShell::polish(Level& finest, State& found, const NewtonReport& last) 
   system.gradient_at(found);
   const bool to_the_end = state_.t >= 1 || !system.holds().empty(),
              trusted = last.last_move_mm > options_.tolerance_mm;
-  if (!to_the_end && !trusted &&
-      system.force_misfit(found) <= seen * found.force.cwiseAbs().maxCoeff())
-    return;
+  if (!to_the_end && !trusted && system.forces_agree(found, seen)) return;
   const int most = to_the_end ? 4 : 1;
   Eigen::Matrix3Xd dx;
   for (int k = 0; k < most && state_.inertia.usable; ++k) {
