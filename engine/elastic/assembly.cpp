@@ -137,7 +137,7 @@ void add_others(const Model& model, const State& state, const ExternalLoads& out
   each_pair_list(model, [&]<class Law>(const std::vector<Pair<Law>>& list) {
     if constexpr (!std::is_same_v<Law, JointAngle>)
       for (const Pair<Law>& pair : list) {
-        PairEnergy energy;
+        PairEnergy energy{.with_hessian = with_hessian};
         out.energies[Law::term] += pair.law.add(pair_geometry(model, state, pair), energy);
         add_pair_gradient(model, pair, energy, out);
         if (with_hessian) add_pair_hessian(model, pair, energy.hessian, out.hessian);

@@ -53,7 +53,7 @@ double NodeBar::stiffness(double e) const {
 
 PairEnergy& PairEnergy::operator+=(const PairEnergy& other) {
   gradient += other.gradient;
-  hessian += other.hessian;
+  if (with_hessian) hessian += other.hessian;
   return *this;
 }
 
@@ -197,7 +197,8 @@ void scale_to_edges(double length_e, double length_f, PairEnergy& out) {
   PairVector scale;
   scale << Eigen::Vector3d::Constant(1 / length_e), Eigen::Vector3d::Constant(1 / length_f), 1, 1;
   out.gradient.array() *= scale.array();
-  out.hessian = (scale.asDiagonal() * out.hessian * scale.asDiagonal()).eval();
+  if (out.with_hessian)
+    out.hessian = (scale.asDiagonal() * out.hessian * scale.asDiagonal()).eval();
 }
 
 void add_cosine(double by_c, double by_cc, const EdgeGeometry& e, const EdgeGeometry& f,
@@ -205,9 +206,10 @@ void add_cosine(double by_c, double by_cc, const EdgeGeometry& e, const EdgeGeom
   const Eigen::Vector3d &t = e.tangent, &s = f.tangent;
   const double c = t.dot(s), i = 1 / e.length, j = 1 / f.length;
   const Eigen::Vector3d p = i * (s - c * t), q = j * (t - c * s);
-  const Eigen::Matrix3d P = normal_projector(t), Q = normal_projector(s);
   out.gradient.head<3>() += by_c * p;
   out.gradient.segment<3>(3) += by_c * q;
+  if (!out.with_hessian) return;
+  const Eigen::Matrix3d P = normal_projector(t), Q = normal_projector(s);
   out.hessian.block<3, 3>(0, 0) +=
       by_cc * p * p.transpose() - 2 * by_c * i * symmetric_product(p, t) - by_c * c * i * i * P;
   out.hessian.block<3, 3>(3, 3) +=
@@ -221,12 +223,13 @@ void add_twist(double stiffness, double excess, const CurvatureBinormal& b, Pair
   PairVector slope;
   slope << 0.5 * b.kb, 0.5 * b.kb, -1, 1;
   out.gradient += stiffness * excess * slope;
+  if (!out.with_hessian) return;
   out.hessian.noalias() += (stiffness * slope) * slope.transpose();
   add_twist_curvature(stiffness * excess, b, out.hessian);
 }
 
 double Torsion::add(const PairGeometry& at, PairEnergy& out) const {
-  PairEnergy here;
+  PairEnergy here{.with_hessian = out.with_hessian};
   add_twist(stiffness, excess(at), curvature_binormal(at.e.tangent, at.f.tangent), here);
   scale_to_edges(at.e.length, at.f.length, here);
   out += here;
@@ -258,11 +261,14 @@ double add_material_bend(const MaterialBend& bend, const HalfwayFrame& mu, const
   if (bend.at_end()) {  // (s w)' = s w' + w s'
     const EndScale end(b.chi - 1);
     const PairVector by_c = chi_slope(b), pull = slope * g;
-    out.hessian += end.by_c * (by_c * pull.transpose() + pull * by_c.transpose());
-    out.hessian += g.dot(w) * (end.by_cc * by_c * by_c.transpose() + end.by_c * chi_curvature(b));
+    if (out.with_hessian) {
+      out.hessian += end.by_c * (by_c * pull.transpose() + pull * by_c.transpose());
+      out.hessian += g.dot(w) * (end.by_cc * by_c * by_c.transpose() + end.by_c * chi_curvature(b));
+    }
     slope = (scale * slope + end.by_c * by_c * w.transpose()).eval();
   }
   out.gradient += slope * g;
+  if (!out.with_hessian) return material_bend_value(bend, scale * w);
   out.hessian.noalias() += slope * bend.stiffness.asDiagonal() * slope.transpose();
 
   // the second derivatives of w, weighted by g
@@ -280,12 +286,6 @@ double add_material_bend(const MaterialBend& bend, const HalfwayFrame& mu, const
 Eigen::Vector2d MaterialBend::bent(const Eigen::Vector2d& excess) const {
   return Eigen::Rotation2Dd(axis) *
          Eigen::Vector2d(corner * corner * excess[0], corner * excess[1]);
-}
-
-Eigen::Vector2d MaterialBend::give() const {
-  const Eigen::Vector2d own(std::pow(corner, 4) / stiffness[0], corner * corner / stiffness[1]);
-  const double along = std::pow(std::cos(axis), 2);
-  return {along * own[0] + (1 - along) * own[1], along * own[1] + (1 - along) * own[0]};
 }
 
 CornerLaw::CornerLaw(const Eigen::Vector2d& EI, double GJ, double length_e, double length_f,
@@ -316,7 +316,7 @@ double SectionBending::value(const PairGeometry& at) const {
 }
 
 double SectionBending::add(const PairGeometry& at, PairEnergy& out) const {
-  PairEnergy here;
+  PairEnergy here{.with_hessian = out.with_hessian};
   const double value = add_material_bend(bend, frame_of(at, bend),
                                          binormal_with_slopes(at.e.tangent, at.f.tangent), here);
   scale_to_edges(at.e.length, at.f.length, here);
@@ -349,9 +349,9 @@ double JointAngle::value(const PairGeometry& at) const {
   return 0.5 * stiffness * excess(at) * excess(at);
 }
 
-PairEnergy JointAngle::slopes(const PairGeometry& at) {
+PairEnergy JointAngle::slopes(const PairGeometry& at, bool with_hessian) {
   const double c = at.e.tangent.dot(at.f.tangent), slope = -1 / std::sqrt(1 - c * c);
-  PairEnergy angle;
+  PairEnergy angle{.with_hessian = with_hessian};
   add_cosine(slope, c * slope * slope * slope, at.e, at.f, angle);
   return angle;
 }
@@ -365,13 +365,13 @@ double JointSpin::value(const PairGeometry& at) const {
 }
 
 double JointSpin::add(const PairGeometry& at, PairEnergy& out) const {
-  const PairEnergy phi = slopes(at);
+  const PairEnergy phi = slopes(at, out.with_hessian);
   out.gradient += stiffness * excess(at) * phi.gradient;
   out.hessian += stiffness * (excess(at) * phi.hessian + phi.gradient * phi.gradient.transpose());
   return value(at);
 }
 
-PairEnergy JointSpin::slopes(const PairGeometry& at) {
+PairEnergy JointSpin::slopes(const PairGeometry& at, bool with_hessian) {
   using Complex = Eigen::Vector3cd;
   const Eigen::Vector3d &t = at.e.tangent, &s = at.f.tangent, &director = at.director_e;
   const double c = t.dot(s);
@@ -387,6 +387,11 @@ PairEnergy JointSpin::slopes(const PairGeometry& at) {
   slope.head<3>() = -gp.imag();
   slope.segment<3>(3) = -gq.imag();
   slope[6] = 1;
+  PairEnergy phi{.gradient = slope, .with_hessian = with_hessian};
+  if (!with_hessian) {
+    scale_to_edges(at.e.length, at.f.length, phi);
+    return phi;
+  }
   Eigen::Matrix<double, 8, 8> curvature = PairMatrix::Zero();  // of alpha
   const auto squares = [](const Complex& a, const Complex& b) -> Eigen::Matrix3d {
     return (a * b.transpose()).imag();
@@ -397,8 +402,6 @@ PairEnergy JointSpin::slopes(const PairGeometry& at) {
   curvature.block<3, 3>(0, 3) = -zi * qt.transpose() - squares(gp, gq);
   curvature.block<3, 3>(3, 0) = curvature.block<3, 3>(0, 3).transpose();
 
-  PairEnergy phi;
-  phi.gradient = slope;
   phi.hessian = -curvature;
   scale_to_edges(at.e.length, at.f.length, phi);
   return phi;

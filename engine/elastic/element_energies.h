@@ -90,6 +90,7 @@ using PairMatrix = Eigen::Matrix<double, 8, 8>;
 struct PairEnergy {
   PairVector gradient = PairVector::Zero();
   PairMatrix hessian = PairMatrix::Zero();
+  bool with_hessian = true;  ///< else that stays zero
 
   PairEnergy& operator+=(const PairEnergy& other);
 };
@@ -158,8 +159,6 @@ struct MaterialBend {
   double corner = 1;          ///< cos of half the angle by which a rod cut with a corner turns
 
   bool at_end() const { return share == 0 || share == 1; }
-  /// l/EI about m1 and m2, 1/(N mm).
-  Eigen::Vector2d give() const;
   /// l times the change of curvature that w - w_0 stands for, about m1 and m2.
   Eigen::Vector2d bent(const Eigen::Vector2d& excess) const;
 };
@@ -237,7 +236,7 @@ struct JointAngle {
   double excess(const PairGeometry& at) const;
   double value(const PairGeometry& at) const;
   /// The angle by edge vectors.
-  static PairEnergy slopes(const PairGeometry& at);
+  static PairEnergy slopes(const PairGeometry& at, bool with_hessian);
 };
 
 // The spin of a rod at a joint that passes twist: its director beside the joint's normal.
@@ -257,7 +256,7 @@ struct JointSpin {
   double value(const PairGeometry& at) const;
   double add(const PairGeometry& at, PairEnergy& out) const;
   /// phi by edge vectors and angles.
-  static PairEnergy slopes(const PairGeometry& at);
+  static PairEnergy slopes(const PairGeometry& at, bool with_hessian);
 };
 
 }  // namespace gridshell

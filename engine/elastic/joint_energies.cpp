@@ -73,7 +73,7 @@ Eigen::RowVector3d row_of(const BlockHessian& h, BlockSlot slot, int row) {
 void reduce(const ModelHinge& hinge, const Model& model, const State& state, bool with_hessian,
             Assembly& out) {
   const auto& [pair, other_half, stiffness, blocks] = hinge;
-  const PairEnergy phi = JointSpin::slopes(pair_geometry(model, state, pair));
+  const PairEnergy phi = JointSpin::slopes(pair_geometry(model, state, pair), with_hessian);
   const int place = model.spin[std::size_t(pair.e)], row = place % 3;
   const double length = model.spin_length, moment = out.gradient.data()[place];
   std::array<Eigen::Vector3d, 4> by{};  // of the angle's unknown, by every node
@@ -172,7 +172,7 @@ void add_joint_angles(const Model& model, const State& state, double opening,
   Eigen::Index place = Eigen::Index(model.edges.size()), column = place;
   for (const auto& pair : std::get<std::vector<Pair<JointAngle>>>(model.pairs)) {
     const PairGeometry at = pair_geometry(model, state, pair, opening);
-    const PairEnergy angle = JointAngle::slopes(at);
+    const PairEnergy angle = JointAngle::slopes(at, stiffness != nullptr);
     const double torque = pair.law.stiffness * pair.law.excess(at), known = state.force[place];
     out.energies[Term::shear] += pair.law.value(at);
     out.force[place++] = torque;
