@@ -10,7 +10,7 @@ namespace gridshell {
 
 /// Reference frames belong to the positions: move them by move_to() alone.
 struct State {
-  Eigen::Matrix3Xd x;                    ///< 3 x columns of the model: positions and angles, mm
+  Eigen::Matrix3Xd x;  ///< 3 x columns of the model: positions and angles, mm
   /// unknowns of the mixed form: axial, one an edge, N; then torques of joints with a spring, N mm
   Eigen::VectorXd force;
   Eigen::Matrix3Xd director = {};        ///< twist rung: of the reference frames, one an edge
@@ -33,9 +33,9 @@ void set_end_direction(const Model& model, int rod, bool at_end, const Eigen::Ve
 // States between meshes of one footprint.
 
 /// Carries states from a model on one mesh to a model on another: positions by cubic interpolation
-/// along the rods, axial forces edge by edge, torques joint by joint, and of the spins the material frames: their twist is
-/// spread along the arc length, and what a clamped end holds is kept to round-off. Meshes and
-/// models must outlive it.
+/// along the rods, axial forces edge by edge, torques joint by joint, and of the spins the material
+/// frames: their twist is spread along the arc length, and what a clamped end holds is kept to
+/// round-off. Meshes and models must outlive it.
 class StateTransfer {
  public:
   StateTransfer(const RodMesh& from_mesh, const Model& from, const RodMesh& to_mesh,

@@ -116,8 +116,7 @@ class Reader {
     for (const auto& [key, value] : document_.json.items()) {
       if (std::ranges::find(known, key) == known.end())
         return invalid("{}: unknown key '{}', must be points_mm, rods, joints, supports or law{}",
-                       name_,
-                       key.substr(0, 40),
+                       name_, key.substr(0, 40),
                        std::ranges::count(known, key + "_mm") > 0
                            ? fmt::format("; did you mean '{}_mm'?", key)
                            : did_you_mean(key, known));

@@ -194,7 +194,8 @@ bool Linearisation::forces_agree(const State& state, double share) const {
   for (std::size_t k = 0; k < model_.edges.size(); ++k)
     largest = std::max(largest, std::abs(EA_scale_ * force_of_strain(model_.edges[k], state.x) -
                                          state.force[Eigen::Index(k)]));
-  return largest <= share * state.force.head(Eigen::Index(model_.edges.size())).cwiseAbs().maxCoeff();
+  return largest <=
+         share * state.force.head(Eigen::Index(model_.edges.size())).cwiseAbs().maxCoeff();
 }
 
 void Linearisation::apply(const Eigen::Matrix3Xd& dx, State& state, double share) const {
