@@ -340,8 +340,12 @@ double EndBending::add(const PairGeometry& at, PairEnergy& out) const {
   return value(at);
 }
 
+double JointAngle::sign(const PairGeometry& at) const {
+  return side != 0 && side * at.director_e.dot(at.e.tangent.cross(at.f.tangent)) < 0 ? -1 : 1;
+}
+
 double JointAngle::excess(const PairGeometry& at) const {
-  return std::acos(std::clamp(at.e.tangent.dot(at.f.tangent), -1.0, 1.0)) - rest -
+  return sign(at) * std::acos(std::clamp(at.e.tangent.dot(at.f.tangent), -1.0, 1.0)) - rest -
          at.opening * opening;
 }
 
@@ -349,10 +353,10 @@ double JointAngle::value(const PairGeometry& at) const {
   return 0.5 * stiffness * excess(at) * excess(at);
 }
 
-PairEnergy JointAngle::slopes(const PairGeometry& at, bool with_hessian) {
-  const double c = at.e.tangent.dot(at.f.tangent), slope = -1 / std::sqrt(1 - c * c);
+PairEnergy JointAngle::slopes(const PairGeometry& at, bool with_hessian) const {
+  const double c = at.e.tangent.dot(at.f.tangent), s = sign(at), slope = -1 / std::sqrt(1 - c * c);
   PairEnergy angle{.with_hessian = with_hessian};
-  add_cosine(slope, c * slope * slope * slope, at.e, at.f, angle);
+  add_cosine(s * slope, s * c * slope * slope * slope, at.e, at.f, angle);
   return angle;
 }
 

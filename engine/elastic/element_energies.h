@@ -232,11 +232,17 @@ struct JointAngle {
   double rest = M_PI / 2;
   double opening = 0;  ///< in all, rad
   int joint = 0;
+  /// +1, -1: rods with this side of the joint's normal, the first edge's director, have a positive
+  /// angle, and one that closes goes on below zero; 0: no normal is known
+  int side = 0;
 
   double excess(const PairGeometry& at) const;
   double value(const PairGeometry& at) const;
   /// The angle by edge vectors.
-  static PairEnergy slopes(const PairGeometry& at, bool with_hessian);
+  PairEnergy slopes(const PairGeometry& at, bool with_hessian) const;
+
+ private:
+  double sign(const PairGeometry& at) const;
 };
 
 // The spin of a rod at a joint that passes twist: its director beside the joint's normal.

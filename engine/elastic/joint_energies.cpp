@@ -172,7 +172,7 @@ void add_joint_angles(const Model& model, const State& state, double opening,
   Eigen::Index place = Eigen::Index(model.edges.size()), column = place;
   for (const auto& pair : std::get<std::vector<Pair<JointAngle>>>(model.pairs)) {
     const PairGeometry at = pair_geometry(model, state, pair, opening);
-    const PairEnergy angle = JointAngle::slopes(at, stiffness != nullptr);
+    const PairEnergy angle = pair.law.slopes(at, stiffness != nullptr);
     const double torque = pair.law.stiffness * pair.law.excess(at), known = state.force[place];
     out.energies[Term::shear] += pair.law.value(at);
     out.force[place++] = torque;

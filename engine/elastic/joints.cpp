@@ -110,7 +110,7 @@ std::array<int, 4> nodes_of(const ModelLink& link, const Model& model) {
 
 double Bolts::angle(int joint) const {
   const auto& [first, second] = std::pair(rods[std::size_t(joint)][0], rods[std::size_t(joint)][1]);
-  return turn_between(first, second);
+  return (closed.contains(joint) ? -1 : 1) * turn_between(first, second);
 }
 
 JointAngle Bolts::law(int joint, std::size_t k, std::size_t m, double share, double most) const {
@@ -118,8 +118,8 @@ JointAngle Bolts::law(int joint, std::size_t k, std::size_t m, double share, dou
     return angles.empty() ? 0 : angles[std::size_t(joint)];
   };
   const auto& held = rods[std::size_t(joint)];
-  return {share * std::min(stiffness_Nmm, most), of(opened) + turn_between(held[k], held[m]),
-          of(opening), joint};
+  const double turn = held.size() == 2 ? angle(joint) : turn_between(held[k], held[m]);
+  return {share * std::min(stiffness_Nmm, most), of(opened) + turn, of(opening), joint};
 }
 
 Footprint centred(Footprint footprint, const Bolts* bolts) {

@@ -257,15 +257,18 @@ Result<void> add_laws(const RodMesh& mesh, const ShellRods& shell, const Crossin
       const RodMaterial &a = shell.material(std::size_t(at.rod_a)),
                         &b = shell.material(std::size_t(at.rod_b));
       const double most = stiff_limit(mesh, model, at, {a.EI1, b.EI1});
-      if (law.shear_Nmm > 0)
-        add_joint_shear(
-            model, at,
-            {share * std::min(law.shear_Nmm, most),
-             angle_between(direction_at(mesh, rods[k]), direction_at(mesh, rods[m])), 0, joint});
-      if (bolted) add_joint_shear(model, at, shell.bolts->law(joint, k, m, share, most));
-      if (law.twist_Nmm == 0) return;
       const int side = side_of(mesh, rods[k], rods[m], normals[std::size_t(joint)]);
-      if (rods.size() == 2)
+      const bool hinged = law.twist_Nmm > 0 && rods.size() == 2;
+      const auto shear = [&](JointAngle angle) {
+        angle.side = hinged ? side : 0;
+        add_joint_shear(model, at, angle);
+      };
+      if (law.shear_Nmm > 0)
+        shear({share * std::min(law.shear_Nmm, most),
+               angle_between(direction_at(mesh, rods[k]), direction_at(mesh, rods[m])), 0, joint});
+      if (bolted) shear(shell.bolts->law(joint, k, m, share, most));
+      if (law.twist_Nmm == 0) return;
+      if (hinged)
         add_joint_hinge(model, at, law.twist_Nmm, side);
       else
         add_joint_spin(model, at,
@@ -343,17 +346,19 @@ std::vector<NodeAction> dead_loads(const RodMesh& mesh, const ShellRods& rods) {
   return loads;
 }
 
-Bolts tightened(const RodMesh& mesh, const Model& model, const Eigen::Matrix3Xd& columns,
-                double stiffness_Nmm) {
-  Bolts bolts{stiffness_Nmm, {}, {}, {}};
+Bolts tightened(const RodMesh& mesh, const Model& model, const State& state, double stiffness_Nmm) {
+  Bolts bolts{stiffness_Nmm, {}, {}, {}, {}};
   const auto crossings = crossings_of(mesh);
   const bool springs = model.nodes >= mesh.nodes() + mesh.joints;
   for (int joint = 0; joint < mesh.joints; ++joint) {
     auto& held = bolts.rods.emplace_back();
     for (const auto& [rod, own] : crossings[std::size_t(joint)])
       held.push_back(
-          tangent_at(model, columns, rod, springs && !held.empty() ? mesh.nodes() + joint : own));
+          tangent_at(model, state.x, rod, springs && !held.empty() ? mesh.nodes() + joint : own));
   }
+  for (const ModelHinge& hinge : model.hinges)
+    if (is_closed(model, state, hinge))
+      bolts.closed.insert(mesh.joint_of(model.edges[std::size_t(hinge.pair.e)].centre));
   return bolts;
 }
 

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <map>
 #include <memory>
+#include <set>
 #include <vector>
 
 #include "engine/core/choices.h"
@@ -38,8 +39,10 @@ struct Bolts {
   std::vector<std::vector<Eigen::Vector3d>> rods;  ///< of every joint, unit tangents; or none
   std::vector<double> opened{};   ///< of every joint, rad; empty: as they were tightened
   std::vector<double> opening{};  ///< what is to come beside that, rad; empty: nothing
+  std::set<int> closed{};         ///< joints whose hinged rods had passed one another
 
-  /// The angle between the first two rods of a joint as it was tightened, rad.
+  /// The angle between the first two rods of a joint as it was tightened, rad; of one that had
+  /// closed below zero.
   double angle(int joint) const;
   /// Of two of its rods, which count `share`; at most as stiff as `most`.
   JointAngle law(int joint, std::size_t k, std::size_t m, double share, double most) const;
@@ -104,8 +107,7 @@ Result<Model> build_model(const RodMesh& mesh, const ShellRods& rods,
 std::vector<double> joint_torques(const RodMesh& mesh, const Model& model, const State& state);
 
 /// Bolts tightened in a state of that model.
-Bolts tightened(const RodMesh& mesh, const Model& model, const Eigen::Matrix3Xd& columns,
-                double stiffness_Nmm);
+Bolts tightened(const RodMesh& mesh, const Model& model, const State& state, double stiffness_Nmm);
 
 /// The footprint with edges centred on the joints that bolts hold.
 Footprint centred(Footprint footprint, const Bolts* bolts);

@@ -69,12 +69,15 @@ Eigen::Matrix3Xd start_directors(const Model& model, const Eigen::Matrix3Xd& tan
   return directors;
 }
 
-/// First directors of hinged edges are the joints' normals.
+/// First directors of hinged edges are the joints' normals; of the two the one nearer to the
+/// director that is there, so that a joint that closes goes on with a negative angle.
 void put_normals(const Model& model, const Eigen::Matrix3Xd& x, Eigen::Matrix3Xd& director) {
   for (const auto& [pair, other_half, stiffness, blocks] : model.hinges) {
-    const Eigen::Vector3d across = tangent_of(model, x, pair.e).cross(tangent_of(model, x, pair.f));
+    const Eigen::Vector3d normal =
+        tangent_of(model, x, pair.e).cross(tangent_of(model, x, pair.f)).normalized();
+    const double side = std::copysign(1.0, normal.dot(director.col(pair.e)));
     for (const int half : {pair.e, other_half})
-      if (half >= 0) director.col(half) = pair.law.side * across.normalized();
+      if (half >= 0) director.col(half) = side * normal;
   }
 }
 
@@ -153,9 +156,18 @@ State start_state(const Model& model, const Eigen::Matrix3Xd& x) {
   state.reference_twist = Eigen::VectorXd::Zero(Eigen::Index(model.bends.size()));
   const Eigen::Matrix3Xd tangents = tangents_of(model, state.x);
   state.director = start_directors(model, tangents);
+  for (const ModelHinge& hinge : model.hinges)
+    state.director.col(hinge.pair.e) =
+        hinge.pair.law.side * tangents.col(hinge.pair.e).cross(tangents.col(hinge.pair.f));
   put_normals(model, state.x, state.director);
   carry_reference_twist(model, tangents, state);
   return state;
+}
+
+bool is_closed(const Model& model, const State& state, const ModelHinge& hinge) {
+  const auto& [e, f, bend, law, slots] = hinge.pair;
+  const Eigen::Vector3d across = tangent_of(model, state.x, e).cross(tangent_of(model, state.x, f));
+  return law.side * state.director.col(e).dot(across) < 0;
 }
 
 void move_to(const Model& model, const Eigen::Matrix3Xd& x, State& state) {
@@ -194,7 +206,14 @@ State StateTransfer::carry(const State& state) const {
   Eigen::VectorXd axial;
   meshes_.edges(state.force, axial);
   carried.force << axial, state.force.tail(to_.forces() - axial.size());
-  if (to_.has_spins()) carry_spins(state, carried);
+  if (!to_.has_spins()) return carried;
+  for (std::size_t k = 0; k < std::min(from_.hinges.size(), to_.hinges.size()); ++k) {
+    if (!is_closed(from_, state, from_.hinges[k])) continue;
+    for (const int half : {to_.hinges[k].pair.e, to_.hinges[k].other_half})
+      if (half >= 0) carried.director.col(half) *= -1;
+  }
+  carry_reference_twist(to_, tangents_of(to_, carried.x), carried);
+  carry_spins(state, carried);
   return carried;
 }
 

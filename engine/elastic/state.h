@@ -8,6 +8,8 @@
 
 namespace gridshell {
 
+struct ModelHinge;
+
 /// Reference frames belong to the positions: move them by move_to() alone.
 struct State {
   Eigen::Matrix3Xd x;  ///< 3 x columns of the model: positions and angles, mm
@@ -21,6 +23,10 @@ struct State {
 /// first director is the rod's. Ghosts that x does not have (fewer columns than nodes) go straight
 /// on beyond their ends, and angles are zero.
 State start_state(const Model& model, const Eigen::Matrix3Xd& x);
+
+/// Whether the rods of a hinge have passed one another since they were drawn: the angle between
+/// them is below zero.
+bool is_closed(const Model& model, const State& state, const ModelHinge& hinge);
 
 /// Moves the columns to x, the reference frames along with them (parallel in time).
 void move_to(const Model& model, const Eigen::Matrix3Xd& x, State& state);

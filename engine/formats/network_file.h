@@ -17,9 +17,6 @@ namespace gridshell::preset {
 /// The largest file of a network that is read.
 inline constexpr std::size_t largest_network_file = std::size_t(16) << 20;
 
-/// In the place of a joint's point in a row of joint_laws: all joints that have no row.
-inline constexpr double every_joint = -1;
-
 /// Points of a file nearer to one another than this are one.
 inline constexpr double one_point_mm = 1e-3;
 

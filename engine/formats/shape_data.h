@@ -41,6 +41,9 @@ struct SurfaceData {
   bool empty() const { return z.empty() && triangles.empty(); }
 };
 
+/// In the place of a joint's point in a row of joint_laws: all joints that have no row.
+inline constexpr double every_joint = -1;
+
 /// How a rod's end is held: its position; its direction too; its spin too.
 enum class EndKind { pinned, tangent, clamped };
 

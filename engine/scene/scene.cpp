@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "engine/core/try.h"
-#include "engine/formats/network_file.h"
 #include "engine/preset/consistency.h"
 #include "engine/scene/drawn_footprint.h"
 #include "engine/scene/net_design.h"

@@ -23,8 +23,7 @@ Result<void> check_formed(const Simulation& simulation) {
 
 Bolts now_tightened(const Simulation& simulation, double stiffness) {
   const NestedShell& shell = simulation.shell();
-  return tightened(shell.finest(), shell.model(shell.levels() - 1), shell.state().levels.back().x,
-                   stiffness);
+  return tightened(shell.finest(), shell.model(), shell.state().levels.back(), stiffness);
 }
 
 /// How far each joint is to open so that its bolt, of `now`, rests at the step's angle, rad; NaN of
@@ -119,7 +118,7 @@ std::string text_of_opened(const Simulation& simulation) {
   std::array<std::vector<Eigen::Matrix3Xd>, 4> found;
   for (int level = shell.first_of_last_three(); level < shell.levels(); ++level) {
     const State& state = shell.state().levels[std::size_t(level)];
-    const Bolts now = tightened(shell.mesh(level), shell.model(level), state.x, 1);
+    const Bolts now = tightened(shell.mesh(level), shell.model(level), state, 1);
     double sum = 0, least = M_PI, most = 0, torque = 0;
     int count = 0;
     for (std::size_t joint = 0; joint < now.rods.size(); ++joint) {

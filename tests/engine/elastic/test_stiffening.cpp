@@ -87,7 +87,7 @@ TEST_CASE("a bar: a strut on both sides, a cable that is slack, comes on and pul
 TEST_CASE("bolts are free of stress in the shape they were tightened in, on its mesh exactly") {
   const Bolted dome(4);
   for (const double stiffness : {25.0, rigid}) {
-    const Model model = dome.with(tightened(dome.mesh, dome.loose, dome.state.x, stiffness));
+    const Model model = dome.with(tightened(dome.mesh, dome.loose, dome.state, stiffness));
     CHECK(energies_of(model, dome.state)[Term::shear] < 1e-20);
     const State off = shaken(model, dome.state, 0.02);
     CHECK(energies_of(model, off)[Term::shear] > 1e-8);
@@ -97,7 +97,7 @@ TEST_CASE("bolts are free of stress in the shape they were tightened in, on its 
 
 TEST_CASE("bolts of one mesh hold the shape of another, exactly on a surface of second degree") {
   const Bolted fine(16);
-  const Bolts bolts = tightened(fine.mesh, fine.loose, fine.state.x, 25);
+  const Bolts bolts = tightened(fine.mesh, fine.loose, fine.state, 25);
   for (const int edges : {4, 8}) {
     const Bolted dome(edges);
     CHECK(std::sqrt(energies_of(dome.with(bolts), dome.state)[Term::shear]) < 1e-12);

@@ -182,7 +182,7 @@ TEST_CASE("bolts of laths cut with corners are free of stress on every mesh") {
   ShellRods rods = scene.rods;
   const RodMesh fine = mesh_rods(scene.footprint, 4), coarse = mesh_rods(scene.footprint, 2);
   const Model loose = value_of(build_model(fine, rods, RodModel::twist));
-  rods.bolts = std::make_shared<const Bolts>(tightened(fine, loose, lying(fine, loose).x, 2000));
+  rods.bolts = std::make_shared<const Bolts>(tightened(fine, loose, lying(fine, loose), 2000));
   for (const RodMesh& mesh : {coarse, fine}) {
     const Model model = value_of(build_model(mesh, rods, RodModel::twist));
     CHECK(energies_of(model, lying(mesh, model)).total() < 1e-18);
@@ -210,7 +210,7 @@ TEST_CASE("how forces change as joints open, against differences") {
   const Model loose = value_of(build_model(mesh, scene.rods, RodModel::bend));
   const State flat = start_state(loose, columns_of(mesh, loose, drawn_nodes(mesh, scene.flat)));
   ShellRods rods = scene.rods;
-  Bolts bolts = tightened(mesh, loose, flat.x, 100);
+  Bolts bolts = tightened(mesh, loose, flat, 100);
   bolts.opening.assign(bolts.rods.size(), 0.3);
   rods.bolts = std::make_shared<const Bolts>(bolts);
   const Model model = value_of(build_model(mesh, rods, RodModel::bend));
