@@ -68,12 +68,11 @@ Eigen::Matrix3d symmetric_product(const Eigen::Vector3d& a, const Eigen::Vector3
   return m + m.transpose();
 }
 
-namespace {
-
-/// I - t t^T of a unit tangent.
 Eigen::Matrix3d normal_projector(const Eigen::Vector3d& t) {
   return Eigen::Matrix3d::Identity() - t * t.transpose();
 }
+
+namespace {
 
 HalfwayFrame frame_of(const PairGeometry& at, const MaterialBend& bend) {
   return halfway_frame(at.e.tangent, at.director_e,
@@ -153,16 +152,6 @@ void add_twist_curvature(double weight, const CurvatureBinormal& b, PairMatrix& 
       cross_matrix(0.5 * weight * mean) - symmetric_product(0.5 * weight * mean, b.kb);
   out.block<3, 3>(0, 3) += across;
   out.block<3, 3>(3, 0) += across.transpose();
-}
-
-/// phi = theta_e - alpha - side pi/2, in (-pi, pi]: the angle about t from the joint's normal to
-/// the rod's director m1. alpha is that of the other rod's tangent s in the reference frame d1, d2
-/// of e; the normal is side * t x s, `side` +1 or -1.
-double joint_spin(int side, double theta, const EdgeGeometry& e, const Eigen::Vector3d& director,
-                  const EdgeGeometry& f) {
-  const Eigen::Vector3d &t = e.tangent, &s = f.tangent;
-  const double alpha = std::atan2(s.dot(t.cross(director)), s.dot(director));
-  return std::remainder(theta - alpha - side * M_PI / 2, 2 * M_PI);
 }
 
 double material_bend_value(const MaterialBend& bend, const Eigen::Vector2d& w) {
@@ -338,77 +327,6 @@ double EndBending::add(const PairGeometry& at, PairEnergy& out) const {
                           2 * x * (end.by_c * end.by_c + end.s * end.by_cc)),
              at.e, at.f, out);
   return value(at);
-}
-
-double JointAngle::sign(const PairGeometry& at) const {
-  return side != 0 && side * at.director_e.dot(at.e.tangent.cross(at.f.tangent)) < 0 ? -1 : 1;
-}
-
-double JointAngle::excess(const PairGeometry& at) const {
-  return sign(at) * std::acos(std::clamp(at.e.tangent.dot(at.f.tangent), -1.0, 1.0)) - rest -
-         at.opening * opening;
-}
-
-double JointAngle::value(const PairGeometry& at) const {
-  return 0.5 * stiffness * excess(at) * excess(at);
-}
-
-PairEnergy JointAngle::slopes(const PairGeometry& at, bool with_hessian) const {
-  const double c = at.e.tangent.dot(at.f.tangent), s = sign(at), slope = -1 / std::sqrt(1 - c * c);
-  PairEnergy angle{.with_hessian = with_hessian};
-  add_cosine(s * slope, s * c * slope * slope * slope, at.e, at.f, angle);
-  return angle;
-}
-
-double JointSpin::excess(const PairGeometry& at) const {
-  return joint_spin(side, at.angle_e, at.e, at.director_e, at.f);
-}
-
-double JointSpin::value(const PairGeometry& at) const {
-  return 0.5 * stiffness * excess(at) * excess(at);
-}
-
-double JointSpin::add(const PairGeometry& at, PairEnergy& out) const {
-  const PairEnergy phi = slopes(at, out.with_hessian);
-  out.gradient += stiffness * excess(at) * phi.gradient;
-  out.hessian += stiffness * (excess(at) * phi.hessian + phi.gradient * phi.gradient.transpose());
-  return value(at);
-}
-
-PairEnergy JointSpin::slopes(const PairGeometry& at, bool with_hessian) {
-  using Complex = Eigen::Vector3cd;
-  const Eigen::Vector3d &t = at.e.tangent, &s = at.f.tangent, &director = at.director_e;
-  const double c = t.dot(s);
-  const Complex d = director.cast<std::complex<double>>() +
-                    std::complex<double>(0, 1) * t.cross(director).cast<std::complex<double>>();
-  const std::complex<double> sd(s.dot(director), s.dot(t.cross(director)));
-  const Complex z = d / sd;
-  const Eigen::Matrix3d P = normal_projector(t), Q = normal_projector(s);
-  const Complex gp = -c * z, gq = Q * z;
-  const Eigen::Vector3d zi = z.imag(), qzi = gq.imag(), ps = P * s, qt = Q * t;
-
-  PairVector slope = PairVector::Zero();  // of phi
-  slope.head<3>() = -gp.imag();
-  slope.segment<3>(3) = -gq.imag();
-  slope[6] = 1;
-  PairEnergy phi{.gradient = slope, .with_hessian = with_hessian};
-  if (!with_hessian) {
-    scale_to_edges(at.e.length, at.f.length, phi);
-    return phi;
-  }
-  Eigen::Matrix<double, 8, 8> curvature = PairMatrix::Zero();  // of alpha
-  const auto squares = [](const Complex& a, const Complex& b) -> Eigen::Matrix3d {
-    return (a * b.transpose()).imag();
-  };
-  curvature.block<3, 3>(0, 0) = c * (t * zi.transpose() + zi * t.transpose()) -
-                                0.5 * (zi * ps.transpose() + ps * zi.transpose()) - squares(gp, gp);
-  curvature.block<3, 3>(3, 3) = -(s * qzi.transpose() + qzi * s.transpose()) - squares(gq, gq);
-  curvature.block<3, 3>(0, 3) = -zi * qt.transpose() - squares(gp, gq);
-  curvature.block<3, 3>(3, 0) = curvature.block<3, 3>(0, 3).transpose();
-
-  phi.hessian = -curvature;
-  scale_to_edges(at.e.length, at.f.length, phi);
-  return phi;
 }
 
 }  // namespace gridshell

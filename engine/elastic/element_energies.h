@@ -100,6 +100,9 @@ Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v);
 /// (a b^T + b a^T)/2
 Eigen::Matrix3d symmetric_product(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 
+/// I - t t^T of a unit tangent.
+Eigen::Matrix3d normal_projector(const Eigen::Vector3d& t);
+
 /// kb = 2 t x s/chi, chi = 1 + t.s of unit tangents t (of e) and s (of f).
 struct CurvatureBinormal {
   Eigen::Vector3d t, s, kb;

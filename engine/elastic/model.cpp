@@ -192,12 +192,11 @@ class Builder {
       for (std::size_t k = 0; k < rod.edges.size(); ++k) {
         const int edge = rod.edges[k];
         const bool last = k + 1 == rod.edges.size();
-        if (k > 0 && are_halves(edge - 1, edge)) {
-          model_.spin[std::size_t(edge)] = model_.spin[std::size_t(edge - 1)];
-          continue;
-        }
-        if (rod.closed && last && are_halves(edge, rod.edges.front())) {
-          model_.spin[std::size_t(edge)] = model_.spin[std::size_t(rod.edges.front())];
+        int other = -1;
+        if (rod.closed && last && are_halves(edge, rod.edges.front())) other = rod.edges.front();
+        if (k > 0 && are_halves(edge - 1, edge)) other = edge - 1;
+        if (other >= 0) {
+          model_.spin[std::size_t(edge)] = model_.spin[std::size_t(other)];
           continue;
         }
         const bool after = crossings[std::size_t(model_.edges[std::size_t(edge)].from)],

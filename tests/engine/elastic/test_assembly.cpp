@@ -126,6 +126,40 @@ TEST_CASE("joints: a hinge's rods keep to the common normal, edges stay centred,
   }
 }
 
+TEST_CASE("joints: rods of a hinge that pass one another go on with a negative angle") {
+  const ModelRod a{{0, 1, 2, 3, 4}, {0, 4, 9, 14, 18}, strip,       {},
+                   {0, 0, 1, 0, 0}, RodEnd::free,      RodEnd::free};
+  const ModelRod b{{5, 6, 2, 7, 8}, {0, 4, 9, 14, 18}, strip,       {},
+                   {0, 0, 1, 0, 0}, RodEnd::free,      RodEnd::free};
+  const double infinite = std::numeric_limits<double>::infinity(), rest = 0.2, stiffness = 7;
+  Model model = build_model(9, {a, b}, RodModel::twist).value();
+  add_joint_shear(model, {0, 2, 1, 2}, {stiffness, rest, 0, 0, 1});
+  add_joint_hinge(model, {0, 2, 1, 2}, infinite);
+  finish(model);
+  const auto crossed = [&](double angle) {
+    Eigen::Matrix3Xd x = Eigen::Matrix3Xd::Zero(3, model.columns());
+    const double at[] = {-9, -5, 0, 5, 9};
+    for (int k = 0; k < 5; ++k) {
+      x(0, k) = at[k];
+      if (k == 2) continue;
+      x.col(k < 2 ? 5 + k : 4 + k) << at[k] * std::cos(angle), at[k] * std::sin(angle), 0;
+    }
+    return x;
+  };
+  State state = start_state(model, crossed(0.1));
+  const double others = energies_of(model, state).total() - energies_of(model, state)[Term::shear];
+  for (const double angle : {0.03, -0.04, -0.1}) {
+    move_to(model, crossed(angle), state);
+    CAPTURE(angle);
+    CHECK(is_closed(model, state, model.hinges[0]) == (angle < 0));
+    CHECK(state.director.col(model.hinges[0].pair.e).z() == Approx(1));
+    const Energies energies = energies_of(model, state);
+    CHECK(energies[Term::shear] == Approx(stiffness / 2 * (angle - rest) * (angle - rest)));
+    CHECK(energies.total() - energies[Term::shear] == Approx(others));
+  }
+  check_derivatives(model, state, {}, 1e-7, 1e-5, 1e-6);
+}
+
 TEST_CASE("assembly: both ways give one gradient, the mixed residual is it where N = EA strain") {
   const BentDome dome = noisy_dome(4);
   Assembly with_hessian, alone, mixed;

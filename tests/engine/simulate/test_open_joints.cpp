@@ -202,6 +202,34 @@ TEST_CASE("an X-shell that its joints open leaves the flat at a branch and bears
   CHECK(outcome.summary.energies[Term::support] < 1e-9);
 }
 
+TEST_CASE("stiff springs cost a path no more steps than soft ones") {
+  preset::Preset p = shipped("lit_xshell_lens");
+  p.movie.frames = 2;
+  p.accuracy.edges_per_segment = 4;
+  p.step[0].stiffness_Nmm *= 100;
+  const auto outcome = run_to_end(p);
+  CHECK(outcome.summary.stable);
+  // 6 364 where torques follow from angles that a step predicts
+  CHECK(outcome.summary.factorizations < 400);
+}
+
+TEST_CASE("straight laths that come to lie along one another are refused, a weak spring helps") {
+  preset::NetworkData file;
+  file.points = {{-60, 8, 0}, {-50, 0, 0},  {0, 5, 0},  {50, 0, 0},
+                 {60, 8, 0},  {-60, -8, 0}, {0, -5, 0}, {60, -8, 0}};
+  file.rods = {{5, 1, 2, 3, 7}, {0, 1, 6, 3, 4}};
+  file.free = {0, 4, 5, 7};
+  file.supports = {{1}, {3}, {2}};
+  file.springs = {{1, 1, 1, 1}, {3, 0, 1, 1}, {2, 0, 0, 1}};
+  file.joint_laws = {{1, 0, -1}, {3, 0, -1}};
+  preset::Preset p = network_of_rods(file, 4);
+  p.rod.width_mm = 3, p.rod.thickness_mm = 1;
+  CHECK_THAT(refused_run(p), Catch::Contains("joint [1, 0] and 1 others close") &&
+                                 Catch::Contains("\"shear_Nmm\": 0.1"));
+  p.footprint.file.joint_laws = {{1, 0.1, 1e9}, {3, 0.1, 1e9}};
+  CHECK(run(p).summary.stable);
+}
+
 TEST_CASE("how forces change as joints open, against differences") {
   preset::Preset p = network_of_rods(rhombi(50 * degree), 2);
   p.step = {opened(60, 100)};
