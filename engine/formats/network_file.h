@@ -44,7 +44,8 @@ struct NetworkOptions {
 ///          out (as the preset says), and "spring_N_per_mm": k or [kx, ky, kz] puts it on a spring;
 ///          "joints": [[a, b, ...], ...] lists points that are one joint though they lie apart; or
 ///          {"point": number or place, or "points": list, "law": "free", "hinge", "rigid" or
-///          "spring" of "shear_Nmm" and "twist_Nmm", and "eccentricity_mm"}
+///          "spring" of "shear_Nmm" and "twist_Nmm", and "eccentricity_mm"};
+///          "law": one of these words, or {"law", "shear_Nmm", "twist_Nmm"}, of all other joints
 ///   .obj   "v x y z" and polylines "l a b c ..."
 ///   .dxf   the curves of model space that are shown (dxf_file.h), where there is a layer "rods" of
 ///          that one alone; a circle that marks a point of a rod is none

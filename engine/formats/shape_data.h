@@ -41,6 +41,9 @@ struct SurfaceData {
   bool empty() const { return z.empty() && triangles.empty(); }
 };
 
+/// In the place of a joint's point in a row of joint_laws: all joints that have no row.
+inline constexpr double every_joint = -1;
+
 /// How a rod's end is held: its position; its direction too; its spin too.
 enum class EndKind { pinned, tangent, clamped };
 
@@ -61,8 +64,8 @@ struct NetworkData {
   Points supports;                     ///< number of a point and where it goes: x, y, z, mm
   Points springs;         ///< number of a support's point, stiffness along x, y, z, N/mm
   std::vector<int> free;  ///< numbers of points at rods' ends that nothing holds
-  /// A joint's point, its shear_Nmm and twist_Nmm; below 0: rigid; and its eccentricity_mm, if it
-  /// has one of its own.
+  /// A joint's point (-1: all that have no row), its shear_Nmm and twist_Nmm; below 0: rigid; and
+  /// its eccentricity_mm, if it has one of its own.
   Points joint_laws;
   Points holds;  ///< a rod, 0 (its begin) or 1 (its end), the number of an EndKind
 

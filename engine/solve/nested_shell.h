@@ -48,19 +48,14 @@ struct CertifiedVectors {
   double error = 0;  ///< of the largest, by the order that three meshes show; NaN on one mesh
 };
 
-/// Whether so many meshes tell no order of convergence: none do where rods press on one another,
-/// as where on its edges a mesh presses is chance, nor two of joints that resist spin, where it may
-/// be the first. `energies`: of the finest.
-bool order_unknown(const Model& model, const Energies& energies, std::size_t meshes);
+/// Whether meshes tell no order of convergence: none do where rods press on one another, as where
+/// on its edges a mesh presses is chance. `energies`: of the finest.
+bool order_unknown(const Energies& energies);
 
 /// `levels`: coarse to fine, of which the last three count. Where no order is known the error is
 /// the complete step between the last two.
 CertifiedVectors certify_vectors(const std::vector<Eigen::Matrix3Xd>& levels, bool extrapolate,
                                  bool no_order);
-/// The same of a model: where its joints resist spin, three meshes count what a part of first order
-/// would leave of their extrapolation.
-CertifiedVectors certify_vectors(const Model& model, const std::vector<Eigen::Matrix3Xd>& levels,
-                                 bool extrapolate, bool no_order);
 
 /// By how much a companion's state differs from the finer one restricted to its mesh. It predicts
 /// the companion's next state, so single precision serves.

@@ -124,6 +124,7 @@ double arch(int edges) {
                {},
                {EA, EI, EI, GJ, {0, -1 / R}, 0},
                {},
+               {},
                RodEnd::clamped,
                RodEnd::pinned,
                {-std::sin(half), 0, std::cos(half)}};

@@ -85,7 +85,7 @@ double greenhill(int edges) {
 double michell(int edges, double ratio) {
   RodMaterial material = wire;
   material.GJ = ratio * EI;
-  ModelRod rod{{}, {}, material, {}, RodEnd::free, RodEnd::free};
+  ModelRod rod{{}, {}, material, {}, {}, RodEnd::free, RodEnd::free};
   const double around = 2 * M_PI * 40;
   Eigen::Matrix3Xd x(3, edges);
   for (int k = 0; k <= edges; ++k) {
@@ -249,18 +249,19 @@ TEST_CASE("Michell's ring buckles at 2 pi sqrt(3) EI/GJ") {
 TEST_CASE("joint shear: two rigid crossing rods turn by moment over stiffness") {
   // stiff rods, one held, the other turned about the joint by a couple at its ends
   const RodMaterial stiff{1e6, 1e7, 1e7, 1e7, {0, 0}, 0};
-  ModelRod a{{0, 1, 2}, {0, 10, 20}, stiff};
-  ModelRod b{{3, 1, 4}, {0, 10, 20}, stiff, {}, RodEnd::free, RodEnd::free};
-  Model model = build_model(5, {a, b}, RodModel::twist).value();
+  ModelRod a{{0, 5, 1, 6, 2}, {0, 5, 10, 15, 20}, stiff, {}, {0, 0, 1, 0, 0}};
+  ModelRod b{{3, 7, 1, 8, 4}, {0, 5, 10, 15, 20}, stiff,       {},
+             {0, 0, 1, 0, 0}, RodEnd::free,       RodEnd::free};
+  Model model = build_model(9, {a, b}, RodModel::twist).value();
   const double stiffness = 40, couple = 2;  // N mm/rad, N mm
-  add_joint_shear(model, {0, 1, 1, 1}, stiffness, [](int, int) { return M_PI / 2; });
+  add_joint_shear(model, {0, 1, 1, 1}, {stiffness});
   model.loads.push_back({3, {couple / 20, 0, 0}});
   model.loads.push_back({4, {-couple / 20, 0, 0}});
   for (int node : {3, 4}) model.hold(node, 2);  // in the plane
   finish(model);
-  Eigen::Matrix3Xd x = Eigen::Matrix3Xd::Zero(3, 5);
-  x.row(0) << -10, 0, 10, 0, 0;
-  x.row(1) << 0, 0, 0, -10, 10;
+  Eigen::Matrix3Xd x = Eigen::Matrix3Xd::Zero(3, 9);
+  x.row(0) << -10, 0, 10, 0, 0, -5, 5, 0, 0;
+  x.row(1) << 0, 0, 0, -10, 10, 0, 0, -5, 5;
   Linearisation system(model);
   State state = start_state(model, x);
   settle(system, state, 1e-7);
