@@ -31,7 +31,7 @@ struct ChartOptions {
   int edges = 32;              ///< a segment of the finest mesh that methods are given
   int scenes = 600, seed = 1;  ///< of a study of trust
   std::string scene_kind;      ///< and its kind of scenes; empty: in turn
-  std::string sizes;           ///< of accuracy: rods a direction, "12,24,48"
+  std::string sizes;           ///< for `accuracy`: rods per direction, "12,24,48"
 };
 
 /// Lines for the terminal once everything is written, and the summary of a study.

@@ -37,7 +37,7 @@ class Argument {
   /// Called with each text that is given.
   Argument each(std::function<void(const std::string&)> act);
   Argument excludes(Argument other);
-  /// The value it has by default stands in the help.
+  /// Shows its default value in the help.
   Argument show_default();
   /// One value each time that it is given, any number of times.
   Argument one_each_time();
@@ -75,7 +75,7 @@ struct CommandOption {
   std::string short_name;  ///< "-o", or empty
   std::string meaning;
   std::vector<std::string> words;  ///< that it can be; empty: anything
-  bool argument = false;           ///< stands by its place
+  bool argument = false;           ///< has no option name
   bool flag = false;               ///< takes no value
   bool required = false;
   bool many = false;  ///< any number of times
@@ -97,7 +97,7 @@ class CommandLine {
   /// Adds `gridshell name`, which does `act`.
   CommandArguments add(const std::string& name, const std::string& meaning, Action act);
 
-  /// The same, which does `act` with the options that its arguments are kept in.
+  /// Adds a command that calls `act` with the struct in which its arguments are stored.
   template <class Kept, class Act>
   std::pair<CommandArguments, Kept&> add(const std::string& name, const std::string& meaning,
                                          Act act) {
@@ -105,7 +105,7 @@ class CommandLine {
     return {add(name, meaning, [kept, act] { return act(*kept); }), *kept};
   }
 
-  /// Does what the command line asks for and returns the exit code; faults are reported.
+  /// Executes the command line and returns the exit code; errors are reported.
   int run(int argc, char** argv);
 
   /// All commands, in the order of the help.
@@ -145,14 +145,14 @@ void add_work_options(CommandArguments command, Options& options,
 /// --context: of commands that draw.
 void add_picture_options(CommandArguments command, Options& options);
 
-/// --unsealed: of commands that read a run's trajectory.
+/// `--unsealed`: for commands that read a run's trajectory.
 void add_unsealed(CommandArguments command, bool& unsealed);
 
 /// The options that change the preset, in the order in which they are laid over it. Errors:
 /// bad_input for a --set without key or value, a --size that is not WxH.
 Result<std::vector<preset::Override>> overrides_of(const Options& options);
 
-/// The same of a finished run, of which only how it is shown may change, and the keys `also`.
+/// The overrides for a finished run, of which only the presentation and the keys `also` may change.
 /// Errors: bad_input for any other key.
 Result<std::vector<preset::Override>> overrides_of_run(const Options& options,
                                                        const std::vector<std::string>& also = {});

@@ -107,7 +107,7 @@ void add_commands(CommandLine& program) {
   add_modes(program);
   add_report(program);
   add_scan(program);
-  // the command line of a movie can be checked as it stands
+  // the command line of a movie can also be checked without changes
   add_preset_command(program, "check", "validate a preset and say what would run", check);
   add_compare(program);
   add_list(program);

@@ -29,15 +29,15 @@ void add_compare(CommandLine& program);
 /// Validates a preset and prints what would run; the exit code.
 Result<int> check(const Options& options);
 
-/// Whether the figures that a sweep is asked for are some of a run. Errors (bad_input), with the
-/// list of what there is.
+/// Checks that the results requested from a sweep are results of a run. Errors (bad_input), with
+/// the list of results.
 Result<void> check_sweep(const preset::Presets& presets);
 
-/// Designs the shell of a preset and writes its folder. Prints what it came to; the exit code.
+/// Designs the shell of a preset and writes its folder. Prints the result; returns the exit code.
 Result<int> produce_design(const Options& options);
 
-/// A preset whose `[ends] table` and `[rod] table`, where it has them, stand in STEM_ends.csv and
-/// STEM_rods.csv beside it. Errors: io.
+/// Writes a preset with `[ends] table` and `[rod] table`, if it has them, in STEM_ends.csv and
+/// STEM_rods.csv in the same folder. Errors: io.
 Result<void> write_preset_with_tables(const preset::Preset& preset,
                                       const std::filesystem::path& file);
 
@@ -58,7 +58,7 @@ Result<std::string> listing_json();
 
 /// gridshell(1) in roff: commands with their options, presets, all keys.
 Result<std::string> man_page();
-/// The same as a page for a browser, which needs no network.
+/// The manual as a page for a browser, which needs no network.
 Result<std::string> manual_html();
 
 /// A script for bash that completes command lines: commands, options and their words, names of

@@ -1,4 +1,4 @@
-// Folders of pictures that were looked at and kept, and what stands in their place now.
+// Folders of reference pictures, and the pictures that replace them.
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -58,8 +58,8 @@ Result<std::vector<render::PicturePair>> pictures_of(const fs::path& before, con
   return pairs;
 }
 
-/// Puts every picture that is not the same in the place of the kept one, takes away what is gone,
-/// and writes the reason, and how many of each folder it were, into `before`/WHY.md.
+/// Replaces every reference picture that changed, removes those that no longer exist, and writes
+/// the reason and the number of pictures of each folder into `before`/WHY.md.
 Result<void> update_baselines(const fs::path& before, const std::vector<render::PicturePair>& pairs,
                               double threshold, const std::string& why) {
   std::map<std::string, int> changed;

@@ -40,7 +40,7 @@ namespace {
 constexpr const char* out_of_memory =
     "memory ran out; what was finished stays under its partial name\n";
 
-/// Of signal handlers too: nothing is left to do where even these words cannot be written.
+/// Also for signal handlers: if this text cannot be written there is nothing left to do.
 [[noreturn]] void end_at_once(const char* words, ExitCode code) {
   if (::write(STDERR_FILENO, words, std::strlen(words)) < 0) _exit(code);
   _exit(code);

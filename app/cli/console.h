@@ -42,10 +42,9 @@ Result<T> as_input(Result<T> result) {
 
 // Ctrl-C, SIGTERM and SIGHUP, from the first line of main to the last.
 
-/// From now on these signals end the program with the exit code of an interrupted one: at once
-/// where nothing is at stake, and by way of interrupted_by_signal() while a InterruptGuard lives. A
-/// second signal always ends it at once. A file that grows too large and a pipe that nobody reads
-/// are errors of their writes, not signals.
+/// Makes these signals end the program with the exit code of an interrupted one: at once if no
+/// InterruptGuard exists, else by interrupted_by_signal(). A second signal always ends it at once.
+/// A file that grows too large and a closed pipe are errors of their writes, not signals.
 void install_signal_handlers();
 
 /// Whether one of them has come.
@@ -60,8 +59,8 @@ class InterruptGuard {
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 };
 
-/// Opens /dev/null in the place of a closed stdin, stdout or stderr: else the next file that is
-/// opened would get its number, and be written to as if it were the terminal.
+/// Opens /dev/null instead of a closed stdin, stdout or stderr: else the next file that is opened
+/// would get its number and the output of the program.
 void open_standard_streams() noexcept;
 
 /// Whether all that was printed on stdout arrived; else a line on stderr says why not, with the

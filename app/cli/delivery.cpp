@@ -32,7 +32,7 @@ std::string left_text(const ProgressState& at) {
 
 constexpr double place_every_s = 5, first_place_s = 1;  // of a path that is followed, on lines
 
-/// Where a path stands that is still followed, and for how long yet on these meshes.
+/// Parameter of a path that is being followed, and the time left on these meshes.
 std::string place_text(const Watch& watch, PathPace& pace) {
   const Watch::Place place = watch.place();
   if (place.edges == 0 || watch.progress() >= 0.5) return "";
@@ -68,7 +68,7 @@ std::string near_name(const fs::path& folder) {
   return fs::proximate(folder, error).string();
 }
 
-// what others left beside the folder to be written, and what may be done with it
+// reports temporary folders of other runs, and what may be done with them
 void report_left_behind(const fs::path& final_folder) {
   for (const auto& folder : left_behind(final_folder)) {
     const auto name = near_name(folder);
@@ -133,11 +133,11 @@ ProgressState standing(const std::vector<Phase>& phases, std::size_t current, do
     if (k > current) after += phases[k].expected_seconds;
   }
   const double own = phases[current].expected_seconds;
-  // frames of motions in time come beside those that were counted
+  // frames of motions in time are not in the planned number
   fraction = std::min(fraction, 1.0);
   ProgressState at{all > 0 ? (before + own * fraction) / all : 0,
                    std::numeric_limits<double>::quiet_NaN()};
-  // too early to tell how fast this phase is
+  // too early to estimate the speed of this phase
   if (fraction < 0.02 || elapsed < 0.5) return at;
   const double whole = elapsed / fraction;
   at.seconds_left = whole - elapsed + (own > 0 ? after * whole / own : after);
@@ -146,7 +146,7 @@ ProgressState standing(const std::vector<Phase>& phases, std::size_t current, do
 
 double PathPace::seconds_left(const Watch::Place& at, double now) {
   constexpr double least_way = 0.02, least_s = 2;
-  // another leader, or the same on another way
+  // another mesh, or the same on another path
   if (at.edges != last_.edges || at.t < last_.t) begun_ = at, begun_at_ = now;
   last_ = at;
   const double way = at.t - begun_.t, elapsed = now - begun_at_;
@@ -220,7 +220,7 @@ void Progress::stop_if_asked() {
     try {
       last_words_();
     } catch (const std::exception&) {
-      // the folder says by itself what it holds
+      // the folder itself lists its contents
     }
     _exit(ExitCode::interrupted);
   }

@@ -33,16 +33,16 @@ struct ProgressState {
   double seconds_left = 0;  ///< NaN while too little is done to say
 };
 
-/// Where work of `phases` stands: `current` is `fraction` done after `elapsed` seconds. Later
-/// phases are scaled by how much slower than expected the current one turns out.
+/// Progress of work in `phases`: `current` is `fraction` done after `elapsed` seconds. Later phases
+/// are scaled by the ratio of the actual to the expected time of the current one.
 ProgressState standing(const std::vector<Phase>& phases, std::size_t current, double fraction,
                        double elapsed);
 
-/// How fast a path is followed: from where its leading mesh began on its present way.
+/// Speed at which a path is followed on its current mesh.
 class PathPace {
  public:
-  /// Seconds that the way to its end, path parameter 1, takes yet; NaN while too little of it is
-  /// done to say, and on a way back.
+  /// Seconds to the end of the path, parameter 1; NaN while too little is done for an estimate, and
+  /// on a segment back.
   double seconds_left(const Watch::Place& at, double now);
 
  private:

@@ -152,7 +152,7 @@ void put_name(std::string& text, const std::string& section, const std::string& 
   text.replace(at, none.size(), "\ntable = \"" + name + "\"");
 }
 
-/// The preset with its tables in the files beside it.
+/// The preset with its tables in separate files.
 std::string preset_text(preset::Preset designed, const std::string& ends_file,
                         const std::string& rods_file) {
   const bool ends = !designed.ends.table.empty(), rods = !designed.rod_table.empty();
@@ -179,7 +179,7 @@ Result<void> write_design(const fs::path& folder, const preset::Preset& designed
   return write("preset.toml", preset_text(designed, "ends.csv", "rods.csv"));
 }
 
-/// What a design came to, as a few lines for the terminal.
+/// Result of a design, as a few lines for the terminal.
 std::string design_text(const DesignResult& found, const FlatStartCheck& from_flat) {
   const double percent = 100 / found.length_scale_mm;
   std::string text = fmt::format(
@@ -254,8 +254,8 @@ render::Plot convergence_plot(const DesignResult& found, const std::string& titl
   return plot;
 }
 
-/// `<stem>_net.png`, `<stem>_deviation.png` and the plots of shells on nets, the target in the
-/// place of the net: of every node its nearest point; `<stem>_convergence`.
+/// `<stem>_net.png`, `<stem>_deviation.png` and the plots of shells on nets, with the target
+/// instead of the net: the nearest point of every node; `<stem>_convergence`.
 Result<void> draw_design(Run before, Run after, const DesignResult& found,
                          render::Renderer& renderer, const fs::path& stem, Watch& watch) {
   for (Run* run : {&before, &after}) {
@@ -269,7 +269,8 @@ Result<void> draw_design(Run before, Run after, const DesignResult& found,
                             convergence_plot(found, render::plain(style.title)), style.print);
 }
 
-constexpr double same_state = 4;  // tolerances of the run: how far apart two runs of one state are
+constexpr double same_state =
+    4;  // in tolerances of the run: largest distance of two runs of one state
 
 /// The one run that is designed. Errors: a preset of several cases.
 Result<preset::Preset> one_of(const Options& options) {
@@ -278,7 +279,7 @@ Result<preset::Preset> one_of(const Options& options) {
   return invalid("{}: a preset of several cases; design takes one shell", presets->base.name);
 }
 
-/// Whether the patient way from the flat ends in the same state.
+/// Whether the path from the flat state ends in the same state.
 FlatStartCheck from_flat(preset::Preset preset, const record::Trajectory& designed, Watch& watch) {
   preset.actuation.start = preset::Start::flat;
   const auto outcome = simulate::run(preset, true, watch);

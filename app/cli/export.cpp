@@ -30,7 +30,7 @@ struct ExportOptions {
   bool unsealed = false;
 };
 
-/// A run that is exported, and the frame that is asked for.
+/// A run that is exported, and the requested frame.
 struct Source {
   Run run;
   std::size_t frame = 0;
@@ -43,7 +43,7 @@ struct Source {
   const std::string& title() const { return preset::title_or_name(run.preset); }
 };
 
-/// NAME.pvd, and its frames in the folder NAME_frames beside it, which are written.
+/// NAME.pvd; writes its frames into the folder NAME_frames.
 Result<std::string> write_series(const Source& source, const ExportOptions& options) {
   const fs::path& to = options.to;
   const fs::path name = to.stem().string() + "_frames", folder = to.parent_path() / name;
@@ -101,7 +101,7 @@ Result<Source> source_of(const ExportOptions& options) {
   return Source{std::move(*run), *frame, folder};
 }
 
-/// The preset of a run or by itself, of the case that is asked for.
+/// The preset of a run or by itself, of the requested case.
 Result<preset::Preset> preset_of(const ExportOptions& options) {
   TRY(presets, load_preset_or_run(options.input));
   return chosen(runs_of(*presets), options).map([](preset::Case&& one) {
@@ -112,7 +112,7 @@ Result<preset::Preset> preset_of(const ExportOptions& options) {
 /// The text of a file.
 using TextOf = std::function<Result<std::string>(const ExportOptions&)>;
 
-/// Of a run; `text` takes it and the options.
+/// Text made from a run; `text` takes it and the options.
 TextOf of_run(auto text) {
   return [text](const ExportOptions& options) -> Result<std::string> {
     TRY(source, source_of(options));
@@ -123,14 +123,14 @@ TextOf of_run(auto text) {
   };
 }
 
-/// Of the frame that is asked for.
+/// Text made from the requested frame.
 TextOf of_shape(auto text) {
   return of_run([text](const Source& source, const ExportOptions&) {
     return text(source.shape(source.frame));
   });
 }
 
-/// Of what is made for the workshop, for which a preset is enough.
+/// Text for fabrication, for which a preset is enough.
 TextOf of_plan(auto text) {
   return [text](const ExportOptions& options) -> Result<std::string> {
     TRY(preset, preset_of(options));
@@ -139,7 +139,7 @@ TextOf of_plan(auto text) {
   };
 }
 
-/// Of a footprint in the plane.
+/// Text made from a planar footprint.
 TextOf of_flat(auto text) {
   return of_plan([text](const exports::FabricationPlan& plan) -> Result<std::string> {
     if (plan.in_space)
@@ -150,7 +150,7 @@ TextOf of_flat(auto text) {
   });
 }
 
-/// What a file holds, and what reads it.
+/// Contents of a file, and the programs that read it.
 struct Format {
   TextOf text;
   const char* read_by;

@@ -29,7 +29,7 @@ bool holds_run(const fs::path& folder) {
   return fs::exists(folder / "summary.json", error) || record::preset_of_journal(folder);
 }
 
-// of several cases that were cut short: those that were begun
+// of several interrupted cases: those that were started
 std::vector<std::string> cases_begun(const fs::path& folder) {
   std::vector<std::string> names;
   if (const auto presets = preset::read_preset_file(folder / "preset.toml"))
@@ -199,7 +199,7 @@ Result<void> copy_data(const fs::path& from, const fs::path& to) {
               error.message());
 }
 
-// what stands in the run's folder beside its pictures
+// files in the run's folder except its pictures
 Result<void> write_data(Run& run, const fs::path& from, const fs::path& to) {
   if (run.in_journal) {
     TRY(text, read_file(from / "preset.toml"));
@@ -260,7 +260,7 @@ Result<std::vector<Run>> read_runs(const fs::path& folder,
   TRY(names, case_names(folder));
   std::vector<Run> runs;
   for (const auto& name : *names) {
-    // of cases cut short the last one begun may hold no frame yet
+    // the last of several interrupted cases may have no frame yet
     if (!name.empty() && !holds_run(folder / name)) continue;
     TRY(run, read_run(folder_of(folder, name), name, overrides, unsealed));
     runs.push_back(std::move(*run));

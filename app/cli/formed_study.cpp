@@ -63,8 +63,8 @@ Result<void> draw(preset::Preset preset, const FormedStudy& found, const std::st
   return found.draw_more(maker->renderer(), folder, progress);
 }
 
-/// One run's folder. What is said of it on the terminal is added to `text`, why it is none that
-/// was asked for to `fault`.
+/// Studies one run's folder. The text for the terminal is appended to `text`, an unmet request to
+/// `fault`.
 Result<void> study_one(const preset::Case& run, const FormedCommand& command,
                        const std::string& context, const fs::path& folder, Progress& progress,
                        std::string& text, std::string& fault) {
@@ -230,7 +230,7 @@ std::string shapes_csv(const Vibrations& found) {
   return std::move(csv).text();
 }
 
-/// One vibration, from rest to rest.
+/// One period of a vibration, starting and ending at zero velocity.
 Result<void> draw_movie(const preset::Preset& preset, const Vibrations& found, std::size_t k,
                         render::Renderer& renderer, const fs::path& folder, Watch& watch) {
   Run run{.preset = preset, .pictures = Pictures::movie};

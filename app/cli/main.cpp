@@ -27,7 +27,7 @@ int main(int argc, char** argv) {
   try {
     code = run(argc, argv);
   } catch (const std::system_error& error) {
-    // of what is printed it is told below
+    // a failed write to stdout is reported below
     if (std::ferror(stdout))
       not_printed = error.code().value();
     else

@@ -88,8 +88,8 @@ std::optional<LegacyRunFiles> named(const fs::path& folder) {
   return run;
 }
 
-// the same, or of several cases none of which was finished the runs in the folder: no deeper, for
-// any folder of the machine may be asked for
+// the same, or for several cases none of which finished the runs in the folder; not deeper, since
+// any folder of the machine may be given
 std::optional<LegacyRunFiles> unlisted(const fs::path& folder) {
   if (auto run = named(folder)) return run;
   LegacyRunFiles run;

@@ -62,8 +62,8 @@ class PageMaker {
   }
 
  private:
-  /// The style of a figure of so many panels side by side, captions below and perhaps a colour bar,
-  /// that fills its place: its text is then as large as the page's.
+  /// The style of a figure of some panels side by side, with captions below and perhaps a colour
+  /// bar, that fills its box: its text then has the size of the page's.
   render::MovieStyle filling(const Box& box_mm, int columns, bool colour_bar = false) const {
     constexpr double letter = 3.5, bar = 14, around = 11, between = 1.5;  // mm
     const double width =
@@ -84,8 +84,8 @@ class PageMaker {
     return {};
   }
 
-  /// A photograph, and beside it the shell on its way, all at one scale; without one the states
-  /// stand beside one another.
+  /// A photograph, and next to it the shell along its path, all at one scale; without one the
+  /// states are side by side.
   Result<Page> fig1() {
     const record::Trajectory& run = records_.front()->trajectory;
     const bool photo = has_photo();
@@ -153,7 +153,7 @@ class PageMaker {
             one.trajectory.layout.joints.size(), 100 * one.summary.max_deviation));
   }
 
-  /// K of all cells, where there is no room for more words beside it.
+  /// K of all cells, where there is no space for more text next to it.
   render::Plot low_curvature_plot() const {
     render::Plot plot = render::curvature_plot(named_shells_);
     plot.y.label = "integrated *K*_{□} (rad)";
@@ -216,7 +216,7 @@ class PageMaker {
     for (int k = 0; k < count; ++k)
       page.add(numbered("B", k, count), "", {92 + k * 84.0 / count, 2, 84.0 / count, 49},
                [&run = *shells_[std::size_t(k)].run, kinds](Canvas& canvas, const Box& box) {
-                 // "B1" is wider than the room beside it
+                 // "B1" is wider than the space next to it
                  constexpr double room = 6;
                  render::draw_block_footprints(
                      canvas, {box.x + room, box.y, box.width - room, box.height}, run, kinds);
@@ -226,7 +226,7 @@ class PageMaker {
         render::draw_over_nets(shells_, filling(below, std::min(2, count)), renderer_, watch_, 2));
     for (int k = 0; k < count && count > 1; ++k)
       over->panels[std::size_t(k)].letter = numbered("C", k, count);
-    // the blocks' colours stand above
+    // the blocks' colours are above
     over->keys = {{over->keys.front().colour, "shell at rest, over the nets of A"}};
     page.add_figure(count > 1 ? "" : "C", below, std::move(*over));
     TRY(more, add_experiment(page));
@@ -234,8 +234,8 @@ class PageMaker {
     return page;
   }
 
-  /// Shells at rest, three in a row, each seen from where all are and as large as its place, with a
-  /// scale bar of its own, its name and whose it is.
+  /// Shells in equilibrium, three per row, each seen from the common direction and as large as its
+  /// box, with a scale bar, its name and its author.
   Result<Page> literature() {
     constexpr int columns = 3;
     constexpr double width = 57, high = 36, pitch = 51;  // mm
@@ -245,7 +245,7 @@ class PageMaker {
       const Run& run = *records_[std::size_t(k)];
       record::Frame frame = run.trajectory.frames.back();
       record::Trajectory last{run.trajectory.layout, {std::move(frame)}};
-      // the shell alone is to fill its place
+      // the shell alone fills its box
       last.layout.original_boundary = last.layout.actuated_boundary =
           last.frames.front().nodes.leftCols(1);
       render::MovieStyle style = style_of(run.preset, Pictures::stills);

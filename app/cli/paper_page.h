@@ -1,4 +1,4 @@
-// What stands on a page of a journal: panels at their places, and all that they draw from.
+// Contents of a journal page: panels at their positions, and the data that they draw.
 #pragma once
 
 #include <algorithm>
@@ -30,7 +30,7 @@ inline render::MovieStyle at_size(render::MovieStyle style, double width_mm, dou
   return style;
 }
 
-/// What panels draw from must outlive them: pictures are held here.
+/// The pictures that panels draw; they must outlive the panels.
 struct Page {
   double width_mm = 178, height_mm = 100;
   std::vector<render::PagePanel> panels = {};
@@ -52,7 +52,7 @@ struct Page {
                   {.size = page_font, .align_y = render::AlignY::middle});
     });
   }
-  /// Of plots that share it.
+  /// Adds the common legend of several plots.
   void add_legend(const render::Box& box_mm, render::Plot plot) {
     plot.font_size = page_font;
     add("", "", box_mm, [plot = std::move(plot)](render::Canvas& canvas, const render::Box& box) {
@@ -64,7 +64,7 @@ struct Page {
       render::draw_colour_keys(canvas, box, keys, page_font);
     });
   }
-  /// `units`: points of a millimetre that the picture beside it shows.
+  /// `units`: points per millimetre of the picture that it belongs to.
   void add_scale_bar(const render::Box& box_mm, double length_mm, double units) {
     add("", "", box_mm, [=](render::Canvas& canvas, const render::Box& box) {
       render::draw_scale_bar(canvas, box, length_mm, units, page_font);
@@ -77,7 +77,7 @@ struct Page {
           render::draw_fitted(canvas, box, image);
         });
   }
-  /// A picture that lines may stand in the place of.
+  /// A picture that lines may replace.
   void add_panel(const std::string& caption, const render::Box& box_mm, render::Panel panel) {
     const double aspect = double(panel.picture.width) / panel.picture.height;
     add_image(panel.letter, caption, box_mm, std::move(panel.picture));
@@ -99,7 +99,7 @@ struct Page {
     add(letter, "", box_mm, with(false));
     if (has_lines) panels.back().draw_lines = with(true);
   }
-  /// Of the pictures' colours: lines have none of them.
+  /// Adds the colour bar of pictures; lines have no colours.
   void add_colour_bar(const render::Box& box_mm, const render::ColourBar& bar) {
     add("", "", box_mm, [bar](render::Canvas& canvas, const render::Box& box) {
       render::draw_colour_bar(canvas, box, bar, page_font);
@@ -128,9 +128,9 @@ Result<Page> states_page(const Runs& records, const render::MovieStyle& style,
 
 // The figures of the paper, each on one page.
 
-/// `<stem>_page.png`, `.svg` and `.pdf` of the preset's [page] kind, from its finished cases; none
-/// where the kind is "none". Errors: io, cancelled, bad_input for a photograph that cannot be read
-/// or cases that the page does not have the place for.
+/// Writes `<stem>_page.png`, `.svg` and `.pdf` of the preset's [page] kind, from its finished
+/// cases; none if the kind is "none". Errors: io, cancelled, bad_input for a photograph that cannot
+/// be read or for more cases than the page has boxes.
 Result<void> draw_page(const Runs& records, render::Renderer& renderer,
                        const std::filesystem::path& stem, Watch& watch);
 

@@ -30,11 +30,11 @@ const std::map<std::string, std::string>& embedded_files();
 std::string_view embedded_card(const std::string& name);
 
 /// The preset at the path `argument`, else the embedded one of that name. Errors: bad_input, with
-/// every fault of the preset, or the nearest name when there is none.
+/// every error of the preset, or the nearest name if there is none.
 Result<preset::Presets> load_preset(const std::string& argument,
                                     const std::vector<preset::Override>& overrides);
 
-/// The same; of a run's folder the preset that it came from, named as the folder.
+/// The preset as above; for a run's folder the preset of the run, with the name of the folder.
 Result<preset::Presets> load_preset_or_run(const std::string& argument);
 
 // From the command line to the runs it asks for.
@@ -42,13 +42,13 @@ Result<preset::Presets> load_preset_or_run(const std::string& argument);
 /// The preset that the options name, with what they lay over it. Errors: bad_input.
 Result<preset::Presets> load(const Options& options);
 
-/// Prints what default < preset < `--set` came to, as a preset; the exit code.
+/// Prints the result of default < preset < `--set` as a preset; returns the exit code.
 Result<int> print_config(const preset::Presets& presets);
 
 /// What a folder keeps as preset.toml: the program's version in a first line of comment, and
 /// `toml`.
 std::string saved_preset(const std::string& toml);
-/// The same without that line; text of older versions has none.
+/// The saved preset without its line of the version; text of older versions has none.
 std::string without_version(const std::string& saved);
 
 /// The cases of a preset, or the preset itself as one run without a name.
@@ -63,7 +63,7 @@ inline std::filesystem::path folder_of(const std::filesystem::path& folder,
   return name.empty() ? folder : folder / name;
 }
 
-/// The folder that a command writes: the one asked for, or out/<preset><suffix>.
+/// The folder that a command writes: the requested one, or out/<preset><suffix>.
 inline std::filesystem::path output_of(const Options& options, const preset::Preset& base,
                                        const std::string& suffix = "") {
   return options.output.empty() ? std::filesystem::path("out") / (base.name + suffix)

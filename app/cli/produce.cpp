@@ -121,7 +121,7 @@ Result<void> simulate(Run& run, int threads, const fs::path& folder, const fs::p
   return {};
 }
 
-// of several cases: the preset's name, and each summary after its `name`, which is its folder
+// for several cases: the preset's name, and each summary after its `name`, which is its folder
 std::string summary_of_cases(const std::string& preset, const std::vector<Run>& runs) {
   Json all{{"preset", preset}, {"cases", Json::array()}};
   for (const Run& run : runs) {
@@ -136,7 +136,7 @@ Result<void> write_runs(std::vector<Run>& runs, const preset::Presets& presets,
                         const Options& options, const fs::path& partial, Progress& progress) {
   const preset::Preset& base = presets.base;
   const bool cases = !runs.front().name.empty();
-  // of a run that is cut short it says which cases there are
+  // an interrupted run is read with its cases from this file
   if (cases) TRY_DO(write_file(partial / "preset.toml", saved_preset(preset::to_toml(presets))));
   std::optional<PictureMaker> maker;
   if (runs.front().pictures != Pictures::none) {
@@ -184,7 +184,7 @@ std::string pushed_text(const record::Summary& at, const record::Layout& layout)
   return at.pushed_joint;
 }
 
-/// In as many digits as hold.
+/// Prints forces in the digits that their errors allow.
 void print_forces(const record::Summary& at, const record::Layout& layout) {
   if (!at.pushed_joint.empty()) fmt::print("\n  pushed at joint {}", pushed_text(at, layout));
   if (std::isfinite(at.force_N))
@@ -296,7 +296,7 @@ Result<fs::path> unfinished_run(const fs::path& folder, const std::string& prese
 }  // namespace
 
 std::string failure_of(const record::Summary& summary, bool allow_unstable) {
-  // a shell that snapped and came to rest went on to the end
+  // a shell that snapped to another equilibrium continued to the end
   if (summary.limit != record::Limit::none && summary.limit != record::Limit::snap)
     return fmt::format("the path ended early, limit \"{}\": {}", word_of(summary.limit),
                        summary.limit_reason);
@@ -313,7 +313,7 @@ Result<int> produce(const Options& options, Pictures pictures) {
   TRY(presets, load(options));
   if (options.print_config) return print_config(*presets);
   const std::string command(word_of(kind_of(pictures)));
-  // beside the run and the movie, whose frames it does not have
+  // next to the run and the movie, whose frames it does not have
   const auto folder =
       output_of(options, presets->base, pictures == Pictures::stills ? "_figure" : "");
   for (const std::string& note : presets->notes)

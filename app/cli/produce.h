@@ -12,16 +12,16 @@
 
 namespace gridshell::app {
 
-/// Simulates a preset and draws it. Prints what it came to; the exit code.
+/// Simulates a preset and draws it. Prints the results; returns the exit code.
 Result<int> produce(const Options& options, Pictures pictures);
 
 /// How a run fell short of an equilibrium at the end of its path, stable unless that is allowed;
 /// empty when it did not.
 std::string failure_of(const record::Summary& summary, bool allow_unstable);
 
-/// All runs of a folder, finished or cut short: itself, or its cases. What stands in it may come
-/// from anybody. Of a run that was cut short the trajectory ends with the last whole frame, and the
-/// summary, which says so, speaks of that. Errors: bad_input naming file and cause.
+/// All runs of a folder, finished or interrupted: itself, or its cases. Its contents are not
+/// trusted. The trajectory of an interrupted run ends with the last complete frame, and its
+/// summary, which says so, describes that frame. Errors: bad_input with file and cause.
 Result<std::vector<Run>> read_runs(const std::filesystem::path& folder,
                                    const std::vector<preset::Override>& overrides, bool unsealed);
 

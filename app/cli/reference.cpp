@@ -39,7 +39,7 @@ Json json_of(const CommandEntry& command) {
           {"options", array_of(command.options, [](const auto& one) { return json_of(one); })}};
 }
 
-/// Text that roff prints as it stands.
+/// Text that roff prints without changes.
 std::string plain(const std::string& text) {
   std::string safe;
   bool begins = true;

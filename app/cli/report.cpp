@@ -44,7 +44,7 @@ std::string with_unit(double value, const char* unit) {
   return std::isfinite(value) ? number(value) + " " + unit : "not known";
 }
 
-/// A force, what is round-off beside others left out.
+/// The components of a force; those that are round-off compared with `beside` are left out.
 std::vector<std::string> numbers(const Eigen::Vector3d& force, double beside) {
   std::vector<std::string> texts;
   for (const double one : force) texts.push_back(number(std::abs(one) < 1e-9 * beside ? 0 : one));
@@ -59,7 +59,7 @@ Result<render::Image> picture_of(const Run& run, preset::ColourBy colours,
   preset.movie.bins = false;
   preset.style.range.clear();
   constexpr double width_mm = 180, height_mm = 90, dpi = 200;
-  // a bar that can be seen beside the shell
+  // a bar that can be seen next to the shell
   const double length = run.trajectory.layout.length_scale_mm;
   if (preset.figure.scale_bar_mm < 0.05 * length)
     preset.figure.scale_bar_mm = render::nice_ceiling(0.2 * length);
@@ -82,7 +82,7 @@ Result<render::Image> picture_of(const Run& run, preset::ColourBy colours,
 void add_geometry(Sheets& sheets, const Run& run, const exports::FabricationPlan& plan) {
   const record::Summary& summary = run.summary;
   const auto& boundary = plan.actuated_boundary;
-  // of a rod that is clamped at one end there is none
+  // a rod that is clamped at one end has none
   const Eigen::Vector3d span =
       boundary.cols() > 0
           ? Eigen::Vector3d(boundary.rowwise().maxCoeff() - boundary.rowwise().minCoeff())
@@ -114,7 +114,7 @@ void add_stresses(Sheets& sheets, const record::Summary& summary) {
     sheets.text("The rods' strength is not known: [rod] strength_MPa or yield_strain says it.");
 }
 
-/// What holds the shell, one support a line, the strongest first.
+/// The reactions, one support per line, the largest first.
 void add_reactions(Sheets& sheets, const record::Layout& layout, const record::Frame& frame) {
   sheets.heading("Reactions");
   if (frame.reactions_N.cols() == 0) return sheets.text("They are not known of this state.");

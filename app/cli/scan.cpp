@@ -44,9 +44,9 @@ struct ComparedScan {
   JointCylinder cylinder;
   std::vector<ComparedState> states;
   std::size_t best = 0;     ///< the one that it lies on best
-  double tolerance_mm = 0;  ///< of match_tolerance_mm(), or the one asked for
-  /// Where it shows none: the height of the joints' cylinders, mm, with which it shows a state, and
-  /// which.
+  double tolerance_mm = 0;  ///< of match_tolerance_mm(), or the requested one
+  /// If it shows none: the height of the joints' cylinders, mm, at which it would show a state, and
+  /// that state.
   std::optional<std::pair<double, std::string>> with_height = {};
 
   const ComparedState& of_best() const { return states[best]; }
@@ -190,7 +190,7 @@ std::vector<Candidate> candidates_of(const std::vector<Run>& runs, const fs::pat
 /// Everything that is read before anything is written.
 struct Scanned {
   Eigen::Matrix3Xd cloud;
-  std::size_t empty_rows = 0;  ///< of its file, which hold no point
+  std::size_t empty_rows = 0;  ///< of its file, without a point
   std::vector<std::vector<Run>> runs;
   std::vector<Candidate> candidates;
   JointCylinder cylinder;
@@ -267,7 +267,7 @@ Result<void> check_size(const Scanned& scanned, const std::string& file) {
       file, extent, least);
 }
 
-/// Errors: bad_input when the cloud holds no joints or far too many, or cannot be laid on any
+/// Errors: bad_input if the cloud has no joints or far too many, or cannot be registered with any
 /// state.
 Result<ComparedScan> compared(const Scanned& scanned, const std::string& file, Watch& watch) {
   if (auto sized = check_size(scanned, file); !sized) return tl::unexpected(sized.error());

@@ -22,7 +22,7 @@ namespace {
 
 std::string reason(int code) { return std::generic_category().message(code); }
 
-// out/x and out/x/ are one folder, and a link stands for what it leads to
+// out/x and out/x/ are one folder, and a link is replaced by its target
 fs::path target_of(const fs::path& folder) {
   auto normal = fs::absolute(folder).lexically_normal();
   if (!normal.has_filename()) normal = normal.parent_path();
@@ -60,7 +60,7 @@ long lines_of(const fs::path& file) {
   return std::count(std::istreambuf_iterator<char>(text), {}, '\n');
 }
 
-// the table of frames of `old` that has more of them than the one in its place in `made`, or empty
+// the table of frames of `old` that has more frames than the one with its name in `made`, or empty
 fs::path longer_frames(const fs::path& old, const fs::path& made) {
   std::error_code error;
   for (fs::recursive_directory_iterator at(old, error), end; !error && at != end;
@@ -103,8 +103,8 @@ Result<fs::path> make_new(const fs::path& target, const char* kind) {
   }
 }
 
-// a descriptor that holds the folder's lock, or why it cannot be had: EWOULDBLOCK where another
-// program holds it
+// a descriptor with the folder's lock, or why it is not available: EWOULDBLOCK if another program
+// has it
 struct Lock {
   int descriptor = -1, failure = 0;
 };
@@ -130,7 +130,7 @@ int take_free_name(const fs::path& from, const fs::path& to) {
   return ::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
 }
 
-// both folders change names at once; else by way of a third name, `aside`, an empty folder
+// exchanges the names of both folders at once; else by a third name, `aside`, an empty folder
 int exchange(const fs::path& a, const fs::path& b, const fs::path& aside) {
   const int code = rename_how(a, b, RENAME_EXCHANGE);
   if (code == 0 || (code != EINVAL && code != ENOSYS)) return code;
@@ -179,7 +179,7 @@ Result<StagedFolder> StagedFolder::create(const fs::path& final_folder,
     return refuse(partial.error().message);
   }
   Lock lock = lock_of(*partial);
-  // another program that looks for what was left behind holds it for an instant
+  // another program that searches for remains has the lock for an instant
   for (int k = 0; k < 100 && lock.failure == EWOULDBLOCK; ++k) {
     ::usleep(1000);
     lock = lock_of(*partial);

@@ -30,8 +30,9 @@ std::string why_not_a_run(const std::filesystem::path& folder);
 /// keep it from being replaced. Errors: bad_input.
 Result<void> check_beside_runs(const std::filesystem::path& to);
 
-// A run's folder in the making: written beside its final name and swapped in only once it is whole,
-// so that a run that is stopped, killed or out of disk leaves what stood there before.
+// A run's folder while it is written: under a temporary name, exchanged with the final one only
+// when it is complete, so that a run that is stopped, killed or out of disk leaves the old folder
+// unchanged.
 
 /// The folder `DIR.partial-<pid>`, of no other program's, which becomes DIR on commit(). Where DIR
 /// is a link to a folder, that folder is what is written. Locked while it lives.
@@ -54,10 +55,10 @@ class StagedFolder {
 
   const std::filesystem::path& path() const { return partial_; }
 
-  /// Lists its files and takes the final name at once; a run that stood there is removed after
-  /// that. Returns a sentence where that cannot be, naming what stayed behind; else nothing.
-  /// Errors: io, also when something that must not be replaced is under the final name by now, or
-  /// a run of which a movie would not keep every frame.
+  /// Lists its files and takes the final name at once; the old run is removed after that. Returns a
+  /// sentence with the remains if that fails; else nothing. Errors: io, also if something that must
+  /// not be replaced has the final name now, or a run of which a movie would not retain every
+  /// frame.
   Result<std::string> commit();
 
   /// Leaves the folder under its partial name, without half-written files.

@@ -80,7 +80,7 @@ render::Plot energies_plot(const record::StateTables& states) {
       met.push_back(row);
     else
       left_out.insert(row.kind);
-  // these have no place on a logarithmic axis
+  // these cannot be shown on a logarithmic axis
   if (const std::size_t others = states.rows.size() - met.size(); others > 0) {
     std::vector<std::string_view> words;
     for (const StateClass kind : left_out) words.push_back(word_of(kind));
@@ -108,7 +108,7 @@ render::Plot lives_plot(const record::StateTables& states) {
 using render::Box;
 using render::Canvas;
 
-// places on the page, mm
+// positions on the page, mm
 constexpr double page_width = 178, page_height = 144, margin = 2;
 constexpr Box above{margin, margin, 160, 38}, diagram{margin, 42, 97, 94}, maps{101, 42, 75, 94},
     foot{margin, 137, 97, 5};
@@ -267,7 +267,7 @@ void add_foot(Page& page, const preset::Preset& preset) {
   if (preset.footprint.kind == preset::FootprintKind::circle) page.add_note(foot, shell);
 }
 
-/// A state of each class from above, each as large as its place.
+/// A state of each class from above, each as large as its box.
 void add_maps(Page& page, const Runs& records) {
   const double width = maps.width / 2, height = maps.height / 2;
   int place = 0;

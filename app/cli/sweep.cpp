@@ -36,7 +36,7 @@ struct SweepOptions {
 constexpr double chart_width_mm = 130, chart_height = 0.62;  // of a line chart
 constexpr const char* classes = "classes";  // the picture of which states were found
 
-/// A sweep in hand.
+/// A sweep that is running.
 struct SweepJob {
   const SweepOptions& options;
   const preset::Presets& presets;
@@ -68,7 +68,7 @@ std::vector<std::string> drawable(const preset::Presets& presets, const preset::
   return {names.begin(), names.end()};
 }
 
-/// What there is to sweep, and whether the figures asked for are some of a run.
+/// Checks that there is something to sweep, and that the requested results are results of a run.
 Result<void> check_asked(const preset::Presets& presets, const preset::SweepGrid& grid) {
   if (grid.size() == 0)
     return invalid(
@@ -88,7 +88,7 @@ Result<void> check_asked(const preset::Presets& presets, const preset::SweepGrid
   return {};
 }
 
-/// Pictures of figures that are not asked for any more would be of no sweep.
+/// Pictures of results that are no longer requested would not belong to the sweep.
 void remove_other_pictures(const SweepJob& work, const std::vector<std::string>& drawn) {
   std::error_code error;
   for (const auto& name : drawable(work.presets, work.grid)) {
@@ -98,7 +98,7 @@ void remove_other_pictures(const SweepJob& work, const std::vector<std::string>&
   }
 }
 
-/// A diagram a case, and beside it what it says of the paper's sentences.
+/// A diagram per case, and next to it the comparison with the paper's statements.
 Result<void> draw_classes(const SweepJob& work, const record::SweepTable& table,
                           const render::Print& print) {
   for (const auto& run : runs_of(work.presets)) {

@@ -22,13 +22,13 @@ record::SweepIdentity name_of(const preset::Presets& presets, const preset::Swee
   return {presets.base.name, study::config_of(presets), grid.size()};
 }
 
-/// What a folder without a log holds that no sweep puts there; empty: nothing.
+/// A file in a folder without a log that no sweep writes; empty: none.
 std::string foreign_in(const fs::path& folder) {
   std::error_code error;
   std::vector<std::string> names;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
     const auto name = at->path().filename().string();
-    // shards of this sweep may be in the making beside it
+    // shards of this sweep may be running in the same folder
     if (!is_shard_folder(name) && !name.starts_with(".partial-")) names.push_back(name);
   }
   std::ranges::sort(names);

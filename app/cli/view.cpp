@@ -45,7 +45,7 @@ struct ViewOptions {
   }
 };
 
-/// Of several cases the first.
+/// The first of several cases.
 Result<preset::Preset> first_preset_of(const std::string& name) {
   TRY(presets, load_preset_or_run(name));
   return presets->cases.empty() ? presets->base : presets->cases.front().preset;
@@ -66,8 +66,8 @@ Result<void> make_movie(const fs::path& preset, const fs::path& folder,
   return run_this_program({"movie", preset.string(), "-o", folder.string()}, watch, listener);
 }
 
-/// The program itself forms and exports it, in a folder of its own that goes again, but that an
-/// .xdmf reads its numbers from: FILE_run beside it.
+/// Forms and exports the shell by the program itself, in a temporary folder that is removed; except
+/// that an .xdmf reads its numbers from a folder FILE_run next to it.
 Result<void> export_shell(const preset::Preset& preset, const fs::path& file,
                           const window::ProgressListener& listener, const Watch& watch) {
   TRY(scratch, ScratchFolder::make());
@@ -149,7 +149,7 @@ window::Library library_of(const ViewOptions& options) {
   library.export_formats = usual_exports();
   library.load_run = load_run;
   library.show_manual = show_manual;
-  // in a context of its own, which does not hold up the window's
+  // in a separate context, which does not delay the window's
   library.draw_picture = [context = options.context](const window::PictureRequest& order,
                                                      const fs::path& file) -> Result<void> {
     TRY(maker, PictureMaker::create(context));
@@ -182,7 +182,7 @@ void print_bench(const window::BenchFigures& figures) {
                               {"cancel_ms", rounded(figures.cancel_ms)}}));
 }
 
-/// What the engine came to, as a line of JSON: the same for the same recording on every machine.
+/// The engine's final state, as a line of JSON: the same for the same recording on every machine.
 void print_state(const window::ViewerState& viewer) {
   const window::ShellView& sight = *viewer.shell;
   const auto* held = sight.held.empty() ? nullptr : &sight.held.back();
@@ -246,7 +246,7 @@ Result<int> play_aside(const ViewOptions& options, window::ViewerState& viewer) 
   return ExitCode::done;
 }
 
-/// How the picture is wanted.
+/// Sets the requested size of the picture.
 Result<void> size_picture(const ViewOptions& options, window::PictureFormat& picture) {
   picture.quality = *find_word<render::Quality>(options.quality);
   picture.legend = !options.bare;

@@ -8,7 +8,7 @@
 namespace gridshell::python {
 namespace {
 
-/// What the program's faults are in Python: a class below Error and what Python itself has.
+/// An error kind in Python: a class below Error and a built-in one.
 struct FaultClass {
   Fault fault;
   const char* name;
@@ -46,7 +46,7 @@ std::string toml_of(const py::handle& value) {
   if (PyFloat_Check(value.ptr())) return py::str(py::float_(value.cast<double>()));
   if (py::isinstance<py::str>(value))
     return py::str(py::module_::import("json").attr("dumps")(value));
-  // of numpy, a number or a list of them
+  // from numpy, a number or a list of them
   if (py::hasattr(value, "tolist")) return toml_of(value.attr("tolist")());
   if (py::hasattr(value, "__fspath__")) return toml_of(value.attr("__fspath__")());
   if (!py::isinstance<py::sequence>(value) || py::isinstance<py::bytes>(value))

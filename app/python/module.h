@@ -35,9 +35,9 @@ T value_of(Result<T> result) {
 
 // Long work that Ctrl-C stops.
 
-/// Calls work(watch) on a thread of its own, without the GIL, while this one waits and, every
-/// 20 ms, lets Python answer its signals. What a handler raises (KeyboardInterrupt) cancels the
-/// watch, and is raised here once the work has ended. Signals come to Python's main thread alone.
+/// Calls work(watch) on a new thread without the GIL, while the caller waits and lets Python handle
+/// its signals every 20 ms. An exception of a handler (KeyboardInterrupt) cancels the watch and is
+/// raised again once the work has ended. Signals are handled by Python's main thread alone.
 template <class Work>
 auto interruptible(const Work& work) {
   Watch watch;

@@ -13,7 +13,7 @@ namespace gridshell::python {
 using namespace py::literals;
 namespace {
 
-/// A run read back; frames come from its file as they are asked for.
+/// A run that was read; its frames are read from the file on demand.
 class Run {
  public:
   explicit Run(app::Run run)

@@ -23,7 +23,7 @@ preset::Preset chosen(const preset::Presets& presets, const std::optional<std::s
 
 namespace {
 
-/// A shell with the state that it stands in, for one thread at a time.
+/// A shell with its current state, for one thread at a time.
 class Session {
  public:
   Session(const std::filesystem::path& preset, const py::dict& changes,
@@ -72,7 +72,7 @@ class Session {
   const std::shared_ptr<State>& state() const { return state_; }
 
  private:
-  /// Another thread that comes in between is told so. Taken and given back under the GIL.
+  /// Reports an error to another thread that calls in between. Taken and released under the GIL.
   class Turn {
    public:
     explicit Turn(Session& of) : of_(of) {

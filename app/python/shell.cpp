@@ -26,7 +26,7 @@ Result<Shell> Shell::open(const preset::Preset& preset) {
   return shell;
 }
 
-/// What ended early is an error; the shell stands in the last certified state.
+/// A step that ended early is an error; the shell is in the last certified state.
 Result<Done> Shell::ended(const std::string& what, Report report) const {
   if (report.end == Outcome::cancelled) return stopped();
   if (report.end == Outcome::reached) return Done{std::move(report)};
@@ -36,7 +36,7 @@ Result<Done> Shell::ended(const std::string& what, Report report) const {
 }
 
 Result<Done> Shell::form(double progress, const Watch& watch) {
-  if (progress == 0 && (formed_ || !scene_->drawn_in_space))  // where it stands
+  if (progress == 0 && (formed_ || !scene_->drawn_in_space))  // the current one
     return Done{{.certificate = session_->certificate(), .events = {}, .effort = {}}};
   auto course = simulate::converged_path(
       *scene_,

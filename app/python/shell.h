@@ -1,4 +1,5 @@
-// The shell that a Python program holds: formed as its preset says, then moved step by step. Knows
+// The shell of a Python program: formed as its preset says, then moved step by step. It does not
+// depend on Python.
 // no Python.
 #pragma once
 
@@ -18,17 +19,18 @@ struct State {
   std::shared_ptr<const record::Layout> layout;
   record::Frame frame;
   Certificate certificate;
-  std::vector<std::array<int, 2>> held = {};  ///< (i, j) of the joints that are held
-  /// The unit vector along which each of them is held and was first pushed; NaN: in all directions.
+  std::vector<std::array<int, 2>> held = {};  ///< (i, j) of the constrained joints
+  /// The unit vector along which each of them is constrained and was first pushed; NaN: in all
+  /// directions.
   std::vector<std::array<double, 3>> directions = {};
   std::vector<record::LoadedJoint> pushed =
       {};  ///< those of them that were moved, as pictures show
 };
 
-/// What a step came to.
+/// Result of a step.
 struct Done {
   Report report;
-  std::string told = {};  ///< of the forming: what a run would tell as its limit; empty: nothing
+  std::string told = {};  ///< of the forming: what a run would report as its limit; empty: nothing
 };
 
 /// A state to go back to, of one shell.
@@ -43,10 +45,10 @@ class Shell {
   /// Flat. Errors (bad_input): as scene_of(); a preset that asks for the net alone.
   static Result<Shell> open(const preset::Preset& preset);
 
-  /// Forms the shell by the course that a run of its preset follows, meshes chosen and events
-  /// confirmed, to a progress; once it stands this is a step like any other. Errors: bad_input,
-  /// no_equilibrium (also where the path ends early), cancelled; the shell stands in the last
-  /// certified state.
+  /// Forms the shell along the path that a run of its preset follows, with meshes chosen and events
+  /// confirmed, to a progress; for a formed shell this is an ordinary step. Errors: bad_input,
+  /// no_equilibrium (also if the path ends early), cancelled; the shell is in the last certified
+  /// state.
   Result<Done> move(const preset::Step& step, const Watch& watch);
   /// Does a step. Errors as move().
   Result<Done> take(const preset::Step& step, const Watch& watch);
@@ -60,7 +62,7 @@ class Shell {
 
   const preset::Preset& preset() const { return *preset_; }
   const std::vector<int>& meshes() const { return session_->shell().plan().edges_per_segment; }
-  /// The state that it stands in.
+  /// The current state.
   Result<State> look();
 
  private:

@@ -12,7 +12,7 @@
 
 namespace gridshell::window {
 
-/// A key with what is held beside it.
+/// A key with its modifiers.
 struct Shortcut {
   std::optional<Key> key = {};
   bool ctrl = false, shift = false;
@@ -25,7 +25,7 @@ std::string name_of(const Shortcut& shortcut);
 
 struct Action {
   const char* name;   ///< as `do NAME` calls it
-  const char* menu;   ///< that it stands in
+  const char* menu;   ///< the menu that it belongs to
   const char* label;  ///< there
   Shortcut key;
   const char* help;  ///< one sentence
@@ -60,8 +60,8 @@ std::span<const MouseAction> mouse_actions();
 /// What a press does there.
 Gesture gesture_of(Button button, Over over, bool shift);
 
-/// The mouse in the view of the shell: what it is over, what it holds, where that goes.
-/// Positions are pixels from the top left of the view.
+/// The mouse in the view of the shell: what is under it, what it drags, and where to. Positions are
+/// pixels from the top left of the view.
 class Picker {
  public:
   explicit Picker(ViewerState& viewer) : viewer_(viewer) {}

@@ -30,9 +30,10 @@ preset::Points rows_of(const Eigen::Matrix3Xd& dragged) {
   return rows;
 }
 
-constexpr Eigen::Index most_nodes_marked = 8000;  // of the leading mesh: some 30 rods a direction
-constexpr double same_shape = 2e-3;               // of the length scale
-constexpr double part_mm = 1, most_parts = 12;    // of a long push
+constexpr Eigen::Index most_nodes_marked =
+    8000;                                       // of the coarsest mesh: some 30 rods per direction
+constexpr double same_shape = 2e-3;             // of the length scale
+constexpr double part_mm = 1, most_parts = 12;  // of a long push
 
 preset::Step step_of(preset::StepKind kind) {
   preset::Step step;
@@ -46,7 +47,7 @@ preset::Step step_of(preset::StepKind kind, const FootprintJoint& joint) {
   return step;
 }
 
-/// Whether a step goes on along the way of the one before, so that its end alone counts.
+/// Whether a step continues the one before in its direction, so that its end alone counts.
 bool goes_on(const preset::Step& before, const preset::Step& step) {
   if (before.kind != step.kind) return false;
   if (step.kind == preset::StepKind::move)
@@ -99,10 +100,10 @@ Result<void> EditSession::do_step(preset::Step step, const Watch& watch) {
       session_->grip_origins.emplace(*joint, view_.frame.nodes.cols() > *joint
                                                  ? Eigen::Vector3d(view_.frame.nodes.col(*joint))
                                                  : Eigen::Vector3d(session_->nodes().col(*joint)));
-  // a leap is taken from a state at rest on all meshes, as a run takes it
+  // a snap starts from an equilibrium on all meshes, as in a run
   const bool leaps = step.kind == preset::StepKind::jitter || step.kind == preset::StepKind::rest ||
                      step.kind == preset::StepKind::release;
-  // where finer meshes do not have it the leap begins on the coarse one
+  // if finer meshes do not have it, the snap starts on the coarse one
   if (leaps && session_->shell().levels() == 1)
     (void)session_->remesh(simulate::initial_levels(*now_.scene), watch);
   const bool began_stable = view_.stable();
@@ -113,7 +114,7 @@ Result<void> EditSession::do_step(preset::Step step, const Watch& watch) {
   add_step(std::move(step), *report);
   const auto done = note_events(*report);
   if (!event_at.empty()) view_.event = view_.message += " at " + event_at;
-  // what was lost on the way may be there again
+  // stability that was lost may have been regained
   const auto lost = [](const Event& e) { return e.kind == Event::Kind::stability_lost && !e.to; };
   if (!event_at.empty() && report->end == Outcome::reached && report->certificate.stable() &&
       std::ranges::all_of(report->events, lost))
@@ -182,11 +183,11 @@ Result<void> EditSession::act(const Push& command, const Watch& watch) {
   const bool free = !command.along.isZero(0);
   if (free) step.along = xyz_of(command.along);
   step.lateral = free ? preset::Lateral::free : preset::Lateral::held;
-  // a joint that is held already and does not move makes no step
+  // a joint that is already constrained and does not move makes no step
   const Eigen::Vector3d way = command.to - session_->nodes().col(command.joint);
   const bool still = (free ? std::abs(way.dot(command.along)) : way.norm()) < nearest_mm;
   if (still && session_->grip_origins.contains(command.joint)) return {};
-  // a long way that was typed shows its equilibria as one that was dragged
+  // a long displacement that was typed shows its equilibria as a dragged one does
   const bool dragged = this_drag_ == 0 || this_drag_ == steps_drag_;
   const int parts = dragged || !looks_between()
                         ? 1
@@ -228,7 +229,8 @@ Result<void> EditSession::act(const Rest& command, const Watch& watch) {
 }
 
 Result<void> EditSession::act(const Jitter& command, const Watch& watch) {
-  // where a shaken shell converges to is chance: on the meshes of a run both come to one state
+  // the state that a perturbed shell reaches depends on round-off: on the meshes of a run both
+  // reach the same one
   refine(watch);
   preset::Step step = step_of(preset::StepKind::jitter);
   step.seed = command.seed;
@@ -237,7 +239,7 @@ Result<void> EditSession::act(const Jitter& command, const Watch& watch) {
   const Eigen::Matrix3Xd before = session_->nodes().leftCols(joints);
   const bool snapped = now_.snapped;
   TRY_DO(do_step(std::move(step), watch));
-  // what happened on its way was no way to another state
+  // its events on the path were no path to another state
   const Eigen::Matrix3Xd moved = session_->nodes().leftCols(joints) - before;
   if (moved.colwise().norm().maxCoeff() > same_shape * now_.scene->length_scale_mm) return {};
   view_.message = "shaken, and at rest in the same state";

@@ -19,7 +19,7 @@ ChangeKind kind_of_key(const preset::Preset& preset, const preset::Field& field)
   if (among({"", "movie", "style", "figure", "page", "sweep", "jitter", "inverse"}))
     return ChangeKind::looks;
   if (among({"rod", "rod_v", "joints", "loads"})) return ChangeKind::rods;
-  // the rod model decides where a shell goes, the rest how well that is known
+  // the rod model decides which state a shell reaches, the other keys how accurately it is known
   if (field.table == "accuracy" && field.key != "model") return ChangeKind::accuracy;
   const bool circle = preset.footprint.kind == preset::FootprintKind::circle;
   if (circle && field.table == "actuation" && (field.key == "radius_mm" || field.key == "ratio"))
@@ -33,7 +33,7 @@ bool is_list(const preset::Field& field) {
       all, [&](const preset::Table& table) { return table.list && table.name == field.table; });
 }
 
-/// The tables that stand once an item: building blocks, their seams, steps.
+/// The tables that are lists of items: building blocks, their seams, steps.
 std::string lists_of(const preset::Preset& preset) {
   bool any = false;
   preset::each_list([&](const char*, auto member) { any |= !(preset.*member).empty(); });
@@ -55,7 +55,7 @@ ChangeKind kind_of_change(const preset::Preset& before, const preset::Preset& af
     kind = std::max(kind, one);
     if (one > ChangeKind::looks) ++kinds;
   }
-  // what touches two things at once is formed anew
+  // a change of two kinds at once forms the shell again
   return kinds > 1 ? ChangeKind::shape : kind;
 }
 

@@ -30,7 +30,8 @@ struct Change {
 struct Move {
   double progress = 1;
 };
-/// A joint to a place, held from now on: along a fixed direction, or (zero) in every one.
+/// Moves a joint to a position, with a constraint from then on: along a fixed direction, or (zero)
+/// in every one.
 struct Push {
   int joint = 0;
   Eigen::Vector3d to = Eigen::Vector3d::Zero();
@@ -40,7 +41,7 @@ struct Push {
 struct Release {
   int joint = -1;
 };
-/// One edge point to a place.
+/// Moves one edge point to a position.
 struct DragEdge {
   int edge_point = 0;
   Eigen::Vector3d to = Eigen::Vector3d::Zero();
@@ -49,11 +50,11 @@ struct DragEdge {
 struct ResetEdgePoint {
   int edge_point = -1;
 };
-/// Down the energy to rest, off a saddle to a side.
+/// Minimises the energy to an equilibrium, from a saddle to a side.
 struct Rest {
   BranchSide side = BranchSide::lower;
 };
-/// A random field comes on and goes away again.
+/// Applies a random load and removes it again.
 struct Jitter {
   int seed = 1;
 };
@@ -62,8 +63,8 @@ struct Undo {
   bool all = false;
 };
 struct Redo {};
-/// The ends or rods of the shell moved until it meets its surface; the steps on the way are seen,
-/// and stopped it stands in the last of them.
+/// Moves the ends or rods of the shell until it meets its surface; the steps are shown, and a
+/// cancel leaves it in the last of them.
 struct Design {
   preset::Inverse inverse;
   int most_iterations = 25;
@@ -88,8 +89,8 @@ bool is_any(const Edit& edit) {
   return (std::holds_alternative<Kinds>(edit) || ...);
 }
 
-/// Commands of one drag (a drag) are one step to undo. While a drag passes, the shell is followed
-/// on its coarsest mesh, and a newer command of the drag takes the place of one not yet begun.
+/// Commands of one drag (`drag`) are one step to undo. During a drag the shell is followed on its
+/// coarsest mesh, and a newer command of the drag replaces one that is waiting.
 struct Command {
   Edit edit;
   int drag = 0;  ///< 0: a step of its own
@@ -98,8 +99,8 @@ struct Command {
 
 // What a change of a preset's keys means for the edited shell.
 
-/// How much of the shell a change touches: pictures alone, its meshes, where the boundary is, the
-/// rods and what they carry, or the whole shape, which is formed anew.
+/// What a change affects: pictures alone, the meshes, the position of the boundary, the rods and
+/// their loads, or the complete shape, which is formed again.
 enum class ChangeKind { none, looks, accuracy, boundary, rods, shape };
 
 ChangeKind kind_of_change(const preset::Preset& before, const preset::Preset& after);

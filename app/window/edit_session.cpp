@@ -17,8 +17,8 @@ bool same_nodes(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) {
 }  // namespace
 
 LevelPlan drag_plan(const Scene& scene, const LevelPlan& now) {
-  // of joints and edges per segment: solved on all meshes within a frame of the window. What is
-  // held keeps its displacement on each of them, so that a run comes to the same state
+  // of joints and edges per segment: solved on all meshes within a frame of the window. Constraints
+  // have the same displacement on each of them, so that a run reaches the same state
   constexpr std::size_t small = 4800;
   if (scene.footprint.joints.size() * std::size_t(now.edges_per_segment.back()) <= small)
     return now;
@@ -117,7 +117,7 @@ void EditSession::refine_meshes(const Watch& watch) {
 }
 
 void EditSession::coarsen(const Watch& watch) {
-  // where the coarse mesh does not have this state, the drag goes on on the finer ones
+  // if the coarse mesh does not have this state, the drag continues on the finer ones
   (void)session_->remesh(drag_plan(*now_.scene, session_->shell().plan()), watch);
 }
 
@@ -139,7 +139,7 @@ Result<void> EditSession::form(const preset::Preset& preset, const Watch& watch)
   const std::shared_ptr<const Scene>& scene = *made;
   if (scene->rung == RodModel::net)
     return invalid("the rung 'net' is geometry alone: there is nothing to push");
-  // on the mesh that a run follows, so that both come to the same states
+  // on the mesh that a run follows, so that both reach the same states
   const LevelPlan plan{{simulate::initial_levels(*scene).edges_per_segment.back()}, false};
   TRY(course, simulate::follow_actuation(scene, plan, false, 1, watch));
   std::vector<PathMark> marks;
@@ -154,7 +154,7 @@ Result<void> EditSession::form(const preset::Preset& preset, const Watch& watch)
   view_.message = view_.event = course->limit_reason;
   if (!preset.step.empty()) refine(watch);  // its steps begin on the meshes of a run
   for (const preset::Step& step : preset.step) {
-    // what stands before a step is what it is seen against
+    // the state before a step is the one that it is compared with
     update_view();
     TRY_DO(do_step(step, watch));
   }
@@ -175,7 +175,7 @@ void EditSession::set_shell(const preset::Preset& preset, std::shared_ptr<const 
   view_.layout.reset();
 }
 
-/// What the preset itself pushes, from where the shell stands.
+/// The push of the preset itself, from the current state.
 Result<void> EditSession::set_preset_push() {
   if (!now_.preset.indentation.wanted()) return {};
   TRY(push, simulate::push_of(now_.preset.indentation, *now_.scene, session_->shell()));

@@ -1,4 +1,4 @@
-// The shell that a window holds, with all that can be undone.
+// The shell that a window edits, with all steps that can be undone.
 #pragma once
 
 #include <Eigen/Core>
@@ -42,22 +42,22 @@ class ScratchFile {
   std::int64_t end_ = 0;
 };
 
-// The shell that a window holds: executes commands on a session and remembers the steps, one
-// thread.
+// EditSession executes commands on the shell of a window and stores the steps; for one thread.
 
 /// A failed command leaves the shell in its last certified state and says why in the view.
 class EditSession {
  public:
-  /// Steps to undo take that much memory; older ones stand in a file.
+  /// Memory of the steps to undo, bytes; older ones are in a file.
   explicit EditSession(std::int64_t most_bytes = std::int64_t(100) << 20)
       : most_bytes_(most_bytes) {}
 
-  /// Executes a command as far as it can. What is thrown on the way (memory) is such an error too.
+  /// Executes a command as far as possible. An exception (memory) becomes an error too.
   void execute(const Command& command, const Watch& watch);
-  /// Onto the meshes that the preset's accuracy asks for, where the shell stands on coarser ones.
+  /// Refines the meshes to those that the preset's accuracy requires, if the current ones are
+  /// coarser.
   void refine(const Watch& watch);
 
-  /// The state that it stands in.
+  /// The current state.
   const ShellView& shell() const { return view_; }
   /// Calls it while a command is at work, each time that there is something to see.
   void tell(std::function<void(const ShellView&)> message) { listener_ = std::move(message); }
@@ -73,7 +73,7 @@ class EditSession {
   struct UndoStep {
     EditState state;
     Checkpoint checkpoint;
-    bool before_design = false;                    ///< a design was asked for then
+    bool before_design = false;                    ///< a design was requested then
     std::optional<ScratchFile::Place> saved = {};  ///< the checkpoint's arrays, if not in it
   };
 
@@ -94,7 +94,7 @@ class EditSession {
   Result<void> act(const Recall& command, const Watch&);
   Result<void> act(const RefineAfterDrag&, const Watch&) { return {}; }
 
-  /// A state at rest that nothing holds, to come back to.
+  /// An equilibrium without constraints, to return to.
   struct RestState {
     EditState state;
     Checkpoint checkpoint;
@@ -164,7 +164,7 @@ class EditSession {
   ShellView view_;
 };
 
-/// Why something was thrown, in words that fit into the line of errors.
+/// Why an exception was thrown, as a text that fits into the line of errors.
 std::string error_text(const std::exception& thrown);
 
 /// The meshes that follow a drag: those of now where the shell is small, else the coarsest of those

@@ -1,4 +1,4 @@
-// What is known of a shell from the ways that it came: marks on them, and states to come back to.
+// What the paths of a shell showed: marks on them, and states to return to.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -125,10 +125,10 @@ std::string EditSession::place_text(const PathMark& mark) const {
          " mm";
 }
 
-/// Marks a way, and says of one that is stable again where it was not; where its first event is.
+/// Marks a path. Returns where its first event is, and whether stability was regained.
 std::string EditSession::note_way(const preset::Step& step, const simulate::StepPath& way,
                                   double began_mm, bool began_stable, Report& report) {
-  // a way that begins where no shell stays does not lose its stability there
+  // a path that starts at an unstable state does not lose its stability there
   if (!began_stable)
     std::erase_if(report.events, [](const Event& event) {
       return event.kind == Event::Kind::stability_lost && !event.to;
@@ -137,7 +137,7 @@ std::string EditSession::note_way(const preset::Step& step, const simulate::Step
       std::ranges::any_of(report.events, [](const Event& e) { return e.to && e.leap; });
   const bool moves = step.kind == preset::StepKind::move,
              pushes = step.kind == preset::StepKind::push;
-  // what is known of a branch does not hold of another one
+  // the marks of a branch do not apply to another one
   const auto lost = [](const PathMark& mark) { return mark.unstable; };
   if ((leapt || !(moves || pushes)) && std::erase_if(now_.marks, lost) > 0) {
     const double at = session_->boundary.progress;
@@ -162,7 +162,7 @@ std::string EditSession::note_way(const preset::Step& step, const simulate::Step
 
 // States that were found.
 
-/// Of the same shell on the same boundary.
+/// Whether two states belong to the same shell on the same boundary.
 bool EditSession::RestState::beside(const RestState& other) const {
   return state.scene == other.state.scene && nearly(seen->progress, other.seen->progress, 1e-9) &&
          kind_of_change(state.preset, other.state.preset) <= ChangeKind::accuracy;
@@ -175,7 +175,7 @@ bool EditSession::RestState::same_as(const RestState& other) const {
          nearly(seen->frame.height_mm, other.seen->frame.height_mm, 1e-3);
 }
 
-/// Keeps a state at rest that another one of the same boundary was met before.
+/// Stores an equilibrium if another one of the same boundary was found before.
 void EditSession::note_state() {
   if (!view_.stable() || !session_->holds().empty() || only_coarse_mesh_ || now_.design ||
       !session_->boundary.dragged.isZero(0))

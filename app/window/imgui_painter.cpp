@@ -52,7 +52,7 @@ void InterfacePainter::take_fonts(ImFontAtlas& atlas) {
   int width = 0, height = 0;
   atlas.GetTexDataAsRGBA32(&rgba, &width, &height);
   fill_texture(*gl_, letters_.id(), width, height, rgba);
-  // letters stand on whole pixels, and areas have one colour: no pixel needs its neighbours
+  // letters are on whole pixels, and areas have one colour: no pixel needs its neighbours
   gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   atlas.SetTexID(texture_id(letters_.id()));
@@ -106,7 +106,7 @@ namespace {
 
 constexpr double least_px = 1.5;  // width of a rod
 
-/// Of two shells side by side each is so wide.
+/// Two shells side by side have this width each.
 Result<render::Image> draw_shells(render::Renderer& renderer, const PictureRequest& request,
                                   const render::DrawQuality& quality, int width, int height,
                                   double rod_px) {
@@ -116,7 +116,7 @@ Result<render::Image> draw_shells(render::Renderer& renderer, const PictureReque
   };
   auto image = draw(*request.shell, request.show);
   if (!image || request.show.shells() < 2) return image;
-  // what is coloured by how far apart they are has the same colours in both
+  // the distance of the shells has the same colours in both
   Show theirs = request.show;
   theirs.mode_mm = 0;
   theirs.other = std::make_shared<const OtherShell>(OtherShell{"", request.shell});

@@ -67,7 +67,7 @@ class ShellPicture {
 Result<render::Image> view_picture(const PictureRequest& shown, Resolution sharpness,
                                    render::Renderer& renderer);
 
-/// The picture for a file, with the colours' legend where it is wanted.
+/// The picture for a file, with the colours' legend if requested.
 Result<render::Image> picture_of(const PictureRequest& request, render::Renderer& renderer);
 
 }  // namespace gridshell::window

@@ -41,10 +41,10 @@ enum class InputKind { size, mouse, press, release, wheel, down, up, type, act, 
 constexpr auto words(InputKind) { return names_except<InputKind>({{InputKind::act, "do"}}); }
 
 /// One event, a line of a recording:
-///   size WIDTH HEIGHT DENSITY     the window, pixels, and pixels a point of text
+///   size WIDTH HEIGHT DENSITY     the window, pixels, and pixels per point of text
 ///   mouse X Y                     to there, pixels from the top left
-///   mouse @NAME X Y               to a share of a control, "mouse @R_a 0.5 0.5"; or to so many
-///                                 pixels beside "@joint:I,J" or "@edge:K"
+///   mouse @NAME X Y               to a fraction of a control, "mouse @R_a 0.5 0.5"; or to X, Y
+///                                 pixels from "@joint:I,J" or "@edge:K"
 ///   press|release left|right|middle
 ///   wheel STEPS                   above 0: away from the user
 ///   down|up KEY                   a key as F1 names it
@@ -57,7 +57,7 @@ struct InputEvent {
   double x = 0, y = 0, density = 1;
   Button button = Button::left;
   Key key = Key::a;
-  std::string text = {};  ///< typed; or the name of an action, a preset, a place
+  std::string text = {};  ///< typed; or the name of an action, a preset, a position
 };
 
 /// A line without its end. Errors: bad_input with what would be right.

@@ -14,7 +14,7 @@
 namespace gridshell::window {
 namespace {
 
-constexpr double least_view = 400;  // px of a view beside plots
+constexpr double least_view = 400;  // px of a view next to plots
 
 /// What the interface library does with keys of its own.
 void map_keys(ImGuiIO& io) {
@@ -36,7 +36,7 @@ struct Column {
   bool any() const { return numbers + design + plots > 0; }
 };
 
-/// The design has a plot of its own; beside it the others are there where they have room.
+/// The design has its own plot; the others are next to it if there is space.
 Column column_of(const ViewerState& viewer, double height, double density) {
   const double least = 300 * density;
   Column column;
@@ -154,7 +154,7 @@ void Interface::feed() {
   while (!events_.empty()) {
     const InputEvent event = events_.front();
     if (turns_one(event) && turns++ > 0) return;
-    // a place that was passed on the way to a press must be seen before it
+    // a position that the mouse passes before a press must be shown before it
     if (turns > 0 && event.kind == InputKind::mouse) return;
     events_.pop_front();
     feed(event);
@@ -199,7 +199,7 @@ void Interface::feed(const InputEvent& event) {
   }
 }
 
-/// What lies over the rest; false: nothing does.
+/// Closes the top panel; false: there is none.
 bool Interface::close_top() {
   if (close_popups()) return true;
   const bool any = viewer_.file_request || viewer_.help || viewer_.terms;
@@ -225,7 +225,7 @@ void Interface::press_key(Key key) {
 // ---- a frame ----
 
 void Interface::view_panel(const Panel& panel, const render::Box& box) {
-  // of two side by side the left one is in hand
+  // of two side by side the left one is edited
   view_ = box;
   view_.width /= viewer_.show.shells();
   viewer_.view = {view_.width, view_.height};
@@ -272,7 +272,7 @@ void Interface::lay_out() {
   viewer_.small_window = width_ - left - right < least_view * density_;
   const render::Box first{0, top, left, height};
   if (viewer_.small_window) {
-    // one column, for what was asked for last
+    // one column, for the last request
     if (viewer_.plots_when_small)
       plots_panel(panel, first);
     else if (viewer_.design_panel)

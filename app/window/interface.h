@@ -56,7 +56,7 @@ class Interface {
   int height() const { return height_; }
 
  private:
-  /// What a picture of the shell hangs on, beside the view.
+  /// What a picture of the shell depends on, in addition to the view.
   struct ShownShell {
     render::Camera camera;
     PictureSize view;
@@ -86,7 +86,7 @@ class Interface {
   Picker mouse_;
   render::Renderer& renderer_;
   ShellPicture picture_;
-  // of the states that were found
+  // pictures of the states that were found
   std::vector<std::pair<std::shared_ptr<const ShellView>, ShellPicture>> states_;
   NumbersPanel numbers_;
   PresetPicker picker_;
@@ -123,14 +123,14 @@ Result<void> play(Interface& interface, ViewerState& viewer, const std::vector<I
 /// What a bench measured.
 struct BenchFigures {
   double interface_fps = 0, equilibria_per_s = 0, worst_frame_ms = 0, cancel_ms = 0;
-  /// of the processor's own time, on a machine that does something else as well
+  /// of the processor time of this process, also on a machine with other load
   double frame_cpu_ms = 0;
 };
 
-/// Drags the radius to and fro for so many seconds and turns the camera, at most 60 frames a second
-/// and each a new picture, with the engine on its own thread; then rests until the view is sharp.
-/// Frames of the first second are no worst ones. Errors: no_equilibrium where the preset has no
-/// shell; the renderer's.
+/// Drags the radius to and fro for some seconds and rotates the camera, at most 60 frames a second
+/// and each a new picture, with the engine on its own thread; then waits until the view is sharp.
+/// Frames of the first second do not count as worst ones. Errors: no_equilibrium if the preset has
+/// no shell; those of the renderer.
 Result<BenchFigures> bench(Interface& interface, ViewerState& viewer, double seconds);
 
 }  // namespace gridshell::window

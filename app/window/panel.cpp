@@ -224,7 +224,7 @@ void choose_colours(bool dark, double density) {
   colours[ImGuiCol_HeaderHovered] = dark ? rgb(0x4a5362) : rgb(0xcbd8ee);
   colours[ImGuiCol_HeaderActive] = dark ? rgb(0x57627a) : rgb(0xb3c8ec);
   colours[ImGuiCol_CheckMark] = colours[ImGuiCol_PlotLines] = dark ? rgb(0x6ea2f5) : rgb(0x2f6bd0);
-  // a slider's number stands over its grab
+  // a slider's number is above its grab
   colours[ImGuiCol_SliderGrab] = dark ? rgb(0x4a6ba6) : rgb(0xa9c6f5);
   colours[ImGuiCol_SliderGrabActive] = dark ? rgb(0x5b80c4) : rgb(0x86aef0);
   ImGui::GetStyle() = style;

@@ -1,4 +1,4 @@
-// What panels share: where they stand, what controls are called, and their tooltips.
+// What panels share: their positions, the names of controls, and tooltips.
 #pragma once
 
 #include <imgui.h>
@@ -22,32 +22,32 @@ namespace gridshell::window {
 struct Panel {
   ViewerState& viewer;
   double density = 1;                            ///< pixels a point of text
-  std::map<std::string, render::Box>& controls;  ///< where each control stands, by its name
+  std::map<std::string, render::Box>& controls;  ///< position of each control, by its name
   std::vector<ImTextureID> states = {};          ///< a picture each of viewer.shell->found
 
   float px(double points) const { return float(points * density); }
   /// Notes where the last control is, and gives it a tooltip.
   void named(const std::string& name, const std::string& tip) const;
-  /// A button or a tick of an action, with its help and key. A button may have a text of its own
-  /// where the panel says the rest, and is pale where it can do nothing now.
+  /// A button or a tick of an action, with its help and key. A button may have another text if the
+  /// panel names the action, and is pale if it has no effect now.
   void button(const char* action, const char* text = nullptr, bool able = true) const;
   void tick(const char* action) const;
 };
 
-/// Opens a window of fixed place without a title; ImGui::End() closes it.
-/// Fixed ones lie behind those that come up over them.
+/// Opens a window of fixed position without a title; ImGui::End() closes it. Fixed windows are
+/// behind those of the layer `over`.
 enum class Layer { fixed, over };
 void begin_fixed(const char* name, const render::Box& box, ImGuiWindowFlags more = 0,
                  Layer layer = Layer::fixed);
 
-/// Whether the last control is being typed into: what stands there is not meant yet.
+/// Whether the user is typing into the last control: its value is not complete yet.
 bool is_typed_into();
 
-/// A list that opens to choose from: the place in it of the text that was chosen, if one was.
+/// A list that opens to choose from; returns the index of the chosen text, if one was chosen.
 std::optional<std::size_t> choose(const std::string& id, const std::string& shown,
                                   const std::vector<std::string>& texts);
 
-/// The same of all words of an enum.
+/// A list of all names of an enum.
 template <class Enum>
 void choose_word(const std::string& id, Enum& value) {
   if (const auto k = choose(id, std::string(word_of(value)), all_words<Enum>())) value = Enum(*k);
@@ -67,7 +67,7 @@ bool slider(const Panel& panel, const char* name, float& value, float low, float
 /// Without what a float adds.
 inline double four_digits(float value) { return std::round(1e4 * double(value)) / 1e4; }
 
-// ---- the panels, by where they stand ----
+// ---- the panels, by position ----
 
 void menu_bar(const Panel& panel);
 void shell_panel(const Panel& panel, const render::Box& box);
@@ -75,8 +75,8 @@ void picked_figures(const Panel& panel);
 void plots_panel(const Panel& panel, const render::Box& box);
 void design_panel(const Panel& panel, const render::Box& box);
 void status_line(const Panel& panel, const render::Box& box);
-/// What was done, to go back to; and why the state's certificate is what it is.
-/// Beside it the states that were found, as small pictures.
+/// The steps, to go back to; the reason for the certificate of the state; and the states found, as
+/// small pictures.
 void timeline_panel(const Panel& panel, const render::Box& box);
 void why_popup(const Panel& panel);
 void help_sheet(const Panel& panel, const render::Box& box);
@@ -137,7 +137,7 @@ Result<void> load_fonts(double density);
 /// Light or dark.
 void choose_colours(bool dark, double density);
 
-/// Of what is wrong or not stable, what holds, what lacks something, and what is said beside.
+/// Colours of texts: errors and unstable states, valid states, missing parts, and remarks.
 struct TextColours {
   ImU32 error, ok, warning, muted;
 };
@@ -146,7 +146,7 @@ void coloured_text(ImU32 colour, const std::string& text);
 
 // A small plot within a panel.
 
-/// A place on the abscissa, or a piece of it.
+/// A position on the abscissa, or an interval of it.
 struct CurveMark {
   float from, to;
   bool unstable;  ///< no shell stays there; else something happened

@@ -15,7 +15,7 @@ constexpr double rod_px = 5;          // of a rod
 constexpr double bulge_spacings = 3;  // of d: through which edge points may be taken
 constexpr double click_px = 3;        // a press that moves less is a click
 
-/// Where between two places, 0 to 1, a point's nearest lies.
+/// Fraction, 0 to 1, between two positions at which a point's nearest point is.
 double share_along(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
                    const Eigen::Vector2d& at) {
   const Eigen::Vector2d way = to - from;
@@ -32,7 +32,7 @@ Eigen::Vector2d Picker::pixel_of(int node) const {
 /// The joint or edge point under the mouse; of several near ones the nearest to the eye.
 void Picker::find(double x, double y) {
   joint_ = edge_ = -1;
-  // beside it is another shell, which cannot be taken
+  // another shell is next to it, which cannot be edited
   if (!viewer_.shell->any() || x > viewer_.view.width) return;
   const record::Layout& layout = *viewer_.shell->layout;
   const Eigen::Vector3d forward = render::camera_axes(viewer_.camera).forward;
@@ -46,7 +46,7 @@ void Picker::find(double x, double y) {
     const double depth = forward.dot(viewer_.shell->frame.nodes.col(node));
     return off + 0.05 * depth / mm_per_pixel(viewer_.camera, viewer_.view);
   };
-  // from above a shell that bulges hides its boundary, which may be wanted all the same
+  // from above a shell that bulges hides its boundary, which may be meant all the same
   const double under_mm = bulge_spacings * layout.spacing_mm;
   for (int k = 0; k < int(layout.joints.size()); ++k)
     if (const double s = score(k, 0); s < best) best = s, joint_ = k;
@@ -95,7 +95,7 @@ void Picker::press(Button button, bool shift, double x, double y) {
   if (joint_ >= 0) {
     place_ = viewer_.shell->frame.nodes.col(joint_);
     along_ = viewer_.shell->normals.col(joint_);
-    // pushed before, it goes on along the direction that it is held in
+    // pushed before, it continues along the direction of its constraint
     for (const HeldJoint& held : viewer_.shell->held)
       if (held.joint == joint_ && !held.along.isZero(0)) along_ = held.along;
   }
@@ -182,7 +182,7 @@ PointOnRod Picker::rod_at(double x, double y) const {
   return found;
 }
 
-/// The cell whose picture holds the pixel; of several the nearest to the eye.
+/// The cell whose picture contains the pixel; of several the nearest to the eye.
 int Picker::cell_at(double x, double y) const {
   if (!viewer_.shell->any()) return -1;
   const record::Layout& layout = *viewer_.shell->layout;

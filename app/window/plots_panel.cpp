@@ -13,7 +13,7 @@
 namespace gridshell::window {
 namespace {
 
-/// Low and high with some room; never of no width. Of values that are not known nothing is asked.
+/// Lowest and highest value with a margin; never of zero width. Unknown values are ignored.
 struct Span {
   float low = 0, high = 1;
 
@@ -31,7 +31,7 @@ struct Span {
   float at(float value) const { return (value - low) / (high - low); }
 };
 
-/// Where a plot stands, and how it writes.
+/// Position of a plot, and how it writes.
 class PlotBox {
  public:
   PlotBox(const Panel& panel, ImVec2 low, ImVec2 high)
@@ -56,7 +56,7 @@ class PlotBox {
     for (const auto* values : {&curve.y, &curve.second})
       for (const float value : *values) heights.push_back(shown(value));
     Span y(heights);
-    // bars stand on zero
+    // bars start at zero
     if (curve.bars) y = Span(std::min(0.f, y.low), std::max(0.f, y.high));
     const auto points_of = [&](const std::vector<float>& values) {
       std::vector<ImVec2> points;
@@ -173,7 +173,7 @@ class PlotBox {
       const std::string text = fmt::format("{:.6g}", tick.value);
       const float wide = ImGui::CalcTextSize(text.c_str()).x;
       list_.AddLine({at, from_.y}, {at, to_.y}, grid());
-      // beside the lowest label at the left, and within the panel
+      // next to the lowest label at the left, and within the panel
       const float left = std::clamp(at - 0.5f * wide, from_.x, to_.x - wide);
       if (left < last + panel_.px(6)) continue;
       last = left + wide;
@@ -205,10 +205,10 @@ class PlotBox {
   ImVec2 from_, to_;
 };
 
-constexpr double jump = 0.2;  // of the boundary's way, between two equilibria
+constexpr double jump = 0.2;  // of the boundary's motion, between two equilibria
 
-/// What the curves run over where nothing else was chosen: the depth of the last push, else the
-/// boundary's way, else, where it rests, one equilibrium after the other.
+/// Abscissa of the curves if none was chosen: the depth of the last push, else the motion of the
+/// boundary, else, if it does not move, the number of the equilibrium.
 int abscissa_of(const ViewerState& viewer, std::span<const PlotPoint> points) {
   if (points.empty() || points.back().joint >= 0) return quantity_called("depth_mm");
   const bool moved = std::ranges::any_of(points, [&](const PlotPoint& point) {
@@ -219,7 +219,7 @@ int abscissa_of(const ViewerState& viewer, std::span<const PlotPoint> points) {
       std::isfinite(viewer.shell->frame.boundary_radius_mm) ? "boundary_radius_mm" : "progress");
 }
 
-/// Those since the joint was taken that is held now.
+/// Points since the constraint of the pushed joint was set.
 std::span<const PlotPoint> last_points(const ViewerState& viewer) {
   std::span<const PlotPoint> all = viewer.plot_points;
   std::size_t since = all.size();
@@ -227,7 +227,7 @@ std::span<const PlotPoint> last_points(const ViewerState& viewer) {
   return all.subspan(since);
 }
 
-/// Those of the ways, where the curve runs over what they are told in.
+/// Marks of the paths, if the curve has their abscissa.
 void put_marks(const ShellView& shell, const Quantity& over, Curve& curve) {
   const std::string_view name = over.name;
   const int pushed = shell.held.empty() ? -1 : shell.held.back().joint;

@@ -16,14 +16,14 @@ namespace {
 
 using preset::Field;
 
-/// Those that the shell hangs on; how it is pictured has controls of its own.
+/// Tables that determine the shell; its pictures have their own controls.
 constexpr std::string_view shown_tables[] = {"rod",          "rod_v",  "joints",    "ends",
                                              "footprint",    "net",    "actuation", "loads",
                                              "imperfection", "limits", "accuracy",  "dynamics"};
 
 float bound(double value) { return float(std::clamp(value, -1e9, 1e9)); }
 
-/// What a number's 0 stands for, where its meaning says that: "not given".
+/// Meaning of a number's 0, if the key's meaning gives one: "not given".
 std::string meaning_of_zero(const Field& field) {
   const std::size_t at = field.meaning.find("0: ");
   if (at == std::string::npos || (at > 0 && field.meaning[at - 1] != ' ')) return "";
@@ -146,7 +146,7 @@ void what_varies(const Panel& panel) {
   }
 }
 
-/// A label, and room for what follows beside it.
+/// A label, with space for what follows it.
 void label(const Panel& panel, const char* text) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(text);
@@ -252,7 +252,7 @@ void NumbersPanel::edit(const Panel& panel, const Row& row) {
   if (!changed_before) ImGui::PopStyleColor();
   panel.named(field.table + "." + field.key, row.help);
   if (ImGui::IsItemActive()) active_ = row.name;
-  // a number is meant when its last digit stands
+  // a number is complete when the control is left
   const bool meant = is_typed_into() ? false : changed || (typed_ && ImGui::IsItemDeactivated());
   if (changed && is_typed_into()) typed_ = true;
   if (meant) {

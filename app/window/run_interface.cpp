@@ -16,9 +16,9 @@
 namespace gridshell::window {
 namespace {
 
-// stillness before full resolution; what that may take while an equilibrium is on its way
+// time without motion before full resolution; the longest one while an equilibrium is computed
 constexpr double sharp_after_s = 0.15, sharp_while_busy_s = 0.6, longest_while_busy_s = 0.05;
-// a moving picture that takes longer has stills that would hold up the pointer
+// if a moving picture takes longer, a still would delay the pointer
 constexpr double longest_moving_s = 0.003;
 
 constexpr double frame_s = 1.0 / 60;
@@ -60,7 +60,7 @@ constexpr int frames_to_sharpen = 30;
 constexpr double turn_deg = 0.2;            // a frame of a bench
 constexpr double longest_to_sharpen_s = 5;  // of a bench
 
-/// Frames until all events are taken, the engine rests and the view shows what it found.
+/// Draws frames until all events are taken, the engine waits and the view shows its result.
 Result<void> rest(Interface& interface, ViewerState& viewer) {
   for (int k = 0; k < most_frames; ++k) {
     viewer.engine.wait();
@@ -95,7 +95,7 @@ Result<double> paced_frame(Interface& interface, double& due) {
 
 }  // namespace
 
-/// Anew only where anything that it shows is new, and sharp only once it rests.
+/// Draws the shell again only if something shown is new, and sharp only without motion.
 Result<void> Interface::draw_shell() {
   if (!viewer_.shell->any() || viewer_.view.width < 16) return {};
   const ShownShell shown{viewer_.camera, viewer_.view, viewer_.show};
@@ -260,7 +260,7 @@ Result<void> run_desktop(ViewerState& viewer, const std::function<void(const Inp
     if (*drawn) (*window)->present();
     const bool still = !(*interface)->busy() && viewer.engine.idle() && !viewer.playing;
     (*window)->listen(listener, still ? still_wait_s : 0);
-    // the rest of the frame's time is the engine's
+    // the engine has the remaining time of the frame
     for (double left; (left = now + frame_s - seconds_now()) > 0;)
       (*window)->listen(listener, left);
   }
@@ -309,7 +309,7 @@ Result<BenchFigures> bench(Interface& interface, ViewerState& viewer, double sec
   figures.frame_cpu_ms = 1e3 * own / frames;
   viewer.engine.cancel();
   viewer.engine.wait();
-  // the hand rests, and the view becomes sharp
+  // the pointer is still, and the view becomes sharp
   for (const double until = seconds_now() + longest_to_sharpen_s;
        interface.busy() && seconds_now() < until;) {
     TRY(frame, paced_frame(interface, due));

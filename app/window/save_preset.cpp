@@ -34,7 +34,7 @@ Result<void> make_folder_of(const fs::path& file) {
   return file.has_parent_path() ? make_folder(file.parent_path()) : Result<void>();
 }
 
-/// Of a file that is written, as a rule.
+/// Usual ending of a file that is written.
 const char* ending_of(FileUse use) {
   switch (use) {
     case FileUse::save_preset:
@@ -102,7 +102,7 @@ void ViewerState::put_view(preset::Preset& preset) const {
   const render::Camera fitted = fitted_view();
   movie.zoom = rounded(fitted.half_extent_mm / camera.half_extent_mm, 0.01);
   movie.target_mm.clear();
-  // one that shows all is for the movie to find, which holds all of its frames
+  // a movie of all parts is framed later, when all of its frames are known
   const double shift_mm = shift_seen_px * mm_per_pixel(camera, view);
   if ((camera.target - fitted.target).norm() > shift_mm)
     for (const double value : camera.target) movie.target_mm.push_back(rounded(value, 0.1));
@@ -122,7 +122,7 @@ preset::Preset ViewerState::preset_to_save() const {
   });
   if (circle && moves && !shell->snapped) return preset;
   preset.step = steps_of(shell->steps);
-  // where a shaken shell converges to is chance, but on one mesh
+  // the state that a perturbed shell reaches depends on round-off, except on one mesh
   const bool shaken = std::ranges::any_of(
       preset.step, [](const auto& step) { return step.kind == preset::StepKind::jitter; });
   if (shaken) preset.accuracy.edges_per_segment = shell->meshes.back();
@@ -161,7 +161,7 @@ void ViewerState::draw_picture_as(const fs::path& file, const PictureFormat& for
   say("drawing " + file.string());
 }
 
-// ---- files that are asked for ----
+// ---- file prompts ----
 
 void ViewerState::ask_file(FileUse use) {
   if (use != FileUse::open && !shell->any()) return say("there is no shell yet", true);
@@ -224,7 +224,7 @@ void ViewerState::take_file() {
   if (!message_bad) file_request.reset();
 }
 
-/// By the program's own `run` and `export` of the preset as the shell stands, beside the window.
+/// Runs the program's own `run` and `export` on the current preset, in a process of its own.
 void ViewerState::export_as(const fs::path& file) {
   if (export_task.under_way()) return say("one export is under way already", true);
   if (auto made = make_folder_of(file); !made) return say(made.error().message, true);

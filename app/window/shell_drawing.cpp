@@ -45,7 +45,7 @@ bool same_joints(const std::vector<record::Joint>& a, const std::vector<record::
   });
 }
 
-/// Both meshes' nodes lie at other places, but the joints come first in each.
+/// The nodes of both meshes are at different positions, but the joints come first in each.
 Eigen::VectorXd displacement(const ShellView& shell, const Eigen::Matrix3Xd& then) {
   const Eigen::Matrix3Xd& now = shell.frame.nodes;
   if (now.cols() == then.cols()) return (now - then).colwise().norm().transpose();
@@ -112,7 +112,7 @@ void put_colours(const ShellView& shell, const Show& show, render::Drawing& draw
   drawing.rod_diameter_mm *= 1.8;
 }
 
-/// The forces that hold joints, as arrows: the largest a sixth of the shell.
+/// The reactions at joints, as arrows: the largest has a sixth of the shell's size.
 void put_forces(const ShellView& shell, const Show& show, double thin_mm,
                 render::Drawing& drawing) {
   double most = 0;
@@ -206,7 +206,7 @@ render::ColourScale scale_of(const ShellView& shell, const Show& show) {
     return scale;
   }
   const bool any = all.size() > 0 && all.maxCoeff() > 1e-9;
-  // of these the farthest is what is asked for
+  // the largest of these is requested
   const bool whole = by == ColourBy::displacement || by == ColourBy::deviation;
   const double end = !any ? 1 : whole ? render::nice_ceiling(all.maxCoeff()) : scale.high;
   return {render::sequential, 0, end, start};
@@ -266,7 +266,7 @@ render::Drawing drawing_of(const ShellView& shell, const Show& show, double thin
   drawing.joint_colour = palette.joint;
   drawing.joint_diameter_mm = show.joints ? std::max(3.0, 1.5 * drawing.rod_diameter_mm) : 0;
   put_colours(shell, show, drawing);
-  // the line through supports that stay tells nothing
+  // the line through fixed supports shows nothing
   if (show.rings && layout.original_boundary != layout.actuated_boundary) {
     drawing.rings.push_back({layout.original_boundary, std::max(0.6, thin_mm), ghost_grey, false});
     drawing.rings.push_back({render::boundary_at(layout, shell.frame.actuation),
@@ -285,7 +285,7 @@ render::Drawing drawing_of(const ShellView& shell, const Show& show, double thin
   if (show.loads) render::put_loads(layout, shell.frame, show.largest_load_N, thin_mm, drawing);
   if (show.braces) render::put_braces(layout, shell.frame, thin_mm, drawing);
   render::put_contacts(layout, shell.frame, thin_mm, drawing);
-  // what starts flat stands on its boundary's plane
+  // a shell that starts flat starts in its boundary's plane
   const double lowest_mm = drawing.nodes.row(2).minCoeff();
   drawing.ground_z_mm = (layout.net_nodes.cols() > 0 ? lowest_mm : std::min(0.0, lowest_mm)) - 2.5;
   drawing.ground = show.ground;

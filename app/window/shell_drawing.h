@@ -37,12 +37,12 @@ void fit(render::Camera& camera, const PictureSize& size, const Eigen::Matrix3Xd
 /// Millimetres that a point at `place` moves in the plane facing the camera for a drag in pixels.
 Eigen::Vector3d dragged_in_plane(const render::Camera& camera, const PictureSize& size,
                                  const Eigen::Vector3d& place, double right_px, double down_px);
-/// The same along the unit vector `axis` alone: as far as its picture goes along with the mouse.
+/// Displacement along the unit vector `axis` alone: as far as its picture follows the mouse.
 double dragged_along(const render::Camera& camera, const PictureSize& size,
                      const Eigen::Vector3d& place, const Eigen::Vector3d& axis, double right_px,
                      double down_px);
-/// The same within the horizontal plane through the place; seen from the side, along the picture's
-/// right alone.
+/// Displacement within the horizontal plane through the position; seen from the side, along the
+/// picture's right alone.
 Eigen::Vector3d dragged_level(const render::Camera& camera, const PictureSize& size,
                               const Eigen::Vector3d& place, double right_px, double down_px);
 
@@ -52,8 +52,8 @@ using preset::ColourBy;
 /// hand.
 enum class RangeOf { state, run, hand };
 
-/// A state that the shell in hand is compared with: the last of a run, one in hand before, the net,
-/// the joints of a scan.
+/// A state that the edited shell is compared with: the last of a run, an earlier one, the net, the
+/// joints of a scan.
 struct OtherShell {
   std::string name;
   std::shared_ptr<const ShellView> seen;  ///< not null, and has a layout
@@ -66,15 +66,15 @@ struct Show {
   bool joints = true, rings = true, ground = true, net = false, footprint = false, dark = false,
        loads = true, braces = true;
   double largest_load_N = 0;  ///< of the states since the shell was opened: the arrows' scale
-  double mode_mm = 0;         ///< how far along the soft mode it is drawn
-  std::shared_ptr<const OtherShell> other = {};  ///< drawn over it, or beside it; null: none
+  double mode_mm = 0;         ///< amplitude along the lowest mode
+  std::shared_ptr<const OtherShell> other = {};  ///< drawn over it, or next to it; null: none
   bool beside = false;
   int shells() const { return beside && other ? 2 : 1; }  ///< side by side
   bool operator==(const Show&) const = default;
 };
 
-/// Of two joints how far they are apart, straight and, where one has both, along their rod; of
-/// three the angle at the second.
+/// For two joints their distance, straight and, if they have a common rod, along it; for three the
+/// angle at the second.
 std::string text_of_measure(const ShellView& shell, const std::vector<int>& joints);
 
 /// As the interface names it of a shell, with its unit: "bending energy (mJ/m)".
@@ -90,13 +90,13 @@ Eigen::VectorXd values_of(const ShellView& shell, const Show& show);
 /// The scale of these values, with nice ends.
 render::ColourScale scale_of(const ShellView& shell, const Show& show);
 
-/// The one that goes on from `before` as the range wants it.
+/// The scale that follows `before`, as the range setting requires.
 render::ColourScale next_scale(const render::ColourScale& before, const render::ColourScale& now,
                                RangeOf of);
 
 // The shell in sight as the renderer of movies draws it.
 
-/// Of a shell that has a shell; `thin_mm`: what is as wide as a pixel and a half.
+/// Drawing of a shell; `thin_mm`: the width of a pixel and a half.
 render::Drawing drawing_of(const ShellView& shell, const Show& show, double thin_mm);
 
 /// Where a node is drawn.

@@ -1,4 +1,4 @@
-// What is done to the shell: path, boundary, joints held, rest, accuracy, colours.
+// Controls of the shell: path, boundary, constrained joints, relaxation, accuracy, colours.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -121,7 +121,7 @@ void boundary(const Panel& panel) {
   if (ImGui::IsItemDeactivated()) viewer.end_drag();
 }
 
-/// At the right end of a line, the small button that takes back what the line tells.
+/// At the right end of a line, the small button that reverts what the line reports.
 bool small_button(const Panel& panel, const char* label, const std::string& name, const char* help,
                   double width) {
   ImGui::SameLine(ImGui::GetContentRegionMax().x - panel.px(width));

@@ -1,4 +1,4 @@
-// The view of the edited shell, made anew after every command.
+// The view of the edited shell, made again after every command.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ double least_progress_of(const Simulation& session) {
   return t ? std::min(1.0, progress_at(*t)) : 0;
 }
 
-/// Of a group by Schoenflies' name.
+/// Text for a group by Schoenflies name.
 std::string words_of_group(const std::string& group) {
   static const std::map<std::string, std::string> words{{"C1", "no symmetry"},
                                                         {"Cs_axis", "one axial mirror"},
@@ -36,7 +36,7 @@ std::string words_of_group(const std::string& group) {
   return found == words.end() ? "symmetry " + group : found->second;
 }
 
-/// What colours show along the rods, and how far the cells are off the net.
+/// Values that the colours show along the rods, and the cells' deviation from the net.
 void put_values(ShellView& shell) {
   shell.axial_N = record::axial_force_of_nodes_N(*shell.layout, shell.frame);
   shell.bending_mJ_m = record::bending_of_nodes_mJ_per_m(*shell.layout, shell.frame);
@@ -79,7 +79,7 @@ std::shared_ptr<const ShellView> view_of(record::Layout layout, record::Frame fr
   return shell;
 }
 
-/// Why a state at rest is less than what the tolerance asks for.
+/// Why an equilibrium is less accurate than the tolerance requires.
 std::string EditSession::accuracy_warning() const {
   if (!now_.refined || now_.scene->edges_per_segment != 0) return "";
   if (only_coarse_mesh_) return "on coarse meshes alone";
@@ -121,7 +121,7 @@ void EditSession::update_view() {
     HeldJoint held{hold.node, hold.part(session_->force(k)),
                    hold.part(s.frame.nodes.col(hold.node) - from)};
     if (hold.directions.cols() == 1) held.along = hold.directions.col(0);
-    // outwards, whichever way it was pushed
+    // outwards, regardless of the direction of the push
     if (held.along.dot(s.normals.col(hold.node)) < 0) held.along *= -1;
     s.held.push_back(held);
   }
@@ -141,7 +141,7 @@ void EditSession::update_layout() {
     view_.error = layout.error().message;
     return;
   }
-  // a record has it beside a net alone
+  // a record has it only in addition to a net
   if (layout->flat_nodes.cols() == 0)
     layout->flat_nodes = drawn_nodes(mesh, now_.scene->flat).leftCols(mesh.rod_nodes());
   view_.layout = std::make_shared<const record::Layout>(std::move(*layout));
@@ -158,7 +158,7 @@ void EditSession::update_layout() {
                                            symmetries_of(coarsest, shell.motion(0).at(1)));
 }
 
-/// Of the shape, whatever holds it. A square that is mapped onto itself alone has none to tell of.
+/// Symmetry of the shape, regardless of constraints. A footprint with the identity alone has none.
 void EditSession::update_symmetry() {
   view_.symmetry.clear();
   if (!now_.refined || symmetries_.size() < 2) return;
@@ -168,7 +168,7 @@ void EditSession::update_symmetry() {
   view_.symmetry = words_of_group(name_of_group(group_of(symmetries_, joints, within_mm)));
 }
 
-/// Of the net where there is one, as a preset's push has it; else of the shell as it stands.
+/// Normals of the net if there is one, as for a preset's push; else of the current shell.
 void EditSession::update_normals() {
   const Footprint& footprint = now_.scene->footprint;
   Eigen::Matrix3Xd& normals = view_.normals;
@@ -202,8 +202,8 @@ void EditSession::update_deviation(const Eigen::VectorXd& of_joints_mm) {
   }
 }
 
-/// How a state that is not stable would leave: its softest mode on the finest mesh, its largest
-/// move 1.
+/// How an unstable state would move: its lowest mode on the finest mesh, with a largest
+/// displacement of 1.
 void EditSession::update_soft_mode() {
   view_.soft_mode.resize(3, 0);
   if (view_.stable()) return;

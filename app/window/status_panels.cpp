@@ -191,7 +191,7 @@ std::string standing_of(const DesignProgress& course) {
                      course.iterations, percent * now.max_mm, percent * now.mean_mm);
 }
 
-/// How far the movie is that is made beside the window, over what was said.
+/// Progress of the movie that is made in the background, over the last message.
 void movie_standing(const Panel& panel) {
   const std::string said = panel.viewer.movie_task.standing();
   const std::string line = "movie " + (said.empty() ? "0 %" : said);

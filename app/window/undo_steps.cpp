@@ -115,7 +115,7 @@ Result<void> EditSession::travel(std::deque<UndoStep>& from, std::deque<UndoStep
   if (from.empty()) return invalid(none);
   if (!load_from_scratch(from.back()))
     return fail(Fault::io, "the state was put aside into a file that cannot be read");
-  // of what is done again it is known what it was
+  // a step that is repeated is known
   UndoStep before{now_, session_->save(), from.back().before_design};
   try {
     TRY_DO(restore(from.back()));

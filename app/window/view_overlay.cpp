@@ -93,7 +93,7 @@ void Overlay::mark_under() {
     ring(layout.edge_points[std::size_t(edge)], 7);
 }
 
-/// A text on a ground of its own beside a point; to its left where the legend stands, and in lines
+/// A text on a background of its own next to a point; to its left where the legend is, and in lines
 /// where the view is narrow.
 void Overlay::label(const std::string& text, ImVec2 at) {
   const float beside = panel_.px(12), room = panel_.px(3),
@@ -109,7 +109,7 @@ void Overlay::label(const std::string& text, ImVec2 at) {
                 text.c_str(), nullptr, most);
 }
 
-/// Force and way beside each joint that is held.
+/// Force and displacement next to each constrained joint.
 void Overlay::write_forces() {
   for (const HeldJoint& held : shell_.held)
     label(fmt::format("{:.3g} N, {:.2f} mm", held.force_N.norm(), held.moved_mm.norm()),
@@ -125,7 +125,7 @@ void Overlay::write_measure() {
   if (joints.empty()) return;
   for (const int joint : joints) ring(joint, 9);
   line(joints, false);
-  // beside what is measured, not over it
+  // next to what is measured, not over it
   const int right = *std::ranges::max_element(
       joints, {}, [&](int joint) { return in_view(viewer_, view_, joint).x(); });
   if (joints.size() > 1) label(text_of_measure(shell_, joints), point_of(right));
@@ -148,7 +148,8 @@ void Overlay::tell_other() {
   label("in hand", {float(view_.x), top});
 }
 
-/// A length along the view's lower edge and what it stands for over it; where the next may begin.
+/// A length along the view's lower edge with its meaning above it; returns where the next may
+/// start.
 float Overlay::draw_length(float x, float wide, const std::string& text, ImU32 colour, bool arrow) {
   const float y = float(view_.bottom()) - panel_.px(16), tall = panel_.px(4);
   const float written = ImGui::CalcTextSize(text.c_str()).x, room = std::max(wide, written);
@@ -164,8 +165,8 @@ float Overlay::draw_length(float x, float wide, const std::string& text, ImU32 c
   return x + 0.5f * (wide + room) + panel_.px(24);
 }
 
-/// A round length of some hundred pixels, and what the arrows of loads and the bars of braces are;
-/// of a picture in perspective lengths hold in the plane that the camera looks at.
+/// A round length of some hundred pixels, and the meaning of the arrows of loads and the bars of
+/// braces; in a perspective picture lengths apply in the plane that the camera looks at.
 void Overlay::draw_scale() {
   const double per_px = mm_per_pixel(viewer_.camera, viewer_.view);
   const double length_mm = render::nice_ceiling(per_px * panel_.px(80));
@@ -219,7 +220,7 @@ void Overlay::draw_axes() {
   panel_.named("projection", help_of(*find_action("orthographic")));
 }
 
-/// Texts that end at given places, over a pale ground as large as they are.
+/// Texts that end at given positions, over a pale background of their size.
 class Ground {
  public:
   Ground(const Panel& panel, ImDrawList& list, ImVec2 corner)
@@ -282,7 +283,8 @@ void view_overlay(const Panel& panel, const render::Box& view) {
 
 // What the colours of the view mean, over its right edge.
 
-/// An end of the colours' range beside the bar, where it can be dragged or typed; its width.
+/// An end of the colours' range next to the bar, where it can be dragged or typed; returns its
+/// width.
 float range_end(const Panel& panel, const char* name, float left, float top) {
   ViewerState& viewer = panel.viewer;
   const bool is_high = std::string(name) == "range_high";
@@ -328,7 +330,7 @@ void colour_legend(const Panel& panel, const render::Box& view) {
   }
   ground.widen(left - panel.px(5) - range_end(panel, "range_high", left, low - 0.5f * line));
   range_end(panel, "range_low", left, low + height - 0.5f * line);
-  // the end colours stand for all that lies beyond them
+  // the end colours also show all values outside the range
   const double slack = 1e-9 * (scale.high - scale.low);
   float note = low + height + 0.8f * line;
   if (values.maxCoeff() > scale.high + slack) {

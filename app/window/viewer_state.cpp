@@ -34,7 +34,7 @@ void each_switch(AnyViewer& viewer, const Visit& visit) {
   visit("design", viewer.design_panel);
 }
 
-/// The same for the camera's numbers.
+/// Visits the camera's numbers.
 template <class AnyCamera, class Visit>
 void each_number(AnyCamera& camera, const Visit& visit) {
   visit("azimuth_deg", camera.azimuth_deg);
@@ -156,7 +156,7 @@ void ViewerState::start_design() {
     return say("nothing may change: tick pins, legs, directions or diameters", true);
   design_panel = true;
   play(false);
-  // of all steps, so that what is left is seen beside what was
+  // of all steps, so that the remaining one is compared with the initial one
   show.colour_by = ColourBy::deviation;
   show.scale = scale_of(*shell, show);
   range_of = RangeOf::run;
@@ -190,7 +190,7 @@ render::Camera ViewerState::fitted_view() const {
     fit(fitted, view, points);
     return fitted;
   }
-  // beside one another they leave the right one's edge to the colours' legend
+  // side by side they leave the right one's edge to the colours' legend
   const double legend_px = 0.18 * view.width;
   fit(fitted, {view.width - legend_px, view.height}, points);
   pan(fitted, view, -0.5 * legend_px, 0);
@@ -282,7 +282,7 @@ void ViewerState::add_plot_point() {
   const PlotPoint now = plot_point_of(*shell);
   // what was undone is not shown
   while (!plot_points.empty() && plot_points.back().steps > now.steps) plot_points.pop_back();
-  // the finer meshes of a drag's end take the place of its coarse one
+  // the finer meshes of a drag's end replace its coarse one
   if (now.refined && !plot_points.empty() && !plot_points.back().refined &&
       plot_points.back().steps == now.steps)
     plot_points.pop_back();
@@ -294,8 +294,8 @@ void ViewerState::add_plot_point() {
     plot_points.erase(plot_points.begin(), plot_points.begin() + most_points / 4);
 }
 
-/// A preset that was changed in its file is taken anew; a broken one says so, and the last good one
-/// stays.
+/// Reads a preset again after its file changed; a file with errors is reported, and the last valid
+/// preset remains.
 void ViewerState::watch_file(double seconds) {
   since_look_ += seconds;
   if (file_.empty() || since_look_ < look_every_s) return;

@@ -33,7 +33,7 @@ struct PictureFormat {
 /// Errors (bad_input): pixels that no picture can have.
 Result<void> check_picture(int width, int height);
 
-/// All that a picture hangs on.
+/// All that a picture depends on.
 struct PictureRequest {
   std::shared_ptr<const ShellView> shell;
   render::Camera camera;
@@ -42,7 +42,7 @@ struct PictureRequest {
   PictureFormat kept;
 };
 
-/// A step that was done, and what happened on its way.
+/// A finished step, and its events.
 struct TimelineEntry {
   std::string text, event;
   bool stable = true;
@@ -51,12 +51,12 @@ struct TimelineEntry {
 /// What led to the state that is shown: "pushed (0, 0): 8.16 mm, 0.0342 N".
 std::string text_of_step(const ShellView& shell);
 
-/// What a file is asked for.
+/// Purpose of a file prompt.
 enum class FileUse { open, compare, save_preset, save_picture, export_shell };
 /// Whether the file is read; else it is written.
 constexpr bool is_read(FileUse use) { return use == FileUse::open || use == FileUse::compare; }
 
-/// A file that the user is asked for.
+/// A file prompt.
 struct FileRequest {
   FileUse use = FileUse::open;
   std::string path;                 ///< as typed so far
@@ -80,7 +80,7 @@ struct Library {
       draw_picture;
   /// The view at full resolution on any thread, for shells that take long; none: in the window's.
   std::function<Result<render::Image>(const PictureRequest& request)> draw_still;
-  /// A preset as a file, its tables in files beside it, whose names begin as its own.
+  /// Writes a preset as a file, with its tables in separate files of the same name's start.
   std::function<Result<void>(const preset::Preset& preset, const std::filesystem::path& file)>
       write_preset;
   /// The movie of a preset's file in a folder.
@@ -88,7 +88,7 @@ struct Library {
                              const std::filesystem::path& folder, const ProgressListener&,
                              const Watch&)>
       make_movie;
-  /// The shell that a preset comes to, in the format that the file's ending names.
+  /// Writes the shell of a preset, in the format of the file's ending.
   std::function<Result<void>(const preset::Preset& preset, const std::filesystem::path& file,
                              const ProgressListener&, const Watch&)>
       export_shell;
@@ -172,7 +172,7 @@ class ViewerState {
   RangeOf range_of = RangeOf::run;          ///< of the colours
   bool numbers = false, plots = true, help = false, terms = false, picking = true,
        design_panel = false;
-  bool small_window = false;      ///< one column has room beside the view
+  bool small_window = false;      ///< one column has space next to the view
   bool plots_when_small = false;  ///< and it shows the plots
   bool find_number = false;       ///< the search over the numbers is to be typed into
   DesignOptions design;
@@ -208,25 +208,25 @@ class ViewerState {
 
   /// A preset by its name or file, or a run by its folder.
   void open(const std::string& name);
-  /// One more joint to measure to; after three it begins anew.
+  /// Adds a joint to the measurement; after three it starts again.
   void measure(int joint);
-  /// Of a drag while it is `passing`; a design under way refuses it.
+  /// A command of a drag while it is `passing`; a running design refuses it.
   void post(Edit edit, bool passing);
-  /// A step of its own, which ends a design under way.
+  /// A command of its own, which ends a running design.
   void send_command(Edit edit);
   /// The drag is over: the shell goes onto finer meshes.
   void end_drag();
   /// The boundary to a progress; of a preset with a push, the push to a share of its depth.
   void go(double part, bool passing);
   void play(bool on);
-  /// Back or on to where so many steps can be undone; to where it stands already with an event: to
-  /// before that.
+  /// Goes back or forward to a number of steps to undo; if it is the current one and has an event,
+  /// to before that.
   void go_to_step(int step);
   /// To one of the states that were found, which follow one another round.
   void recall(int state);
   /// Which of them is in sight; none: -1.
   int state_in_sight() const;
-  /// The boundary to where no shell stays, on the way that led here: the next such place.
+  /// Moves the boundary to the next unstable position on the path that led to the current state.
   void go_to_loss();
   /// Stops what the engine is at; of a design the last step stays.
   void stop();
@@ -244,22 +244,21 @@ class ViewerState {
 
   // ---- what is kept ----
 
-  /// The preset as the shell stands now: radius, or what was done step by step; camera,
-  /// colours.
+  /// The preset of the current shell: radius, or the steps that were done; camera, colours.
   preset::Preset preset_to_save() const;
   void save_preset();
   void save_picture();
   /// Asks for a file, with a path to begin with.
   void ask_file(FileUse use);
-  /// Does what the file that was asked for is for; a path that cannot be stays asked for.
+  /// Uses the file that was chosen; a path that is not valid is requested again.
   void take_file();
-  /// A run's last state beside the shell, the state in sight, or (null) none again.
+  /// Shows a run's last state next to the shell, the current state, or (null) none.
   void compare_with(const std::filesystem::path& run);
   void compare_with_this();
   /// The net that it was designed on.
   void compare_with_net();
   void compare(std::shared_ptr<const OtherShell> other);
-  /// Beside the shell instead of over it.
+  /// Shows the other state next to the shell instead of over it.
   void set_beside(bool on);
   /// How far the joints are from those of the same name in the other shell: "largest 3.2 mm at
   /// (0, 1), mean 1.1 mm".
@@ -267,7 +266,7 @@ class ViewerState {
   PictureRequest picture_request() const { return {shell, camera, view, show, picture}; }
   /// The size of kept pictures, pixels; of no pixels twice the view's. One that cannot be says so.
   void size_picture(int width, int height);
-  /// Of what was done, or where nothing was, of the preset; beside the window.
+  /// Makes a movie of the steps, or without steps of the preset, in the background.
   void save_movie();
   /// A plot as PDF, SVG, PNG and a table.
   void save_plot(const PlottedCurve& curve);
@@ -278,8 +277,8 @@ class ViewerState {
   /// The manual's page in a browser.
   void show_manual();
 
-  /// Once a frame: takes the latest sight, plays, looks at the preset's file. Whether anything is
-  /// to be drawn anew.
+  /// Once per frame: takes the latest view, plays, checks the preset's file. Returns whether
+  /// anything is to be drawn again.
   bool tick(double seconds);
 
  private:
@@ -298,7 +297,7 @@ class ViewerState {
   void report_finished_tasks();
 
   int drag_ = 1;
-  bool run_opened_ = false;  // the next sight goes on to where the run ended
+  bool run_opened_ = false;  // the next view continues at the run's end
   bool fresh_ = true;        // the next sight is of another shell: the camera goes round it
   std::filesystem::path file_;
   std::filesystem::file_time_type written_{};

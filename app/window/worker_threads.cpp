@@ -133,7 +133,7 @@ void EngineThread::work() {
       auto seen = view_after([&] { session_.execute(command, *watch); });
       lock.lock();
       if (seen) shell_ = std::move(seen);
-      // of a design that is stopped the last step stands, and is to be certified as any other
+      // after a cancel the design's last step remains, and is certified as any other
       if (watch->cancelled()) unrefined_ = std::holds_alternative<Design>(command.edit);
     } else {
       refining_ = true;

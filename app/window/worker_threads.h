@@ -1,4 +1,4 @@
-// Work beside the window, on a thread of its own: the shell and its picture stay free.
+// Work in the background, on a thread of its own: the shell and its picture stay responsive.
 #pragma once
 
 #include <condition_variable>
@@ -18,7 +18,7 @@
 
 namespace gridshell::window {
 
-/// Takes each line that is said on the way: "40 %  rendering, 0:12 left".
+/// Takes each line of progress: "40 %  rendering, 0:12 left".
 using ProgressListener = std::function<void(const std::string& line)>;
 
 /// A movie or a picture in the making; one at a time.
@@ -37,42 +37,42 @@ class BackgroundTask {
   BackgroundTask(const BackgroundTask&) = delete;
   BackgroundTask& operator=(const BackgroundTask&) = delete;
 
-  /// Where none is under way.
+  /// Starts a task if none is running.
   void begin(Work work, const std::filesystem::path& target);
   void stop();
   bool under_way() const;
-  /// Whether none is under way and the end of the last one was taken.
+  /// Whether none is running and the end of the last one was taken.
   bool idle() const { return !ended_.valid(); }
   /// The last that was said.
   std::string standing() const;
   /// The end of the last one, once.
   std::optional<End> take_end();
-  /// Waits until none is under way.
+  /// Waits until none is running.
   void wait() const {
     if (ended_.valid()) ended_.wait();
   }
 
  private:
   mutable std::mutex mutex_;    // of what was said
-  std::optional<Watch> watch_;  // of what is under way or has just ended
+  std::optional<Watch> watch_;  // of the current task or the last one
   std::filesystem::path target_;
   std::string said_;
   std::future<Result<void>> ended_;  // goes first: its end waits for the work
 };
 
-// The engine on a thread of its own: commands go in, views come out, and it can be stopped.
+// The engine on a thread of its own: it takes commands and returns views, and can be stopped.
 
 class EngineThread {
  public:
   EngineThread();
-  ~EngineThread();  ///< stops what is under way
+  ~EngineThread();  ///< stops the current command
   EngineThread(const EngineThread&) = delete;
   EngineThread& operator=(const EngineThread&) = delete;
 
-  /// Comes after those before it, but takes the place of a passing one of its own drag that has
-  /// not begun, and breaks off a refinement.
+  /// Queues a command, but replaces a waiting `passing` one of the same drag, and stops a
+  /// refinement.
   void post(Command command);
-  /// Stops what is under way and forgets what waits; the last certified state stays.
+  /// Stops the current command and discards waiting ones; the last certified state remains.
   void cancel();
 
   /// The latest; never null.
@@ -92,7 +92,7 @@ class EngineThread {
   mutable std::mutex mutex_;
   std::condition_variable wake_, rested_;
   std::deque<Command> commands_;
-  std::shared_ptr<Watch> watch_;  // of what is under way
+  std::shared_ptr<Watch> watch_;  // of the current command
   std::shared_ptr<const ShellView> shell_;
   bool working_ = false, refining_ = false, unrefined_ = false, over_ = false;
   double busy_since_ = 0;

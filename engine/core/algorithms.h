@@ -45,7 +45,7 @@ class UnionFind {
  public:
   explicit UnionFind(std::size_t size) : of_(size) { std::iota(of_.begin(), of_.end(), 0); }
 
-  /// The smallest number of the set that holds k: it names the set.
+  /// The smallest number of the set that contains k: it identifies the set.
   int find(int k) {
     while (of_[std::size_t(k)] != k)
       k = of_[std::size_t(k)] = of_[std::size_t(of_[std::size_t(k)])];

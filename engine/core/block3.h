@@ -32,7 +32,7 @@ inline void load(const Eigen::Vector3d& v, Column& column) { column = Column{v[0
 struct alignas(32) Block3 {
   Column column[3] = {};
 
-  /// The same numbers as a matrix.
+  /// The block as an Eigen matrix.
   auto matrix() {
     return Eigen::Map<Eigen::Matrix3d, Eigen::Unaligned, Eigen::OuterStride<4>>(
         reinterpret_cast<double*>(column));

@@ -1,21 +1,21 @@
-// Choices that presets name and the engine makes: one enum each, its words beside it.
+// Choices that presets name and the engine implements: one enum each, followed by its names.
 #pragma once
 
 #include "engine/core/enum_words.h"
 
 namespace gridshell {
 
-/// How much of a rod is modelled, the rungs of a ladder. `net`: the smooth net, geometry alone.
-/// `bend`: stretch and bend of rods whose spin stores no energy, three unknowns a node. `twist`:
-/// torsion too, full discrete elastic rods, one angle an edge more and frames carried in time
-/// [Bergou 2008, 2010]. `automatic`: the lowest that is exact.
+/// Rod model: how much of a rod is modelled. `net`: the smooth net, geometry alone. `bend`: stretch
+/// and bending of rods whose twist stores no energy, three unknowns per node. `twist`: torsion in
+/// addition, full discrete elastic rods, one angle more per edge and frames transported in time
+/// [Bergou 2008, 2010]. `automatic`: the simplest model that is exact.
 enum class RodModel { automatic, net, bend, twist };
 constexpr auto words(RodModel) { return names_except<RodModel>({{RodModel::automatic, "auto"}}); }
 
 /// Where the grid lines lie: at (i + 1/2) d, or at i d so that one rod of each family is an axis.
 enum class Placement { half, on_axis };
 
-/// How a point of the original boundary finds its place on the actuated one.
+/// How points of the original boundary correspond to points of the actuated one.
 enum class Correspondence {
   arc_length,  ///< the same fraction of the length, both counted from the positive x-axis
   angle,       ///< the same polar angle about the origin

@@ -46,12 +46,12 @@ Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& A);
 /// rotation, or, where mirrors count too, a reflection.
 Eigen::Matrix3d best_turn(const Eigen::Matrix3Xd& x, const Eigen::Matrix3Xd& y, bool mirrors);
 
-/// Of the polynomial through values at `known`: its weights at t [Lagrange], 0 for one left out.
+/// Weights at t of the polynomial through values at `known` [Lagrange]; 0 for one left out.
 Eigen::VectorXd polynomial_weights(const std::vector<double>& known, double t,
                                    std::size_t left_out = std::size_t(-1));
 
-/// Of the polynomial through values and slopes at `known`: its weights at t of the values, first
-/// column, and of the slopes [Hermite].
+/// Weights at t of the polynomial through values and slopes at `known` [Hermite]: of the values in
+/// the first column, of the slopes in the second.
 Eigen::MatrixX2d slope_weights(const std::vector<double>& known, double t);
 
 /// The shortest rotation that takes the direction of `from` to that of `to`.

@@ -84,9 +84,10 @@ class Energies {
   std::array<double, size> mJ_{};
 };
 
-/// Energies over two meshes of which one has edges twice as long, their errors being of second
-/// order: (4 fine - coarse)/3. Where that is below 0 for a term that never is, the term vanishes:
-/// it is a square then, of a stress that comes to (4 s_fine - s_coarse)/3.
+/// Richardson extrapolation of energies from two meshes, one with edges twice as long, with errors
+/// of second order: (4 fine - coarse)/3. If the result is below 0 for a term that cannot be
+/// negative, the term vanishes with the mesh: it is then the square of a stress extrapolated to (4
+/// s_fine - s_coarse)/3.
 inline Energies extrapolated(const Energies& fine, const Energies& coarse) {
   Energies energies = (4 * fine - coarse) / 3;
   for (const auto& [term, name, meaning] : energy_terms) {

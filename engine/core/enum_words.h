@@ -11,7 +11,7 @@
 
 namespace gridshell {
 
-/// One enumerator and the word that stands for it in files and on the command line.
+/// One enumerator and its name in files and on the command line.
 template <class Enum>
 struct EnumWord {
   Enum value;
@@ -36,7 +36,7 @@ consteval bool is_enumerator() {
          !(text[cast + 1] == '-' || (text[cast + 1] >= '0' && text[cast + 1] <= '9'));
 }
 
-/// All enumerators, which count from 0, with their own names as words. These names stand in files
+/// All enumerators, counted from 0, with their identifiers as names. These names are used in files
 /// and on command lines: another name is another format.
 template <class Enum, std::size_t size = 0>
 consteval auto enumerator_names() {
@@ -51,11 +51,11 @@ consteval auto enumerator_names() {
   }
 }
 
-/// The same with other words for some, for a function `words(Enum)` beside the enum itself, which
-/// an enum without exceptions does not need:
+/// All enumerators, some with other names, for a function `words(Enum)` next to the enum, which an
+/// enum without exceptions does not need:
 ///   enum class Choice { automatic, none };
 ///   constexpr auto words(Choice) { return names_except<Choice>({{Choice::automatic, "auto"}}); }
-/// A word used twice does not compile.
+/// A duplicate name does not compile.
 template <class Enum, std::size_t size>
 consteval auto names_except(const EnumWord<Enum> (&exceptions)[size]) {
   auto words = enumerator_names<Enum>();
@@ -82,7 +82,7 @@ constexpr std::string_view word_of(Enum value) {
   return table[std::size_t(value)].word;
 }
 
-/// The enumerator that a word stands for, if any.
+/// The enumerator of a name, if any.
 template <class Enum>
 constexpr std::optional<Enum> find_word(std::string_view word) {
   for (const auto& entry : words_of<Enum>())

@@ -54,7 +54,7 @@ int write_all(int descriptor, std::string_view bytes) {
 }
 
 void Checksum::add(std::string_view bytes) {
-  if (bytes.empty()) return;  // of no bytes at no place libdeflate begins anew
+  if (bytes.empty()) return;  // given no bytes at a null pointer, libdeflate starts a new checksum
   if (kind_ == ChecksumKind::crc32)
     sum_ = libdeflate_crc32(std::uint32_t(sum_), bytes.data(), bytes.size());
   else
@@ -107,7 +107,7 @@ std::optional<std::string> ReadableFile::read(std::uint64_t at, std::uint64_t si
 
 namespace {
 
-/// What an open file holds from where it stands.
+/// Reads an open file from its current position.
 Result<std::string> read_all(int file, const std::filesystem::path& path, std::uint64_t expected,
                              std::uintmax_t limit) {
   const auto too_large = [&] {

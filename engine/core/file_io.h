@@ -1,5 +1,5 @@
-// Files that appear under their final name only when they are whole: written beside it, then
-// renamed. A killed or failed run leaves what stood there before.
+// Files that appear under their final name only when they are complete: written to a temporary file
+// in the same folder, then renamed. After a killed or failed run the old file is unchanged.
 #pragma once
 
 #include <cstdint>
@@ -50,7 +50,8 @@ class Descriptor {
     return *this;
   }
   operator int() const { return number_; }
-  /// 0, or the system's error number: what is still on its way may meet the full disk only now.
+  /// Closes the file. Returns 0 or the system's error number: data still in the cache may fail to
+  /// be written now.
   int close();
 
  private:
@@ -85,11 +86,11 @@ int append_whole(int descriptor, std::string_view bytes, std::uint64_t& size);
 /// Errors: Fault::io, "cannot write 'path': reason".
 Result<void> write_file(const std::filesystem::path& path, std::string_view bytes);
 
-/// What a text may come to at most, and what a picture or a table may.
+/// Largest sizes of a text file, and of a picture or table, in bytes.
 inline constexpr std::uintmax_t largest_text = std::uintmax_t(16) << 20,
                                 largest_file = std::uintmax_t(1) << 30;
 
-/// The whole of a regular file of at most `limit` bytes. Errors: Fault::io, "cannot read 'path':
+/// Reads a complete regular file of at most `limit` bytes. Errors: Fault::io, "cannot read 'path':
 /// reason".
 Result<std::string> read_file(const std::filesystem::path& path,
                               std::uintmax_t limit = largest_file);
@@ -103,7 +104,7 @@ Result<void> make_folder(const std::filesystem::path& folder);
 /// Files of many bytes bear a CRC-32, lines a 64-bit FNV-1a, and so do files of version 0.2.
 enum class ChecksumKind { fnv1a, crc32 };
 
-/// The checksum of the files of a run. It tells damage, not intent.
+/// The checksum of a run's files. It detects damage, not intent.
 class Checksum {
  public:
   explicit Checksum(ChecksumKind kind = ChecksumKind::fnv1a)

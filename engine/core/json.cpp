@@ -10,7 +10,7 @@ std::string dumped(const Json& json, int indent, bool ascii) {
   return json.dump(indent, ' ', ascii, Json::error_handler_t::replace);
 }
 
-/// A whole number that an int holds; nothing for any other value.
+/// An integer in the range of int; empty for any other value.
 std::optional<int> whole_number(const Json& json) {
   if (!json.is_number_integer()) return std::nullopt;
   const bool fits = json.is_number_unsigned() ? std::in_range<int>(json.get<std::uint64_t>())

@@ -1,4 +1,4 @@
-// JSON, read and written in one place: its templates take a compiler seconds a file.
+// JSON read and written in one source file, since its templates take seconds to compile in each.
 #pragma once
 
 #include <map>
@@ -22,7 +22,7 @@ Json parsed(std::string_view text);
 /// Indented, with a newline at its end. NaN becomes null, a broken UTF-8 sequence U+FFFD.
 std::string text_of(const Json& json);
 
-/// The same on one line without a newline; `ascii`: other letters as \uXXXX.
+/// JSON on one line without a newline; `ascii`: other letters as \uXXXX.
 std::string line_of(const Json& json, bool ascii = false);
 
 /// Takes a value of the right kind; says what it must be where it is none, else nothing.

@@ -22,7 +22,7 @@ enum class Outcome {
   cancelled,
 };
 
-/// An outcome's word, and what happened as a sentence goes on: "... at progress 0.4".
+/// Name of an outcome, and a sentence on it that can be continued by "... at progress 0.4".
 struct OutcomeText {
   Outcome outcome;
   const char* name;

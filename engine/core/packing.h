@@ -40,7 +40,7 @@ class ByteWriter {
   std::string text_;
 };
 
-/// And back; never beyond the end, and false ever after something was missing.
+/// Reads packed bytes, never past the end; all reads fail after the first that found too few bytes.
 class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : left_(bytes) {}

@@ -1,4 +1,4 @@
-// The same work on many things, shared by threads.
+// One task applied to many items, distributed over threads.
 #pragma once
 
 #include <algorithm>
@@ -15,16 +15,17 @@
 
 namespace gridshell {
 
-/// As many threads as asked for; 0: as there are cores.
+/// The requested number of threads; 0: as many as there are cores.
 inline int thread_count(int asked) {
   return asked > 0 ? asked : std::max(1, int(std::thread::hardware_concurrency()));
 }
 
-/// Calls `make()`, a Result, once a thread and on that thread, and `task(worker, k)` with what it
-/// returned for every k from 0 to `count`, each once; `done(share)`, one call at a time, with the
-/// share of all that is done. Results are to be kept by k, so that they do not hang on the number
-/// of threads. What fails (`make`, or a task that returns a Result) or throws cancels the rest.
-/// Errors: the first of those; cancelled. What was thrown is thrown again here.
+/// Calls `make()`, a Result, once per thread and on that thread, and `task(worker, k)` with its
+/// value for every k from 0 to `count`, each once; `done(fraction)`, one call at a time, gets the
+/// completed fraction. Results should be stored by k, so that they do not depend on the number of
+/// threads. A failure (of `make`, or of a task that returns a Result) or an exception cancels the
+/// remaining tasks. Errors: the first of those; cancelled. Exceptions are thrown again by the
+/// caller's thread.
 template <class Make, class Task, class Done>
 Result<void> parallel_for(int count, int threads, Watch& watch, const Make& make, const Task& task,
                           const Done& done) {
@@ -71,7 +72,7 @@ Result<void> parallel_for(int count, int threads, Watch& watch, const Make& make
   return {};
 }
 
-/// The same where threads need nothing of their own: `task(k)`.
+/// Overload for threads that need no data of their own: `task(k)`.
 template <class Task, class Done>
 Result<void> parallel_for(int count, int threads, Watch& watch, const Task& task,
                           const Done& done) {
@@ -80,7 +81,7 @@ Result<void> parallel_for(int count, int threads, Watch& watch, const Task& task
       [&](bool, int k) { return task(k); }, done);
 }
 
-/// A `done` that tells a watch: the share of all between two fractions of its own work.
+/// A `done` that reports to a watch: the completed fraction, mapped to a range of its progress.
 inline auto reporting(Watch& watch, double from = 0, double to = 1) {
   return [&watch, from, to](double share) { watch.report(from + (to - from) * share); };
 }

@@ -11,7 +11,7 @@ NearestPoints nearest_points(const Eigen::Vector3d& p, const Eigen::Vector3d& q,
     return below > 0 ? std::clamp(above / below, 0.0, 1.0) : 0.0;
   };
   NearestPoints near;
-  // where the lines are nearest, or of parallel ones the begin
+  // where the lines are nearest; of parallel lines the start
   const double across = dd * ee - de * de;
   near.s = across > 1e-14 * dd * ee ? within(de * er - dr * ee, across) : 0;
   near.t = within(de * near.s + er, ee);
@@ -29,7 +29,7 @@ BoxPlane::BoxPlane(const std::vector<Eigen::AlignedBox3d>& boxes, double mm) {
     mean += each.sizes() / double(count);
     largest = largest.cwiseMax(each.sizes());
   }
-  // the plane in which they lie farthest apart
+  // the plane with the largest distance between them
   Eigen::Index across = 0;
   if (count > 0) all.sizes().minCoeff(&across);
   const Eigen::Index axes[2] = {(across + 1) % 3, (across + 2) % 3};

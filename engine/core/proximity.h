@@ -30,8 +30,8 @@ struct BoxPlane {
   BoxPlane(const std::vector<Eigen::AlignedBox3d>& boxes, double mm);
 
   int columns = 1, rows = 1;
-  std::vector<int> first;   ///< place of a cell's first box, row after row, and the end
-  std::vector<int> number;  ///< of the box at a place
+  std::vector<int> first;   ///< index of a cell's first box, row after row, and the end
+  std::vector<int> number;  ///< of the box at an index
   std::vector<Eigen::AlignedBox3d> box;
   std::vector<int> wide;  ///< in no cell
 };
@@ -50,7 +50,7 @@ void each_near_pair(const std::vector<Eigen::AlignedBox3d>& boxes, double mm, co
     for (int column = 0; column < plane.columns; ++column) {
       const int cell = row * plane.columns + column;
       const auto begin = [&](int c) { return plane.first[std::size_t(c)]; };
-      // the rest of this cell and the next one, and the three above
+      // the remaining boxes of this cell, the next cell, and the three in the next row
       const int beside = cell + (column + 1 < plane.columns ? 2 : 1);
       const int above = cell + plane.columns;
       for (int k = begin(cell); k < begin(cell + 1); ++k) {

@@ -1,4 +1,4 @@
-// Errors as values: what can fail returns Result<T>, which holds a T or an Error.
+// Errors as values: a function that can fail returns Result<T>, a T or an Error.
 #pragma once
 
 #include <fmt/core.h>
@@ -35,14 +35,14 @@ using Result = tl::expected<T, Error>;
 inline tl::unexpected<Error> fail(Fault fault, std::string message) {
   return tl::unexpected<Error>(Error{fault, std::move(message)});
 }
-/// The same, the message made of a format and what goes into it.
+/// An error whose message is made from a format and its arguments.
 template <class First, class... More>
 tl::unexpected<Error> fail(Fault fault, fmt::format_string<First, More...> text, First&& first,
                            More&&... more) {
   return fail(fault, fmt::format(text, std::forward<First>(first), std::forward<More>(more)...));
 }
 
-/// fail(Fault::bad_input, ...).
+/// Shorthand for fail(Fault::bad_input, ...).
 inline tl::unexpected<Error> invalid(std::string message) {
   return fail(Fault::bad_input, std::move(message));
 }

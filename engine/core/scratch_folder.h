@@ -10,8 +10,7 @@
 
 namespace gridshell {
 
-/// A folder of its own within the system's temporary one, removed with all that it holds when this
-/// is destroyed.
+/// A new folder in the system's temporary one, removed with its contents by the destructor.
 class ScratchFolder {
  public:
   /// Errors: io.

@@ -11,9 +11,8 @@ namespace gridshell {
 /// "0.2.0", that of the CMake project.
 const char* version();
 
-/// Which build of it: the version, and the identity that the linker gave the program or library
-/// that holds this code (a hash of what it is linked from, the same for the same sources, compiler
-/// and options). What one build began another may continue differently.
+/// Identifies the build: the version, and the hash that the linker gave the program or library (the
+/// same for the same sources, compiler and options). Another build may continue a run differently.
 std::string build_id();
 
 // Wall time for reports, and the processor's time for measurements.

@@ -1,5 +1,5 @@
-// Threads that stay and work together on one thing, again and again: loops of well under a
-// millisecond. What goes on for longer, on shells of their own, is parallel_for (parallel.h).
+// Threads that work repeatedly on loops of well under a millisecond. Longer independent tasks use
+// parallel_for (parallel.h).
 #pragma once
 
 #include <atomic>
@@ -27,8 +27,8 @@ class Team {
   int threads() const { return int(helpers_.size()) + 1; }
 
   /// Calls task(k) once for every k from 0 to `tasks`, on any thread and in any order, and returns
-  /// when all are done. No result may depend on who does them. Where a task throws, those not yet
-  /// begun are left out, and the first exception is thrown again here.
+  /// when all are done. Results must not depend on the thread. If a task throws, tasks not yet
+  /// started are left out, and the first exception is thrown again by the caller.
   void run(int tasks, const std::function<void(int)>& task);
 
  private:
@@ -45,7 +45,7 @@ class Team {
   std::vector<std::jthread> helpers_;
 };
 
-/// The same where there may be no team: the caller alone.
+/// Overload for an optional team: without one the caller does all tasks.
 inline void share(Team* team, int tasks, const std::function<void(int)>& task) {
   if (team) return team->run(tasks, task);
   for (int k = 0; k < tasks; ++k) task(k);
@@ -53,8 +53,8 @@ inline void share(Team* team, int tasks, const std::function<void(int)>& task) {
 
 // When a method is cut off.
 
-/// From here on BLAS works on the calling thread alone, where the library can be told so
-/// (OpenBLAS): its helpers would not be charged, and sums would depend on how many there are.
+/// Restricts BLAS to the calling thread, if the library supports it (OpenBLAS): its threads would
+/// not be counted, and sums would depend on their number.
 void keep_blas_on_one_thread();
 
 /// A Watch of its own that is cancelled once the thread that made it has worked for `seconds` more,

@@ -32,7 +32,7 @@ inline std::vector<std::string_view> words_in(std::string_view line,
   return words;
 }
 
-/// The next line of a text, without its end; the text goes on behind it.
+/// Removes the next line from the front of a text and returns it without its end.
 inline std::string_view next_line(std::string_view& text) {
   const std::size_t end = std::min(text.find('\n'), text.size());
   const std::string_view line = text.substr(0, end);
@@ -46,8 +46,8 @@ inline std::string_view next_line(std::string_view& text) {
 /// (optimal string alignment distance); upper and lower case count as the same letter.
 int edit_distance(std::string_view a, std::string_view b);
 
-/// The nearest of `known` to `word` when it is near enough to be meant (a third of its letters, at
-/// least one, wrong, or the rest of it missing), else empty. Ties go to the first.
+/// The nearest of `known` to `word` if it is similar enough (at most a third of its letters wrong,
+/// but one may be; or the end missing), else empty. Of equal ones the first.
 std::string nearest(std::string_view word, const std::vector<std::string>& known);
 
 /// "; did you mean 'x'?", or empty when nothing is near.

@@ -14,7 +14,7 @@ struct Search {
   std::string found;
 };
 
-/// The hash of an object's note "GNU", NT_GNU_BUILD_ID; empty where `notes` hold none.
+/// The hash in an object's note "GNU", NT_GNU_BUILD_ID; empty if `notes` has none.
 std::string identity_in(const char* notes, std::size_t size) {
   const auto padded = [](std::size_t bytes) { return (bytes + 3) / 4 * 4; };
   for (std::size_t at = 0; at + sizeof(ElfW(Nhdr)) <= size;) {
@@ -34,7 +34,7 @@ std::string identity_in(const char* notes, std::size_t size) {
   return {};
 }
 
-/// dl_iterate_phdr callback: 1 where the object holds the code that is looked for.
+/// dl_iterate_phdr callback: 1 if the object contains this code.
 int look_into(dl_phdr_info* object, std::size_t, void* data) {
   auto& search = *static_cast<Search*>(data);
   bool holds = false;

@@ -1,13 +1,12 @@
-// Whoever starts long work watches it through one object: progress comes out, a wish to stop goes
-// in.
+// Watch: an object through which long work reports progress and receives a cancel.
 #pragma once
 
 #include <atomic>
 
 namespace gridshell {
 
-/// Shared by long work (one writer) and whoever watches it (any thread, also a signal handler).
-/// Progress only grows; a cancel is sticky: once asked for, the work ends with Fault::cancelled.
+/// Used by long work (one writer) and its observers (any thread, also a signal handler). Progress
+/// only increases; a cancel is permanent: once requested, the work ends with Fault::cancelled.
 class Watch {
  public:
   void cancel() noexcept { cancelled_.store(true, std::memory_order_relaxed); }
@@ -20,7 +19,7 @@ class Watch {
   }
   double progress() const noexcept { return progress_.load(std::memory_order_relaxed); }
 
-  /// where on an equilibrium path the work stands, and how many edges a segment lead there
+  /// the current path parameter and the edges per segment of the mesh that is solved
   struct Place {
     double t = 0;
     int edges = 0;  ///< 0: on no path yet
@@ -37,7 +36,7 @@ class Watch {
   static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<double>::is_always_lock_free);
   std::atomic<bool> cancelled_{false};
   std::atomic<double> progress_{0.0};
-  // told by work that is only to be stopped
+  // reported by work that can only be cancelled
   mutable std::atomic<double> t_{0.0};
   mutable std::atomic<int> edges_{0};
 };

@@ -42,7 +42,7 @@ struct DesignProblem {
   int symmetries = 1;
   DesignVariables variables;
   OptimiseOptions options;
-  double jump_mm = 0;  ///< Newton's way from a prediction that is believed
+  double jump_mm = 0;  ///< largest accepted distance of the Newton result from a prediction
 };
 
 /// Whether a shell has what a design needs.
@@ -71,9 +71,9 @@ ShellEnds rounded(ShellEnds ends, double to_mm) {
   return ends;
 }
 
-/// The work of a preset's [inverse] on a shell of its scene, at rest on the mesh that is designed
-/// on. Errors: bad_input (ends that have nothing of what is to vary), no_equilibrium (on the mesh
-/// that certifies), cancelled.
+/// The task of a preset's [inverse] for a shell of its scene, in equilibrium on the mesh of the
+/// optimisation. Errors: bad_input (ends without the requested variables), no_equilibrium (on the
+/// mesh that certifies), cancelled.
 Result<DesignProblem> begin_design(const preset::Preset& preset, const Scene& scene,
                                    std::unique_ptr<DesignShell> coarse, const Watch& watch) {
   TRY(target, design_target(scene, preset.inverse.target));
@@ -122,7 +122,7 @@ Result<std::unique_ptr<DesignShell>> begin(const std::shared_ptr<const Scene>& s
                            shell.state().levels.back());
 }
 
-/// Shells whose pins and legs are off by chance, each brought to rest from the designed one.
+/// Shells with random errors of pins and legs, each in equilibrium, computed from the designed one.
 FabricationErrors fabricate(DesignShell& shell, DesignTarget& target, double sigma_mm,
                             double farthest_mm, const Watch& watch) {
   const DesignShell::ShellPosition begin = shell.stand();

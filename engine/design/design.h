@@ -16,13 +16,13 @@ namespace gridshell {
 
 class DesignShell;
 
-/// Edges a segment: optima on 4 are saddles of the shell.
+/// Edges per segment: optima on 4 are saddles of the shell.
 inline constexpr int designed_on = 16, certified_on = 32;
 
 /// What a design aims at, for the joints of a scene that has a net. Errors: those of the net.
 Result<DesignTarget> design_target(const Scene& scene, preset::Target kind);
 
-/// A shell with given ends, at rest on one mesh.
+/// A shell with given ends, in equilibrium on one mesh.
 struct DesignedState {
   int edges_per_segment = 0;
   double max_mm = 0, mean_mm = 0;  ///< distances of the joints from the target
@@ -35,7 +35,7 @@ struct DesignedState {
 /// Shells as a builder would make them: every pin and leg off by a normal error.
 struct FabricationErrors {
   double sigma_mm = 0;
-  int samples = 0, lost = 0;  ///< lost: came to no stable rest nearby
+  int samples = 0, lost = 0;  ///< lost: no stable equilibrium found nearby
   double max_mm = 0;          ///< largest distance of a joint, over the samples the mean of it
   double worst_mm = 0;        ///< and the largest of all
   double mean_mm = 0;         ///< mean over joints and samples
@@ -43,7 +43,7 @@ struct FabricationErrors {
 
 struct DesignResult {
   double length_scale_mm = 0;
-  std::vector<DesignedState> before, after;  ///< at 16 and at 32 edges a segment
+  std::vector<DesignedState> before, after;  ///< with 16 and with 32 edges per segment
   std::optional<DesignedState> rounded;      ///< at 32 edges
   std::vector<FabricationErrors> fabricated;
   std::vector<DesignStep> steps;
@@ -60,30 +60,32 @@ struct DesignResult {
   preset::Points rods_before, rod_table;  ///< of `[rod] table`
 };
 
-/// Designs the shell of a preset as its [inverse] table says: on meshes of 16 edges a segment, for
-/// optima on 4 are saddles of the shell; certified on 32. Errors: bad_input (nothing to vary, no
-/// net, a model beyond the bend rung), no_equilibrium (of the shell as it is, of the rounded one),
+/// Designs the shell of a preset as its [inverse] table says: on meshes of 16 edges per segment,
+/// since optima on 4 are saddles of the shell; certified on 32. Errors: bad_input (no variables, no
+/// net, a rod model other than bend), no_equilibrium (of the initial shell, of the rounded one),
 /// cancelled.
 Result<DesignResult> design(const preset::Preset& preset, Watch& watch,
                             const std::function<void(const DesignStep&)>& seen = {});
 
-/// The nearest points of the target to nodes of a shell (3 x nodes) whose places in the flat are
-/// `flat`; where the net is not known there, the nodes themselves. Errors: as of a scene.
+/// The nearest points of the target to nodes of a shell (3 x nodes) whose positions in the flat
+/// grid are `flat`; where the net is not known, the nodes themselves. Errors: those of building a
+/// scene.
 Result<Eigen::Matrix3Xd> nearest_to(const preset::Preset& preset, const Eigen::Matrix3Xd& flat,
                                     const Eigen::Matrix3Xd& nodes);
 
 // A design that somebody watches, step by step, and stops when it is good enough.
 
-/// A step that 16 and 32 edges a segment hold: at rest, stable, stable enough.
+/// A step that is confirmed with 16 and 32 edges per segment: in equilibrium, stable, above the
+/// least stability.
 struct CertifiedStep {
   const DesignStep& step;
-  const DesignShell& shell;             ///< on 16 edges, standing in it
+  const DesignShell& shell;             ///< on 16 edges, in the state of the step
   const Eigen::VectorXd& distances_mm;  ///< of the joints from the target
   double eigenvalue = 0;                ///< smallest on 32 edges, N/mm^2
   preset::Points ends, rods;            ///< `[ends] table`, `[rod] table`
 };
 
-/// Where the shell stands that is designed: a state of the scene's own model, at rest.
+/// Current state of the shell to be designed: an equilibrium of the scene's own model.
 struct DesignStart {
   std::shared_ptr<const Scene> scene;
   const RodMesh& mesh;
@@ -100,10 +102,10 @@ struct LiveDesignResult {
   std::optional<double> rounded_max_mm;
 };
 
-/// Optimises as design() does, but hands over each step as it comes, certified, the begin first;
-/// what the finer mesh does not hold is passed over. Cancelled at any time, within a step too, the
-/// last that was handed over is what it came to. It does not build with errors. Errors: as
-/// design(); cancelled before the begin was handed over.
+/// Optimises as design() does and passes on each step after its certification, the initial state
+/// first; steps that the finer mesh does not confirm are left out. After a cancel, also within a
+/// step, the result is the last step passed on. It does not simulate fabrication errors. Errors: as
+/// design(); cancelled before the initial state was passed on.
 Result<LiveDesignResult> design_live(const preset::Preset& preset, const DesignStart& from,
                                      int most_iterations, const Watch& watch,
                                      const std::function<void(const CertifiedStep&)>& seen);

@@ -14,7 +14,7 @@ EdgeGeometry geometry_of(const Eigen::Matrix3Xd& x, const ModelEdge& edge) {
   return {along.normalized(), along.norm()};
 }
 
-/// Rest lengths around a bend, of which half counts: a ghost's does not.
+/// Half the natural lengths of the edges at a bend; a ghost's does not count.
 double lengths_at(const Model& model, const ModelBend& bend) {
   return 2 * length_between(model, bend.e, bend.f);
 }
@@ -243,9 +243,9 @@ void DesignShell::add_bend_gradient(int k, double share, Eigen::Matrix3Xd& minus
   minus_dg.col(f.to) += share * energy.gradient_f;
 }
 
-/// -dg/dl of each edge of a leg, times its share of the leg's change: stretch pulls its two nodes
-/// by EA |e|/l^2 less, and every bend beside it is softer by 1/(2 l_v), l_v the mean rest length
-/// there.
+/// -dg/dl of each edge of a leg, times its fraction of the leg's change: stretch reduces the pull
+/// on its two nodes by EA |e|/l^2, and every adjacent bend is less stiff by 1/(2 l_v), l_v being
+/// the mean natural length there.
 void DesignShell::add_leg_gradient(int end, double change, Eigen::Matrix3Xd& minus_dg) const {
   const Leg& leg = legs_[std::size_t(end)];
   const double share = change / double(leg.edges.size());

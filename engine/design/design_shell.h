@@ -21,27 +21,27 @@ struct Sensitivity {
   Eigen::MatrixXd leg_force;        ///< ends x changes, N
 };
 
-/// An equilibrium g(x, q) = dE/dx = 0 on the bend rung and what it becomes when pins, legs, held
-/// directions and diameters q change: dx/dq = -H^-1 dg/dq with the factor at hand.
+/// An equilibrium g(x, q) = dE/dx = 0 of the bend model and its sensitivity to pins, legs,
+/// prescribed directions and diameters q: dx/dq = -H^-1 dg/dq with the current factor.
 class DesignShell {
  public:
-  /// From a state of the scene's model on a mesh, at rest with the scene's ends. Errors:
-  /// bad_input, no_equilibrium, cancelled.
+  /// Starts from a state of the scene's model on a mesh, in equilibrium with the scene's ends.
+  /// Errors: bad_input, no_equilibrium, cancelled.
   static Result<std::unique_ptr<DesignShell>> make(const Scene& scene, int edges_per_segment,
                                                    const RodMesh& mesh, const Model& model,
                                                    const State& state,
                                                    const Watch& watch = unwatched);
 
-  /// Gives it other ends: predicted by its sensitivity to them, then brought to rest by Newton's
-  /// method, which may lead no further than `farthest_mm` from there. Errors (no_equilibrium): no
-  /// convergence, a jump, a state that is not stable; cancelled; the shell then stays as it was.
+  /// Changes the ends: the new state is predicted by its sensitivity and corrected by Newton's
+  /// method, at most `farthest_mm` from the prediction. Errors (no_equilibrium): no convergence, a
+  /// snap, an unstable state; cancelled; the shell is then unchanged.
   Result<void> move(const ShellEnds& ends, double farthest_mm, const Watch& watch = unwatched);
 
-  /// The same from where it is, in as many steps as it takes, evenly, of at least 1/64 of the way.
+  /// Changes the ends in as many equal steps as necessary, each at least 1/64 of the change.
   Result<void> move_in_steps(const ShellEnds& ends, double farthest_mm,
                              const Watch& watch = unwatched);
 
-  /// Where it stands, to go back to.
+  /// A saved state of the shell.
   struct ShellPosition {
     State state;
     ShellEnds ends;
@@ -67,7 +67,7 @@ class DesignShell {
   Eigen::VectorXd leg_forces() const;
   const Energies& energies() const { return system_->assembly().energies; }
   double residual() const { return system_->residual(); }
-  /// Of the state, under what acts.
+  /// Forces and tangents of the current state under its loads.
   const Assembly& forces() const { return system_->assembly(); }
 
  private:
@@ -97,7 +97,7 @@ class DesignShell {
     std::vector<int> edges;
     int at_end = -1;           ///< the edge at the edge point
     std::vector<int> bends;    ///< that one of its edges takes part in
-    int ghost = -1, far = -1;  ///< nodes beyond its edge point
+    int ghost = -1, far = -1;  ///< nodes outside its edge point
 
     /// How many of the bend's two edges are among them.
     int edges_of(const ModelBend& bend) const {

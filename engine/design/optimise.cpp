@@ -101,9 +101,10 @@ void add_distances(const Distances& distances, const Sensitivity& moved, double 
   sum.curvature += curvature + (2 - p) * std::pow(M, -2 / p) * gradient * gradient.transpose();
 }
 
-constexpr double jump = 0.1;  // of d: Newton's way from a prediction that is believed
-/// A norm, from which damping (of the mean curvature) its steps begin, and at which relative fall
-/// of the objective it has done its work.
+constexpr double jump =
+    0.1;  // in units of d: largest accepted distance of the Newton result from a prediction
+/// A stage: its norm, the initial damping (over the mean curvature), and the relative decrease of
+/// the objective at which it ends.
 struct Stage {
   double norm, damping, flat_enough;
 };
@@ -126,7 +127,7 @@ class Optimiser {
         options.max_leg_force_N > 0 ? std::max(options.max_leg_force_N, largest_force()) : INFINITY;
   }
 
-  /// One iteration; whether the stage may go on. One that is stopped never was.
+  /// One iteration; returns whether the stage continues. A cancelled iteration has no effect.
   bool step(const Stage& stage, const std::function<void(const DesignStep&)>& seen) {
     const double p = stage.norm;
     const auto rates = variables_.rates_at(q_);
@@ -146,7 +147,7 @@ class Optimiser {
     step.taken = refused.empty();
     step.refused = refused;
     if (step.taken) {
-      // how much of what the linearised problem promised came true says how far it holds
+      // the ratio of the actual to the predicted decrease measures the linearisation
       const Eigen::VectorXd dz = variables_.basis().transpose() * (q - q_);
       const double promised = -now.gradient.dot(dz) - 0.5 * dz.dot(now.curvature * dz);
       const double kept = (now.value - step.objective) / promised;
@@ -257,7 +258,7 @@ std::vector<DesignStep> optimise(DesignShell& shell, DesignTarget& target,
                                  const std::function<void(const DesignStep&)>& seen) {
   Optimiser run(shell, target, variables, options, spacing_mm, watch);
   run.begin();
-  // towards the largest distance the way is more crooked
+  // for the largest distance the objective is less smooth
   for (const Stage& stage : {Stage{2, 0.3, 0.03}, {options.norm, 1, 0.002}}) {
     run.begin_stage(stage);
     while (run.iterations() < options.most_iterations && !watch.cancelled())

@@ -16,9 +16,9 @@ namespace gridshell {
 class DesignShell;
 struct Sensitivity;
 
-/// The distance of each joint from the target as a vector in space, 3 x joints, mm, and the part of
-/// a joint's move that changes it: all of the move where the joint's own place on the net is the
-/// target, that along the surface's normal where the surface is.
+/// The distance of each joint from the target as a vector, 3 x joints, mm, and the projection of a
+/// joint's displacement that changes it: the identity if the joint's position on the net is the
+/// target, the projection on the surface's normal if the surface is.
 struct Distances {
   Eigen::Matrix3Xd vector;
   Eigen::Matrix3Xd normal;  ///< unit; empty: every move counts
@@ -32,8 +32,8 @@ class DesignTarget {
   static Result<DesignTarget> make(std::shared_ptr<const ChebyshevNet> net, Eigen::Matrix2Xd uv,
                                    preset::Target kind);
 
-  /// From the surface the nearest point is found by Newton's method on the net, from where it was
-  /// found last; where the net ends before, its tangent plane takes the surface's place.
+  /// The nearest point of a surface is found by Newton's method on the net, from the last one
+  /// found; outside the net its tangent plane replaces the surface.
   Distances distances(const Eigen::Matrix3Xd& joints);
   /// The nearest points themselves, 3 x joints.
   Eigen::Matrix3Xd nearest(const Eigen::Matrix3Xd& joints);
@@ -47,8 +47,8 @@ class DesignTarget {
 
 // What a design makes small, with its slope and curvature.
 
-/// Weights of what stands beside the distances: without the forces legs are compressed until they
-/// buckle.
+/// Weights of the terms in addition to the distances: without the forces, legs are compressed until
+/// they buckle.
 struct ObjectiveWeights {
   double moves = 0.03;   ///< mu
   double forces = 0.01;  ///< eta
@@ -80,7 +80,7 @@ Objective objective(const Distances& distances, const Eigen::VectorXd& q,
 struct OptimiseOptions {
   double norm = 8;             ///< p of the last stage; the first is 2
   double move_limit_mm = 5;    ///< of a pin or a leg
-  double min_stability = 0.5;  ///< of the smallest eigenvalue, over that of the begin
+  double min_stability = 0.5;  ///< least ratio of the smallest eigenvalue to the initial one
   double max_leg_force_N = 0;  ///< 0: any
   int most_iterations = 25;
   ObjectiveWeights weights;
@@ -99,12 +99,12 @@ struct DesignStep {
   Eigen::VectorXd q;    ///< the variables after it
 };
 
-/// Makes the objective small, with p = 2 first and then the norm asked for: damped steps of the
-/// linearised problem, each predicted by x + S dq and brought to rest by Newton's method. A step
-/// counts only if it converged, without a jump and a negative pivot, with the smallest eigenvalue
-/// and the leg forces within their limits, and if the objective fell. `seen` after every step,
-/// while the shell stands in it where it was taken. The shell ends at the optimum; cancelled,
-/// between two steps or within one, in the last that was taken. All steps, the begin first.
+/// Minimises the objective, with p = 2 first and then the requested norm, by damped steps of the
+/// linearised problem; each is predicted by x + S dq and corrected by Newton's method. A step is
+/// accepted only if it converged without a snap and without negative pivots, with the smallest
+/// eigenvalue and the leg forces within their limits, and if the objective decreased. `seen` is
+/// called after every step, with the shell in its state. The shell ends at the optimum or, after a
+/// cancel, in the last accepted step. Returns all steps, the initial state first.
 std::vector<DesignStep> optimise(DesignShell& shell, DesignTarget& target,
                                  const DesignVariables& variables, const OptimiseOptions& options,
                                  double spacing_mm, const Watch& watch,

@@ -29,7 +29,7 @@ Eigen::Matrix2Xd places_of(const Footprint& footprint) {
   return places;
 }
 
-/// Which place each goes to; joints to joints, ends to ends.
+/// The permutation of positions under a symmetry; joints map to joints, ends to ends.
 std::optional<std::vector<int>> permutation_of(const Eigen::Matrix2Xd& places, Eigen::Index joints,
                                                const Eigen::Matrix2d& map, double near_mm) {
   auto to = images_of(places.leftCols(joints), map, near_mm);
@@ -69,7 +69,7 @@ bool is_pin(Vary kind) {
   return false;
 }
 
-/// The ways in which an end may be moved.
+/// The directions in which an end may be moved.
 std::vector<Eigen::Vector3d> ways_of(Vary kind, const ShellEnds& ends, Eigen::Index end) {
   const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY(),
                         z = Eigen::Vector3d::UnitZ();
@@ -94,8 +94,7 @@ std::vector<Eigen::Vector3d> ways_of(Vary kind, const ShellEnds& ends, Eigen::In
   return {across, along.cross(across)};
 }
 
-/// Whether an end is held so that a variable of this kind does anything; a rod's stands at its
-/// begin.
+/// Whether a variable of this kind has an effect at an end; that of a rod belongs to its start.
 bool applies(Vary kind, Eigen::Index end, RodEnd hold) {
   if (kind == Vary::diameters) return end % 2 == 0;
   return kind == Vary::directions ? holds_direction(hold) : is_held(hold);
@@ -116,7 +115,7 @@ Eigen::MatrixXd projector(const std::vector<DesignVariable>& all,
       for (Eigen::Index j = 0; j < n; ++j) {
         const DesignVariable& to = all[std::size_t(j)];
         if (to.kind != from.kind) continue;
-        // a symmetry may take the begin of a rod to the end of one
+        // a symmetry may map the start of a rod to the end of another
         const bool rods = from.kind == Vary::diameters;
         if (rods ? to.end / 2 != end / 2 : to.end != end) continue;
         mean(j, k) += rods || from.kind == Vary::legs ? 1 : to.way.dot(way);

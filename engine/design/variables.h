@@ -10,24 +10,25 @@
 
 namespace gridshell {
 
-/// A motion of space that takes the shell to itself: x goes to turn x + shift, and the end k of a
-/// rod (2r the begin, 2r + 1 the end of rod r) to the place of end to[k].
+/// A rigid motion that maps the shell to itself: x maps to turn x + shift, and the end k of a rod
+/// (2r the start, 2r + 1 the end of rod r) to the position of end to[k].
 struct ShellSymmetry {
   std::vector<int> to;
   Eigen::Matrix3d turn;
 };
 
-/// All of the eight symmetries of the square grid that leave the footprint, the ends' places and
-/// the joints as they are (3 x joints, mm) where they were, and up up; the identity is the first.
-/// `near_mm`: how near counts as the same.
+/// Those of the eight symmetries of the square grid that preserve the footprint, the positions of
+/// ends and joints (3 x joints, mm) and the upward direction; the identity is the first. `near_mm`:
+/// largest distance of equal positions.
 std::vector<ShellSymmetry> symmetries_of(const Scene& scene, const Eigen::Matrix3Xd& joints,
                                          double near_mm);
 
 // What a design changes, as numbers.
 
-/// One number at one end: a pin's move along `way` (mm), a leg's change of length (mm), or the turn
-/// of a held direction towards `way` (the direction is the old one plus the sum of q `way`, made
-/// unit: rad for small ones); of a rod, at its begin, its diameter: the old one times exp(q/10).
+/// One variable at one end: displacement of a pin along `way` (mm), change of a leg's length (mm),
+/// or rotation of a prescribed direction towards `way` (the new direction is the old one plus the
+/// sum of q `way`, normalised: rad for small ones). For a rod, at its start: the diameter, the old
+/// one times exp(q/10).
 struct DesignVariable {
   preset::Vary kind = preset::Vary::pins;
   int end = 0;
@@ -39,7 +40,7 @@ struct DesignVariable {
 /// basis z, the basis orthonormal, with as many z as the symmetries leave free.
 class DesignVariables {
  public:
-  /// `vary` at all ends of the scene that are held.
+  /// The variables `vary` at all constrained ends of the scene.
   DesignVariables(const Scene& scene, const std::vector<preset::Vary>& vary,
                   const std::vector<ShellSymmetry>& symmetries);
 

@@ -28,9 +28,9 @@ struct SplineData {
   std::vector<Eigen::Vector3d> tangents;  ///< at its first and last fit point; or none
 };
 
-/// Points of a spline, a degree of turn apart at most; of fit points alone the cubic spline with
-/// continuous curvature over their chord lengths, straight at ends without tangents. Empty: its
-/// numbers of knots, weights and points do not go together.
+/// Points of a spline, at most one degree of its direction apart; for fit points alone the cubic
+/// spline with continuous curvature over their chord lengths, with straight ends where tangents are
+/// missing. Empty: its numbers of knots, weights and points are inconsistent.
 std::vector<Eigen::Vector3d> spline_points(const SplineData& spline);
 
 }  // namespace gridshell::preset

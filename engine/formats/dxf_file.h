@@ -1,4 +1,4 @@
-// What a DXF drawing holds: its curves as polylines, and everything else by name.
+// Contents of a DXF drawing: its curves as polylines, and everything else by name.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,7 +24,7 @@ enum class EntityUse {
   refused,  ///< it may be, and is not understood (a multiline, a mesh, a kind that is not known)
 };
 
-/// An entity of a drawing; those of blocks stand where the blocks are inserted.
+/// An entity of a drawing; entities of blocks are placed where the blocks are inserted.
 struct DrawnEntity {
   std::string kind;   ///< "LINE"
   int line = 0;       ///< of the file, where it begins
@@ -45,10 +45,10 @@ struct DxfDrawing {
   std::string unit = {};  ///< "in"
 };
 
-/// Reads a drawing of any release as text: LINE, LWPOLYLINE, POLYLINE, ARC, CIRCLE, ELLIPSE and
-/// SPLINE as polylines, curved pieces by a point a degree of their turn at least; INSERT as what
-/// its block holds. Errors (bad_input), with `name` and line: no text of DXF, a number that is
-/// none, a file that is cut short, a block that is missing or holds itself.
+/// Reads a text DXF drawing of any release: LINE, LWPOLYLINE, POLYLINE, ARC, CIRCLE, ELLIPSE and
+/// SPLINE as polylines, with at least one point per degree of direction on curved pieces; INSERT as
+/// the contents of its block. Errors (bad_input), with `name` and line: no text DXF, an invalid
+/// number, a file that is cut short, a block that is missing or contains itself.
 Result<DxfDrawing> read_dxf(std::string_view bytes, const std::string& name);
 
 }  // namespace gridshell::preset

@@ -13,7 +13,7 @@
 
 namespace gridshell::preset {
 
-/// A code and what stands on the line after it.
+/// A group code and the value on the line after it.
 struct DxfGroup {
   int code = 0;
   std::string_view value;

@@ -88,14 +88,14 @@ Handle space_of(const Dims& dims);
 /// The part of a dataset that the k-th of its first dimension fills, and the same in memory.
 std::pair<Handle, Handle> slice_spaces(hid_t dataset, hsize_t k);
 
-// An HDF5 driver that writes to a descriptor and never tells the library of a failed write: version
-// 1.10 loses track of what it holds on a full disk and may crash. The failure is kept for whoever
-// asks.
+// An HDF5 driver that writes to a descriptor and does not report a failed write to the library:
+// version 1.10 loses track of its data on a full disk and may crash. The failure is stored for the
+// caller.
 
 /// Where the bytes go; outlives the file.
 struct Stream {
   int descriptor = -1;     ///< open for reading and writing, the caller's
-  std::size_t before = 0;  ///< bytes of the file that stand before the HDF5 part
+  std::size_t before = 0;  ///< bytes of the file before the HDF5 part
   int failure = 0;         ///< errno of the first write that failed
 };
 
@@ -107,7 +107,7 @@ Handle access_of(Stream& stream);
 /// Makes a file in memory, or on a stream. Every call after a failure does nothing.
 class Writer : public File {
  public:
-  /// In memory; `name` tells apart the files that threads make at a time.
+  /// Writes to memory; `name` distinguishes files that threads write at the same time.
   explicit Writer(const std::string& name);
   /// Writes to `stream`, which outlives it; whoever has closed the file asks the stream whether all
   /// of it arrived.
@@ -135,11 +135,11 @@ class Writer : public File {
 // Reads HDF5 files that may come from anybody: every object is checked before anything of it is
 // read.
 
-/// Reads the bytes of a file, or a file where it lies. Every call after a failure does nothing and
-/// returns empty values. An object is read only where it is what was asked for: its type and rank,
-/// stored in the file itself (no external storage, no filters, no links but hard ones), and no
-/// larger than the file that holds it. The structures of the format itself are the library's to
-/// parse, and damaged ones can crash it: read in a process of its own first (read_in_subprocess()).
+/// Reads the bytes of a file, or a file on the disk. Every call after a failure does nothing and
+/// returns empty values. An object is read only if it has the requested type and rank, is stored in
+/// the file itself (no external storage, no filters, only hard links) and is no larger than the
+/// file. The library parses the structures of the format, and damaged ones can crash it: read
+/// untrusted files in a subprocess first (read_in_subprocess()).
 class Reader : public File {
  public:
   /// A copy of these bytes.
@@ -170,7 +170,7 @@ class Reader : public File {
   /// the dataset, if it is one whose values can be read as `type` and lie in the file
   Handle dataset(const std::string& name, hid_t type);
   Handle attribute_of(const std::string& object, const char* name, H5T_class_t kind);
-  /// whether the lists or texts of `set` come to less than the file
+  /// whether the lists or texts of `set` are smaller than the file
   bool lists_fit(const std::string& name, hid_t set, hid_t type, hid_t space);
   /// take(item) for every list or text of a dataset
   template <class Pointer, class Take>
@@ -185,10 +185,10 @@ class Reader : public File {
 
 namespace gridshell::record {
 
-/// Runs `reading` in a process of its own, with a quarter of the machine's memory (at least 1 GB)
-/// and 20 s beyond what it began with: the HDF5 library may crash, loop or ask for all memory on
-/// structures that somebody crafted. What it returns does not matter, only that it does. Errors:
-/// bad_input when it did not.
+/// Runs `reading` in a subprocess with a quarter of the machine's memory (at least 1 GB) and 20 s
+/// in addition to what the process has used: the HDF5 library may crash, loop or allocate all
+/// memory on crafted structures. The value of `reading` is ignored; only its return counts. Errors:
+/// bad_input if it did not return.
 Result<void> read_in_subprocess(const std::function<void()>& reading);
 
 }  // namespace gridshell::record

@@ -124,7 +124,7 @@ Dims Reader::dims(const std::string& name, std::size_t rank, hid_t type) {
   }
   Dims extents(rank);
   H5Sget_simple_extent_dims(space, extents.data(), nullptr);
-  // of nothing there can be any number
+  // an empty dataset may have any extent
   for (const hsize_t extent : extents)
     if (extent > file_bytes_) fail_because(name + " claims to hold more than the file does");
   return good() ? extents : Dims(rank);
@@ -231,7 +231,7 @@ std::uint64_t bytes_in_use() {
   return pages * std::uint64_t(::sysconf(_SC_PAGESIZE));
 }
 
-/// Beside what there is: what a large run takes, and never the machine's memory.
+/// Limits the additional memory to what a large run needs, below the machine's memory.
 void restrict_memory() {
   constexpr std::uint64_t least = std::uint64_t(1) << 30;
   const std::uint64_t now = bytes_in_use();

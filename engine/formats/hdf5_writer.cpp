@@ -13,7 +13,7 @@ namespace {
 
 /// H5Ewalk2 callback: keeps the innermost description
 herr_t keep_innermost(unsigned depth, const H5E_error2_t* error, void* out) {
-  // nothing may be thrown through the library: a reason that does not fit into memory is left out
+  // no exception may pass through the library: a reason that does not fit into memory is left out
   try {
     if (depth == 0 && error->desc) *static_cast<std::string*>(out) = error->desc;
   } catch (const std::bad_alloc&) {
@@ -75,7 +75,7 @@ herr_t read(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t at, std::size_t size, void*
     if (got <= 0) break;
     to += got, at += haddr_t(got), size -= std::size_t(got);
   }
-  // beyond the end there is nothing yet
+  // past the end there are no data yet
   std::memset(to, 0, size);
   return 0;
 }

@@ -24,8 +24,8 @@ std::optional<long> obj_vertex(std::string_view word, long vertices) {
   return *number > 0 ? *number - 1 : vertices + *number;
 }
 
-/// The next line, with those that a backslash at its end continues it by; `number` is that of its
-/// last, `joined` holds it where it is of several.
+/// The next line, with the lines that a backslash at its end joins to it; `number` is that of the
+/// last one; `joined` stores a line made of several.
 std::string_view obj_line(std::string_view& text, int& number, std::string& joined) {
   std::string_view line = trimmed(next_line(text));
   if (!line.ends_with('\\')) return line;
@@ -42,7 +42,7 @@ std::string_view obj_line(std::string_view& text, int& number, std::string& join
   return joined;
 }
 
-/// x, y, z of "v x y z", behind which a weight or a colour may stand.
+/// x, y, z of "v x y z", which a weight or a colour may follow.
 Result<std::vector<double>> obj_coordinates(const std::vector<std::string_view>& words,
                                             const std::string& place) {
   std::vector<double> xyz;

@@ -44,9 +44,9 @@ struct PlyItem {
   std::string place(const std::string& name) const;
 };
 
-/// Hands every element of a whole file to `take`, in order; `name` is what errors call it. Errors
-/// (bad_input): what is not of the format, with its line or the number of its element; those of
-/// `take`, which end the reading.
+/// Calls `take` for every element of a complete file, in order; `name` is its name in messages.
+/// Errors (bad_input): text that is not of the format, with its line or the number of its element;
+/// those of `take`, which end the reading.
 Result<void> each_ply_item(std::string_view bytes, const std::string& name,
                            const std::function<Result<void>(const PlyItem&)>& take);
 

@@ -83,7 +83,7 @@ Loops loops_of(const PlanDrawing& drawing, double near) {
         break;
       }
       Next next = next_of(chain, open);
-      if (next.gap > near) {  // perhaps it goes on at its other end
+      if (next.gap > near) {  // perhaps it continues at its other end
         std::ranges::reverse(chain);
         next = next_of(chain, open);
       }

@@ -8,8 +8,8 @@ namespace gridshell::preset {
 
 inline constexpr std::string_view word_blanks = " \t\r\f\v";
 
-/// The text of a file as UTF-8: without its byte-order mark, out of UTF-16, and where lines end in
-/// CR alone with LF in its place. `storage` takes what had to be converted.
+/// The text of a file as UTF-8: without its byte-order mark, converted from UTF-16, and with line
+/// ends CR converted to LF. `storage` stores a converted text.
 std::string_view plain_text(std::string_view bytes, std::string& storage);
 
 /// Without blanks around it.

@@ -19,14 +19,14 @@ std::optional<double> number_of(std::string_view word);
 /// ".csv" of "Points.CSV": what a file's name says of its format, in small letters.
 std::string ending_of(const std::string& name);
 
-/// Reads a table (table_file.h) of as many columns as there are `coordinates`; one that has `words`
-/// is the place of one of them. Errors (bad_input) as read_table(); a file that cannot be read.
+/// Reads a table (table_file.h) with as many columns as `coordinates`; a column with `words` is the
+/// index of one of them. Errors (bad_input) as read_table(); a file that cannot be read.
 Result<Points> read_points(const std::filesystem::path& file,
                            const std::vector<std::string>& coordinates,
                            const std::vector<std::vector<std::string>>& words = {});
 
-/// The same of a text that errors call `name`; `lines`, where given, takes the line of each point;
-/// `unit_mm` is that of lengths whose column names none.
+/// Reads points from a text, called `name` in messages; `lines`, if given, returns the line of each
+/// point; `unit_mm` is the unit of lengths whose column names none.
 Result<Points> points_in(std::string_view text, const std::string& name,
                          const std::vector<std::string>& coordinates,
                          const std::vector<std::vector<std::string>>& words = {},
@@ -38,17 +38,17 @@ Result<Points> points_in(std::string_view text, const std::string& name,
 inline constexpr std::size_t largest_cloud_file = std::size_t(512) << 20,
                              most_cloud_points = 10000000;
 
-/// A cloud, and how many rows of its file hold no point (nan).
+/// A point cloud, and the number of rows of its file without a point (nan).
 struct Cloud {
   Eigen::Matrix3Xd points;  ///< 3 x n, mm
   std::size_t empty_rows = 0;
 };
 
-/// Reads points as the name's ending says: .ply (text or bytes; of the elements the vertices), or
-/// .xyz, .txt, .asc, .csv or .pts: a table (table_file.h) of x, y, z, which may go on with normals
-/// and colours. `unit_mm` is the unit of a file that names none. Errors (bad_input), with `name`
-/// and line or number: what is not of the format, a row with some numbers missing, a coordinate
-/// above 1e9 mm, no point at all, too many.
+/// Reads points in the format of the name's ending: .ply (text or binary; of the elements the
+/// vertices), or .xyz, .txt, .asc, .csv or .pts: a table (table_file.h) of x, y, z, which normals
+/// and colours may follow. `unit_mm` is the unit of a file that names none. Errors (bad_input),
+/// with `name` and line or number: text that is not of the format, a row with some numbers missing,
+/// a coordinate above 1e9 mm, no point at all, too many.
 Result<Cloud> read_cloud(std::string_view bytes, const std::string& name, double unit_mm = 1);
 
 }  // namespace gridshell::preset

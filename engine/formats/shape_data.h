@@ -26,7 +26,7 @@ Eigen::Matrix<double, rows, Eigen::Dynamic> matrix_of(const Points& points) {
 
 /// What came of a file.
 struct FileReport {
-  std::string text;                ///< one sentence: what it holds, its size, its unit
+  std::string text;                ///< one sentence: its contents, its size, its unit
   std::vector<std::string> notes;  ///< what may not be as it was meant
 };
 
@@ -41,10 +41,10 @@ struct SurfaceData {
   bool empty() const { return z.empty() && triangles.empty(); }
 };
 
-/// In the place of a joint's point in a row of joint_laws: all joints that have no row.
+/// Replaces a joint's point in a row of joint_laws: the row is of all joints without one.
 inline constexpr double every_joint = -1;
 
-/// How a rod's end is held: its position; its direction too; its spin too.
+/// End condition of a rod: prescribed position; direction too; twist angle too.
 enum class EndKind { pinned, tangent, clamped };
 
 /// What a network's rod has of its own: a key of [rod] and its number, true: 1, false: 0.
@@ -54,8 +54,8 @@ struct RodValue {
   double value = 0;
 };
 
-/// A network of rods that a file gives. Points have one place each: rods that name the same
-/// point are joined there.
+/// A network of rods from a file. Each point is stored once: rods with a common point are joined
+/// there.
 struct NetworkData {
   Points points;                       ///< x, y, z, mm
   std::vector<std::vector<int>> rods;  ///< each the numbers of its points in order
@@ -63,11 +63,11 @@ struct NetworkData {
   std::vector<RodValue> own;           ///< else of single rods, in the order of these
   Points supports;                     ///< number of a point and where it goes: x, y, z, mm
   Points springs;         ///< number of a support's point, stiffness along x, y, z, N/mm
-  std::vector<int> free;  ///< numbers of points at rods' ends that nothing holds
-  /// A joint's point (-1: all that have no row), its shear_Nmm and twist_Nmm; below 0: rigid; and
-  /// its eccentricity_mm, if it has one of its own.
+  std::vector<int> free;  ///< indices of points at free ends of rods
+  /// A joint's point (every_joint: all without a row), its shear_Nmm and twist_Nmm (below 0:
+  /// rigid), and its eccentricity_mm, if it differs from the preset's.
   Points joint_laws;
-  Points holds;  ///< a rod, 0 (its begin) or 1 (its end), the number of an EndKind
+  Points holds;  ///< a rod, 0 (its start) or 1 (its end), the number of an EndKind
 
   bool empty() const { return rods.empty(); }
 };

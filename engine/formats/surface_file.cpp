@@ -23,7 +23,7 @@ Result<void> MeshBuilder::add_vertex(std::vector<double> xyz, const std::string&
                      std::isfinite(value) ? "too large" : "not a number");
   }
   const auto [found, fresh] = at_.try_emplace(xyz, int(mesh_.vertices.size()));
-  // a triangle that stands by itself brings three vertices
+  // a separate triangle adds three vertices
   if (mesh_.vertices.size() == most_vertices || number_.size() == 3 * most_triangles)
     return invalid("{}: more than {} vertices, must be fewer", place, most_vertices);
   number_.push_back(found->second);
@@ -161,7 +161,7 @@ Result<SurfaceData> read_heights(std::string_view bytes, const std::string& name
                    name, columns, rows);
   const auto holds =
       fmt::format("holds {} points on a grid of {} x {} places", points->size(), columns, rows);
-  // what lies far from any grid has as many places as the square of its points
+  // scattered points form a grid with as many nodes as the square of their number
   if (columns * rows > 4 * points->size())
     return invalid("{}: {}, must be a whole rectangle", name, holds);
   grid.z.assign(rows, std::vector<double>(columns, std::nan("")));
@@ -202,8 +202,8 @@ std::string mesh_fault(const SurfaceData& mesh) {
   return "";
 }
 
-/// Each reads a whole file; `name` is what errors call it. Errors (bad_input): what is not of the
-/// format, with its line or the number of its vertex or triangle.
+/// Each function reads a complete file; `name` is its name in messages. Errors (bad_input): text
+/// that is not of the format, with its line or the number of its vertex or triangle.
 Result<SurfaceData> read_obj(std::string_view bytes, const std::string& name, double unit_mm) {
   MeshBuilder draft(unit_mm);
   return read_obj_lines(
@@ -228,7 +228,7 @@ Result<SurfaceData> read_ply(std::string_view bytes, const std::string& name, do
 }
 
 Result<SurfaceData> read_stl(std::string_view bytes, const std::string& name, double unit_mm) {
-  // a binary file may begin with "solid" too, and is told by its size
+  // a binary file may start with "solid" too; its size distinguishes it
   if (bytes.size() >= header && bytes.size() == header + triangle * count_in(bytes))
     return read_binary(bytes, name, unit_mm);
   std::string storage;

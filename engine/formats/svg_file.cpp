@@ -45,7 +45,7 @@ class Words {
     rest_.remove_prefix(std::size_t(read.ptr - rest_.data()));
     return value;
   }
-  /// Of an arc: 0 or 1, which may stand without a space before what follows.
+  /// A flag of an arc, 0 or 1; no space is needed after it.
   std::optional<double> flag() {
     skip();
     if (rest_.empty() || (rest_.front() != '0' && rest_.front() != '1')) return std::nullopt;
@@ -119,7 +119,7 @@ class PathReader {
     last_ = kind;
     return "";
   }
-  /// The last control point beyond the place where the path stands, if that was such a curve.
+  /// The last control point mirrored at the current point, if the last piece was such a curve.
   Point mirrored(std::string_view curves) const {
     return curves.find(last_) == curves.npos ? at_ : Point(2 * at_ - control_);
   }
@@ -223,7 +223,7 @@ struct Tag {
   double number(const std::string& key) const { return Words(get(key)).number().value_or(0); }
 };
 
-/// Of the text between "<" and ">".
+/// Parses the text between "<" and ">".
 Tag tag_of(std::string_view text) {
   Tag tag;
   if (text.starts_with('/')) tag.ends = true, text.remove_prefix(1);

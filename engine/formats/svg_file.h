@@ -1,4 +1,4 @@
-// What an SVG holds: its shapes as polylines in one plane.
+// Contents of an SVG: its shapes as polylines in one plane.
 #pragma once
 
 #include <string>

@@ -91,7 +91,7 @@ ColumnName column_name(std::string_view cell) {
     if (at == text.npos || at == 0) continue;
     std::string_view inside = std::string_view(text).substr(at + 1);
     if (close != '\0' && inside.ends_with(close)) inside.remove_suffix(1);
-    // what stands in brackets is a unit, known or not
+    // a text in brackets is a unit, known or not
     if (close == '\0' && !is_unit(trimmed(inside))) continue;
     name.unit = trimmed(inside);
     text.resize(at);

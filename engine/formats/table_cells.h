@@ -13,14 +13,14 @@ using Cells = std::vector<std::string_view>;
 /// Where the remark of a line begins ("#" or "//" outside of quotes); its length: there is none.
 std::size_t remark_at(std::string_view line);
 
-/// The cells of a line, `apart` standing between them (' ': any number of blanks), without blanks
-/// and quotes around them, and without the empty ones at its end.
+/// Splits a line into cells at `apart` (' ': any number of blanks), without blanks and quotes
+/// around them, and without empty cells at its end.
 void split(std::string_view line, char apart, Cells& cells);
 
 /// Whether a cell says that there is no number: empty, "nan", "NA", "null".
 bool is_missing(std::string_view cell);
 
-/// Whether a cell has one comma, which stands between digits, and no point.
+/// Whether a cell has exactly one comma, between digits, and no point.
 bool has_decimal_comma(std::string_view cell);
 
 /// A finite number with a decimal point or comma.
@@ -36,7 +36,7 @@ struct ColumnName {
 };
 ColumnName column_name(std::string_view cell);
 
-/// Whether a column that is wanted by this name holds lengths.
+/// Whether a requested column of this name contains lengths.
 bool is_length(const std::string& name);
 
 /// Whether a cell begins as a name does, and is no number.

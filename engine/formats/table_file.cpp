@@ -61,7 +61,7 @@ class TableReader {
     return line.starts_with('%') || line.starts_with('!') ? std::string_view() : line;
   }
 
-  /// What parts the cells of most lines: the strongest that stands in every one of the first.
+  /// The separator of most lines: the strongest one that all of the first lines contain.
   void find_separator(std::string_view text) {
     constexpr std::size_t looked_at = 100;
     std::vector<std::string_view> lines;
@@ -169,7 +169,7 @@ class TableReader {
                    expected_, rows);
   }
 
-  /// A remark in the way of a header: used where it names all columns of the first row.
+  /// Uses a remark as the header if it names all columns of the first row.
   void take_remark() {
     std::string_view names = trimmed(remark_);
     names = trimmed(names.substr(std::min(names.find_first_not_of("#/%!"), names.size())));
@@ -257,7 +257,7 @@ class TableReader {
     return {};
   }
 
-  /// Whether every cell that is wanted says that there is no number, or every one of the row.
+  /// Whether every requested cell, or every cell of the row, says that there is no number.
   bool is_empty_row() const {
     return std::ranges::all_of(cells_, is_missing) ||
            std::ranges::all_of(place_, [&](std::size_t at) {
@@ -324,7 +324,7 @@ class TableReader {
   const TableOptions& options_;
   char apart_ = ' ';
   Cells cells_;
-  std::vector<std::size_t> place_;  // of each column wanted, among the cells
+  std::vector<std::size_t> place_;  // index of each requested column among the cells
   std::vector<double> scale_;
   std::size_t length_ = 0;  // cells of a row
   std::string_view remark_, row_;

@@ -9,19 +9,19 @@
 
 namespace gridshell::preset {
 
-/// A column that is wanted.
+/// A requested column.
 struct TableColumn {
   std::string name;                     ///< "x", "F_x", "leg_mm"
   std::vector<std::string> words = {};  ///< where its values are texts: which there are
 };
 
 struct TableOptions {
-  bool longer_rows = false;  ///< without a header a row may go on; what follows is left out
+  bool longer_rows = false;  ///< without a header a row may be longer; further cells are ignored
   bool empty_rows = false;   ///< a row without any number (nan, empty cells) is left out
   double unit_mm = 1;        ///< of lengths whose column names no unit
 };
 
-/// Rows of as many numbers as there were columns wanted; a text is the number of its word.
+/// Rows with one number per requested column; a text is the index of its word.
 struct NumberTable {
   std::size_t columns = 0;
   std::vector<double> values;  ///< row after row
@@ -33,18 +33,19 @@ struct NumberTable {
   double at(std::size_t row, std::size_t column) const { return values[row * columns + column]; }
 };
 
-/// Reads a table, a row a line:
-///   cells apart by semicolons, tabs, commas or blanks, cells may be quoted; a row of numbers may
-///   have another of them than most rows, where no comma is a decimal one; decimal points, or
-///   decimal commas where no comma parts cells; a file has one of the two; what follows "#" or
-///   "//", lines that begin with "%" or "!", and empty lines are remarks; a first line of names
-///   alone is a header: columns are found by their names in any order, names in capitals or with a
-///   unit (x_mm, "X [m]") being the same, lengths in that unit; the last remark before the rows is
-///   one where it names every column; other columns are left out; a first line of one whole number
-///   counts the rows (.pts), which must be there.
-/// Errors (bad_input), as "name:line: ...": a header without a column that is wanted, a row of
-/// another number of cells, a cell that is no finite number or none of its words, rows that are
-/// fewer than their count; what looks like decimal commas between commas; no row.
+/// Reads a table, one row per line:
+///   Cells are separated by semicolons, tabs, commas or blanks, and may be quoted; a row of numbers
+///   may have another separator than most rows, if no comma is a decimal one.
+///   Numbers have decimal points, or decimal commas if no comma separates cells; a file has one of
+///   the two.
+///   Text after "#" or "//", lines that start with "%" or "!", and empty lines are remarks.
+///   A first line of names alone is a header: columns are found by their names in any order, names
+///   in capitals or with a unit (x_mm, "X [m]") being the same, lengths in that unit; the last
+///   remark before the rows is a header if it names every column; other columns are ignored.
+///   A first line of one integer is the number of rows (.pts), which must be present.
+/// Errors (bad_input), as "name:line: ...": a header without a requested column, a row with another
+/// number of cells, a cell that is no finite number or none of its words, fewer rows than their
+/// count; what looks like decimal commas between commas; no row.
 Result<NumberTable> read_table(std::string_view bytes, const std::string& name,
                                const std::vector<TableColumn>& columns,
                                const TableOptions& options = {});

@@ -79,7 +79,7 @@ std::string list_of(const std::vector<KeyFault>& needs) {
   return fmt::format("{}", fmt::join(all, ", and "));
 }
 
-/// What a rung that is asked for cannot serve, and rods whose stiffness it lacks.
+/// Keys that the requested rod model does not support, and rods whose stiffness it lacks.
 std::vector<KeyFault> model_conflicts(const Preset& preset) {
   std::vector<KeyFault> found;
   const RodModel asked = preset.accuracy.model;
@@ -230,7 +230,7 @@ std::string model_reason(const Preset& preset) {
                  : fmt::format("twist: {}; nothing is left out, the torsion of every rod is in it",
                                list_of(needs));
     }
-    case RodModel::automatic:  // the rung is a choice made
+    case RodModel::automatic:  // the rod model is chosen before
     case RodModel::bend:
       break;
   }

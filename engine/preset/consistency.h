@@ -1,4 +1,4 @@
-// What a preset's keys are to each other; each on its own is held to its range by the reader.
+// Consistency of a preset's keys with each other; the reader checks the range of each.
 #pragma once
 
 #include <optional>
@@ -22,17 +22,17 @@ struct KeyFault {
 /// What the rules of one kind find in this preset; of an unused key the first reason alone.
 std::vector<KeyFault> key_faults(const Preset& preset, RuleKind kind);
 
-/// Keys that do not go together. Empty when the preset makes sense as a whole (whether its
-/// footprint can be built is not known here).
+/// Keys that contradict each other. Empty if the preset is consistent (whether its footprint can be
+/// built is not known here).
 std::vector<KeyFault> conflicts(const Preset& preset);
 
 /// Every key that this preset's kinds do not use. The reader refuses those that are set to
 /// something, the writer leaves them out.
 std::vector<KeyFault> unused_keys(const Preset& preset);
 
-/// `[rod]` as a rod of a network has it: with what the file says of that rod. Keys that are none of
-/// [rod] or out of range count for nothing; own_value_fault() finds them. `reversed`: left of it is
-/// right of the rod in the file.
+/// `[rod]` with the values that a network file gives for one rod. Keys that are not in [rod] or out
+/// of range are ignored; own_value_fault() finds them. `reversed`: left and right of the rod are
+/// exchanged.
 Rod rod_of_network(const Preset& preset, int number, bool reversed = false);
 
 /// What is wrong with the first such value, naming its rod; empty: nothing.
@@ -48,18 +48,18 @@ inline constexpr const char* side_names[] = {"east", "west", "north", "south"};
 /// "left.east"; empty when no block or side has that name.
 std::optional<NamedSide> side_named(const Preset& preset, const std::string& name);
 
-/// Values that are in their range and of no shell that is known: a material beyond all materials,
-/// joints larger than their distance. A sentence each.
+/// Sentences on values that are in range but unlike those of any known shell: a material stiffer
+/// than all materials, joints larger than their distance.
 std::vector<std::string> doubtful_values(const Preset& preset);
 
-// Which rung of the model ladder a preset needs: no more than its scene asks for.
+// Choice of the rod model: the simplest one that the preset's scene allows.
 
-/// The rung that a preset runs on: the one it asks for, else the lowest that is exact; `net` only
-/// where a tolerance of 0.05 or more is asked for a cap of a sphere, of which it is known that
-/// shells lie within 0.03 of their net.
+/// The rod model of a preset: the requested one, else the simplest that is exact; `net` only for a
+/// cap of a sphere with a tolerance of 0.05 or more, since such shells are known to lie within 0.03
+/// of their net.
 RodModel rod_model_of(const Preset& preset);
 
-/// One sentence: which rung, what was left out, and why nothing is lost.
+/// A sentence: which rod model, what it neglects, and why the result is exact.
 std::string model_reason(const Preset& preset);
 
 }  // namespace gridshell::preset

@@ -117,7 +117,7 @@ class FieldList : AnyFieldList {
 
   FieldList& named(std::string key) { return rename(std::move(key)), *this; }
   FieldList& unit(std::string unit) { return all_.back().unit = std::move(unit), *this; }
-  /// Of a list of numbers: what it holds, or else it is empty.
+  /// Describes the entries of a list of numbers that is not empty.
   FieldList& shape(std::string shape) { return all_.back().shape = std::move(shape), *this; }
   FieldList& colour() { return all_.back().colour = true, *this; }
   FieldList& points(std::vector<std::string> coordinates,
@@ -127,7 +127,7 @@ class FieldList : AnyFieldList {
     return *this;
   }
 
-  /// The rules from here on are held only by presets of which this is so.
+  /// Restricts the following rules to presets that fulfil the condition.
   FieldList& where(std::function<bool(const Preset&)> holds) {
     return where_ = std::move(holds), *this;
   }

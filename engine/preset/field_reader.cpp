@@ -29,7 +29,7 @@ std::optional<double> real_of(const toml::node& value) {
   return std::nullopt;
 }
 
-// products of values as they stand in the energies must stay within the range of double
+// products of values in the energies must stay within the range of double
 constexpr double least_magnitude = 1e-9, largest_magnitude = 1e9;
 
 // why a number cannot be computed with, or empty
@@ -40,7 +40,7 @@ std::string magnitude_fault(double value) {
          " to compute with (0, or a magnitude of 1e-9 to 1e9)";
 }
 
-// of coordinates only the size counts: what should be zero is often a little beside it
+// only the magnitude of coordinates is limited: a value meant as zero is often slightly off zero
 std::string points_fault(const Points& points) {
   constexpr std::size_t most_places = 100000;
   if (points.size() > most_places)
@@ -52,7 +52,7 @@ std::string points_fault(const Points& points) {
   return "";
 }
 
-// the place of a word among those allowed
+// the index of a name among the allowed ones
 std::optional<double> place_of(const toml::node& value, const std::vector<std::string>& words) {
   const auto* text = value.as_string();
   if (!text) return std::nullopt;
@@ -71,7 +71,8 @@ std::string type_text(const toml::node& value) {
   return "a date or time";
 }
 
-// a part of a surface or network: of coordinates only the size counts, the rest counts things
+// a part of a surface or network: only the magnitude of coordinates is limited, other numbers are
+// counts
 std::string read_part(const toml::node& value, double& number) {
   const auto real = real_of(value);
   number = real.value_or(0);
@@ -225,7 +226,7 @@ class Reader {
     std::ranges::copy(numbers, pair.begin());
     return "";
   }
-  // what is in a table is read where its faults have their places: read_axes()
+  // a table is read by read_axes(), where the positions of its errors are known
   std::string read(const toml::node& value, std::vector<SweepAxis>&) {
     return "is " + type_text(value);
   }
@@ -297,7 +298,7 @@ class Reader {
     return wrong.empty() ? network_fault(network) : wrong;
   }
 
-  /// What a file held, for `check`.
+  /// Reports the value read, for `check`.
   void report(const std::string& name, const std::string& text) {
     if (report_) report_->text = fmt::format("{}: {}", (beside_.folder / name).string(), text);
   }
@@ -324,7 +325,7 @@ class Reader {
   const Preset& preset_;
   const FileContext& beside_;
   FileReport* report_;
-  const char* is_ = "is ";  // begins the sentence on what stands there instead
+  const char* is_ = "is ";  // starts the sentence on the value found
   bool told_in_full_ = false;
 };
 

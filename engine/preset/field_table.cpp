@@ -20,7 +20,7 @@ std::string full_label(const std::string& table, const std::string& key, int ite
 }
 
 std::string unit_of(const std::string& key) {
-  // what ends in another's ending stands before it
+  // a unit that ends with another one comes before it
   static constexpr std::pair<const char*, const char*> units[] = {
       {"_rad_per_mm", "rad/mm"}, {"_N_per_mm", "N/mm"}, {"_per_mm", "1/mm"}, {"_per_s", "1/s"},
       {"_kg_m3", "kg/m^3"},      {"_m_s2", "m/s^2"},    {"_N_m2", "N/m^2"},  {"_N_m", "N/m"},

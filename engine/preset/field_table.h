@@ -1,6 +1,6 @@
-// Every key of a preset as data: where it stands, which member it fills, what that may hold and
-// means, and what it needs of other keys. The reader, `--set`, the writer, the reference and the
-// window work from these; the type of the member chooses how it is read and written.
+// Every key of a preset as data: its table, its member, the allowed values, its meaning and its
+// dependence on other keys. The reader, `--set`, the writer, the reference and the window use
+// these; the type of the member chooses how it is read and written.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace gridshell::preset {
 
-/// The numbers a key may hold; infinite bounds are no bounds.
+/// Allowed range of a number; infinite bounds are no bounds.
 struct Range {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
@@ -30,7 +30,7 @@ inline Range above(double low) { return {.low = low, .low_open = true}; }
 inline Range at_least(double low) { return {.low = low}; }
 inline Range between(double low, double high) { return {.low = low, .high = high}; }
 
-/// A member of some enum as the place of its word among all words, or a list of these.
+/// A member of an enum as the index of its name, or a list of these.
 template <class Places>
 struct WordMember {
   void* member;
@@ -84,7 +84,7 @@ struct Field {
     const auto* found = std::get_if<T*>(&member);
     return found ? *found : nullptr;
   }
-  /// The same of an enum.
+  /// The value of an enum member; empty for other types.
   std::optional<OneWord> as_word(Preset& preset, int item = -1) const {
     const Member member = in(preset, item);
     const auto* found = std::get_if<OneWord>(&member);
@@ -97,16 +97,16 @@ struct Field {
   }
 };
 
-/// How a fault calls a key: "[footprint] radius_mm", "[[step]] 1 joint" (item 0), "title" at the
+/// Label of a key in messages: "[footprint] radius_mm", "[[step]] 1 joint" (item 0), "title" at the
 /// top.
 std::string key_label(const std::string& table, const std::string& key, int item = -1);
 std::string name_of(const Field& field);
 /// The unit that the end of a key names: "N/mm" of "field_N_per_mm"; empty: none.
 std::string unit_of(const std::string& key);
-/// The same of a key that may stand in another table: "[net] kind" as it is.
+/// Label of a key that may be in another table: "[net] kind".
 std::string full_label(const std::string& table, const std::string& key, int item = -1);
 
-/// What it may hold: "a number > 0", "an integer from 2 to 100000", "\"up\" or \"down\"".
+/// Allowed values: "a number > 0", "an integer from 2 to 100000", "\"up\" or \"down\"".
 std::string allowed(const Field& field);
 /// "\"up\", \"down\" or \"flat\"".
 std::string words_text(const std::vector<std::string>& words);
@@ -118,13 +118,13 @@ std::string value_text(const Field& field, const Preset& preset, int item = -1);
 struct Table {
   std::string name;  ///< empty for the keys at the top
   std::string meaning;
-  bool list = false;  ///< stands once an item: [[block]]
+  bool list = false;  ///< a table that is a list of items: [[block]]
 };
 
 const std::vector<Table>& tables();
 
-/// All keys; those of a table stand in the order of the reference. Defaults are those of a
-/// default-built Preset.
+/// All keys; those of a table are in the order of the reference. Defaults are those of a
+/// default-constructed Preset.
 const std::vector<Field>& field_table();
 /// The keys of a table, in that order.
 std::vector<std::string> keys_of(const std::string& table);

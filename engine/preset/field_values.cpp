@@ -109,7 +109,7 @@ std::string bounds_text(const Range& range) {
   return text;
 }
 
-/// What a member may hold.
+/// Describes the allowed values of a member.
 struct Describer {
   const Field& field;
   std::string bounds = bounds_text(field.range);

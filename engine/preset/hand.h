@@ -1,4 +1,4 @@
-// What is done to a formed shell: a push, steps of a hand, loads that come on.
+// What a user does to a formed shell: a push, steps, additional loads.
 #pragma once
 
 #include <string>
@@ -40,13 +40,13 @@ enum class BraceKind { cable, strut };
 /// for nothing.
 struct Step {
   StepKind kind = StepKind::move;
-  double progress = 1;        ///< of the boundary, beyond 1 further than its motion
+  double progress = 1;        ///< of the boundary; above 1 it moves further than in the actuation
   double radius_mm = 0;       ///< of a circle's boundary; 0: `progress` says it
   Points edge_points;         ///< (k, x, y, z): by how much edge points lie off the motion
   std::vector<int> joint;     ///< (i, j)
   std::vector<double> to_mm;  ///< (x, y, z) of the joint; empty: `depth_mm` says it
   double depth_mm = 0;        ///< inward, against the shell's normal at the joint
-  std::vector<double> along;  ///< direction in which a joint is held; empty: the way of the push
+  std::vector<double> along;  ///< direction of a joint's constraint; empty: direction of the push
   Lateral lateral = Lateral::free;
   double factor = 1;  ///< of the dead loads
   BranchSide side = BranchSide::lower;
@@ -90,7 +90,8 @@ constexpr auto words(SnowSide) {
                                  {SnowSide::y, "+y"},
                                  {SnowSide::minus_y, "-y"}});
 }
-/// Loads that come on together on the formed shell, beside those that it was formed under.
+/// Loads that are applied together to the formed shell, in addition to those present during
+/// forming.
 struct LoadCase {
   std::string name;
   double dead = 0, snow = 0, wind = 0, pressure = 0, edge = 0;  ///< factors

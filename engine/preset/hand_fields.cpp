@@ -1,10 +1,10 @@
-// What a hand does to a formed shell, and what it carries.
+// Keys of what a user does to a formed shell, and of its loads.
 #include "engine/preset/field_list.h"
 
 namespace gridshell::preset {
 namespace {
 
-/// What the steps of a preset cannot stand beside, said of the first.
+/// Conflicts of the steps with other keys, reported for the first step.
 void step_rules(FieldList<Step>& list) {
   const auto first = [](const Preset& preset, const Step& of) { return &of == preset.step.data(); };
   list.refused({"[indentation] depth", "[indentation] depth_mm"},
@@ -21,7 +21,7 @@ void step_rules(FieldList<Step>& list) {
       .needs_equilibrium("a net does not answer a hand", first);
 }
 
-/// Whether an open finds bolts of another stiffness, which it cannot go on with.
+/// Whether an `open` step finds bolts of another stiffness, which it cannot drive.
 bool meets_other_bolts(const Preset& preset, const Step& of) {
   const Step* bolted = nullptr;
   for (const Step& step : preset.step) {

@@ -37,17 +37,18 @@ struct Movie {
   bool inset = true;  ///< the small top view
   bool bins = false;  ///< the plot of K in bins
   bool captions = true;
-  bool beside = true;             ///< cases beside one another in each frame
-  View view = View::free;         ///< a standard one, in the place of azimuth and elevation
+  bool beside = true;             ///< whether cases are shown next to one another in each frame
+  View view = View::free;         ///< a standard view, which replaces azimuth and elevation
   std::vector<double> target_mm;  ///< (x, y, z) in the middle of the panel; empty: all that moves
   bool orthographic = false;
   std::vector<double> bins_range;  ///< (low, high) of the axis of the bins, rad; empty: the run's
   Points views;                    ///< (azimuth, elevation) of more views in each frame
-  double seconds = 0;              ///< of the movie without hold and title; 0: frames / fps
-  double hold_s = 0;               ///< of the last frame
-  double title_s = 0;              ///< of a title card at the begin
+  /// of the movie without the still at its end and the title; 0: frames / fps
+  double seconds = 0;
+  double hold_s = 0;   ///< of the last frame
+  double title_s = 0;  ///< of a title card at the start
   Pace pace = Pace::even;
-  bool webm = false, gif = false, poster = false;  ///< files beside movie.mp4
+  bool webm = false, gif = false, poster = false;  ///< further files next to movie.mp4
 };
 
 enum class Theme { screen, paper };
@@ -77,18 +78,18 @@ struct Style {
 };
 
 enum class PageKind { none, fig1, fig2, fig3, fig4, fig5, literature };
-/// A page that shows a figure of the paper, or shells of other authors beside one another.
+/// A page that shows a figure of the paper, or shells of other authors next to one another.
 struct Page {
   PageKind kind = PageKind::none;
-  std::string photo;  ///< a PNG for the photograph's place
-  std::string sweep;  ///< a finished sweep's folder or table, for the phase diagram's place
+  std::string photo;  ///< a PNG at the position of the photograph
+  std::string sweep;  ///< folder or table of a finished sweep, for the phase diagram
 };
 
 struct Figure {
   Quality quality = Quality::figure;
   double width_mm = 0;  ///< as printed; 0: as many pixels as movie.size says
   double dpi = 300;
-  bool vector = false;           ///< shells as lines beside the pictures of them
+  bool vector = false;           ///< shells as lines in addition to their pictures
   double cut_step_mm = 0.1;      ///< lengths and marks of cut lists are multiples of it; 0: as are
   std::vector<double> radii_mm;  ///< boundary radii of the stills
   double scale_bar_mm = 20;

@@ -67,7 +67,7 @@ void PresetBuilder::take_material(const std::string& table) {
 
 namespace {
 
-// whether a decider was laid over the layer in which a key stands: the key was of use below
+// whether a deciding key was set in a layer above that of the key, which had an effect in its layer
 bool overridden_above(const PresetBuilder& draft, const std::vector<std::string>& deciders,
                       ValueLayer layer) {
   return std::ranges::any_of(deciders, [&](const std::string& decider) {
@@ -81,7 +81,7 @@ std::string fault_text(const Preset& preset, const KeyFault& fault, const std::s
   // a network or a table may be of thousands of points
   constexpr std::size_t longest = 60;
   auto value = value_text(*find_field(fault.table, fault.key), preset, fault.item);
-  // what came out of a file says where it stands there
+  // a value from a file is reported with its position there
   if (value.starts_with('{')) return fmt::format("{}: {}{}", fault.label(), more, fault.what);
   if (value.size() > longest) value.replace(longest - 3, std::string::npos, "...");
   return fmt::format("{} = {}: {}{}", fault.label(), value, more, fault.what);

@@ -14,7 +14,7 @@ namespace gridshell::preset {
 /// What is laid over what.
 enum class ValueLayer { file, one_case, command_line };
 
-/// Where a value came from: a place in a file, or an option of the command line.
+/// Source of a value: a position in a file, or an option of the command line.
 struct SourceLocation {
   std::string source;
   unsigned line = 0, column = 0;
@@ -23,7 +23,7 @@ struct SourceLocation {
   std::string text() const;
 };
 
-/// All that is wrong with a file, gathered on the way.
+/// All errors of a file, with their positions.
 class LocatedFaults {
  public:
   void add(const SourceLocation& place, std::string text) {
@@ -58,7 +58,7 @@ struct NamedFile {
 
 // A preset while its file is read, and what its keys say together once all are laid.
 
-/// A preset on its way, and where each of its keys was set.
+/// A preset that is being read, and the source of each of its keys.
 struct PresetBuilder {
   Preset preset;
   /// Gives the rods of a table what their material says, but for what the same layer or a later one
@@ -74,7 +74,8 @@ struct PresetBuilder {
   void forget_items(const std::string& table);
 };
 
-/// Values that do not agree with each other; where none of them was set the fault is in `source`.
+/// Adds errors for values that contradict each other; if none of them was set, the error is in
+/// `source`.
 void check_conflicts(const PresetBuilder& draft, const std::string& source, LocatedFaults& faults);
 
 /// Keys that count for nothing in any of the runs of a file, because of what others are set to.

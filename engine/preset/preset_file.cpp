@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t longest_name = 100;
 
-// the name of a case, or empty with a fault
+// the name of a case, or empty with an error
 std::string case_name(const toml::table& table, const std::set<std::string>& taken,
                       TomlReader& reading) {
   const auto* node = table.get("name");
@@ -66,7 +66,7 @@ Presets read_presets(const toml::table& root, const std::string& name,
   }
   std::set<std::string> taken;
   std::vector<PresetBuilder> runs;
-  const toml::array none;  // a copy of the list would not know its places
+  const toml::array none;  // a copy of the list would lose its positions
   for (const auto& item : node ? *node->as_array() : none) {
     const auto& table = *item.as_table();
     PresetBuilder draft = base;
@@ -117,8 +117,7 @@ class Used {
   std::set<std::tuple<std::string, std::string, int>> idle_;
 };
 
-// one item of a list of tables; where most keys are not wanted, those that say their default are
-// left out
+// one item of a list of tables; if most keys are unused, those with their default are left out
 std::string item_text(const std::string& table, const Preset& preset, const Used& used, int item,
                       const char* in) {
   static const Preset defaults = default_items();
@@ -225,7 +224,7 @@ std::string to_toml(const Presets& presets) {
     for (const auto& field : field_table()) {
       if (is_list_name(field.table) || !in_case(field)) continue;
       const auto value = value_text(field, one.preset);
-      // what stands above, or where nothing does the default
+      // the value written before, or else the default
       if (value == value_text(field, in_base(field) ? presets.base : defaults)) continue;
       text += fmt::format("{}{}{} = {}\n", field.table, field.table.empty() ? "" : ".", field.key,
                           value);

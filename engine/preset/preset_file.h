@@ -1,5 +1,5 @@
-// Reads a preset: default < file < override. All faults of a file are reported at once, a line
-// each:
+// Reads a preset: default < file < override. All errors of a file are reported at once, one per
+// line:
 //   file:line:column: [table] key = value: what is wrong; did you mean 'x'?
 #pragma once
 
@@ -15,7 +15,7 @@ namespace gridshell::preset {
 
 /// A value from the command line, laid over the file: `--set rod.diameter_mm=0.3`.
 struct Override {
-  std::string source;  ///< the option, named in faults: "--set", "--frames"
+  std::string source;  ///< the option, named in messages: "--set", "--frames"
   std::string key;     ///< "table.key"
   std::string value;   ///< TOML; what is not TOML is a string
 };
@@ -41,10 +41,10 @@ std::string case_name_fault(const std::string& name);
 /// "table.key=value" as given to --set. Errors: bad_input when there is no key or no '='.
 Result<Override> parse_override(const std::string& argument);
 
-/// Reads TOML text. `source` names the text in faults, `name` becomes Preset::name; files of points
-/// and surfaces are looked for beside `source`, unless they are among `files` (texts by name), and
-/// what is in them becomes the preset's own.
-/// Errors: bad_input with every fault found.
+/// Reads TOML text. `source` names the text in messages, `name` becomes Preset::name; files of
+/// points and surfaces are searched for in the folder of `source`, unless they are among `files`
+/// (texts by name), and their contents are copied into the preset. Errors: bad_input with every
+/// error found.
 Result<Presets> read_preset_text(const std::string& text, const std::string& source,
                                  const std::string& name,
                                  const std::vector<Override>& overrides = {},

@@ -10,7 +10,7 @@ using Kinds = FootprintKind;
 bool is_circle(const Preset& preset) { return preset.footprint.kind == Kinds::circle; }
 bool is_curve(const Preset& preset) { return preset.footprint.kind == Kinds::curve; }
 
-/// A radius of a circle as a fault shows it, that another key may give.
+/// A radius of a circle that another key may give, for a message.
 std::string radius_text(const char* key, const char* name, double radius) {
   return std::string(key).ends_with("radius_mm") ? fmt::format("{} = {}", key, radius)
                                                  : fmt::format("{} = {} by {}", name, radius, key);
@@ -45,7 +45,7 @@ void add_curve(FieldList<Curve> curve, const std::string& meaning) {
       });
 }
 
-/// The key of a circle's radius stands beside the curve and serves it too.
+/// The key of a circle's radius is outside the table of the curve and also belongs to it.
 template <class Struct>
 void radius_rules(FieldList<Struct>& list, Curve Struct::*boundary, double Struct::*other,
                   const std::string& label) {
@@ -263,7 +263,7 @@ FieldList<Net> add_net(FieldList<Net> net, bool block) {
   return net;
 }
 
-/// Of a net on any surface.
+/// Keys of a net on any surface.
 void add_surface(FieldList<Net> net) {
   const auto given = [](const Net& of) {
     return of.kind != NetKind::surface

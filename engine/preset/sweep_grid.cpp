@@ -79,7 +79,7 @@ class SweepCheck {
     return at == draft_.set_at.end() ? SourceLocation{} : at->second;
   }
 
-  /// Of the keys that may count for nothing, those that count for something here.
+  /// Removes those keys without effect that have an effect in this run.
   static void forget_used(const SweepPoint& point, std::map<std::string, std::string>& idle) {
     if (idle.empty()) return;
     std::map<std::string, std::string> still;

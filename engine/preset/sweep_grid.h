@@ -34,8 +34,8 @@ class SweepGrid {
   std::size_t size_ = 0;
 };
 
-/// What a sweep's values come to that no run can have: values that do not agree with other keys,
-/// keys that count for nothing in any run, keys that a case or the command line sets too.
+/// Adds errors for a sweep that no run can do: values that contradict other keys, keys without
+/// effect in every run, keys that a case or the command line sets too.
 void check_sweep(const std::vector<PresetBuilder>& runs, LocatedFaults& faults);
 
 }  // namespace gridshell::preset

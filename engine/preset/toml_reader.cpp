@@ -92,7 +92,7 @@ bool in_list(const std::string& name) {
   });
 }
 
-/// Whether a key may name a file in the place of what is in it.
+/// Whether a key may name a file instead of its contents.
 bool takes_file(const Field& field) {
   Preset any = default_items();  // only the type of its member counts
   return field.as<Points>(any) || field.as<SurfaceData>(any) || field.as<NetworkData>(any);
@@ -105,7 +105,7 @@ bool affects_results(const std::string& table) {
   return std::ranges::find(others, table) == others.end();
 }
 
-/// Reads one entry; faults bear its name.
+/// Reads one entry; errors have its name.
 class AxisReader {
  public:
   AxisReader(const Entry& entry, std::vector<AxisFault>& faults) : entry_(entry), faults_(faults) {}
@@ -138,7 +138,7 @@ class AxisReader {
  private:
   void refuse(const toml::node& value, const std::string& why) {
     const auto& region = value.source();
-    // what was computed has no place of its own
+    // a computed value has no position in the file
     faults_.push_back(
         {region.begin.line > 0 ? region : entry_.place,
          fmt::format("[sweep.over] {} = {}: {}", entry_.name(), toml_text(value), why)});
@@ -194,8 +194,8 @@ class AxisReader {
   std::set<std::string> taken_;
 };
 
-/// The axes in the order in which they are written; what is wrong is added to `faults`, and an axis
-/// with a fault is left out. Each value was assigned to its key once and is within its range.
+/// The axes in the order of the file. Errors are added to `faults`, and an axis with an error is
+/// left out. Each value was assigned to its key once and is in range.
 std::vector<SweepAxis> read_axes(const toml::table& over, std::vector<AxisFault>& faults) {
   std::vector<SweepAxis> axes;
   for (const Entry& entry : entries_of(over))
@@ -206,7 +206,7 @@ std::vector<SweepAxis> read_axes(const toml::table& over, std::vector<AxisFault>
 }  // namespace
 
 SourceLocation TomlReader::place_of(const toml::source_region& region) const {
-  // values of an override have no place in the file
+  // values of an override have no position in the file
   if (!override_.empty()) return {override_, 0, 0, ValueLayer::command_line};
   return {source_, unsigned(region.begin.line), unsigned(region.begin.column), layer_};
 }
@@ -246,7 +246,7 @@ void TomlReader::apply_override(const Override& change, PresetBuilder& draft) {
   override_.clear();
 }
 
-/// Of a list of tables the number of an item, as messages have it: step.2.depth_mm.
+/// Sets a key of an item of a list of tables by its number, as in messages: step.2.depth_mm.
 void TomlReader::override_item(const std::string& list, const Override& change,
                                PresetBuilder& draft) {
   const std::string rest = change.key.substr(list.size() + 1);
@@ -264,8 +264,7 @@ void TomlReader::override_item(const std::string& list, const Override& change,
              item - 1);
 }
 
-// the items of a list of tables, each with defaults of its own; those of a case stand in place of
-// the file's
+// the items of a list of tables, each with its own defaults; those of a case replace the file's
 void TomlReader::read_items(const std::string& name, const toml::key& key, const toml::node& value,
                             PresetBuilder& draft) {
   if (!value.is_array_of_tables()) {
@@ -362,7 +361,7 @@ void TomlReader::read_files(PresetBuilder& draft) {
     draft.faulty.insert(full);
     faults_.add(draft.set_at.at(full), fmt::format("{} = {}: {}", full, toml_text(value), wrong));
   }
-  // what is read stands in the preset in mm
+  // values that were read are stored in the preset in mm
   if (draft.files.contains(key_label("footprint", "file")) ||
       draft.files.contains(key_label("actuation", "file"))) {
     draft.preset.footprint.file_unit = FileUnit::file;

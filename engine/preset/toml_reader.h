@@ -20,7 +20,7 @@ namespace gridshell::preset {
 std::string assign(const Field& field, const toml::node& value, Preset& preset,
                    const FileContext& beside, int item = -1, FileReport* report = nullptr);
 
-/// The value as a fault shows it: TOML on one line, shortened when long.
+/// The value as a message shows it: TOML on one line, shortened if long.
 std::string toml_text(const toml::node& value);
 
 /// Whether a table of that name is a list of tables.
@@ -36,11 +36,11 @@ struct AxisFault {
   std::string text;  ///< "[sweep.over] rod.diameter_mm = "x": is a string, must be a number > 0"
 };
 
-// Lays TOML over presets, and gathers what is wrong on the way.
+// Applies TOML to presets and collects the errors.
 
 class TomlReader {
  public:
-  /// `source` names the text in faults.
+  /// `source` names the text in messages.
   TomlReader(std::string source, FileContext beside)
       : source_(std::move(source)), beside_(std::move(beside)) {}
 

@@ -71,7 +71,8 @@ Eigen::AlignedBox3d ShapeContacts::grown(int k, int begin, int end) {
   return tree_[middle + tree_at_[k]] = box;
 }
 
-/// Whether two segments are a diameter apart, as far as they are from their chords at most.
+/// Whether two segments keep a distance of one diameter, by their chords and their largest
+/// distances from these.
 bool ShapeContacts::apart(int a, int b) const {
   const Segment &one = segment(a), &other = segment(b);
   const auto x = [&](int point) { return x_[point]; };
@@ -83,8 +84,8 @@ bool ShapeContacts::apart(int a, int b) const {
          reach * reach;
 }
 
-/// Whether two segments that meet at one joint go away from it in cones so far apart that they are
-/// a diameter apart beyond its cylinder.
+/// Whether two segments at one joint leave it in cones so different that they keep a distance of
+/// one diameter outside its cylinder.
 bool ShapeContacts::apart_but_at_joint(int a, int b) const {
   const Chord &ca = chord_[a], &cb = chord_[b];
   int shared = 0;
@@ -224,8 +225,8 @@ void ShapeContacts::rods(bool by_all_pairs) {
   double widest = 0;
   for (const double radius : of_.radius_mm_) widest = std::max(widest, radius);
   for (int a = 0; a < count; ++a) {
-    // within 50 degrees of its chord a rod does not come back to itself: what is pi S apart along
-    // it is 2 S apart
+    // within 50 degrees of its chord a rod cannot touch itself: points pi S apart along it are 2 S
+    // apart
     if (chord_[a].cosine > 2 / std::numbers::pi) continue;
     Search search = between(a, a);
     grow_tree(a);

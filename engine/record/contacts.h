@@ -1,5 +1,5 @@
-// Where a shell touches itself or the table that it stands on: found on the shape that is shown,
-// after the fact; nothing of it acts on the shell.
+// Interpenetrations of a shell with itself or with its table, computed on the shape that is shown;
+// they exert no force on the shell.
 #pragma once
 
 #include <Eigen/Core>
@@ -31,35 +31,37 @@ struct Contacts {
   const Contact* deepest(ContactKind kind) const;
 };
 
-/// Looks for contacts in shapes of one layout. Rods are tubes about their edges. Between joints
-/// (and a rod's end) they are cut into *segments*; two segments, or one and itself, make one place
-/// at most, where they overlap most, so that the number of places does not depend on the mesh.
+/// Finds interpenetrations in shapes of one layout. Rods are tubes about their edges. Joints (and a
+/// rod's end) divide them into *segments*. Two segments, or one and itself, count as one
+/// interpenetration at most, where they overlap most, so that the number does not depend on the
+/// mesh.
 ///
-/// Two segments that meet at a joint are near there. With S the sum of their radii and a the angle
-/// between them at the joint, their nearest points are told unless both lie within
+/// Two segments with a common joint are close there. With S the sum of their radii and a the angle
+/// between them at the joint, their nearest points are reported unless both are within
 ///     max(D/2, min(S / sin(a/2), l/2))
-/// of the joint along the rods: D the diameter of the joint's cylinder, l the length of the shorter
-/// segment. Straight rods overlap up to half of S / sin(a/2), so that it is their bending that is
-/// told; beyond the middle of a segment all is, so that a closing cell is.
-/// Ends of two rods that are nearer than S are held at one place, which counts as a joint. Points
-/// of one rod are told that are more than pi S apart along it, whatever joints lie between them.
+/// of the joint along the rods: D is the diameter of the joint's cylinder, l the length of the
+/// shorter segment. Straight rods overlap up to half of S / sin(a/2), so that only overlap by
+/// bending is reported; past the middle of a segment all overlap is, as in a cell that closes.
+/// Ends of two rods at a distance below S are at one support, which counts as a joint. Points of
+/// one rod are compared if they are more than pi S apart along it, regardless of joints between
+/// them.
 ///
-/// Laths whose sections keep to the joints' normals are rectangles: of the way between two nearest
-/// points the part along the normal (between two joints along the mean of theirs) is held against
-/// their thickness, the part across it against their width as it lies across; the larger gap
-/// counts.
+/// Laths whose sections follow the joints' normals are rectangles. The vector between two nearest
+/// points has a part along the normal (between two joints along the mean of their normals), which
+/// is compared with the thickness, and a part perpendicular to it, which is compared with the width
+/// in that direction; the larger gap counts.
 ///
-/// The cylinder of a joint stands on the rods' crossing, along t_u x t_v, as high as the layout
-/// says, with rounded ends; where one rod only has a corner or a support there is none. A rod
-/// touches the table where its middle is more than its radius below the plane.
+/// The cylinder of a joint is centred on the rods' crossing, along t_u x t_v, with the height of
+/// the layout and rounded ends. A joint of one rod, as at a corner or a support, has none. A rod
+/// touches the table if its axis is more than its radius below the plane.
 class ContactSearch {
  public:
   explicit ContactSearch(const Layout& layout);
 
-  /// In a shape, 3 x nodes. Time: about that of the edges' boxes, whatever is far apart being left
-  /// out by trees of them.
+  /// Interpenetrations in a shape, 3 x nodes. Trees of bounding boxes leave out distant pairs; the
+  /// time is about that of computing the edges' boxes.
   Contacts in(const Eigen::Matrix3Xd& nodes) const;
-  /// The same by looking at every pair of edges: to test against.
+  /// Interpenetrations by comparison of every pair of edges, a reference for tests.
   Contacts by_all_pairs(const Eigen::Matrix3Xd& nodes) const;
 
  private:
@@ -70,7 +72,7 @@ class ContactSearch {
     int begin = 0, end = 0;  ///< points, both among them
     int from = -1, to = -1;  ///< joints at them; -1: an end
   };
-  /// The node of a joint, and nodes beside it on two of its rods; -1: fewer than two rods.
+  /// The node of a joint, and its neighbours on two of its rods; -1: fewer than two rods.
   struct Axis {
     int node = 0;
     std::array<int, 4> beside{-1, -1, -1, -1};

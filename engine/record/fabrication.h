@@ -1,5 +1,4 @@
-// What is cut, drilled and tied to build a gridshell by hand: rods with their marks, the footprint
-// they lie in, and the pins that hold it. Millimetres.
+// Fabrication plan of a gridshell: rods with their marks, the flat grid, and the pins. Millimetres.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,7 +16,7 @@ namespace gridshell::exports {
 /// a cylinder of 3 mm [Baek 2018, 'Materials'].
 inline constexpr double shortest_leg_mm = 3;
 
-/// One rod as it is cut. What is measured along it begins at its begin, tail and leg included.
+/// One rod as it is cut. Positions along it count from its start; tail and leg are included.
 struct CutRod {
   std::string name;  ///< "u-3": its family and index
   double length_mm = 0;
@@ -34,7 +33,7 @@ struct CutRod {
   }
 };
 
-/// A hole that holds an end of a rod once the shell is actuated.
+/// A hole for an end of a rod in the actuated shell.
 struct Pin {
   std::string name;  ///< "u-3 begin", "u-3 end, far" of a second ring
   Eigen::Vector3d at;
@@ -46,7 +45,7 @@ struct FabricationPlan {
   std::string title;
   double spacing_mm = 0, rod_diameter_mm = 0;
   double width_mm = 0, thickness_mm = 0;  ///< of laths; 0: the rods are round
-  /// What a hand does to the shell once its ends are held, sentence by sentence.
+  /// What the builder does after the ends are pinned, as sentences.
   std::vector<std::string> hand = {};
   std::vector<CutRod> rods;
   std::vector<Eigen::Vector2d> joints;
@@ -58,16 +57,16 @@ struct FabricationPlan {
   bool in_space = false;  ///< it has no flat footprint: rods and joints are seen from above
 
   Eigen::Vector2d middle() const;
-  /// Where a rod's name stands in the flat, `away` beyond one of its ends: at the begin of those
-  /// left of the middle, seen along the rod, at the end of the others, so that the names of the two
-  /// families lie in quarters of their own.
+  /// Position of a rod's label in the flat grid, `away` outside one of its ends: the start for rods
+  /// left of the middle, seen along the rod, the end for the others, so that the labels of the two
+  /// families are in separate quarters.
   Eigen::Vector2d label_position(const CutRod& rod, double away) const;
   double total_length_mm() const;
   /// "60 x 30 mm laths", "rods of 0.254 mm diameter".
   std::string section_text() const;
   /// Lowest and highest pin of the ring; without one infinite, the first above the second.
   std::pair<double, double> heights_of_pins() const;
-  /// Whether one flat plate holds the pins of the ring.
+  /// Whether one flat plate has all pins of the ring.
   bool has_plate() const;
 };
 
@@ -83,13 +82,13 @@ FabricationPlan rounded(FabricationPlan plan, double step_mm);
 /// its edge point).
 Drawing footprint_drawing(const FabricationPlan& work);
 
-/// The plate that holds the shell: the actuated boundary and a hole of the rods' diameter for each
-/// pin of the ring. Layers: `boundary`, `holes`, `labels`. Errors (bad_input): the pins do not lie
-/// in one horizontal plane.
+/// The plate of the pins: the actuated boundary and a hole of the rods' diameter for each pin of
+/// the ring. Layers: `boundary`, `holes`, `labels`. Errors (bad_input): the pins are not in one
+/// horizontal plane.
 Result<Drawing> plate_drawing(const FabricationPlan& work);
 
-/// `rod,length_mm,joint_marks_mm,pin_marks_mm,leg_begin_mm,leg_end_mm,note`, a line a rod; marks
-/// are measured from the rod's begin, apart by blanks.
+/// Columns `rod,length_mm,joint_marks_mm,pin_marks_mm,leg_begin_mm,leg_end_mm,note`, one row per
+/// rod; marks are measured from the rod's start and separated by blanks.
 std::string cut_list_csv(const FabricationPlan& work);
 
 /// `pin,ring,x_mm,y_mm,z_mm`, those of the second ring too.

@@ -1,4 +1,4 @@
-// One sampled state of a run. Millimetres, newtons, millijoules, z up.
+// Frame: one recorded state of a run. Units: mm, N, mJ, rad; z points up.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,80 +9,88 @@
 
 namespace gridshell::record {
 
+/// Marks a quantity that does not apply or is not known.
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// One sampled state. A quantity that does not apply or is not known is NaN (`unknown`).
+/// One recorded state, filled by simulate::frame_of() and its callers. A quantity that does not
+/// apply or is not known is NaN (`unknown`). Nodes, rods, cells and supports are those of Layout.
 struct Frame {
+  /// Position in the run, from 0.
   int index = 0;
   double progress = 0;  ///< 0 at the original boundary, 1 at the end of the experiment
+  /// Current radius of a circular boundary, mm; depth of a push, mm.
   double boundary_radius_mm = unknown;
   double depth_mm = unknown;
   double force_N = unknown;  ///< positive when the shell resists
-  /// of a push: share of the joints that moved more than 0.1 and 0.5 of the depth, and the lowest
-  /// latitude among the first
+  /// During a push, the fraction of the joints that moved more than 0.1 and more than 0.5 of the
+  /// depth, and the lowest latitude, degrees, among the former.
   double reach_above_tenth = unknown, reach_above_half = unknown, lowest_latitude_deg = unknown;
   Energies energies;           ///< by term, mJ
-  double height_mm = 0;        ///< highest joint above the boundary's plane
-  double lowest_mm = unknown;  ///< lowest point of a rod above that plane
-  /// Places where rods, joints or the table overlap (contacts.h), -1: not looked for; and the least
-  /// gaps between rods away from their joints and between joints, where they are below a diameter.
+  double height_mm = 0;        ///< z of the highest joint above the plane of the boundary
+  double lowest_mm = unknown;  ///< z of the lowest point of a rod above that plane
+  /// Number of interpenetrations of rods, joints and table (contacts.h); -1: not computed. Least
+  /// gaps between rods away from their joints and between joints, mm, if below one diameter.
   int contacts = -1;
   double rod_gap_mm = unknown, joint_gap_mm = unknown;
-  double total_K = 0;  ///< rad
+  double total_K = 0;  ///< sum of cell_K, rad
+  /// Largest unbalanced force, N.
   double residual_N = 0;
-  int negative_pivots = 0;  ///< -1: not known
+  int negative_pivots = 0;  ///< of the Hessian; 0: stable, -1: not known
+  /// Largest error of a joint's position, by the difference of two meshes, mm.
   double error_estimate_mm = unknown;
+  /// Newton iterations for this state.
   int newton_iterations = 0;
-  double time_s = unknown;  ///< of a snap in time, since its begin
-  /// what force_N grows by with the depth, N/mm, and its error
+  double time_s = unknown;  ///< since the start of a dynamic snap
+  /// derivative of force_N by depth_mm, and its error
   double stiffness_N_per_mm = unknown, stiffness_error_N_per_mm = unknown;
-  double push_error_N = unknown;     ///< of force_N
-  double largest_force_N = unknown;  ///< of reactions_N
-  double force_error_N = unknown;    ///< of reactions_N and force_N, the largest
-  double energy_error_mJ = unknown;  ///< of the terms and of their sum, the largest
-  /// by which bending lengthens or shortens a fibre: the curvature added to that at rest times how
-  /// far the section reaches from its axis; of the finest mesh
+  double push_error_N = unknown;     ///< error of force_N
+  double largest_force_N = unknown;  ///< largest column norm of reactions_N
+  double force_error_N = unknown;    ///< largest error of reactions_N and force_N
+  double energy_error_mJ = unknown;  ///< largest error of an energy term or of their sum
+  /// Largest strain of a fibre by bending, (curvature - natural curvature) times the distance of
+  /// the fibre from the axis; on the finest mesh.
   double largest_bending_strain = unknown;
-  std::string bending_strain_at;  ///< "u3, 45.00 mm from its begin, at joint [0, 1]"
-  /// The largest stress of a fibre, of axial force and bending together, that over the rods'
-  /// strength where it is known, and where the latter, or else the stress, is largest.
+  std::string bending_strain_at;  ///< "u3, 45.00 mm from its start, at joint [0, 1]"
+  /// Largest stress of a fibre by axial force and bending; largest ratio of stress to strength
+  /// (utilisation) if the strength is known; and where the ratio, or else the stress, is largest.
   double largest_stress_MPa = unknown, utilisation = unknown;
   std::string stress_at;
-  std::string event;            ///< a snap, a limit, a recovery; empty when nothing happened
-  std::string kind = "solved";  ///< or "interpolated": between solved states, its residual unknown
-  Eigen::Matrix3Xd nodes;       ///< positions, mm
-  Eigen::VectorXd cell_K;       ///< integrated Gauss curvature of each cell, rad
-  /// Of the finest mesh itself, but for the reactions, which are extrapolated as energies are; with
-  /// the loads these balance to `residual_N`. Empty where they are not known (in motion, a net, an
-  /// older version).
-  Eigen::VectorXd axial_force_N;     ///< of each edge, rod after rod; below 0: compressed
-  Eigen::VectorXd curvature_per_mm;  ///< at each point of each rod, rod after rod
-  Eigen::VectorXd bending_mJ_per_m;  ///< bending energy over length, at the same points
-  Eigen::VectorXd stress_MPa;        ///< E (|N|/EA + strain by bending), at the same points
-  Eigen::Matrix3Xd reactions_N;      ///< on each of Layout::supports; 0 where nothing holds it
-  /// What acts from outside, handed on to Layout::supports: the sum is that of all loads. Empty:
-  /// nothing acts.
+  std::string event;            ///< a snap, a limit, a recovery; empty if nothing happened
+  std::string kind = "solved";  ///< or "interpolated": between solved states, without a residual
+  Eigen::Matrix3Xd nodes;       ///< 3 x nodes, mm; joints first
+  Eigen::VectorXd cell_K;       ///< integrated Gauss curvature K_square of each cell, rad
+  /// The next arrays are of the finest mesh, except for reactions_N, which is extrapolated where
+  /// the energies are. Reactions and loads balance to `residual_N`. They are empty if not known (in
+  /// motion, on a net, in files of an older version).
+  Eigen::VectorXd axial_force_N;     ///< N, of each edge, rod after rod; below 0 in compression
+  Eigen::VectorXd curvature_per_mm;  ///< 1/mm, at each point of each rod, rod after rod
+  Eigen::VectorXd bending_mJ_per_m;  ///< bending energy per length, mJ/m, at the same points
+  Eigen::VectorXd stress_MPa;        ///< MPa, E (|N|/EA + bending strain), at the same points
+  Eigen::Matrix3Xd reactions_N;      ///< 3 x Layout::supports, N; 0 without a constraint
+  /// Loads, distributed to Layout::supports, 3 x supports, N. Their sum is the sum of all loads.
+  /// Empty if no load acts.
   Eigen::Matrix3Xd loads_N;
-  /// Axial forces of braces, of the finest mesh: along each cell's two diagonals, from joint (i, j)
-  /// and from (i + 1, j); NaN: there is none. Empty: nothing is braced.
+  /// Axial forces of braces on the finest mesh, N: for each cell the diagonal from joint (i, j),
+  /// then the one from (i + 1, j); NaN where there is no brace. Empty without bracing.
   Eigen::VectorXd brace_force_N;
-  /// K of the cells by their centroid's x/L, L the half-span of the actuated boundary, in bins of
-  /// equal width from -1 to 1, one a row: mean (rad), standard deviation (rad), number of cells
+  /// Statistics of cell_K by the cell centroid's x/L, L being the half-span of the actuated
+  /// boundary: one row per bin of equal width from -1 to 1; columns mean (rad), standard deviation
+  /// (rad), number of cells.
   Eigen::MatrixX3d K_bins;
 
-  /// The boundary at this frame: every point moves straight and evenly, so it is linear in how far
-  /// the actuation (not an indentation) has come.
+  /// Fraction of the actuation (not of an indentation). Boundary points move on straight lines,
+  /// linearly in it.
   double actuation = 0;  ///< in [0, 1]
 };
 
-/// visit("energy_bend_mJ", energy) for every term.
+/// Calls visit("energy_bend_mJ", energy) for every term, energy in mJ.
 template <class EnergiesType, class Visit>
 void visit_energies(EnergiesType& energies, const Visit& visit) {
   for (const TermName& term : energy_terms)
     visit((std::string("energy_") + term.name + "_mJ").c_str(), energies[term.term]);
 }
 
-/// visit(matrix) for all that hangs on nodes, cells, bins and rods.
+/// Calls visit(matrix) for every array member.
 template <class FrameType, class Visit>
 void visit_matrices(FrameType& frame, const Visit& visit) {
   visit(frame.nodes);
@@ -97,7 +105,8 @@ void visit_matrices(FrameType& frame, const Visit& visit) {
   visit(frame.brace_force_N);
 }
 
-/// The frame's numbers, words and bins alone: what may stay in memory of any number of frames.
+/// A copy of the frame without its arrays of nodes, cells and rods, except for K_bins: small enough
+/// that all frames of a run fit in memory.
 Frame without_nodes(const Frame& frame);
 
 }  // namespace gridshell::record

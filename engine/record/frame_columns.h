@@ -11,7 +11,7 @@
 
 namespace gridshell::record {
 
-/// A quantity by name, unit ("1" without one, "" for text) and where it stands in a Frame.
+/// A quantity by name, unit ("1" without one, "" for text) and its member of Frame.
 struct FrameColumn {
   std::string name;
   const char* unit;
@@ -20,7 +20,7 @@ struct FrameColumn {
       field;
 };
 
-/// The quantity of a frame that a column stands for: `visit(value)`, by reference.
+/// Calls `visit(value)` with the member of a frame that belongs to a column, by reference.
 template <class FrameType, class Visit>
 decltype(auto) visit_column(const FrameColumn& column, FrameType& frame, Visit visit) {
   return std::visit(
@@ -81,7 +81,7 @@ inline const std::vector<FrameColumn> frame_columns = [] {
   return columns;
 }();
 
-/// Stored in trajectory.h5 beside the columns above, to draw the boundary of a frame.
+/// Stored in trajectory.h5 in addition to the columns above, to draw the boundary of a frame.
 inline const FrameColumn actuation_column{"actuation", "1", &Frame::actuation};
 
 using SizeOf = Eigen::Index (*)(const Layout&);

@@ -16,7 +16,7 @@ std::size_t points_before(const Layout& layout, std::size_t rod) {
   return points;
 }
 
-/// Values that come to nodes from several rods, and their mean.
+/// Means at nodes of values given on several rods.
 class NodeMeans {
  public:
   explicit NodeMeans(Eigen::Index nodes)

@@ -1,6 +1,6 @@
-// How a figure is told with its error, and what a frame says along its rods: curvature and axial
-// force at a rod's points, axial force and bending energy at the nodes. Exports, pictures and the
-// window take them from here.
+// Text of a value with its error, and values of a frame along its rods: curvature and axial force
+// at a rod's points, axial force and bending energy at the nodes. Used by exports, pictures and the
+// window.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,8 +11,8 @@
 
 namespace gridshell::record {
 
-/// A value with its unit in as many digits as its error lets hold: "0.1234 ± 0.0007 N"; four digits
-/// and no error where that is not known. From 10 J, 1 kJ and 10 kN on in these units.
+/// A value with its unit, in the digits that its error allows: "0.1234 ± 0.0007 N"; four digits if
+/// the error is not known. From 10 J, 1 kJ and 10 kN on in these units.
 std::string with_error(double value, double error, const char* unit);
 
 /// Curvature at the node between two edges, |kb|/l, from their unit tangents and their mean length.
@@ -22,7 +22,7 @@ double curvature_between(const Eigen::Vector3d& te, const Eigen::Vector3d& tf, d
 /// edges' lengths, t and t' their unit tangents [Bergou 2008, eq. 1]; 0 at the ends.
 std::vector<double> curvature_per_mm(const Eigen::Matrix3Xd& points);
 
-/// The same of a rod of the frame as its run recorded it; else from its points.
+/// Curvature of a rod as its run recorded it; if it did not, from the rod's points.
 std::vector<double> curvature_per_mm(const Layout& layout, const Frame& frame, std::size_t rod);
 
 /// Axial force at each of a rod's points, N: the mean of the edges that meet there, below 0 where
@@ -49,11 +49,11 @@ Eigen::VectorXd bending_of_nodes_mJ_per_m(const Layout& layout, const Frame& fra
 /// Whether a run has a net to lie off.
 inline bool has_net(const Layout& layout) { return layout.net_nodes.cols() > 0; }
 
-/// Distance of each node from its place on the net over rho, the layout's length scale; empty
+/// Distance of each node from its position on the net over rho, the layout's length scale; empty
 /// without a net.
 Eigen::VectorXd deviation_of_nodes(const Layout& layout, const Frame& frame);
 
-/// The same of each cell: the mean of its four joints.
+/// Deviation of each cell: the mean of its four joints.
 Eigen::VectorXd deviation_of_cells(const Layout& layout, const Frame& frame);
 
 }  // namespace gridshell::record

@@ -214,7 +214,7 @@ FrameList read_frames(const std::shared_ptr<hdf5::Reader>& shared, const Layout&
                                   nodes[2], cells[0], cells[1]));
   if (nodes[1] == 0 && nodes[0] > 0) file.fail_because("/nodes holds frames without nodes");
   if (!file.good()) return {};
-  // what frames hold is counted by the layout
+  // the layout gives the size of a frame's arrays
   if (nodes[0] > 0)
     if (auto fits = check_layout(layout, Eigen::Index(nodes[1])); !fits)
       file.fail_because(fits.error().message);

@@ -231,7 +231,7 @@ class Gltf {
     morphing_.push_back(add_node({{"name", name}, {"mesh", json_["meshes"].size() - 1}}));
   }
 
-  /// A ball a joint, at the first of its places.
+  /// One sphere per joint, at the first of its positions.
   void add_joints(const std::vector<Eigen::Matrix3Xd>& places) {
     json_["meshes"].push_back(MorphingMesh("joint", ball(joint_radius_mm), 1, buffer_).mesh({}));
     const std::size_t mesh = json_["meshes"].size() - 1;
@@ -293,7 +293,7 @@ class Gltf {
   std::vector<int> morphing_, moving_;  ///< nodes
 };
 
-/// Of the cells, by their K; four vertices each.
+/// Colours of the cells by their K, for four vertices each.
 std::vector<std::array<float, 4>> colours_of(const Eigen::VectorXd& K) {
   std::vector<std::array<float, 4>> colours;
   const ColourRange range = range_of(K);

@@ -147,7 +147,7 @@ Json forces_json(const record::Layout& layout, const Eigen::Matrix3Xd& forces_N)
   return forces;
 }
 
-/// Nodes that something holds: where there is a reaction.
+/// Constrained nodes: those with a reaction.
 Json held_json(const record::Layout& layout, const record::Frame& frame) {
   Json held = Json::array();
   for (const Json& one : forces_json(layout, frame.reactions_N)) held.push_back(one[0]);
@@ -211,7 +211,7 @@ Result<std::string> to_page(const record::Trajectory& run, const std::string& ti
   if (run.frames.fault()) return tl::unexpected(*run.frames.fault());
 
   std::string data = line_of(json, true);
-  // a script ends at the first "</script", whatever it stands in
+  // a script ends at the first "</script", even within a text
   for (std::size_t at = 0; (at = data.find("</", at)) != data.npos; at += 3)
     data.replace(at, 2, "<\\/");
   std::string page = page_template;

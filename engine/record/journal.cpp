@@ -22,7 +22,7 @@ constexpr std::string_view first_line = "gridshell journal 2\n",
                            older_first_line = "gridshell journal 1\n";
 enum RecordKind : std::uint32_t { head_record = 1, frame_record = 2 };
 constexpr std::size_t before_payload = 12, after_payload = 8;
-// of a record: beyond any shell, and little enough to be asked for
+// of a record: more than any shell needs, and little enough to allocate
 constexpr std::uint64_t largest_record = std::uint64_t(1) << 31;
 // what a movie numbers its frames up to; snaps in time add some
 constexpr int largest_index = 10000000;

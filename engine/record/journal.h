@@ -39,14 +39,14 @@ struct RunIdentity {
 /// A journal as it grows. Every record goes to the system at once.
 class JournalWriter {
  public:
-  /// A new journal, in the place of one that stood there. Errors: io with path and reason.
+  /// Creates a journal, replacing an older one. Errors: io with path and reason.
   static Result<JournalWriter> create(const std::filesystem::path& path, const RunIdentity& name,
                                       const Layout& layout);
 
   /// Errors: io with path and reason; what was cut short is taken back.
   Result<void> append(const Frame& frame);
 
-  /// how many different frames it holds
+  /// number of different frames in it
   std::size_t frames() const { return indices_.size(); }
 
  private:
@@ -58,7 +58,7 @@ class JournalWriter {
   std::set<int> indices_;
 };
 
-/// What a journal holds: frames in order of their index, read one at a time.
+/// Contents of a journal: frames in order of their index, read one at a time.
 struct Journal {
   RunIdentity name;
   Trajectory trajectory;
@@ -68,19 +68,18 @@ struct Journal {
 /// damaged. What follows a damaged record is left out.
 Result<Journal> read_journal(const std::filesystem::path& path, bool trial = true);
 
-/// The journal of a run's folder that holds the most frames. Errors: as above.
+/// The journal of a run's folder with the most frames. Errors: as above.
 Result<Journal> read_journal_of(const std::filesystem::path& folder);
 
-/// The name of the preset in a folder's journal; nothing where there is no journal with a whole
-/// head.
+/// The name of the preset in a folder's journal; empty without a journal with a complete head.
 std::optional<std::string> preset_of_journal(const std::filesystem::path& folder);
 
-/// How many frames a journal holds; 0 where it is none. Nothing of it is trusted.
+/// Number of frames in a journal; 0 if it is none. Nothing in the file is trusted.
 std::size_t frames_in_journal(const std::filesystem::path& file);
-/// Of the longer of a folder's journals.
+/// Number of frames in the longer of a folder's journals.
 std::size_t frames_in_journals(const std::filesystem::path& folder);
 
-// What the records of a journal hold: the head, then frames, packed.
+// Records of a journal: the head, then frames, packed.
 
 /// Whose frames they are, the names of their columns, and the layout as layout_of_image() reads it.
 struct JournalHead {

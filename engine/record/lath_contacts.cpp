@@ -37,7 +37,8 @@ double ShapeContacts::beside(int rod) const {
   return lath ? of_.half_mm_[std::size_t(rod)][0] : of_.radius_mm_[std::size_t(rod)];
 }
 
-/// Whether all rectangles of two segments of laths lie apart, seen along the width of the first.
+/// Whether all rectangles of two segments of laths are separate in the direction of the first's
+/// width.
 bool ShapeContacts::side_by_side(int a, int b) const {
   if (of_.half_mm_.empty()) return false;
   const Segment* of[2] = {&segment(a), &segment(b)};

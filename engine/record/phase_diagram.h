@@ -1,5 +1,5 @@
-// The legs of a circle of n rods a direction as the paper counts them, of d [Baek 2018, 'Elastic
-// Gridshells with Circular Boundaries'].
+// Legs of a circle with n rods per direction as the paper counts them, in units of d [Baek 2018,
+// 'Elastic Gridshells with Circular Boundaries'].
 #pragma once
 
 #include <algorithm>
@@ -33,9 +33,9 @@ inline double longest_leg_at(double leg, double rods) {
   return std::hypot(leg + outermost, outermost) - outermost;
 }
 
-// What a search for states came to, as figures of a point of a sweep.
+// Results of a search for states, as results of a point of a sweep.
 
-// of a circle, whether states are looked for or not: L_d and l_d
+// for a circle, with or without a search: L_d and l_d
 inline constexpr const char* longest_leg_name = "longest_leg";
 inline constexpr const char* corner_leg_name = "corner_leg";
 
@@ -48,9 +48,9 @@ struct StateCount {
   bool operator==(const StateCount&) const = default;
 };
 
-/// jitter_seed, trials, at_rest, confined_trials, confined_at_rest, states, seen (by trials that
-/// are not confined), chao1; then of each class, and of states of the first order, the three of
-/// StateCount: states_ii, met_ii, met_confined_ii ... states_first_order ...
+/// jitter_seed, trials, at_rest, confined_trials, confined_at_rest, states, seen (by trials without
+/// imposed symmetry), chao1; then for each class, and for states of first-mode buckling, the three
+/// of StateCount: states_ii, met_ii, met_confined_ii ... states_first_order ...
 Figures search_figures(const StateSearch& search, const std::vector<StateRow>& rows);
 
 /// What search_figures() said of the kind "i" ... "other" or "first_order"; nothing where the

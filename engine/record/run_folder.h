@@ -13,9 +13,9 @@
 
 namespace gridshell::record {
 
-/// The text of joints.csv: position of every joint in the last frame, and how far from its place on
-/// the net, if there is one.
-/// Numbers are the shortest that read back bit for bit; what is unknown is empty (all CSV files).
+/// The text of joints.csv: position of every joint in the last frame, and its distance from its
+/// position on the net, if there is one. Numbers are the shortest that read back bit for bit;
+/// unknown ones are empty (all CSV files).
 std::string joints_csv(const Trajectory& trajectory);
 
 /// The text of cells.csv: K of every complete cell in the last frame, at its middle (u, v) of the
@@ -29,18 +29,18 @@ std::string bins_csv(const Trajectory& trajectory);
 /// A rod across the seam of two building blocks a line, with gap and kink.
 std::string seams_csv(const Layout& layout);
 
-/// Writes these files, seams.csv only where there are seams, into `folder`, which is made if
-/// missing; each is whole or absent, and summary.json, written last, says that the others are
-/// there. Errors: Fault::io with path and reason; Fault::bad_input when the trajectory's parts do
-/// not fit each other.
+/// Writes these files into `folder`, which is created if missing; seams.csv only if there are
+/// seams. Each file is complete or absent, and summary.json, written last, confirms the others.
+/// Errors: Fault::io with path and reason; Fault::bad_input if the trajectory's parts are
+/// inconsistent.
 Result<void> write_run(const std::filesystem::path& folder, const Trajectory& trajectory,
                        const Summary& summary);
 
 // A run's folder as it fills: every frame is on the disk as soon as it is found.
 
-/// Writes frames to the journal of `folder`, of which none stays in memory. When a finer mesh
-/// begins, the coarser journal is kept beside the new one until that holds as many frames; so is
-/// what the same run left there when it was cut short.
+/// Writes frames to the journal of `folder`; none stays in memory. When a finer mesh starts, the
+/// coarser journal is retained until the new one has as many frames; so is the journal of an
+/// interrupted run.
 class FolderSink final : public Sink {
  public:
   FolderSink(std::filesystem::path folder, RunIdentity name)
@@ -49,8 +49,8 @@ class FolderSink final : public Sink {
   Result<void> begin(Layout layout) override;
   Result<void> take(Frame frame) override;
 
-  /// Makes the journal a run's files (run_folder.h) and removes it. The trajectory reads its frames
-  /// from the disk as they are asked for. Errors: io, bad_input.
+  /// Converts the journal into a run's files (run_folder.h) and removes it. The trajectory reads
+  /// its frames from the disk on demand. Errors: io, bad_input.
   Result<Trajectory> finish(const Summary& summary);
 
  private:

@@ -24,11 +24,12 @@ class ShapeContacts {
   static constexpr int no_tree = std::numeric_limits<int>::min();
   using Box = Eigen::AlignedBox3d;
   using Segment = ContactSearch::Segment;
-  /// Points of two segments so near to a joint that they share, along the rods, are not told.
+  /// Points of two segments within a given distance along the rods of a common joint are not
+  /// compared.
   struct Joint {
     double at_a = 0, at_b = 0, within = 0;
   };
-  /// A segment's chord, from its begin to its end, and the largest angle of an edge with it.
+  /// A segment's chord, from its start to its end, and the largest angle of an edge with it.
   struct Chord {
     Vector3d along{0, 0, 0};  ///< unit vector
     double cosine = 1, sine = 0;
@@ -39,7 +40,7 @@ class ShapeContacts {
     int a = 0, b = 0;
     double radii = 0;         ///< sum
     double gap = 0;           ///< above is not looked for
-    double apart = 0;         ///< of one rod: nearer points along it are not told
+    double apart = 0;         ///< for one rod: least distance of compared points along it
     double round = infinity;  ///< length of a rod that is a ring
     int joints = 0;
     Joint joint[2];
@@ -60,7 +61,7 @@ class ShapeContacts {
   int node(int point) const { return of_.places_[point]; }
   const Segment& segment(int k) const { return of_.segments_[k]; }
   double length(const Segment& s) const { return along_[s.end] - along_[s.begin]; }
-  /// Of edges begin to end - 1 of a segment with a tree.
+  /// Box of edges begin to end - 1 of a segment with a tree.
   const Box& box_of(int k, int begin, int end) const {
     return end - begin == 1 ? edge_[begin + tree_at_[k]] : tree_[(begin + end) / 2 + tree_at_[k]];
   }

@@ -121,7 +121,7 @@ void put_array(std::string& text, const char* name, const Eigen::Matrix3Xd& valu
   put_array(text, "Float64", name, 3, vectors);
 }
 
-/// Of the points of rods; the cells' corners have none.
+/// Values at the points of rods; the cells' corners have none.
 std::vector<double> along_rods(const Shape& shape, auto values_of) {
   std::vector<double> all;
   for (std::size_t rod = 0; rod < shape.layout.rods.size(); ++rod) {
@@ -132,7 +132,7 @@ std::vector<double> along_rods(const Shape& shape, auto values_of) {
   return all;
 }
 
-/// Of one frame of a dataset of trajectory.h5, all of its `values`, of `components` each (0: one).
+/// One frame of a dataset of trajectory.h5 with all of its `values`, of `components` each (0: one).
 std::string hyperslab(const std::string& dataset, long index, std::size_t frames, long values,
                       long components) {
   const auto dims = [&](long first) {
@@ -149,7 +149,7 @@ std::string hyperslab(const std::string& dataset, long index, std::size_t frames
       dims(long(frames)), dataset);
 }
 
-/// A topology that stands once in the file; later frames refer to the first one's.
+/// A topology that the file has once; later frames refer to the first one's.
 std::string topology(const std::string& grid, long index, const char* type, int nodes,
                      long elements, const std::string& numbers) {
   if (index > 0)
@@ -244,7 +244,7 @@ std::string to_vtp(const Shape& shape) {
   std::vector<double> K(layout.rods.size(), record::unknown);
   K.insert(K.end(), shape.frame.cell_K.begin(), shape.frame.cell_K.end());
   K.resize(rod_of.size(), record::unknown);
-  // what holds a joint stands once, at the cells' corner, not at both of its rods
+  // a joint's reaction is written once, at the cells' corner, not at both of its rods
   const Eigen::Matrix3Xd on = reactions_N(layout, shape.frame);
   Eigen::Matrix3Xd on_rods = on;
   for (const int node : joints)

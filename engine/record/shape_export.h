@@ -27,8 +27,7 @@ Eigen::Matrix3Xd rod_points(const record::Layout& layout, const record::Frame& f
 /// The node of each joint.
 std::vector<int> nodes_of_joints(const record::Layout& layout);
 
-/// The force that holds each node of the frame, N: 0 where nothing does, NaN where the run did not
-/// record it.
+/// Reaction at each node of the frame, N: 0 without a constraint, NaN if the run did not record it.
 Eigen::Matrix3Xd reactions_N(const record::Layout& layout, const record::Frame& frame);
 
 /// Four corners of a cell, joints in order, 3 x 4, mm.
@@ -50,16 +49,16 @@ Tube tube_around(const Eigen::Matrix3Xd& points, double radius_mm, int sides);
 
 /// Wavefront: a line element a rod (group `rods`), a point a joint, a face a cell (group `cells`).
 std::string to_obj(const Shape& shape);
-/// The same with rods as tubes of their diameter (8 sides), and without joints.
+/// OBJ text with rods as tubes of their diameter (8 sides), and without joints.
 std::string to_obj_tubes(const Shape& shape);
 
 /// Rods as 3D polylines (layer `rods`) and the actuated boundary, for to_dxf().
 Drawing rods_in_space(const Shape& shape);
 
-/// VTK PolyData in ASCII: a polyline a rod with points of its own, a polygon a cell. Point data:
-/// `displacement_mm`, `curvature_per_mm`, `axial_force_N` (the mean of the edges that meet),
-/// `stress_MPa`, `reaction_N` (of what holds a point; a joint's at the cells' corner alone); cell
-/// data: `rod` (-1 for a cell), `K_rad` (nan for a rod); field data: `TimeValue` (progress).
+/// VTK PolyData in ASCII: a polyline per rod with separate points, a polygon per cell. Point data:
+/// `displacement_mm`, `curvature_per_mm`, `axial_force_N` (mean of the adjacent edges),
+/// `stress_MPa`, `reaction_N` (a joint's at the cells' corner alone); cell data: `rod` (-1 for a
+/// cell), `K_rad` (nan for a rod); field data: `TimeValue` (progress).
 std::string to_vtp(const Shape& shape);
 /// ParaView's list of such files over progress.
 std::string to_pvd(const std::vector<double>& progress, const std::vector<std::string>& files);
@@ -93,7 +92,7 @@ ColourRange range_of(const Eigen::VectorXd& K);
 /// From sRGB to linear light.
 std::array<double, 3> linear(const std::array<double, 3>& srgb);
 
-/// Which frames of a run stand for all: evenly, the first and the last among them.
+/// Evenly spaced frames that represent a run, the first and the last among them.
 std::vector<std::size_t> even_frames(std::size_t frames, std::size_t shown);
 
 // A run as one binary glTF 2.0 file (.glb), which Blender, browsers and slides play.
@@ -112,7 +111,7 @@ Result<std::string> to_glb(const record::Trajectory& run, const std::string& tit
 /// say; bad_input where one frame alone is larger.
 Result<std::string> to_page(const record::Trajectory& run, const std::string& title);
 
-// The page of page.html, in which "/*RUN*/" stands for the run.
+// Template page.html, in which "/*RUN*/" is replaced by the run.
 
 extern const char* const page_template;
 

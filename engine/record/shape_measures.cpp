@@ -78,7 +78,8 @@ double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-/// Of a rod that is neither: u of its joint if it is the first there, else v, turned to u's left.
+/// Direction of a rod in neither family: u at its joint if it is the first there, else v, oriented
+/// to the left of u.
 void put_other(const Eigen::Vector3d& along, const Eigen::Vector2d& flat, int joint,
                Eigen::Vector2d& first, JointTangents& tangents) {
   if (tangents.u.col(joint).isZero(0)) {
@@ -91,7 +92,7 @@ void put_other(const Eigen::Vector3d& along, const Eigen::Vector2d& flat, int jo
     tangents.v.col(joint) = left > 0 ? along : Eigen::Vector3d(-along);
 }
 
-/// What one map is: of the sixteen, those alike are counted together.
+/// What one map does; of the sixteen maps, equal ones are counted together.
 struct Counts {
   int half = 0, quarter = 0, axis = 0, diagonal = 0;  // turns about z, vertical mirrors
   int level = 0, inversion = 0, improper = 0, level_axis = 0, level_diagonal = 0;  // z turned over
@@ -128,7 +129,7 @@ int index_of(const Eigen::Matrix3d& map) {
   return int(std::ranges::find(all, map) - all.begin());
 }
 
-/// The smallest group that holds these maps.
+/// The smallest group that contains these maps.
 SymmetryGroup generated(const SymmetryGroup& generators) {
   std::set<int> group{0};
   group.insert(generators.begin(), generators.end());
@@ -167,7 +168,8 @@ JointTangents joint_tangents(const Footprint& footprint, const RodMesh& mesh,
                              const Eigen::Matrix3Xd& x) {
   JointTangents tangents{Eigen::Matrix3Xd::Zero(3, mesh.joints),
                          Eigen::Matrix3Xd::Zero(3, mesh.joints)};
-  std::vector<Eigen::Vector2d> first;  // of joints of a network: its first rod's way in the flat
+  std::vector<Eigen::Vector2d>
+      first;  // of joints of a network: direction of its first rod in the flat grid
   for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
     const std::vector<int>& node = mesh.rods[r];
     const Family family = footprint.rods[r].family;

@@ -41,12 +41,12 @@ struct CurvatureBins {
   Eigen::VectorXd deviation;  ///< sqrt(mean of (K - mean)^2), rad: how unlike the cells are
 };
 
-/// The paper's five bins are 0.4 wide. A cell belongs to the bin of its centroid's x/L; one beyond
-/// the ends to the bin there. `x_over_L` and `K`: one a cell.
+/// The paper's five bins are 0.4 wide. A cell belongs to the bin of its centroid's x/L; one outside
+/// the range to the bin at that end. `x_over_L` and `K`: one per cell.
 CurvatureBins curvature_bins(const Eigen::VectorXd& x_over_L, const Eigen::VectorXd& K,
                              int bins = 5);
 
-/// Delta/rho of the joints [Baek 2018, Fig. 3]: distance between each joint and its place on the
+/// Delta/rho of the joints [Baek 2018, Fig. 3]: distance between each joint and its position on the
 /// net, over the length scale rho.
 class NetDeviation {
  public:
@@ -70,8 +70,8 @@ class NetDeviation {
 struct PushReach {
   double above_tenth = 0;  ///< share of the joints with |u|/depth > 0.1
   double above_half = 0;   ///< share of the joints with |u|/depth > 0.5
-  /// of the joints above 0.1 the lowest, by the place before the push, as seen from the origin:
-  /// asin(z/|x|), degrees
+  /// lowest latitude of a joint with reach above 0.1, by its position before the push as seen from
+  /// the origin: asin(z/|x|), degrees
   double lowest_latitude_deg = 0;
 };
 
@@ -91,11 +91,11 @@ std::vector<int> inflections(const RodMesh& mesh, const Eigen::Matrix3Xd& x);
 /// Indices of square_symmetries(), ascending.
 using SymmetryGroup = std::vector<int>;
 
-/// Schoenflies' name of a group of them, with the place of its mirrors where there are two:
-/// "C1", "Cs_axis", "Cs_diagonal" (one vertical mirror), "C2", "C2v_axes", "C2v_diagonals", "C4",
-/// "C4v" (full symmetry); with maps that turn z over "Ci", "C2_level_axis", "C2_level_diagonal",
-/// "C2h_axis", "C2h_diagonal", "S4", "D2_axes", "D2_diagonals", "D2d_axes", "D2d_diagonals" (its
-/// mirrors), "D4", and "flat" for all that hold the level plane itself.
+/// Schoenflies name of a group of them, with the position of its mirrors where there are two: "C1",
+/// "Cs_axis", "Cs_diagonal" (one vertical mirror), "C2", "C2v_axes", "C2v_diagonals", "C4", "C4v"
+/// (full symmetry); with maps that invert z "Ci", "C2_level_axis", "C2_level_diagonal", "C2h_axis",
+/// "C2h_diagonal", "S4", "D2_axes", "D2_diagonals", "D2d_axes", "D2d_diagonals" (its mirrors),
+/// "D4", and "flat" for all that contain the reflection at the horizontal plane.
 std::string name_of_group(const SymmetryGroup& group);
 
 /// All groups among `symmetries`, each once: the trivial one and those of flat shapes left out, of

@@ -16,7 +16,7 @@ namespace gridshell {
 struct RichnessEstimate {
   int seen = 0;  ///< kinds met at all
   int once = 0, twice = 0;
-  double estimate = 0;  ///< of all there are that this way of looking can meet: a lower bound
+  double estimate = 0;  ///< lower bound of the number of states that this search can find
   double low = 0, high = 0;
 };
 
@@ -26,8 +26,8 @@ RichnessEstimate chao1(const std::vector<int>& counts);
 
 }  // namespace gridshell
 
-// The states that a shell was found in: a line of states.csv each, and states.json for the search
-// as a whole. Their shapes are the frames of the run's trajectory, in the same order.
+// The states that a search found: one row of states.csv each, and states.json for the complete
+// search. Their shapes are the frames of the run's trajectory, in the same order.
 
 namespace gridshell::record {
 
@@ -63,7 +63,7 @@ struct StateRow {
   double error_estimate_mm = unknown;     ///< of the joints
   double barrier_mJ = unknown;            ///< lowest known pass out of it, above it
 
-  /// The potential; terms that the files of an earlier version do not tell count for nothing.
+  /// Total potential energy; terms that files of an earlier version lack count as zero.
   double energy_mJ() const;
   /// Class and number, "ii.2".
   std::string name() const { return in_tables().text(); }
@@ -75,7 +75,7 @@ template <RecordOf<StateRow> Row, class Visit>
 void fields(Row& row, const Visit& visit) {
   visit_each(visit, "state", row.state, "class", row.kind, "group", row.group);
   visit_energies(row.energies, visit);
-  double sum = row.energy_mJ();  // told, not kept
+  double sum = row.energy_mJ();  // reported, not stored
   visit("energy_mJ", sum);
   visit_each(visit, "height_mm", row.height_mm, "z_max_mm", row.z_max_mm, "z_min_mm", row.z_min_mm,
              "inflections", row.inflections, "count", row.count, "count_confined",
@@ -84,20 +84,21 @@ void fields(Row& row, const Visit& visit) {
              "error_estimate_mm", row.error_estimate_mm, "barrier_mJ", row.barrier_mJ);
 }
 
-/// The search as a whole.
+/// The complete search.
 struct StateSearch {
   std::string mode;
   int seed = 0;
-  int trials = 0, at_rest = 0;  ///< and how many of them ended at rest
+  int trials = 0, at_rest = 0;  ///< and the number of them that reached equilibrium
   int confined_trials = 0, confined_at_rest = 0;
   std::map<std::string, int> ended_otherwise;  ///< why, and how often
-  int judged_edges = 0;                        ///< a segment of the mesh that tells states apart
-  int found = 0;                               ///< states on it
-  int finer_lost = 0;                          ///< of them, that finer meshes do not have
-  int finer_merged = 0;                        ///< and that are one on finer meshes
-  RichnessEstimate completeness;               ///< of the trials that are counted
-  double cpu_s = 0;                            ///< of all trials
-  int paths_followed = 0, passes_found = 0;    ///< from state to state, for the barriers
+  /// edges per segment of the mesh that distinguishes states
+  int judged_edges = 0;
+  int found = 0;                             ///< states on it
+  int finer_lost = 0;                        ///< of them, that finer meshes do not have
+  int finer_merged = 0;                      ///< and that are one on finer meshes
+  RichnessEstimate completeness;             ///< of the trials that are counted
+  double cpu_s = 0;                          ///< of all trials
+  int paths_followed = 0, passes_found = 0;  ///< from state to state, for the barriers
 };
 template <RecordOf<StateSearch> Search, class Visit>
 void fields(Search& search, const Visit& visit) {
@@ -128,8 +129,8 @@ void fields(Row& row, const Visit& visit) {
   visit_each(visit, "from", row.from, "to", row.to, "by", row.by, "count", row.count);
 }
 
-/// A pass between two states: a saddle of the energy with one path down to either side, on the mesh
-/// that tells states apart.
+/// A mountain pass between two states: a saddle of the energy with one descent to either side, on
+/// the mesh that distinguishes states.
 struct Barrier {
   StateName from, to;           ///< or an image of it
   double energy_mJ = 0;         ///< elastic, of the saddle

@@ -11,20 +11,20 @@
 
 namespace gridshell::record {
 
-/// What a method's run came to, judged from outside. The last three are *silent*: the method
+/// Outcome of a method's run, judged by a reference. The last three are *silent*: the method
 /// reported success.
 enum class RunOutcome {
-  right,          ///< reported success, and it is the state asked for
+  right,          ///< reported success, and the state is the requested one
   refused,        ///< the method said that it cannot, or that what it found is not stable
-  not_converged,  ///< ended without a rest, and said so
+  not_converged,  ///< ended without an equilibrium and reported it
   blow_up,        ///< grew without bound, and said so
   too_slow,       ///< stopped at the time limit
-  planar_saddle,  ///< rests in the boundary's plane, where the shell is not stable
-  other_state,    ///< rests in another stable state than the one the path leads to
+  planar_saddle,  ///< equilibrium in the boundary's plane, where the shell is unstable
+  other_state,    ///< another stable equilibrium than the one the path leads to
   silent_wrong,   ///< neither: off by more than ten times the tolerance, or with negative pivots
 };
 
-/// Whether a user would have been told a wrong result.
+/// Whether a user would have received a wrong result without a message.
 bool silently_wrong(RunOutcome outcome);
 
 /// One method on one mesh.
@@ -77,21 +77,21 @@ void fields(Row& row, const Visit& visit) {
 /// Slope of log(y) over log(x) by least squares; NaN for fewer than four positive points.
 double exponent(const std::vector<double>& x, const std::vector<double>& y);
 
-/// Indices of the points that no other is both faster and more accurate than, from the fastest to
-/// the most accurate; only outcomes `right`. Errors within 5 % count as the same: methods on one
-/// mesh differ by how far they came to rest.
+/// Indices of the points that no other point exceeds both in speed and in accuracy, from the
+/// fastest to the most accurate; only outcomes `right`. Errors within 5 % count as equal, since
+/// methods on one mesh differ by their convergence.
 std::vector<std::size_t> pareto_front(const std::vector<AccuracyRow>& rows);
 
-// What a study of trust found: a line of trust.csv a random scene, solved as by default and beside
-// it on meshes of another family with finer steps.
+// Results of a study of trust: one row of trust.csv per random scene, solved with defaults and on
+// meshes of another family with finer steps.
 
-/// How the default's answer stands beside the finer one.
+/// Comparison of the default's result with the finer one.
 enum class TrustClass {
   right,                 ///< the same states, within twice the estimate
-  estimate_small,        ///< the same states, further apart than twice the estimate
-  other_branch,          ///< another state, and no event was told: silently wrong
-  after_snap,            ///< another state after a snap that was told
-  doubted,               ///< another state, and its leading meshes were told not to agree
+  estimate_small,        ///< the same states, their distance more than twice the estimate
+  other_branch,          ///< another state without a reported event: silently wrong
+  after_snap,            ///< another state after a reported snap
+  doubted,               ///< another state, with a report that its coarsest meshes disagree
   limited,               ///< both ended before their end, and said so
   limited_only_default,  ///< only the default did
   inner_unphysical,      ///< a frame that is no shell, and does not say so
@@ -100,7 +100,7 @@ enum class TrustClass {
   too_slow,              ///< stopped at the time limit
 };
 
-/// Whether a user would have been told something wrong without a word.
+/// Whether a user would have received a wrong result without a message.
 bool silently_wrong(TrustClass found);
 
 /// One scene.
@@ -115,10 +115,10 @@ struct TrustRow {
   double force_error = unknown, force_estimate = unknown;
   double energy_error = unknown, energy_estimate = unknown;
   int exit_default = 0, exit_fine = 0;
-  bool snap_default = false, snap_fine = false;  ///< whether a snap was told
-  bool doubt = false;  ///< whether the default told that its leading meshes do not agree
+  bool snap_default = false, snap_fine = false;  ///< whether a snap was reported
+  bool doubt = false;  ///< whether the default reported that its coarsest meshes disagree
 
-  /// A snap that one family of meshes alone tells of.
+  /// Whether only one family of meshes reports a snap.
   bool snap_alone() const {
     return exit_default == 0 && exit_fine == 0 && snap_default != snap_fine;
   }
@@ -134,7 +134,7 @@ void fields(Row& row, const Visit& visit) {
 
 // How a shell vibrates: a line of modes.csv a mode.
 
-/// A natural vibration about a state at rest, extrapolated over the last two meshes.
+/// A natural vibration about an equilibrium, extrapolated over the last two meshes.
 struct ModeRow {
   int mode = 0;  ///< from 1, in ascending order
   /// Below 0: no vibration, the state is not stable and leaves as exp(2 pi |f| t).
@@ -153,15 +153,15 @@ void fields(Row& row, const Visit& visit) {
 /// What happens at a point of a branch.
 enum class BranchEvent {
   none,
-  bifurcation,  ///< stability changes and the path goes on: branches cross
-  turn,         ///< the path turns back: a limit point
+  bifurcation,  ///< stability changes and the path continues: branches cross
+  turn,         ///< a limit point (fold)
   joins,        ///< the branch meets one that was followed before
   locking,      ///< the rods are at their length: it ends there
   lost,         ///< it could not be followed further
 };
 constexpr auto words(BranchEvent) { return names_except<BranchEvent>({{BranchEvent::none, ""}}); }
 
-/// One equilibrium of a branch; points of a branch stand in the order of its arc length.
+/// One equilibrium of a branch; points of a branch are in the order of its arc length.
 struct BranchPoint {
   int branch = 0;       ///< 0: the path itself
   double progress = 0;  ///< of the actuation, or of the push
@@ -189,7 +189,7 @@ void fields(Row& row, const Visit& visit) {
 struct LoadPoint {
   std::string load_case;
   double factor = 0;
-  double way_mm = 0;  ///< of the joint that goes furthest, along the way it goes
+  double way_mm = 0;  ///< largest displacement of a joint, along its direction
   int negative_pivots = 0;
   BranchEvent event = BranchEvent::none;
   double utilisation = unknown;  ///< largest stress over the rods' strength
@@ -204,11 +204,13 @@ void fields(Row& row, const Visit& visit) {
 /// What became of a case.
 struct LoadRow {
   std::string load_case;
-  double critical_factor = unknown;       ///< NaN: stability is not lost on the way
-  double error = unknown;                 ///< NaN on one mesh, or where the other tells of none
+  double critical_factor = unknown;  ///< NaN: stability is not lost on the path
+  /// NaN on one mesh, or if the other has no loss of stability
+  double error = unknown;
   BranchEvent event = BranchEvent::none;  ///< turn (a limit point), bifurcation, or why it ended
   double linear_factor = unknown;         ///< K_0 + factor K_g singular; NaN: never
-  double strength_factor = unknown;  ///< where a fibre comes to its rod's strength; NaN: nowhere
+  /// load factor at which a fibre reaches its rod's strength; NaN: none
+  double strength_factor = unknown;
   double strength_error = unknown;
   double load_x_N = 0, load_y_N = 0, load_z_N = 0;  ///< sum of the loads at a factor of 1
   int imperfections = 0;  ///< shells that were not perfect and lost their stability too

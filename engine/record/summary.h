@@ -1,4 +1,4 @@
-// The figures of a whole run, written to summary.json.
+// Results of a run, written to summary.json.
 #pragma once
 
 #include <filesystem>
@@ -23,21 +23,22 @@ enum class Kind { unknown, run, figure, movie };
 /// Version 0.1 did not say.
 constexpr auto words(Kind) { return names_except<Kind>({{Kind::unknown, ""}}); }
 
-/// What a run came to, in its last frame unless said otherwise.
+/// Results of a run, for its last frame unless stated otherwise.
 struct Summary {
   std::string program = std::string("gridshell ") + version();  ///< that computed it
   std::string preset;
   std::string model;         ///< "net", "bend" or "twist"
-  std::string model_reason;  ///< one sentence: why this rung is enough
+  std::string model_reason;  ///< one sentence: why this rod model is exact
   int edges_per_segment = 0;
   int rods = 0, joints = 0, cells = 0, dof = 0;
   bool solved = true;  ///< false: the net itself; stability and residual are then null
   bool stable = false;
   int negative_pivots = 0;
   Limit limit = Limit::none;
-  std::string limit_reason;  ///< what the path came past, sentences; never empty beside a limit
-  std::string doubt;         ///< what is not confirmed; empty: nothing is in doubt
-  /// Whether no load step's estimated error is above the tolerance asked for; `doubt` says by how
+  /// events that the path passed, as sentences; never empty with a limit
+  std::string limit_reason;
+  std::string doubt;  ///< what is not confirmed; empty: nothing is in doubt
+  /// Whether no load step's estimated error is above the requested tolerance; `doubt` says by how
   /// much.
   bool tolerance_met = true;
   double residual_N = 0;
@@ -64,13 +65,14 @@ struct Summary {
   double max_seam_kink_deg = unknown;             ///< and of the rods' tangents across
   int newton_iterations = 0, factorizations = 0;  ///< of the whole run
   double seconds_setup = 0, seconds_simulation = 0, seconds_render = 0;
-  std::vector<std::string> steps;  ///< of [[step]]: what each came to, a sentence
+  std::vector<std::string> steps;  ///< for [[step]]: the result of each, a sentence
   Kind kind = Kind::unknown;
-  bool finished = true;  ///< false: it was cut short, and the folder holds the frames found so far
+  /// false: the run was interrupted, and the folder has the frames computed so far
+  bool finished = true;
 
   /// Takes over what the last frame says of its state.
   void take_state(const Frame& last);
-  /// "BREAKS: 2.08 times the strength"; empty where no fibre is beyond its rod's strength.
+  /// "BREAKS: 2.08 times the strength"; empty if no fibre exceeds its rod's strength.
   std::string breaking() const;
 };
 template <RecordOf<Summary> Run, class Visit>
@@ -108,15 +110,15 @@ void fields(Run& run, const Visit& visit) {
 /// The text of summary.json. What is unknown (NaN) is null; numbers read back bit for bit.
 std::string to_json(const Summary& summary);
 
-/// The same as figures of a point of a sweep, without what differs from one time to the next
-/// (seconds) and what is the same for all (program, preset, model_reason, kind, finished).
+/// The summary as results of a point of a sweep, without what differs between repetitions (seconds)
+/// and what all points share (program, preset, model_reason, kind, finished).
 Figures figures_of(const Summary& summary);
 
-/// Writes summary.json whole or not at all. Errors: Fault::io with path and reason.
+/// Writes summary.json completely or not at all. Errors: Fault::io with path and reason.
 Result<void> write_summary(const std::filesystem::path& path, const Summary& summary);
 
-/// Reads what write_summary wrote; keys it does not know are left alone. Errors: Fault::io when the
-/// file cannot be read; Fault::bad_input naming the path and the key that is missing or wrong.
+/// Reads a file of write_summary; unknown keys are ignored. Errors: Fault::io if the file cannot be
+/// read; Fault::bad_input with the path and the key that is missing or wrong.
 Result<Summary> read_summary(const std::filesystem::path& path);
 
 }  // namespace gridshell::record

@@ -124,7 +124,7 @@ std::string point_line(const std::vector<std::string>& axes, const PointKeys& ke
   if (!keys.case_name.empty()) json["case"] = keys.case_name;
   json["keys"] = Json::object();
   for (std::size_t k = 0; k < axes.size(); ++k) {
-    // numbers, words and lists are written alike in TOML and JSON
+    // numbers, texts and lists have the same syntax in TOML and JSON
     Json value = parsed(keys.values[k]);
     json["keys"][axes[k]] = value.is_discarded() ? Json(keys.values[k]) : std::move(value);
   }
@@ -314,7 +314,7 @@ bool PowerLaw::holds() const {
   double worst = 0;
   for (std::size_t k = 0; k < law.size(); ++k)
     worst = std::max(worst, std::abs(std::log(found[k] / law[k])));
-  // of n neighbours n/2 +- sqrt(n)/2 lie on one side by chance: within two of those
+  // of n neighbours n/2 +- sqrt(n)/2 are on one side by chance: the limit is two of those
   const double neighbours = std::max(1.0, double(law.size()) - 1);
   if (worst > close && same_side > 0.5 + 1 / std::sqrt(neighbours)) return false;
   return scatter < 0.1 && std::ranges::all_of(keys, [](const LawRow& key) {

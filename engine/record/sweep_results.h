@@ -1,4 +1,4 @@
-// What the points of a sweep came to, and the table and pictures that are made of them.
+// Results of the points of a sweep, and the table and pictures made from them.
 #pragma once
 
 #include <cstdint>
@@ -95,18 +95,18 @@ struct PowerLaw {
   /// Whether the figures follow it: within a tenth, each exponent known to a twentieth of itself or
   /// of one; and what it leaves is chance, or so small (a fiftieth at most) that the law is close.
   bool holds() const;
-  /// What the law says beside each figure, point by point, and the first key there.
+  /// Value of the law and the result at each point, and the first key there.
   std::vector<double> law, found, first_key;
 };
 
-/// Of the points of one case that came to a state without interpenetrations. Nothing where a key
-/// has fewer than three values or its largest is less than one and a half times its smallest, or
-/// where keys or figures are not all numbers above 0.
+/// Power law of the points of one case that reached a state without interpenetrations. Empty if a
+/// key has fewer than three values or its largest is less than one and a half times its smallest,
+/// or if keys or results are not all numbers above 0.
 std::optional<PowerLaw> power_law(const SweepTable& table, const std::string& case_name,
                                   const std::string& figure);
 
-// The log of a sweep, `sweep.jsonl`: a line that names the sweep, then a line a finished point,
-// each JSON with a checksum, only ever appended to. Whoever writes holds its lock.
+// The log of a sweep, `sweep.jsonl`: a line that identifies the sweep, then one line per finished
+// point, each JSON with a checksum; lines are only appended. The writer has the file's lock.
 
 inline constexpr const char* sweep_log_name = "sweep.jsonl";
 
@@ -121,7 +121,7 @@ struct SweepIdentity {
   }
 };
 
-/// What stands in a log.
+/// Contents of a log.
 struct SweepContents {
   SweepIdentity name;
   std::map<std::size_t, PointResult> found;  ///< by the point; the first line of one counts
@@ -133,14 +133,14 @@ struct SweepContents {
 /// Reads a log that others may be writing. Errors (bad_input): no log of a sweep, naming the file.
 Result<SweepContents> read_sweep_log(const std::filesystem::path& file);
 
-/// A log in hand, locked while it lives.
+/// An open log, locked during its lifetime.
 class SweepLog {
  public:
   /// What a point was set to, for its line.
   using KeysOf = std::function<PointKeys(std::size_t point)>;
 
-  /// Begins a log, or goes on with one: a last line that was cut off is dropped. Errors
-  /// (bad_input): another program holds it, it is of another sweep, it is no log; io.
+  /// Starts a log or continues one; an incomplete last line is dropped. Errors (bad_input): another
+  /// program has the lock, it is of another sweep, it is no log; io.
   static Result<SweepLog> open(const std::filesystem::path& file, const SweepIdentity& name,
                                std::vector<std::string> axes, KeysOf keys);
 

@@ -8,7 +8,7 @@
 namespace gridshell::record {
 namespace {
 
-// what a list with a source keeps of the frames asked for last
+// limits of the recently used frames that a list with a source stores
 constexpr std::size_t kept_bytes = std::size_t(64) << 20, kept_frames = 8;
 
 std::size_t bytes_of(const Frame& frame) {
@@ -50,7 +50,7 @@ Result<void> check_indices(const Layout& layout, Eigen::Index nodes) {
   return {};
 }
 
-// what coordinates may come to: their products must stay numbers
+// largest coordinate: products of coordinates must stay finite
 constexpr double largest_mm = 1e9;
 
 bool computable(const Eigen::Matrix3Xd& points) {

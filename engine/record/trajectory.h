@@ -1,5 +1,5 @@
-// The frames of a run in order: held in memory, or read from a file one at a time as they are asked
-// for, so that a run of any length can be drawn and rewritten in bounded memory.
+// The frames of a run in order: in memory, or read from a file one at a time on demand, so that a
+// run of any length can be drawn and rewritten in bounded memory.
 #pragma once
 
 #include <Eigen/Core>
@@ -29,9 +29,9 @@ class FrameSource {
   virtual Result<Frame> read(std::size_t k) const = 0;
 };
 
-/// Behaves as a const vector of frames whichever way they are kept, for one thread at a time.
-/// References into a list with a source hold until some other eight frames have been asked for;
-/// those to its first and last frame hold always. Only edit() brings them all into memory.
+/// A constant vector of frames, in memory or in a file, for one thread at a time. References into a
+/// list with a source are valid until eight other frames were requested; those to its first and
+/// last frame always. Only edit() loads all frames into memory.
 class FrameList {
  public:
   class const_iterator {
@@ -73,7 +73,7 @@ class FrameList {
   const_iterator begin() const { return {this, 0}; }
   const_iterator end() const { return {this, size()}; }
 
-  /// Why a frame could not be read, the first time that happened; it then stood for an empty one.
+  /// Why a frame could not be read, at the first failure; an empty frame was returned for it.
   const std::optional<Error>& fault() const { return fault_; }
 
   /// All of them to change, which brings those of a source into memory.
@@ -132,7 +132,7 @@ struct SeamRod {
   bool operator==(const SeamRod&) const = default;
 };
 
-/// A joint that is pushed or pulled, and which way: a unit vector.
+/// A joint that is pushed or pulled, and the direction: a unit vector.
 struct LoadedJoint {
   int joint = 0;  ///< of Layout::joints
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();
@@ -144,10 +144,11 @@ struct LoadedJoint {
 struct Layout {
   double spacing_mm = 0;
   double rod_diameter_mm = 0;
-  /// Of the joints' cylinders, of which the height lies above the rods' crossing; 0: not known.
+  /// Size of the joints' cylinders; the height is measured above the rods' crossing; 0: not known.
   double joint_diameter_mm = 0, joint_height_mm = 0;
   double table_mm = unknown;  ///< height of the plane that no rod passes; NaN: there is none
-  /// Of each rod, that of a round section of its area; empty: all of rod_diameter_mm.
+  /// Diameter of each rod, for other sections that of a circle of equal area; empty: all
+  /// rod_diameter_mm.
   std::vector<double> diameters_mm;
   /// Width and thickness of each rod, one after the other, 0 of a round one, where all joints keep
   /// sections to their normal, the thickness along it; empty: none, or they may turn.
@@ -160,11 +161,11 @@ struct Layout {
   std::vector<int> above;  ///< of every joint the node of its second rod there; empty: the same
   std::vector<Cell> cells;
   std::vector<int> edge_points;  ///< nodes pinned on the boundary
-  /// Nodes that something may hold: joints, edge points, far ends of tails. Empty: not known.
+  /// Nodes that may be constrained: joints, edge points, far ends of tails. Empty: not known.
   std::vector<int> supports;
   Eigen::Matrix3Xd original_boundary;      ///< closed polyline (last point joins the first)
   Eigen::Matrix3Xd actuated_boundary;      ///< same number of points; in correspondence
-  Eigen::Matrix3Xd net_nodes;              ///< place of every node on the net designed on, if any
+  Eigen::Matrix3Xd net_nodes;              ///< position of every node on the designed net, if any
   Eigen::Matrix3Xd flat_nodes;             ///< and in the flat footprint, where there is a net
   std::vector<Part> parts;                 ///< of a net made of building blocks
   std::vector<SeamRod> seam_rods;          ///< and how they meet
@@ -191,7 +192,7 @@ struct Trajectory {
 inline double diameter_of(const Layout& layout, std::size_t rod) {
   return rod < layout.diameters_mm.size() ? layout.diameters_mm[rod] : layout.rod_diameter_mm;
 }
-/// The same over that of the layout; 1 where neither is known.
+/// Thickness of a rod over that of the layout; 1 if neither is known.
 inline double thickness_of(const Layout& layout, std::size_t rod) {
   const double over = diameter_of(layout, rod) / layout.rod_diameter_mm;
   return over > 0 && over < 1e3 ? over : 1;
@@ -213,10 +214,10 @@ inline Eigen::Index points_of_rods(const Layout& layout) {
 // Whether the parts of a trajectory fit each other, so that whoever reads one may trust its
 // indices and numbers.
 
-/// Every index of the layout points at something of a shell of `nodes` nodes, rods are no longer
-/// than those, the two boundaries have equally many points, nets hold what they are asked for, and
-/// every number can be computed with. Errors: Fault::bad_input naming what does not fit, with both
-/// numbers.
+/// Checks that every index of the layout refers to a part of a shell of `nodes` nodes, that rods
+/// have at most that many, that the two boundaries have equally many points, that nets have the
+/// required size, and that every number is finite. Errors: Fault::bad_input with the inconsistent
+/// parts and both numbers.
 Result<void> check_layout(const Layout& layout, Eigen::Index nodes);
 
 /// The frame has `nodes` nodes and one K a cell. Errors: as above; `k` names the frame.

@@ -42,8 +42,8 @@ std::optional<std::string> expected_header(const ReadableFile& file,
   return header + std::string(header_size - header.size(), '\0');
 }
 
-/// Why a file is not to be trusted, or empty. One without a header was written by another program:
-/// it is trusted where `unsealed` is wanted.
+/// Why a file is not trusted, or empty. A file without a header was written by another program: it
+/// is trusted if `unsealed` is set.
 std::string header_fault(const ReadableFile& file, bool unsealed) {
   const auto start = file.read(0, std::min<std::uint64_t>(header_size, file.size()));
   if (start && start->starts_with("\x89HDF\r\n\x1a\n"))
@@ -94,8 +94,8 @@ std::string write_fault(int descriptor, const AtomicFile& target, const Trajecto
   return put == ssize_t(header->size()) ? "" : words_of(put < 0 ? errno : ENOSPC);
 }
 
-/// How often this process has the file open: more than once, by another library (h5py), the HDF5
-/// library does not open it in another way.
+/// How often this process has the file open: if another library (h5py) has it open too, the HDF5
+/// library cannot open it with another driver.
 int times_open(const std::filesystem::path& path) {
   struct stat file {
   }, open{};

@@ -1,7 +1,7 @@
-// trajectory.h5: a whole trajectory in HDF5, read back bit for bit.
+// trajectory.h5: a complete trajectory in HDF5, read back bit for bit.
 //
 //   /nodes          frames x nodes x 3  positions, mm
-//   /rods           a list of nodes a rod, from edge point to edge point
+//   /rods           a list of nodes per rod, from edge point to edge point
 //   /joints         {i, j, u_mm, v_mm, node}
 //   /cells          {i, j, u_mm, v_mm, joints[4]}
 //   /cell_K         frames x cells      integrated Gauss curvature, rad
@@ -10,12 +10,12 @@
 //   /bending_mJ_per_m frames x points    bending energy over length, at the same points
 //   /stress_MPa       frames x points    largest stress of a fibre, at the same points
 //   /reactions_N      frames x supports x 3   on joints, edge points and far ends of tails
-//   /loads_N          frames x supports x 3   handed on to the same places
+//   /loads_N          frames x supports x 3   distributed to the same nodes
 //   /brace_force_N    frames x 2 x cells  axial, along both diagonals of each cell
 //   /frames/<name>  frames              the columns of frames.csv, and `actuation`
 //   /layout         spacing_mm, rod_diameter_mm, length_scale_mm (attributes); edge_points (nodes),
 //                   original_boundary, actuated_boundary (points x 3, mm); families (of each rod,
-//                   "u" or "v"), supports (nodes that something may hold), diameters (of each
+//                   "u" or "v"), supports (nodes that may be constrained), diameters (of each
 //                   rod, mm, where they differ)
 //   /               title, preset, program (attributes)
 //
@@ -23,9 +23,9 @@
 // are extrapolated as the energies of /frames are, and with the loads they balance to residual_N.
 // NaN, or no dataset: not known.
 //
-// Before the HDF5 part stand 512 bytes with its size and checksum, which HDF5 programs skip.
-// Datasets bear their unit in the attribute `unit`. Equal trajectories give equal bytes. Frames go
-// to the file and come from it one at a time.
+// The HDF5 part follows 512 bytes with its size and checksum, which HDF5 programs skip. Datasets
+// have their unit in the attribute `unit`. Equal trajectories give equal bytes. Frames are written
+// and read one at a time.
 #pragma once
 
 #include <filesystem>
@@ -35,8 +35,8 @@
 
 namespace gridshell::record {
 
-/// Writes `path` whole or not at all. Errors: Fault::io with path and reason (a full disk too);
-/// Fault::bad_input when the trajectory's parts do not fit each other.
+/// Writes `path` completely or not at all. Errors: Fault::io with path and reason (a full disk
+/// too); Fault::bad_input if the trajectory's parts are inconsistent.
 Result<void> write_trajectory(const std::filesystem::path& path, const Trajectory& trajectory);
 
 struct TrajectoryReadOptions {
@@ -44,10 +44,10 @@ struct TrajectoryReadOptions {
   bool trial = true;      ///< read it in a process of its own first
 };
 
-/// Opens a file of write_trajectory; its frames are read as they are asked for. A column that an
-/// older version did not write is unknown. Errors: Fault::io when it cannot be read;
-/// Fault::bad_input, in a sentence naming the path, when it is no HDF5 file, is cut short or
-/// damaged, is not a trajectory, or when its parts do not fit each other.
+/// Opens a file of write_trajectory; its frames are read on demand. Columns that an older version
+/// did not write are unknown. Errors: Fault::io if it cannot be read; Fault::bad_input, in a
+/// sentence with the path, if it is no HDF5 file, is cut short or damaged, is no trajectory, or has
+/// inconsistent parts.
 Result<Trajectory> read_trajectory(const std::filesystem::path& path,
                                    const TrajectoryReadOptions& how = {});
 

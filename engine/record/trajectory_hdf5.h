@@ -28,9 +28,8 @@ Result<Layout> layout_of_image(std::string_view bytes);
 /// and let go.
 void write_frames(hdf5::Writer& file, const Layout& layout, const FrameList& frames);
 
-/// Frames that stay in the file until they are asked for; the columns are in memory. A column that
-/// an older version did not write is unknown. What failed is in `file`, whose parts must fit
-/// `layout`.
+/// Frames that are read from the file on demand; the columns are in memory. Columns that an older
+/// version did not write are unknown. `file` has the error, if any; its parts must fit `layout`.
 FrameList read_frames(const std::shared_ptr<hdf5::Reader>& file, const Layout& layout);
 
 }  // namespace gridshell::record

@@ -22,8 +22,8 @@ Eigen::Matrix2Xd outline_of(const preset::NetworkData& file) {
   return points(Eigen::all, std::vector<int>(file.rods[0].begin(), file.rods[0].end()));
 }
 
-/// What a drawn outline is moved by: the middle of the box around it comes to the origin, or, where
-/// that is outside of it, the centroid of its area.
+/// Translation of a drawn outline: the middle of its bounding box moves to the origin or, if that
+/// is outside the outline, the centroid of its area.
 Eigen::Vector2d middle_of(const Eigen::Matrix2Xd& line) {
   const Eigen::Vector2d middle = 0.5 * (line.rowwise().minCoeff() + line.rowwise().maxCoeff());
   double twice = 0, turns = 0;
@@ -67,7 +67,7 @@ Eigen::Vector3d vector_of(const std::vector<double>& row, std::size_t first) {
   return {row.at(first), row.at(first + 1), row.at(first + 2)};
 }
 
-/// Of the box around the points of all rods: the middle of its floor, above which heights are.
+/// Middle of the floor of the bounding box of all rods; heights are measured from it.
 Eigen::Vector3d origin_of(const preset::NetworkData& file) {
   Eigen::Vector3d low = Eigen::Vector3d::Constant(INFINITY), high = -low;
   for (const auto& rod : file.rods)
@@ -105,7 +105,7 @@ RodNetwork network_of(const preset::NetworkData& file, preset::EndKind ends,
   return network;
 }
 
-/// Where what is held goes.
+/// Prescribed displacement of the supports.
 class Way {
  public:
   Way(const preset::Preset& preset, const Scene& scene)
@@ -113,7 +113,7 @@ class Way {
     for (const auto& row : preset.footprint.file.supports)
       if (row.size() == 4) to_[int(row[0])] = vector_of(row, 1);
   }
-  /// (u, v) and height of a place as drawn; a height is not scaled.
+  /// (u, v) and height of a drawn position; a height is not scaled.
   Eigen::Vector3d begin(const Eigen::Vector3d& from) const {
     return flat_.at(from.head<2>()) + from.z() * Eigen::Vector3d::UnitZ();
   }
@@ -129,7 +129,8 @@ class Way {
   std::map<int, Eigen::Vector3d> to_;
 };
 
-/// The motion of ends and held joints; columns of what is held in `held`, from and to.
+/// The motion of ends and constrained joints; `held` has the columns of what is constrained, from
+/// and to.
 void put_motion(const NetworkFootprint& made, const Eigen::Matrix3Xd& points, const Way& way,
                 Scene& scene) {
   const auto fill = [&](const std::vector<int>& numbers, Eigen::Matrix3Xd& begin,
@@ -146,7 +147,7 @@ void put_motion(const NetworkFootprint& made, const Eigen::Matrix3Xd& points, co
   fill(made.joints, scene.motion.begin_joints, scene.motion.end_joints);
 }
 
-/// Places across the plane that they lie nearest to.
+/// Positions projected on the plane that fits them best.
 Eigen::Matrix2Xd seen_across(const Eigen::Matrix3Xd& places) {
   const Eigen::Vector3d middle = places.rowwise().mean();
   const Eigen::Matrix3Xd about = places.colwise() - middle;
@@ -154,8 +155,8 @@ Eigen::Matrix2Xd seen_across(const Eigen::Matrix3Xd& places) {
   return axes.vectors.rightCols<2>().transpose() * about;
 }
 
-/// What is held around the rods, of a network in the plane the corners alone. Half the diagonal of
-/// the box around what is held is the length scale.
+/// Boundary around the constrained points of the rods; for a planar network only the corners. Half
+/// the diagonal of the bounding box of the constrained points is the length scale.
 void put_boundaries(const NetworkFootprint& made, const Eigen::Matrix3Xd& points, Scene& scene) {
   std::vector<int> numbers = made.joints;
   std::vector<Eigen::Vector3d> from, to;
@@ -181,13 +182,13 @@ void put_boundaries(const NetworkFootprint& made, const Eigen::Matrix3Xd& points
   }
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& place : from) box.extend(place);
-  // held in one place, as a cantilever is: around its rods
+  // constrained at a single position, as a cantilever is: around its rods
   if (box.diagonal().norm() < made.footprint.spacing)
     for (const auto& point : points.colwise()) box.extend(scene.flat.origin + point);
   scene.length_scale_mm = 0.5 * box.diagonal().norm();
 }
 
-/// Rods are thinner than joints lie apart.
+/// Checks that rods are thinner than the distance of joints.
 Result<void> check_diameters(const preset::Preset& preset, const Footprint& footprint) {
   for (const FootprintRod& drawn : footprint.rods) {
     const preset::Rod rod = preset::rod_of_network(preset, drawn.number);

@@ -24,15 +24,15 @@ struct CurveDesign {
 /// Errors (bad_input): those of the curves and of the map between them, saying which.
 Result<CurveDesign> curve_design(const preset::Preset& preset);
 
-/// What the word stands for.
+/// The end condition that a name denotes.
 RodEnd hold_as(preset::EndKind kind);
 
-// A footprint from a file of rods, what holds it and where that goes.
+// A footprint from a file of rods, their supports and the prescribed displacement of the supports.
 
-/// Fills footprint, frame, motion and boundaries of a scene from `[footprint] file`. The flat frame
-/// stands in the middle of the box around the rods. Supports go where the file says; ends of which
-/// it says nothing to `[actuation] scale` times their place from the middle (0: they stay).
-/// Boundaries are the convex hull of what is held. Errors (bad_input): those of
+/// Fills footprint, frame, motion and boundaries of a scene from `[footprint] file`. The origin of
+/// the flat frame is the middle of the rods' bounding box. Supports move to the positions in the
+/// file; other ends to `[actuation] scale` times their position relative to the middle (0: they
+/// stay). Boundaries are the convex hull of the constrained points. Errors (bad_input): those of
 /// network_footprint().
 Result<void> build_network(const preset::Preset& preset, Scene& scene);
 

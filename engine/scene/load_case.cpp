@@ -51,7 +51,7 @@ struct Graph {
   }
 };
 
-/// All that lies to the left of the way from a to b, round to a again.
+/// The nodes of the face to the left of the edge from a to b, back to a.
 std::vector<int> walk(const Graph& graph, int a, int b, std::set<std::pair<int, int>>& walked) {
   std::vector<int> way;
   while (walked.insert({a, b}).second) {
@@ -198,7 +198,7 @@ std::vector<NodeAction> forces_of(const LoadCase& load, const Footprint& footpri
   };
   const Eigen::Vector2d middle =
       nodes.leftCols(Eigen::Index(footprint.joints.size())).topRows<2>().rowwise().mean();
-  // of a corner half way between the sides half
+  // half for a corner between a side with snow and one without
   const auto snowed = [&](int corner) {
     const double along = load.snow_side.dot(nodes.col(corner).head<2>() - middle);
     if (load.snow_side.isZero(0) || along > 1e-3 * footprint.spacing) return 1.0;

@@ -1,5 +1,4 @@
-// Loads that come on together on the formed shell: how snow, wind and point forces become forces on
-// its nodes.
+// Load cases on the formed shell: how snow, wind and point forces become forces on its nodes.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,9 +21,9 @@ struct Face {
   bool on_boundary = false;  ///< from its last corner to its first there is no rod but the boundary
 };
 
-/// All faces of a footprint in the plane, walked round with the face on the left: at every node
-/// along the next rod to the left of the one it came by. Where the walk comes to an edge point a
-/// face ends, and the boundary closes it by a straight line.
+/// All faces of a planar footprint. Each is traversed with the face on the left: at every node
+/// along the next rod to the left of the incoming one. At an edge point the boundary closes the
+/// face by a straight line.
 std::vector<Face> faces_of(const Footprint& footprint);
 
 /// 1/2 sum of x_k x x_(k+1), mm^2: the area of a face of a shape, along its normal; its z is the
@@ -45,17 +44,18 @@ struct LoadCase {
   std::vector<PointLoad> points;
 };
 
-/// The case's forces on joints and edge points, its dead part left out, worked out on the shape
-/// `nodes` (joints first, then edge points) and fixed from then on. Each corner of a face bears the
-/// same share of what acts on it: snow s on the face's area in plan A_z, where that is not
-/// overhung, -s A_z z, at the corners on the side that has it; wind of direction w on its area A =
-/// |A| n the force q (w . n) A. Of each side a to b that no other face shares, anticlockwise about
-/// n, both ends bear half of its length times the load on the edge: along -z, -n or n x (b - a).
+/// The case's forces on joints and edge points without its dead loads, computed on the shape
+/// `nodes` (joints first, then edge points) and fixed from then on. Each corner of a face carries
+/// the same fraction of the load on the face: of snow s on the face's area in plan A_z, if that is
+/// not overhung, -s A_z z, at the corners on the side that has snow; of wind of direction w on its
+/// area A = |A| n the force q (w . n) A. For each side a to b that belongs to one face only,
+/// anticlockwise about n, both ends carry half of its length times the load on the edge: along -z,
+/// -n or n x (b - a).
 ///
-/// A pressure p turns with the shell. Its energy is p times the volume under the faces, of cones
-/// from the origin, 1/3 A . c of a face, c the mean of its corners; the cones' walls are taken off
-/// at the edge, which is held (load_cases_of()). Of a pressure on the edge, per length, it is p
-/// times the area in plan inside the edge, held or not.
+/// A pressure p rotates with the shell. Its energy is p times the volume under the faces, as a sum
+/// of cones from the origin, 1/3 A . c of a face, c being the mean of its corners; the walls of the
+/// cones are subtracted at the edge, which is constrained (load_cases_of()). For a pressure on the
+/// edge, per length, the energy is p times the area in plan inside the edge, constrained or not.
 std::vector<NodeAction> forces_of(const LoadCase& load, const Footprint& footprint,
                                   const Eigen::Matrix3Xd& nodes);
 
@@ -63,8 +63,8 @@ std::vector<NodeAction> forces_of(const LoadCase& load, const Footprint& footpri
 Result<std::vector<PointLoad>> points_of(const preset::Points& rows, const std::string& key,
                                          const Footprint& footprint);
 
-/// The cases of a preset. Errors (bad_input): as points_of(); a pressure on faces whose edge is not
-/// held, which has no energy.
+/// The cases of a preset. Errors (bad_input): as points_of(); a pressure on faces with an
+/// unconstrained edge, which has no energy.
 Result<std::vector<LoadCase>> load_cases_of(const preset::Preset& preset,
                                             const Footprint& footprint);
 

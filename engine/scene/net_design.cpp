@@ -164,7 +164,7 @@ Result<NetDesign> net_design(const preset::Net& net, double spacing_mm) {
     case preset::NetKind::sphere:
       return cap(net);
     case preset::NetKind::cylinder:
-      // longer than asked for, so that the ends lie on it whatever the rounding
+      // longer than requested, so that the ends are on it in spite of rounding
       return half_revolution(net, cylinder_profile(net.radius_mm, net.length_mm));
     case preset::NetKind::spool:
       return half_revolution(net, spool_profile(net.radius_mm, net.waist));

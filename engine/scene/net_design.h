@@ -1,4 +1,4 @@
-// The net that a preset asks for: the surface, the part of it that is wanted, and how it lies.
+// The net of a preset: the surface, the part of it that is used, and the position of the net on it.
 #pragma once
 
 #include <memory>
@@ -15,8 +15,8 @@
 
 namespace gridshell {
 
-/// A viable ansatz [Baek 2018]: a net C, the original boundary b with C(b) = a, and the flat
-/// footprint's place in the plane of a, turned as the net is.
+/// A viable ansatz [Baek 2018]: a net C, the original boundary b with C(b) = a, and the position of
+/// the flat footprint in the plane of a, rotated as the net is.
 struct NetDesign {
   std::shared_ptr<const ChebyshevNet> net;
   std::unique_ptr<Domain> domain;

@@ -1,5 +1,5 @@
-// What a designer may change of a shell: where its rods' ends are held, along which direction, how
-// long its legs are and how thick the rods between.
+// Variables of a designer: positions and directions of the rods' ends, lengths of the legs, and
+// diameters of the rods.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,13 +9,14 @@
 
 namespace gridshell {
 
-/// The ends of all rods where the scene's motion ends: column or entry 2r is the begin, 2r + 1 the
-/// end of rod r.
+/// The ends of all rods at the end of the scene's motion: column or entry 2r is the start, 2r + 1
+/// the end of rod r.
 struct ShellEnds {
-  Eigen::Matrix3Xd at;         ///< edge points, mm
-  Eigen::VectorXd leg;         ///< from the edge point to the joint next to it, along the rod, mm
-  Eigen::Matrix3Xd direction;  ///< unit, along the rod as positions grow; zero where none is held
-  Eigen::VectorXd diameter;    ///< of rod r, mm; rectangular rods keep their sections
+  Eigen::Matrix3Xd at;  ///< edge points, mm
+  Eigen::VectorXd leg;  ///< from the edge point to the joint next to it, along the rod, mm
+  /// unit, along the rod as positions increase; zero if the direction is free
+  Eigen::Matrix3Xd direction;
+  Eigen::VectorXd diameter;  ///< of rod r, mm; rectangular rods keep their sections
 };
 
 ShellEnds ends_of(const Scene& scene);
@@ -27,13 +28,14 @@ preset::Points table_of(const Scene& scene, const ShellEnds& ends);
 /// The rows of `[rod] table` in the order of the rods: family (0: u), index of the rod, diameter.
 preset::Points rod_table_of(const Scene& scene, const ShellEnds& ends);
 
-/// Gives a scene the ends of a table; those that it does not name stay. Of several rods on one line
-/// the first row is the first rod's, and so on. Errors (bad_input): a rod that is not there or not
-/// held, a leg that is not positive, a direction of no length where one is held.
+/// Applies the ends of a table to a scene; other ends are unchanged. Of several rods on one line
+/// the first row is the first rod's, and so on. Errors (bad_input): a rod that does not exist or
+/// has no constrained end, a leg that is not positive, a zero direction where one is prescribed.
 Result<void> apply_ends_table(const preset::Points& table, Scene& scene);
 
-// The second ring: rods that go on beyond the boundary by a tail without joints, whose far end is
-// pinned where it keeps the net's tangent at the first ring. A clamp that can be built.
+// The second ring: rods that continue outside the boundary by a tail without joints. The far end of
+// the tail is pinned where the rod has the net's tangent at the first ring, which makes a clamp
+// that can be built.
 
 /// Where the far end of a tail of length l belongs: P + l (1 - k^2 l^2/15) t + (l^2/3) k n, with t
 /// the net rod's unit tangent that points outwards and k n its curvature vector at the end P. To
@@ -59,8 +61,8 @@ Eigen::Matrix2Xd within_boundary(const Footprint& footprint, const RodMesh& mesh
 /// Puts the nodes of tails straight between the two pins that the scene's motion ends at.
 void place_tails(const Scene& scene, const RodMesh& mesh, Eigen::Matrix3Xd& places);
 
-/// Where the nodes of a mesh, but for ghosts, are on the scene's net, tails as place_tails() has
-/// them. Errors: those of the net.
+/// Positions on the scene's net of the nodes of a mesh without ghosts; tails as in place_tails().
+/// Errors: those of the net.
 Result<Eigen::Matrix3Xd> places_on_net(const Scene& scene, const RodMesh& mesh);
 
 }  // namespace gridshell

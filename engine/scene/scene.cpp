@@ -26,7 +26,7 @@ double drawn_diameter_of(const preset::Rod& rod) {
 
 RodMaterial section_of(const preset::Rod& rod) {
   const double E = rod.young_GPa, G = rod.shear_GPa;
-  // the first director stands up: the thickness lies along it
+  // the first director is vertical: the thickness is along it
   if (rod.rectangular())
     return rod.wall_mm > 0 ? box_material(rod.thickness_mm, rod.width_mm, rod.wall_mm, E, G)
                            : rectangular_material(rod.thickness_mm, rod.width_mm, E, G);
@@ -34,8 +34,8 @@ RodMaterial section_of(const preset::Rod& rod) {
                          : circular_material(rod.diameter_mm, E, G);
 }
 
-/// Its section's stiffnesses, and what is given in their place. A free section is as large as EA/E
-/// and reaches as far as EI/(E W).
+/// Stiffnesses of the section, or the given ones that replace them. A free section has the area
+/// EA/E and the fibre distance EI/(E W).
 RodMaterial material_of(const preset::Rod& rod) {
   RodMaterial material = section_of(rod);
   const double young_MPa = 1e3 * rod.young_GPa;
@@ -84,7 +84,7 @@ Result<std::vector<preset::Rod>> rods_of(const preset::Preset& preset, const Foo
           fmt::format("a diameter of {:g} mm, must be above 0 and less than "
                       "[footprint] spacing_mm = {:g}",
                       row[2], preset.footprint.spacing_mm));
-    // of several rods on one line the first row is the first rod's
+    // of several rods on one line the first row belongs to the first rod
     std::size_t at = 0;
     while (at < rods.size() &&
            (named[at] || footprint.rods[at].family != family || footprint.rods[at].index != row[1]))
@@ -200,8 +200,8 @@ void free_rings(Scene& scene) {
   }
 }
 
-/// How ends that hold their directions move: from the flat to the net's tangents, or where there is
-/// no net as they are drawn.
+/// Motion of ends with prescribed directions: from the flat state to the net's tangents, or without
+/// a net as they are drawn.
 Result<void> hold_directions(const Eigen::Matrix2Xd& ends, Scene& scene) {
   scene.motion.begin_tangent = scene.motion.end_tangent = Eigen::Matrix3Xd::Zero(3, ends.cols());
   for (Eigen::Index k = 0; k < ends.cols(); ++k) {
@@ -266,8 +266,8 @@ Eigen::Vector3d way_through(const FootprintRod& rod, int joint) {
          rod.way(std::min(mark + near, rod.span.end));
 }
 
-/// Rods that hold on to one another at a joint cross there; and an eccentricity is of two, from the
-/// one that is listed first in the file.
+/// Checks that rods connected at a joint cross there, and that an eccentricity joins two rods, from
+/// the one listed first in the file.
 Result<void> check_crossings(Scene& scene) {
   Footprint& footprint = scene.footprint;
   std::vector<std::vector<const FootprintRod*>> rods(footprint.joints.size());
@@ -314,7 +314,7 @@ void centre_edges(const preset::Preset& preset, Scene& scene) {
   }
 }
 
-/// What a network's rods are at rest, and its joints that turn by laws of their own.
+/// Sets the natural shapes of a network's rods, and the joints with laws of their own.
 Result<void> put_laws(const preset::Preset& preset, Scene& scene) {
   const auto stiffness = [](double given) {
     return given < 0 ? std::numeric_limits<double>::infinity() : given;

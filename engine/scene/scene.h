@@ -37,7 +37,7 @@ struct Scene {
   RodModel rung = RodModel::bend;          ///< chosen: net, bend or twist
   std::vector<double> mass_t_per_mm;       ///< one a rod; 0: not known
   std::vector<double> strength_MPa;        ///< one a rod; empty: not known
-  double joint_mass_t = 0;                 ///< of each joint, beside that of its rods
+  double joint_mass_t = 0;                 ///< of each joint, in addition to its rods
   double rod_diameter_mm = 0;              ///< as it is drawn
   std::vector<double> drawn_diameters_mm;  ///< one a rod, of round sections of their areas
   std::vector<double> laths_mm;            ///< record::Layout's
@@ -57,7 +57,7 @@ struct Scene {
   BuckleSeed seed;            ///< decides the first buckling
   Imperfection imperfection;  ///< and every later one
   int base_edges = 4;  ///< the meshes that the tolerance chooses have so many times a power of two
-  int edges_per_segment = 0;  ///< the mesh asked for; 0: as the tolerance asks
+  int edges_per_segment = 0;  ///< the requested mesh; 0: chosen from the tolerance
   double load_step = 1;       ///< largest load steps, of the usual ones
   double tolerance = 1e-3;    ///< of the joints, over length_scale_mm
   double memory_GB = 0;       ///< that the meshes may take; 0: half of the machine's
@@ -70,17 +70,16 @@ struct Scene {
   std::vector<LoadCase> load_cases;
   double load_imperfection_mm = 0;  ///< of shells that are not perfect
   std::shared_ptr<Team> team;  ///< of whoever follows one path alone: who helps with large shells
-  /// And where the ways that were followed are kept, for a run that goes on from there
-  /// (simulate/kept_segments.h).
+  /// Saved segments of the path, for a run that continues from them (simulate/kept_segments.h).
   std::shared_ptr<simulate::KeptSegments> kept;
 
-  /// The rung of the mechanics, where there is one.
+  /// The rod model of the mechanics, if there is one.
   RodModel solved_model() const {
     return rung == RodModel::twist ? RodModel::twist : RodModel::bend;
   }
   /// Whether rods bear so much and no more.
   bool limits_strength() const { return max_bending_strain > 0 || max_utilisation > 0; }
-  /// Of the joints, which are the first nodes of every mesh, t.
+  /// Masses of the joints, which are the first nodes of every mesh, t.
   Eigen::RowVectorXd joint_masses() const;
   double radius_at(double progress) const {
     return radius_begin_mm + progress * (radius_end_mm - radius_begin_mm);
@@ -95,15 +94,15 @@ struct Scene {
 /// The joint (i, j), or -1.
 int joint_at(const Footprint& footprint, int i, int j);
 
-/// Builds the scene of a preset. Errors: Fault::bad_input with the reason when the preset's values
-/// do not make a footprint.
+/// Builds the scene of a preset. Errors: Fault::bad_input with the reason if the preset's values do
+/// not define a footprint.
 Result<Scene> scene_of(const preset::Preset& preset);
 
-/// The rods as they lie on the net that a scene was designed on, points no further apart than
-/// `step_mm`; none where there is no net.
+/// The rods on the net that a scene was designed on, as points at most `step_mm` apart; none
+/// without a net.
 Result<std::vector<Eigen::Matrix3Xd>> rods_on_net(const Scene& scene, double step_mm);
 
-/// The same for several who hold it.
+/// Builds the scene of a preset for shared ownership.
 Result<std::shared_ptr<const Scene>> shared_scene_of(const preset::Preset& preset);
 
 }  // namespace gridshell

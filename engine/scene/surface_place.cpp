@@ -73,7 +73,7 @@ Result<NetPlace> place_of(const preset::Net& wanted, const Surface& surface,
   Eigen::Vector3d along = bent.axes.col(0);
   if (wanted.axis == preset::NetAxis::x || bent.umbilic)
     along = (Eigen::Vector3d::UnitX() - up.x() * up).normalized();
-  // of the two opposite directions the one towards +x
+  // of two opposite directions the one towards +x
   if (along.x() < 0) along = -along;
   const double turned = wanted.axis_deg * std::numbers::pi / 180;
   return NetPlace{apex, Eigen::AngleAxisd(turned, up) * along, up, {}};

@@ -18,7 +18,8 @@
 namespace gridshell::simulate {
 namespace {
 
-// of the rods, where the first buckled state is looked for: the first that is connected to the flat
+// mean shortenings at which the first buckled state is searched for, until it is connected to the
+// flat state
 constexpr double first_shortening[] = {0.02, 0.01, 0.005, 0.0025};
 
 /// Back from the first state towards the flat; whether it came there.
@@ -32,8 +33,8 @@ bool follow_back(EquilibriumPath& path, const BifurcationPolicy& leaving, const 
   return back.report.end == Outcome::reached;
 }
 
-/// The first buckled state, and the way back from it to the flat: through states that are not
-/// stable too, so that it is seen whether there are any.
+/// The first buckled state and the path from it back to the flat state, also through unstable
+/// states, so that these are detected.
 Result<Checkpoint> begin_from_flat(EquilibriumPath& path, const Watch& watch) {
   Result<Checkpoint> found = fail(Fault::no_equilibrium, "no buckled state was certified");
   for (double shortening : first_shortening) {
@@ -54,8 +55,8 @@ Result<Checkpoint> begin_from_flat(EquilibriumPath& path, const Watch& watch) {
   return found;
 }
 
-/// Whether the path from next to the flat, where the simulation stands after a way back, comes to
-/// the first state: not where that lies on a branch that leaves it.
+/// Whether the path from the current state next to the flat leads to the first state. It does not
+/// if the first state is on a branch that bifurcates from it.
 bool leads_to(EquilibriumPath& path, const Checkpoint& first, const Watch& watch) {
   Simulation& simulation = path.simulation;
   const Checkpoint here = simulation.save();
@@ -68,8 +69,8 @@ bool leads_to(EquilibriumPath& path, const Checkpoint& first, const Watch& watch
   return same;
 }
 
-/// Next to the flat, where the simulation stands after the way back: of its state and its mirror
-/// images, which are as good, the one whose diagonal lies lower as the seed asks.
+/// For the current state next to the flat: of the state and its mirror images, which are
+/// equivalent, selects the one whose diagonal is lower according to the seed.
 void turn_to_seed(Simulation& simulation, const Watch& watch) {
   const NestedShell& shell = simulation.shell();
   const RodMesh& mesh = shell.finest();
@@ -91,15 +92,14 @@ void turn_to_seed(Simulation& simulation, const Watch& watch) {
     simulation.restore(here);
 }
 
-/// On from the first state, or, where the path from the flat does not lead to it through stable
-/// states or branches on the way, from next to the flat, where the simulation stands after the way
-/// back.
+/// Continues from the first state, or from the current state next to the flat if the path from the
+/// flat does not lead to the first state through stable states or branches.
 void follow_from_flat(EquilibriumPath& path, const Checkpoint& first, double to,
                       const Watch& watch) {
   Simulation& simulation = path.simulation;
   const PathSegment& back = path.segments.front();
   const bool connected = back.report.end == Outcome::reached;
-  // what touches on the way back would have stopped the way there
+  // a contact on the segment back would have stopped the path in the other direction
   const bool stopped = simulation.scene().stops_at_contact &&
                        std::ranges::any_of(back.load_steps, [](const LoadStep& load_step) {
                          return !load_step.contacts.places.empty();
@@ -233,7 +233,8 @@ Result<EquilibriumPath> run_actuation(std::shared_ptr<const Scene> scene,
       TRY_DO(sampler.take(flat_frame(path->simulation), sample));
       continue;
     }
-    if (path->segments.empty()) break;  // the flat alone was asked for, and is none of its states
+    if (path->segments.empty())
+      break;  // only the flat state was requested, and the path has no state there
     const auto segment = leg_at(*path, sample.t);
     const PathSegment& last = path->segments.back();
     const bool tells = at_limit(last.report.end) && last.report.end != Outcome::locked;
@@ -251,7 +252,7 @@ Result<EquilibriumPath> run_actuation(std::shared_ptr<const Scene> scene,
     if (*taken) last_taken = sample;
   }
   path->simulation.restore(end);
-  // a path that ends on its way back to the flat began further on
+  // a path that ends on its segment back to the flat started at a larger progress
   if (last_taken && path->segments.back().back) certify_sample(*path, *last_taken, watch);
   return path;
 }

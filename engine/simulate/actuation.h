@@ -14,20 +14,20 @@ namespace gridshell::simulate {
 /// "at progress 0.0183 ± 0.0005", of a path parameter of an actuation.
 std::string at_progress(double t, std::optional<double> error);
 
-/// Follows the actuation of a scene. From flat the path is found the patient way: a first buckled
-/// state where the rods are 2 % shorter than flat on average (or less, where that state does not
-/// hang together with the flat), from there back towards the flat and on to progress `to`. Where
-/// that state comes from is not stable all the way, a shell would not have come along it: the path
-/// then begins next to the flat, unless the scene's imperfection is none. From the net it is found
-/// at the equilibrium next to the net, progress 1, and where `inner` states are wanted followed
-/// backwards from there. Errors: bad_input, no_equilibrium (not a single buckled state), cancelled.
+/// Follows the actuation of a scene. From the flat state: a first buckled state is computed where
+/// the rods' mean shortening is 2 % (or less, if that state is not connected to the flat one), and
+/// the path is followed from it back towards the flat and forward to progress `to`. If the segment
+/// back contains unstable states, a shell would not follow it; the path then starts next to the
+/// flat, unless the scene's imperfection is zero. From the net: the path starts at the equilibrium
+/// next to the net, progress 1, and is followed backwards from there if `inner` states are
+/// requested. Errors: bad_input, no_equilibrium (no buckled state), cancelled.
 Result<EquilibriumPath> follow_actuation(const std::shared_ptr<const Scene>& scene,
                                          const LevelPlan& plan, bool inner, double to,
                                          const Watch& watch);
 
-/// The same to progress 1, for what comes after it: an actuation that ends earlier is an error,
-/// no_equilibrium, "there is no actuated shell `wanted_for`: ..."; one whose mesh is too_coarse()
-/// is returned as far as it came.
+/// Follows the actuation to progress 1 for a later task. An actuation that ends earlier is an
+/// error, no_equilibrium, "there is no actuated shell `wanted_for`: ..."; one whose mesh is
+/// too_coarse() is returned as far as it was followed.
 Result<EquilibriumPath> follow_whole_actuation(const std::shared_ptr<const Scene>& scene,
                                                const LevelPlan& plan, std::string_view wanted_for,
                                                const Watch& watch);

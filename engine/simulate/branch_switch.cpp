@@ -16,7 +16,7 @@
 namespace gridshell {
 namespace {
 
-constexpr double still_mm = 0.01;  // what an unstable rest is pushed by in a snap in time
+constexpr double still_mm = 0.01;  // perturbation of an unstable equilibrium before a snap in time
 
 /// On rods that buckle between joints which stay where they are: waves drawn a rod, the same on
 /// every mesh.
@@ -41,8 +41,8 @@ void add_waves(const Footprint& footprint, const RodMesh& mesh, std::mt19937& ra
   }
 }
 
-/// The side of `mode` that a departure takes; of sides that are alike that on which the energy
-/// falls.
+/// The state perturbed to the side of `mode` that the branch switch takes; of equivalent sides, the
+/// one on which the energy decreases.
 State perturbed_along_mode(Linearisation& system, const State& state, const Eigen::Matrix3Xd& mode,
                            BranchSide side) {
   const double push = 2 * still_mm / max_column_norm(mode);
@@ -56,7 +56,7 @@ State perturbed_along_mode(Linearisation& system, const State& state, const Eige
 
 BranchSwitch departure_for(Event::Kind kind, const Scene& scene, const NestedShell& shell) {
   BranchSwitch departure = departure_of(scene, shell.finest(), shell.model());
-  // a path that turns back has one way on
+  // at a limit point there is one direction
   if (kind != Event::Kind::stability_lost) departure.side = BranchSide::lower;
   return departure;
 }
@@ -74,10 +74,10 @@ std::optional<State> unstable_branch(Linearisation& system, State state, double 
   return state;
 }
 
-/// The last state of a path, moved on with its boundary to `there` by the path's velocity. The
-/// stiffness is shifted by as little as keeps every node within `farthest_mm`; where no shift does,
-/// only what is prescribed moves. A boundary that moves alone would strain the legs, to thousands
-/// of times the energy that is at stake, and the way down would be a release of that.
+/// The last state of a path, extrapolated to the boundary at `there` by the path's velocity. The
+/// stiffness is shifted by the least amount that displaces no node by more than `farthest_mm`; if
+/// no shift does, only prescribed components move. A boundary that moves alone would strain the
+/// legs, with thousands of times the energy of the snap, and the descent would release that energy.
 State extrapolated_state(Linearisation& system, const PinnedMotion& motion, const PathPoint& last,
                          double there, double farthest_mm, const Watch& watch) {
   constexpr double least_shift = 1e-9, largest_shift = 1e4;  // N/mm
@@ -128,7 +128,7 @@ Result<State> rest_after_bifurcation(NestedShell& shell, const Scene& scene, con
   const PinnedMotion& motion = shell.motion();
   BranchSwitch departure = departure_for(kind, scene, shell);
   departure.symmetries = symmetries_of(shell.finest(), motion.at(there));
-  // the mode that went soft first, of several that are unstable beyond
+  // the mode that lost stability first, of several unstable modes past it
   motion.apply_loads(system, last.t);
   system.at(last.state, false);
   const Eigen::Matrix3Xd mode = softest_mode(system, departure.start, watch);
@@ -154,18 +154,20 @@ Result<State> rest_after_bifurcation(NestedShell& shell, const Scene& scene, con
 
 bool on_branch_from(NestedShell& shell, const Scene& scene, const PathPoint& last, double there,
                     const State& rest, const Watch& watch) {
-  constexpr double share = 1.0 / 16;  // of the way, where a quarter of the distance should be left
+  constexpr double share =
+      1.0 / 16;  // of the path parameter, where a quarter of the distance is expected to remain
   const double near = last.t + share * (there - last.t);
   PathOptions options;
   options.spacing_mm = scene.footprint.spacing;
-  options.allow_unstable = true;  // where two modes go soft a branch may be so next to the other
+  options.allow_unstable =
+      true;  // where two modes lose stability, a branch may be unstable next to the other
   PathFollower back(shell.system(), shell.motion(), options);
   if (back.start(there, rest, watch).end != Outcome::reached) return false;
-  // a second mode may cut the way short, next to the path
+  // a second mode may end the path early, near the bifurcation
   back.advance(near, watch);
   const auto off = [&](const State& state, double t) {
     Eigen::Matrix3Xd path = last.state.x;
-    // of a path that has only begun it is not known
+    // it is not known at the start of a path
     if (last.velocity.x.size() > 0) path += (t - last.t) * last.velocity.x;
     return max_column_norm((state.x - path).leftCols(shell.model().nodes));
   };

@@ -110,7 +110,7 @@ std::vector<ContactEvent> contact_events(const EquilibriumPath& path, const At& 
     const std::size_t first = events.size();
     std::vector<const LoadStep*> steps;
     for (const LoadStep& step : segment.load_steps) steps.push_back(&step);
-    // a segment back is shown against its way
+    // a segment back is shown in reverse
     if (segment.back) std::ranges::reverse(steps);
     if (s == 0 && !steps.empty())
       for (const ContactKind kind : kinds)

@@ -101,8 +101,8 @@ CertifiedSample certify_sample(EquilibriumPath& path, const PathSample& sample,
   // a branch was left in between: it may be a state of the next one
   report = from(after, false);
   if (done(report)) return {report, after.point.t};
-  // or, where the next one does not come back so far, the rest to which the shell went; a branch
-  // that goes on between the two is not left for a rest
+  // or, where the next state does not extend back so far, the equilibrium to which the shell
+  // snapped; not on a branch that continues between the two
   if ((report.end == Outcome::unstable || report.end == Outcome::lost) && !goes_on)
     report = path.simulation.certify_rest_at(t, before, watch);
   if (done(report)) return {report, after.point.t};

@@ -1,4 +1,4 @@
-// The path of an experiment as an object: followed once, by steps of its own, then sampled.
+// The equilibrium path of an experiment: followed once, in load steps of its own, then sampled.
 #pragma once
 
 #include <functional>
@@ -14,111 +14,122 @@
 
 namespace gridshell::simulate {
 
-/// How near to the flat a path is followed: what its rods are shorter there, over their length.
+/// Relative shortening of the rods, (flat length - length)/flat length, down to which a path is
+/// followed towards the flat state.
 inline constexpr double flat_shortening = 1e-3;
 
-/// One way along the path of a simulation, from where it began to where it was to end.
+/// A monotonic stretch of the path of a simulation. PathRecord has its load steps and snaps in
+/// order.
 struct PathSegment : PathRecord {
-  double from = 0, to = 0;  ///< path parameter
-  Report report;            ///< how it ended
-  bool back = false;        ///< from the first state back towards the flat
-  /// 1 where its parameter grows, -1 where it falls
+  double from = 0,
+         to = 0;      ///< path parameters of its start and of its requested end, dimensionless
+  Report report;      ///< how it ended, its events and cost; written by Simulation::go
+  bool back = false;  ///< whether it leads from the first state back towards the flat state
+  /// 1 where the path parameter grows along the segment, -1 where it falls.
   double sign() const { return to < from ? -1 : 1; }
   /// Path parameter of the last certified state.
   double end() const { return load_steps.back().point.t; }
 };
 
-/// Where on the path parts of one kind begin to touch, or touch no more.
+/// A position on the path at which parts of one kind begin to touch or separate.
 struct ContactEvent {
-  std::size_t segment = 0;
-  double t = 0, error = 0;  ///< path parameter: between two certified states
-  std::string text;         ///< which, where in space and on the path
+  std::size_t segment = 0;  ///< index in EquilibriumPath::segments
+  double t = 0, error = 0;  ///< path parameter and its uncertainty: half the interval between two
+                            ///< certified states
+  std::string text;         ///< which parts touch, where in space and where on the path
 };
 
-/// A simulation with the segments that were followed in it, and what ended them.
+/// A simulation with the segments of the path that were followed in it. The functions
+/// `run_actuation`, `run_indentation` and `run_steps` fill it.
 struct EquilibriumPath {
+  /// The simulation that followed the path. Reading a state of the path moves it.
   Simulation simulation;
+  /// The segments in the order in which they were followed.
   std::vector<PathSegment> segments = {};
-  std::vector<PathSegment> earlier = {};  ///< of a push: those of the actuation before it
-  LevelPlan meshes = {};                  ///< that it was followed on
-  bool single_motion = true;  ///< whether all segments are of the motion that the simulation is on
+  std::vector<PathSegment> earlier = {};  ///< of a push: the segments of the actuation before it
+  LevelPlan meshes = {};                  ///< mesh levels on which the path was followed
+  bool single_motion = true;  ///< whether all segments belong to the current motion of `simulation`
+  /// Time to build the meshes and the first state, s.
   double seconds_setup = 0;
-  std::string mesh_disagreement =
-      {};                         ///< what is not confirmed, or missed, a sentence; empty: nothing
-  bool tolerance_missed = false;  ///< somewhere the error is above the tolerance, or not known
+  /// What is not confirmed by a second mesh or misses the tolerance, a sentence; empty: nothing.
+  std::string mesh_disagreement = {};
+  bool tolerance_missed = false;  ///< whether an error is above the tolerance or not known
+  /// Which limit ended the path, and the sentence that reports it; written by set_limit().
   record::Limit limit = record::Limit::none;
   std::string limit_reason = {};
+  /// Contacts along the path, written by contact_events().
   std::vector<ContactEvent> contacts = {};
 
-  /// Whether it ended as its mesh is too coarse (LevelPlan::allowed_mm): what comes after it is not
-  /// followed then.
+  /// Whether the path ended because its mesh is too coarse (LevelPlan::allowed_mm). What would
+  /// follow it is then not computed.
   bool too_coarse() const;
 };
 
-/// Largest distance of the joints where a simulation stands from those of nodes of its finest mesh,
-/// mm.
+/// Largest distance, mm, between the joints of the current state and the first columns of `nodes`
+/// (3 x nodes of the finest mesh, mm).
 double distance_of_joints(const Simulation& simulation, const Eigen::Matrix3Xd& nodes);
 
-/// Largest error estimate of stable states, mm; NaN where none is known.
+/// Largest error estimate of the stable states of a path, mm; NaN if no state has one.
 double worst_estimate_mm(const EquilibriumPath& path);
 
-/// The load_step that a sample of a segment lies behind: the last one that the segment came past
-/// before it.
+/// The last load step that the segment passed before parameter t.
 const LoadStep& load_step_before(const PathSegment& segment, double t);
 
-/// Whether nothing happens to the branch between two load steps that follow one another, both
-/// stable.
+/// Whether consecutive load steps a and b lie on the same branch: both are stable and no event lies
+/// between them.
 bool goes_on_between(const PathSegment& segment, const LoadStep& a, const LoadStep& b);
 
-/// Whether no state of a segment has a negative pivot.
+/// Whether no state of the segment has a Hessian with negative pivots.
 bool all_stable(const PathSegment& segment);
 
-/// From where the simulation stands on: follows the path to `to` and keeps the way as a segment.
-/// What begins beyond a limit goes nowhere, but back.
+/// Follows the path from the current state to parameter `to` and appends the segment. From a state
+/// at a limit only a segment back towards the flat state can be followed.
 PathSegment& follow_segment(EquilibriumPath& path, double to, const BifurcationPolicy& leaving,
                             const Watch& watch);
 
-/// A sample of a segment.
+/// A requested sample of the path.
 struct PathSample {
-  int index = 0;  ///< of the frame
+  int index = 0;  ///< of the frame, from 0
+  /// Index in EquilibriumPath::segments.
   std::size_t segment = 0;
   double t = 0;         ///< path parameter
-  double progress = 0;  ///< of the experiment
+  double progress = 0;  ///< of the experiment, from 0 to 1
 };
 
-/// Whether t lies in the jump between two branches, where neither may have a state.
+/// Whether t lies between the two branches of a snap, where neither may have a state.
 bool within_snap(const PathSegment& segment, double t);
 
-/// How a sample was certified, and the path parameter that the segment had reached when the
-/// sample's branch was found: events before it have happened to this state.
+/// How a sample was certified. `past`: the path parameter that the segment had reached when it
+/// found the branch of the sample; events before it apply to this state.
 struct CertifiedSample {
   Report report;
   double past = 0;
 };
 
-/// Certifies the path at a sample and leaves the simulation there; what the path itself found is
-/// not changed by it. Outcomes as of a path.
+/// Certifies the path at a sample and leaves the simulation in that state. The load steps of the
+/// path do not change. Outcomes as of Simulation::sample().
 CertifiedSample certify_sample(EquilibriumPath& path, const PathSample& sample, const Watch& watch);
 
-/// Says where a path parameter lies, in the experiment's own words: "at progress 0.4312", with its
-/// error where it is known.
+/// Writes a path parameter in the terms of the experiment, "at progress 0.4312", with its error if
+/// one is known.
 using At = std::function<std::string(double t, std::optional<double> error)>;
 
-/// What a frame says of the state in which a path ended at a limit; empty: it ended otherwise.
+/// Text of the frame in which a path ended at a limit; empty for another end.
 std::string limit_event(const Simulation& simulation, Outcome end);
 
-/// Where segments left a branch for a rest further on, by a leap or along another branch that
-/// leaves there: "at progress 0.0183 and at ..."; empty: nowhere.
+/// Parameters at which the segments lost a branch and continued in another equilibrium, by a snap
+/// (`leap`) or along a branch that bifurcates there: "at progress 0.0183 and at ..."; empty if none
+/// did.
 std::string branch_loss_places(std::span<const PathSegment> segments, const At& at,
                                bool leap = true);
 
-/// Tells as a limit and a sentence how the segments ended and what they came past: the first that
-/// ended before its end, else the snaps. A path that branches has no limit, and the sentence says
-/// where.
+/// Sets `limit` and `limit_reason` from how the segments ended: the first that ended before its
+/// requested end, else the snaps. Switching to a branch is no limit; the sentence reports where it
+/// happened.
 void set_limit(EquilibriumPath& path, const At& at);
 
-/// Where on a path parts begin to touch and where they part again: between load steps of one branch
-/// by the cubic through both.
+/// Computes where parts begin to touch and where they separate. Between load steps of one branch
+/// the state is interpolated by the cubic through both.
 std::vector<ContactEvent> contact_events(const EquilibriumPath& path, const At& at);
 
 }  // namespace gridshell::simulate

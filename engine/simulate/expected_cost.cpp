@@ -22,16 +22,15 @@
 namespace gridshell {
 namespace {
 
-// of all meshes of a run together; measured on shells of 24 to 150 rods and 100 000 to 1 500 000
-// unknowns: 400 to 820 bytes on the bend rung, more for the larger ones, and 1200 on the twist
-// rung
+// for all meshes of a run together; measured on shells of 24 to 150 rods and 100 000 to 1 500 000
+// unknowns: 400 to 820 bytes with the bend model, more for larger shells, and 1200 with the twist
+// model
 constexpr double bytes_an_unknown = 1000, bytes_a_twist_unknown = 2000;
-// of one mesh of a large net: what it has more in its factor, a joint, for each time that there
-// are twice as many joints as this; measured on 48, 96 and 192 rods a direction (41 MB, 240
-// MB, 1.2 GB)
+// additional bytes per joint in the factor of a large net, for each doubling of the number of
+// joints above this one; measured with 48, 96 and 192 rods per direction (41 MB, 240 MB, 1.2 GB)
 constexpr double bytes_a_doubling = 6500, joints_of_a_small_net = 1800;
 
-/// Unknowns of a mesh with so many edges a segment, to within a few per cent.
+/// Unknowns of a mesh with `edges_per_segment`, to within a few per cent.
 double unknowns_of(const Footprint& footprint, RodModel rung, int edges_per_segment) {
   double segments = 0;
   for (const FootprintRod& rod : footprint.rods) segments += double(rod.joints.size()) + 1;
@@ -76,8 +75,8 @@ Result<void> fits_memory(const Scene& scene, const LevelPlan& plan) {
 namespace gridshell::simulate {
 namespace {
 
-/// Seconds of one assembly and of one factorisation on the leading mesh, the flat shell's; 0: the
-/// rung cannot take the rods.
+/// Seconds of one assembly and of one factorisation of the flat shell on the coarsest mesh; 0: the
+/// rod model does not support the rods.
 struct UnitCost {
   double assembly = 0, factorisation = 0;
 };
@@ -106,9 +105,9 @@ UnitCost unit_cost(const Scene& scene, int edges) {
   return {std::max(0.0, std::ranges::min(both) - factor), factor};
 }
 
-/// Factorisations a mesh for a path on it, as the shipped presets take: beside a net, out of the
-/// flat on branches that symmetry chooses, and on those that the imperfection does, of which curves
-/// and nets have several.
+/// Factorisations per mesh for a path on it, as measured on the shipped presets: from a net; out of
+/// the flat on branches that symmetry chooses; and on branches that the imperfection chooses, of
+/// which curves and nets have several.
 double factorisations_of(const Scene& scene, const preset::Footprint& footprint) {
   constexpr double from_net = 50, from_flat = 75, chosen = 200, curves = 600, nets = 900;
   if (scene.from_net) return from_net;
@@ -129,14 +128,14 @@ int dof_of(const Scene& scene, int edges_per_segment) {
 
 double expected_seconds(const Scene& scene, const preset::Preset& preset) {
   if (scene.rung == RodModel::net) return 0.01;
-  // all on a mesh of 4 edges a segment; measured on 8 to 20 rods
+  // all on a mesh of 4 edges per segment; measured with 8 to 20 rods
   constexpr double a_trial = 2.6e-5, a_barrier = 3.4e-4, ways_of_a_state = 7e-4;
   if (const preset::SearchSettings& jitter = preset.jitter; jitter.wanted()) {
     const int barriers = jitter.barriers ? jitter.drawn * (jitter.drawn - 1) / 2 : 0;
     return dof_of(scene, 4) * (a_trial * (jitter.trials + jitter.confined) + a_barrier * barriers +
                                ways_of_a_state * jitter.transitions);
   }
-  // of a frame: corrections on the leading mesh; what is told of the finest takes as long as some
+  // per frame: corrections on the coarsest mesh; the report of the finest one takes as long as some
   // assemblies there
   constexpr double corrections = 1.3, tellings = 4.9, start_s = 0.02;
   const std::vector<int> edges = initial_levels(scene).edges_per_segment;
@@ -145,8 +144,8 @@ double expected_seconds(const Scene& scene, const preset::Preset& preset) {
                finest = double(edges.back()) / edges.front();
   const double frame =
       tellings * finest * unit.assembly + corrections * (unit.assembly + unit.factorisation);
-  // what is chosen is confirmed by meshes of twice the edges; bolts and braces come in at rest, on
-  // meshes that are built anew
+  // a chosen branch is confirmed on meshes of twice the edges; bolts and braces are added in
+  // equilibrium, on new meshes
   constexpr double build = 15;  // as many factorisations
   using Do = preset::StepKind;
   const auto builds = std::ranges::count_if(preset.step, [](const preset::Step& step) {
@@ -154,8 +153,8 @@ double expected_seconds(const Scene& scene, const preset::Preset& preset) {
   });
   const auto moves = std::ssize(preset.step) - builds -
                      std::ranges::count(preset.step, Do::hold, &preset::Step::kind);
-  // of a way on which nothing is chosen three states are looked for there; only frames between the
-  // net and the flat take the way back to it
+  // on a path without a choice of branch, three states are searched for there; only frames between
+  // the net and the flat need the path back to it
   const bool network = preset.footprint.kind == preset::FootprintKind::network;
   double to_begin = 0.7;
   if (scene.from_net)
@@ -178,8 +177,8 @@ double expected_GB(double meshes_GB, const preset::Preset& preset) {
 
 namespace {
 
-/// Largest curvature of an elastica of this length whose hinges are `chord` apart: its modulus m by
-/// 2 E(m)/K(m) - 1 = chord/length, then 4 sqrt(m) K(m)/length.
+/// Largest curvature of an elastica of this length with hinges at distance `chord`: its modulus m
+/// by 2 E(m)/K(m) - 1 = chord/length, then 4 sqrt(m) K(m)/length.
 double elastica_curvature(double length, double chord) {
   double low = 0, high = 0.999999;  // of the modulus' root
   for (int round = 0; round < 60; ++round) {
@@ -213,7 +212,7 @@ Result<double> strain_on_net(const Scene& scene, std::size_t r) {
   return most;
 }
 
-/// The same of a rod by itself between its held ends, bent the way that is softest.
+/// Strain of a single rod between its prescribed ends, bent in its least stiff direction.
 double strain_by_ends(const Scene& scene, std::size_t r) {
   const FootprintRod& rod = scene.footprint.rods[r];
   const auto held = [](RodEnd end) { return is_held(end) && end != RodEnd::sprung; };

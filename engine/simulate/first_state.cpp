@@ -18,7 +18,7 @@ namespace {
 constexpr double least_shortening = 1e-3;  // of rods that buckle
 constexpr int choosing_edges = 4;  // a segment, of the mesh that finds the first buckled state
 
-/// The seed's dome, at rest on the bend rung; of mirror images the one asked for.
+/// The dome of the seed in equilibrium with the bend model; of mirror images the requested one.
 Result<State> buckled_dome(Linearisation& system, const RodMesh& mesh, const PinnedMotion& motion,
                            double t, const Scene& scene, const Watch& watch) {
   constexpr double clearly_mm = 1e-3;  // that one diagonal lies lower
@@ -33,7 +33,7 @@ Result<State> buckled_dome(Linearisation& system, const RodMesh& mesh, const Pin
   return second && lower(*second) > lower(*first) ? second : first;
 }
 
-/// As it is drawn, at rest on the bend rung.
+/// The drawn shape relaxed to equilibrium with the bend model.
 Result<State> drawn_rest(Linearisation& system, const RodMesh& mesh, const PinnedMotion& motion,
                          double t, const Scene& scene, const Watch& watch) {
   State state = flat_state(system.model(), mesh, motion, scene.flat);
@@ -43,7 +43,7 @@ Result<State> drawn_rest(Linearisation& system, const RodMesh& mesh, const Pinne
 
 using FindShape = decltype(drawn_rest);
 
-/// What `find` finds on the mesh that chooses, at rest on the coarsest.
+/// The result of `find` on the mesh that chooses the branch, in equilibrium on the coarsest.
 Result<State> chosen(FindShape& find, NestedShell& shell, const Scene& scene, const ShellRods& rods,
                      double t, const Watch& watch) {
   const RodMesh& mesh = shell.finest();

@@ -38,7 +38,7 @@ Eigen::Matrix3Xd reactions_of(const RodMesh& mesh, const Model& model, const Ass
   std::vector<Eigen::Vector3d> on(std::size_t(mesh.rod_nodes()), Eigen::Vector3d::Zero());
   for (const int node : supports)
     if (model.pinned(node)) on[std::size_t(node)] = at.gradient.col(node);
-  // a ghost is held by what holds its end
+  // a ghost is constrained with its end
   for (const Model::Rod& rod : model.rods) {
     for (const int edge : {rod.ghost_begin, rod.ghost_end}) {
       if (edge < 0) continue;
@@ -172,7 +172,7 @@ class Bending {
     over_length_.push_back(0);
     strain_.push_back(0);
   }
-  /// Of all points, rod after rod.
+  /// Strain at all points, rod after rod.
   const std::vector<double>& strain() const { return strain_; }
   void fill(record::Frame& frame) const {
     const auto vector_of = [](const std::vector<double>& values) {
@@ -208,7 +208,7 @@ std::string place_of(const Footprint& footprint, const RodMesh& mesh, std::size_
 void put_stress(const Scene& scene, const RodMesh& mesh, const Model& model,
                 const std::vector<double>& strain, record::Frame& frame) {
   frame.stress_MPa.resize(Eigen::Index(strain.size()));
-  std::vector<double> counts;  // what is largest at the place that is told
+  std::vector<double> counts;  // the summands of the largest value at the reported position
   Eigen::Index edge = 0, point = 0;
   for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
     const Model::Rod& rod = model.rods[r];

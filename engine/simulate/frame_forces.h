@@ -1,4 +1,4 @@
-// What holds a shell, what loads it, what braces it and what its rods bear, as its frames tell it.
+// Reactions, loads, brace forces and rod forces of a shell for its frames.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,11 +15,11 @@ namespace gridshell::simulate {
 /// The edge point of an end, or where it is joined that joint.
 int end_node(const RodMesh& mesh, int k);
 
-/// What may be held: joints, edge points, far ends of tails.
+/// Nodes that may be constrained: joints, edge points, far ends of tails.
 std::vector<int> supports_of(const RodMesh& mesh);
 
-/// What holds the supports, N: all of the force on a pinned node, with what turns its end; of a
-/// joint what its hold prescribes; the force of its spring where it is on one.
+/// Reactions at the supports, N: the complete force on a pinned node, including the couple that
+/// clamps its end; at a joint the constrained components; at a spring support the spring's force.
 Eigen::Matrix3Xd reactions_of(const RodMesh& mesh, const Model& model, const Assembly& at,
                               const std::vector<Constraint>& holds);
 
@@ -34,7 +34,7 @@ Eigen::Matrix3Xd loads_on(const RodMesh& mesh, const Model& model, const Eigen::
 Eigen::VectorXd brace_forces(const Footprint& footprint, const Model& model,
                              const Eigen::Matrix3Xd& x);
 
-/// Of a section by how far it reaches, mm^2.
+/// Cross-section area of the solid section with this fibre reach, mm^2.
 double area_of(const FibreReach& fibres);
 
 /// Whether all that bends is strained as it is curved (FibreReach).
@@ -45,8 +45,8 @@ bool strains_by_curvature(const Model& model);
 void put_strains(const Scene& scene, const RodMesh& mesh, const Model& model,
                  const std::vector<double>& strain, record::Frame& frame);
 
-/// Forces, curvature, bending and stress along the rods of an equilibrium on one mesh, with the
-/// forces there; ends that hold no direction do not bend.
+/// Writes forces, curvature, bending and stress along the rods of an equilibrium on one mesh, with
+/// the forces at it. Ends without a prescribed direction have no moment.
 void put_rods(const Scene& scene, const RodMesh& mesh, const Model& model, const State& state,
               const Assembly& at, record::Frame& frame);
 

@@ -19,7 +19,7 @@ std::string ends_on_balls(const Scene& scene);
 /// What the shell is made of, on a mesh: rods, joints and their sizes, and a table.
 record::Layout parts_of(const Scene& scene, const RodMesh& mesh);
 
-/// "u+3": a rod by its family and its place in it.
+/// "u+3": a rod by its family and its index in it.
 std::string name_of(const FootprintRod& rod);
 
 /// "rods u+3 and v-1 at (10.0, 2.5, 48.1) mm": which parts touch, and where.
@@ -34,15 +34,15 @@ Result<record::Layout> layout_of(const Scene& scene, const RodMesh& mesh);
 void fill_shape(const Scene& scene, const RodMesh& mesh, const Eigen::Matrix3Xd& x,
                 const Eigen::VectorXd& K, record::Frame& frame);
 
-/// The state that a simulation stands in as a frame: positions, energies, K of the cells and their
-/// bins along x, certificate, extrapolated where the plan extrapolates. Index, progress, boundary,
-/// push and event are the experiment's to add.
+/// The current state of a simulation as a frame: positions, energies, K of the cells and its bins
+/// along x, certificate, extrapolated where the plan extrapolates. The experiment adds index,
+/// progress, boundary, push and event.
 record::Frame frame_of(const Simulation& simulation);
 
 /// The largest stress of a fibre over its rod's strength, on the finest mesh; NaN where that is not
 /// known.
 double utilisation_of(const Simulation& simulation);
-/// The same of an equilibrium on one mesh, with the forces there.
+/// Utilisation of an equilibrium on one mesh, stress over strength, with the forces at it.
 double utilisation_of(const Scene& scene, const RodMesh& mesh, const Model& model,
                       const State& state, const Assembly& forces);
 
@@ -54,7 +54,8 @@ Eigen::Vector3d joint_normal(const Footprint& footprint, const NestedShell& shel
 void complete_shape(const Simulation& simulation, const record::Contacts& contacts,
                     record::Frame& frame);
 
-/// The same of an equilibrium on one mesh that no simulation stands in, with the forces there.
+/// Frame of an equilibrium on one mesh that is not the state of a simulation, with the forces at
+/// it.
 record::Frame frame_of(const Scene& scene, const RodMesh& mesh, const Model& model,
                        const State& state, const Assembly& forces);
 

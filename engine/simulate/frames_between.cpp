@@ -108,7 +108,7 @@ FramesBetween::Knots FramesBetween::knots_between(const PathSegment& segment,
   return knots;
 }
 
-/// Of the finest mesh, through the four nearest states.
+/// Nodes of the finest mesh, interpolated through the four nearest states.
 std::optional<Eigen::Matrix3Xd> FramesBetween::nodes_at(double t, const Knots& knots,
                                                         double& doubt_mm) const {
   const NestedShell& shell = path_.simulation.shell();
@@ -131,7 +131,7 @@ std::optional<record::Frame> FramesBetween::at(const PathSample& sample) {
   if (std::exchange(segment_, sample.segment) != sample.segment) known_.clear();
   const auto window = wanted_ ? window_at(segment, sample.t) : std::nullopt;
   if (!window) return {};
-  // knots behind are no longer needed; a segment back is shown against its way
+  // earlier knots are no longer needed; a segment back is shown in reverse
   std::erase_if(known_, [&](const auto& known) {
     const std::size_t step = known.first.first;
     return segment.back ? step > window->last : step < window->first;

@@ -42,7 +42,7 @@ class FramesBetween {
     record::Frame frame;
   };
   using Knots = std::vector<const Knot*>;
-  /// Of a polynomial in t at a position.
+  /// Weights of a polynomial in t at one parameter.
   struct Weights {
     Eigen::VectorXd all;
     Eigen::VectorXd without[2];  ///< less those without the first, the last of its knots

@@ -46,10 +46,10 @@ At at_depth(double depth_mm) {
   };
 }
 
-/// Where the path that was lost turns back, as the arc length says.
+/// Position of the limit point of the lost path, found by arc length.
 std::string turning_back(Simulation& simulation, const PathSegment& segment, const Event& event,
                          double depth_mm, const Watch& watch) {
-  // the last one before the jump: the event's own place may be extrapolated past what came after it
+  // the last one before the snap: the event's parameter may be extrapolated past later steps
   const LoadStep* last = nullptr;
   for (const LoadStep& load_step : segment.load_steps) {
     if (event.to && load_step.point.t == *event.to) break;
@@ -63,8 +63,8 @@ std::string turning_back(Simulation& simulation, const PathSegment& segment, con
               : std::string();
 }
 
-/// Why the push stopped, or what it came past, in its own words: the first leap, or the segment
-/// that ended; empty where the common ones serve.
+/// Why the push stopped or which events it passed, in the terms of a push: the first snap, or the
+/// segment that ended; empty if the common text applies.
 std::string reason_of(HeldShell& pushed, const At& at, const Watch& watch) {
   const Scene& scene = pushed.simulation.scene();
   if (pushed.limit == record::Limit::snap)
@@ -98,7 +98,7 @@ void set_push_limit(HeldShell& pushed, const Watch& watch) {
   const auto add = [&](const std::string& more) {
     pushed.limit_reason += (pushed.limit_reason.empty() ? "" : "; ") + more;
   };
-  // which shell was pushed hangs on what happened before
+  // which shell was pushed depends on earlier events
   if (const auto places = branch_loss_places(pushed.earlier, at_progress); !places.empty()) {
     if (pushed.limit == record::Limit::none) pushed.limit = record::Limit::snap;
     add("before the push the path lost its stability " + places +

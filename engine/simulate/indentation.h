@@ -10,12 +10,13 @@
 
 namespace gridshell::simulate {
 
-/// Errors (bad_input): the boundary holds that joint.
+/// Checks that a joint is not on the boundary. Errors (bad_input): the boundary constrains it.
 Result<void> not_on_boundary(const Footprint& footprint, int joint);
 
-/// The joint nearest to the place a preset asks for, as seen from the origin: by its direction on
-/// the net, or in the unloaded shell (`joints`, 3 x n) where there is no net. Ties go to the
-/// smallest (i, j). Errors (bad_input): a joint by indices that the footprint does not have.
+/// The joint nearest to the position in a preset, as seen from the origin: by its direction on the
+/// net, or in the unloaded shell (`joints`, 3 x n) if there is no net. Of equal distances the
+/// smallest (i, j) is taken. Errors (bad_input): a joint by indices that the footprint does not
+/// have.
 Result<int> pushed_joint(const preset::Indentation& indentation, const Footprint& footprint,
                          const Eigen::Matrix3Xd& joints);
 
@@ -30,7 +31,7 @@ struct PushOf {
 Result<PushOf> push_of(const preset::Indentation& indentation, const Scene& scene,
                        const NestedShell& shell);
 
-/// An actuated shell that is held at the joint to be pushed, and what is to be done to it.
+/// An actuated shell with a constraint at the joint to be pushed, and the push.
 struct HeldShell : EquilibriumPath {
   PushOf push;
   Eigen::Matrix3Xd before;  ///< joints of the unloaded shell, 3 x n
@@ -38,17 +39,16 @@ struct HeldShell : EquilibriumPath {
   double depth_mm() const;
 };
 
-/// Actuates on the meshes of `plan` and takes hold. Errors: bad_input as push_of(), no_equilibrium
-/// (no shell to push, or it cannot be held), cancelled.
+/// Actuates on the meshes of `plan` and constrains the joint. Errors: bad_input as push_of(),
+/// no_equilibrium (no shell to push, or none with the constraint), cancelled.
 Result<HeldShell> hold_to_push(const std::shared_ptr<const Scene>& scene,
                                const preset::Indentation& indentation, const LevelPlan& plan,
                                const Watch& watch);
 
-/// Actuates, then pushes. Frames sample the push at `progress` in [0, 1] (of the depth; with
-/// `unload` of the way there and back), the first being the unloaded shell; the solver takes load
-/// steps of its own in between. Every frame is certified: the residual is that of all forces but
-/// the one on the joint. Errors: bad_input, no_equilibrium (no shell to push), cancelled, the
-/// sink's.
+/// Actuates, then pushes. Frames sample the push at `progress` in [0, 1] (fraction of the depth;
+/// with `unload` of loading and unloading); the first is the unloaded shell. The solver chooses its
+/// load steps. Every frame is certified: the residual includes all forces except the one on the
+/// joint. Errors: bad_input, no_equilibrium (no shell to push), cancelled, those of the sink.
 Result<EquilibriumPath> run_indentation(std::shared_ptr<const Scene> scene,
                                         const preset::Indentation& indentation,
                                         const std::vector<double>& progress, record::Sink& sink,

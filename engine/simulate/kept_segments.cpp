@@ -184,7 +184,7 @@ void KeptSegments::keep(const KeptSegment& segment) {
     if (out.file) has_file_ = bool(whole.commit());
   }
   written_at_ = seconds_now();
-  // large ones are written less often, but where all are asked for
+  // large ones are written less often, unless all are requested
   if (worth_s_ > 0) wait_s_ = std::max(worth_s_, 20 * (written_at_ - begun));
 }
 

@@ -1,6 +1,6 @@
-// The segments of its path that a run has followed, each in a file, so that a run that was ended
-// goes on from its last certified state. A run follows the same segments in the same order, whoever
-// watches; what lies between them (first states, samples, confirmations) is worked out again.
+// The followed segments of a run's path, each saved in a file, so that an interrupted run continues
+// from its last certified state. A run follows the same segments in the same order whether or not
+// it is observed; everything between them (first states, samples, confirmations) is computed again.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ struct SegmentBegin {
   bool operator==(const SegmentBegin&) const = default;
 };
 
-/// The softest mode's stiffness at a load step.
+/// Lowest stiffness at a load step.
 struct Softness {
   double t = 0, stiffness = 0;
 };
@@ -30,7 +30,7 @@ struct Softness {
 struct KeptSegment {
   SegmentBegin begin;
   std::optional<Outcome> end;  ///< none: it was cut short
-  NestedState state;           ///< where it stands
+  NestedState state;           ///< state reached
   PathRecord record;
   std::vector<Event> events;
   Effort effort;

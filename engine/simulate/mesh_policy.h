@@ -1,11 +1,11 @@
-// Which mesh a path is followed on, and when that is enough: the one place that decides it.
+// Choice of the mesh on which a path is followed, and when it is fine enough. Nothing else decides
+// it.
 //
-//   k from the tolerance; the path is followed on k edges per segment, its companions (k/2, k/4)
-//   measure it (solve/nested_shell.h);
-//   twice the edges, where an error estimate is above the tolerance, where an event of k is not the
-//   companion's too, or where the companion has no state beside the fine one;
-//   enough, where nothing of this is so, or where two meshes that follow one another agree;
-//   else `doubt` says what is not confirmed.
+//   k from the tolerance: the path is followed on k edges per segment, and the coarser meshes k/2
+//   and k/4 give the error estimate (solve/nested_shell.h);
+//   twice the edges, if an error estimate is above the tolerance, if an event of k is missing on
+//   the coarser mesh, or if the coarser mesh has no state near the fine one; enough, if none of
+//   this applies, or if two consecutive meshes agree; else `doubt` reports what is not confirmed.
 #pragma once
 
 #include <functional>
@@ -36,7 +36,7 @@ struct MeshTolerances {
 };
 inline constexpr MeshTolerances mesh_tolerances;
 
-/// The meshes to begin with: those of the tolerance, or those asked for by themselves.
+/// Initial meshes: those for the tolerance, or those requested in the preset.
 LevelPlan initial_levels(const Scene& scene);
 
 using SharedPath = std::shared_ptr<EquilibriumPath>;
@@ -49,8 +49,8 @@ using Follow = std::function<Result<SharedPath>(const LevelPlan&, const Watch&)>
 Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follow,
                                          const Watch& watch);
 
-/// The same of an EquilibriumPath or what is made from one: follow(plan, watch) gives a Result of
-/// it.
+/// Overload for an EquilibriumPath or a type made from one: follow(plan, watch) returns a Result of
+/// that type.
 template <class FollowPath>
 auto converged_path(const Scene& scene, const FollowPath& follow, const Watch& watch) {
   using Found = std::invoke_result_t<FollowPath, const LevelPlan&, const Watch&>;

@@ -101,12 +101,12 @@ Result<void> PathSampler::motions(const PathSample& sample, double past) {
     for (record::Frame& frame : frames_in_motion(path_.simulation, snap.moments))
       if (auto taken = take(std::move(frame), there); !taken) return taken;
   }
-  // the simulation stood somewhere else for them
+  // the simulation was moved for these samples
   if (any) certify_sample(path_, sample, watch_);
   return {};
 }
 
-/// A segment back is shown against its way: from its end to where it began.
+/// Events of a sample. A segment back is shown in reverse, from its end to its start.
 std::string PathSampler::events(const PathSample& sample, double past) const {
   const PathSegment& segment = path_.segments[sample.segment];
   const double way = segment.back ? -segment.sign() : segment.sign();

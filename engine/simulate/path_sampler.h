@@ -14,13 +14,13 @@ namespace gridshell::simulate {
 
 class FramesBetween;
 
-/// What an experiment says of its frames beyond the state itself.
+/// The values of a frame that an experiment adds to the state.
 struct Caption {
   At at;
-  /// Puts in where the boundary and the push stand at path parameter t.
+  /// Writes the position of boundary and push at path parameter t.
   std::function<void(record::Frame&, double t, double progress)> place;
-  /// Measures forces and reach on the certified state that the simulation stands in, or, `between`
-  /// load steps, on the frame alone.
+  /// Measures forces and reach on the certified current state of the simulation, or, `between` load
+  /// steps, on the frame alone.
   std::function<void(record::Frame&, double t, bool between)> measure;
 };
 
@@ -35,7 +35,7 @@ class PathSampler {
   /// One sample. False: it is not certified, which becomes the path's limit; within a jump that
   /// already is the limit, the limit's reason says it. Errors: cancelled, the sink's.
   Result<bool> at(const PathSample& sample);
-  /// The state that the simulation stands in as a frame, with an event of its own; `past`: as of
+  /// The current state of the simulation as a frame, with an event of its own; `past`: as in
   /// CertifiedSample.
   Result<void> take_current(const PathSample& sample, std::string event, double past,
                             int newton_iterations = 0);

@@ -87,7 +87,7 @@ std::vector<double> evenly(int frames) {
 }
 
 std::vector<double> samples_of(const preset::Preset& preset, bool stills) {
-  // only a circle's boundary has a radius all the way
+  // only a circular boundary has a radius throughout the path
   const bool circle = preset.footprint.kind == preset::FootprintKind::circle;
   if (stills && (!circle || preset.figure.radii_mm.empty())) return {1.0};
   if (stills) {
@@ -100,8 +100,8 @@ std::vector<double> samples_of(const preset::Preset& preset, bool stills) {
   return preset.movie.frames == 1 ? std::vector{1.0} : evenly(preset.movie.frames);
 }
 
-/// Passes frames on, and keeps the layout and the last frame for the summary. What solvers say once
-/// they were stopped holds for nothing, so no frame passes after that.
+/// Passes frames on and stores the layout and the last frame for the summary. After a cancel the
+/// results of solvers are not valid, so no frame is passed then.
 class LastFrame final : public record::Sink {
  public:
   LastFrame(record::Sink& next, const Watch& watch) : next_(next), watch_(watch) {}
@@ -148,8 +148,8 @@ void put_seams(const Scene& scene, record::Summary& s) {
   }
 }
 
-/// Of a state that its own image under a symmetry of the shell lies next to, by more than its
-/// error: a sentence. Meshes agree on such states, as each takes one for the other.
+/// A sentence on a state that is closer to its own image under a symmetry than expected, by more
+/// than its error. The meshes agree on such states, since each takes one for the other.
 std::string near_image(const EquilibriumPath& path) {
   const Simulation& simulation = path.simulation;
   const Scene& scene = simulation.scene();
@@ -167,8 +167,8 @@ std::string near_image(const EquilibriumPath& path) {
       off);
 }
 
-/// Of a path that enters a branch long after it was lost: a sentence. Where several modes lose
-/// their stiffness at once it may then enter another of them.
+/// A sentence on a path that enters a branch long after the bifurcation. If several modes lose
+/// stability at once, it may enter another branch.
 std::string late_on_branch(const EquilibriumPath& path) {
   constexpr double late = 0.05;  // in the path parameter
   for (const PathSegment& segment : path.segments)
@@ -221,8 +221,9 @@ Result<void> check_motion(const Scene& scene) {
   return parameter_of_shortening(flat.mesh, flat.motion, flat_shortening).map([](double) {});
 }
 
-/// Of thick rods: rods are lines that meet in points. A round rod of Poisson's ratio 0.3 between
-/// joints bends by a share of 12 EI/(kappa G A L^2) = 2.2 (d/L)^2 more by its shear [Timoshenko].
+/// A sentence on thick rods, since the model treats rods as lines that meet in points. The shear
+/// deformation of a round rod of Poisson's ratio 0.3 between joints adds a fraction 12 EI/(kappa G
+/// A L^2) = 2.2 (d/L)^2 to its bending [Timoshenko].
 std::vector<std::string> left_out_of(const Scene& scene) {
   constexpr double slender = 20;  // diameters from joint to joint; the share is then 0.5 %
   std::vector<std::string> sentences;
@@ -240,11 +241,11 @@ std::vector<std::string> left_out_of(const Scene& scene) {
   return sentences;
 }
 
-/// What the preset wants done, followed and shown; of steps, what each came to.
+/// Follows and samples the experiment of a preset; for steps with a report of each.
 Result<EquilibriumPath> path_for(const preset::Preset& preset,
                                  const std::shared_ptr<const Scene>& scene, bool stills,
                                  std::vector<std::string>& told, LastFrame& sink, Watch& watch) {
-  // of a push all frames of a movie, or enough for the curve of its force
+  // for a push all frames of a movie, or enough for its force curve
   const auto samples = evenly(stills ? 61 : std::max(2, preset.movie.frames));
   if (preset.indentation.wanted())
     return run_indentation(scene, preset.indentation, samples, sink, watch);
@@ -255,7 +256,7 @@ Result<EquilibriumPath> path_for(const preset::Preset& preset,
   return std::move(stepped->path);
 }
 
-/// Why a path without a limit has no frame of what was asked for.
+/// Why a path without a limit has no frame at the requested state.
 std::string not_in_the_flat(const EquilibriumPath& path) {
   const Scene& scene = path.simulation.scene();
   std::string text =

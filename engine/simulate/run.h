@@ -16,8 +16,9 @@
 
 namespace gridshell::simulate {
 
-/// A finished experiment. When the path ended early, `summary.limit` says why and `trajectory`
-/// holds the certified frames up to there; a state that is not an equilibrium is never in it.
+/// A finished experiment. If the path ended early, `summary.limit` gives the reason, and
+/// `trajectory` has the certified frames up to there; it never contains a state that is not an
+/// equilibrium.
 struct ExperimentResult {
   record::Trajectory trajectory;
   record::Summary summary;
@@ -25,7 +26,7 @@ struct ExperimentResult {
 
 /// What would run, without running it (`gridshell check`).
 struct Plan {
-  std::string model;          ///< the rung chosen
+  std::string model;          ///< the rod model chosen
   std::string model_reason;   ///< one sentence
   int edges_per_segment = 0;  ///< of the finest mesh
   std::vector<int> levels;    ///< edges per segment of every mesh solved
@@ -41,7 +42,7 @@ struct Plan {
   std::string footprint;               ///< "12 + 12 rods, longest leg 0.80 d, corner leg -0.15 d"
 };
 
-/// Builds the scene of a preset and says what would run. Errors: Fault::bad_input with the reason.
+/// Builds the scene of a preset and describes the run. Errors: Fault::bad_input with the reason.
 Result<Plan> plan(const preset::Preset& preset);
 
 /// Runs the experiment and hands every certified frame to `sink`. Frames sample the path at
@@ -50,17 +51,16 @@ Result<Plan> plan(const preset::Preset& preset);
 Result<record::Summary> run(const preset::Preset& preset, bool stills, record::Sink& sink,
                             Watch& watch);
 
-/// The same on a scene of that preset which was changed: other meshes, other load steps.
+/// Runs a preset on its scene with changed meshes or load steps.
 Result<record::Summary> run(const preset::Preset& preset, const std::shared_ptr<const Scene>& scene,
                             bool stills, record::Sink& sink, Watch& watch);
 
-/// The same of a scene that is solved, and the path itself: its simulation stands in the state of
-/// the last frame.
+/// Follows the path of a scene and returns it; its simulation is in the state of the last frame.
 Result<EquilibriumPath> follow(const preset::Preset& preset,
                                const std::shared_ptr<const Scene>& scene, bool stills,
                                record::Sink& frames, Watch& watch, record::Summary& summary);
 
-/// The same with all frames kept in memory.
+/// Runs a preset and stores all frames in memory.
 Result<ExperimentResult> run(const preset::Preset& preset, bool stills, Watch& watch);
 
 // From a preset to what is built by hand.

@@ -18,10 +18,10 @@ namespace {
 
 using preset::StepKind;
 
-/// One step that was done: its segment of the path stands at the same place.
+/// A finished step; its segment of the path has the same index.
 struct Done {
-  Checkpoint way_end, end;  ///< where its way ended, and where the shell stands after it
-  std::string told = {};    ///< what a sentence says of it beside its certificate
+  Checkpoint way_end, end;  ///< at the end of its path; the state of the shell after the step
+  std::string told = {};    ///< sentence about it in addition to its certificate
 };
 
 /// A hand's whole work on one plan of meshes.
@@ -30,9 +30,9 @@ struct Work : EquilibriumPath {
   std::vector<Done> done = {};
 };
 
-/// Whether frames are taken on the way of a step, which a segment then knows: of a push, of joints
-/// that open, and of a move of the whole boundary, before and after which no edge point lies off
-/// it.
+/// Whether frames are sampled along the path of a step, which a segment then stores: for a push,
+/// for a joint actuation, and for a move of the whole boundary if no edge point is displaced
+/// individually before or after it.
 bool has_way(const std::vector<preset::Step>& steps, std::size_t k) {
   if (steps[k].kind != StepKind::move)
     return steps[k].kind == StepKind::push || steps[k].kind == StepKind::open;
@@ -46,7 +46,7 @@ bool snapped(const PathSegment& segment) {
                              [](const Event& one) { return one.to && one.leap; });
 }
 
-/// A step without a way is a segment from its begin to its end, which is all that is known of it.
+/// A step without a sampled path is a segment of its start and end alone.
 void close(PathSegment& segment, const Simulation& simulation) {
   if (!segment.load_steps.empty()) {
     segment.from = segment.load_steps.front().point.t;
@@ -104,7 +104,7 @@ class Show {
     Simulation& simulation = work_.simulation;
     simulation.restore(work_.begin);
     boundary_ = {1, 1};
-    // of no step
+    // belongs to no step
     if (auto first = sampler_->take_current({0, steps_.size(), 1, 0}, "", 1); !first) return first;
     for (step_ = 0; step_ < work_.done.size(); ++step_)
       if (auto shown = one(); !shown) return shown;
@@ -113,7 +113,7 @@ class Show {
   }
 
  private:
-  /// The frames on the way of a step, and the one at its end.
+  /// Takes the frames along the path of a step, and the one at its end.
   Result<void> one() {
     const Done& done = work_.done[step_];
     const PathSegment& segment = work_.segments[step_];
@@ -200,7 +200,7 @@ void name_step_of_limit(Work& work, const std::vector<preset::Step>& steps) {
     return fmt::format("at path parameter {:.4g}", t);
   });
   if (work.limit == record::Limit::none) return;
-  // the one that ended the path, else the first that leapt
+  // the event that ended the path, else the first snap
   const auto ended = std::ranges::find_if(work.segments, [](const PathSegment& segment) {
     return segment.report.end != Outcome::reached;
   });
@@ -216,7 +216,7 @@ void put_loads(const Work& work, const std::vector<preset::Step>& steps, record:
     if (steps[k].kind != StepKind::push) continue;
     const Checkpoint& end = work.done[k].end;
     const auto joint_pushed = joint_of(steps[k], work.simulation.scene().footprint);
-    // a push that was refused holds nothing
+    // a push that failed leaves no constraint
     const auto origin =
         joint_pushed ? end.grip_origins.find(*joint_pushed) : end.grip_origins.end();
     if (origin == end.grip_origins.end()) continue;

@@ -36,7 +36,7 @@ bool keeps_kinds(const ShellRods& rods, const RodMesh& mesh, const MeshSymmetry&
   });
 }
 
-/// Joints have the same numbers on every mesh: the smallest tells what goes where.
+/// Joints have the same indices on every mesh, so the coarsest mesh gives the permutation.
 std::vector<MeshSymmetry> symmetries_here(const Simulation& simulation) {
   const Scene& scene = simulation.scene();
   const RodMesh mesh = mesh_rods(scene.footprint, 1);

@@ -9,15 +9,15 @@
 
 namespace gridshell::simulate {
 
-/// The symmetries of a mesh that its shell has: none of those that would exchange rods of different
-/// kinds, or turn over or move loads and rods that are curved at rest.
+/// The symmetries of a mesh that its shell has: none that exchange rods of different properties, or
+/// that invert or move loads and rods with natural curvature.
 std::vector<MeshSymmetry> symmetries_of_shell(const Scene& scene, const RodMesh& mesh,
                                               const std::vector<MeshSymmetry>& of_mesh);
 
-/// Of a shell in the scene's own motion, nothing else held or moved: the largest distance between a
-/// joint and that of the state's image under a symmetry of the shell, mm; of all symmetries the
-/// least that is more than `least_mm`, infinity where there is none. The image is another
-/// equilibrium, as stable and of the same energy.
+/// For a shell in the scene's own motion without other constraints: the largest distance between a
+/// joint and that of the state's image under a symmetry of the shell, mm. Returns the least such
+/// distance above `least_mm` over all symmetries, infinity if there is none. The image is another
+/// equilibrium, equally stable and of the same energy.
 double distance_of_image(const Simulation& simulation, double least_mm);
 
 /// Whether a state further along the path (nodes of the finest mesh) breaks a symmetry of the shell

@@ -98,7 +98,7 @@ void Simulation::put_push(record::Frame& frame) const {
 void Simulation::put_push_errors(record::Frame& frame) const {
   const NestedState& state = shell_->state();
   frame.push_error_N = state.reaction_error_N;
-  // of the last hold, the others held
+  // of the last constraint, with the others fixed
   const Eigen::Index entries = state.held_stiffness.rows(), own = holds_.back().directions.cols();
   const Eigen::VectorXd along =
       along_.size() == entries ? Eigen::VectorXd(along_.tail(own)) : Eigen::VectorXd();
@@ -146,7 +146,7 @@ Simulation::Limits Simulation::limits() const {
   return limits;
 }
 
-/// Of a state that is beyond the scene's limits, its own.
+/// Limits for a state that already exceeds those of the scene: its own measures.
 Simulation::Limits Simulation::limits_here() const {
   Limits here = limits();
   if (scene_->limits_strength()) here.strained = std::max(here.strained, strained().first);
@@ -237,17 +237,16 @@ Report Simulation::begin_at(double t, const State& fine, const Watch& watch) {
   return report(nested.end, nested.t, begin);
 }
 
-/// Of the scene's motion, off which no edge point lies.
+/// Sets the progress of the scene's motion and clears displacements of edge points.
 void Simulation::set_progress(double progress) {
   boundary = {progress_ = progress, Eigen::Matrix3Xd::Zero(3, scene_->motion.begin.cols())};
 }
 
 // ---- keep ----
 
-/// Other meshes or rods in the place of these, in equilibrium where these are; if they are not,
-/// these stay.
+/// Replaces meshes or rods and finds the equilibrium there. If there is none, the old ones remain.
 Result<Outcome> Simulation::replace_meshes(const LevelPlan& plan, bool nearby, const Watch& watch) {
-  // joints on their way to other angles stay on the meshes that they open on
+  // joints during a joint actuation stay on their meshes
   if (!nearby && shell_->outside(shell_->last()).opening != 0) return Outcome::too_coarse;
   TRY(built, build(plan));
   if (*built == shell_) return Outcome::reached;

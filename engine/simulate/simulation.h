@@ -1,4 +1,4 @@
-// What a step of a simulation says: how it ended, what it certified, what happened on its way.
+// Simulation: one gridshell that a user or an experiment actuates, pushes, loads and reads.
 #pragma once
 
 #include <functional>
@@ -18,188 +18,214 @@
 
 namespace gridshell {
 
-/// What is known of a state.
+/// The figures that certify a state. Simulation::certificate() computes them from the finest mesh.
 struct Certificate {
-  double residual_N = 0;         ///< largest force that nothing holds
-  int negative_pivots = 0;       ///< of the Hessian with what is held held; 0: stable
-  double error_estimate_mm = 0;  ///< of the joints; NaN on one mesh
-  double largest_strain = 0;     ///< by size; below 0: a compression
+  double residual_N = 0;         ///< largest unbalanced force on an unconstrained node
+  int negative_pivots = 0;       ///< of the Hessian on the unconstrained unknowns; 0: stable
+  double error_estimate_mm = 0;  ///< largest error of a joint's position; NaN on a single mesh
+  /// axial strain of largest magnitude, with its sign; below 0 in compression
+  double largest_strain = 0;
 
   bool stable() const { return negative_pivots == 0; }
 };
 
-/// Something that happened to the shell on its path.
+/// An event on the path. Simulation::go() writes it.
 struct Event {
   enum class Kind { stability_lost, turned_back, locked, overbent, contact };
   Kind kind = Kind::stability_lost;
-  double t = 0;                 ///< position on the path, extrapolated where two meshes have it
-  std::optional<double> error;  ///< of t, where two meshes have it
-  std::optional<double> to;     ///< path parameter of the next equilibrium, if one was found
-  bool leap = true;             ///< whether that is another state; else on a branch from there
-  bool confirmed = true;        ///< whether the companion has it too, if there is one
-  /// of a contact: of which parts, and where in space; of rods strained too far: by which limit;
-  /// of rods at their length: not empty where they are so in the equilibrium after a snap
+  double t = 0;                 ///< path parameter, extrapolated if two meshes have the event
+  std::optional<double> error;  ///< of t; empty if only one mesh has the event
+  std::optional<double> to;     ///< path parameter of the next equilibrium; empty if none was found
+  /// whether the path continues by a snap; else along a branch that bifurcates there
+  bool leap = true;
+  bool confirmed = true;  ///< whether the next coarser mesh, if there is one, has the event too
+  /// Details: for a contact the parts and the position in space; for a strain limit the limit
+  /// exceeded; for locked rods a text if they lock in the equilibrium after a snap, else empty.
   std::string what = {};
-  /// The event on one mesh of so many edges per segment, and to how much it was located.
+  /// Position of the event on one mesh.
+  /// Edges per segment of the mesh.
   struct Location {
     int edges = 0;
+    /// Path parameter, and the width of the interval in which it was located.
     double t = 0, located = 0;
-  } placed = {};  ///< on the mesh that was followed
+  } placed = {};  ///< on the finest mesh
 
-  /// Sets t and its error from where another mesh has the event, by second order.
+  /// Sets t and its error by Richardson extrapolation (second order) with the event of another
+  /// mesh.
   void extrapolate(const Location& other);
 
-  /// Whether the path ends there in the last state before.
+  /// Whether the path ends at this event, in the last state before it.
   bool is_limit() const {
     return kind == Kind::locked || kind == Kind::overbent || kind == Kind::contact;
   }
 };
 
-/// How a path ended at a limit.
+/// Outcome of a path that ended at this kind of limit.
 constexpr Outcome outcome_of(Event::Kind limit) {
   if (limit == Event::Kind::contact) return Outcome::contact;
   return limit == Event::Kind::overbent ? Outcome::overbent : Outcome::locked;
 }
 
-/// How a step ended: what was reached, why no more, what it cost. Where not all was reached the
-/// shell stands in the last certified state.
+/// How a command ended, what it reached and what it cost. After a failure the shell is in the last
+/// certified state.
 struct [[nodiscard]] Report {
+  /// Why it ended: reached, or the reason that it stopped before.
   Outcome end = Outcome::reached;
   double t = 0;               ///< path parameter reached
-  Certificate certificate;    ///< of the state the shell stands in
-  std::vector<Event> events;  ///< on the way
+  Certificate certificate;    ///< of the current state
+  std::vector<Event> events;  ///< that the command passed, in order
+  /// Factorisations, iterations and solves of this command.
   Effort effort;
+  /// Wall time, s.
   double seconds = 0;
 };
 
-/// A point of a path with the certificate of all meshes, and what touches there.
+/// A certified state of the path on all meshes, with its contacts. Simulation::go() writes it.
+/// State, tangent and mesh differences of the finest mesh.
 struct LoadStep {
   NestedPathPoint point;
   Certificate certificate;
+  /// Interpenetrations of rods, joints and table at this state (contact is not modelled there).
   record::Contacts contacts = {};
 };
 
-/// What the coarsest mesh was like at a time, while it moved.
+/// State of the coarsest mesh at one time of a dynamic snap.
 struct TimedState {
-  double time = 0;  ///< s
+  double time = 0;  ///< s, from the start of the snap
+  /// Nodes in mm, twist angles in rad.
   State state;
 };
 
-/// What a path leaves to whoever watches it: a load_step a certified load step, in order, and what
-/// moved in time where a snap was followed so.
+/// Output of Simulation::go(): the certified load steps in order, and the motion of each snap that
+/// was computed in time.
 struct PathRecord {
   std::vector<LoadStep> load_steps;
   struct Snap {
-    std::size_t before = 0;  ///< the load_step that it left from
+    std::size_t before = 0;  ///< index of the load step from which the shell snapped
+    /// States in the order of time.
     std::vector<TimedState> moments;
   };
   std::vector<Snap> snaps;
 };
 
-/// How a branch that ended is left.
+/// What a path does where its branch ends or loses stability.
 struct BifurcationPolicy {
-  bool wanted = true;             ///< false: the path ends there
-  bool through_unstable = false;  ///< go on through states that are not stable instead
+  bool wanted = true;  ///< whether another branch is searched for; false: the path ends there
+  bool through_unstable = false;  ///< continue through unstable states instead
 };
 
-/// Where the boundary is: how far along the scene's motion, and by how much its edge points lie off
-/// that.
+/// Position of the boundary relative to the motion of the scene.
 struct BoundaryPosition {
+  /// Fraction of the motion, from 0 to 1.
   double progress = 0;
-  Eigen::Matrix3Xd dragged;  ///< 3 x edge points, mm
+  Eigen::Matrix3Xd dragged;  ///< correction of each edge point, mm, 3 x edge points; empty: none
 };
 
-/// A load case on the shell: the forces that it came on with, times a factor.
+/// A load case that acts on the shell: `factor` times its forces.
 struct CaseOnShell {
+  /// Name in the preset.
   std::string name;
+  /// Forces at factor 1, N.
   std::vector<NodeAction> forces;
-  double dead = 0;  ///< its part of the dead loads
+  double dead = 0;  ///< factor that it adds to the dead loads
+  /// Current load factor.
   double factor = 0;
 };
 
-/// A state to go back to; taking one and going back cost a copy. It keeps the meshes that it was
-/// taken on, so that going back cannot fail.
+/// A saved simulation. save() and restore() copy states; the meshes are shared, so restore() cannot
+/// fail.
 struct Checkpoint {
+  /// State of all levels.
   NestedState state;
+  /// Meshes and matrices that the state belongs to.
   std::shared_ptr<NestedShell> shell;
+  /// Rods set by set_rods(); empty: those of the scene.
   std::optional<ShellRods> rods;
-  std::vector<PinnedMotion> motions;  ///< one a mesh
+  std::vector<PinnedMotion> motions;  ///< one per mesh level
+  /// Constrained joints.
   std::vector<Constraint> holds;
+  /// Applied load, N on each joint.
   std::vector<NodeAction> field;
+  /// Factor of the dead loads; progress of the actuation, from 0 to 1.
   double load_scale = 1, progress = 0;
+  /// Whether the path parameter is that of the actuation, not of a drive.
   bool actuating = true;
   BoundaryPosition boundary;
+  /// Position of each constrained joint when its constraint was set, mm.
   std::map<int, Eigen::Vector3d> grip_origins;
+  /// Load cases that act, the last one last.
   std::vector<CaseOnShell> cases;
-  double first_stiffness = 0;  ///< of the push, N/mm
-  Eigen::VectorXd along;       ///< its direction
+  double first_stiffness = 0;  ///< dF/d(depth) at the start of the push
+  Eigen::VectorXd along;  ///< its direction in the space of the constrained components, length 1
 };
 
-/// Moves of a joint below are none, mm.
+/// Smallest displacement of a joint that counts as a push, mm.
 inline constexpr double nearest_mm = 1e-9;
 
-/// Whether a pushed joint finds its own way across the push.
+/// Whether a pushed joint may move perpendicular to the push.
 enum class Across { free, held };
 
-/// One shell of one scene. Not thread-safe; its watch may be cancelled from any thread, which is
-/// answered within one factorisation. Every call ends by itself too: a load step is halved five
-/// times at most, a way leaves eight branches at most, and Newton's corrections are counted.
+/// A simulation of one scene. It is not thread-safe. A watch may be cancelled from any thread; the
+/// simulation then returns within one factorisation. Every call ends: load steps are halved at most
+/// five times, a path switches branches at most eight times, Newton iterations are counted.
 class Simulation {
  public:
-  /// Errors (bad_input): rods that the rung cannot take.
+  /// Builds meshes, model and solver. Errors (bad_input): rods that the rod model does not support.
   static Result<Simulation> open(std::shared_ptr<const Scene> scene, const LevelPlan& plan);
 
   // ---- begin ----
 
-  /// The flat footprint itself.
+  /// Starts from the flat footprint.
   Report begin_flat();
-  /// A buckled state where the rods are `shortening` shorter than flat on average: the seed's.
-  /// Errors (bad_input, no_equilibrium) as first_buckled().
+  /// Starts from the buckled state of the preset's seed at which the rods' mean relative shortening
+  /// is `shortening`. Errors (bad_input, no_equilibrium) as first_buckled().
   Result<Report> begin_buckled(double shortening, const Watch& watch);
-  /// The equilibrium next to the net.
+  /// Starts from the equilibrium next to the Chebyshev net.
   Result<Report> begin_on_net(const Watch& watch);
-  /// The rest that a network drawn in space comes to.
+  /// Starts from the equilibrium that a network drawn in space relaxes to.
   Result<Report> begin_as_drawn(const Watch& watch);
-  /// A state of the finest mesh, in equilibrium or nearly.
+  /// Starts from a state of the finest mesh at parameter t, in or near equilibrium.
   Report begin_at(double t, const State& fine, const Watch& watch);
-  /// A state of the coarsest mesh, brought to the finest.
+  /// Starts from a state of the coarsest mesh, prolongated to the finest.
   Report begin_refined(double t, const State& coarse, const Watch& watch);
 
   // ---- move ----
 
-  /// Follows the path to t in load steps of its own, past snaps and to the limit of the rods'
-  /// length. The path parameter is sqrt(progress) in an actuation, else from 0 to 1 since the drive
-  /// began.
+  /// Follows the path to parameter t, past snaps, up to the strain limit of the rods. Load steps
+  /// are chosen by the path follower. t is sqrt(progress) in an actuation; in a drive it runs from
+  /// 0 to 1.
   Report go(double t, const Watch& watch, const BifurcationPolicy& leaving = {},
             PathRecord* record = nullptr);
-  /// The boundary to a progress of the scene's motion, joints held where they are.
+  /// Moves the boundary to a progress of the scene's motion. Constrained joints stay fixed.
   Report move_to(double progress, const Watch& watch, PathRecord* record = nullptr);
-  /// The boundary to somewhere else altogether: the edge points straight to the motion's end.
+  /// Moves the edge points on straight lines to the end of `motion`.
   Report move_edge_points(const BoundaryMotion& motion, const Watch& watch);
-  /// Moves a joint, held from now on.
+  /// Pushes a joint by `displacement`, mm. The joint is constrained until release().
   Report push(int joint, const Eigen::Vector3d& displacement, Across across, const Watch& watch,
               PathRecord* record = nullptr);
-  /// Lets a joint go: the force on it is taken away in even steps.
+  /// Releases a joint: its reaction is reduced to zero in equal steps.
   Report release(int joint, const Watch& watch);
-  /// From now on the scene's dead loads count `factor` times.
+  /// Sets the factor of the scene's dead loads.
   Report load(double factor, const Watch& watch);
-  /// Puts a field of forces in the place of that which is there, or takes it away (empty), and with
-  /// it the factor of the dead loads by `dead` up.
+  /// Replaces the applied load by `field` (empty: no load) and adds `dead` to the factor of the
+  /// dead loads.
   Report set_field(std::vector<NodeAction> field, const Watch& watch, double dead = 0);
-  /// Joints open as far as the bolts of the rods say that is to come, t from 0 to 1.
+  /// Drives the joints to the target angles in rods().bolts->opening, t from 0 to 1.
   Report open_joints(const Watch& watch, PathRecord* record = nullptr);
-  /// Down the energy to rest from where it is, whatever happened to it; off a saddle to that side.
+  /// Minimises the energy from the current state to an equilibrium; from a saddle towards `side`.
   Report rest(const Watch& watch, BranchSide side = BranchSide::lower);
-  /// The same in time, with the scene's damping; `seen` after each time step.
+  /// Relaxes in time with the damping of the scene; `seen` is called after each time step.
   Report rest_in_time(const Watch& watch, const std::function<void(const MovingState&)>& seen);
-  /// Other rods on the same footprint, from where it is. Errors (bad_input) as open().
+  /// Replaces the rods and finds the equilibrium next to the current state. Errors (bad_input) as
+  /// open().
   Result<Report> set_rods(const ShellRods& rods, const Watch& watch);
-  /// The same shell on other meshes, finer or coarser. Errors (bad_input) as open().
+  /// Transfers the state to finer or coarser meshes. Errors (bad_input) as open().
   Result<Report> remesh(const LevelPlan& plan, const Watch& watch);
-  /// Finer meshes until the error estimate is below `tolerance_mm`, or no plan is finer or fits the
-  /// memory.
+  /// Refines the meshes until the error estimate is below `tolerance_mm`, or until no finer plan
+  /// exists or fits the memory.
   Report refine(double tolerance_mm, const Watch& watch);
-  /// Begins to push joints without going anywhere: the drive of `push`, for go().
+  /// Prepares a push of several joints that go() then follows: one constraint and one
+  /// displacement, mm, for each.
   Report begin_joint_push(std::vector<Constraint> holds, std::vector<Eigen::Vector3d> displacements,
                           const Watch& watch);
 
@@ -214,48 +240,50 @@ class Simulation {
   NestedShell& shell() { return *shell_; }
   const NestedShell& shell() const { return *shell_; }
   Certificate certificate() const;
-  /// Positions of the nodes of the finest mesh, extrapolated where planned; joints come first.
+  /// Positions of the nodes of the finest mesh, mm, 3 x nodes, extrapolated where planned; joints
+  /// first.
   const Eigen::Matrix3Xd& nodes() const { return shell_->state().x; }
-  /// The force that holds joint `k` of holds(), N.
+  /// Reaction at constraint `k` of holds(), N.
   Eigen::Vector3d force(std::size_t k) const { return shell_->state().reactions[k]; }
   const std::vector<Constraint>& holds() const { return holds_; }
   const std::vector<NodeAction>& field() const { return field_; }
   const ShellRods& rods() const { return rods_ ? *rods_ : scene_->rods; }
-  /// How many times the dead loads act.
+  /// Factor of the dead loads, and its increment in a drive.
   LoadFactor steady_load() const;
   double progress() const { return progress_; }
-  /// Tells a frame how far the joint held last was pushed, with what force it resists, and how that
-  /// grows; nothing where none is held. The depth is the way of the joint since it was taken hold
-  /// of, along the directions that it is held in, mm, positive the way it was pushed; the force is
-  /// the part along that way of what holds it, N.
+  /// Writes depth, force and stiffness of the last push into a frame; nothing without a constrained
+  /// joint. The depth is the displacement since the constraint was set, along its constrained
+  /// directions, mm, positive in the direction of the push. The force is the component of the
+  /// reaction in that direction, N.
   void put_push(record::Frame& frame) const;
-  /// The stiffness along the last push and the errors of it and of the push's force.
+  /// Writes the stiffness along the last push, N/mm, its error and the error of the force, N.
   void put_push_errors(record::Frame& frame) const;
-  /// Energies by term under what acts, extrapolated as forces are.
+  /// Energies by term, mJ, extrapolated where the forces are.
   Energies energies() const;
   Effort effort() const { return spent_ + shell_->effort(); }
-  /// Counts what another simulation spent before this one.
+  /// Adds the cost of a simulation that was used before this one.
   void charge(const Effort& spent) { spent_ += spent; }
-  /// Certifies the state at t beside a load_step, without moving the path on; with `unstable`, or
-  /// beside a load_step that is not stable, any equilibrium, which says how stable it is. `across`:
-  /// one beyond t to which its branch goes on.
+  /// Certifies the state at t next to load step `beside`; the path does not change. With
+  /// `unstable`, or from an unstable load step, any equilibrium is accepted and its stability
+  /// reported. `across`: the load step on the other side of t on the same branch.
   Report sample(double t, const LoadStep& beside, bool unstable, const Watch& watch,
                 const LoadStep* across = nullptr);
-  /// The rest at t that a shell comes to which lost its branch behind the load_step.
+  /// Certifies the equilibrium at t to which the shell relaxes after it lost the branch of
+  /// `before`.
   Report certify_rest_at(double t, const LoadStep& before, const Watch& watch);
-  /// Whether the rods have come to their length.
+  /// Whether the axial strain has reached its limit.
   bool locked() const;
-  /// What of the scene's limits the state is beyond: an event that is_limit(), or nothing.
+  /// The limit of the scene that the current state exceeds, an event with is_limit(); empty: none.
   std::optional<Event> beyond_limits() const;
-  /// Largest strain of a fibre by bending, on the finest mesh.
+  /// Largest strain of a fibre by bending, dimensionless, on the finest mesh.
   double bending_strain() const;
-  /// What touches in nodes(), the shape that is shown.
+  /// Interpenetrations in nodes(), the shape that is shown.
   record::Contacts contacts() const;
 
   BoundaryPosition boundary;
-  /// Where the joints that are held were when they were taken hold of, mm.
+  /// Position of each constrained joint when its constraint was set, mm.
   std::map<int, Eigen::Vector3d> grip_origins;
-  /// Load cases that are on, the last that came last.
+  /// Load cases that act, the last one last.
   std::vector<CaseOnShell> cases;
 
  private:
@@ -275,12 +303,13 @@ class Simulation {
   double load_step() const;
   Result<Outcome> replace_meshes(const LevelPlan& plan, bool nearby, const Watch& watch);
   double push_stiffness() const;
-  /// How far a state may go: what its rods bear over what they may, and the least gap of each kind.
+  /// Measures of the limits: strain over allowed strain, and the least gap of each contact kind,
+  /// mm.
   struct Limits {
     double strained, gap_mm[record::contact_kinds];
   };
-  /// The larger of bending strain and utilisation over its limit, and which: "max_utilisation =
-  /// 0.8".
+  /// The larger of bending strain and utilisation over its limit, and the limit's name:
+  /// "max_utilisation = 0.8".
   std::pair<double, std::string> strained() const;
   Limits limits() const;
   Limits limits_here() const;
@@ -288,19 +317,19 @@ class Simulation {
   class Walk;
 
   std::shared_ptr<const Scene> scene_;
-  std::optional<ShellRods> rods_;  // in the place of the scene's
+  std::optional<ShellRods> rods_;  // replace the rods of the scene
   std::shared_ptr<NestedShell> shell_;
-  /// Those of rods(), by their edges per segment: a drag changes between two of them.
+  /// The meshes built for rods(), by edges per segment. A drag alternates between two of them.
   std::vector<std::shared_ptr<NestedShell>> built_;
-  std::optional<record::ContactSearch> search_;  // on its finest mesh
+  std::optional<record::ContactSearch> search_;  // on the finest mesh
   std::vector<Constraint> holds_;
-  std::vector<NodeAction> field_;  // that is there
-  double load_scale_ = 1;          // of the scene's dead loads
+  std::vector<NodeAction> field_;  // the applied load
+  double load_scale_ = 1;          // factor of the scene's dead loads
   double progress_ = 0;
-  double first_stiffness_ = 0;  // of the last push, where it began
-  Eigen::VectorXd along_;       // of its displacements, in the holds' directions
-  bool actuating_ = true;       // the path is the scene's motion, not a drive
-  Effort spent_;                // by meshes that finer ones replaced
+  double first_stiffness_ = 0;  // of the last push, at its start, N/mm
+  Eigen::VectorXd along_;       // direction of its displacements, in the constrained directions
+  bool actuating_ = true;       // the path parameter is that of the scene's motion, not of a drive
+  Effort spent_;                // on meshes that finer ones replaced
 };
 
 }  // namespace gridshell

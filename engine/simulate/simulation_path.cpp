@@ -20,7 +20,7 @@ namespace gridshell {
 void Event::extrapolate(const Location& other) {
   const double times = double(placed.edges) / other.edges;
   const double left = (placed.t - other.t) / (times * times - 1);
-  // of a limit the finest mesh decides, and the state that is kept is its own
+  // the finest mesh decides about a limit, and the saved state is that mesh's
   if (!is_limit()) t = placed.t + left;
   error = std::abs(left) + placed.located + other.located;
 }
@@ -32,11 +32,11 @@ class StabilityStepControl {
  public:
   /// After a load step that was certified.
   void take(const NestedState& state);
-  /// Nothing is known of the path: it goes on from somewhere else.
+  /// Clears the history of the path, which continues from another state.
   void forget() { known_.clear(); }
-  /// The load step to take in the place of `step`, at least an eighth of it.
+  /// The load step to take instead of `step`, at least an eighth of it.
   double shortened(double step) const;
-  /// What it knows, for a way that goes on later.
+  /// The history, for a path that continues later.
   const std::vector<simulate::Softness>& known() const { return known_; }
   void know(std::vector<simulate::Softness> known) { known_ = std::move(known); }
 
@@ -65,8 +65,7 @@ constexpr double push_step = 0.02;       // of the length scale: the largest loa
 constexpr double actuation_step = 0.05;  // in the path parameter
 constexpr double locate_mm = 5e-3;       // of prescribed move: to which a limit is located
 constexpr double loads_ways = 4;         // of the loads, what counts as the length scale of a move
-// branches left on one way; where rods press on one another they slip past each other again and
-// again
+// branches left on one path; rods in contact slip past each other repeatedly
 constexpr std::size_t most_events = 8, most_events_in_contact = 64;
 
 }  // namespace
@@ -116,14 +115,14 @@ class Simulation::Walk {
   BifurcationPolicy leaving_;
   PathRecord* record_;
   const Watch& watch_;
-  // a state that begins beyond a limit may come back, and goes no further beyond it
+  // a state that starts past a limit may return, and goes no further past it
   Limits limits_ = of_.limits_here();
   bool from_beyond_ = of_.beyond_limits().has_value();
   StabilityStepControl softening_;
   std::vector<Event> events_;
   std::optional<double> unmeasured_since_;  // path parameter: no companion has a state since
   std::optional<TimedState> companion_;     // its last state on this branch; time: path parameter
-  // of a segment that is kept, as it was after the last step
+  // of a saved segment, as it was after the last step
   simulate::KeptSegments* kept_ = record_ ? scene_.kept.get() : nullptr;
   simulate::KeptSegment segment_;
   Effort effort_before_;
@@ -165,7 +164,7 @@ void Simulation::Walk::note() {
   if (record_) record_->load_steps.push_back({shell_.point(), of_.certificate(), of_.contacts()});
 }
 
-/// Tells who watches where the path stands.
+/// Reports the path parameter to the observer.
 void Simulation::Walk::tell() const {
   if (&watch_ != &unwatched) watch_.stand_at(now(), shell_.plan().edges_per_segment.back());
 }
@@ -180,8 +179,8 @@ void Simulation::Walk::keep() {
 
 // ---- what an earlier run kept of it ----
 
-/// Whether an earlier run followed this segment, or the begin of it: the shell then stands where
-/// that one stood.
+/// Whether an earlier run saved this segment or its start; the shell then has the state saved
+/// there.
 bool Simulation::Walk::goes_on() {
   if (!kept_) return false;
   segment_.begin = {Checksum::of({reinterpret_cast<const char*>(shell_.state().x.data()),
@@ -204,8 +203,8 @@ bool Simulation::Walk::goes_on() {
   return true;
 }
 
-/// Writes where the segment stands, as often as that is worth it; what a step that is stopped did
-/// is none of it.
+/// Saves the segment if enough time was spent since the last save; the result of a cancelled step
+/// is not saved.
 void Simulation::Walk::keep_segment(std::optional<Outcome> end) {
   if (!kept_ || !kept_->wants(end.has_value())) return;
   segment_.end = end;
@@ -247,8 +246,8 @@ Outcome Simulation::Walk::step_came(double next, const NestedState& good) {
   return too_coarse() ? Outcome::too_coarse : Outcome::reached;
 }
 
-/// Whether the path need not be followed further on this mesh: its estimate is above what the plan
-/// allows, or no companion has had a state for longer than events of two meshes lie apart.
+/// Whether the path need not be followed further on this mesh: its error estimate is above the
+/// allowed one, or no coarser mesh has had a state for longer than two meshes' events may differ.
 bool Simulation::Walk::too_coarse() {
   const LevelPlan& plan = shell_.plan();
   if (!std::isfinite(plan.allowed_mm) || !of_.certificate().stable()) return false;
@@ -309,8 +308,8 @@ void Simulation::Walk::keep_companion() {
     companion_ = TimedState{now(), shell_.state().levels[std::size_t(companion)]};
 }
 
-/// Looks for an event of the path on the companion, from its last state before: the path then
-/// stands where it stood, but for loads.
+/// Searches for an event of the path on the coarser mesh, from its last state before it. The path
+/// returns to its state, except for the loads.
 void Simulation::Walk::confirm(Event& event) {
   const int companion = shell_.last() - 1;
   if (companion < 0) return;
@@ -336,7 +335,7 @@ void Simulation::Walk::confirm(Event& event) {
 double Simulation::Walk::parameter_scale(double t) const {
   const PinnedMotion& motion = shell_.motion();
   const double speed = motion.speed(t);
-  // joints that are opened count by the whole way that they are to open
+  // a joint actuation counts by its complete angle
   if (motion.opening.change != 0) return 1;
   const double boundary = scene_.length_scale_mm / std::max(shell_.reach_mm() * speed, 0.1);
   const double rate = std::abs(speed * motion.load.change);
@@ -364,7 +363,7 @@ bool Simulation::Walk::leave(Event& event, std::vector<TimedState>& moments) {
       return true;
     }
     if (there == to_) break;
-    // the path stands where it was lost
+    // the path is at the state where it was lost
     shell_.back_to(shell_.state());
     shell_.place(last.t, last.state);
   }
@@ -386,7 +385,7 @@ Outcome Simulation::Walk::end_at(Event limit) {
   return outcome_of(events_.back().kind);
 }
 
-/// Ends in the last state between `good` and `bad` that is not beyond a limit.
+/// Ends in the last state between `good` and `bad` that exceeds no limit.
 Outcome Simulation::Walk::end_before(Event limit, double bad, const NestedState& good) {
   bisect(bad, good, [&] {
     auto met = of_.beyond(limits_);
@@ -394,14 +393,14 @@ Outcome Simulation::Walk::end_before(Event limit, double bad, const NestedState&
     return !met;
   });
   if (limit.kind != Event::Kind::locked) {
-    // of one mesh alone its own error is not known
+    // the error of a single mesh is not known
     if (shell_.levels() > 1) limit.error = located_to();
     if (now() != good.t) note();
   }
   return end_at(std::move(limit));
 }
 
-/// Stands in the last certified state, between `good` and `bad`, that is accepted.
+/// Moves to the last certified state between `good` and `bad` that is accepted.
 void Simulation::Walk::bisect(double bad, const NestedState& good,
                               const std::function<bool()>& accepted) {
   NestedState last = good;

@@ -1,5 +1,5 @@
-// What a hand does to a simulation: each takes the path's place by a drive of its own, or brings
-// the shell to rest where it is.
+// The commands of a user to a simulation: each replaces the path by a drive of its own, or
+// minimises the energy at the current boundary.
 #include <algorithm>
 #include <utility>
 
@@ -11,7 +11,7 @@
 namespace gridshell {
 namespace {
 
-/// `b` in the place of `a`: what comes on beside `a` as it goes.
+/// The load `b` minus the load `a`: the increment from one to the other.
 std::vector<NodeAction> difference(std::vector<NodeAction> b, const std::vector<NodeAction>& a) {
   for (NodeAction action : a) b.push_back(action *= -1);
   return b;
@@ -33,7 +33,7 @@ void Simulation::apply_field(std::vector<NodeAction> field) {
   shell_->set_fields(field_, {});
 }
 
-/// Drives the shell from where it is, all the way if it can.
+/// Drives the shell from the current state, to the end if possible.
 Report Simulation::drive(const PrescribedMove& drive, std::vector<NodeAction> coming,
                          const Watch& watch, PathRecord* record) {
   const CallBegin begin = call_begin();
@@ -98,7 +98,7 @@ Report Simulation::push(int joint, const Eigen::Vector3d& displacement, Across a
   Constraint hold{joint};
   if (across == Across::free) hold.directions = displacement.normalized();
   holds.push_back(hold);
-  // a push that goes on is measured by how stiff the shell was where it began
+  // a continued push is measured by the stiffness at its start
   const bool goes_on = !holds_.empty() && holds_.back().node == joint &&
                        holds_.back().directions.cols() == hold.directions.cols() &&
                        holds_.back().part(displacement).isApprox(displacement, 1e-6);
@@ -120,7 +120,8 @@ Report Simulation::release(int joint, const Watch& watch) {
   const Checkpoint held = save();
   Report done = drive({.holds = left, .load = load, .field = {1, -1}}, std::move(force), watch);
   if (done.end == Outcome::reached || at_limit(done.end) || watch.cancelled()) return done;
-  // held it was stable, under the same force it is not: the hand opens, and the shell goes to rest
+  // the state was stable with the constraint but is not under the same force: the constraint is
+  // removed, and the energy minimised
   restore(held);
   shell_->drive({.holds = left, .load = load});
   holds_ = left;

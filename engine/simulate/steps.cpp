@@ -88,7 +88,7 @@ Result<Goal> goal_of(const Simulation& simulation, const preset::Step& step) {
 Result<Report> push(Simulation& simulation, const Goal& goal, const Watch& watch, StepPath* path) {
   Eigen::Vector3d way = goal.target - simulation.nodes().col(goal.joint);
   if (goal.free) way = goal.along * goal.along.dot(way);
-  // a hand that does not move yet takes hold along its own direction
+  // a push without displacement constrains the joint along the push direction
   if (way.norm() < nearest_mm) way = nearest_mm * goal.along;
   const Report report =
       simulation.push(goal.joint, way, goal.free ? Across::free : Across::held, watch, path);
@@ -135,7 +135,7 @@ Result<Report> jitter(Simulation& simulation, const preset::Step& step, const Wa
   auto field = random_field(simulation.scene(), step.seed, step.force_N);
   field.insert(field.end(), steady.begin(), steady.end());
   const Report thrown = simulation.set_field(field, watch);
-  // a field that the shell cannot bear all the way has moved it as well
+  // a load that the shell cannot carry completely has moved it as well
   if (watch.cancelled()) return simulation.restore(before), thrown;
   Report back = simulation.set_field(steady, watch);
   back.events.insert(back.events.begin(), thrown.events.begin(), thrown.events.end());

@@ -1,5 +1,5 @@
-// What a hand does to a shell, as the steps of a preset: the one place that turns a [[step]] into
-// calls of a simulation, for runs and for the window alike.
+// The steps of a preset as commands to a simulation: apply_step() turns a [[step]] into calls, for
+// runs and for the window.
 #pragma once
 
 #include <memory>
@@ -22,7 +22,7 @@ Result<int> joint_of(const preset::Step& step, const Footprint& footprint);
 /// The progress that a move asks for.
 double progress_of(const preset::Step& step, const Scene& scene);
 
-/// The way of a move or of a push: what was followed, and where the simulation stood at its end.
+/// Path of a move or of a push: what was followed, and the simulation at its end.
 struct StepPath : PathRecord {
   Checkpoint end = {};
 };
@@ -31,20 +31,20 @@ struct StepPath : PathRecord {
 /// bad_input with the step's number.
 Result<void> check_steps(const std::vector<preset::Step>& steps, const Footprint& footprint);
 
-/// Does one step. A step that ends early leaves the simulation
-/// in its last certified state, a `release`, `rest` or `jitter` where it was before. All but moves
-/// and loads are led by the coarsest mesh alone (`way.end` of a push stands on that one), or by a
-/// finer one where others do not follow it: the simulation then stands on finer meshes. Errors
-/// (bad_input): a joint or an edge point that is not there, nothing to release, edge points to be
-/// moved by themselves whose rods' directions are held.
+/// Does one step. A step that ends early leaves the simulation in its last certified state, a
+/// `release`, `rest` or `jitter` in the state before it. All steps except moves and loads are
+/// predicted on the coarsest mesh (`way.end` of a push is on that one), or on a finer one if others
+/// do not follow it: the simulation then uses finer meshes. Errors (bad_input): a joint or an edge
+/// point that does not exist, nothing to release, individual displacements of edge points whose
+/// rods' directions are prescribed.
 Result<Report> apply_step(Simulation& simulation, const preset::Step& step, const Watch& watch,
                           StepPath* way = nullptr);
 
-// A run of a preset with steps: the shell is actuated, then a hand does one step after the other.
+// A run of a preset with steps: the shell is actuated, then the steps are applied in order.
 
-/// How many of `frames` fall to each step, the first frame being the shell before them all: one to
-/// each, and what is left to those that have a way to be shown, moves of the whole boundary and
-/// pushes, evenly.
+/// Distributes `frames` over the steps; the first frame is the shell before them. Each step has
+/// one; the remaining ones are distributed evenly over steps with a sampled path, moves of the
+/// whole boundary and pushes.
 std::vector<int> frames_of_steps(const std::vector<preset::Step>& steps, int frames);
 
 /// What became of the steps.
@@ -53,11 +53,11 @@ struct StepsResult {
   std::vector<std::string> messages = {};  ///< a sentence a step that was begun
 };
 
-/// Does the steps in order until one ends early, which is then the path's limit, and hands frames
-/// to the sink: the shell before, and of each step as many as frames_of_steps() says, each
-/// certified. They only sample the steps' ways. Meshes are chosen and events confirmed as for a
-/// path (mesh_policy.h). Errors: bad_input as apply_step(), no_equilibrium (no shell to begin
-/// with), cancelled, the sink's.
+/// Applies the steps in order until one ends early, which is then the path's limit, and passes
+/// certified frames to the sink: the shell before the steps, and as many frames of each step as
+/// frames_of_steps() gives. Frames only sample the paths of the steps. Meshes are chosen and events
+/// confirmed as for a path (mesh_policy.h). Errors: bad_input as apply_step(), no_equilibrium (no
+/// initial shell), cancelled, those of the sink.
 Result<StepsResult> run_steps(const std::shared_ptr<const Scene>& scene,
                               const std::vector<preset::Step>& steps, int frames,
                               record::Sink& sink, Watch& watch);
@@ -69,22 +69,23 @@ struct StepPath;
 /// All joints keep the angles that they have. Errors (bad_input): a shell that is flat yet.
 Result<Report> tighten(Simulation& simulation, const preset::Step& step, const Watch& watch);
 
-/// Bolts in the joints strive for other angles, evenly along a path: each is a spring at the joint
-/// that is tightened where the joint stands, and whose angle of rest goes to the step's. Errors
-/// (bad_input): a flat shell, a joint where not two rods cross, an angle that no joint has, bolts
-/// of another stiffness.
+/// Drives the crossing angles of joints linearly along a path by bolts: each is a spring at the
+/// joint, tightened at its current angle, whose natural angle is driven to the target of the step.
+/// Errors (bad_input): a flat shell, a joint where not two rods cross, an angle that no joint can
+/// have, bolts of another stiffness.
 Result<Report> open(Simulation& simulation, const preset::Step& step, const Watch& watch,
                     StepPath* way);
 
-/// What joints that were opened came to: "joints at 62.1 degrees on average, ...".
+/// Text on the crossing angles that a joint actuation reached: "joints at 62.1 degrees on average,
+/// ...".
 std::string text_of_opened(const Simulation& simulation);
 
 /// Diagonals come into cells, as long as these are now. Errors (bad_input): a cell that is not
 /// there, a flat shell.
 Result<Report> brace(Simulation& simulation, const preset::Step& step, const Watch& watch);
 
-/// All bolts or braces go again, and the shell goes to the rest beside. Errors (bad_input): there
-/// are none.
+/// Removes all bolts or braces; the shell relaxes to the equilibrium nearby. Errors (bad_input):
+/// there are none.
 Result<Report> take_out(Simulation& simulation, preset::Released what, const Watch& watch);
 
 /// From now on the scene's load case of that name acts `factor` times. Errors (bad_input): there is

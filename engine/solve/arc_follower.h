@@ -1,5 +1,5 @@
-// Following a path by its arc length: also where it turns back in its parameter (a limit point) and
-// through states that are not stable [Riks 1979, Crisfield 1981].
+// ArcFollower: follows a path by its arc length, also past limit points of its parameter and
+// through unstable states [Riks 1979, Crisfield 1981].
 #pragma once
 
 #include <optional>
@@ -16,38 +16,38 @@ struct ArcOptions {
   double tolerance_mm = 1e-7;  ///< of Newton's corrections
 };
 
-/// A point of the path, and the inertia of the Hessian there with the parameter held: one negative
-/// pivot more or less than at the point before says that a limit or a bifurcation lies between.
+/// A point of the path with the inertia of its Hessian at fixed parameter. A change of the number
+/// of negative pivots from one point to the next shows a limit point or a bifurcation between them.
 struct ArcPoint {
   PathPoint point;
   Inertia inertia;
 };
 
 /// Arc length s: ds^2 = |dx|^2 / nodes + (parameter_mm dt)^2. A step predicts along the unit
-/// tangent and corrects at right angles to it, positions and parameter together, by block
-/// elimination on the Hessian at held parameter.
+/// tangent and corrects positions and parameter perpendicular to it, by block elimination on the
+/// Hessian at fixed parameter.
 class ArcFollower {
  public:
   ArcFollower(Linearisation& system, const PinnedMotion& motion, const ArcOptions& options);
 
-  /// Takes an equilibrium at t; the path goes on with t growing (direction 1) or falling (-1).
-  /// Outcomes as newton().
+  /// Starts at an equilibrium at t; the path continues with t increasing (direction 1) or
+  /// decreasing (-1). Outcomes as newton().
   Outcome start(double t, State state, double direction = 1, const Watch& watch = unwatched);
 
   /// One step, halved until it succeeds; lost where that ends in steps that are too small: the
   /// point is then the last good one.
   Outcome step(const Watch& watch = unwatched);
 
-  /// Leaves a path at a bifurcation, on to the branch that comes closest to `mm` along a soft mode
-  /// (no parameter): predicted along it and corrected at right angles to it. The path goes on away
-  /// from there. Outcomes: reached, lost, cancelled.
+  /// Switches at a bifurcation to the branch nearest to the state displaced by `mm` along a lowest
+  /// mode (no parameter): predicts along the mode and corrects perpendicular to it. The path
+  /// continues away from `from`. Outcomes: reached, lost, cancelled.
   Outcome leave(const PathPoint& from, const Eigen::Matrix3Xd& mode, double mm,
                 const Watch& watch = unwatched);
 
   /// The next step is so long; later ones as ever.
   void set_step(double mm) { step_mm_ = mm; }
   double step_mm() const { return step_mm_; }
-  /// Change of the parameter with the arc length: it changes its sign where the path turns back.
+  /// dt/ds; its sign changes at a limit point.
   double turn() const { return turn_t_; }
 
   const ArcPoint& at() const { return now_; }
@@ -65,9 +65,9 @@ class ArcFollower {
   double turn_t_ = 1;  // dt/ds; now_.point.velocity is dx/ds
 };
 
-/// Where the path from the equilibrium `begin` turns back: its farthest parameter in `direction`,
-/// looked for over some steps. Empty when it goes on (what was lost is stability, at a
-/// bifurcation), cannot be followed, or is no longer wanted.
+/// Parameter of the limit point after the equilibrium `begin`: the extreme value in `direction`,
+/// within a limited number of steps. Empty if the path has none there (stability is lost at a
+/// bifurcation), cannot be followed, or was cancelled.
 std::optional<double> turning_point(Linearisation& system, const PinnedMotion& motion,
                                     const PathPoint& begin, double direction,
                                     const ArcOptions& options, const Watch& watch);

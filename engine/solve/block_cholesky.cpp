@@ -1,5 +1,5 @@
-// 3x3-block Cholesky L D L^T by panels. The structure is fixed, so every block update has its place
-// worked out once.
+// 3x3-block Cholesky L D L^T by panels. The structure is fixed, so the index of every block update
+// is computed once.
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -43,7 +43,7 @@ class BlockCholesky final : public LinearSolver {
     find_structure(graph);
     std::vector<int> branch = branches_of(factor_);
     if (std::ranges::count(branch, 0) < factor_.columns) {
-      // an order as good, in which each branch stands together
+      // an equivalent order in which each branch is contiguous
       std::vector<int> old(order_.size());
       std::iota(old.begin(), old.end(), 0);
       std::ranges::stable_sort(old, {}, [&](int k) { return branch[std::size_t(k)]; });
@@ -245,9 +245,9 @@ class BlockCholesky final : public LinearSolver {
   const Model& model_;
   std::vector<int> order_, place_;  // elimination order of free columns, and its inverse
   std::vector<int> column_;         // of the model, in elimination order
-  std::vector<char> partly_;        // whether some of it is held
-  // where the blocks of pairs go, as they are or transposed; those of columns that are partly held
-  // go there again without what is held
+  std::vector<char> partly_;        // whether some components of it are constrained
+  // targets of the blocks of pairs, as they are or transposed; blocks of partly constrained columns
+  // are copied there again without the constrained components
   std::vector<Move> straight_, turned_, partly_straight_, partly_turned_;
   std::vector<Range> empty_;  // blocks below the diagonal that begin at zero
   BlockFactor factor_;

@@ -11,9 +11,9 @@
 namespace gridshell {
 namespace {
 
-/// L D L^T of a diagonal block in place: L below the diagonal, whose ones are not kept, D on it;
-/// returns false for a pivot that cannot be used. Nothing but the pivots' inverses is divided for,
-/// as columns wait for one another.
+/// Factorises a diagonal block into L D L^T in place: L below the diagonal, whose ones are not
+/// stored, D on it. Returns false for an unusable pivot. Only the inverses of pivots are divisions,
+/// since columns wait for one another.
 inline bool factor_diagonal(Block3& m, Column& inverse, Inertia& inertia) {
   Column* d = m.column;
   inverse[0] = 1 / d[0][0];
@@ -68,7 +68,8 @@ inline void subtract(const Block3& lb, const Scaled& la, Block3& target) {
   }
 }
 
-/// The same for `tile` targets and the columns of a panel, whose blocks stand at lb[column][0 ...].
+/// Subtracts the outer products of `tile` targets and the columns of a panel, whose blocks are at
+/// lb[column][0 ...].
 template <int tile>
 inline void subtract_panel(const Block3* const* lb, const Scaled* la, int width, const int* target,
                            Block3* below) {
@@ -83,7 +84,8 @@ inline void subtract_panel(const Block3* const* lb, const Scaled* la, int width,
     for (int j = 0; j < 3; ++j) below[target[t]].column[j] = sum[t][j];
 }
 
-/// Subtracts a column's outer product from the rest of its panel, which ends before column `end`.
+/// Subtracts a column's outer product from the remaining columns of its panel, which ends before
+/// `end`.
 inline void update_within(BlockFactor& f, int k, int end) {
   Scaled la;
   for (int a = k + 1; a < end; ++a) {
@@ -100,7 +102,7 @@ struct Rows {
   int from, to;
 };
 
-/// How many targets stand before those of row `a` of `rows`.
+/// Number of targets before those of row `a` of `rows`.
 inline long long targets_before(int a, int rows) {
   return (long long)a * rows - (long long)a * (a - 1) / 2;
 }
@@ -121,7 +123,7 @@ inline void update_narrow(BlockFactor& f, int k, const Rows& some, const int* ta
   }
 }
 
-/// The same of the panel of columns `begin` to `end`.
+/// Subtracts the outer products of the panel of columns `begin` to `end`.
 inline void update_wide(BlockFactor& f, int begin, int end, const Rows& some, const int* target) {
   const int width = end - begin, rows = f.first[end] - f.first[end - 1];
   const Block3* lb[widest_panel];
@@ -181,7 +183,7 @@ void factor_panels(BlockFactor& f, int from, int to, bool own, int most_negative
   }
 }
 
-/// Rows of a block column from `begin` to `end` that are columns `from` to `to`, by their places.
+/// Rows of a block column from `begin` to `end` that are columns `from` to `to`, by their indices.
 inline Rows rows_between(const BlockFactor& f, int begin, int end, const Rows& columns) {
   const auto row = f.row.begin();
   const auto first = std::lower_bound(row + begin, row + end, columns.from),
@@ -297,7 +299,7 @@ Inertia factor_numbers(BlockFactor& f, int most_negative, Team* team) {
     for (int p = f.branch.back(); p < f.panels() && !ended(); ++p)
       if (finish_one(f, p, most_negative, inertia)) update_shared(f, p, *team);
   }
-  // where it ended early the others had come to different places
+  // after an early end the threads may have stopped at different columns
   if (ended() && inertia.usable) inertia.negative_pivots = most_negative + 1;
   return inertia;
 }

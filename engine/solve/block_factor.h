@@ -1,6 +1,6 @@
-// The numbers of a 3x3-block factor L D L^T, and who works on them: where a shell is large, columns
-// that wait for none of one another go to different threads, and the rest follows. Each block's sum
-// has one order, whoever works, so that any number of threads gives the same bits.
+// The numbers of a 3x3-block factor L D L^T and their distribution over threads. In large shells,
+// columns that do not depend on each other are factorised by different threads. The order of each
+// block's sum is fixed, so the result is bitwise equal for any number of threads.
 #pragma once
 
 #include <vector>
@@ -26,15 +26,15 @@ struct FactorNumbers {
   const void* of = nullptr;    ///< the solver whose they are
 };
 
-/// The plan and the numbers of one factor; plain arrays for the loops over them. Panels: columns
-/// beside one another that have the same rows below them.
+/// Plan and numbers of one factor, in plain arrays for the loops over them. A panel is a set of
+/// adjacent columns with the same rows below them.
 struct BlockFactor {
   int columns = 0;
   std::vector<int> first;  // columns + 1: first off-diagonal block of each column
   std::vector<int> row;    // its row (in elimination order)
   std::vector<int> panel;  // first column of each, and columns
-  // per pair (a <= b) of the rows below a panel: block that it updates, or ~block where nothing
-  // stands there before
+  // per pair (a <= b) of the rows below a panel: the block that it updates, or ~block if it is the
+  // first to write it
   std::vector<int> target;
   std::vector<long long> first_target;  // per panel
   // branches of the elimination tree: first panel of each, and of the trunk, which comes after them
@@ -50,7 +50,7 @@ struct BlockFactor {
   int rows_below(int column) const {
     return first[std::size_t(column) + 1] - first[std::size_t(column)];
   }
-  /// Of the columns of a panel and of its last one.
+  /// Number of rows below a panel; the next function: below its last column.
   int panel_rows(int p) const { return rows_below(panel[std::size_t(p) + 1] - 1); }
 };
 
@@ -59,12 +59,12 @@ struct BlockFactor {
 /// thread would help with.
 std::vector<int> branches_of(const BlockFactor& factor);
 
-/// Plans who does what for these branches, once the panels are there, whose columns stand in the
-/// order of their branches, each panel in one of them.
+/// Distributes the branches over threads. The panels must exist, and their columns must be in the
+/// order of their branches, each panel within one branch.
 void plan_sharing(BlockFactor& factor, const std::vector<int>& branch);
 
-/// L D L^T in place of what stands in `diagonal` and `below`. Ends early as
-/// LinearSolver::most_negative says.
+/// Replaces `diagonal` and `below` by L D L^T. Ends early as described at
+/// LinearSolver::most_negative.
 Inertia factor_numbers(BlockFactor& factor, int most_negative, Team* team);
 
 /// Solves for the right-hand side x in place, in elimination order.

@@ -19,7 +19,7 @@ double flat_chord(const RodMesh& mesh, std::size_t r, std::size_t from, std::siz
   return chord < (1 - 1e-9) * along ? chord : along;
 }
 
-/// Distances of what is held from its middle, all together, mm.
+/// Sum of the distances of the constrained points from their centroid, mm.
 double spread(const RodMesh& mesh, const Eigen::Matrix3Xd& x) {
   const std::vector<int> held = held_nodes(mesh);
   const Eigen::Matrix3Xd places = x(Eigen::all, held);
@@ -33,7 +33,7 @@ double mean_shortening(const RodMesh& mesh, const PinnedMotion& motion, double t
   const Eigen::Matrix3Xd x = motion.at(t);
   const std::set<int> held(mesh.held_joints.begin(), mesh.held_joints.end());
   for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
-    // from one node that is held to the next
+    // from one constrained node to the next
     const std::vector<int>& node = mesh.rods[r];
     const std::size_t none = node.size();
     std::size_t before = none;
@@ -47,7 +47,7 @@ double mean_shortening(const RodMesh& mesh, const PinnedMotion& motion, double t
       before = k;
     }
   }
-  // where no rod is held at two points: by how much all held points come together
+  // if no rod is constrained at two points: the contraction of all constrained points
   return lengths > 0 ? 1 - chords / lengths : 1 - spread(mesh, x) / spread(mesh, motion.at(0));
 }
 
@@ -110,7 +110,7 @@ Result<State> first_buckled(Linearisation& system, const RodMesh& mesh, const Pi
   motion.impose(system, t, state);
   const auto rise = [&](const State& at) { return seed.up * at.x.row(2).head(model.nodes).sum(); };
   const State seeded = state;
-  // soft rods first: they come near the rest of the rods as they are without stretching
+  // first with reduced EA: the result is near the equilibrium of the actual rods, without stretch
   if (minimise(system, state, {.tolerance_mm = 1e-2, .EA_scale = 0.01}, watch).outcome ==
       Outcome::not_finite)
     return fail(Fault::no_equilibrium, "no equilibrium: a position was not finite");

@@ -16,24 +16,24 @@ namespace gridshell {
 /// Mean shortening of the rods with their ends at the motion's t: 1 - sum |chord| / sum length.
 double mean_shortening(const RodMesh& mesh, const PinnedMotion& motion, double t);
 
-/// The path parameter at which the mean shortening is `shortening` (may lie beyond 1: the motion
-/// goes on). Errors (bad_input) when the motion never shortens the rods that far.
+/// The path parameter at which the mean shortening is `shortening`. It may exceed 1, since the
+/// motion is extrapolated. Errors (bad_input) if the motion never shortens the rods by that much.
 Result<double> parameter_of_shortening(const RodMesh& mesh, const PinnedMotion& motion,
                                        double shortening);
 
-/// A stable equilibrium at t, from the seed's shape: a dome as high as the shortening asks for,
-/// tilted along a diagonal, brought to rest with EA scaled by 0.01 and then as it is. Errors:
-/// no_equilibrium, cancelled.
+/// A stable equilibrium at t from the seed's shape, a dome of the height that corresponds to the
+/// shortening, tilted along a diagonal. The energy is minimised with EA scaled by 0.01, then with
+/// EA. Errors: no_equilibrium, cancelled.
 Result<State> first_buckled(Linearisation& system, const RodMesh& mesh, const PinnedMotion& motion,
                             double t, const BuckleSeed& seed, const FlatFrame& flat,
                             const Watch& watch);
 
-/// Rods that hang on two hinges at most: round, each may turn about the line between them without
-/// any force, and buckles to any side.
+/// Rods with at most two hinges and a round section. Each may rotate about the line through the
+/// hinges without force and buckles in any direction.
 std::vector<std::size_t> turning_rods(const Footprint& footprint);
 
-/// The flat footprint as a state, at the begin of a motion: no rod is bent, every first director
-/// stands up; ghosts and supports of springs are where the motion begins.
+/// The flat footprint as a state at the start of a motion: straight rods, first directors vertical;
+/// ghosts and supports of springs at the start of the motion.
 State flat_state(const Model& model, const RodMesh& mesh, const PinnedMotion& motion,
                  const FlatFrame& flat);
 

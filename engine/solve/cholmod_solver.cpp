@@ -88,7 +88,7 @@ class CholmodSolver final : public LinearSolver {
   long long blocks() const override { return (long long)(common_.lnz / 9); }
 
  private:
-  /// lower triangle by columns; places_ finds the nine entries of each block
+  /// Lower triangle by columns; `places_` has the indices of the nine entries of each block.
   void build_pattern(const std::vector<std::vector<int>>& graph) {
     const int n = int(graph.size());
     long long entries = 0;

@@ -146,7 +146,7 @@ Result<void> DampedMotion::settle(MovingState& moving, const RestOptions& rest,
                                   const std::function<void(const MovingState&)>& seen,
                                   const Watch& watch) {
   const double wanted = options_.step_s, end = moving.time + rest.longest_s;
-  struct Back {  // the step asked for stays that of the next moving
+  struct Back {  // restores the requested step for the next motion
     double& step;
     double wanted;
     ~Back() { step = wanted; }

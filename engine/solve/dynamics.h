@@ -13,9 +13,9 @@
 namespace gridshell {
 
 /// Units: mm, N, s; a mass in tonnes (1 t = 1000 kg) makes N = t mm/s^2.
-/// Lumped masses, one an unknown: a node has half the mass of each edge that meets there, an angle
-/// the edge's inertia about its axis. `mass_t_per_mm`: one a rod, or one for all; `on_nodes`: what
-/// the first nodes carry beside that. Errors (bad_input): a rod without mass.
+/// Lumped masses, one per unknown: a node has half the mass of each edge at the node, an angle the
+/// edge's inertia about its axis. `mass_t_per_mm`: one per rod, or one for all; `on_nodes`:
+/// additional mass of the first nodes. Errors (bad_input): a rod without mass.
 Result<Eigen::Matrix3Xd> lumped_mass(const Model& model, const std::vector<double>& mass_t_per_mm,
                                      const Eigen::RowVectorXd& on_nodes = {});
 
@@ -40,9 +40,9 @@ struct DynamicsOptions {
 /// 1/2 sum m v^2, mJ.
 double kinetic_energy(const Eigen::Matrix3Xd& mass, const MovingState& moving);
 
-// Motion in time that is meant to come to rest: a snap.
+// Motion in time until equilibrium: a snap.
 
-/// When a motion has come to rest, and how long it may take.
+/// Criterion for equilibrium, and the longest time until it.
 struct RestOptions {
   double still_N = 1e-5;    ///< largest force of the shell, inertia not counted
   double still_mJ = 1e-10;  ///< kinetic energy
@@ -50,20 +50,21 @@ struct RestOptions {
 };
 
 /// TR-BDF2 with mass-proportional damping [Bank et al. 1985]: the trapezoidal rule over gamma h,
-/// the two-step backward formula over the rest, gamma = 2 - sqrt 2 (both parts then have the same
-/// matrix dE''/dx^2 + m (1/w^2 + c/w), w = (1 - 1/sqrt 2) h). Second order and L-stable: what
-/// vibrates faster than the step sees dies out at once, which the midpoint rule would keep.
+/// then the two-step backward formula up to h, gamma = 2 - sqrt 2. Both parts have the same matrix
+/// dE''/dx^2 + m (1/w^2 + c/w), w = (1 - 1/sqrt 2) h. The method is of second order and L-stable:
+/// oscillations faster than the step are damped at once, whereas the midpoint rule would preserve
+/// them.
 class DampedMotion {
  public:
-  /// `holds` as in Linearisation: their components are held, by a mass a million times the shell's.
+  /// `holds` as in Linearisation; a mass a million times the shell's fixes their components.
   DampedMotion(const Model& model, Eigen::Matrix3Xd mass, const DynamicsOptions& options,
                const ExternalLoads& outside = {}, std::vector<Constraint> holds = {});
 
   /// One step; on failure (false), also of one that is stopped, the motion is unchanged.
   bool step(MovingState& moving, const Watch& watch = unwatched);
 
-  /// Steps to rest; one that fails is halved, good ones grow again. `seen` is called after each.
-  /// Errors: no_equilibrium (not at rest in time, or a step too small), cancelled.
+  /// Steps until equilibrium. A step that fails is halved; successful steps grow again. `seen` is
+  /// called after each. Errors: no_equilibrium (time exceeded or a step too small), cancelled.
   Result<void> settle(MovingState& moving, const RestOptions& rest,
                       const std::function<void(const MovingState&)>& seen, const Watch& watch);
 

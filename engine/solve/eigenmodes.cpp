@@ -20,7 +20,7 @@ struct Pairs {
 
 struct Stopped {};
 
-/// M^1/2 K^-1 M^1/2 beside vectors that were found before; what Spectra asks of an operator.
+/// M^1/2 K^-1 M^1/2 orthogonal to the vectors found before; the operator interface of Spectra.
 class InverseBeside {
  public:
   using Scalar = double;
@@ -53,10 +53,10 @@ class InverseBeside {
   const Watch& watch_;
 };
 
-/// Adds what one more run finds beyond the `count` pairs of largest size that are there, of the
-/// sign that `rule` asks for. Whether it found any. A run that ends with some alone converged, as
-/// beside a mode of nearly no stiffness, of which solves are full, leaves the others to the next.
-/// Errors: as softest_modes().
+/// Appends the pairs that another run finds in addition to the `count` largest present ones, of the
+/// sign given by `rule`. Returns whether it found any. If a run converges only some of its pairs,
+/// as near a mode of almost no stiffness, the next run finds the others. Errors: as
+/// softest_modes().
 Result<bool> extend(const InverseBeside& inverse, Spectra::SortRule rule, Index count, Index ask,
                     Pairs& found) {
   constexpr int most_restarts = 100;
@@ -100,7 +100,7 @@ Result<Pairs> largest(const Linearisation& system, const Eigen::Matrix3Xd& root,
                       Index all, Spectra::SortRule rule, const Watch& watch) {
   constexpr Index a_few = 4;  // that a run may have missed
   Pairs found{Eigen::VectorXd(0), Eigen::MatrixXd(root.size(), 0)};
-  // of the nearest alone it does not matter how many there are
+  // the number of modes does not matter if only the nearest is requested
   const Index runs = count > 1 ? all : count;
   for (Index ask = count, run = 0; run < runs && found.values.size() < all; ask = a_few, ++run) {
     const InverseBeside inverse(system, root, found.vectors, watch);

@@ -1,4 +1,4 @@
-// The softest modes of a state: what a shell vibrates in, and what it would lose its stability by.
+// Lowest modes of a state: the vibration modes and the mode of the lowest stability.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,17 +13,18 @@ namespace gridshell {
 /// Pairs K v = lambda M v in ascending order of lambda; v^T M v = 1.
 struct Eigenmodes {
   Eigen::VectorXd values;
-  std::vector<Eigen::Matrix3Xd> shapes;  ///< over all columns; what is held does not move
+  std::vector<Eigen::Matrix3Xd> shapes;  ///< over all columns; constrained components are zero
   std::vector<double> residuals;         ///< |K v - lambda M v| / |lambda M v|
 };
 
-/// The `count` modes of smallest lambda, K the energy's Hessian that `system` was factorised with
-/// last, with what is held held, M the diagonal `mass`, one an unknown; unknowns without one
-/// follow. Of `negative` eigenvalues below zero (the inertia tells how many) those nearest to it
-/// come first. By Lanczos' method on M^1/2 K^-1 M^1/2 [Ericsson, Ruhe 1980], and again beside what
-/// was found until nothing more is nearer to zero: one vector alone misses equal eigenvalues, which
-/// symmetric shells have in pairs. Fewer than `count` where there are no more unknowns with mass.
-/// Errors: cancelled; no_equilibrium where it does not converge.
+/// The `count` modes of smallest lambda of K v = lambda M v: K is the Hessian of the energy that
+/// `system` was last factorised with, on the unconstrained components; M is the diagonal `mass`,
+/// one entry per unknown, zero for unknowns that follow. The `negative` eigenvalues below zero
+/// (counted by the inertia) come first, nearest to zero first. Lanczos' method on M^1/2 K^-1 M^1/2
+/// [Ericsson, Ruhe 1980] is repeated orthogonal to the modes found until none is nearer to zero: a
+/// single start vector misses equal eigenvalues, which symmetric shells have in pairs. Returns
+/// fewer than `count` if fewer unknowns have mass. Errors: cancelled; no_equilibrium if it does not
+/// converge.
 Result<Eigenmodes> softest_modes(const Linearisation& system, const Eigen::Matrix3Xd& mass,
                                  int count, int negative, const Watch& watch);
 

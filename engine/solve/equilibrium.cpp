@@ -26,7 +26,7 @@ class ShiftGrowth {
   double most_, factor_ = 2;
 };
 
-/// The slow way down: what changes between its steps.
+/// Steepest descent of the energy: the variables of its iteration.
 class GradientFlow {
  public:
   GradientFlow(Linearisation& system, State& state, double step_mm, const Watch& watch)
@@ -55,7 +55,8 @@ class GradientFlow {
   }
 
  private:
-  // in steps: what is longer is corrected anew with more shift; a rest is within so much
+  // in steps: longer corrections are computed again with a larger shift; an equilibrium is within
+  // `near`
   static constexpr double longest = 2, near = 0.1;
 
   bool go(double share, bool at_once) {
@@ -98,7 +99,7 @@ Outcome gradient_flow(Linearisation& system, State& state, double step_mm, const
 
 namespace {
 
-/// Newton's way down: what changes between its steps.
+/// Newton's minimisation: the variables of its iteration.
 class Descent {
  public:
   Descent(Linearisation& system, State& state, const MinimiseOptions& options, const Watch& watch)
@@ -120,14 +121,14 @@ class Descent {
   /// Whether the last matrix was the mixed form as it is.
   bool exact() const { return weakening_ == 0 && shift_ == 0; }
 
-  /// As far along dx as the energy falls; false: rods that touch leave no way at all.
+  /// Moves along dx as long as the energy decreases. False: contact allows no decrease.
   bool go(const Eigen::Matrix3Xd& dx) {
     const double begin = energy_at(state_), slope = product(system_.assembly().gradient, dx);
     const Eigen::VectorXd force = system_.assembly().force, change = system_.force_change(dx);
     const auto falls = [&](double step) {
       return energy_at(trial_) <= begin + 1e-4 * step * slope + 1e-14 * std::abs(begin);
     };
-    const auto clear = [&] {  // the rods got their lengths back by another way
+    const auto clear = [&] {  // the rods recovered their lengths by other means
       return system_.clear_share(state_, trial_.x - state_.x) == 1;
     };
     double step = system_.clear_share(state_, dx);

@@ -1,5 +1,5 @@
-// How a shell comes to rest: down the energy, slowly or by Newton's steps, and off a state that is
-// not stable.
+// How an equilibrium is found from a state that is not one: by descent of the energy, slowly or by
+// Newton's method, and away from saddles.
 #pragma once
 
 #include <functional>
@@ -30,34 +30,36 @@ Outcome gradient_flow(Linearisation& system, State& state, double step_mm, const
 struct MinimiseOptions {
   double tolerance_mm = 1e-5;
   int most_iterations = 400;
-  double EA_scale = 1;  ///< rods made softer: a way to a state near that of rods as they are
-  /// From a state that no state is near to: what made the matrix positive definite is remembered
-  /// from step to step. Four times as fast there, but long steps may leave the valley they began
-  /// in, which a seed or a branch has chosen.
+  /// factor of EA; a softer rod leads to a state near that of the actual rods
+  double EA_scale = 1;
+  /// For states far from any equilibrium: the shift that made the matrix positive definite is
+  /// reused in the next step. This is four times as fast there, but long steps may leave the basin
+  /// of attraction that a seed or a branch has chosen.
   bool rough = false;
 };
 
-/// Newton's corrections of the mixed form with a line search: the energy falls at every step, and
-/// the end is a minimum, never a saddle. Where the matrix is not positive definite its compressive
-/// axial forces are weakened until it is (they alone make nearly straight rods lose stability), and
-/// only where that is not enough it is shifted. A step that would stretch the rods is followed by
-/// one that gives them their lengths back, so that soft modes may go far. At a saddle where nothing
-/// moves the outcome is not_converged; leave_saddle() leads on. `state.force` is where
-/// the mixed form starts (zero serves), and is set at the end. Outcomes: reached, not_converged,
-/// not_finite, lost (rods that touch leave no way down), cancelled.
+/// Newton's method for the mixed form with a line search. The energy decreases at every step, and
+/// the result is a minimum, never a saddle. Where the matrix is not positive definite, compressive
+/// axial forces are reduced until it is (they alone destabilise nearly straight rods); if that is
+/// not enough, the matrix is shifted. A step that would stretch the rods is followed by one that
+/// restores their lengths, so that displacements along low modes may be large. At a saddle without
+/// a descent direction the outcome is not_converged; leave_saddle() continues from there.
+/// `state.force` is the start of the mixed form (zero is enough) and is set at the end. Outcomes:
+/// reached, not_converged, not_finite, lost (contact leaves no descent direction), cancelled.
 NewtonReport minimise(Linearisation& system, State& state, const MinimiseOptions& options,
                       const Watch& watch);
 
-// Coming to rest: beside a state that is not stable, and after a path lost its branch.
+// Search for an equilibrium near an unstable state, or after a path lost its branch.
 
 /// How an unstable state is left.
 struct BranchSwitch {
-  Eigen::Matrix3Xd start;  ///< over all columns: its part along the softest modes is followed;
-                           ///< empty: any
+  /// Start vector over all columns; its projection on the lowest modes is followed; empty: any.
+  Eigen::Matrix3Xd start;
   BranchSide side = BranchSide::lower;
   double amplitude_mm = 0.5;  ///< of the push: far above round-off, far below a cell
-  double step_mm = 0.5;       ///< of the way down, gradient_flow()
-  /// Of the mesh. Where one of them takes one side to the other, one way down is enough.
+  double step_mm = 0.5;       ///< step of the descent, gradient_flow()
+  /// Symmetries of the mesh. If one maps one side of the saddle to the other, only one descent is
+  /// computed.
   std::vector<MeshSymmetry> symmetries = {};
 };
 
@@ -65,27 +67,27 @@ struct BranchSwitch {
 /// most as long as one.
 Eigen::Matrix3Xd generic_direction(Eigen::Index columns);
 
-/// Softest mode of the Hessian last assembled in `system` by inverse iteration from `start` (empty:
-/// any): unit vector over all columns, zero at what is held. Its side, and the mixture where
-/// several modes are equally soft, are those of the start's projection on them.
+/// Lowest mode of the Hessian last assembled in `system`, by inverse iteration from `start` (empty:
+/// any): a unit vector over all columns, zero at constrained components. Its sign, and the
+/// combination of several modes of equal eigenvalue, are those of the projection of `start`.
 Eigen::Matrix3Xd softest_mode(Linearisation& system, const Eigen::Matrix3Xd& start,
                               const Watch& watch);
 
-/// From `state` to rest near it: full Newton steps that move no node further than `farthest_mm` and
-/// end in a minimum, else down the energy, else off a saddle along its softest mode. Errors:
-/// no_equilibrium with what was tried, cancelled.
+/// Finds an equilibrium near `state`: by full Newton steps that displace no node by more than
+/// `farthest_mm` and end in a minimum; else by minimising the energy; else from a saddle along its
+/// lowest mode. Errors: no_equilibrium with the methods that were tried, cancelled.
 Result<State> find_equilibrium(Linearisation& system, const State& state, double farthest_mm,
                                const Watch& watch);
 
-/// Down the energy to a minimum; where that ends at a saddle, off it along its softest mode.
-/// Errors as find_equilibrium().
+/// Minimises the energy; from a saddle it continues along the lowest mode. Errors as
+/// find_equilibrium().
 Result<State> minimise_from(Linearisation& system, State state, const Watch& watch,
                             const BranchSwitch& departure = {});
 
-/// From a state that is not stable, pushed along `mode` (its softest) to either side, to the rest
-/// that the steepest slope leads to; the one of lower energy, or that on the side asked for. One
-/// side alone is gone down where the other comes to the same or to its mirror image. A push
-/// that leads back to the saddle is repeated four times as large, up to 1 mm. Errors:
+/// Perturbs an unstable state along `mode` (its lowest) to either side and follows the steepest
+/// descent to an equilibrium. Returns the one of lower energy, or the one on the requested side.
+/// Only one side is computed if the other leads to the same state or its mirror image. A
+/// perturbation that leads back to the saddle is repeated four times as large, up to 1 mm. Errors:
 /// no_equilibrium, cancelled.
 Result<State> leave_saddle(Linearisation& system, const State& unstable,
                            const Eigen::Matrix3Xd& mode, const BranchSwitch& departure,

@@ -11,7 +11,7 @@
 namespace gridshell {
 namespace {
 
-// of the largest axial force: what a last correction leaves strains the rods by more than that
+// fraction of the largest axial force; a larger error of the last correction strains the rods
 constexpr double certified_misfit = 1e-5;
 
 }  // namespace
@@ -116,7 +116,7 @@ Outcome PathFollower::step(double t, bool converge, NewtonReport& report, const 
   NewtonOptions newton_options;
   newton_options.tolerance_mm =
       converge ? options_.tolerance_mm : options_.target_move * options_.spacing_mm;
-  // a prediction that takes more to come to rest may be beyond a fold, next to another branch
+  // a prediction that needs more iterations may be past a fold, next to another branch
   newton_options.most_iterations = 5;
   if (contact.any()) {
     // what begins to press takes some more, and a tangent knows of it within the gap alone
@@ -180,7 +180,7 @@ PathReport PathFollower::advance(double t, const Watch& watch) {
     ++report.halvings;
     now_.step = h / 2;
     if (now_.step >= options_.smallest_step) continue;
-    // with one correction a point next to the path's end may lie beyond it
+    // after one correction a point near the end of the path may lie past it
     if (!exact) {
       exact = true;
       resume(from);

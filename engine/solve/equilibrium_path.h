@@ -1,5 +1,5 @@
-// Following an equilibrium while the pinned nodes move: predictor and corrector with one
-// factorisation a step, steps chosen by how well the prediction did.
+// PathFollower: follows an equilibrium of one mesh while its pinned nodes move, by a predictor and
+// a corrector with one factorisation per step.
 #pragma once
 
 #include <span>
@@ -11,59 +11,64 @@
 
 namespace gridshell {
 
-/// A state on the path with its derivative by t.
+/// A state on the path with its derivative by the path parameter t. PathFollower computes it.
 struct PathPoint {
   static constexpr double first_step = 0.05;  // in t
+  /// Path parameter, dimensionless.
   double t = 0;
+  /// Nodes (mm), axial forces (N) and twist angles (rad).
   State state;
-  State velocity = {};       ///< by t; it has no frames
-  double step = first_step;  ///< in t: the next one, by how well the last prediction did
+  State velocity = {};       ///< derivative of `state` by t; it has no frames
+  double step = first_step;  ///< next step in t, from the error of the last prediction
 };
 
-/// The polynomial at t through states of a path and their tangents [Hermite]; angles, which count
-/// from a state's own frames, go on from the first.
+/// Hermite polynomial at t through states of a path and their tangents. Twist angles count from the
+/// frames of the first state.
 State between(const Model& model, std::span<const PathPoint* const> points, double t);
 
 struct PathOptions {
-  double spacing_mm = 20;       ///< d: what moves are measured against
-  double target_move = 0.01;    ///< correction aimed at, of d: sets the next step
-  double largest_move = 0.1;    ///< correction refused, of d: the step is halved
+  double spacing_mm = 20;       ///< d, the scale of corrections
+  double target_move = 0.01;    ///< intended correction, in d: sets the next step
+  double largest_move = 0.1;    ///< largest accepted correction, in d; above it the step is halved
   double largest_step = 0.25;   ///< in t
-  double smallest_step = 1e-5;  ///< in t: below, the path is lost
+  double smallest_step = 1e-5;  ///< in t; below it the path counts as lost
   double tolerance_mm =
-      1e-6;  ///< of points that are asked for; between them one correction is enough
-  double widest_turn = -0.5;    ///< cosine of the turn at which two edges have folded
-  bool allow_unstable = false;  ///< go on through states with negative pivots
-  Team* team = nullptr;         ///< who helps with large matrices
+      /// Tolerance of requested points, mm; between them a single correction is made.
+      1e-6;
+  /// cosine of the angle between two edges at which they count as folded
+  double widest_turn = -0.5;
+  bool allow_unstable = false;  ///< continue through states with negative pivots
+  Team* team = nullptr;         ///< threads for large matrices; null: one thread
 };
 
 struct PathReport {
-  Outcome end = Outcome::reached;  ///< reached, unstable, folded, lost, not_finite, cancelled
-  double t = 0;                    ///< how far the path is certified
+  Outcome end = Outcome::reached;  ///< reached, unstable, folded, lost, not_finite or cancelled
+  double t = 0;                    ///< path parameter up to which the path is certified
   int steps = 0, halvings = 0;
-  NewtonReport last;  ///< of the last point that was converged
+  NewtonReport last;  ///< of the last converged point
 };
 
-/// Follows one model along one motion of its pinned nodes, forwards or backwards. Holds the current
-/// point and the one before it. Between two accepted points the correction is a small part of the
-/// move predicted, no pivot is negative and no edge folds, so they lie on one stable branch.
+/// Follows one model along one motion of its pinned nodes, forwards or backwards. It stores the
+/// current point and the one before it. Between two accepted points the correction is a small part
+/// of the predicted displacement, no pivot is negative and no edge folds; the points are then on
+/// one stable branch.
 class PathFollower {
  public:
   PathFollower(Linearisation& system, const PinnedMotion& motion, const PathOptions& options);
 
-  /// Takes an equilibrium at t and works out its tangent. The state is first corrected to
-  /// tolerance.
+  /// Corrects a state at t to the tolerance and computes its tangent.
   PathReport start(double t, State state, const Watch& watch = unwatched);
 
-  /// Follows the path to t and converges there. On failure the current point is the last good one.
+  /// Follows the path to t and converges there. On failure the current point is the last converged
+  /// one.
   PathReport advance(double t, const Watch& watch);
 
-  /// Continues from a point that was followed before, under the loads of that point, without a
-  /// factorisation. `across`: a point further on, which stays valid meanwhile, on the same branch:
-  /// states between them are predicted on the cubic through both, in one step.
+  /// Continues from an earlier point under the loads of that point, without a factorisation.
+  /// `across`: a later point of the same branch, which must remain valid; states between the two
+  /// are predicted in one step on the cubic through both.
   void resume(const PathPoint& point, const PathPoint* across = nullptr);
 
-  /// Predicted state at t from the current point (by its tangent and that of the point before).
+  /// State predicted at t from the tangents of the current point and the one before it.
   State predict(double t) const;
 
   void allow_unstable(bool allow) { options_.allow_unstable = allow; }
@@ -81,7 +86,7 @@ class PathFollower {
   PathPoint now_, before_;
   NewtonReport last_;
   bool has_before_ = false;
-  const PathPoint* across_ = nullptr;  // of resume(), until a step is taken
+  const PathPoint* across_ = nullptr;  // of resume(), until the first step
 };
 
 }  // namespace gridshell

@@ -1,4 +1,4 @@
-// Off a state that is not stable, along its softest mode, and down to the rest beside it.
+// Descent from an unstable state along its lowest mode to the equilibrium near it.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -41,7 +41,7 @@ State pushed(const Model& model, const State& state, const Eigen::Matrix3Xd& by)
   return moved;
 }
 
-/// Whether one way down is enough, as the other is known from it.
+/// Whether one descent is enough because a symmetry gives the other.
 bool sides_equivalent(Linearisation& system, const State& unstable, const Eigen::Matrix3Xd& push,
                       const BranchSwitch& departure) {
   if (departure.side != BranchSide::lower) return false;
@@ -52,7 +52,8 @@ bool sides_equivalent(Linearisation& system, const State& unstable, const Eigen:
     return system.assembly().gradient;
   };
   const Eigen::Matrix3Xd slope = slope_at(along);
-  // beside a state that is no equilibrium, as beyond a fold, the slope leads to one side from both
+  // near a state that is no equilibrium, as past a fold, both sides may descend in the same
+  // direction
   const double here = product(slope, push), there = product(slope_at(against), push);
   if (std::abs(here - there) < 0.1 * std::abs(here + there)) return true;
 
@@ -72,11 +73,12 @@ bool sides_equivalent(Linearisation& system, const State& unstable, const Eigen:
   });
 }
 
-/// The nodes of the states that a way down passes, in order; single precision tells ways apart.
+/// Nodes of the states that a descent passes, in order; single precision distinguishes them well
+/// enough.
 using WayDown = std::vector<Eigen::Matrix3Xf>;
 
-/// Whether a way that has come to `x` comes upon `other`: between two states of it, of which the
-/// first is `at`, counted on from ask to ask as both ways lead down.
+/// Whether a descent that has reached `x` meets the descent `other`: between two of its states, of
+/// which the first is `at`. The index only increases from call to call, since both descend.
 bool comes_upon(const WayDown& other, const Eigen::Matrix3Xd& x, double near_mm, std::size_t& at) {
   for (; at + 1 < other.size(); ++at) {
     const Eigen::Matrix3Xf along = other[at + 1] - other[at], from = x.cast<float>() - other[at];
@@ -87,9 +89,9 @@ bool comes_upon(const WayDown& other, const Eigen::Matrix3Xd& x, double near_mm,
   return false;
 }
 
-/// To rest from beside an unstable state, pushed `along`, whose largest column is 1; nothing where
-/// there is none. The way is kept in `passed`, and ends where it comes upon `other` (null:
-/// neither).
+/// The equilibrium reached from an unstable state perturbed along `along`, whose largest column is
+/// 1; empty if there is none. `passed` stores the descent, which ends where it meets `other` (null:
+/// nowhere).
 std::optional<State> rest_beside(Linearisation& system, const State& unstable,
                                  const Eigen::Matrix3Xd& along, const BranchSwitch& departure,
                                  WayDown* passed, const WayDown* other, const Watch& watch) {
@@ -130,7 +132,7 @@ Result<State> leave_saddle(Linearisation& system, const State& unstable,
     if (watch.cancelled()) return fail(Fault::cancelled, "stopped while looking for a rest");
     if (!state) continue;
     if (one) return *state;
-    // of two mirror images it is always the same one, whatever round-off says
+    // of two mirror images always the same one is chosen, independent of round-off
     const double found = system.energy_at(*state);
     if (best && found > lowest - 1e-6 * std::abs(lowest)) continue;
     lowest = found;

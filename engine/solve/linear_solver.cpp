@@ -8,8 +8,8 @@
 namespace gridshell {
 namespace {
 
-/// Blocks beyond a model's pattern, between edges that come near each other or nodes of a face: a
-/// pattern with theirs and a solver planned for it.
+/// Solver for Hessians with blocks outside the model's pattern, between edges that are close or
+/// nodes of a face: it has a pattern with these blocks and a plan for it.
 class BeyondSolver final : public LinearSolver {
  public:
   explicit BeyondSolver(const Model& model) : model_(model), apart_(make_block_cholesky(model)) {}
@@ -54,7 +54,7 @@ class BeyondSolver final : public LinearSolver {
       wider_->pattern.slot(one.row, one.column);
     together_ = make_block_cholesky(*wider_);
   }
-  /// The same with all blocks in the pattern.
+  /// The Hessian with all blocks in the pattern.
   const BlockHessian& merged(const BlockHessian& hessian) {
     merged_.diagonal = hessian.diagonal;
     merged_.pair = hessian.pair;
@@ -65,7 +65,7 @@ class BeyondSolver final : public LinearSolver {
   }
 
   const Model& model_;
-  std::optional<Model> wider_;  // its pattern has the blocks beyond
+  std::optional<Model> wider_;  // its pattern includes the additional blocks
   std::unique_ptr<LinearSolver> apart_, together_;
   LinearSolver* current_ = apart_.get();
   BlockHessian merged_;

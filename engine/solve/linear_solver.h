@@ -49,21 +49,21 @@ class LinearSolver {
   /// Factorises the rows and columns of what is free of `hessian` + `shift` I.
   virtual Inertia factor(const BlockHessian& hessian, double shift) = 0;
 
-  /// Factorises no further once more pivots than this are negative: nothing can be solved with it
-  /// then, and Inertia counts those met so far. A solver may go on to the end.
+  /// Stops the factorisation when more pivots than this are negative: the factor cannot be used to
+  /// solve then, and Inertia counts the pivots met so far. A solver may continue to the end.
   int most_negative = std::numeric_limits<int>::max();
 
-  /// Who helps where a matrix is large; results do not hang on it.
+  /// Threads for large matrices; results do not depend on their number.
   Team* team = nullptr;
 
-  /// Where the numbers of its factor stand; solvers that share it take turns. Empty: its own. A
-  /// solver may have memory of its own beside it.
+  /// Memory of the factor's numbers; solvers that share it take turns. Empty: own memory. A solver
+  /// may have further memory of its own.
   std::shared_ptr<FactorNumbers> numbers;
-  /// Whether what was factorised last is still there: another one may have taken its place.
+  /// Whether the last factor still exists; a solver that shares the memory may have overwritten it.
   virtual bool has_factor() const { return true; }
 
-  /// Solves for the right-hand sides at the free columns, in place; what is held comes back as
-  /// zero. Needs a factor() that was usable and is there.
+  /// Solves for right-hand sides at the free columns, in place; constrained components of the
+  /// result are zero. It requires a usable factor() that still exists.
   virtual void solve(Eigen::Matrix3Xd& right_hand_side) const = 0;
 
   /// Gives back the memory that it has of its own; the next factor() takes it again.
@@ -73,15 +73,16 @@ class LinearSolver {
   virtual long long blocks() const = 0;
 };
 
-/// What a model's Hessians are solved with: a pattern solver, and another one for the pattern with
-/// the blocks beyond it, which is planned anew when one of them is new: a plan takes some three
-/// factorisations, and as blocks are kept for edges that only come near it is rare. A factor of the
-/// pattern corrected by low rank would need as many solves as there are contacts.
+/// Solver for a model's Hessians: one for its pattern, and one for the pattern with the blocks
+/// outside it, which is planned again when a new block appears. A plan takes about three
+/// factorisations; it is rare, since blocks are retained for edges that only come close. Low-rank
+/// corrections of a factor of the pattern would need as many solves as there are contacts.
 std::unique_ptr<LinearSolver> make_linear_solver(const Model& model);
 
-/// 3x3-block signed Cholesky L S L^T on a fixed schedule, geometric nested dissection: of 192 rods,
-/// 4 and 8 edges a segment (613 000 and 1.3 million degrees of freedom), it takes a fourth of the
-/// time of the one below and two thirds of its memory. Blocks beyond the pattern are not seen.
+/// 3x3-block signed Cholesky L S L^T on a fixed schedule, geometric nested dissection. With 192
+/// rods, 4 and 8 edges per segment (613 000 and 1.3 million degrees of freedom), it takes a fourth
+/// of the time and two thirds of the memory of the solver below. It does not support blocks outside
+/// the pattern.
 std::unique_ptr<LinearSolver> make_block_cholesky(const Model& model);
 
 /// How CHOLMOD factorises, and in which order.
@@ -95,8 +96,8 @@ struct CholmodOptions {
 /// CHOLMOD [Chen, Davis, Hager, Rajamanickam 2008]: what ours is measured against.
 std::unique_ptr<LinearSolver> make_cholmod(const Model& model, const CholmodOptions& options = {});
 
-/// Rows and columns of `block`, whose row is column `row` of the model and whose column is
-/// `column`, that are held: zero, and one on the diagonal.
+/// `block` at row `row` and column `column` of the model with the constrained rows and columns set
+/// to zero, and one on the diagonal.
 Eigen::Matrix3d without_held(const Model& model, int row, int column, const Eigen::Matrix3d& block);
 
 // Fill-reducing elimination order of the free columns.

@@ -24,19 +24,20 @@ struct MeshLevel {
   PinnedMotion motion;
   std::unique_ptr<Linearisation> system;
 
-  /// Fills it, for a mesh of so many edges a segment. Errors (bad_input): rods that the rung cannot
-  /// take.
+  /// Builds mesh, model and solver for a number of edges per segment. Errors (bad_input): rods that
+  /// the rod model does not support.
   Result<void> build(const Footprint& footprint, const ShellRods& rods, RodModel rung,
                      const BoundaryMotion& boundary, int edges_per_segment);
 };
 
-// Which meshes a shell is solved on, from the accuracy asked for.
+// Choice of the meshes from the requested accuracy.
 
 /// Which meshes are solved and how they are used: the last is followed, those before measure it.
 struct LevelPlan {
   std::vector<int> edges_per_segment;  ///< coarse to fine, each twice the one before, at most three
   bool extrapolate = false;  ///< over the last two (needs three, the third for the estimate)
-  /// And so forces and energies, of two meshes too: what they leave is far below the estimate then.
+  /// Whether forces and energies are extrapolated, also from two meshes: their error is then far
+  /// below the estimate.
   bool extrapolate_forces = extrapolate;
   /// A path ends at the first load step whose estimate is above this, mm, or before which no
   /// companion has had a state over so much of the path parameter.
@@ -46,10 +47,10 @@ struct LevelPlan {
   bool operator==(const LevelPlan&) const = default;
 };
 
-/// The cheapest plan worth trying for a tolerance of the largest joint error, relative to the
-/// length scale: the error of k edges falls as 1/k^2, extrapolated as 1/k^4, and is about 3e-3 at
-/// four edges for shells of the paper's kind. The estimate says afterwards whether it held; `finer`
-/// is what to try then. The meshes are multiples of `base` edges per segment.
+/// The cheapest plan for a tolerance of the largest joint error, relative to the length scale. The
+/// error of k edges falls as 1/k^2, extrapolated as 1/k^4, and is about 3e-3 at four edges for
+/// shells of the paper's kind. The estimate shows afterwards whether the tolerance was met; `finer`
+/// is the next plan to try. The meshes are multiples of `base` edges per segment.
 LevelPlan plan_levels(double tolerance, int base = 4);
 
 /// A mesh of `edges` per segment with the companions that nest in it, at most two, from four edges

@@ -14,7 +14,7 @@ constexpr int first_steps = 6;      // of a new image, before the next one grows
 constexpr int first_climb = 4;      // rounds before a saddle is looked for
 constexpr int climb_every = 4;      // rounds from then on
 constexpr double on_string = 2;     // spacings: how far a saddle may lie from the highest image
-constexpr double over_softest = 4;  // least shift, over the softest stiffness of the first state
+constexpr double over_softest = 4;  // least shift, over the lowest stiffness of the first state
 
 class ElasticString {
  public:
@@ -84,7 +84,7 @@ class ElasticString {
     return pass;
   }
 
-  /// The same number of images, evenly apart.
+  /// Redistributes the images evenly; their number stays the same.
   void even_out() {
     std::vector<double> at(images_.size(), 0.0);
     for (std::size_t k = 1; k < images_.size(); ++k)
@@ -114,7 +114,7 @@ class ElasticString {
     double shift = 0;  ///< that served last
   };
 
-  /// Of a stable state, N/mm.
+  /// Lowest stiffness of a stable state, N/mm.
   double softest_stiffness(const State& state) {
     system_.at(state, false);
     Eigen::Matrix3Xd mode = generic_direction(state.x.cols());
@@ -127,7 +127,7 @@ class ElasticString {
     return 1 / softness;
   }
 
-  /// Part of the way from one image to the next; an end stays the state itself.
+  /// A state between two neighbouring images; an end is the state itself.
   Image between(const Image& a, const Image& b, double share) const {
     if (share == 0 || share == 1) return share == 0 ? a : b;
     Image image = share < 0.5 ? a : b;
@@ -173,7 +173,7 @@ class ElasticString {
 MountainPass mountain_pass(Linearisation& system, const State& a, const State& b,
                            const PassOptions& options, const Watch& watch) {
   MountainPass none;
-  if (max_column_norm(b.x - a.x) < options.noise_mm) return none;  // no way at all
+  if (max_column_norm(b.x - a.x) < options.noise_mm) return none;  // no displacement at all
   ElasticString string(system, options, watch);
   if (string.grow(a, b)) {
     for (int round = 0; round < options.most_rounds; ++round) {

@@ -1,5 +1,5 @@
-// The lowest way from one stable state to another, and the pass where it goes highest: the height
-// of the barrier between them.
+// Minimum-energy path between two stable states and its highest point, the mountain pass, which
+// gives the height of the barrier.
 #pragma once
 
 #include <vector>
@@ -11,19 +11,20 @@
 namespace gridshell {
 
 struct PassOptions {
-  int images = 16;         ///< states along the way, both ends among them
-  int most_rounds = 500;   ///< of the string
-  double step_mm = 2;      ///< no node moves further in one of them
-  double noise_mm = 0.01;  ///< of the first string, so that no symmetry of both ends holds it
+  int images = 16;        ///< number of states along the path, both ends included
+  int most_rounds = 500;  ///< of the string
+  double step_mm = 2;     ///< no node moves further in one of them
+  /// perturbation of the first string, so that a symmetry of both ends does not constrain it
+  double noise_mm = 0.01;
 };
 
-/// A saddle with one way down.
+/// A saddle with one descent direction.
 struct MountainPass {
   Outcome outcome = Outcome::not_converged;  ///< reached, not_converged, cancelled
   State saddle;
   double energy_mJ = 0;
   double residual_N = 0;
-  Eigen::Matrix3Xd towards_b;     ///< its soft mode, a unit vector, pointing on along the way
+  Eigen::Matrix3Xd towards_b;     ///< its lowest mode, a unit vector, in the direction of b
   std::vector<double> string_mJ;  ///< energies of the string, from a to b
 };
 

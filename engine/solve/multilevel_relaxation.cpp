@@ -12,7 +12,7 @@
 namespace gridshell {
 namespace {
 
-constexpr double coarse_mm = 0.03;  // to which coarse meshes come to rest
+constexpr double coarse_mm = 0.03;  // tolerance on coarse meshes
 constexpr int most_coarse = 200;    // iterations on each of them
 constexpr double push_off = 0.1;    // of d: off an equilibrium that is not stable
 
@@ -25,7 +25,7 @@ void confine(const Model& model, const RodMesh& mesh, const std::vector<MeshSymm
   move_to(model, x, state);
 }
 
-/// Down the energy the fast way; where that does not end at rest, on from there the slow one.
+/// Minimises the energy by the fast method; if that does not converge, by the slow one.
 Result<State> rest_from_rough(Linearisation& system, State state, const Watch& watch) {
   if (minimise(system, state, {.rough = true}, watch).outcome == Outcome::reached) return state;
   return minimise_from(system, std::move(state), watch);
@@ -88,7 +88,7 @@ Eigen::Matrix3Xd MultilevelRelaxation::stretched_flat(double t) const {
   return nodes;
 }
 
-/// Where a level begins: the nodes given, on a finer one what the coarser one came to.
+/// Start of a level: the given nodes, or on a finer level the result of the coarser one.
 State MultilevelRelaxation::begin_of(const Level& level, double t, const Eigen::Matrix3Xd& nodes,
                                      const State& coarser) const {
   State state = level.from_coarser ? level.from_coarser->carry(coarser)
@@ -104,7 +104,7 @@ Result<State> MultilevelRelaxation::rest(double t, const Eigen::Matrix3Xd& nodes
   for (auto& level : levels_) {
     state = begin_of(*level, t, nodes, state);
     if (level == levels_.back()) break;
-    // a coarse mesh need not come to rest: what it left is smoother in any case
+    // a coarse mesh need not converge: its result is smoother in any case
     minimise(*level->system, state,
              {.tolerance_mm = coarse_mm, .most_iterations = most_coarse, .rough = true}, watch);
   }
@@ -160,8 +160,8 @@ Result<State> MultilevelRelaxation::rest_confined(double t, const Eigen::Matrix3
   return let_go(finest, std::move(state), watch);
 }
 
-/// Off an equilibrium that is not stable along its softest mode, and down. Which of the states
-/// below it that leads to does not matter, so it need not be the slow way of leave_saddle().
+/// Descends from an unstable equilibrium along its lowest mode. It does not matter which state it
+/// reaches, so the slow method of leave_saddle() is not needed.
 Result<State> MultilevelRelaxation::let_go(Level& level, State state, const Watch& watch) const {
   Eigen::Matrix3Xd mode = softest_mode(*level.system, {}, watch);
   mode *= push_off * spacing_mm_ / max_column_norm(mode);

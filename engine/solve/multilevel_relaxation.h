@@ -1,5 +1,5 @@
-// From a rough state to rest over meshes that grow finer: 1, 2, 4 ... edges a segment. A coarse
-// mesh has few states, and each way down from it to the next is short.
+// Relaxation of a rough state over meshes of increasing fineness: 1, 2, 4 ... edges per segment. A
+// coarse mesh has few states, and each descent from one mesh to the next is short.
 #pragma once
 
 #include <memory>
@@ -19,8 +19,8 @@ namespace gridshell {
 /// to is decided on the finest: coarse meshes have states that finer ones do not.
 class MultilevelRelaxation {
  public:
-  /// Meshes of 1, 2, 4 ... edges a segment, the last `edges` (a power of two). Errors (bad_input):
-  /// rods that the rung cannot take.
+  /// Meshes of 1, 2, 4 ... edges per segment, the last `edges` (a power of two). Errors
+  /// (bad_input): rods that the rod model does not support.
   static Result<MultilevelRelaxation> make(const Footprint& footprint, const ShellRods& rods,
                                            RodModel rung, const BoundaryMotion& motion,
                                            const FlatFrame& flat, int edges);
@@ -28,16 +28,16 @@ class MultilevelRelaxation {
   /// The nodes of the coarsest mesh as the flat footprint would stretch and turn with its ends at
   /// t: the affine map that takes the ends nearest to where they are.
   Eigen::Matrix3Xd stretched_flat(double t) const;
-  /// Positions of the coarsest mesh's nodes, what is held put where it is at t, to a stable rest on
-  /// the finest. Errors: no_equilibrium, cancelled.
+  /// Relaxes positions of the coarsest mesh's nodes, with prescribed positions at t, to a stable
+  /// equilibrium on the finest mesh. Errors: no_equilibrium, cancelled.
   Result<State> rest(double t, const Eigen::Matrix3Xd& nodes, const Watch& watch);
-  /// The same with every symmetry of `group` (indices of square_symmetries(), a group of those
-  /// that the footprint has) kept all the way; then let go: to the rest itself where it is stable,
-  /// else to that below it.
+  /// Relaxes with every symmetry of `group` imposed (indices of square_symmetries(), a group of
+  /// symmetries of the footprint), then without: the result is the symmetric equilibrium if it is
+  /// stable, else the one below it.
   Result<State> rest_confined(double t, const Eigen::Matrix3Xd& nodes,
                               const std::vector<int>& group, const Watch& watch);
 
-  /// A state of the finest mesh, what is held put where it is at t, to rest under forces on its
+  /// Relaxes a state of the finest mesh, with prescribed positions at t, under forces on its
   /// joints. Errors: no_equilibrium, cancelled.
   Result<State> rest_under(const std::vector<NodeAction>& forces, double t, State state,
                            const Watch& watch);

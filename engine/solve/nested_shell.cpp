@@ -127,7 +127,7 @@ void NestedShell::remember(const std::vector<MeshDifference>& differences) {
   for (std::size_t k = 0; k < differences.size(); ++k) levels_[k]->differences = {differences[k]};
 }
 
-/// Of the current state's companions.
+/// Differences of the coarser levels at the current state.
 std::vector<MeshDifference> NestedShell::differences() const {
   std::vector<MeshDifference> all;
   for (int k = 0; k < last(); ++k) {
@@ -198,7 +198,7 @@ NestedReport NestedShell::sample(double t, const NestedPathPoint& beside, const 
   remember(beside.companions);
   for (std::size_t k = 0; across && k < across->companions.size(); ++k)
     levels_[k]->differences.push_back(across->companions[k]);
-  // held joints ask for the stiffness there, of a factorisation
+  // with constraints the stiffness at this state is needed, hence a factorisation
   const bool known = t == beside.t && system().holds().empty();
   return certify(path, watch, known ? beside.inertia : Inertia{});
 }
@@ -234,7 +234,7 @@ void NestedShell::drive(const PrescribedMove& drive) {
 void NestedShell::actuate(double t, const std::vector<Constraint>& holds, double load_scale) {
   for (std::size_t k = 0; k < levels_.size(); ++k) {
     Level& level = *levels_[k];
-    // one that only stays somewhere yet has no state: it stands where its motion begins
+    // a shell without a state yet is where its motion starts
     const Eigen::Matrix3Xd here = state_.levels.empty() ? level.motion.begin : state_.levels[k].x;
     level.motion = pinned_motion(level.mesh, boundary_);
     level.motion.load.change = load_scale;

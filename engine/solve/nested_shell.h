@@ -1,5 +1,6 @@
-// Equilibria on one mesh that is followed, and on coarser companions that measure it: the
-// differences between them give the error or, extrapolated, remove most of it [Richardson 1911].
+// NestedShell: the equilibrium path of one gridshell on nested meshes. The finest mesh is followed;
+// the differences to the coarser ones give the error estimate or are removed by extrapolation
+// [Richardson 1911].
 #pragma once
 
 #include <algorithm>
@@ -15,164 +16,174 @@
 
 namespace gridshell {
 
-/// One certified state of the mesh that is followed, the finest, and of its companions.
+/// One certified state on all mesh levels. NestedShell computes it in start(), advance() and
+/// sample().
 struct NestedState {
+  /// Path parameter: sqrt(progress) in an actuation, 0 to 1 in a drive.
   double t = 0;
-  /// coarse to fine, one a mesh; of a companion that has no equilibrium beside the finer state that
-  /// state restricted to its mesh
+  /// States of the levels, coarse to fine. A coarser level without an equilibrium near the finer
+  /// state has the finer state restricted to its mesh.
   std::vector<State> levels;
-  int measured = 0;              ///< the coarsest level in equilibrium, as all finer ones are
-  Eigen::Matrix3Xd x;            ///< nodes of the finest mesh, extrapolated where planned
-  double error_estimate_mm = 0;  ///< largest, of all nodes of x; NaN without a companion's state
-  double residual_N = 0;         ///< of the finest level's equilibrium
-  Inertia inertia;               ///< of the finest level's Hessian
-  double largest_strain = 0;     ///< by size, with its sign
-  /// on held joints, N, extrapolated where planned of forces, and the error of the largest
+  int measured = 0;              ///< the coarsest level in equilibrium; all finer levels are too
+  Eigen::Matrix3Xd x;            ///< 3 x nodes of the finest mesh, mm, extrapolated where planned
+  double error_estimate_mm = 0;  ///< largest error of all columns of x; NaN without a coarser state
+  double residual_N = 0;         ///< largest unbalanced force on the finest level
+  Inertia inertia;               ///< numbers of pivots by sign of the finest level's Hessian
+  double largest_strain = 0;     ///< axial strain of largest magnitude, with its sign
+  /// Reactions at the constraints, N, extrapolated where planned for forces, and the largest error.
   std::vector<Eigen::Vector3d> reactions;
   double reaction_error_N = std::numeric_limits<double>::quiet_NaN();
-  /// how the reactions' held components grow with these, in the order of holds and their
-  /// directions, N/mm; likewise
+  /// Derivative of the reactions' constrained components by the constrained displacements, N/mm, in
+  /// the order of the constraints and their directions, and its largest error.
   Eigen::MatrixXd held_stiffness;
   double stiffness_error_N_per_mm = std::numeric_limits<double>::quiet_NaN();
-  State velocity;                       ///< of the finest level on its path, by t
-  double step = PathPoint::first_step;  ///< with which its path continues, in t
-  /// of the finest level, N/mm^2 (lowest_eigenvalue()), roughly; NaN: not asked for, or not stable
+  State velocity;                       ///< derivative of the finest level's state by t
+  double step = PathPoint::first_step;  ///< step in t with which the path continues
+  /// Lowest eigenvalue of the finest level's Hessian, N/mm^2 (lowest_eigenvalue()), approximate;
+  /// NaN if not requested or not stable.
   double lowest_eigenvalue = std::numeric_limits<double>::quiet_NaN();
-  Eigen::Matrix3Xf lowest_mode = {};  ///< over all columns, with it
+  Eigen::Matrix3Xf lowest_mode = {};  ///< its eigenvector, 3 x nodes and edges
 };
 
-/// Vectors that nested meshes know: those of the finest or, extrapolated, (4 fine - coarse)/3 of
+/// Vectors computed on nested meshes: those of the finest or, extrapolated, (4 fine - coarse)/3 of
 /// the last two.
 struct CertifiedVectors {
+  /// 3 x as many columns as each level has, in the unit of the levels.
   Eigen::Matrix3Xd value;
-  double error = 0;  ///< of the largest, by the order that three meshes show; NaN on one mesh
+  /// largest error of a column, by the observed order of three meshes; NaN on one mesh
+  double error = 0;
 };
 
-/// Whether meshes tell no order of convergence: none do where rods press on one another, as where
-/// on its edges a mesh presses is chance. `energies`: of the finest.
+/// Whether meshes show no order of convergence: contact forces show none, since the element on
+/// which they act varies with the mesh. `energies`: of the finest mesh, mJ.
 bool order_unknown(const Energies& energies);
 
-/// `levels`: coarse to fine, of which the last three count. Where no order is known the error is
-/// the complete step between the last two.
+/// Value and error from `levels`, coarse to fine, of which the last three are used. Without a known
+/// order the error is the complete difference of the last two.
 CertifiedVectors certify_vectors(const std::vector<Eigen::Matrix3Xd>& levels, bool extrapolate,
                                  bool no_order);
 
-/// By how much a companion's state differs from the finer one restricted to its mesh. It predicts
-/// the companion's next state, so single precision serves.
+/// Difference between a coarser level's state and the finer state restricted to its mesh. It
+/// predicts the coarser level's next state, so single precision is enough.
 struct MeshDifference {
+  /// Path parameter.
   double t = 0;
-  Eigen::Matrix3Xf x = {};     ///< of the nodes; empty: the companion has no state there
-  Eigen::VectorXf force = {};  ///< of the edges
+  Eigen::Matrix3Xf x = {};     ///< 3 x nodes, mm; empty if the level has no state at t
+  Eigen::VectorXf force = {};  ///< axial force of the edges, N
 };
 
-/// A point of the path of the finest mesh, with its companions' differences, coarse to fine.
+/// A point on the path of the finest mesh, with the differences of the coarser levels, coarse to
+/// fine.
 struct NestedPathPoint : PathPoint {
+  /// One per coarser level.
   std::vector<MeshDifference> companions = {};
-  Inertia inertia = {};  ///< of the finest level's Hessian; not usable: not known
+  Inertia inertia = {};  ///< of the finest level's Hessian; not usable if not known
 };
 
-/// How far a shell came, and why it ended there: reached, unstable, folded, lost, not_finite,
-/// cancelled.
+/// Parameter that the path reached and why it ended there: reached, unstable, folded, lost,
+/// not_finite, cancelled.
 struct NestedReport {
   Outcome end = Outcome::reached;
   double t = 0;
 };
 
-/// What moves from a state on, evenly from t = 0 to 1, on every level from where that level is.
+/// A motion prescribed from the current state, linear in t from 0 to 1 on every level.
 struct PrescribedMove {
-  std::vector<Constraint> holds;  ///< joints that are held from here on, all of them
-  std::vector<Eigen::Vector3d> displacements = {};  ///< of the held components, one a hold
+  std::vector<Constraint> holds;  ///< all constrained joints during the motion
+  /// displacements of the constrained components, mm, one per constraint
+  std::vector<Eigen::Vector3d> displacements = {};
   std::optional<BoundaryMotion> boundary =
-      {};                    ///< where the edge points go (its end); else they stay
-  LoadFactor load{1, 0};     ///< of the dead loads
-  LoadFactor field{0, 0};    ///< and of the field
-  LoadFactor opening{0, 0};  ///< and of the joints that are opened
+      {};                    ///< final positions of the edge points; empty: they stay
+  LoadFactor load{1, 0};     ///< factor of the dead loads
+  LoadFactor field{0, 0};    ///< factor of the applied load
+  LoadFactor opening{0, 0};  ///< factor of the joint actuation
 };
 
 /// A footprint meshed on several levels with one motion of its boundary. The finest mesh is
-/// followed; at each certified state its companions are solved, each from the next finer state, and
-/// decide nothing.
+/// followed. At each certified state the coarser levels are solved, each from the next finer state;
+/// they serve the error estimate only.
 class NestedShell {
  public:
-  /// Errors (bad_input): rods that the rod model cannot take.
+  /// Builds all levels. Errors (bad_input): rods that the rod model does not support.
   static Result<NestedShell> make(const Footprint& footprint, const ShellRods& rods, RodModel rung,
                                   const BoundaryMotion& motion, const LevelPlan& plan,
                                   const PathOptions& options);
 
-  /// From a state of the finest mesh at t, an equilibrium or near one: converges, certifies and
-  /// measures it.
+  /// Starts from a state of the finest mesh at t, in or near equilibrium: converges, certifies and
+  /// estimates the error.
   NestedReport start(double t, const State& fine, const Watch& watch);
-  /// The same without certificate and companions, to follow the path from there.
+  /// Starts the path from such a state without certificate and error estimate.
   NestedReport place(double t, const State& fine, const Watch& watch = unwatched);
-  /// A state of the coarsest mesh at t brought to the finest, mesh by mesh: Newton's corrections,
-  /// else down the energy. Errors: no_equilibrium, cancelled.
+  /// Prolongates a state of the coarsest mesh at t to the finest, mesh by mesh, by Newton's method,
+  /// or by minimising the energy if that fails. Errors: no_equilibrium, cancelled.
   Result<State> refined(double t, State coarse, const Watch& watch);
-  /// Follows the path to t and certifies there. The current state stays the last good one on
-  /// failure.
+  /// Follows the path to t and certifies that state. On failure the current state is the last
+  /// certified one.
   NestedReport advance(double t, const Watch& watch);
-  /// Certifies the state at t, between points of the path that are known, and leaves the path
-  /// itself as it is: `beside` is the nearest of them, `across` the next one, past t, on the same
-  /// branch.
+  /// Certifies the state at t between known points of the path; the path does not change. `beside`
+  /// is the nearest point, `across` the next one on the other side of t on the same branch.
   NestedReport sample(double t, const NestedPathPoint& beside, const Watch& watch,
                       const NestedPathPoint* across = nullptr);
 
-  /// From the current state on the shell is driven so, t = 0 being the current state. A start() at
-  /// t = 0 from the finest level's state follows.
+  /// Starts a prescribed motion from the current state, which is at t = 0. The caller then calls
+  /// start() at t = 0 with the finest level's state.
   void drive(const PrescribedMove& drive);
-  /// Back to the motion of the boundary that it was made with, joints held where they are; the
-  /// current state is at t there.
+  /// Returns to the motion of the boundary given to make(), with `holds` fixed at their positions.
+  /// The current state is at t there.
   void actuate(double t, const std::vector<Constraint>& holds, double load_scale);
-  /// Takes the state of another shell of the same footprint, everything prescribed held there: no
-  /// motion. A start() at t = 0 from the state returned, of the finest mesh, follows.
+  /// Transfers the state of another shell of the same footprint, with all that is prescribed fixed.
+  /// Returns the state of the finest mesh; the caller then calls start() at t = 0 with it.
   State stay(const NestedShell& other, const std::vector<Constraint>& holds);
-  /// The applied load that is there, and its increment in a drive.
+  /// Sets the applied load and its increment in a drive, N on each node.
   void set_fields(const std::vector<NodeAction>& steady, const std::vector<NodeAction>& field);
 
   const NestedState& state() const { return state_; }
-  /// Goes back to a state that it had, on the motion that it is on.
+  /// Restores an earlier state of the current motion.
   void back_to(const NestedState& state);
-  /// The same with the motions and holds that it had then.
+  /// Restores an earlier state with its motions and constraints.
   void restore(const NestedState& state, const std::vector<PinnedMotion>& motions,
                const std::vector<Constraint>& holds);
-  /// How far the path came: past the current state where an advance() failed.
+  /// Point that the path follower reached; it is past the current state if advance() failed.
   const PathPoint& followed() const { return path_->point(); }
-  /// The current state's point of the path.
+  /// The current state as a point of the path.
   NestedPathPoint point() const;
   const LevelPlan& plan() const { return plan_; }
   int levels() const { return int(levels_.size()); }
-  int last() const { return levels() - 1; }  ///< the level that is followed
-  /// Whether the current state is extrapolated, and whether its forces and energies are.
+  int last() const { return levels() - 1; }  ///< index of the finest level
+  /// Whether positions of the current state are extrapolated; the next function: forces and
+  /// energies.
   bool extrapolates() const { return plan_.extrapolate && state_.measured + 2 <= last(); }
   bool extrapolates_forces() const { return plan_.extrapolate_forces && state_.measured < last(); }
   const RodMesh& mesh(int level) const { return levels_[std::size_t(level)]->mesh; }
   const RodMesh& finest() const { return levels_.back()->mesh; }
-  /// The first of the levels, up to the finest, that tell what forces and energies come to.
+  /// Index of the first of the levels that forces and energies are computed from, at most three.
   int first_of_last_three() const { return std::max(state_.measured, levels() - 3); }
   const Model& model(int level) const { return levels_[std::size_t(level)]->model; }
   const Model& model() const { return levels_.back()->model; }
   Linearisation& system(int level) { return *levels_[std::size_t(level)]->system; }
   Linearisation& system() { return *levels_.back()->system; }
-  /// What acts on a level from outside.
+  /// The loads on a level.
   const ExternalLoads& outside(int level) const {
     return levels_[std::size_t(level)]->system->outside;
   }
   const PinnedMotion& motion(int level) const { return levels_[std::size_t(level)]->motion; }
   const PinnedMotion& motion() const { return levels_.back()->motion; }
-  std::vector<PinnedMotion> motions() const;  ///< one a level
-  /// Puts the loads of the current state on all levels.
+  std::vector<PinnedMotion> motions() const;  ///< one per level
+  /// Applies the loads of the current state to all levels.
   void apply_loads();
-  /// Energies of a level's state under what acts there.
+  /// Energies of a level's state under its loads, mJ.
   Energies energies(int level) const;
-  /// Forces and tangents of a level's state under what acts there.
+  /// Forces (N) and tangents of a level's state under its loads.
   Assembly forces(int level) const;
-  /// Largest prescribed move, mm, while the motion comes all the way.
+  /// Largest prescribed displacement, mm, of the complete motion.
   double reach_mm() const { return max_column_norm(levels_.back()->motion.change); }
   Effort effort() const;
-  /// Gives back the memory of its matrices, most of what it has; the next use takes it again.
+  /// Frees the memory of the matrices, most of what the shell uses; the next use allocates it
+  /// again.
   void free_memory();
-  /// Whether certified states know their lowest eigenvalue.
+  /// Sets whether certified states compute their lowest eigenvalue.
   void watch_stability(bool watches) { watches_stability_ = watches; }
-  /// Whether the path may go on through states with negative pivots (they stay in the report).
+  /// Sets whether the path continues through states with negative pivots, which the report counts.
   void allow_unstable(bool allow) { options_.allow_unstable = allow; }
 
  private:
@@ -181,7 +192,7 @@ class NestedShell {
     std::vector<NodeAction> steady, field;
     std::vector<MeshDifference> differences;  // at the last three states
   };
-  /// What a level says of its held joints.
+  /// Reactions and tangent stiffness at a level's constraints.
   struct HeldForces {
     Eigen::Matrix3Xd force;
     Eigen::MatrixXd stiffness;

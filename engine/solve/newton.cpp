@@ -12,10 +12,10 @@
 namespace gridshell {
 namespace {
 
-// of the order of a shell's own stiffness, so that neither swamps the other
+// of the order of a shell's stiffness, so that neither dominates the other
 constexpr double border_stiffness = 1;  // g, N/mm
 
-/// EA over the rest length times how much longer an edge is.
+/// EA times the strain of an edge, N.
 double force_of_strain(const ModelEdge& edge, const Eigen::Matrix3Xd& x) {
   return stretch(edge.EA, edge.rest_length, (x.col(edge.to) - x.col(edge.from)).norm()).force;
 }
@@ -58,13 +58,13 @@ Inertia Linearisation::shifted(double shift) {
 }
 
 void Linearisation::bear_neutral_directions() {
-  // of the softest rod's stiffness against one half wave, EI (pi/L)^4 l a node: what a state that
-  // is corrected once leaves of a direction without any
+  // fraction of the least stiff rod's stiffness in one half wave, EI (pi/L)^4 l per node: what a
+  // single correction leaves along a direction without stiffness
   constexpr double share = 5e-5;
   double softest = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < model_.bends.size();) {
     const ModelBend& first = model_.bends[k];
-    // the ghost beside an end that holds its direction has no length, its bend a law of its own
+    // the ghost at an end of prescribed direction has no length; its bend follows a law of its own
     const auto length = [&](int edge) { return length_between(model_, edge, edge); };
     double rod = length(first.e), soft = 0;
     for (int e = first.e; k < model_.bends.size() && model_.bends[k].e == e; ++k) {
@@ -282,10 +282,10 @@ double lowest_eigenvalue(Linearisation& system, const Eigen::VectorXd& length, E
 
 namespace {
 
-/// About what the correction after one of a new factorisation is, by its square. Over thirteen
-/// presets of all kinds half were below m^2/l, nine in ten below 5 m^2/l but for three presets, and
-/// beside a snap it was a hundred times that: what is left out then is still below a tenth of the
-/// accuracy that tolerances are chosen for.
+/// Estimate of the correction after one of a new factorisation, by its square. Over thirteen
+/// presets of all kinds half of the corrections were below m^2/l; nine in ten were below 5 m^2/l
+/// except for three presets. Near a snap the estimate was a hundred times too small; the remaining
+/// error is then still below a tenth of the accuracy that tolerances are chosen for.
 class NextCorrection {
  public:
   explicit NextCorrection(const Model& model) {
@@ -348,7 +348,7 @@ NewtonReport newton(Linearisation& system, State& state, const NewtonOptions& op
     const auto forces_agree = [&] {
       return !options.trusted_misfit || system.forces_agree(state, *options.trusted_misfit);
     };
-    // of one from elsewhere the first correction alone tells nothing
+    // with a factor of another state, the first correction alone does not show convergence
     const bool doubtful = borrowed && (report.iterations == 1 || move > 0.1 * before);
     if (move <= options.tolerance_mm && !doubtful && (!borrowed || forces_agree()))
       return end(Outcome::reached);

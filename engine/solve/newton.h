@@ -1,5 +1,5 @@
-// A model's equilibrium equations at a state, assembled and factorised: what every solver works
-// with, on every rung.
+// Linearisation and newton(): a model's equilibrium equations at a state, assembled and factorised.
+// Every solver uses them, with every rod model.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,9 +14,8 @@
 
 namespace gridshell {
 
-/// A free node of which some components are prescribed: a joint that is held or pushed. With one
-/// direction it is held along that direction only and finds its own way across; with three it is
-/// held.
+/// A free node with prescribed components, a constrained or pushed joint. With one direction it is
+/// constrained along it and free perpendicular to it; with three directions it is fixed.
 struct Constraint {
   int node = 0;
   Eigen::Matrix3Xd directions = Eigen::Matrix3d::Identity();  ///< orthonormal columns, 1 to 3
@@ -40,15 +39,16 @@ struct Effort {
   }
 };
 
-/// One linearisation at a time of a model's equilibrium equations, and solves with it. With axial
-/// force N, unit tangent t and edge difference B dx = t . (dx_to - dx_from)/l,
+/// A linearisation of a model's equilibrium equations at one state, and solves with it. With axial
+/// force N, unit tangent t and edge difference B dx = t . (dx_to - dx_from)/l:
 ///   (K_0 + EA/l t t^T + N/|e| (I - t t^T)) dx = -dE/dx,   N <- EA (strain + B dx),
-/// K_0 the stiffness of everything else; at an equilibrium both forms agree. Owns the factorisation
-/// and the working memory of one model.
-/// With holds B (3 x m over their nodes) every solve is that of the bordered system
+/// K_0 being the stiffness of everything else; at an equilibrium both forms agree. The object owns
+/// the factorisation and the working memory of one model.
+/// With constraints B (3 x m over their nodes) every solve is that of the bordered system
 ///   K dx - B c = r,   B^T dx = 0,
-/// by block elimination with K + g B B^T in the place of K: the same solution, but positive
-/// definite wherever the constrained system is, also where K is singular (a limit point in force).
+/// by block elimination with K + g B B^T instead of K: the solution is the same, and the matrix is
+/// positive definite wherever the constrained system is, also where K is singular (a limit point in
+/// force).
 class Linearisation {
  public:
   explicit Linearisation(const Model& model, std::unique_ptr<LinearSolver> solver = nullptr);
@@ -59,23 +59,24 @@ class Linearisation {
   /// Factorises the assembled Hessian again with another shift.
   Inertia shifted(double shift);
 
-  /// From here on a direction without stiffness, as of a rod that turns about the line between its
-  /// two hinges, does not count as unstable: every matrix has so much more on its diagonal as
-  /// states that are corrected once may take from it, of the softest rod's stiffness 5e-5.
+  /// Regularises directions without stiffness, such as the rotation of a rod about the line between
+  /// its two hinges, so that they do not count as unstable: all later matrices have 5e-5 of the
+  /// least stiff rod's stiffness added to the diagonal, as much as a state that is corrected once
+  /// may lack.
   void bear_neutral_directions();
   /// So much, N/mm.
   double neutral_shift() const { return neutral_shift_; }
 
-  /// From the next at() on these are held: corrections leave them as they are, the inertia is that
-  /// of the constrained system.
+  /// Sets the constraints from the next at() on. Corrections do not change constrained components;
+  /// the inertia is that of the constrained system.
   void hold(std::vector<Constraint> holds) { holds_ = std::move(holds); }
   const std::vector<Constraint>& holds() const { return holds_; }
-  /// The force that keeps a held node where it is, all components, N; of the last assembly.
+  /// Reaction at a constrained node, all components, N; of the last assembly.
   Eigen::Vector3d reaction(const Constraint& hold) const {
     return assembly_.gradient.col(hold.node);
   }
-  /// How the forces on the held components grow with them, m x m in the order of holds and their
-  /// directions, N/mm; of the last factorisation.
+  /// Derivative of the forces on the constrained components by their displacements, m x m in the
+  /// order of the constraints and their directions, N/mm; of the last factorisation.
   Eigen::MatrixXd held_stiffness() const;
 
   /// From here on factorisations may end at the first negative pivot: whoever wants positive
@@ -103,20 +104,21 @@ class Linearisation {
   /// The potential at a state, mJ.
   double energy_at(const State& state) const { return energies_of(model_, state, outside).total(); }
 
-  /// Newton's correction: solves K dx = -dE/dx with what is held held.
+  /// Newton's correction: solves K dx = -dE/dx with the constraints.
   void correction(Eigen::Matrix3Xd& dx) const;
-  /// Tangent of the path: how all columns move when pinned ones move with `prescribed` (of free
-  /// columns only what is held counts) and the factors of the loads and the field grow by
+  /// Tangent of the path: derivative of all columns if the pinned ones move with `prescribed` (of
+  /// free columns only the constrained components are used) and the factors of the loads change by
   /// `outside_velocity`.
   void tangent(const Eigen::Matrix3Xd& prescribed, const ExternalLoads& outside_velocity,
                const State& state, Eigen::Matrix3Xd& velocity) const;
-  /// Solves K y = right_hand_side at what is free, in place; held components of y are zero.
+  /// Solves K y = right_hand_side at the free columns, in place; constrained components of y are
+  /// zero.
   void solve(Eigen::Matrix3Xd& right_hand_side) const;
   /// Change of the axial forces with positions, EA B dx, at the linearisation point, and of the
-  /// torques of joints that open by so much.
+  /// torques of joints that open by `opening`.
   Eigen::VectorXd force_change(const Eigen::Matrix3Xd& dx, double opening = 0) const;
-  /// Moves a state that a long step came to so that its axial forces and torques become `force` to
-  /// first order: a straight step across a bent rod stretches it at second order.
+  /// Corrects a state after a long step so that its axial forces and torques become `force` to
+  /// first order: a straight step perpendicular to a bent rod stretches it to second order.
   void restore_lengths(const Eigen::VectorXd& force, State& state) const;
   /// Moves the state by a share of dx and updates its forces as the mixed form does: of an unknown
   /// of its own a share of the step is that share of its change.
@@ -132,7 +134,7 @@ class Linearisation {
 
   const Model& model() const { return model_; }
   const Assembly& assembly() const { return assembly_; }  ///< of the last assembly
-  double residual() const;  ///< largest force on a free column that nothing holds, N
+  double residual() const;  ///< largest force on an unconstrained component of a free column, N
   const Effort& effort() const { return effort_; }
   Effort& effort() { return effort_; }
 
@@ -160,16 +162,16 @@ double product(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b);
 
 // How far a stable state is from losing its stability.
 
-/// Smallest lambda, N/mm^2, of H v = lambda L v at a stable state: H the energy's Hessian with what
-/// is held held, L the length of rod, mm, that each node stands for (`length`, one a node: half of
-/// each edge that meets there). So it is the stiffness of the softest mode against a force on every
-/// millimetre of rod, and does not hang on the mesh. By inverse iteration; NaN where the Hessian is
-/// not positive definite. Angles (twist rung) have no length of their own: they follow.
-/// `converged`: relative change at which the iteration ends.
+/// Smallest lambda, N/mm^2, of H v = lambda L v at a stable state: H is the Hessian of the energy
+/// with the constraints, L the length of rod, mm, that belongs to each node (`length`, one per
+/// node: half of each edge at the node). It is the stiffness of the lowest mode against a force per
+/// length of rod and does not depend on the mesh. By inverse iteration; NaN if the Hessian is not
+/// positive definite. Twist angles have no length and follow. `converged`: relative change at which
+/// the iteration ends.
 double lowest_eigenvalue(Linearisation& system, const State& state, const Eigen::VectorXd& length,
                          const Watch& watch, double converged = 1e-7);
-/// The same of the last factorisation, which is positive definite; `mode` is where the iteration
-/// starts (empty: anywhere), and the lowest mode afterwards.
+/// Uses the last factorisation, which must be positive definite; `mode` is the start of the
+/// iteration (empty: any) and returns the lowest mode.
 double lowest_eigenvalue(Linearisation& system, const Eigen::VectorXd& length,
                          Eigen::Matrix3Xd& mode, const Watch& watch, double converged);
 
@@ -180,17 +182,18 @@ struct NewtonOptions {
   double tolerance_mm = 1e-5;  ///< converged when a correction moves no node further
   int most_iterations = 25;
   double near_mm = 0.2;  ///< corrections below this may use an old factorisation
-  double trusted_mm =
-      0;  ///< take a correction m of a new factorisation as the last where 8 m^2/l, l the mean rest
-          ///< length of an edge, is no more than this: the next is about that or less, but
-          ///< for states beside a snap, where it may be a hundred times that
-  std::optional<double> trusted_misfit =
-      {};  ///< and where axial forces and strains agree within this share of the largest force
+  /// Accept a correction m of a new factorisation without a further one if the predicted next
+  /// correction, 8 m^2/l, is at most this, mm; l is the mean natural length of an edge. Near a snap
+  /// the prediction may be a hundred times too small.
+  double trusted_mm = 0;
+  /// Further condition of that: axial forces and strains agree within this fraction of the largest
+  /// force; empty: no condition.
+  std::optional<double> trusted_misfit = {};
   double farthest_mm = 1e300;  ///< a correction that moves a node further is refused: lost
   double widest_turn = -0.5;   ///< edges that turn further than this cosine have folded
-  std::optional<Inertia> factored =
-      {};  ///< of the factorisation that is there, of a state nearby: corrections begin with it,
-           ///< two at least, which tell whether it serves
+  /// Inertia of an existing factorisation of a state nearby, with which the first two corrections
+  /// are computed; they show whether it converges. Empty: there is none.
+  std::optional<Inertia> factored = {};
 };
 
 struct NewtonReport {
@@ -204,9 +207,9 @@ struct NewtonReport {
   Inertia inertia;  ///< of the last factorisation (mixed form), the one given included
 };
 
-/// Full mixed Newton steps from `state`, what is held held; a factorisation is used again for as
-/// long as its corrections shrink tenfold. On success `state` is the equilibrium, else it is the
-/// last iterate and the report says what happened. A cancel is answered between corrections.
+/// Full mixed Newton steps from `state` with the constraints; a factorisation is reused as long as
+/// its corrections decrease tenfold. On success `state` is the equilibrium, else the last iterate,
+/// and the report says why. A cancel is noticed between corrections.
 NewtonReport newton(Linearisation& system, State& state, const NewtonOptions& options,
                     const Watch& watch = unwatched);
 

@@ -36,9 +36,9 @@ class Dissection {
     double at = 0, cost = 0;
   };
 
-  /// Columns inside a segment that touch nothing but it and its two joints go first, one after the
-  /// other: each has few neighbours then. What is left of a segment are its joints and what is next
-  /// to them, so the rest of the work does not grow with the number of edges a segment.
+  /// Eliminates first the columns inside a segment that are adjacent only to the segment and its
+  /// two joints, one after the other: each has few neighbours then. The joints and their neighbours
+  /// remain, so the remaining work does not grow with the number of edges per segment.
   void condense() {
     const auto segment = [&](int free) {
       return model_.segment[std::size_t(model_.free_columns[std::size_t(free)])];
@@ -57,8 +57,8 @@ class Dissection {
     for (int node : side_by_side(first)) eliminate(node);
   }
 
-  /// Segments four at a time, the first node of each, the second of each, ...: beside one another
-  /// in the order stand columns that do not wait for one another.
+  /// Orders four segments together, the first node of each, the second of each, ...: adjacent
+  /// columns in the order do not depend on each other.
   std::vector<int> side_by_side(const std::vector<int>& nodes) const {
     constexpr int together = 4;
     struct Place {

@@ -72,7 +72,7 @@ PinnedMotion pinned_motion(const RodMesh& mesh, const BoundaryMotion& motion) {
     pinned.begin.col(mesh.held_joints[k]) = from;
     pinned.change.col(mesh.held_joints[k]) = motion.end_joints.col(Eigen::Index(k)) - from;
   }
-  // a ghost stays in the held direction from its edge point
+  // a ghost lies in the prescribed direction from its edge point
   const auto place = [&](int ghost, Eigen::Index end, double side) {
     const double length = side * mesh.ghost_length;
     pinned.begin.col(ghost) = motion.begin.col(end) + length * motion.begin_tangent.col(end);
@@ -84,7 +84,7 @@ PinnedMotion pinned_motion(const RodMesh& mesh, const BoundaryMotion& motion) {
     if (mesh.is_ghost(node.front())) place(node.front(), 2 * Eigen::Index(r), -1);
     if (mesh.is_ghost(node.back())) place(node.back(), 2 * Eigen::Index(r) + 1, 1);
   }
-  // a spring's support goes where what hangs on it would be held
+  // a spring's support is placed where its rod would be pinned
   for (const MeshSpring& spring : mesh.springs) {
     pinned.begin.col(spring.support) = pinned.begin.col(spring.node);
     pinned.change.col(spring.support) = pinned.change.col(spring.node);

@@ -1,4 +1,4 @@
-// How what is prescribed moves along a path: pinned nodes, held joints, loads.
+// Prescribed motion along a path: pinned nodes, constrained joints, loads.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ enum class PathLaw {
   even     ///< t
 };
 
-/// The progress of an actuation at its path parameter, and the other way.
+/// Progress of an actuation at path parameter t; the next function is the inverse.
 inline double progress_at(double t) { return t * t; }
 inline double parameter_at(double progress) { return std::sqrt(std::max(progress, 0.0)); }
 
@@ -40,13 +40,13 @@ struct EndRotation {
   Eigen::Vector3d rate(double t) const;
 };
 
-/// The turn about a node that takes the arm `from` to the arm `to` the shorter way.
+/// Rotation about a node that maps the arm `from` to the arm `to` by the smaller angle.
 EndRotation rotation_between(int node, int about, const Eigen::Vector3d& from,
                              const Eigen::Vector3d& to);
 
-/// Where the pinned nodes, and of held nodes the held components, are at path parameter t, how fast
-/// they move, and how much of the dead loads and of a field acts. By default loads come on in
-/// proportion: the flat shell carries none.
+/// Positions and velocities of pinned nodes and of constrained components at path parameter t, and
+/// the factors of the dead loads and of the applied load. By default loads are applied in
+/// proportion to the progress; the flat shell carries none.
 struct PinnedMotion {
   Eigen::Matrix3Xd begin;   ///< 3 x nodes at t = 0 (what is free is ignored)
   Eigen::Matrix3Xd change;  ///< to t = 1
@@ -71,9 +71,9 @@ struct PinnedMotion {
   void velocity(Linearisation& system, double t, const State& state, State& velocity) const;
 };
 
-/// The motion of a mesh's pinned nodes: its edge points and held joints, the far ends of tails,
-/// which turn about them, beyond those whose direction is held their ghosts, and supports of
-/// springs.
+/// The motion of a mesh's pinned nodes: its edge points and prescribed joints, the far ends of
+/// tails, which rotate about them, the ghosts of ends with prescribed direction, and the supports
+/// of springs.
 PinnedMotion pinned_motion(const RodMesh& mesh, const BoundaryMotion& motion);
 
 }  // namespace gridshell

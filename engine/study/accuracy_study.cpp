@@ -16,10 +16,10 @@ namespace {
 using record::AccuracyRow;
 using record::RunOutcome;
 
-/// A method on meshes from coarse to fine: beyond one that is too slow there is no need to look.
+/// A method on meshes from coarse to fine; finer meshes than one that is too slow are not run.
 struct Ladder {
   std::vector<Method> rungs;
-  double allowed = INFINITY;  // error promised where one mesh cannot tell
+  double allowed = INFINITY;  // error promised if one mesh gives no estimate
 };
 
 struct Measured {
@@ -153,13 +153,13 @@ double leg_of(const preset::Footprint& footprint) {
   return footprint.radius_mm / footprint.spacing_mm - (footprint.rods - 1) / 2.0;
 }
 
-/// So many rods a direction, cut by the same rule.
+/// Sets the number of rods per direction, cut by the same rule.
 void set_rods(preset::Footprint& footprint, int rods) {
   footprint.rods = rods;
   footprint.placement = rods % 2 ? Placement::on_axis : Placement::half;
 }
 
-/// The same shape with rods `factor` times further apart.
+/// The same shape with the spacing multiplied by `factor`.
 preset::Preset respaced(preset::Preset preset, double factor) {
   auto& footprint = preset.footprint;
   if (footprint.kind == preset::FootprintKind::circle) {
@@ -249,7 +249,7 @@ Result<std::vector<AccuracyRow>> sizes_study(const preset::Preset& preset,
       if (watch.cancelled()) return stopped();
       AccuracyRow row = row_of<AccuracyRow>(method, measured);
       row.method = fmt::format("{} rods", sizes[k]);
-      // two tolerances may come to the same meshes
+      // two tolerances may lead to the same meshes
       if (!rows.empty() && rows.back().method == row.method &&
           rows.back().edges_per_segment == row.edges_per_segment)
         continue;

@@ -192,7 +192,7 @@ Method auto_method(double tolerance) {
           }};
 }
 
-// Newton's method the textbook's way.
+// Newton's method as in textbooks.
 
 MethodResult march(const Problem& problem, const MarchOptions& options, const Watch& watch) {
   MethodResult result = MethodResult::on(problem);

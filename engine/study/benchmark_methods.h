@@ -1,5 +1,5 @@
-// The ways of getting from the start of a problem to its end that studies compare: the engine's
-// own, and those that programs and textbooks use.
+// Methods for solving a benchmark problem from its start to its end: the engine's own, and those of
+// other programs and textbooks.
 #pragma once
 
 #include <functional>
@@ -14,8 +14,7 @@
 
 namespace gridshell::study {
 
-/// What a method says it came to. Claims: right (success), refused, not_converged, blow_up,
-/// too_slow.
+/// What a method reports. Claims: right (success), refused, not_converged, blow_up, too_slow.
 struct MethodResult {
   record::RunOutcome claim = record::RunOutcome::refused;
   Eigen::Matrix3Xd x = {};  ///< joints in the first columns; of spring joints the middles
@@ -63,8 +62,8 @@ constexpr auto words(Globalisation) {
                                       {Globalisation::shifted, "shifted"}});
 }
 
-/// Newton's method on the energy's own Hessian, factorised by supernodal CHOLMOD in its own order:
-/// the boundary is moved, the rest is found from there, no prediction.
+/// Newton's method on the Hessian of the energy, factorised by supernodal CHOLMOD in its own order:
+/// the boundary is moved, and the equilibrium is computed from there without prediction.
 struct MarchOptions {
   int load_steps = 40;
   Globalisation globalisation = Globalisation::shifted;
@@ -73,7 +72,7 @@ struct MarchOptions {
 MethodResult march(const Problem& problem, const MarchOptions& options, const Watch& watch);
 Method textbook_method(int edges);
 
-/// Methods that move in time, to rest after every load step.
+/// Methods that move in time, to equilibrium after every load step.
 enum class Relaxation { kinetic, explicit_damped, implicit_euler };
 constexpr auto words(Relaxation) {
   return names_except<Relaxation>({{Relaxation::kinetic, "dynamic relaxation"},
@@ -98,27 +97,27 @@ Problem from_flat(const BenchmarkProblem& study, const Problem& problem, double 
 /// The first buckled state, as the engine finds it.
 MethodResult buckle(const BenchmarkProblem& study, const Problem& problem, const Watch& watch);
 
-// What a run came to, seen from outside.
+// Judging a run by a reference.
 
-/// What a method on one mesh claims to have come to rest to, of the length scale.
+/// Accuracy to which a method on one mesh claims to have converged, over the length scale.
 inline constexpr double claimed_error = 1e-4;
 
 /// Judges a result by the equilibrium of the *same* mesh on the reference's branch, so that the
-/// error of the mesh is nobody's fault: joints further than ten times `claimed` (over the length
-/// scale) from there are wrong. What cannot be checked on one mesh (extrapolated, spring joints) is
-/// judged by the reference itself, `allowed` being the error that the method promises. Wrong and
-/// claimed right is a planar saddle (all joints within 1e-3 of the boundary's plane), another state
-/// (a stable equilibrium of the mesh) or silently wrong (neither, or negative pivots). A method's
-/// report that it failed is believed.
+/// error of the mesh does not count: joints further than ten times `claimed` (over the length
+/// scale) from it are wrong. Results that cannot be checked on one mesh (extrapolated, spring
+/// joints) are judged by the reference itself, with `allowed` as the error that the method
+/// promises. A result that is wrong but claimed right is a planar saddle (all joints within 1e-3 of
+/// the boundary's plane), another state (a stable equilibrium of the mesh) or silently wrong
+/// (neither, or negative pivots). A method's report that it failed is accepted.
 record::RunOutcome verdict_of(BenchmarkProblem& study, const MethodResult& result, double claimed,
                               double allowed, const Watch& watch);
 
-/// The same for positions on the mesh of a problem, by the problem's own end.
+/// Judges positions on the mesh of a problem by the problem's own end.
 record::RunOutcome verdict_at_end(const BenchmarkProblem& study, const Problem& problem,
                                   const Eigen::Matrix3Xd& x, double claimed);
 
 // Baselines that charts compare with, never a default: the explicit integrator and kinetic dynamic
-// relaxation, on the bend rung.
+// relaxation, with the bend model.
 
 struct BaselineReport {
   Outcome end = Outcome::not_converged;  ///< reached, not_converged, not_finite (grown), cancelled
@@ -127,11 +126,11 @@ struct BaselineReport {
 };
 
 struct BaselineOptions {
-  /// of the largest stable step: of dynamic relaxation Gershgorin's bound for rods at rest (under
-  /// tension they are stiffer), of the explicit integrator l_min/c; implicit: seconds
+  /// fraction of the largest stable step: for dynamic relaxation Gershgorin's bound for unstressed
+  /// rods (under tension they are stiffer), for the explicit integrator l_min/c; implicit: seconds
   double step = 0.9;
   double damping_per_s = 0;   ///< explicit integrator only
-  double tolerance_N = 1e-7;  ///< at rest: no larger force on a free node
+  double tolerance_N = 1e-7;  ///< equilibrium: no larger force on a free node
   int most_steps = 2000000;
 };
 
@@ -139,7 +138,7 @@ struct BaselineOptions {
 /// over the edges [Courant, Friedrichs, Lewy 1928].
 double courant_step(const Model& model, const Eigen::Matrix3Xd& mass);
 
-/// Symplectic Euler with mass-proportional damping, v += h F/m, x += h v, to rest.
+/// Symplectic Euler with mass-proportional damping, v += h F/m, x += h v, until equilibrium.
 BaselineReport explicit_to_rest(const Model& model, const Eigen::Matrix3Xd& mass,
                                 MovingState& moving, const BaselineOptions& options,
                                 const Watch& watch);
@@ -150,9 +149,9 @@ BaselineReport explicit_to_rest(const Model& model, const Eigen::Matrix3Xd& mass
 BaselineReport dynamic_relaxation(const Model& model, State& state, const BaselineOptions& options,
                                   const Watch& watch);
 
-/// Implicit Euler, m (v1 - v0)/h = F(x1) - c m v1, x1 = x0 + h v1, a whole Newton solve a step, to
-/// rest: large steps damp by themselves. `options.step` is h in seconds. A step that Newton's
-/// method does not solve ends it as `not_converged` with the steps so far.
+/// Implicit Euler, m (v1 - v0)/h = F(x1) - c m v1, x1 = x0 + h v1, one complete Newton solve per
+/// step, until equilibrium: large steps are dissipative. `options.step` is h in seconds. A step
+/// that Newton's method does not solve ends it as `not_converged` with the steps so far.
 BaselineReport implicit_to_rest(const Model& model, const Eigen::Matrix3Xd& mass,
                                 MovingState& moving, const BaselineOptions& options,
                                 const Watch& watch);

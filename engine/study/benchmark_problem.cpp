@@ -20,7 +20,7 @@ constexpr double first_shortening = 0.02;
 constexpr double push_step = 0.02;  // of the length scale, as in the experiment
 constexpr double exact = 1e-8;      // tolerance of references, over the length scale
 
-/// The net's places of a mesh's nodes; ghosts where the motion ends.
+/// Positions of a mesh's nodes on the net; ghosts at the end of the motion.
 Result<State> on_net(const Scene& scene, const RodMesh& mesh, const Model& model,
                      const PinnedMotion& motion) {
   TRY(net, places_on_net(scene, mesh));
@@ -123,7 +123,8 @@ void BenchmarkProblem::push(NestedShell& shell) const {
 }
 
 ShellRods BenchmarkProblem::rods_on(const ModelVariant& on) const {
-  constexpr double shear_over_young = 31.0 / 83;  // of Nitinol; at rest these rods do not twist
+  constexpr double shear_over_young =
+      31.0 / 83;  // of Nitinol; rods without natural twist do not twist
   ShellRods rods = scene_->rods;
   if (on.rung == RodModel::bend) return rods;
   for (RodMaterial& material : rods.materials) material.GJ = 2 * material.EI1 * shear_over_young;

@@ -15,10 +15,10 @@
 
 namespace gridshell::study {
 
-/// What is to be done: move the boundary, come to rest beside the net, or push a joint.
+/// The task: move the boundary, find the equilibrium next to the net, or push a joint.
 enum class Task { actuation, beside_net, push };
 
-/// On which rung a method solves, and with which joints.
+/// Rod model and joints of a method.
 struct ModelVariant {
   RodModel rung = RodModel::bend;
   double spring_N_per_mm = 0;  ///< of spring joints; 0: shared nodes
@@ -38,17 +38,17 @@ struct Problem {
   double load_parameter(int k, int steps) const;
 };
 
-/// A scene with its reference. The start is the first buckled state where the rods are 2 % shorter
-/// than flat on average (of a circle: R_a = 0.98 R_o), the net, or the unloaded shell. The
-/// reference is followed from there on meshes of 4, 8, ... `finest` edges a segment and
-/// extrapolated over the last two; every coarser mesh is brought to rest from the reference's
-/// positions, so all starts and ends lie on one branch. A push holds the joint across, too
-/// (`lateral = "held"`): one problem for methods that cannot prescribe one direction alone.
+/// A scene with its reference. The start is the first buckled state, at a mean shortening of the
+/// rods of 2 % (for a circle: R_a = 0.98 R_o), the net, or the unloaded shell. The reference is
+/// followed from there on meshes of 4, 8, ... `finest` edges per segment and extrapolated over the
+/// last two. On every coarser mesh the equilibrium is computed from the reference's positions, so
+/// that all starts and ends are on one branch. A push also constrains the joint perpendicular to it
+/// (`lateral = "held"`), which makes it one problem for methods that cannot prescribe a single
+/// direction.
 class BenchmarkProblem {
  public:
-  /// Errors: bad_input (scene), no_equilibrium (the path is lost or snaps on the way: there is
-  /// nothing to compare with), cancelled.
-  /// `EA_scale` multiplies the rods' EA.
+  /// Errors: bad_input (scene), no_equilibrium (the path is lost or snaps: there is no reference),
+  /// cancelled. `EA_scale` multiplies the rods' EA.
   static Result<std::unique_ptr<BenchmarkProblem>> create(const preset::Preset& preset, int finest,
                                                           Watch& watch, double EA_scale = 1);
 
@@ -62,7 +62,7 @@ class BenchmarkProblem {
   double scale_mm() const { return scene_->length_scale_mm; }
   int joints() const { return int(scene_->footprint.joints.size()); }
   const Scene& scene() const { return *scene_; }
-  /// The same problem on another rung or with other joints; its end is the bend rung's.
+  /// The problem with another rod model or other joints; its end is that of the bend model.
   Problem on_model(const Problem& problem, const ModelVariant& on) const;
   Task task() const { return task_; }
   double reference_error() const { return reference_error_; }  ///< estimated, over the scale

@@ -20,7 +20,7 @@ namespace {
 
 using record::BranchEvent;
 
-// of the length scale
+// fractions of the length scale
 constexpr double step_size = 0.006, symmetric_within = 1e-4, round_off = 1e-9;
 constexpr double first_shortenings[] = {0.02, 0.01, 0.005, 0.0025};
 
@@ -112,7 +112,7 @@ class Diagram {
   }
 
  private:
-  /// The path itself, both ways from where it begins.
+  /// The path itself, in both directions from its start.
   Result<void> follow_path() {
     const NestedState& begin = shell_.state();
     Branch path;
@@ -145,7 +145,7 @@ class Diagram {
         scene.flat.all(shell_.mesh(level_).flat.leftCols(joints_)).topRows<2>();
     const double within = symmetric_within * scene.length_scale_mm;
     symmetry_.emplace(flat, joints_of(*before), within);
-    // of a path that has none, what the footprint has
+    // for a path without symmetry that of the footprint
     if (symmetry_->order() == 1) symmetry_.emplace(flat, joints_of(*before), INFINITY);
   }
 
@@ -203,8 +203,8 @@ class Diagram {
     }
   }
 
-  /// Signs of amplitudes: a branch off the path is positive on one side, further ones go on with
-  /// the sign of theirs.
+  /// Sets signs of amplitudes: a branch off the path is positive on one side; later branches
+  /// inherit the sign of theirs.
   void take_side(std::size_t parent, Branch& branch, double side) const {
     if (branches_[parent].side.size() > 0) {
       branch.side = branches_[parent].side;

@@ -19,10 +19,10 @@ struct TraceOptions {
   double max_strain = 1e-3;
   int most_steps = 300;
   double located = 1e-3;        ///< of a step: to which a bifurcation is bisected
-  int after_turn = most_steps;  ///< beyond its first limit point
+  int after_turn = most_steps;  ///< steps after its first limit point
 };
 
-/// One equilibrium on the way.
+/// One equilibrium of a traced branch.
 struct TracedPoint {
   PathPoint at;
   int negative_pivots = 0;
@@ -33,10 +33,10 @@ struct TracedPoint {
 /// Says of a point where something happens whether the branch ends there: it met another one.
 using MeetsBranch = std::function<bool(const TracedPoint&)>;
 
-/// Follows a branch from where `path` stands, the point itself included, until it leaves the range,
-/// meets another one, comes to the rods' length or is lost. Bifurcations are located by bisection,
-/// limit points by smaller steps; both stand among the points. The last point of a branch that was
-/// cancelled is like any other.
+/// Follows a branch from the current point of `path`, which is included, until it leaves the range,
+/// meets another one, reaches the strain limit or is lost. Bifurcations are located by bisection,
+/// limit points by smaller steps; both are among the points. The last point of a cancelled branch
+/// is an ordinary one.
 std::vector<TracedPoint> trace(Linearisation& system, const PinnedMotion& motion, ArcFollower path,
                                const TraceOptions& options, const MeetsBranch& met,
                                const Watch& watch);
@@ -67,12 +67,11 @@ struct BranchDiagram {
   bool all_followed = true;                     ///< false: more branches were found than followed
 };
 
-/// Follows the actuation (from the first buckled state towards the flat and on to the end, or from
-/// the net backwards), or the push after it, on the finest mesh that the tolerance begins with. At
-/// every bifurcation the branches along the modes that went soft are entered on both sides
-/// [Keller 1977], each once: `imperfection` chooses nothing here. Errors: bad_input for a preset of
-/// which nothing is solved, whose path has no begin or whose actuation ends before the push;
-/// no_equilibrium; cancelled.
+/// Follows the actuation (from the first buckled state towards the flat and to the end, or from the
+/// net backwards), or the push after it, on the finest initial mesh of the tolerance. At every
+/// bifurcation the branches along the modes that lost stability are followed on both sides [Keller
+/// 1977], each once; `imperfection` has no effect. Errors: bad_input for a preset without a solve,
+/// for a path without a start or an actuation that ends before the push; no_equilibrium; cancelled.
 Result<BranchDiagram> branches_study(const preset::Preset& preset, const BranchesOptions& options,
                                      Watch& watch);
 

@@ -39,7 +39,7 @@ class Tracer {
   }
 
  private:
-  /// Whether the branch goes on.
+  /// One step; returns whether the branch continues.
   bool step() {
     const ArcFollower before = path_;
     if (path_.step(watch_) != Outcome::reached) return end(BranchEvent::lost);
@@ -60,7 +60,7 @@ class Tracer {
     return false;
   }
 
-  /// Goes from `before` on in small steps to just past where the path turns back.
+  /// Moves from `before` in small steps to just past the limit point.
   bool turn(const ArcFollower& before) {
     constexpr int parts = 8;
     const double step = length_between(before, path_) / parts;
@@ -79,8 +79,8 @@ class Tracer {
     return true;
   }
 
-  /// Every place between `before` and the path's point where a pivot changes its sign; false where
-  /// the branch met another one.
+  /// Locates every change of a pivot's sign between `before` and the path's point; false if the
+  /// branch met another one.
   bool bifurcations(const ArcFollower& before) {
     constexpr int most = 4;
     ArcFollower low = before;
@@ -172,7 +172,7 @@ Eigen::MatrixXd generic_vectors(Eigen::Index rows, Eigen::Index count) {
 
 std::vector<Eigen::Matrix3Xd> crossing_modes(Linearisation& system, const PinnedMotion& motion,
                                              const TracedPoint& crossing, const Watch& watch) {
-  constexpr int rounds = 40, more = 2;  // vectors beyond those asked for make it converge
+  constexpr int rounds = 40, more = 2;  // additional vectors make the requested ones converge
   const auto [low, high] = std::minmax(crossing.negative_pivots, crossing.beyond);
   State state = crossing.at.state;
   motion.impose(system, crossing.at.t, state);
@@ -189,7 +189,7 @@ std::vector<Eigen::Matrix3Xd> crossing_modes(Linearisation& system, const Pinned
       system.solve(column);
       turned.col(k) = column.reshaped();
     }
-    // the largest of the inverse are the softest
+    // the largest of the inverse are the lowest modes
     const auto inner = eigen_pairs(basis.transpose() * turned);
     basis = turned * inner.vectors.rowwise().reverse();
   }

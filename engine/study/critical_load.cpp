@@ -43,7 +43,7 @@ BlockHessian stiffness_slope(const Linearisation& system, const State& begin,
   return up;
 }
 
-/// What one unit of the parameter is worth: as much as positions move with it at the begin.
+/// Displacement per unit of the parameter at the start.
 double rate_of(Linearisation& system, const PinnedMotion& motion, const State& begin,
                Eigen::Matrix3Xd* velocity) {
   State moves;
@@ -68,7 +68,7 @@ double top_of(const std::vector<TracedPoint>& points, std::size_t k) {
   return t[0] + a * (at - s[0]) + bend * (at - s[0]) * (at - s[1]);
 }
 
-/// The first place on a path where stability is lost, and the mode that goes soft there.
+/// The first loss of stability on a path, and the mode that loses it.
 void take_critical(CriticalLoad& found, Linearisation& system, const PinnedMotion& motion,
                    const Watch& watch) {
   auto& points = found.points;
@@ -145,7 +145,7 @@ double linear_critical_factor(Linearisation& system, const PinnedMotion& motion,
 CriticalLoad critical_load(Linearisation& system, const PinnedMotion& motion, const State& begin,
                            const CriticalOptions& options, const Watch& watch) {
   CriticalLoad found;
-  // a cable that comes on changes the stiffness at once, not with the factor
+  // a cable that is added changes the stiffness at once, not with the factor
   const bool cables =
       std::ranges::any_of(system.model().bars, [](const ModelBar& bar) { return bar.law.cable; });
   if (!cables) found.linear = linear_critical_factor(system, motion, begin, watch);
@@ -169,7 +169,7 @@ CriticalLoad critical_load(Linearisation& system, const PinnedMotion& motion, co
   how.max_strain = options.max_strain;
   how.most_steps = options.most_steps;
   how.after_turn = options.after_turn;
-  // beyond a bifurcation the shell goes another way
+  // past a bifurcation the shell follows another branch
   const auto leaves = [](const TracedPoint&) { return true; };
   const auto nothing = [](const TracedPoint& point) { return point.event == BranchEvent::none; };
   constexpr int most_ways = 3;

@@ -19,7 +19,7 @@ namespace gridshell::study {
 
 /// A shell at the end of its preset's path.
 struct FormedShell {
-  simulate::EquilibriumPath path;  ///< its simulation stands in the last certified state
+  simulate::EquilibriumPath path;  ///< its simulation is in the last certified state
   record::Trajectory state;        ///< of that state the frame alone
   record::Summary summary;
 };
@@ -36,18 +36,19 @@ struct Vibrations {
   record::Summary summary;
 };
 
-/// Runs a preset and finds the `count` lowest modes of K v = (2 pi f)^2 M v about its last
-/// certified state, joints that are pushed held: K the energy's Hessian, loads and axial forces in
-/// it, M the masses of rods, spins and joints, lumped on each mesh. Frequencies of the last meshes,
-/// paired by their shapes, are extrapolated and estimated as forces are. Errors: bad_input, of rods
-/// without density and of what nothing is solved for; no_equilibrium; cancelled.
+/// Runs a preset and computes the `count` lowest modes of K v = (2 pi f)^2 M v about its last
+/// certified state, with pushed joints fixed. K is the Hessian of the energy, including loads and
+/// axial forces, M the masses of rods (also their rotation) and joints, lumped on each mesh.
+/// Frequencies of the last meshes, paired by their mode shapes, are extrapolated, and their error
+/// is estimated as that of forces. Errors: bad_input for rods without density and for a preset
+/// without a solve; no_equilibrium; cancelled.
 Result<Vibrations> vibrations_of(const preset::Preset& preset, int count, Watch& watch);
-/// The same of a shell that is formed, which stands as before afterwards.
+/// Vibrations of a formed shell, whose state does not change.
 Result<Vibrations> vibrations_of(FormedShell& shell, int count, const Watch& watch);
 
-// What it carries: the load factor over a joint's way, for each of its load cases; on one mesh
-// where a state under growing loads loses its stability, by arc length, and as the linearised
-// problem at its begin estimates it.
+// Load factor over the displacement of a joint for each load case. On one mesh: where a state under
+// increasing loads loses its stability, by arc length, and the estimate of the linearised problem
+// at its start.
 
 struct CriticalOptions {
   double max_strain = 1e-3;     ///< the path ends there
@@ -55,7 +56,7 @@ struct CriticalOptions {
   double largest_mm = 0;        ///< arc steps may be so long; 0: by the linear estimate alone
   double steps_to_linear = 40;  ///< first arc steps up to the linear estimate
   int most_steps = 160;         ///< of the path
-  int after_turn = 12;          ///< of it beyond its first limit point
+  int after_turn = 12;          ///< steps of it after its first limit point
   double tolerance_mm = 1e-7;
 };
 
@@ -63,8 +64,7 @@ struct CriticalOptions {
 struct CriticalLoad {
   std::vector<TracedPoint> points;  ///< the path, its parameter the load factor
   double factor = record::unknown;  ///< where the first stability is lost; NaN: not on this path
-  /// bifurcation or turn (a limit point); else how the path ended: locking, lost, none (it went all
-  /// the way)
+  /// bifurcation or turn (a limit point); else how the path ended: locking, lost, none (complete)
   record::BranchEvent event = record::BranchEvent::none;
   double linear = record::unknown;  ///< linear_critical_factor(), of models without cables
   Eigen::Matrix3Xd mode;            ///< over all columns, longest move 1; empty: none
@@ -88,23 +88,23 @@ struct LoadStudy {
   /// one a case: how the nodes of the layout move where stability is lost, the one that moves
   /// furthest by 1; empty: it is not
   std::vector<Eigen::Matrix3Xd> modes;
-  /// one a case: what comes on with a factor of one, on the layout's supports, N
+  /// per case: the load at a factor of one, on the layout's supports, N
   std::vector<Eigen::Matrix3Xd> loads;
-  record::Trajectory state;  ///< that the loads come on to: one frame
+  record::Trajectory state;  ///< the state to which the loads are applied: one frame
   record::Summary summary;
 };
 
-/// Runs a preset and brings each of its load cases on to the last certified state, beside what acts
-/// there, by arc length until stability is lost and a little beyond a limit point. Critical factors
-/// of the last two meshes are extrapolated, and their difference is the error, as with all forces;
-/// so are the factors at which a fibre comes to its rod's strength. Where the meshes lose their
-/// stability by different events, which lie close together then, the finer one's is told.
-/// `imperfections` shells more a case, on the coarser of these meshes, have a random mixture of the
-/// softest modes as their shape, `loads.imperfection` of the length scale at most, by the dead
-/// forces that bend the perfect shell so far to first order. Errors: bad_input (no case, nothing is
-/// solved), no_equilibrium, cancelled.
+/// Runs a preset and applies each of its load cases to the last certified state, in addition to the
+/// loads present, by arc length until stability is lost and slightly past a limit point. Critical
+/// factors of the last two meshes are extrapolated, with their difference as the error, as for all
+/// forces; so are the factors at which a fibre reaches its rod's strength. If the meshes lose
+/// stability by different events, which are then close together, that of the finer mesh is
+/// reported. `imperfections` further shells per case, on the coarser of these meshes, have a random
+/// mixture of the lowest modes as their shape, at most `loads.imperfection` of the length scale,
+/// produced by the dead forces that deform the perfect shell by that amount to first order. Errors:
+/// bad_input (no case, no solve), no_equilibrium, cancelled.
 Result<LoadStudy> load_study(const preset::Preset& preset, int imperfections, Watch& watch);
-/// The same of a shell that is formed, which stands as before afterwards.
+/// Load study of a formed shell, whose state does not change.
 Result<LoadStudy> load_study(FormedShell& shell, int imperfections, Watch& watch);
 
 }  // namespace gridshell::study

@@ -18,7 +18,7 @@ namespace {
 
 using record::BranchEvent;
 
-/// A case on its way up, on the meshes of a simulation.
+/// An increasing load case on the meshes of a simulation.
 class Loading {
  public:
   Loading(Simulation& simulation, const LoadCase& load, const Watch& watch)
@@ -39,7 +39,7 @@ class Loading {
   }
   CriticalLoad on(int level) { return on(level, shell_.state().levels[std::size_t(level)]); }
 
-  /// Of every point of a path the largest stress over the rods' strength; empty: that is not known.
+  /// Largest stress over strength at every point of a path; empty: not known.
   std::vector<double> utilisations(int level, const CriticalLoad& found) {
     std::vector<double> used;
     if (scene_.strength_MPa.empty()) return used;
@@ -48,7 +48,7 @@ class Loading {
     return used;
   }
 
-  /// The first factor at which a fibre comes to its rod's strength, NaN: nowhere on the path.
+  /// The first factor at which a fibre reaches its rod's strength; NaN: none on the path.
   double strength_factor(int level, const CriticalLoad& found, const std::vector<double>& used) {
     const auto beyond = std::ranges::find_if(used, [](double share) { return share >= 1; });
     if (beyond == used.end()) return record::unknown;
@@ -57,7 +57,7 @@ class Loading {
     const TracedPoint &from = found.points[k - 1], &to = found.points[k];
     double low = from.at.t, high = to.at.t, below = used[k - 1] - 1, above = used[k] - 1;
     const auto crossing = [&] { return low - below / (above - below) * (high - low); };
-    // beside a limit point a factor has two states
+    // near a limit point a factor has two states
     if (to.negative_pivots > 0 || !(high > low)) return crossing();
     constexpr int rounds = 6;
     State state = from.at.state;
@@ -74,7 +74,7 @@ class Loading {
     return crossing();
   }
 
-  /// Of the shell with its shape off by so much.
+  /// Critical load of the shell with an imperfection of `size_mm`.
   Result<CriticalLoad> imperfect(int level, const Eigenmodes& soft, int seed, double size_mm) {
     std::mt19937 random{std::uint32_t(seed)};
     const Model& model = shell_.model(level);
@@ -100,7 +100,7 @@ class Loading {
     return found;
   }
 
-  /// All that comes on with a factor of one, on the layout's supports, N.
+  /// The complete load at a factor of one, on the layout's supports, N.
   Eigen::Matrix3Xd loads() const {
     return simulate::loads_on(shell_.finest(), shell_.model(shell_.levels() - 1),
                               shell_.state().levels.back().x, {load_.dead, &forces_, nullptr, 0});
@@ -123,7 +123,7 @@ class Loading {
   double dead_now_ = 1;
 };
 
-/// The factor over the way of the joint that has gone furthest where stability is lost.
+/// The factor over the displacement of the joint with the largest one at the loss of stability.
 void put_points(const std::string& name, const CriticalLoad& found, const std::vector<double>& used,
                 int joints, std::vector<record::LoadPoint>& rows) {
   const auto joints_at = [&](const TracedPoint& point) -> Eigen::Matrix3Xd {
@@ -152,7 +152,7 @@ double quantile(std::vector<double> values, double share) {
   return values[low] + (at - double(low)) * (values[high] - values[low]);
 }
 
-/// Of shells that are not perfect, over the perfect one's critical factor on the same mesh.
+/// Critical factors of imperfect shells, over the perfect one's on the same mesh.
 Result<void> put_imperfections(Loading& loading, Simulation& simulation, int level, int count,
                                double perfect, record::LoadRow& row, const Watch& watch) {
   constexpr int soft_modes = 6;
@@ -178,8 +178,8 @@ Result<void> put_imperfections(Loading& loading, Simulation& simulation, int lev
   return {};
 }
 
-/// A factor that meshes tell, coarse to fine, NaN: not on their path; extrapolated where they tell
-/// of the same event, else the finest's, the whole difference its error.
+/// A factor from meshes, coarse to fine, NaN: not on their path; extrapolated if they have the same
+/// event, else the finest's with the complete difference as its error.
 CertifiedVectors certified(const std::vector<double>& factors, bool extrapolate, bool same) {
   std::vector<Eigen::Matrix3Xd> known;
   for (const double factor : factors)

@@ -20,7 +20,7 @@ struct MeshModes {
   std::vector<Eigen::Matrix3Xd> shapes;
 };
 
-/// Of lambda = (2 pi f)^2, which goes through zero as a state loses its stability.
+/// Mode of lambda = (2 pi f)^2, which passes through zero where a state loses its stability.
 record::ModeRow row_of(const CertifiedVectors& lambda, double residual) {
   const double value = lambda.value(0, 0), root = std::sqrt(std::abs(value));
   return {0, std::copysign(root, value) / (2 * M_PI),
@@ -52,7 +52,7 @@ double likeness(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) {
   return std::abs(product(a, b)) / (a.norm() * b.norm());
 }
 
-/// Of each mode of `fine`, which of `coarse` it is: the one most alike of those not taken.
+/// For each mode of `fine` the most similar mode of `coarse` that is not taken.
 std::vector<std::size_t> partners(const MeshModes& fine, const MeshModes& coarse) {
   struct Pair {
     double alike;
@@ -117,7 +117,7 @@ Result<FormedShell> form(const preset::Preset& preset, const std::shared_ptr<con
     return invalid(
         "a net that nothing is solved for neither vibrates nor carries: [accuracy] model "
         "must be another, or tolerance below 0.05");
-  // the path does not hang on what samples it
+  // sampling does not change the path
   preset::Preset once = preset;
   once.movie.frames = 1;
   LastAlone sink;
@@ -162,7 +162,7 @@ Result<Vibrations> vibrations_of(FormedShell& formed, int count, const Watch& wa
         row_of(certify_vectors(lambdas[k], shell.plan().extrapolate_forces, no_order),
                meshes.back().found.residuals[k]),
         meshes.back().shapes[k]);
-  // what is extrapolated may stand in another order
+  // extrapolated frequencies may be in another order
   std::ranges::stable_sort(modes, {}, [](const auto& mode) { return mode.first.frequency_Hz; });
   modes.resize(std::min(modes.size(), std::size_t(count)));
   for (auto& [row, shape] : modes) {

@@ -1,4 +1,4 @@
-// Random networks: flat or in space, joints of several laws, ends held in several ways.
+// Random networks: flat or in space, joints of several laws, ends of several conditions.
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <algorithm>
@@ -32,8 +32,8 @@ std::vector<Line> random_lines(RandomDraw& draw, double spacing) {
   return lines;
 }
 
-/// Rods along lines that cross inside an ellipse, each with a leg beyond its outer joints, heights
-/// those of a dome; returns how many of the points are joints.
+/// Rods along lines that cross inside an ellipse, each with a leg outside its outer joints, with
+/// heights of a dome; returns how many of the points are joints.
 int lay_rods(RandomDraw& draw, double spacing, double rise, preset::NetworkData& file) {
   std::vector<Line> lines = random_lines(draw, spacing);
   const Eigen::Array2d half(spacing * draw.between(1.6, 3.2), spacing * draw.between(1.6, 3.2));

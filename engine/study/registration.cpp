@@ -19,12 +19,14 @@ Eigen::Matrix3Xd Pose::of(const Eigen::Matrix3Xd& points) const {
 namespace {
 
 constexpr int most_triples = 80, least_points = 4;
-constexpr Eigen::Index most_tried = 1500;  // places of a triple; of more, that many drawn
-constexpr std::size_t most_pairs = 4000;   // of places at one distance that are tried
-constexpr int looked_at = 24;              // points that must agree before all are counted
-constexpr double least_agreeing = 0.35;    // of those
-constexpr double enough = 0.9;             // of the places or points: no further triple is drawn
-constexpr double as_good = 0.8;            // of the best pose's count: worth refining
+constexpr Eigen::Index most_tried =
+    1500;  // positions tried for a triple; of more, that many are drawn
+constexpr std::size_t most_pairs = 4000;  // number of pairs at one distance that are tried
+constexpr int looked_at = 24;             // points that must agree before all are counted
+constexpr double least_agreeing = 0.35;   // of those
+constexpr double enough =
+    0.9;  // fraction of the positions or points at which no further triple is drawn
+constexpr double as_good = 0.8;  // of the best pose's count: worth refining
 constexpr std::size_t most_refined = 16;
 constexpr double other_pose = 0.1;                          // rad
 constexpr double shortest_side = 0.2, least_height = 0.15;  // of the shape, in a triple
@@ -45,7 +47,7 @@ Pose fit(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to) {
   return {turn, b - turn * a};
 }
 
-/// The places of a shape, found by where they are.
+/// The positions of a shape with a search by cells.
 class Places {
  public:
   Places(const Eigen::Matrix3Xd& places, double within)
@@ -56,7 +58,7 @@ class Places {
     }
   }
 
-  /// visit(place, distance) for those within the length that it was made with.
+  /// visit(place, distance) for positions within the given length.
   void near(const Eigen::Vector3d& p, auto visit) const {
     const std::vector<int>* few = grid_.at(p);
     if (!few) return;
@@ -75,7 +77,7 @@ class Places {
   BoxGrid grid_;
 };
 
-/// Two places and how far they are apart.
+/// Two positions and their distance.
 struct PlacePair {
   double apart = 0;
   int i = 0, j = 0;
@@ -122,7 +124,7 @@ class Search {
 
   int random_point() { return int(draw_() % std::uint64_t(points_.cols())); }
 
-  /// Three points that could lie on the shape and tell a pose.
+  /// Three points that could be on the shape and determine a pose.
   std::optional<Triple> drawn() {
     for (int k = 0; k < 1000; ++k) {
       const Triple t{random_point(), random_point(), random_point()};
@@ -185,7 +187,7 @@ class Search {
   double bar_, within_ = 0;
   Places near_;
   double size_;
-  std::vector<int> tried_;  // places that triples are laid on
+  std::vector<int> tried_;  // positions on which triples are laid
   std::vector<PlacePair> pairs_;
   std::vector<int> order_;
   std::mt19937_64 draw_{1};
@@ -199,7 +201,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// Each place its point, the nearest pairs first, none further than `most`.
+/// Assigns points to positions, the nearest pairs first, none further than `most`.
 void assign(const Eigen::Matrix3Xd& moved, const Places& near, double most, Registration& found) {
   struct Near {
     double off;
@@ -256,7 +258,7 @@ std::optional<Registration> refined(const Pose& guess, const Eigen::Matrix3Xd& p
       if (!std::isnan(one)) off.push_back(one);
     gate = std::clamp(5 * median(off), options.nearest, options.reach);
   }
-  // of the last fit
+  // assignment of the last fit
   assign(found.pose.of(points), near, gate, found);
   if (found.found < least_points) return std::nullopt;
   for (const double one : found.distance) {

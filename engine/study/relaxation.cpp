@@ -25,12 +25,12 @@ double kick_and_drift(const Model& model, const Eigen::Matrix3Xd& mass, double k
   return kinetic;
 }
 
-/// energies beyond any the rods could hold: strained by more than one half
+/// energies above any that the rods could store: strained by more than one half
 bool grown(const Assembly& assembly) {
   return !(std::abs(assembly.largest_strain) < 0.5) || !std::isfinite(assembly.energies.total());
 }
 
-/// assembles the gradient, and whether that ends the way: at rest, beyond all bounds or cancelled
+/// assembles the gradient; returns whether the run ends: equilibrium, divergence or cancel
 bool ended(const Model& model, const State& state, const BaselineOptions& options,
            const Watch& watch, Assembly& assembly, BaselineReport& report) {
   assemble_gradient(model, state, {}, assembly);
@@ -87,7 +87,7 @@ RunOutcome claim_of(const BaselineReport& report) {
   return report.end == Outcome::cancelled ? RunOutcome::too_slow : RunOutcome::not_converged;
 }
 
-/// Of the slowest mode at the problem's end, 1/s.
+/// Frequency of the slowest mode at the problem's end, 1/s.
 double slowest_frequency(const Problem& problem, const Eigen::Matrix3Xd& mass) {
   Linearisation system(problem.model);
   system.at(problem.end, false);
@@ -104,7 +104,7 @@ double slowest_frequency(const Problem& problem, const Eigen::Matrix3Xd& mass) {
   return std::sqrt(frequency2);
 }
 
-/// A baseline on its way through a problem.
+/// A run of a baseline through a problem.
 struct RelaxationRun {
   const Problem& problem;
   const Eigen::Matrix3Xd& mass;
@@ -118,7 +118,7 @@ struct RelaxationRun {
       if (problem.model.pinned(node)) moving.state.x.col(node) = there.col(node);
   }
 
-  /// Load steps, at rest after each.
+  /// Load steps, each to equilibrium.
   RunOutcome steps(int count, const Watch& watch) {
     how.most_steps = 1 << 30;  // the time limit decides
     RunOutcome claim = RunOutcome::right;
@@ -132,8 +132,8 @@ struct RelaxationRun {
     return claim;
   }
 
-  /// The boundary moves for four periods of the slowest mode, which is damped critically; then to
-  /// rest. A boundary that jumps would throw the shell about.
+  /// Moves the boundary during four periods of the slowest mode, which is damped critically, then
+  /// to equilibrium. A sudden motion would give the shell large velocities.
   RunOutcome ramp(bool moves, const Watch& watch) {
     constexpr int chunk = 20;  // time steps between two moves
     const double slowest = slowest_frequency(problem, mass);
@@ -204,14 +204,14 @@ BaselineReport dynamic_relaxation(const Model& model, State& state, const Baseli
   bool from_rest = true;
   for (report.steps = 0; report.steps < options.most_steps; ++report.steps) {
     if (ended(model, state, options, watch, assembly, report)) return report;
-    // velocities stand half a step after positions: the first from rest is half a kick; a whole one
-    // would feed the fast modes at every restart
+    // velocities are half a step after positions: the first one from zero velocity is half a kick;
+    // a full one would excite the fast modes at every restart
     const double kick = from_rest ? 0.5 * h : h;
     const double kinetic = kick_and_drift(model, mass, kick, h, 1, assembly, state.x, velocity);
     from_rest = kinetic < before;
     if (from_rest) {
-      // the peak lies a step and a half back; without the way back the fast modes' peaks would stop
-      // the slow ones again and again
+      // the peak is one and a half steps back; without going back the fast modes' peaks would stop
+      // the slow ones repeatedly
       for (int node : model.free_columns)
         state.x.col(node) -= 1.5 * h * velocity.col(node) +
                              0.5 * h * h / mass(0, node) * assembly.gradient.col(node);
@@ -237,7 +237,7 @@ BaselineReport implicit_to_rest(const Model& model, const Eigen::Matrix3Xd& mass
   return report;
 }
 
-// Methods that come to rest by moving.
+// Methods that reach equilibrium by moving.
 
 MethodResult relax(const Problem& problem, const RelaxationOptions& options, const Watch& watch) {
   MethodResult result = MethodResult::on(problem);
@@ -271,7 +271,7 @@ MethodResult hold(const Problem& problem, double over_l_c, const Watch& watch) {
     for (int axis = 0; axis < 3; ++axis)
       moving.state.x(axis, node) += 0.01 * std::sin(1 + 2.3 * node + 1.7 * axis);
   const BaselineReport report = explicit_to_rest(problem.model, mass, moving, options, watch);
-  // it need not come to rest, it must not leave
+  // it need not converge but must not leave
   result.claim = report.end == Outcome::not_converged ? RunOutcome::right : claim_of(report);
   result.x = std::move(moving.state.x);
   return result;

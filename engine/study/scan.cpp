@@ -19,7 +19,7 @@ constexpr double cells_a_diameter = 3, most_cells = 1e6;  // a side
 constexpr double speck_share = 0.25;
 constexpr int disc_steps = 30;
 constexpr double pull = 1e-3;  // of the mean, where the disc's rim sees no point
-constexpr double wide_rim = 1.25, most_beyond = 0.05;  // radii; share of the points beyond them
+constexpr double wide_rim = 1.25, most_beyond = 0.05;  // radii; fraction of the points outside them
 
 using Cell = std::array<std::int32_t, 3>;
 
@@ -100,7 +100,7 @@ Eigen::Matrix3Xd chosen(const Eigen::Matrix3Xd& cloud, const std::vector<int>& p
   return some;
 }
 
-/// The middle of a top, or nothing where its points reach beyond it: two things that touch.
+/// The middle of a top, empty if its points extend outside it: two touching objects.
 std::optional<Eigen::Vector3d> middle_of(const Eigen::Matrix3Xd& points, double radius,
                                          double& off_plane) {
   const Eigen::Vector3d mean = points.rowwise().mean();
@@ -270,7 +270,7 @@ ScanTarget form_of(const record::Layout& layout, const record::Frame& frame) {
       if (joint < 0) continue;
       const Eigen::Vector3d t = tangent_at(frame.nodes.col(rod[k - 1]), frame.nodes.col(rod[k]),
                                            frame.nodes.col(rod[k + 1]));
-      // of a rod with one joint alone: the family that the other one leaves
+      // for a rod with a single joint: the family that the other rod leaves
       const bool to_u = along_u ? *along_u : u.col(joint).isZero(0);
       (to_u ? u : v).col(joint) = t;
     }

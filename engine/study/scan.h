@@ -10,7 +10,7 @@
 
 namespace gridshell::study {
 
-/// What a cloud comes to.
+/// Result of the clustering of a cloud.
 struct Clusters {
   Eigen::Matrix3Xd tops;    ///< middles of the discs, mm
   std::vector<int> points;  ///< of each
@@ -21,14 +21,14 @@ struct Clusters {
   double noise_mm = record::unknown;
 };
 
-/// Points that lie nearer to one another than a third of `diameter_mm` are one cluster (further
-/// apart than 1.2 diameters never). A cluster with less than a quarter of the points of the cluster
-/// that the median point is in, of clusters of eight points and more where there are such (sparse
-/// points of a table are many), is a speck; one that reaches further than a diameter from its
-/// middle, or with a twentieth of its points beyond 1.25 radii, is no joint. The middle of a top is
-/// that of a disc of the diameter in the points' plane which they overhang least, since their mean
-/// depends on how evenly a scanner sees it; along the normal it is their mean. Errors (bad_input):
-/// points so far apart that they cannot be one shell.
+/// Points with distances below a third of `diameter_mm` are one cluster (above 1.2 diameters
+/// never). A cluster with less than a quarter of the points of the median point's cluster, among
+/// clusters of eight points and more if there are any (sparse points of a table are many), is a
+/// speck; one that extends further than a diameter from its middle, or with a twentieth of its
+/// points outside 1.25 radii, is no joint. The middle of a top is that of the disc of the diameter
+/// in the points' plane which they overhang least, since their mean depends on how evenly a scanner
+/// sees it; along the normal it is their mean. Errors (bad_input): points so far apart that they
+/// cannot be one shell.
 Result<Clusters> cluster_joint_tops(const Eigen::Matrix3Xd& cloud, double diameter_mm);
 
 // Lays measured points on a shape whose pose is not known: rigidly, some missing, some spurious.
@@ -41,29 +41,29 @@ struct Pose {
   Eigen::Matrix3Xd of(const Eigen::Matrix3Xd& points) const;
 };
 
-/// How points lie on the places of a shape.
+/// Assignment of points to the positions of a shape.
 struct Registration {
   Pose pose;
-  std::vector<int> point_of;  ///< of each place, -1: missing
-  Eigen::VectorXd distance;   ///< of each place, NaN: missing
-  int found = 0;              ///< places with a point
-  /// Sum over the places of their squared distance, at most `bar`^2 each, a missing one's too.
+  std::vector<int> point_of;  ///< for each position, -1: missing
+  Eigen::VectorXd distance;   ///< for each position, NaN: missing
+  int found = 0;              ///< number of positions with a point
+  /// Sum over the positions of their squared distance, at most `bar`^2 each, also for missing ones.
   double cost = 0;
 };
 
 /// Lengths in the unit of the points.
 struct RegistrationOptions {
-  double bar = 3;        ///< places nearer to a point than that agree with it
-  double reach = 8;      ///< no point belongs to a place further away
+  double bar = 3;        ///< largest distance of a position from a point that agrees with it
+  double reach = 8;      ///< largest distance of a position from its point
   double nearest = 1.5;  ///< within that it does, however well all others lie
 };
 
-/// The pose in which most places have a point within the bar and, among those, the cost is least.
-/// Poses are tried that lay three points, drawn at random (always the same), on three places at
-/// their distances [Fischler and Bolles 1981]; the best are refined by turns of assignment (each
-/// place its point, the nearest pairs first, none further than five medians of all) and fit [Besl
-/// and McKay 1992; Umeyama 1991]. Nothing: there are fewer than four of either, or no pose lays
-/// four points on places.
+/// The pose in which most positions have a point within the bar and, among those, the cost is
+/// least. The poses tried lay three points, drawn at random (always the same), on three positions
+/// at their distances [Fischler and Bolles 1981]; the best are refined by alternating assignment
+/// (each position its point, the nearest pairs first, none further than five medians) and fit [Besl
+/// and McKay 1992; Umeyama 1991]. Empty: there are fewer than four of either, or no pose lays four
+/// points on positions.
 std::optional<Registration> register_points(const Eigen::Matrix3Xd& points,
                                             const Eigen::Matrix3Xd& places,
                                             const RegistrationOptions& options);
@@ -79,13 +79,13 @@ struct JointCylinder {
 struct ScanTarget {
   Eigen::Matrix3Xd joints, normals;
   double spacing_mm = 0;
-  /// A mirror that leaves footprint and boundary as they are: the shell may rest in the mirror
-  /// image as well.
+  /// A reflection that preserves footprint and boundary: the mirror image of the shell is an
+  /// equilibrium too.
   std::optional<Eigen::Matrix3d> mirror;
 };
 
-/// The normals are t_u x t_v of the rods at each joint, t of the quadratic through the nodes beside
-/// it.
+/// The normals are t_u x t_v of the rods at each joint, t of the quadratic through the adjacent
+/// nodes.
 ScanTarget form_of(const record::Layout& layout, const record::Frame& frame);
 
 /// A scan laid on a state. Joints in the order of the form, in the frame of the run.
@@ -110,9 +110,10 @@ struct RegisteredScan {
 std::optional<RegisteredScan> register_points(const Clusters& clusters, const ScanTarget& form,
                                               const JointCylinder& cylinder);
 
-/// By how much further out along the normals all tops lie than the cylinder's height says, mm,
-/// beside a small move and turn w, s of the scan: the least squares of r = b n + w x p + s over the
-/// joints found, r from the simulated joint p to the measured one. 0 of fewer than eight of them.
+/// Mean distance of all tops along the normals outside the cylinder's height, mm, in addition to a
+/// small displacement s and rotation w of the scan: the least squares of r = b n + w x p + s over
+/// the joints found, r from the simulated joint p to the measured one. 0 for fewer than eight of
+/// them.
 double beyond_height(const RegisteredScan& scan, const ScanTarget& form);
 
 /// How far the joints of a state that a scan shows may lie off, rms: five times the noise of the
@@ -120,10 +121,10 @@ double beyond_height(const RegisteredScan& scan, const ScanTarget& form);
 /// radius. More than that, and in a pattern, is a dent or a shell that was built otherwise.
 double match_tolerance_mm(const Clusters& clusters, const JointCylinder& cylinder);
 
-/// Whether a scan laid so shows that state: nine tenths of the joints found lie within two radii of
-/// the simulated ones, as do six tenths of what could (of the joints or of the tops on the shell or
-/// beside it, whichever are fewer, so that a view of one side is enough), and their rms is at most
-/// the tolerance.
+/// Whether a registered scan shows that state: nine tenths of the joints found are within two radii
+/// of the simulated ones, as are six tenths of those possible (of the joints or of the tops on the
+/// shell or near it, whichever are fewer, so that a view of one side is enough), and their rms is
+/// at most the tolerance.
 bool scan_matches(const RegisteredScan& scan, double tolerance_mm);
 
 }  // namespace gridshell::study

@@ -15,7 +15,7 @@ namespace {
 
 using record::RunOutcome;
 
-/// A map in the making: its axes, and of every method what it comes to at (x, y).
+/// A map under construction: its axes, and the run of every method at (x, y).
 class Map {
  public:
   using Try = std::function<RunOutcome(double x, double y, const Watch&)>;
@@ -145,7 +145,7 @@ Cells newton_map(const SharedProblem& study, const Axis& load_steps, const Axis&
 
 Cells tolerance_map(const SharedProblem& study, const Axis& tolerances, const Axis& load_steps,
                     int edges) {
-  // what is asked for is what is promised
+  // the requested accuracy is the promised one
   const double scale = study->scale_mm();
   Map map("tolerance", "tolerance_mm", tolerances, "load_steps", load_steps);
   for (const Globalisation how : globalisations)
@@ -177,7 +177,7 @@ Cells leg_map(const preset::Preset& preset, const Axis& legs, const Axis& load_s
   if (preset.footprint.kind != preset::FootprintKind::circle) return cells;
   for (const double leg : legs) {
     preset::Preset cut = preset;
-    // the outermost rod's last joint stands that far inside the boundary
+    // the outermost rod's last joint is that far inside the boundary
     const double d = preset.footprint.spacing_mm, outermost = (preset.footprint.rods - 1) / 2.0;
     const double original = preset.original_radius_mm();
     const double reach =

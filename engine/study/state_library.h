@@ -23,10 +23,10 @@ using simulate::symmetries_of_shell;
 /// The meshes that the accuracy asks for, but two at least, of which energies are extrapolated.
 LevelPlan measuring_plan(const Scene& scene);
 
-/// A state that a shell can rest in at the end of its actuation.
+/// A stable equilibrium of a shell at the end of its actuation.
 struct ShellState {
   record::StateRow row;  ///< what is measured, and how often trials ended in it
-  record::Frame frame;   ///< extrapolated as planned, upright where up and down are alike
+  record::Frame frame;   ///< extrapolated as planned, upright if up and down are equivalent
   State rest;            ///< on the mesh that states are judged on
   double energy_mJ = 0;  ///< there, as it was met
   Effort effort = {};    ///< of its measures
@@ -35,16 +35,16 @@ struct ShellState {
 /// Measures states, one after another; one a thread.
 class StateMeasures {
  public:
-  /// `tolerance_mm`: joints that a symmetry moves by less stay where they are. Errors (bad_input):
-  /// rods that the rung cannot take.
+  /// `tolerance_mm`: joints displaced by less under a symmetry count as fixed. Errors (bad_input):
+  /// rods that the rod model does not support.
   static Result<StateMeasures> make(std::shared_ptr<const Scene> scene, double tolerance_mm);
 
-  /// A state as it was met, with its measures but its number; nothing where finer meshes do not
-  /// have it, have it and it is not stable, or its rods are beyond the strain allowed.
+  /// A state as it was found, with its measures but without number; empty if finer meshes do not
+  /// have it, have it unstable, or its rods exceed the allowed strain.
   std::optional<ShellState> of(const ShellState& met, bool life, const Watch& watch);
 
   const Simulation& session() const { return session_; }
-  /// Of the finest mesh, and so of its joints.
+  /// Symmetries of the finest mesh, and so of its joints.
   const std::vector<MeshSymmetry>& symmetries() const { return fine_; }
 
  private:
@@ -68,7 +68,7 @@ class StateCatalogue {
 
   /// The one that `joints` (3 x n, mm; energy in mJ) are an image of, if any.
   std::optional<std::size_t> find(const Eigen::Matrix3Xd& joints, double energy_mJ) const;
-  /// The same, entered as a new one where there is none.
+  /// Index of the state with these joints, which is added if it is new.
   std::size_t enter(const Eigen::Matrix3Xd& joints, double energy_mJ);
 
  private:
@@ -81,7 +81,8 @@ class StateCatalogue {
   std::vector<Entry> entries_;
 };
 
-// The states of a shell: looked for by shaking it, told apart modulo its symmetries, and measured.
+// The states of a shell: searched by perturbations, distinguished modulo its symmetries, and
+// measured.
 
 /// What a search found, in the order of energy.
 struct StateLibrary {
@@ -105,7 +106,7 @@ Result<StateLibrary> find_states(const std::shared_ptr<const Scene>& scene,
                                  const preset::SearchSettings& jitter, const SearchOptions& options,
                                  Watch& watch);
 
-/// What a run leaves beside the frames of its states.
+/// Results of a run in addition to the frames of its states.
 struct StateSearchRun {
   record::Summary summary;  ///< of the state of lowest energy
   record::StateTables tables;
@@ -115,26 +116,26 @@ struct StateSearchRun {
 record::Summary summary_of(const preset::Preset& preset, const Scene& scene,
                            const StateLibrary& library);
 
-/// find_states() of a preset, then the ways between them and the barriers; the states are handed to
-/// `sink` as frames in the order of energy. Errors: as find_states(), and the sink's.
+/// find_states() of a preset, then the transitions between them and the barriers; the states are
+/// passed to `sink` as frames in the order of energy. Errors: as find_states(), and the sink's.
 Result<StateSearchRun> run_states(const preset::Preset& preset, int threads, record::Sink& sink,
                                   Watch& watch);
 
-// Where states go to when a hand disturbs them, and how high the barriers between them are. Both
-// tell the watch their progress from `begun` to `end`. Errors: bad_input, cancelled.
+// Transitions between perturbed states, and the barriers between them. Both functions report their
+// progress to the watch from `begun` to `end`. Errors: bad_input, cancelled.
 
-/// Lets out the boundary of the first `jitter.transitions` states of a library until each ends, and
-/// draws it in again; and pokes each eight times. What goes to a state that is not in the library
-/// goes to 0; what does not come to rest is left out.
+/// Releases the boundary of the first `jitter.transitions` states of a library until each ends, and
+/// contracts it again; and pushes each eight times. A transition to a state that is not in the
+/// library has the target 0; runs that do not converge are left out.
 Result<std::vector<record::Transition>> transitions_between(
     const StateLibrary& library, const std::shared_ptr<const Scene>& scene,
     const preset::SearchSettings& jitter, int threads, double begun, double end, Watch& watch);
 
-/// The lowest passes between the states of a library that its picture shows: a way is followed from
-/// each to the nearest images of two others, and from the saddle on it down on either side,
-/// whatever states that leads to. Of several passes between two states the lowest. On the mesh that
-/// states are judged on. Counts of ways and of passes go into `library.search`, the lowest way out
-/// of each state into its row.
+/// The lowest mountain passes between the states of a library that its picture shows: a
+/// minimum-energy path is computed from each to the nearest images of two others, and from the
+/// saddle a descent on either side, whatever states it reaches. Of several passes between two
+/// states the lowest is kept. On the mesh that states are judged on. The numbers of paths and
+/// passes are written to `library.search`, the lowest barrier of each state to its row.
 Result<std::vector<record::Barrier>> barriers_between(StateLibrary& library,
                                                       const std::shared_ptr<const Scene>& scene,
                                                       const preset::SearchSettings& jitter,

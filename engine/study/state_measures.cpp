@@ -22,7 +22,7 @@ using namespace simulate;
 
 namespace {
 
-constexpr double largest_step = 0.05;  // in the path parameter: where a branch is asked for
+constexpr double largest_step = 0.05;  // in the path parameter: where a branch is requested
 constexpr double located = 1e-3;       // in it: to which the end of a branch is located
 
 /// The paper's ii and iii break the symmetry by rods of higher modes: a dome that leans is neither.
@@ -76,7 +76,7 @@ Result<StateMeasures> StateMeasures::make(std::shared_ptr<const Scene> scene, do
   return StateMeasures(std::move(scene), tolerance_mm, std::move(*session), std::move(*path));
 }
 
-/// Turned over where the shell hangs below its boundary and up and down are alike.
+/// Inverts a shell that hangs below its boundary if up and down are equivalent.
 State StateMeasures::upright(const State& rest) const {
   const RodMesh& mesh = session_.shell().mesh(0);
   const Model& model = session_.shell().model(0);

@@ -19,7 +19,7 @@ using preset::SearchMode;
 
 const LevelPlan judged_plan{{judged_edges}, false};
 
-/// What tells the generators of trials apart.
+/// Distinguishes the random generators of trials.
 enum class Purpose : std::uint32_t { trial, confined, poke };
 
 /// A generator a trial, so that any trial can be made by itself.
@@ -72,7 +72,7 @@ Result<std::vector<StartForm>> forms_to_shake(const std::shared_ptr<const Scene>
     if (jitter.mode == SearchMode::random) continue;
     auto course = follow_actuation(scene, judged_plan, level < 1, level, watch);
     if (watch.cancelled()) return stopped();
-    // where it came to decides, below
+    // the state reached decides, below
     if (course && scene->from_net) (void)course->simulation.go(forms.back().t, watch);
     const bool there = course && course->simulation.shell().state().t == forms.back().t;
     if (there)
@@ -152,10 +152,10 @@ Result<State> StateSearcher::push_start(const StartForm& form, std::mt19937& ran
   return session_.shell().state().levels[0];
 }
 
-/// Where the session goes from where it stands, on the scene's own motion.
+/// Moves the simulation from its current state along the scene's own motion.
 Result<State> StateSearcher::go(double t, const Watch& watch) {
   Report report = session_.go(t, watch);
-  // a scene that chooses no branch goes on through states that are not stable
+  // a scene that chooses no branch continues through unstable states
   if (report.end == Outcome::reached && !report.certificate.stable()) report = session_.rest(watch);
   if (watch.cancelled()) return stopped();
   if (report.end == Outcome::locked) return no_rest("the rods came to their length");

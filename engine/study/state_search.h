@@ -1,5 +1,5 @@
-// A shell shaken out of the state it would rest in [Baek 2018, 'DER Simulations and Jittering
-// Algorithm']: one trial after another, each seeded by itself.
+// Search for other states of a shell by perturbations [Baek 2018, 'DER Simulations and Jittering
+// Algorithm']: one trial after another, each with its own seed.
 #pragma once
 
 #include <memory>
@@ -13,10 +13,10 @@
 
 namespace gridshell::study {
 
-/// Edges a segment of the mesh that trials end on and that tells states apart.
+/// Edges per segment of the mesh that trials end on and that distinguishes states.
 inline constexpr int judged_edges = 4;
 
-/// A form that the actuation came past: what is shaken.
+/// A state that the actuation passed: the start of a perturbation.
 struct StartForm {
   double t = 1;  ///< path parameter
   State state;   ///< on the mesh that states are judged on
@@ -30,24 +30,24 @@ Result<std::vector<StartForm>> forms_to_shake(const std::shared_ptr<const Scene>
                                               const preset::SearchSettings& jitter,
                                               const Watch& watch);
 
-/// Makes trials; one a thread. What comes of trial k hangs on the seed and k alone.
+/// Makes trials; one object per thread. The result of trial k depends on the seed and k alone.
 class StateSearcher {
  public:
-  /// `forms` must outlive it. Errors (bad_input): rods that the rung cannot take.
+  /// `forms` must outlive it. Errors (bad_input): rods that the rod model does not support.
   static Result<StateSearcher> make(std::shared_ptr<const Scene> scene,
                                     const preset::SearchSettings& jitter,
                                     const std::vector<StartForm>& forms);
 
-  /// The stable rest, the actuation finished, that trial k ends in, on the mesh that states are
-  /// judged on. Errors: no_equilibrium with the reason, in a few words that many trials share;
-  /// cancelled.
+  /// The stable equilibrium, at the end of the actuation, that trial k reaches on the mesh that
+  /// states are judged on. Errors: no_equilibrium with the reason, in a few words that many trials
+  /// share; cancelled.
   Result<State> trial(int k, const Watch& watch);
-  /// The same from a form confined to the k-th of groups(), counted round and round.
+  /// A trial from a form with the imposed symmetry of the k-th of groups(), counted cyclically.
   Result<State> symmetric_trial(int k, const Watch& watch);
   /// From a state at the end of the actuation: the boundary released to progress `to` and
   /// contracted again, past the snaps on its path. Errors as trial().
   Result<State> release_boundary(const State& from, double to, const Watch& watch);
-  /// The same of random pushes, the k-th of this state.
+  /// Applies random pushes, the k-th set of this state.
   Result<State> push_at_random(const State& from, int k, const Watch& watch);
 
   const std::vector<SymmetryGroup>& groups() const { return groups_; }
@@ -73,8 +73,8 @@ class StateSearcher {
   const std::vector<StartForm>* forms_;
   std::vector<MeshSymmetry> symmetries_;  // of the shell, on the mesh that states are judged on
   std::vector<SymmetryGroup> groups_;
-  Eigen::VectorXd joint_length_;  // of rod that each joint stands for, mm
-  std::vector<int> pushable_;     // joints that no support holds
+  Eigen::VectorXd joint_length_;  // of rod that belongs to each joint, mm
+  std::vector<int> pushable_;     // joints without a support
   MultilevelRelaxation cascade_;
   Simulation session_;
 };

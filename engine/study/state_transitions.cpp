@@ -77,8 +77,8 @@ class Crossings {
   Crossings(Explorer explorer, double spacing)
       : explorer_(std::move(explorer)), spacing_(spacing) {}
 
-  /// The paths to the nearest states: of the images that the bend rung can turn, else the states as
-  /// they are.
+  /// The paths to the nearest states: of the images if the bend model allows it, else of the states
+  /// as they are.
   std::vector<Pairing> pairings(const std::vector<std::size_t>& drawn) const {
     std::set<std::pair<std::size_t, std::size_t>> pairs;
     std::vector<Pairing> all;
@@ -173,8 +173,8 @@ record::Barrier barrier_of(const Crossing& crossing) {
   return barrier;
 }
 
-/// Of several passes between the same two states the lowest, in the order of the states; a pass
-/// between two that were not met says nothing of any state.
+/// The lowest of several passes between the same two states, in the order of the states; a pass
+/// between two states that were not found is ignored.
 std::vector<record::Barrier> lowest_each(std::vector<record::Barrier> all) {
   std::erase_if(all, [](const record::Barrier& one) { return one.from == 0; });
   std::ranges::stable_sort(all, {}, [](const record::Barrier& one) {

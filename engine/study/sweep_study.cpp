@@ -44,7 +44,7 @@ record::Figure known(double value) {
   return {};
 }
 
-/// The figures of a run beyond its summary.
+/// Results of a run in addition to its summary.
 record::Figures more_of(const Scene* scene, const record::Frame& last) {
   record::Figure ratio;
   if (scene) {
@@ -71,7 +71,7 @@ void append(record::Figures& figures, record::Figures more) {
   for (auto& one : more) figures.push_back(std::move(one));
 }
 
-/// A point that looks for states. Of each is asked what tells it apart, not how far back it lives.
+/// A point that searches for states. Each state is identified, but its range is not computed.
 Result<record::Figures> figures_of_search(const preset::Preset& preset,
                                           const std::shared_ptr<const Scene>& scene, Watch& watch) {
   TRY(library, find_states(scene, preset.jitter, {.threads = 1, .lives = false}, watch));
@@ -168,7 +168,7 @@ Result<void> run_points(const preset::SweepGrid& grid, const std::vector<std::si
   std::mutex one_at_a_time;
   bool refused = false;
   const auto compute = [&](int k) -> Result<void> {
-    // each point tells its own progress, and all hear the same wish to stop
+    // each point reports its own progress, and all receive the same cancel
     TimeLimit none(no_limit_s, watch);
     TRY(result, result_of(grid, points[std::size_t(k)], none.watch()));
     const std::lock_guard lock(one_at_a_time);

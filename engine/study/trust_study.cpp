@@ -252,13 +252,13 @@ double off_energies(const record::Frame& a, const record::Frame& b) {
 
 constexpr double least_error = 1e-5;  // of forces and energies: below is what a residual leaves
 
-/// Of the frames that both have, the one whose error is the most times its estimate.
+/// The frame of both runs whose error is largest relative to its estimate.
 void compare(const ExperimentResult& asked, const ExperimentResult& fine, record::TrustRow& row) {
   WorstError joints(row.error, row.estimate, 1e-9);
   WorstError forces(row.force_error, row.force_estimate, least_error);
   WorstError energies(row.energy_error, row.energy_estimate, least_error);
   const double scale_mm = asked.trajectory.layout.length_scale_mm;
-  // flat rods hold nothing: forces and energies are over the largest of the run
+  // flat rods store no energy: forces and energies are over the largest of the run
   double force = 0, energy = 0;
   for (const record::Frame& other : fine.trajectory.frames) {
     if (other.largest_force_N > force) force = other.largest_force_N;
@@ -280,7 +280,8 @@ void compare(const ExperimentResult& asked, const ExperimentResult& fine, record
 }
 
 TrustClass judge(const Trial& asked, const Trial& fine, const Trial& other, record::TrustRow& row) {
-  constexpr double branch = 0.02;  // of the length scale: further apart states are others
+  constexpr double branch =
+      0.02;  // fraction of the length scale: states further apart are different
   if (asked.too_slow) return TrustClass::too_slow;
   if (asked.exit == 2) return TrustClass::refused;
   if (!asked.outcome || !asked.whole())

@@ -52,19 +52,19 @@ constexpr auto words(SceneKind) {
 /// A network, flat or in space, its joints and ends of one kind or of several.
 void random_network(RandomDraw& draw, preset::Preset& p);
 
-/// A preset of that kind, of 4 to 14 rods a direction, with a tolerance of 1e-2 to 1e-4; the same
-/// for the same numbers drawn, on every machine.
+/// A preset of that kind, with 4 to 14 rods per direction and a tolerance of 1e-2 to 1e-4; the same
+/// for the same random numbers on every machine.
 preset::Preset random_preset(SceneKind kind, std::mt19937& random);
 
-// Whether a user may trust what a run says: random scenes of every kind, solved as by default and
-// beside it on meshes of another family (5, 10, 20 edges a segment in the place of 4, 8, 16), with
-// load steps of half the size, an eighth of the tolerance and other numbers of frames.
+// Whether a user may trust the reports of a run: random scenes of every kind, solved with defaults
+// and on meshes of another family (5, 10, 20 edges per segment instead of 4, 8, 16), with load
+// steps of half the size, an eighth of the tolerance and other numbers of frames.
 
 struct TrustOptions {
   int scenes = 600;                 ///< of all kinds in turn, networks left out
   std::optional<SceneKind> kind{};  ///< of this one alone
   int seed = 1;
-  double seconds = 20;  ///< a run beyond that is too slow
+  double seconds = 20;  ///< a longer run is too slow
   int threads = 2;
 };
 
