@@ -62,6 +62,23 @@ void each_pair_list(const Model& model, Visit visit) {
   std::apply([&](const auto&... lists) { (visit(lists), ...); }, model.pairs);
 }
 
+/// visit(pair, place of its torque among the forces) for every joint with a spring
+template <class Visit>
+void each_spring(const Model& model, Visit visit) {
+  Eigen::Index place = Eigen::Index(model.edges.size());
+  for (const auto& pair : std::get<std::vector<Pair<JointAngle>>>(model.pairs))
+    visit(pair, place++);
+}
+
+/// visit(edge, column of the angle's slope by its vector, among an assembly's tangents) for both
+/// edges of such a joint
+template <class Visit>
+void each_arm(const Model& model, const Pair<JointAngle>& pair, Eigen::Index place, Visit visit) {
+  const Eigen::Index first = 2 * place - Eigen::Index(model.edges.size());
+  visit(model.edges[std::size_t(pair.e)], first);
+  visit(model.edges[std::size_t(pair.f)], first + 1);
+}
+
 inline Eigen::Vector3d gap_of(const State& state, const NodeSpring& spring) {
   return state.x.col(spring.b) - state.x.col(spring.a);
 }

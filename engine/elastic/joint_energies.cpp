@@ -253,27 +253,26 @@ void Model::fold(Eigen::Matrix3Xd& force) const {
 
 void add_joint_angles(const Model& model, const State& state, double opening,
                       const Stiffness* stiffness, const Eigen::Matrix3Xd* before, Assembly& out) {
-  Eigen::Index place = Eigen::Index(model.edges.size()), column = place;
-  for (const auto& pair : std::get<std::vector<Pair<JointAngle>>>(model.pairs)) {
+  each_spring(model, [&](const auto& pair, Eigen::Index place) {
     const PairGeometry at = pair_geometry(model, state, pair, opening);
     const PairEnergy angle = pair.law.slopes(at, stiffness != nullptr);
     const double torque = pair.law.stiffness * pair.law.excess(at), known = state.force[place];
     out.energies[Term::shear] += pair.law.value(at);
-    out.force[place++] = torque;
-    for (const auto& [edge, from] : {std::pair(pair.e, 0), std::pair(pair.f, 3)}) {
-      const Eigen::Vector3d slope = angle.gradient.segment<3>(from);
+    out.force[place] = torque;
+    Eigen::Index from = 0;
+    each_arm(model, pair, place, [&](const ModelEdge& edge, Eigen::Index column) {
+      const Eigen::Vector3d slope = angle.gradient.segment<3>(std::exchange(from, 3));
       out.tangents.col(column) = slope;
       Eigen::Vector3d pull = torque * slope;
       if (before) pull += (torque - known) * (before->col(column) - slope);
-      out.gradient.col(model.edges[std::size_t(edge)].from) -= pull;
-      out.gradient.col(model.edges[std::size_t(edge)].to) += pull;
-      ++column;
-    }
-    if (!stiffness) continue;
+      out.gradient.col(edge.from) -= pull;
+      out.gradient.col(edge.to) += pull;
+    });
+    if (!stiffness) return;
     const PairMatrix H = pair.law.stiffness * angle.gradient * angle.gradient.transpose() +
                          (stiffness->mixed ? known : torque) * angle.hessian;
     add_vector_hessian(model, pair, H, out.hessian);
-  }
+  });
 }
 
 void add_links(const Model& model, const State& state, bool with_hessian, Assembly& out) {
@@ -324,13 +323,13 @@ void add_joint_energies(const Model& model, const State& state, Energies& sum) {
 
 Eigen::Matrix3Xd opening_rate(const Model& model, const Eigen::Matrix3Xd& tangents) {
   Eigen::Matrix3Xd rate = Eigen::Matrix3Xd::Zero(3, model.columns());
-  Eigen::Index column = Eigen::Index(model.edges.size());
-  for (const auto& pair : std::get<std::vector<Pair<JointAngle>>>(model.pairs))
-    for (const int edge : {pair.e, pair.f}) {
-      const Eigen::Vector3d pull = pair.law.stiffness * pair.law.opening * tangents.col(column++);
-      rate.col(model.edges[std::size_t(edge)].from) += pull;
-      rate.col(model.edges[std::size_t(edge)].to) -= pull;
-    }
+  each_spring(model, [&](const auto& pair, Eigen::Index place) {
+    each_arm(model, pair, place, [&](const ModelEdge& edge, Eigen::Index column) {
+      const Eigen::Vector3d pull = pair.law.stiffness * pair.law.opening * tangents.col(column);
+      rate.col(edge.from) += pull;
+      rate.col(edge.to) -= pull;
+    });
+  });
   return rate;
 }
 

@@ -177,15 +177,13 @@ Eigen::VectorXd Linearisation::force_change(const Eigen::Matrix3Xd& dx, double o
         EA_scale_ * edge.EA / edge.rest_length *
         tangents_.col(Eigen::Index(k)).dot(dx.col(edge.to) - dx.col(edge.from));
   }
-  Eigen::Index place = Eigen::Index(model_.edges.size()), column = place;
-  for (const auto& pair : std::get<std::vector<Pair<JointAngle>>>(model_.pairs)) {
+  each_spring(model_, [&](const auto& pair, Eigen::Index place) {
     double angle = -opening * pair.law.opening;
-    for (const int k : {pair.e, pair.f}) {
-      const ModelEdge& edge = model_.edges[std::size_t(k)];
-      angle += tangents_.col(column++).dot(dx.col(edge.to) - dx.col(edge.from));
-    }
-    change[place++] = pair.law.stiffness * angle;
-  }
+    each_arm(model_, pair, place, [&](const ModelEdge& edge, Eigen::Index column) {
+      angle += tangents_.col(column).dot(dx.col(edge.to) - dx.col(edge.from));
+    });
+    change[place] = pair.law.stiffness * angle;
+  });
   return change;
 }
 
@@ -217,16 +215,14 @@ void Linearisation::restore_lengths(const Eigen::VectorXd& force, State& state) 
     pull.col(edge.from) += excess * tangents_.col(Eigen::Index(k));
     pull.col(edge.to) -= excess * tangents_.col(Eigen::Index(k));
   }
-  Eigen::Index place = Eigen::Index(model_.edges.size()), column = place;
-  for (const auto& pair : std::get<std::vector<Pair<JointAngle>>>(model_.pairs)) {
+  each_spring(model_, [&](const auto& pair, Eigen::Index place) {
     const double angle = pair.law.excess(pair_geometry(model_, state, pair, outside.opening)),
-                 excess = pair.law.stiffness * angle - force[place++];
-    for (const int k : {pair.e, pair.f}) {
-      const ModelEdge& edge = model_.edges[std::size_t(k)];
+                 excess = pair.law.stiffness * angle - force[place];
+    each_arm(model_, pair, place, [&](const ModelEdge& edge, Eigen::Index column) {
       pull.col(edge.from) += excess * tangents_.col(column);
-      pull.col(edge.to) -= excess * tangents_.col(column++);
-    }
-  }
+      pull.col(edge.to) -= excess * tangents_.col(column);
+    });
+  });
   solve(pull);
   move_to(model_, state.x + pull, state);
 }
