@@ -27,7 +27,7 @@ inline std::string faults_of(const std::string& text, const std::vector<Override
 
 }  // namespace preset
 
-/// So many rods a direction inside a circle that is drawn in to another.
+/// A circle with `rods` rods per direction, contracted to a smaller radius.
 inline preset::Preset circle(int rods, double radius_mm, double to_mm, int frames = 2) {
   preset::Preset p;
   p.footprint.rods = rods;
@@ -38,8 +38,8 @@ inline preset::Preset circle(int rods, double radius_mm, double to_mm, int frame
   return p;
 }
 
-/// So many rods a direction, their longest leg 0.8 of the spacing of 20 mm, as the paper's circle
-/// has them, drawn in to that share of its radius.
+/// A circle with `rods` rods per direction and a longest leg of 0.8 of the spacing of 20 mm, as in
+/// the paper, contracted to a fraction of its radius.
 inline preset::Preset paper_circle(int rods, double ratio = 0.75) {
   const double radius = 20 * (0.5 * (rods - 1) + 0.8);
   return circle(rods, radius, ratio * radius);

@@ -1,5 +1,5 @@
-// What calls that may fail came to: their value, or why there is none; and the library in one
-// header, which the tests' precompiled one holds.
+// Results of calls that may fail: the value, or the error; and the library in one header, which the
+// tests' precompiled header includes.
 #pragma once
 
 #include <catch2/catch.hpp>
@@ -22,7 +22,7 @@ T value_of(std::optional<T> result) {
   return std::move(*result);
 }
 
-/// Why it was refused, for that kind of fault; "none" where it was not.
+/// The message of an error of that kind; "none" without an error.
 template <class T>
 std::string refusal(const Result<T>& result, Fault fault = Fault::bad_input) {
   if (result) return "none";
@@ -30,7 +30,7 @@ std::string refusal(const Result<T>& result, Fault fault = Fault::bad_input) {
   return result.error().message;
 }
 
-/// What is asked to stop before it begins does so.
+/// Work that is cancelled before it starts returns at once.
 template <class Work>
 void check_stops(const Work& work) {
   Watch watch;

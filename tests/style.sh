@@ -214,8 +214,8 @@ lengths() {
 
 # folders whose comments follow the glossary, and the files of them that do not yet
 commented="engine/core engine/design engine/formats engine/preset engine/record engine/scene engine/simulate
-  engine/solve engine/study app/cli app/python app/window"
-uncommented='formats/network_|scene/mesh_net|simulate/(stiffening|frames)\.cpp|nested_certificate|cli/(figure|pictures|check)'
+  engine/solve engine/study app/cli app/python app/window tests"
+uncommented='formats/network_|scene/mesh_net|simulate/(stiffening|frames)\.cpp|nested_certificate|cli/(figure|pictures|check)|^tests/(render|images)'
 
 # the text of each comment as FILE:LINE: text, without names and quotations; "1" where a comment begins
 comments() {

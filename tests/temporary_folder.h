@@ -37,7 +37,7 @@ inline std::map<std::string, std::string> contents(const std::filesystem::path& 
   return all;
 }
 
-/// A new empty folder, removed with all it holds.
+/// A new empty folder, removed with its contents.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -80,7 +80,8 @@ class Environment {
   std::optional<std::string> before_;
 };
 
-/// While it lives, a write beyond `bytes` into any file of this process fails, as on a full disk.
+/// During its lifetime, a write above `bytes` into any file of this process fails, as on a full
+/// disk.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) {

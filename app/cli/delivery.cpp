@@ -37,8 +37,8 @@ std::string place_text(const Watch& watch, PathPace& pace) {
   const Watch::Place place = watch.place();
   if (place.edges == 0 || watch.progress() >= 0.5) return "";
   const double left = pace.seconds_left(place, seconds_now());
-  return fmt::format(": the path at {:.3f}, led by {} edges a segment, time left on them {}",
-                     place.t, place.edges, std::isnan(left) ? "unknown" : time_text(left));
+  return fmt::format(": the path at {:.3f}, on {} edges per segment, time left on them {}", place.t,
+                     place.edges, std::isnan(left) ? "unknown" : time_text(left));
 }
 
 // what is whole in a folder that was not finished
@@ -47,7 +47,7 @@ struct Left {
   bool path = false;                               // what was followed of one
 };
 
-constexpr const char* goes_on = "the same command with --resume goes on from there";
+constexpr const char* goes_on = "the same command with --resume continues from there";
 
 Left left_in(const fs::path& folder) {
   Left left;

@@ -135,7 +135,7 @@ std::string text_of(const record::LoadRow& row) {
                         record::with_error(row.critical_factor, row.error, ""));
   else
     text += row.event == BranchEvent::locking ? "rods at their length before stability is lost"
-                                              : "stability is not lost on the way followed";
+                                              : "stability is not lost on the path followed";
   if (std::isfinite(row.linear_factor)) text += fmt::format(" (linear {:.4g})", row.linear_factor);
   if (row.strength_factor == 0)
     text += "; the rods BREAK already without that load";

@@ -72,13 +72,13 @@ std::string help_for(const preset::Preset& preset, record::Limit limit, double l
     case record::Limit::strength:
       return less + " ends before that, more of that limit after it";
     case record::Limit::contact:
-      return "[limits] contact = \"tell\" goes on and tells what touches";
+      return "[limits] contact = \"tell\" continues and reports what touches";
     case record::Limit::branch_lost:
     case record::Limit::no_equilibrium:
       break;
   }
   if (preset.actuation.start == preset::Start::net)
-    return "what may help: --set actuation.start=flat, the patient way from the flat footprint";
+    return "what may help: --set actuation.start=flat, the path from the flat footprint";
   if (preset.contact.model == preset::ContactModel::barrier)
     return "what may help: a wider [contact] gap_mm, or more stiffness_N_per_mm";
   const int edges = preset.accuracy.edges_per_segment;
@@ -290,7 +290,7 @@ Result<fs::path> unfinished_run(const fs::path& folder, const std::string& prese
       return left;
   }
   if (why.empty()) return fs::path();
-  return invalid("--resume: {}: without it the run begins anew", why);
+  return invalid("--resume: {}: without it the run starts again", why);
 }
 
 }  // namespace

@@ -92,7 +92,7 @@ void add_geometry(Sheets& sheets, const Run& run, const exports::FabricationPlan
        {"joints", fmt::format("{}, {} mm apart", summary.joints, number(plan.spacing_mm))},
        {"plan of the boundary", number(span.x()) + " × " + with_unit(span.y(), "mm")},
        {"highest joint above it", with_unit(summary.height_mm, "mm")},
-       {"model", fmt::format("{}, {} edges a segment", summary.model, summary.edges_per_segment)},
+       {"model", fmt::format("{}, {} edges per segment", summary.model, summary.edges_per_segment)},
        {"error of positions", with_unit(summary.error_estimate_mm, "mm")},
        {"state", !summary.solved  ? "the net itself, no equilibrium"
                  : summary.stable ? "in stable equilibrium"
@@ -136,7 +136,7 @@ void add_reactions(Sheets& sheets, const record::Layout& layout, const record::F
     add(fmt::format("{:.1f}, {:.1f}, {:.1f}", at.x(), at.y(), at.z()), frame.reactions_N.col(k));
   }
   sheets.text(
-      fmt::format("Forces of the supports on the shell, at their places in mm; each is known "
+      fmt::format("Forces of the supports on the shell, at their positions in mm; each is known "
                   "to {}.",
                   with_unit(frame.force_error_N, "N")));
   sheets.table({{"place", 130, AlignX::left},
@@ -152,7 +152,7 @@ Result<void> add_loads(Sheets& sheets, study::FormedShell& shell, const ReportOp
                        Watch& watch) {
   sheets.heading("What it carries");
   if (shell.path.simulation.scene().load_cases.empty()) {
-    sheets.text("No load case is named: [[loads.case]] says what comes on.");
+    sheets.text("No load case is named: [[loads.case]] defines one.");
     return {};
   }
   TRY(found, study::load_study(shell, options.imperfections, watch));
@@ -168,7 +168,7 @@ Result<void> add_loads(Sheets& sheets, study::FormedShell& shell, const ReportOp
           std::isfinite(row.strength_factor)
               ? record::with_error(row.strength_factor, row.strength_error, "")
               : "–",
-          !lost ? "stability is not lost on the way followed"
+          !lost ? "stability is not lost on the path followed"
                 : (row.event == record::BranchEvent::turn ? "limit point" : "bifurcation") +
                       (row.imperfections > 0
                            ? fmt::format("; {} shells off shape: {:.3g} of it ({:.3g} to {:.3g})",
@@ -178,7 +178,7 @@ Result<void> add_loads(Sheets& sheets, study::FormedShell& shell, const ReportOp
          row.critical_factor < 1 || row.strength_factor < 1});
   }
   sheets.text(
-      "Each case comes on to the state above, its factor growing by arc length until "
+      "Each case is applied to the state above, its factor growing by arc length until "
       "stability is lost. Beside it the factor that the linearised problem would give. Red: "
       "lost, or a fibre at its strength, below the whole load.");
   sheets.table({{"case", 62, AlignX::left},

@@ -154,8 +154,8 @@ Result<void> check_beside_runs(const fs::path& to) {
   for (fs::path folder = fs::absolute(to, error).parent_path(); folder != folder.root_path();
        folder = folder.parent_path())
     if (fs::exists(folder / manifest_name, error))
-      return invalid("'{}' would lie in the run folder '{}'; choose a place beside it", to.string(),
-                     folder.string());
+      return invalid("'{}' would lie in the run folder '{}'; choose a folder outside it",
+                     to.string(), folder.string());
   return {};
 }
 
@@ -196,7 +196,7 @@ Result<StagedFolder> StagedFolder::resume(const fs::path& final_folder, const st
                                           const fs::path& partial) {
   const Lock lock = lock_of(partial);
   if (lock.failure)
-    return fail(Fault::io, "cannot go on in '{}': {}", partial.string(), reason(lock.failure));
+    return fail(Fault::io, "cannot continue in '{}': {}", partial.string(), reason(lock.failure));
   remove_unfinished(partial);
   return StagedFolder(target_of(final_folder), command, partial, {}, lock.descriptor);
 }

@@ -219,7 +219,7 @@ Result<std::string> finish(const SweepJob& work, const record::SweepLog& log) {
   const bool any = std::ranges::any_of(
       table.rows, [](const auto& row) { return row.result.outcome == record::PointOutcome::done; });
   if (!any && !work.shard)
-    return fail(Fault::no_equilibrium, "no point came to a state; the first: {}",
+    return fail(Fault::no_equilibrium, "no point reached a state; the first: {}",
                 table.rows.front().result.reason);
   const auto plots = plots_of(work.grid);
   const bool diagram = !work.shard && std::ranges::find(plots, classes) != plots.end();
@@ -231,7 +231,7 @@ void report_damage(const SweepJob& work, const record::SweepLog& log) {
   if (log.cut_off())
     std::fprintf(stderr, "the last line of '%s' was cut off and is dropped\n", file.c_str());
   if (log.damaged() > 0)
-    std::fprintf(stderr, "%zu line%s of '%s' damaged: what they held is computed again\n",
+    std::fprintf(stderr, "%zu line%s of '%s' damaged: what they contained is computed again\n",
                  log.damaged(), log.damaged() == 1 ? " is" : "s are", file.c_str());
 }
 
@@ -252,20 +252,21 @@ Result<void> compute(const SweepJob& work, record::SweepLog& log) {
   const auto todo = missing(work, log);
   if (todo.empty()) return {};
   if (!work.quiet() && todo.size() < work.points().size())
-    std::fprintf(stderr, "going on: %s\n", standing_of(work, log).c_str());
+    std::fprintf(stderr, "continuing: %s\n", standing_of(work, log).c_str());
   const int jobs = thread_count(work.options.jobs);
   Result<void> done;
   {
     // what is logged is whole whenever the program ends
     Progress progress({{"sweeping", 100}}, Progress::show_for(work.quiet()), [] {
-      std::fputs("stopped: what was finished is in the log; the same command goes on\n", stderr);
+      std::fputs("stopped: what was finished is in the log; the same command continues it\n",
+                 stderr);
     });
     done = study::run_points(
         work.grid, todo, jobs, [&](record::PointResult result) { return log.append(result); },
         progress.next_phase());
   }
   if (!done && done.error().fault == Fault::cancelled)
-    done.error().message = "stopped: " + standing_of(work, log) + "; the same command goes on";
+    done.error().message = "stopped: " + standing_of(work, log) + "; the same command continues it";
   return done;
 }
 
@@ -277,7 +278,7 @@ Result<std::string> carry_out(const SweepJob& work) {
     if (!missing(work, *log).empty())
       return fail(
           Fault::no_equilibrium,
-          "{}; shards go on where they stopped, and without --merge the rest is computed here",
+          "{}; shards continue where they stopped, and without --merge the rest is computed here",
           standing_of(work, *log));
   } else {
     TRY_DO(compute(work, *log));

@@ -12,7 +12,7 @@ Result<Shell> Shell::open(const preset::Preset& preset) {
   const std::shared_ptr<const Scene>& scene = *made;
   if (scene->rung == RodModel::net)
     return invalid(
-        "[accuracy] model = \"net\": the net is geometry alone, there is nothing to hold");
+        "[accuracy] model = \"net\": the net is geometry alone, there is no shell to move");
   Shell shell(std::make_shared<const preset::Preset>(preset), scene);
   TRY(session, Simulation::open(shell.scene_, simulate::initial_levels(*shell.scene_)));
   shell.session_ = std::move(*session);
@@ -31,7 +31,7 @@ Result<Done> Shell::ended(const std::string& what, Report report) const {
   if (report.end == Outcome::cancelled) return stopped();
   if (report.end == Outcome::reached) return Done{std::move(report)};
   return fail(Fault::no_equilibrium,
-              "{}: {}; it stands in the last certified state, at progress {:.4g}", what,
+              "{}: {}; it is in the last certified state, at progress {:.4g}", what,
               words_of(report.end).what, session_->boundary.progress);
 }
 

@@ -210,7 +210,7 @@ bool EditSession::looks_between() const {
 }
 
 Result<void> EditSession::act(const Release& command, const Watch& watch) {
-  if (session_->holds().empty()) return invalid("no joint is held");
+  if (session_->holds().empty()) return invalid("no joint is fixed");
   std::vector<int> joints{command.joint};
   if (command.joint < 0) {
     joints.clear();
@@ -242,7 +242,7 @@ Result<void> EditSession::act(const Jitter& command, const Watch& watch) {
   // its events on the path were no path to another state
   const Eigen::Matrix3Xd moved = session_->nodes().leftCols(joints) - before;
   if (moved.colwise().norm().maxCoeff() > same_shape * now_.scene->length_scale_mm) return {};
-  view_.message = "shaken, and at rest in the same state";
+  view_.message = "perturbed, and in the same state again";
   view_.event.clear();
   now_.snapped = snapped;
   return {};
@@ -256,7 +256,7 @@ std::string why_not_designed(const ShellView& shell) {
     return "this shell was not designed on a net, so there is no surface that it could meet";
   if (const auto needs = key_faults(shell.preset, preset::RuleKind::needs_twist); !needs.empty())
     return "only rods that stretch and bend can be designed: " + needs.front().what;
-  if (!shell.held.empty()) return "a joint is held: let go of all joints first";
+  if (!shell.held.empty()) return "a joint is fixed: release all joints first";
   if (!shell.steps.empty() || shell.rods_changed_late)
     return "a hand has moved this shell: take that back first (Undo)";
   return "";

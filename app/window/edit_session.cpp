@@ -127,7 +127,7 @@ Result<void> EditSession::note_events(const Report& report) {
   if (!text.empty()) view_.message = text;
   for (const Event& event : report.events) now_.snapped = now_.snapped || event.to.has_value();
   if (!report.events.empty() && report.events.back().to && report.certificate.stable())
-    view_.message += ", at rest in another state";
+    view_.message += ", in another equilibrium";
   if (!text.empty()) view_.event = view_.message;
   if (report.end == Outcome::cancelled) return stopped();
   if (report.end == Outcome::reached) return {};
@@ -138,7 +138,7 @@ Result<void> EditSession::form(const preset::Preset& preset, const Watch& watch)
   TRY(made, shared_scene_of(preset));
   const std::shared_ptr<const Scene>& scene = *made;
   if (scene->rung == RodModel::net)
-    return invalid("the rung 'net' is geometry alone: there is nothing to push");
+    return invalid("the model 'net' is geometry alone: there is nothing to push");
   // on the mesh that a run follows, so that both reach the same states
   const LevelPlan plan{{simulate::initial_levels(*scene).edges_per_segment.back()}, false};
   TRY(course, simulate::follow_actuation(scene, plan, false, 1, watch));
@@ -227,7 +227,7 @@ Result<void> EditSession::rebuild_shell(const preset::Preset& preset, const Watc
   return form(preset, watch).map([&] {
     if (untouched) return;
     if (!view_.message.empty()) view_.message += "; ";
-    view_.message += "formed anew, without what was done by hand: Undo brings that back";
+    view_.message += "formed again, without the steps that were done: Undo brings them back";
   });
 }
 

@@ -31,13 +31,13 @@ std::string text_of_event(const Event& event) {
              : event.leap ? "stability lost: snapped to another state"
                           : "the path branches";
     case Event::Kind::turned_back:
-      return event.to ? "the path turned back: snapped to another state" : "path turned back";
+      return event.to ? "limit point: snapped to another state" : "limit point";
     case Event::Kind::locked:
       return "the rods are at their length";
     case Event::Kind::overbent:
       return "a rod is strained as far as [limits] " + event.what + " allows";
     case Event::Kind::contact:
-      return "beyond, there touch " + event.what;
+      return "past it there touch " + event.what;
   }
   return "";
 }

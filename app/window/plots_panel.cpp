@@ -249,7 +249,7 @@ Curve curve_of(const ViewerState& viewer, const PlotAxes& axes) {
   Curve curve{shown.label, over.label, "nothing was done yet", {}, {}};
   if (&shown == &quantities[std::size_t(quantity_called("force_N"))] &&
       (points.empty() || points.back().joint < 0))
-    return curve.without = "no joint is held", curve;
+    return curve.without = "no joint is fixed", curve;
   for (std::size_t k = 0; k < points.size(); ++k) {
     // the boundary was put elsewhere, not drawn there; and a drag's coarse mesh has other numbers
     const bool put = k > 0 && points[k].joint < 0 &&

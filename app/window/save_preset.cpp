@@ -23,10 +23,9 @@ double rounded(double value, double step) { return step * std::round(value / ste
 /// What of a shell its preset may not bring back; empty: nothing.
 std::string left_out(const ShellView& shell) {
   std::string text;
-  if (shell.rods_changed_late)
-    text += "; numbers that were changed on the way count from its begin";
+  if (shell.rods_changed_late) text += "; numbers that were changed later apply from its start";
   if (!shell.accuracy_warning.empty())
-    text += "; its state is " + shell.accuracy_warning + ": 'run' may come to another";
+    text += "; its state is " + shell.accuracy_warning + ": 'run' may reach another";
   return text;
 }
 
@@ -226,7 +225,7 @@ void ViewerState::take_file() {
 
 /// Runs the program's own `run` and `export` on the current preset, in a process of its own.
 void ViewerState::export_as(const fs::path& file) {
-  if (export_task.under_way()) return say("one export is under way already", true);
+  if (export_task.under_way()) return say("an export is running already", true);
   if (auto made = make_folder_of(file); !made) return say(made.error().message, true);
   export_task.begin([make = library.export_shell, preset = preset_to_save(), file](
                         const ProgressListener& listener,

@@ -93,7 +93,7 @@ void path(const Panel& panel) {
   if (std::abs(part) < 5e-4f || (push && viewer.shell->steps.empty())) part = 0;
   if (slider(panel, "path", part, 0, std::max(1.f, part), push ? "push %.3f" : "progress %.3f",
              push ? "share of the preset's depth"
-                  : "share of the boundary's way" + text_of_marks(*viewer.shell)))
+                  : "fraction of the boundary's displacement" + text_of_marks(*viewer.shell)))
     viewer.playing = false, viewer.go(part, true);
   const double whole = std::max(1.0, viewer.part());
   if (!push) mark_slider(panel, [&](double at) { return at / whole; });
@@ -219,7 +219,7 @@ void accuracy(const Panel& panel) {
     changed.accuracy.model = models[*k];
     viewer.post(Change{changed}, false);
   }
-  panel.named("model", "the model: auto takes the lowest rung that is exact for the scene");
+  panel.named("model", "the model: auto takes the simplest model that is exact for the scene");
 }
 
 /// A list of the actions whose names begin so, one of which is on; its help.

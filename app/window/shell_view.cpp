@@ -86,7 +86,7 @@ std::string EditSession::accuracy_warning() const {
   const double asked_mm = now_.scene->tolerance * now_.scene->length_scale_mm;
   const double error_mm = view_.certificate.error_estimate_mm;
   if (std::isnan(error_mm)) return "its error not known";
-  return error_mm <= asked_mm ? "" : fmt::format("error above the {:.2g} mm asked for", asked_mm);
+  return error_mm <= asked_mm ? "" : fmt::format("error above the requested {:.2g} mm", asked_mm);
 }
 
 void EditSession::update_view() {

@@ -30,14 +30,14 @@ struct OutcomeText {
 };
 
 inline constexpr std::array outcomes{
-    OutcomeText{Outcome::reached, "reached", "all that was asked for was reached"},
+    OutcomeText{Outcome::reached, "reached", "the requested end was reached"},
     OutcomeText{Outcome::unstable, "unstable", "the path lost its stability"},
     OutcomeText{Outcome::lost, "lost", "the state jumped between load steps however small"},
     OutcomeText{Outcome::folded, "folded", "two edges folded onto one another"},
     OutcomeText{Outcome::not_finite, "not_finite", "a pivot or a position was not finite"},
-    OutcomeText{Outcome::not_converged, "not_converged", "the iterations did not come to rest"},
+    OutcomeText{Outcome::not_converged, "not_converged", "the iterations did not converge"},
     OutcomeText{Outcome::too_coarse, "too_coarse", "the mesh is too coarse for the tolerance"},
-    OutcomeText{Outcome::locked, "locked", "the rods came to their length"},
+    OutcomeText{Outcome::locked, "locked", "the rods reached the strain limit"},
     OutcomeText{Outcome::overbent, "overbent", "a rod is bent as far as is allowed"},
     OutcomeText{Outcome::contact, "contact", "rods or joints came into contact"},
     OutcomeText{Outcome::cancelled, "cancelled", "it was stopped"},

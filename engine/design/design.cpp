@@ -56,7 +56,7 @@ Result<void> can_be_designed(const preset::Preset& preset, const Scene& scene) {
         "the footprint was not designed on a net, so there is no surface to meet: "
         "[footprint] kind must be \"net\"");
   if (scene.solved_model() != RodModel::bend)
-    return invalid("only shells of the bend rung can be designed; this one needs more: " +
+    return invalid("only shells of the bend model can be designed; this one needs more: " +
                    preset::model_reason(preset));
   return {};
 }
@@ -162,7 +162,7 @@ Result<std::size_t> certify(DesignShell& coarse, DesignShell& fine,
       return k;
     why = on_fine ? "it is too soft" : on_fine.error().message;
   }
-  return fail(Fault::no_equilibrium, "on {} edges a segment the designed shell is lost: {}",
+  return fail(Fault::no_equilibrium, "with {} edges per segment the designed shell is lost: {}",
               certified_on, why);
 }
 

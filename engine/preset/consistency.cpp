@@ -224,7 +224,7 @@ std::string model_reason(const Preset& preset) {
     case RodModel::twist: {
       const auto needs = key_faults(preset, RuleKind::needs_twist);
       return needs.empty()
-                 ? "twist, as asked: every rod's torsion is in it; `bend` would give the same "
+                 ? "twist, as requested: every rod's torsion is in it; `bend` would give the same "
                    "shape, "
                    "as nothing twists these rods"
                  : fmt::format("twist: {}; nothing is left out, the torsion of every rod is in it",

@@ -240,7 +240,7 @@ Result<JournalWriter> JournalWriter::create(const fs::path& path, const RunIdent
 
 Result<void> JournalWriter::append(const Frame& frame) {
   if (frame.index < 0 || frame.index > largest_index)
-    return invalid("frame {} has no place in a journal", frame.index);
+    return invalid("frame {} cannot be stored in a journal", frame.index);
   TRY_DO(put(frame_record, packed_frame(frame)));
   indices_.insert(frame.index);
   return {};

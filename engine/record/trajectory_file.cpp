@@ -48,7 +48,7 @@ std::string header_fault(const ReadableFile& file, bool unsealed) {
   const auto start = file.read(0, std::min<std::uint64_t>(header_size, file.size()));
   if (start && start->starts_with("\x89HDF\r\n\x1a\n"))
     return unsealed ? ""
-                    : "it bears no seal, so another program wrote it (--unsealed, in Python "
+                    : "it has no checksum, so another program wrote it (--unsealed, in Python "
                       "unsealed=True, reads it all the same)";
   if (!start || !start->starts_with(trajectory_format)) return "it is not an HDF5 file";
   if (start->size() < header_size) return "it is cut short";
@@ -158,7 +158,7 @@ Result<Trajectory> read_trajectory(const std::filesystem::path& path,
     if (!trajectory) return refuse(trajectory.error().message);
     return trajectory;
   } catch (const std::bad_alloc&) {
-    return refuse("it claims to hold more than fits into memory");
+    return refuse("it claims to contain more than fits into memory");
   }
 }
 

@@ -178,7 +178,7 @@ Result<EquilibriumPath> follow_actuation(const std::shared_ptr<const Scene>& sce
     (void)path.simulation.begin_flat();  // always an equilibrium
     return path;
   } else if (scene->from_net) {
-    TRY(begun, certified(path.simulation.begin_on_net(watch), "the state beside the net"));
+    TRY(begun, certified(path.simulation.begin_on_net(watch), "the state next to the net"));
     const Checkpoint start = path.simulation.save();
     if (inner) {
       follow_back(path, {}, watch);

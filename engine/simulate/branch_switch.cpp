@@ -148,7 +148,7 @@ Result<State> rest_after_bifurcation(NestedShell& shell, const Scene& scene, con
       watch);
   if (!moved) return moved;
   if (minimise(system, *moved, {}, watch).outcome != Outcome::reached)
-    return fail(Fault::no_equilibrium, "the motion did not end near a rest");
+    return fail(Fault::no_equilibrium, "the motion did not end near an equilibrium");
   return moved;
 }
 

@@ -149,7 +149,8 @@ std::string how_it_ended(const PathSegment& segment, const At& at) {
                        begun ? "further than" : "as far as", report.events.back().what);
   if (report.end == Outcome::locked && !report.events.back().what.empty())
     return fmt::format(
-        "{} the shell snaps, to a rest in which the rods are longer or shorter than [limits] "
+        "{} the shell snaps, to an equilibrium in which the rods are longer or shorter than "
+        "[limits] "
         "max_strain allows",
         place());
   const double strain = report.certificate.largest_strain;
@@ -165,15 +166,16 @@ std::string how_it_ended(const PathSegment& segment, const At& at) {
     const std::string& what = report.events.back().what;
     const bool touched = !segment.load_steps.back().contacts.places.empty();
     if (touched && begun) return what + " touch from the start, " + at(report.t, {});
-    if (touched) return place() + " what touched from the begin is next to overlap more: " + what;
-    return fmt::format("{} is the last state without contact: beyond, {} touch", place(), what);
+    if (touched) return place() + " what touched from the start is next to overlap more: " + what;
+    return fmt::format("{} is the last state without contact: past it {} touch", place(), what);
   }
   if (segment.back)
     return fmt::format(
-        "{} on the way back to the flat {}, and no rest was found beyond: the states from there on "
-        "are certified, how the flat comes to them is not known",
+        "{} on the way back to the flat {}, and no equilibrium was found past it: the states from "
+        "there on "
+        "are certified; how the flat state leads to them is not known",
         words_of(report.end).what, at(report.t, {}));
-  return fmt::format("{} {}, and no rest was found beyond", words_of(report.end).what,
+  return fmt::format("{} {}, and no equilibrium was found past it", words_of(report.end).what,
                      at(report.t, {}));
 }
 
@@ -184,7 +186,7 @@ std::string limit_event(const Simulation& simulation, Outcome end) {
   if (end == Outcome::overbent) return "strength";
   if (end != Outcome::contact) return "";
   return simulation.contacts().places.empty() ? "last state without contact"
-                                              : "in contact from the begin";
+                                              : "in contact from the start";
 }
 
 std::string branch_loss_places(std::span<const PathSegment> segments, const At& at, bool leap) {
@@ -212,13 +214,13 @@ void set_limit(EquilibriumPath& path, const At& at) {
     const auto branches = branch_loss_places({&segment, 1}, at, false);
     if (!branches.empty())
       told += fmt::format(
-          "{}{}the path branches {} and goes on without a leap to the side that the imperfection "
+          "{}{}the path branches {} and continues without a snap to the side that the imperfection "
           "chose",
           told.empty() ? "" : "; ", way, branches);
     const auto places = branch_loss_places({&segment, 1}, at);
     if (places.empty() || path.limit != record::Limit::none) continue;
     path.limit = record::Limit::snap;
-    told += fmt::format("{}{}the path lost its stability {} and came to rest in another state",
+    told += fmt::format("{}{}the path lost its stability {} and reached another equilibrium",
                         told.empty() ? "" : "; ", way, places);
   }
   if (path.limit_reason.empty()) path.limit_reason = told;

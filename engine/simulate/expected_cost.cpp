@@ -60,7 +60,7 @@ Result<void> fits_memory(const Scene& scene, const LevelPlan& plan) {
   if (given == 0 || wanted <= given) return {};
   const int edges = plan.edges_per_segment.back();
   return invalid(
-      "{} edges a segment, {:.3g} unknowns, take about {:.2g} GB, more than the {:.2g} "
+      "{} edges per segment, {:.3g} unknowns, take about {:.2g} GB, more than the {:.2g} "
       "GB of {}; {} needs less",
       edges, unknowns_of(scene.footprint, scene.rung, edges), wanted, given,
       asked > 0 ? "[accuracy] memory_GB"

@@ -59,7 +59,8 @@ std::string turning_back(Simulation& simulation, const PathSegment& segment, con
   const ArcOptions fine{.step_mm = 0.05, .largest_mm = 0.2, .parameter_mm = depth_mm};
   const auto turn = turning_point(simulation.shell().system(), simulation.shell().motion(),
                                   last->point, segment.sign(), fine, watch);
-  return turn ? fmt::format(" (on its mesh the path turns back at {:.3f} mm)", *turn * depth_mm)
+  return turn ? fmt::format(" (on its mesh the path has a limit point at {:.3f} mm)",
+                            *turn * depth_mm)
               : std::string();
 }
 
@@ -72,7 +73,7 @@ std::string reason_of(HeldShell& pushed, const At& at, const Watch& watch) {
       for (const Event& event : segment.report.events)
         if (event.to && event.leap)
           return fmt::format(
-              "held at the joint, the shell lost its {} {}{} and came to rest in another state",
+              "held at the joint, the shell lost its {} {}{} and reached another equilibrium",
               event.kind == Event::Kind::stability_lost ? "stability" : "equilibrium",
               at(event.t, event.error),
               turning_back(pushed.simulation, segment, event, pushed.depth_mm(), watch));
@@ -102,7 +103,7 @@ void set_push_limit(HeldShell& pushed, const Watch& watch) {
   if (const auto places = branch_loss_places(pushed.earlier, at_progress); !places.empty()) {
     if (pushed.limit == record::Limit::none) pushed.limit = record::Limit::snap;
     add("before the push the path lost its stability " + places +
-        " and came to rest in another state");
+        " and reached another equilibrium");
   }
   if (!disagreement.empty()) add(disagreement);
   pushed.mesh_disagreement = disagreement;
@@ -226,7 +227,8 @@ Result<HeldShell> hold_to_push(const std::shared_ptr<const Scene>& scene,
   if (asked.lateral == preset::Lateral::free) hold.directions = push->displacement.normalized();
   const Report taken = held.simulation.begin_joint_push({hold}, {push->displacement}, watch);
   if (taken.end != Outcome::reached)
-    return fail(Fault::no_equilibrium, "the unloaded shell cannot be held at the joint pushed");
+    return fail(Fault::no_equilibrium,
+                "the unloaded shell has no equilibrium with the pushed joint fixed");
   return held;
 }
 

@@ -94,7 +94,7 @@ std::optional<std::string> mesh_disagreement(const EquilibriumPath& coarse,
                                              const EquilibriumPath& fine) {
   for (const auto segments : {&EquilibriumPath::earlier, &EquilibriumPath::segments}) {
     const auto &a = coarse.*segments, &b = fine.*segments;
-    if (a.size() != b.size()) return "another way from the flat";
+    if (a.size() != b.size()) return "another path from the flat state";
     for (std::size_t k = 0; k < a.size(); ++k)
       if (auto found = disagreement(a[k], b[k])) return found;
   }

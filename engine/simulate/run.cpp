@@ -260,7 +260,8 @@ Result<EquilibriumPath> path_for(const preset::Preset& preset,
 std::string not_in_the_flat(const EquilibriumPath& path) {
   const Scene& scene = path.simulation.scene();
   std::string text =
-      "rods that are curved at rest have no equilibrium in the flat, where all frames were asked "
+      "rods with natural curvature have no equilibrium in the flat, where all frames were "
+      "requested "
       "for: ask for one nearer to the actuated boundary";
   if (path.segments.empty()) return text;
   double nearest = 1;  // to the flat

@@ -26,7 +26,7 @@ Result<Eigen::Matrix3Xd> dragged_of(const preset::Step& step, const Scene& scene
   }
   const BoundaryMotion& motion = scene.motion;
   if (!step.edge_points.empty() && (motion.end_tangent.cols() > 0 || motion.end_far.cols() > 0))
-    return invalid("ends whose direction is held cannot be moved one by one");
+    return invalid("ends whose direction is prescribed cannot be moved one by one");
   return dragged;
 }
 
@@ -106,7 +106,7 @@ Result<Report> release(Simulation& simulation, const preset::Step& step, const W
                             [&](const Constraint& hold) { return hold.node == *joint; }))
       joints = {*joint};
   }
-  if (joints.empty()) return invalid("no joint is held that could be let go");
+  if (joints.empty()) return invalid("no joint is fixed that could be released");
   Report all;
   for (const int joint : joints) {
     std::vector<Event> before = std::move(all.events);

@@ -152,7 +152,7 @@ Result<void> DampedMotion::settle(MovingState& moving, const RestOptions& rest,
     ~Back() { step = wanted; }
   } back{options_.step_s, wanted};
   while (moving.time < end) {
-    if (watch.cancelled()) return fail(Fault::cancelled, "stopped while a snap came to rest");
+    if (watch.cancelled()) return fail(Fault::cancelled, "stopped during a snap");
     if (!step(moving, watch)) {
       options_.step_s /= 2;
       if (options_.step_s < 1e-6 * wanted)
@@ -166,8 +166,8 @@ Result<void> DampedMotion::settle(MovingState& moving, const RestOptions& rest,
       return {};
   }
   return fail(Fault::no_equilibrium,
-              fmt::format("not at rest after {:.4g} s, kinetic energy {:.2g} mJ", rest.longest_s,
-                          kinetic_energy(mass_, moving)));
+              fmt::format("not in equilibrium after {:.4g} s, kinetic energy {:.2g} mJ",
+                          rest.longest_s, kinetic_energy(mass_, moving)));
 }
 
 }  // namespace gridshell

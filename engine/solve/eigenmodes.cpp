@@ -75,7 +75,7 @@ Result<bool> extend(const InverseBeside& inverse, Spectra::SortRule rule, Index 
     // Spectra's word for what is not finite
   }
   if (next.values.size() == 0)
-    return fail(Fault::no_equilibrium, "the softest modes of the state do not converge");
+    return fail(Fault::no_equilibrium, "the lowest modes of the state do not converge");
   const Index known = found.values.size();
   const double least = known < count ? round_off * next.values.cwiseAbs().maxCoeff()
                                      : std::abs(found.values[count - 1]) * more;

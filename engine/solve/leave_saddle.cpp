@@ -120,7 +120,7 @@ Result<State> leave_saddle(Linearisation& system, const State& unstable,
                            const Watch& watch) {
   const Eigen::Matrix3Xd unit = mode / max_column_norm(mode);
   const bool one = sides_equivalent(system, unstable, departure.amplitude_mm * unit, departure);
-  Result<State> best = fail(Fault::no_equilibrium, "no rest found beside an unstable state");
+  Result<State> best = fail(Fault::no_equilibrium, "no equilibrium found near an unstable state");
   double lowest = 0;
   const bool both = departure.side == BranchSide::lower && !one;
   WayDown first;
@@ -129,7 +129,8 @@ Result<State> leave_saddle(Linearisation& system, const State& unstable,
     const bool second = best.has_value();
     auto state = rest_beside(system, unstable, way * unit, departure,
                              both && !second ? &first : nullptr, second ? &first : nullptr, watch);
-    if (watch.cancelled()) return fail(Fault::cancelled, "stopped while looking for a rest");
+    if (watch.cancelled())
+      return fail(Fault::cancelled, "stopped while searching for an equilibrium");
     if (!state) continue;
     if (one) return *state;
     // of two mirror images always the same one is chosen, independent of round-off

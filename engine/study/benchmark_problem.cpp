@@ -60,11 +60,12 @@ Result<std::unique_ptr<BenchmarkProblem>> BenchmarkProblem::create(const preset:
   TRY(scene, scene_of(preset));
   const auto refused = [](std::string why) { return invalid(std::move(why)); };
   if (scene->rung == RodModel::twist)
-    return refused("a study compares methods on rods for which the bend rung is exact: " +
+    return refused("a study compares methods on rods for which the bend model is exact: " +
                    preset::model_reason(preset));
   if (scene->rods.loaded())
     return refused(
-        "a study compares methods on shells that bear no [loads] and stand on their ends alone");
+        "a study compares methods on shells without [loads] that are supported at their ends "
+        "alone");
   if (scene->drawn_in_space)
     return refused("a study compares methods on shells that begin flat or on a net");
   for (RodMaterial& material : scene->rods.materials) material.EA *= EA_scale;
@@ -85,7 +86,7 @@ Result<void> BenchmarkProblem::follow(int finest, Watch& watch) {
     TRY(net, on_net(*scene_, reference.finest(), reference.model(), reference.motion()));
     net = find_equilibrium(reference.system(), *net, 0.5 * scene_->footprint.spacing, watch);
     if (!net)
-      return tl::unexpected<Error>(lost({Outcome::lost, 1}, "finds no rest beside the net"));
+      return tl::unexpected<Error>(lost({Outcome::lost, 1}, "finds no equilibrium near the net"));
     report = reference.start(1, *net, watch);
   } else {
     TRY(t, parameter_of_shortening(reference.finest(), reference.motion(), first_shortening));
@@ -101,7 +102,7 @@ Result<void> BenchmarkProblem::follow(int finest, Watch& watch) {
     if (report.end == Outcome::reached) report = reference.advance(1, watch);
   }
   if (report.end != Outcome::reached)
-    return tl::unexpected<Error>(lost(report, "is lost on the way"));
+    return tl::unexpected<Error>(lost(report, "is lost before its end"));
   finest_ = reference.mesh(reference.levels() - 1);
   if (task_ == Task::push) {
     start_ = reference.state().x;
@@ -202,8 +203,8 @@ Result<State> BenchmarkProblem::rest_beside(const Problem& problem, const Eigen:
   if (watch.cancelled()) return stopped();
   if (found && max_column_norm(found->x.leftCols(joints()) - wanted.leftCols(joints())) < near)
     return found;
-  return fail(Fault::no_equilibrium, "{} edges a segment have no stable state near the reference's",
-              problem.edges);
+  return fail(Fault::no_equilibrium,
+              "{} edges per segment have no stable state near the reference's", problem.edges);
 }
 
 Result<const Problem*> BenchmarkProblem::problem(int edges, const Watch& watch) {

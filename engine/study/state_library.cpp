@@ -172,7 +172,7 @@ Result<StateLibrary> find_states(const std::shared_ptr<const Scene>& scene,
                                  const preset::SearchSettings& jitter, const SearchOptions& options,
                                  Watch& watch) {
   if (scene->rung == RodModel::net)
-    return invalid("the net rung has no states: nothing is solved on it");
+    return invalid("the net model has no states: nothing is solved on it");
   TRY_DO(fits_memory(*scene, measuring_plan(*scene)));
   StateLibrary library;
   record::StateSearch& search = library.search;

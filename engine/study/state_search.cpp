@@ -83,7 +83,7 @@ Result<std::vector<StartForm>> forms_to_shake(const std::shared_ptr<const Scene>
   }
   if (!forms.empty()) return forms;
   if (!last) return tl::unexpected<Error>(last.error());
-  return no_rest("the actuation comes to none of [jitter] levels");
+  return no_rest("the actuation reaches none of [jitter] levels");
 }
 
 StateSearcher::StateSearcher(std::shared_ptr<const Scene> scene,
@@ -127,17 +127,17 @@ Result<State> StateSearcher::pull_start(const StartForm& form, std::mt19937& ran
   for (int joint = 0; joint < joint_length_.size(); ++joint)
     forces.push_back({joint, joint_length_[joint] * field});
   auto under = in_few_words(cascade_.rest_under(forces, form.t, form.state, watch),
-                            "did not come to rest under the field");
+                            "did not converge under the load");
   if (!under) return under;
   return in_few_words(cascade_.rest_under({}, form.t, std::move(*under), watch),
-                      "did not come to rest after the field");
+                      "did not converge after the load");
 }
 
 Result<State> StateSearcher::push_start(const StartForm& form, std::mt19937& random,
                                         const Watch& watch) {
   constexpr unsigned most_pushes = 3;
   TRY_DO(reached_or(session_.begin_at(form.t, form.state, watch).end,
-                    "the form to push is not at rest", watch));
+                    "the form to push is not in equilibrium", watch));
   if (pushable_.empty()) return no_rest("every joint is a support, nothing can push it");
   const unsigned pushes = 1 + random() % most_pushes;
   for (unsigned k = 0; k < pushes; ++k) {
@@ -146,7 +146,7 @@ Result<State> StateSearcher::push_start(const StartForm& form, std::mt19937& ran
     // how far it came is far enough: a hand stops where the rods are at their length
     (void)session_.push(joint, depth * direction(random), Across::free, watch);
     if (watch.cancelled()) return stopped();
-    TRY_DO(reached_or(session_.release(joint, watch).end, "did not come to rest when it was let go",
+    TRY_DO(reached_or(session_.release(joint, watch).end, "did not converge when it was released",
                       watch));
   }
   return session_.shell().state().levels[0];
@@ -158,14 +158,15 @@ Result<State> StateSearcher::go(double t, const Watch& watch) {
   // a scene that chooses no branch continues through unstable states
   if (report.end == Outcome::reached && !report.certificate.stable()) report = session_.rest(watch);
   if (watch.cancelled()) return stopped();
-  if (report.end == Outcome::locked) return no_rest("the rods came to their length");
+  if (report.end == Outcome::locked) return no_rest("the rods reached the strain limit");
   if (report.end != Outcome::reached || !session_.certificate().stable())
-    return no_rest("the actuation did not come to its end");
+    return no_rest("the actuation did not reach its end");
   return session_.shell().state().levels[0];
 }
 
 Result<State> StateSearcher::go_from(double from, const State& rest, double t, const Watch& watch) {
-  TRY_DO(reached_or(session_.begin_at(from, rest, watch).end, "its rest is not certified", watch));
+  TRY_DO(reached_or(session_.begin_at(from, rest, watch).end, "its equilibrium is not certified",
+                    watch));
   return go(t, watch);
 }
 
@@ -176,7 +177,7 @@ Result<State> StateSearcher::trial(int k, const Watch& watch) {
               : jitter_.mode == SearchMode::poke
                   ? push_start(form, random, watch)
                   : in_few_words(cascade_.rest(form.t, random_nodes(form.t, random), watch),
-                                 "did not come to rest");
+                                 "did not converge");
   if (!rest || form.t == 1) return rest;
   return go_from(form.t, *rest, 1, watch);
 }
@@ -186,7 +187,7 @@ Result<State> StateSearcher::symmetric_trial(int k, const Watch& watch) {
   std::mt19937 random = generator(jitter_.seed, Purpose::confined, k);
   const SymmetryGroup& group = groups_[std::size_t(k) % groups_.size()];
   return in_few_words(cascade_.rest_confined(1, random_nodes(1, random), group, watch),
-                      "did not come to rest");
+                      "did not converge");
 }
 
 Result<State> StateSearcher::release_boundary(const State& from, double to, const Watch& watch) {

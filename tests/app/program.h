@@ -68,7 +68,7 @@ class Running {
     return ended;
   }
 
-  /// Holds it still (SIGSTOP); whether it is there to be held.
+  /// Stops it (SIGSTOP); returns whether it still exists.
   bool hold() const {
     signal(SIGSTOP);
     siginfo_t about{};
@@ -119,7 +119,7 @@ class Running {
   }
 
  private:
-  /// Of the processor, in seconds, without those of programs that it started.
+  /// Processor time, in seconds, without that of programs that it started.
   double cpu_so_far() const {
     std::ifstream file("/proc/" + std::to_string(pid_) + "/stat");
     std::string word;
@@ -136,7 +136,7 @@ class Running {
     return from >= 0 && dup2(from, to) >= 0 && close(from) == 0;
   }
 
-  // what was printed, and the file is gone: the folder holds what the program left
+  // what was printed; the file is removed, and the folder contains what the program left
   std::string take(const char* file) const {
     std::ostringstream text;
     text << std::ifstream(folder_ / file).rdbuf();

@@ -1,4 +1,4 @@
-// Arrows between folders go one way: who may include whom stands in one table.
+// Dependencies between folders have one direction: a table lists who may include whom.
 #include <map>
 #include <regex>
 #include <set>
@@ -9,7 +9,8 @@ namespace {
 
 using Folders = std::set<std::string>;
 
-// What a folder may see beside itself and engine/core. A folder that is not here may see nothing.
+// Folders that a folder may include in addition to itself and engine/core. A folder that is not
+// listed may include nothing.
 const std::map<std::string, Folders> may_see{
     {"engine/core", {}},
     {"engine/geometry", {}},
@@ -32,7 +33,7 @@ const std::map<std::string, Folders> may_see{
     {"engine",
      {"engine/footprint", "engine/solve", "engine/formats", "engine/preset", "engine/record",
       "engine/scene", "engine/simulate", "engine/study", "engine/design"}},
-    // the renderer knows pictures of a run, not how it came to be; canvas takes images alone from
+    // the renderer knows pictures of a run, not how it was computed; canvas uses only images of gl
     // gl
     {"render/gl", {"engine/record"}},
     {"render/canvas", {"render/gl"}},
@@ -65,7 +66,7 @@ std::vector<std::string> forbidden_arrows(const std::string& file, const std::st
 }  // namespace
 
 TEST_CASE("the table of arrows has no way round") {
-  // every folder stands above all it sees, so no two see each other
+  // every folder is above all that it includes, so no two include each other
   std::map<std::string, int> height;
   const auto height_of = [&](const auto& self, const std::string& folder, int depth) -> int {
     REQUIRE(depth < 20);
@@ -77,7 +78,7 @@ TEST_CASE("the table of arrows has no way round") {
   int arrows = 0;
   for (const auto& [folder, seen] : may_see) {
     height_of(height_of, folder, 0);
-    // all see core, and gridshell.h stands for the engine
+    // all include core, and gridshell.h represents the engine
     if (folder != "engine") arrows += int(seen.size() - seen.count("engine"));
   }
   CHECK(arrows <= most_arrows);

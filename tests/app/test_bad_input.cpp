@@ -5,8 +5,8 @@
 
 namespace {
 
-// lines of "ARGUMENTS => all of stderr"; a line before them that begins with '#' is bad.toml, its
-// lines apart by " / "
+// lines of "ARGUMENTS => all of stderr"; a line before them that starts with '#' is bad.toml, its
+// lines separated by " / "
 constexpr const char* bad_inputs =
     R"(movie none.toml => cannot read 'none.toml': No such file or directory
 movie . => no preset '.': neither a file nor a listed name ('gridshell list' lists them)
@@ -81,7 +81,7 @@ TEST_CASE("a folder that is no run is not replaced") {
 }
 
 TEST_CASE("a folder that may not be written is refused") {
-  if (geteuid() == 0) return;  // root may write everywhere; 'bad.toml/x' above stands for it
+  if (geteuid() == 0) return;  // root may write everywhere; 'bad.toml/x' above replaces this case
   const TemporaryFolder folder;
   const auto shut = folder / "shut";
   fs::create_directory(shut);
@@ -99,7 +99,7 @@ TEST_CASE("a footprint that cannot be built is refused before anything runs") {
   CHECK(folder.entries().empty());
 }
 
-TEST_CASE("a net that ends before its boundary is refused with its place, and drawn by figure",
+TEST_CASE("a net that ends before its boundary is refused with its position, and drawn by figure",
           "[standard]") {
   const TemporaryFolder folder;
   check_refused("figure surface_ellipsoid --set net.cut_mm=-50 -o deep", folder,

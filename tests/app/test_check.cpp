@@ -20,7 +20,7 @@ TEST_CASE("check says what a push, steps and loads will do") {
              Contains("steps           2: move, push [0, 0]"));
   CHECK_THAT(said("[rod]\ndensity_kg_m3 = 6450\n[loads]\ngravity_m_s2 = 9.81\n"),
              Contains("loads           gravity 9.81 m/s"));
-  // of a net the joint is known before anything is formed
+  // on a net the joint is known before the shell is formed
   CHECK_THAT(bench.good("check s2_indentation").out,
              Contains("push            joint [0, 0] inward by 0.1 of the length scale"));
 }

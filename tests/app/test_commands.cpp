@@ -36,12 +36,12 @@ gridshell::record::FrameList frames_of(const fs::path& run) {
   return value_of(gridshell::record::read_trajectory(run / "trajectory.h5")).frames;
 }
 
-// of a picture
+// width of a picture
 int width_of(const fs::path& file) { return value_of(gridshell::render::read_png(file)).width; }
 
 }  // namespace
 
-TEST_CASE("run writes a whole run folder and replaces the one before") {
+TEST_CASE("run writes a complete run folder and replaces the one before") {
   const Bench bench(small);
   bench.good("run small.toml");
   const auto run = bench.at / "out/small";
@@ -77,7 +77,7 @@ TEST_CASE("the same preset gives the same frames, from the run's own preset.toml
   CHECK(text_of(bench.at / "a/frames.csv") != text_of(bench.at / "c/frames.csv"));
 }
 
-TEST_CASE("a printed config (--print-config) comes to the same, and nothing runs") {
+TEST_CASE("a printed config (--print-config) gives the same preset, and nothing runs") {
   const Bench bench(small);
   const auto first = bench.good(
       "movie small.toml --set actuation.seed=down --size 320x200 --frames 9 --print-config");
@@ -160,7 +160,7 @@ TEST_CASE("figures of building blocks, drawn again from the run", "[shared]") {
   }
 }
 
-TEST_CASE("every case is a whole run folder, and summary.json on top lists them") {
+TEST_CASE("every case is a complete run folder, and summary.json on top lists them") {
   const Bench bench(two_cases);
   bench.good("movie small.toml -o run --set movie.beside=false");
   CHECK(files_in(bench.at / "run") == listed({"far", "near", "preset.toml", "summary.json"}));
@@ -181,7 +181,7 @@ TEST_CASE("every case is a whole run folder, and summary.json on top lists them"
   CHECK(width_of(bench.at / "run/near/frames/frame_00000.png") == 80);
 }
 
-TEST_CASE("cases are shown beside one another in one movie, drawn again by render") {
+TEST_CASE("cases are shown side by side in one movie, drawn again by render") {
   const Bench bench(two_cases);
   bench.good({"movie", "small.toml", "-o", "run", "--set", "title=Two shells"});
   CHECK(files_in(bench.at / "run") ==
@@ -311,7 +311,7 @@ TEST_CASE("chart accuracy of sizes draws a curve a number of rods") {
   const auto said = bench.good("chart accuracy small.toml --sizes 5,6 --edges 16 -o sizes");
   CHECK_THAT(said.out, Contains("5 rods: ") && Contains("6 rods: "));
   const auto table = text_of(bench.at / "sizes/accuracy.csv");
-  // 1e-2 and 1e-3 come to the same meshes
+  // 1e-2 and 1e-3 lead to the same meshes
   CHECK(std::ranges::count(table, '\n') == 5);
   CHECK_THAT(table, Contains("\n5 rods,") && Contains("\n6 rods,"));
   CHECK(fs::exists(bench.at / "sizes/accuracy.png"));
@@ -330,7 +330,7 @@ TEST_CASE("chart accuracy writes tables and pictures and says how auto stands", 
                 "scaling.csv", "scaling.pdf", "scaling.png", "scaling.svg", "summary.json",
                 "unknowns.pdf", "unknowns.png", "unknowns.svg"}));
   CHECK(json_of(folder / "summary.json")["chart"] == "accuracy");
-  // maps go beside it, and the next chart takes their place
+  // maps are written next to it, and the next chart replaces them
   const auto maps = bench.good("chart stability small.toml --limit 0.05");
   CHECK_THAT(maps.out, Contains("default: ") && Contains(" 0 silently wrong"));
   CHECK(files_in(bench.at / "out/small_stability") ==

@@ -28,7 +28,7 @@ fs::path run(const Scene& scene, const fs::path& at, const std::string& name,
   return at / name;
 }
 
-// of all numbers of all frames, as its trajectory bears it
+// checksum of all numbers of all frames, from the trajectory
 std::string hash_of(const fs::path& run) {
   const auto text = text_of(run / "trajectory.h5");
   const std::string before = "CRC-32 ";
@@ -52,12 +52,12 @@ bool runs_fast_clones() { return false; }
 
 const fs::path table = fs::path(GRIDSHELL_SOURCE_DIR) / "tests/app/golden_hashes.txt";
 
-// what the hashes hang on besides the sources
+// what the hashes depend on in addition to the sources
 std::string made_with() {
   return fmt::format("# {}, glibc {}\n", GRIDSHELL_BUILT_WITH, gnu_get_libc_version());
 }
 
-// what the last frame of a run comes to
+// results of the last frame of a run
 struct Figures {
   double height_mm = 0, energy_mJ = 0;
 
@@ -71,7 +71,8 @@ struct Figures {
   }
 };
 
-// of this line of the table: other compilers and libraries round otherwise, and hashes tell nothing
+// comparison with this line of the table: other compilers and libraries round differently, so
+// hashes are not comparable
 void check_near(const Figures& now, const std::string& kept, const std::string& kind) {
   const std::string before = "\n" + kind + " height_mm energy_mJ ";
   const auto at = kept.find(before);

@@ -1,4 +1,4 @@
-// What words and numbers of pictures are held to: sizes, contrast, places, the files of their run.
+// Limits for words and numbers of pictures: sizes, contrast, positions, the files of their run.
 #include <cmath>
 #include <regex>
 #include <set>
@@ -189,8 +189,8 @@ bool is_round_step(double step) {
                              [&](double one) { return std::abs(leading - one) < 1e-6; });
 }
 
-/// Whether a bare number is a tick's: with two others it stands in a row or a column where places
-/// go with values, or with one other a round step away.
+/// Whether a bare number is a tick's: with two others it is in a row or a column in which positions
+/// and values are in proportion, or with one other a round step away.
 bool is_tick(const Words& one, const std::vector<Words>& bare) {
   const auto value = [](const Words& words) {
     const double size = numbers_of(words.text).front().value;

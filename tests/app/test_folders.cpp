@@ -11,7 +11,7 @@ namespace {
 
 const std::string small = small_preset({.frames = 4});
 
-// runs a line of the shell, `gridshell` standing for the program
+// runs a line of the shell, with `gridshell` as the program
 int shell(const Bench& bench, const std::string& line) {
   const auto whole = "cd '" + bench.at.string() + "' && gridshell() { '" + GRIDSHELL_PROGRAM +
                      "' \"$@\"; } && " + line;
@@ -132,7 +132,7 @@ TEST_CASE("frames of a run that was cut short are drawn, and it says that it is 
   const auto again = bench.good("render r.partial-7 -o elsewhere");
   CHECK_THAT(again.err, Contains("'r.partial-7' is not finished"));
   CHECK(files_under(bench.at / "elsewhere/frames", ".png").size() == 3);
-  // a whole one is not told so
+  // a complete one has no such message
   CHECK_THAT(bench.good("render whole").err, !Contains("finished"));
 }
 
@@ -213,7 +213,7 @@ TEST_CASE("meshes that do not fit into memory are refused with what they would t
   const Bench bench(small);
   for (const char* command : {"check", "run"}) {
     check_refused({command, "small.toml", "--set", "accuracy.memory_GB=0.0001"}, bench.at,
-                  Contains("2 edges a segment") && Contains("unknowns, take about") &&
+                  Contains("2 edges per segment") && Contains("unknowns, take about") &&
                       Contains("more than the 0.0001 GB of [accuracy] memory_GB"));
   }
   const auto fine = bench.run(

@@ -87,7 +87,7 @@ TEST_CASE("every kind of picture and visit of the window looks as kept", "[share
     if (fs::exists(images / name)) check_kept(name, run);
   }
   check_kept_window(shared_run("window"));
-  // the threshold tells a frame from its neighbour
+  // the threshold distinguishes a frame from its neighbour
   const fs::path kept = images / "s1_actuation/frames";
   for (int frame = 0; frame < 4; ++frame)
     CHECK(worst(picture(kept / frame_name(frame)), picture(kept / frame_name((frame + 1) % 4))) >
@@ -117,7 +117,7 @@ TEST_CASE("every picture is the same in either context", "[full][shared]") {
 
 TEST_CASE("another rasteriser's width, another processor, a finer tolerance look the same",
           "[full]") {
-  // not LP_NATIVE_VECTOR_WIDTH=128: with AVX beside it Mesa 22 frees memory twice; sse2 has it
+  // not LP_NATIVE_VECTOR_WIDTH=128: with AVX Mesa 22 then frees memory twice; sse2 has it
   for (const char* variation :
        {"LP_NATIVE_VECTOR_WIDTH=256", "LP_NUM_THREADS=0", "GALLIUM_OVERRIDE_CPU_CAPS=nosse",
         "GALLIUM_OVERRIDE_CPU_CAPS=sse2", "GALLIUM_OVERRIDE_CPU_CAPS=sse4.1",

@@ -69,7 +69,7 @@ TEST_CASE("Ctrl-C before anything is finished leaves nothing", "[alone]") {
   CHECK(files_under(folder, "").empty());
 }
 
-TEST_CASE("a run that is ended goes on from there, to the same state", "[full]") {
+TEST_CASE("a run that is ended continues from there, to the same state", "[full]") {
   const TemporaryFolder folder;
   const auto command = [](const char* output, const char* more) -> Arguments {
     const std::string line = fmt::format(
@@ -87,7 +87,7 @@ TEST_CASE("a run that is ended goes on from there, to the same state", "[full]")
     const Running running(command("ended", ""), folder);
     REQUIRE(wait_until(kept));
     CHECK_THAT(running.interrupt(SIGTERM).err,
-               Catch::EndsWith("the same command with --resume goes on from there\n"));
+               Catch::EndsWith("the same command with --resume continues from there\n"));
   }
   {
     const Running running(command("ended", "--resume"), folder);
@@ -160,8 +160,9 @@ TEST_CASE("a killed movie leaves no half file, and the run before it stays", "[s
 
 namespace {
 
-// where a run is that was killed with frames in a range, none where it got past that range; it is
-// held still whenever they are counted, so that it cannot slip away between the count and the kill
+// the folder of a run that was killed with its number of frames in a range, none if it passed the
+// range; the run is stopped while its frames are counted, so that it cannot continue between the
+// count and the kill
 fs::path killed_with(std::size_t least, std::size_t most, const std::vector<std::string>& run,
                      const fs::path& folder) {
   const Running running(run, folder);

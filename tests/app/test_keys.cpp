@@ -16,7 +16,7 @@ namespace {
 // what a person reads in the file itself
 const std::set<std::string> for_people{"description"};
 
-// where the member has another name than the key, or stands behind what is worked out of it
+// where the member has another name than the key, or is computed from it
 const std::map<std::string, std::string> member_names{{"points_mm", "points"},
                                                       {"do", "kind"},
                                                       {"file_unit", "file"},
@@ -49,7 +49,7 @@ void change(const Field& field, Preset& preset) {
   if (auto* real = field.as<double>(preset)) *real += 1;
   if (auto* number = field.as<int>(preset)) *number += 1;
   if (auto* flag = field.as<bool>(preset)) *flag = !*flag;
-  // the last word: the first after "auto" is often what "auto" comes to
+  // the last name: the first after "auto" is often the one that "auto" chooses
   if (const auto word = field.as_word(preset))
     word->set(word->member, word->get(word->member) == 0 ? int(field.words.size()) - 1 : 0);
   if (auto* pair = field.as<std::array<int, 2>>(preset)) (*pair)[1] += 1;
@@ -74,7 +74,7 @@ TEST_CASE("something reads the member of every key") {
 
 namespace {
 
-/// Whether two movies look the same, by every key of [movie] and every choice beside them.
+/// Whether two movies look the same, by every key of [movie] and every choice of their style.
 bool same(const render::MovieStyle& a, const render::MovieStyle& b) {
   const auto movie = [](const render::MovieStyle& style) {
     Preset preset;
@@ -98,8 +98,8 @@ bool same(const render::MovieStyle& a, const render::MovieStyle& b) {
 }  // namespace
 
 TEST_CASE("every key of [movie] and [style] changes how a movie looks, those of [figure] a still") {
-  // the number of frames, whether cases stand together and what more files are made are the
-  // movie's, not its style's; the font is that of the whole process
+  // the number of frames, whether cases are in one picture and what more files are made belong to
+  // the movie, not to its style; the font is that of the whole process
   const std::set<std::string> elsewhere{"frames", "beside", "webm", "gif", "poster", "font"};
   const std::set<std::string> stills{"quality", "scale_bar_mm", "width_mm", "vector"};
   for (const auto& field : field_table()) {
@@ -118,7 +118,7 @@ TEST_CASE("every key of [movie] and [style] changes how a movie looks, those of 
 TEST_CASE("every member of a preset has a key") {
   const fs::path folder = fs::path(GRIDSHELL_SOURCE_DIR) / "engine/preset";
   const std::string header = text_of(folder / "preset.h") + text_of(folder / "pictures.h");
-  // what stands behind :: or . in the tables
+  // what follows :: or . in the tables
   std::set<std::string> named;
   const std::regex member("(?:::|\\.)(\\w+)");
   for (const char* ending : {".cpp", ".h"})

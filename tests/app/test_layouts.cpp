@@ -40,7 +40,7 @@ record::Trajectory eventful(bool pushed) {
   return run;
 }
 
-/// Draws, and looks at the words: apart from one another and from markers, on the picture.
+/// Draws, and checks that texts are separate from each other and from markers, and on the picture.
 void check_words(double width, double height, const DrawOn& draw) {
   draw_picture(width, height, 1, {}, [&](Canvas& canvas) {
     draw(canvas);
@@ -132,7 +132,7 @@ TEST_CASE("in what `figure` and `movie` make of every preset no text meets anoth
         options.set.insert(options.set.end(), {"jitter.trials=3", "jitter.confined=3",
                                                "jitter.transitions=1", "jitter.drawn=2"});
       INFO(embedded.name << (pictures == app::Pictures::movie ? ", movie" : ", figure"));
-      // movies write their words on a thread beside this one, which looks at nothing meanwhile
+      // movies write their texts on another thread, while this one checks nothing
       std::mutex mutex;
       std::size_t words = 0;
       {

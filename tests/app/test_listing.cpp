@@ -108,7 +108,7 @@ TEST_CASE("the time left follows how fast the work turns out") {
   // twice as slow
   CHECK(app::standing(phases, 0, 0.5, 10).seconds_left == Approx(190));
   CHECK(app::standing(phases, 1, 0.25, 20).seconds_left == Approx(60));
-  // too early to tell
+  // too early for an estimate
   CHECK(std::isnan(app::standing(phases, 1, 0.01, 1).seconds_left));
   CHECK(std::isnan(app::standing(phases, 1, 0.5, 0.1).seconds_left));
 }
@@ -128,7 +128,7 @@ TEST_CASE("the time left on a path follows its leader's pace, and is not known a
   CHECK(std::isnan(pace.seconds_left({0.1, 4}, 10)));
   CHECK(std::isnan(pace.seconds_left({0.11, 4}, 20)));
   CHECK(pace.seconds_left({0.6, 4}, 20) == Approx(8));
-  // on a finer leader, and on another way of it
+  // on a finer mesh, and on another path of it
   CHECK(std::isnan(pace.seconds_left({0.2, 8}, 30)));
   CHECK(pace.seconds_left({0.4, 8}, 40) == Approx(30));
   CHECK(std::isnan(pace.seconds_left({0.1, 8}, 50)));

@@ -22,7 +22,7 @@ TEST_CASE("the joint that is pushed is named, and how far it is from the middle"
   CHECK(summary["pushed_joint"] == "[-1, -1]");
 }
 
-TEST_CASE("rods beyond their strength break in plain words, others are within it") {
+TEST_CASE("rods above their strength break in plain words, others are within it") {
   const Bench bench(small_preset({}));
   CHECK_THAT(bench.good("run small.toml --set rod.strength_MPa=10").out,
              Contains("  BREAKS: ") && Contains(" times the strength: ") &&

@@ -17,7 +17,7 @@ void write_cloud(const Eigen::Matrix3Xd& cloud, const fs::path& file) {
   for (const auto& p : cloud.colwise()) out << p.x() << "," << p.y() << "," << p.z() << "\n";
 }
 
-/// A shell of 6 rods a direction, drawn in to that radius.
+/// A shell with 6 rods per direction, contracted to that radius.
 void form(const std::string& radius_mm, const std::string& name, const fs::path& at) {
   const auto ended =
       good({"run", "s1_actuation", "--set", "footprint.rods=6", "--set", "footprint.radius_mm=60",

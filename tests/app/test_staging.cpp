@@ -21,7 +21,7 @@ void make_run(const fs::path& run) {
   REQUIRE(app::write_manifest(run, "run"));
 }
 
-// the names beside `run` that are not its own
+// the names next to `run` that do not belong to it
 std::vector<std::string> beside(const TemporaryFolder& folder) {
   auto names = folder.entries();
   std::erase(names, "run");
@@ -133,7 +133,7 @@ TEST_CASE("whether a folder is a run is seen from its top, whatever lies below")
   const TemporaryFolder folder;
   const auto top = folder / "top";
   SECTION("a tree that is too large to look through") {
-    // each folder of it stands in all others
+    // each folder of it is in all others
     for (const char* name : {"a", "b", "c", "d"}) {
       REQUIRE(make_folder(top / name));
       for (const char* other : {"a", "b", "c", "d"})

@@ -49,7 +49,7 @@ TEST_CASE("states and a finished sweep's phase diagram stand on one page", "[sta
   REQUIRE(write_file(at / "sweep.toml", with("") + "[sweep]\nplot = [\"classes\"]\n"
                                                    "[sweep.over]\nfootprint.rods = [4]\n"
                                                    "footprint.longest_leg = [0.8, 2.0]\n"));
-  // without a sweep its place is an empty frame that says so
+  // without a sweep its box is an empty frame that says so
   const Ended bare = good("figure page.toml --quiet", at);
   const std::string empty = text_of(at / "out/page_figure/page_page.svg");
   CHECK_THAT(empty, Contains("names no sweep") && !Contains("longest leg"));
@@ -62,7 +62,7 @@ TEST_CASE("states and a finished sweep's phase diagram stand on one page", "[sta
   CHECK_THAT(page, Contains("longest leg") && !Contains("names no sweep"));
   CHECK(fs::exists(at / "again/page_page.pdf"));
   CHECK(fs::exists(at / "again/page_page_lines.svg"));
-  // a folder that holds none, and one that is not finished
+  // a folder without one, and one that is not finished
   const auto refused = [&](const std::string& named) {
     const Ended ended = gridshell_program(
         {"render", "out/page_figure", "-o", "not", "--quiet", "--set", "page.sweep=" + named}, at);

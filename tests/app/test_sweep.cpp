@@ -44,8 +44,8 @@ void done(const TemporaryFolder& folder, const std::vector<std::string>& argumen
   REQUIRE(ended.code == 0);
 }
 
-/// Kills the sweep into cut/ so often, each after `least` to `least` + `range` milliseconds; whole
-/// lines of its log stand where they stood. The log in the end.
+/// Kills the sweep into cut/ `kills` times, each after `least` to `least` + `range` milliseconds;
+/// complete lines of its log do not move. Returns the final log.
 std::string killed_at_random(const fs::path& folder, int kills, unsigned seed, unsigned least,
                              unsigned range) {
   std::mt19937 random(seed);
@@ -181,12 +181,12 @@ TEST_CASE("two sweeps into one folder do not meet, another preset is refused") {
   first.signal(SIGINT);
   const auto stopped = first.wait();
   CHECK(stopped.code == 130);
-  CHECK_THAT(stopped.err, Contains("of 200 points are in 'out'; the same command goes on"));
+  CHECK_THAT(stopped.err, Contains("of 200 points are in 'out'; the same command continues it"));
   check_refused("sweep small.toml -o out --set rod.young_GPa=70", folder,
                 Contains("of another preset"));
 }
 
-TEST_CASE("what a sweep is asked for in vain is told") {
+TEST_CASE("a sweep's requests that cannot be met are reported") {
   const TemporaryFolder folder;
   write_sweep(folder, 3);
   const auto refused = [&](std::vector<std::string> arguments, const std::string& why) {

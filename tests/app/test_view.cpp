@@ -30,8 +30,8 @@ json played(const TemporaryFolder& folder, const std::string& input,
   return json::parse(ended.out);
 }
 
-// Words of a recording: a press of the left button at a place, a drag from place to place, a text
-// that takes the place of a field's and is entered.
+// Lines of a recording: a press of the left button at a position, a drag between two positions, a
+// text that replaces a field's and is entered.
 std::string click(const std::string& place) {
   return "mouse " + place + "\npress left\nrelease left\n";
 }
@@ -55,7 +55,7 @@ void check_same(const json& a, const json& b, const char* key, double share = 1e
   CHECK(number(a, key) == Approx(number(b, key)).epsilon(share));
 }
 
-/// What `run` makes of the preset that was kept, which has the energy that was told of the shell.
+/// Result of `run` on the saved preset, which has the energy that was reported of the shell.
 json run_of_kept(const TemporaryFolder& folder, const json& told) {
   const Ended ran = good("run kept/small_1.toml -o ran", folder);
   json summary = json::parse(text_of(folder / "ran/summary.json"));
@@ -246,7 +246,7 @@ TEST_CASE("a monkey at mouse and keys breaks nothing, and all it did can be undo
     if (what < 2)
       input += fmt::format("mouse {} {}\n", draw(1280), 30 + draw(650));
     else if (what < 4)
-      // at the shell, a few pixels beside a joint or an edge point
+      // at the shell, a few pixels from a joint or an edge point
       input += fmt::format("mouse @{} {} {}\n",
                            draw(2) == 0 ? fmt::format("joint:{},{}", int(draw(5)) - 2, 0)
                                         : fmt::format("edge:{}", draw(12)),
@@ -274,7 +274,7 @@ TEST_CASE("a shell is saved under a name, exported, and compared with a run", "[
   REQUIRE(write_file(folder / "small.toml", shell));
   fs::create_directory(folder / "scanned");
   good("run small.toml -o ran", folder);
-  // a path where a file is asked for
+  // a path where a file is requested
   const auto entered = [](const std::string& path) {
     return "wait 0.1\n" + click("@file_path 0.5 0.5") + "down Ctrl\ndown A\nup A\nup Ctrl\ntype " +
            path + "\n" + enter;
@@ -299,7 +299,7 @@ TEST_CASE("a shell is saved under a name, exported, and compared with a run", "[
   CHECK(text_of(folder / "deep/mine.obj").find("\nv ") != std::string::npos);
   good("run deep/mine.toml -o again", folder);
   check_same(json::parse(text_of(folder / "again/summary.json")), told, "height_mm");
-  // what is there goes only when asked for once more
+  // an existing file is replaced only after a second request
   const json asked = played(folder, "do save_as\n" + entered("deep/mine"));
   CHECK(asked["message"] == "it is there already: once more replaces it");
   // a name that no file system takes is a sentence too, bare and in a folder
@@ -369,7 +369,7 @@ TEST_CASE("a number is found by a word and goes back to its default") {
   CHECK(number(back, "energy_bend_mJ") > 1.5 * number(found, "energy_bend_mJ"));
 }
 
-TEST_CASE("a movie of what was done is made beside the window, and a picture of any size kept") {
+TEST_CASE("a movie of what was done is made in the background, and a picture of any size kept") {
   const TemporaryFolder folder;
   const json told = played(
       folder, drag({"@joint:0,0 0 0", "@joint:0,0 0 10"}) + "do save_picture\ndo save_movie\n",
@@ -396,7 +396,7 @@ TEST_CASE("the shell alone is drawn off-screen, with its legend or bare") {
   const auto ink = [&] {
     const auto picture = gridshell::render::read_png(folder / "shell.png").value();
     CHECK((picture.width == 400 && picture.height == 300));
-    // right of the shell, where the legend stands
+    // right of the shell, at the legend
     int dark = 0;
     for (int y = 0; y < 150; ++y)
       for (int x = 330; x < 400; ++x) dark += picture.pixel(x, y)[1] < 128;

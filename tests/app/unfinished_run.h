@@ -7,7 +7,7 @@
 #include "engine/record/journal.h"
 #include "engine/record/trajectory_file.h"
 
-/// Makes of a whole run the folder that it would have left when it was killed after `count` frames.
+/// Turns a complete run into the folder that it would have left if killed after `count` frames.
 inline void cut_short(const std::filesystem::path& whole, const std::filesystem::path& partial,
                       std::size_t count,
                       gridshell::record::Kind kind = gridshell::record::Kind::run) {

@@ -32,7 +32,7 @@ inline Ended ended_within(const Running& running, double seconds, int signal) {
   return running.wait();
 }
 
-/// Takes away what an attack left beside the files that were there: `may` says what it may leave.
+/// Removes what an attack left in the folder: `may` says what it may leave.
 template <class May>
 void clear(const TemporaryFolder& folder, std::initializer_list<const char*> there,
            const May& may) {

@@ -105,7 +105,7 @@ void scale_value(Lines& lines, Draw& draw) {
   }
 }
 
-// a key under its own table, which may stand there already
+// a key under its own table, which may exist already
 void add_key(Lines& lines, Draw& draw) {
   const Field& field = draw.of(gridshell::preset::field_table());
   const auto value = draw.one_in(2) ? fitting_value(field, draw) : hostile_value(draw);
@@ -115,7 +115,7 @@ void add_key(Lines& lines, Draw& draw) {
   if (field.table.empty()) {
     lines.insert(lines.begin(), entry);
   } else if (at != lines.end()) {
-    // in the place of the one that stands there
+    // replaces the existing one
     auto end = std::find_if(at + 1, lines.end(), [](const auto& l) { return l.starts_with('['); });
     const auto old =
         std::find_if(at + 1, end, [&](const auto& l) { return l.starts_with(field.key + " "); });

@@ -5,7 +5,7 @@
 
 #include "tests/attack/trials.h"
 
-/// A preset that comes with the program, changed in one to three ways: numbers scaled, values
-/// extreme, of another type, not numbers or in contradiction, keys in wrong places or twice, tables
+/// A preset that comes with the program, changed in one to three respects: numbers scaled, values
+/// extreme, of another type, not numbers or in contradiction, keys in wrong tables or twice, tables
 /// and cases without end, deep nesting, long words, text that is no TOML or no text.
 std::string hostile_preset(Draw& draw);

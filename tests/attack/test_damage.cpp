@@ -1,5 +1,5 @@
-// Run folders from somebody else, damaged in every way that one can think of, through `render` and
-// `compare`: an answer in time, nothing written but what was asked for, memory within bounds.
+// Run folders from somebody else, with every kind of damage, through `render` and `compare`: an
+// answer in time, nothing written but the requested files, memory within bounds.
 #include <fmt/format.h>
 #include <sys/stat.h>
 
@@ -23,7 +23,7 @@ namespace {
 const std::string small =
     small_preset({.rods = 2, .radius_mm = 25, .actuated_mm = 22, .width = 48, .height = 32});
 
-// as trajectory_file.cpp seals its files: this damage is meant
+// adds the checksum as trajectory_file.cpp does: the damage is intended
 std::string sealed(const std::string& hdf5) {
   const auto sum = gridshell::Checksum::of(hdf5, gridshell::ChecksumKind::crc32);
   auto seal = fmt::format("gridshell trajectory 1\n{} bytes, CRC-32 {:016x}\n", hdf5.size(), sum);
@@ -51,7 +51,7 @@ fs::path some_file(const fs::path& run, Draw& draw) {
 
 void change_bytes(const fs::path& file, Draw& draw) {
   auto bytes = read_file(file).value();
-  // an earlier damage may have left less than a seal
+  // an earlier damage may have left less than a checksum
   const bool seal_again =
       file.filename() == "trajectory.h5" && bytes.size() >= 512 && !draw.one_in(4);
   if (seal_again) bytes = bytes.substr(512);

@@ -1,4 +1,4 @@
-// How many attacks a test draws, and from which seed: few in the suite, as many as asked by hand.
+// How many attacks a test draws, and from which seed: few in the suite, any number by a variable.
 #pragma once
 
 #include <cstdio>
@@ -46,7 +46,7 @@ class Draw {
   const T& of(const std::vector<T>& all) {
     return all[below(all.size())];
   }
-  /// Does one of them; one that stands there twice is drawn twice as often.
+  /// Does one of them; one that is listed twice is drawn twice as often.
   void one_of(std::initializer_list<std::function<void()>> ways) {
     ways.begin()[below(ways.size())]();
   }
@@ -55,7 +55,7 @@ class Draw {
   std::mt19937_64 random_;
 };
 
-/// Exit codes and how often they came, where more than the few were asked for.
+/// Reports exit codes and their counts, if more than the few attacks were requested.
 inline void tell(const std::map<int, int>& codes, const std::string& whose) {
   if (!std::getenv("GRIDSHELL_TRIALS")) return;
   std::printf("%s:", whose.c_str());

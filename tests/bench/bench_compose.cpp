@@ -1,4 +1,4 @@
-// CPU time of what a movie frame costs beside its 3D picture: captions, colour bar, top view, PNG.
+// CPU time of a movie frame in addition to its 3D picture: captions, colour bar, top view, PNG.
 // `--json` writes the figures as JSON.
 #include <vector>
 

@@ -1,6 +1,5 @@
 // CPU time of a frame by quality, off-screen: medians in ms, their ratios to a plain frame, and the
-// way back from the graphics side. Usage: bench_render [auto|osmesa|egl] [frames]
-// [--json]
+// transfer back from the graphics side. Usage: bench_render [auto|osmesa|egl] [frames] [--json]
 #include <algorithm>
 #include <cstdlib>
 #include <memory>
@@ -37,7 +36,7 @@ void measure(Context& context, int width, int height, int frames, Figures& figur
                   {"2x2 + shadow", {2, true, 1}},
                   {"movie", {1, true, 1}}};
   for (Case& c : cases) c.renderer = Renderer::create(context).value();
-  // in turns, so that whatever else runs on the machine falls on all of them alike
+  // alternating, so that other load of the machine affects all of them equally
   for (int frame = -1; frame < frames; ++frame)
     for (Case& c : cases) {
       camera.azimuth_deg = 30 + 0.5 * frame;
@@ -53,7 +52,7 @@ void measure(Context& context, int width, int height, int frames, Figures& figur
   }
 }
 
-/// The way of a drawn frame into memory alone.
+/// The transfer of a drawn frame into memory alone.
 void measure_read_back(Context& context, int width, int height, int frames, Figures& figures) {
   const Gl gl = Gl::load(context).value();
   Target target(gl, Target::Depth::none);

@@ -1,8 +1,8 @@
-// How long quasi-static actuation takes, in units of F = one CHOLMOD simplicial numeric
-// factorisation (its own nested dissection) of the Fig. 1 shell at 4 edges a segment, 2736 degrees
-// of freedom. CPU time of this process, medians. `bench_solver sizes` adds whole runs of 24 and 48
-// rods (and of 96 with `sizes 96`) in factorisations of the same shell, `bench_solver growth` the
-// table over n, `bench_solver rests` rests from rough states.
+// Duration of quasi-static actuation, in units of F = one CHOLMOD simplicial numeric factorisation
+// (its own nested dissection) of the Fig. 1 shell at 4 edges per segment, 2736 degrees of freedom.
+// CPU time of this process, medians. `bench_solver sizes` adds complete runs of 24 and 48 rods (and
+// of 96 with `sizes 96`) in factorisations of the same shell, `bench_solver growth` the table over
+// n, `bench_solver rests` relaxations from rough states.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -37,7 +37,7 @@ struct Case {
   double radius;
 };
 
-/// n rods a direction, longest leg 0.8 d, actuated to 0.75 R_o.
+/// n rods per direction, longest leg 0.8 d, actuated to 0.75 R_o.
 Case circle(int rods) {
   preset::Preset preset;
   preset.footprint.rods = rods;
@@ -137,7 +137,7 @@ void paper_shell(int runs, Figures& figures) {
 }
 
 /// `gridshell run s1_actuation` at other sizes and tolerances, 240 frames, one thread, in units of
-/// f, one factorisation of that shell at 4 edges a segment.
+/// f, one factorisation of that shell at 4 edges per segment.
 void sizes(Figures& figures, bool largest) {
   std::setvbuf(figures.lines(), nullptr, _IOLBF, 0);
   figures.say("\n{:>4} {:>10} {:>9} {:>9} {:>9} {:>6}  (240 frames; f: a factorisation)\n", "n",
@@ -172,7 +172,7 @@ void growth(Figures& figures) {
   figures.say("\n{:>4} {:>8} {:>10} {:>10} {:>10} {:>10} {:>10}  (seconds, 4 edges)\n", "n", "dof",
               "set-up", "assembly", "factor", "first", "path");
   for (int n : {6, 12, 24, 48, 96, 192}) {
-    const bool follow = n < 192;  // the largest comes to its first equilibrium alone
+    const bool follow = n < 192;  // the largest is followed to its first equilibrium alone
     const Case c = circle(n);
     const double begin = cpu_now();
     NestedShell shell = shell_of(c, {{4}, false}, 1e-3);
@@ -229,7 +229,8 @@ void drag(Figures& figures) {
   }
 }
 
-/// Rests from random throws of every joint by up to one spacing, over meshes of 1, 2, 4 edges.
+/// Relaxation from random displacements of every joint by up to one spacing, over meshes of 1, 2, 4
+/// edges.
 void rests(Figures& figures) {
   std::setvbuf(figures.lines(), nullptr, _IOLBF, 0);
   figures.say("\n{:>4} {:>12} {:>8}  (random throws of one spacing)\n", "n", "s per 1000",

@@ -44,7 +44,7 @@ void fail_call(Call kind, long k) {
 
 long calls_counted() { return count; }
 
-// what stands in the program itself comes before the library's
+// symbols of the program itself come before the library's
 
 extern "C" ssize_t write(int descriptor, const void* data, size_t size) {
   static const auto real = next<ssize_t (*)(int, const void*, size_t)>("write");

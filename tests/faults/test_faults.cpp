@@ -1,5 +1,5 @@
-// Every write, rename, mkdir, solve and allocation of a small run fails once: the old run is left
-// whole, or the new one stands, and whatever is left beside it is whole too.
+// Every write, rename, mkdir, solve and allocation of a small run fails once: the old run is
+// complete, or the new one is there, and whatever else is left is complete too.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -106,7 +106,7 @@ class Bench {
   /// fails the k-th, and looks at what is left
   void try_out(Call kind, long k) const {
     INFO("kind " << int(kind) << ", call " << k);
-    // the old run is one of another title, so that the two can be told apart
+    // the old run has another title, which distinguishes the two
     REQUIRE(write_file(at_ / "run/preset.toml", "old"));
     const auto old = contents(at_ / "run");
     const auto outcome = produce_failing(at_, pictures_, kind, k);
@@ -140,7 +140,7 @@ class Bench {
   }
 
  private:
-  /// a run that says it is done came to the equilibrium that it comes to undisturbed
+  /// a run that reports success reaches the same equilibrium as an undisturbed one
   void check_state() const {
     const auto state = record::read_summary(at_ / "run/summary.json").value();
     CHECK(state.finished);
@@ -169,7 +169,7 @@ TEST_CASE("every call and solve of a movie fails once, and nothing is lost or fa
   bench.try_out_all({Call::factorisation, Call::solve}, 20);
 }
 
-TEST_CASE("every solve of a push and on the twist rung fails once, and nothing false is written",
+TEST_CASE("every solve of a push and on the twist model fails once, and nothing false is written",
           "[full]") {
   for (const char* more : {"[indentation]\nat = \"highest\"\ndepth_mm = 0.5\n",
                            "[ends]\nkind = \"clamped\"\n[rod]\nshear_GPa = 31.0\n"})

@@ -51,7 +51,7 @@ void preset(std::string_view bytes) {
     if (change) overrides.push_back(*change);
     bytes.remove_prefix(end == std::string_view::npos ? bytes.size() : end + 1);
   }
-  // no file beside it: points by name are looked for in a folder that is not there
+  // there is no file: points by name are searched for in a missing folder
   const auto read =
       preset::read_preset_text(std::string(bytes), "/nonexistent/x.toml", "x", overrides);
   if (refused(read, std::string(bytes))) return;

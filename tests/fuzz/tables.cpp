@@ -15,7 +15,7 @@ namespace {
 
 using namespace gridshell::record;
 
-/// Takes what stands before the next `end`, and it with that.
+/// Removes the text before the next `end`, and `end` with it.
 std::string_view taken(std::string_view& bytes, std::string_view end) {
   const auto at = bytes.find(end);
   const auto part = bytes.substr(0, at);

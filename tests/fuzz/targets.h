@@ -1,6 +1,6 @@
-// What is fuzzed: each reads bytes as if they came from a stranger, and must neither crash nor take
-// more than little memory and time. Built two ways: with libFuzzer (`cmake --preset fuzz`), and as
-// tests that replay the corpus kept in tests/fuzz/corpus/<name>.
+// Fuzz targets: each reads untrusted bytes, and must neither crash nor take more than little memory
+// and time. Built in two forms: with libFuzzer (`cmake --preset fuzz`), and as tests that replay
+// the corpus in tests/fuzz/corpus/<name>.
 #pragma once
 
 #include <unistd.h>
@@ -20,8 +20,8 @@ struct Target {
   void (*read)(std::string_view bytes);
 };
 
-/// A preset; where the first line begins with "--set " the rest of that line is laid over it. What
-/// is read must read again from its own text.
+/// A preset; if the first line starts with "--set " the remaining line is applied to it. The result
+/// must be readable from its own text.
 void preset(std::string_view bytes);
 /// A file of points.
 void points(std::string_view bytes);
@@ -39,7 +39,7 @@ void journal(std::string_view bytes);
 /// Directions for changing a trajectory.h5 object by object, then read. The library's own parser is
 /// not for us to harden: damaged structures are tried in a process of their own.
 void trajectory(std::string_view bytes);
-/// states.csv, states.json, transitions.csv and barriers.csv of one folder, apart by lines of
+/// states.csv, states.json, transitions.csv and barriers.csv of one folder, separated by lines of
 /// =====.
 void states(std::string_view bytes);
 /// sweep.jsonl; lines without a checksum get theirs.

@@ -19,7 +19,7 @@ std::shared_ptr<BenchmarkProblem> small_case() {
   return made;
 }
 
-/// What the cells of a map came to.
+/// Outcomes of the cells of a map.
 class Map {
  public:
   explicit Map(Cells cells) {
@@ -67,11 +67,11 @@ TEST_CASE("stability: dynamic relaxation holds to its limit step") {
 
 TEST_CASE("stability: Newton's full steps need many load steps, a shift fewer, the default none",
           "[standard]") {
-  // on 2 edges a segment it hangs on round-off whether three full steps arrive
+  // on 2 edges per segment it depends on round-off whether three full steps succeed
   const Map at(newton_map(small_case(), {1, 3, 30}, {4, 8}));
   for (double edges : {4.0, 8.0}) {
     for (double steps : {1.0, 3.0, 30.0}) CHECK(at.right(default_solver, steps, edges));
-    // in one step both come to rest elsewhere, and say nothing
+    // in one step both reach another state without a message
     CHECK(record::silently_wrong(at("full steps", 1, edges)));
     CHECK(record::silently_wrong(at("shifted", 1, edges)));
     CHECK_FALSE(at.right("full steps", 3, edges));
@@ -112,7 +112,7 @@ TEST_CASE("stability: the default promises the tolerance of the joints, and keep
     CHECK(at.right(default_solver, tolerance, 3));
     wrong += !at.right("full steps", tolerance, 3);
   }
-  // at which of them hangs on how sums round
+  // which of them depends on how sums round
   CHECK(wrong > 0);
 }
 

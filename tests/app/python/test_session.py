@@ -165,7 +165,7 @@ def test_shapes_fit_each_other(formed):
     (lambda s: s.actuate(-1), "progress"),
     (lambda s: s.actuate(radius_mm=1000), "larger than the footprint"),
     (lambda s: s.actuate(edge_points=[(10000, 0, 0, 1)]), "no edge point"),
-    (lambda s: s.release((0, 0)), "no joint is held"),
+    (lambda s: s.release((0, 0)), "no joint is fixed"),
     (lambda s: s.refine(-1), "above 0"),
     (lambda s: s.restore(small().save()), "another session"),
     (lambda s: gs.Session("s1_actuaton"), "did you mean 's1_actuation'"),
@@ -202,7 +202,7 @@ def test_a_fault_of_a_file_names_its_place(tmp_path):
 
 def test_a_path_that_ends_early_raises_and_stays_certified(formed):
     kept = formed.save()
-    with pytest.raises(gs.NoEquilibrium, match="rods came to their length"):
+    with pytest.raises(gs.NoEquilibrium, match="rods reached the strain limit"):
         formed.push((0, 0), -60)
     assert formed.certificate.residual_N < 1e-5 and formed.held == [(0, 0)]
     formed.restore(kept)

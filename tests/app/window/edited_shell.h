@@ -48,7 +48,7 @@ struct EditedShell {
   }
 };
 
-/// The furthest that a node stands from where it stood.
+/// The largest displacement of a node from an earlier state.
 inline double difference(const EditedShell& now, const ShellView& then) {
   return (now.nodes() - then.frame.nodes).cwiseAbs().maxCoeff();
 }

@@ -46,7 +46,7 @@ TEST_CASE("a shell is designed step by step, kept, put back and done again to th
   }
   CHECK(after.design->points.back().max_mm < 0.7 * after.design->points.front().max_mm);
   CHECK(after.deviation.maxCoeff() < before.deviation.maxCoeff());
-  // what stands in hand is the last step, on the meshes of the preset
+  // the edited shell is the last step, on the meshes of the preset
   const Eigen::Index joints = Eigen::Index(after.layout->joints.size());
   CHECK((after.frame.nodes - seen.back().frame.nodes.leftCols(after.frame.nodes.cols()))
             .leftCols(joints)
@@ -74,7 +74,7 @@ TEST_CASE("a shell is designed step by step, kept, put back and done again to th
   CHECK(shell.nodes() == before.frame.nodes);
 }
 
-TEST_CASE("a design that is stopped leaves the step in hand that was seen last") {
+TEST_CASE("a design that is stopped leaves the step in the window that was seen last") {
   EditedShell shell(small_cap());
   Watch watch;
   ShellView last;
@@ -90,7 +90,7 @@ TEST_CASE("a design that is stopped leaves the step in hand that was seen last")
   CHECK(shell.view().design->stopped);
   // to the bit but for one more correction of Newton's
   CHECK((shell.nodes() - last.frame.nodes).cwiseAbs().maxCoeff() < 1e-6);
-  // a hand that goes on has kept it
+  // a user who continues has accepted it
   const Eigen::Vector3d up(0, 0, 1);
   shell.attempt(Push{0, shell.node(0) - up});
   CHECK(shell.view().design->kept);
@@ -120,7 +120,7 @@ TEST_CASE("a shell that cannot be designed says why, and stays as it is") {
   CHECK(shell.view().undo_steps == 0);
   shell.act(Open{small_cap()});
   shell.refine();
-  // pinned ends hold no direction
+  // pinned ends have no prescribed direction
   CHECK_THAT(shell.attempt(design_of({preset::Vary::directions}, 4)),
              Catch::Contains("directions"));
   CHECK_FALSE(shell.view().design);

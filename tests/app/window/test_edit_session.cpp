@@ -17,7 +17,7 @@ record::Frame end_of_run(const preset::Preset& preset) {
   return run.trajectory.frames.back();
 }
 
-/// How far the joints of two states are apart, on whatever meshes they stand.
+/// The largest distance of the joints of two states, on any meshes.
 double apart(const EditedShell& shell, const record::Frame& other) {
   const auto joints = Eigen::Index(shell.view().layout->joints.size());
   return (other.nodes.leftCols(joints) - shell.nodes().leftCols(joints))
@@ -36,7 +36,7 @@ TEST_CASE("the edited shell is the one that a run ends in") {
   CHECK(shell.view().certificate.error_estimate_mm < 1e-3 * 66);
 }
 
-TEST_CASE("the symmetry of a state is told once it is refined") {
+TEST_CASE("the symmetry of a state is reported once it is refined") {
   EditedShell shell;
   CHECK(shell.view().symmetry == "two diagonal mirrors");
   shell.drag(Move{0.9}, 7);
@@ -102,7 +102,7 @@ TEST_CASE("a push that begins with a long way tells the equilibria on it, and is
   CHECK(shell.view().steps.size() == 1);
   CHECK(shell.view().undo_steps == 1);
   CHECK(shell.view().held.at(0).moved_mm.norm() == Approx(6));
-  // the same drag goes on without
+  // the same drag continues without it
   push(9, 1);
   CHECK(shell.view().way.empty());
   CHECK(shell.view().steps.size() == 1);
@@ -141,8 +141,9 @@ TEST_CASE("steps that are put aside into a file are undone and done again to the
   }
 }
 
-TEST_CASE("a shell that was shaken is saved with its mesh, and a run converges to the same state",
-          "[standard]") {
+TEST_CASE(
+    "a shell that was perturbed is saved with its mesh, and a run converges to the same state",
+    "[standard]") {
   preset::Preset preset = small_shell();
   preset.footprint.rods = 8;
   preset.footprint.radius_mm = 88;
@@ -173,7 +174,7 @@ TEST_CASE("what was done is kept as steps, and a run of them ends in the same st
   const ShellView begun = shell.view();
   const int middle = shell.joint(0, 0), aside = shell.joint(-2, 1);
   const Eigen::Vector3d normal = begun.normals.col(middle), from = shell.node(middle);
-  // a drag is one step where it goes straight, each of its places where it does not
+  // a drag is one step if it is straight, else one for each of its positions
   for (const double depth : {1., 2.5, 4.})
     shell.drag(Push{middle, from - depth * normal, normal}, 3);
   shell.end_drag(3);
@@ -200,12 +201,12 @@ TEST_CASE("what was done is kept as steps, and a run of them ends in the same st
   CHECK((a.nodes - b.nodes).cwiseAbs().maxCoeff() < 1e-9 * 66);
   CHECK(b.energies[Term::bend] == Approx(a.energies[Term::bend]).epsilon(1e-9));
 
-  // and opened again it stands there
+  // and opened again it is in that state
   const EditedShell again(preset);
   CHECK((again.view().frame.nodes - a.nodes).cwiseAbs().maxCoeff() < 1e-9 * 66);
   CHECK(again.view().steps.size() == 6);
   REQUIRE(again.view().held.size() == 1);
-  // it was taken hold of on the coarsest mesh, 0.2 mm off at most
+  // its constraint was set on the coarsest mesh, at most 0.2 mm off
   CHECK((again.view().held[0].moved_mm - shell.view().held[0].moved_mm).norm() < 0.2);
   shell.act(Undo{});
   CHECK(shell.view().steps.size() == 5);
@@ -261,7 +262,7 @@ TEST_CASE(
   larger.actuation.radius_mm = 40;
   shell.act(Change{larger});
   CHECK(shell.view().layout->rods.size() == 8);
-  // undone, the first shell stands again, on the rods that it had
+  // undone, the first shell is back, on its rods
   shell.act(Undo{true});
   CHECK(shell.view().layout->rods.size() == 12);
   CHECK(shell.bending_mJ() == Approx(energy));
@@ -306,7 +307,7 @@ TEST_CASE("a shake that comes back to the same state says so, and is no snap") {
     const Eigen::Matrix3Xd before = shell.nodes().leftCols(joints);
     shell.act(Jitter{seed});
     const double moved_mm = (shell.nodes().leftCols(joints) - before).colwise().norm().maxCoeff();
-    const bool back = shell.view().message == "shaken, and at rest in the same state";
+    const bool back = shell.view().message == "perturbed, and in the same state again";
     CHECK(back == (moved_mm < 2e-3 * shell.view().layout->length_scale_mm));
     if (back) CHECK(shell.view().event.empty());
     same += back;

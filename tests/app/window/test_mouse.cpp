@@ -125,7 +125,7 @@ TEST_CASE("a click shows a joint, a rod with the nearest of its nodes, or a cell
   CHECK(viewer.picked_joint == -1);
   CHECK(viewer.picked_rod.rod == -1);
   CHECK(viewer.picked_cell == 0);
-  // what stands beside the view cannot be taken
+  // what is next to the view cannot be picked
   viewer.view.width = 1;
   picker.hover(2, 400);
   CHECK(viewer.joint_under == -1);

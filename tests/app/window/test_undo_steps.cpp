@@ -36,7 +36,7 @@ TEST_CASE("what is thrown on the way is an error, and the shell is as before the
   const int joint = shell.joint(0, 0);
   const Eigen::Vector3d normal = shell.view().normals.col(joint), from = shell.node(joint);
   bool throws = true;
-  // a long way that is typed shows its equilibria as it comes to them
+  // a long displacement that is typed shows its equilibria as they are computed
   shell.session.tell([&](const ShellView&) {
     if (throws) throw std::bad_alloc();
   });

@@ -1,5 +1,5 @@
-// What the window knows: actions, recorded input, what is kept until the next visit, and what a way
-// is marked by.
+// State of the window: actions, recorded input, what is stored until the next start, and the marks
+// of a path.
 #include <set>
 
 #include "app/window/actions.h"
@@ -72,7 +72,7 @@ TEST_CASE("switches switch, and back") {
 
 namespace {
 
-/// Joints (0, 0), (1, 0) and (2, 0) on one bent rod, and (0, 1) beside it.
+/// Joints (0, 0), (1, 0) and (2, 0) on one bent rod, and (0, 1) next to it.
 ShellView shell_of_four_joints() {
   auto layout = std::make_shared<record::Layout>();
   const int names[4][2] = {{0, 0}, {1, 0}, {2, 0}, {0, 1}};
@@ -139,7 +139,7 @@ TEST_CASE("two shells stand side by side, each in half of the view") {
   // the right one's edge is the legend's
   for (const auto& node : shell->frame.nodes.colwise())
     CHECK(render::to_pixel(viewer.camera, 400, 600, node).x() < 0.83 * 400);
-  // over it the other one is ghosts, beside it none
+  // over it the other one is a ghost, next to it there is none
   const auto ghosts = [&] { return drawing_of(*shell, viewer.show, 0.1).ghosts.size(); };
   CHECK(ghosts() == 0);
   find_action("beside")->act(viewer);
@@ -218,7 +218,7 @@ TEST_CASE("a line that is no event is refused with what would be right") {
   CHECK(read_event("press thumb").error().message.find("left") != std::string::npos);
 }
 
-TEST_CASE("a recording's fault names its line") {
+TEST_CASE("a recording's error names its line") {
   const auto events = read_events("# a comment\n\nmouse 1 2\r\nmouse one two\n", "visit.txt");
   REQUIRE_FALSE(events);
   CHECK(events.error().message.find("visit.txt:4:") == 0);
@@ -275,7 +275,7 @@ TEST_CASE("the workspace's file is below the folder of states") {
 
 namespace {
 
-/// A way of load steps at these parameters, each with so many negative pivots.
+/// A path of load steps at these parameters, with these numbers of negative pivots.
 PathRecord way_of(const std::vector<std::pair<double, int>>& steps) {
   PathRecord way;
   for (const auto& [t, pivots] : steps) {
@@ -313,7 +313,7 @@ TEST_CASE("stretches of several ways that meet are one, those apart or of other 
   REQUIRE(marks.size() == 3);
   CHECK((marks[0].from == 0.1 && marks[0].to == 0.4));
   CHECK(text_of_place(marks[0], [](double at) { return 100 * at; }) == "40 to 10");
-  // a way back is no other stretch
+  // a path back is no other interval
   add_marks(marks, marks_of(way_of({{0.7, 1}, {0.65, 1}}), {}, -1, [](double t) { return t; }));
   CHECK(marks.size() == 3);
 }

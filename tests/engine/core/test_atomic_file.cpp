@@ -41,12 +41,12 @@ TEST_CASE("errors of files name the path and the reason") {
   CHECK(refusal(read_file(folder), Fault::io) ==
         "cannot read '" + folder.path().string() + "': Is a directory");
 
-  // a file where a folder is wanted
+  // a file where a folder is needed
   const fs::path file = folder / "file";
   REQUIRE(write_file(file, "x"));
   CHECK(refusal(make_folder(file / "run"), Fault::io) ==
         "cannot make folder '" + (file / "run").string() + "': Not a directory");
-  // a folder where a file is wanted
+  // a folder where a file is needed
   REQUIRE(make_folder(folder / "sub" / "deep"));
   CHECK_FALSE(write_file(folder / "sub", "x"));
   CHECK(folder.entries() == std::vector<std::string>{"file", "sub"});

@@ -37,7 +37,7 @@ constexpr auto words(Fruit) { return names_except<Fruit>({{Fruit::pear_tree, "pe
 
 }  // namespace
 
-// what is forgotten or out of order does not compile; this is what that stands on
+// a missing or misplaced enumerator does not compile; this is the condition for it
 static_assert(is_enumerator<Fruit::pear_tree>());
 static_assert(!is_enumerator<Fruit(2)>());
 

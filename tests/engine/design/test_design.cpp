@@ -11,7 +11,7 @@ using preset::Vary;
 
 namespace {
 
-/// A shell on a mesh, at rest beside its net, that a test moves.
+/// A shell on a mesh, in equilibrium next to its net, that a test moves.
 struct Moved {
   std::shared_ptr<const Scene> scene;
   std::unique_ptr<DesignShell> shell;
@@ -97,7 +97,7 @@ void check_met(const DesignResult& found, double largest, double mean) {
 
 }  // namespace
 
-TEST_CASE("joints and leg forces follow pins, legs and directions as states solved anew do") {
+TEST_CASE("joints and leg forces follow pins, legs and directions as states solved again do") {
   check_sensitivity(cap(0.7), {Vary::diameters}, 8);
   check_sensitivity(cap(0.7), {Vary::pins_3d}, 8);
   check_sensitivity(cap(0.7), {Vary::legs}, 8);
@@ -117,7 +117,7 @@ TEST_CASE("the same on the meshes that are designed on and certified", "[standar
   }
 }
 
-TEST_CASE("the objective's gradient agrees with differences of states solved anew") {
+TEST_CASE("the objective's gradient agrees with differences of states solved again") {
   Moved moved(cap(0.7), 8);
   DesignShell& shell = *moved.shell;
   const DesignVariables variables(*moved.scene, {Vary::pins, Vary::legs, Vary::diameters},
@@ -205,7 +205,7 @@ TEST_CASE("the table of ends gives back the same scene, and says what is wrong w
   refused(6, -1, "longer than 0");
 }
 
-TEST_CASE("rods have the diameters of their table, and what is wrong with it is told") {
+TEST_CASE("rods have the diameters of their table, and what is wrong with it is reported") {
   auto p = cap(0.7);
   p.ends.kind = preset::EndKind::tangent;
   auto scene = value_of(scene_of(p));
@@ -241,7 +241,7 @@ TEST_CASE("what cannot be designed is refused") {
   p.inverse.vary = {Vary::pins};
   p.joints.shear_Nmm = 1;
   p.rod.shear_GPa = 31;
-  CHECK_THAT(refusal(design(p, watch)), Catch::Contains("bend rung"));
+  CHECK_THAT(refusal(design(p, watch)), Catch::Contains("bend model"));
 }
 
 TEST_CASE("a hemisphere meets its sphere by its pins in the plane", "[standard]") {
@@ -306,7 +306,7 @@ TEST_CASE("a design that is watched hands over every step that both meshes hold"
   CHECK(handed.steps.front().iteration == 0);
   CHECK(handed.steps.back().max_mm < 0.35 * handed.steps.front().max_mm);
   for (const DesignStep& step : handed.steps) CHECK(step.taken);
-  // it comes to what the design that nobody watches does
+  // its result is that of a design without a listener
   Watch watch;
   const auto whole = value_of(design(low_cap(), watch));
   CHECK(handed.steps.back().max_mm == Approx(whole.after.front().max_mm).epsilon(1e-4));

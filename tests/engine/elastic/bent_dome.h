@@ -1,4 +1,4 @@
-// A dome that is not at rest, with rods in tension and compression; its Hessian as a full matrix.
+// A dome out of equilibrium, with rods in tension and compression; its Hessian as a full matrix.
 #pragma once
 
 #include "engine/elastic/assembly.h"

@@ -1,4 +1,4 @@
-// The assembly of both rungs against differences of the energy.
+// The assembly of both rod models against differences of the energy.
 #include "engine/elastic/assembly.h"
 
 #include <Eigen/Geometry>
@@ -14,7 +14,7 @@ using namespace gridshell;
 
 namespace {
 
-/// A small dome with noise: every term of the bend rung's energy is at work.
+/// A small dome with noise: every term of the bend model's energy contributes.
 BentDome noisy_dome(int edges) {
   BentDome dome = bent_dome(52, 4, edges);
   std::mt19937 random(7);
@@ -267,7 +267,7 @@ TEST_CASE("twist model: bad rods are refused with their reason") {
   refused("node 7", [](ModelRod& bad) { bad.nodes = {0, 1, 7}; });
 }
 
-TEST_CASE("strain by bending: how far from rest the outermost fibre is bent") {
+TEST_CASE("strain by bending: how far from its natural shape the outermost fibre is bent") {
   // on a circle's arc in the plane of the axes c and s, over so many equal edges
   constexpr int edges = 20;
   constexpr double edge = 2, curvature = 0.01;
@@ -290,7 +290,7 @@ TEST_CASE("strain by bending: how far from rest the outermost fibre is bent") {
   const auto is = [](const Eigen::VectorXd& strain, double value) {
     return strain.size() == edges - 1 && (strain.array() - value).abs().maxCoeff() < 1e-9;
   };
-  // a round wire bends alike on both rungs and to every side
+  // a round wire bends equally in both models and to every side
   for (const RodModel rung : {RodModel::bend, RodModel::twist})
     for (const int up : {1, 2})
       CHECK(is(strain_of(circular_material(0.254, 83, 31), rung, 0, up), curvature * 0.127));
@@ -300,7 +300,7 @@ TEST_CASE("strain by bending: how far from rest the outermost fibre is bent") {
   CHECK(is(strain_of(strip, RodModel::twist, 0, 1), curvature * 0.2));
   CHECK(strip.fibres.strain({curvature, -2 * curvature}) ==
         Approx(curvature * 0.2 + 2 * curvature * 0.1));
-  // what it is bent to at rest strains nothing; across it both add up at a corner
+  // its natural curvature strains nothing; across it both add up at a corner
   strip.curvature = {0, curvature};
   CHECK(is(strain_of(strip, RodModel::twist, 0, 2), 0));
   strip.curvature = {0, -curvature};

@@ -49,8 +49,8 @@ TEST_CASE("contact: the barrier is zero from the gap on, smooth, and rises witho
   CHECK(at(S + gap).energy == Approx(0).margin(1e-20));
   CHECK(at(S + 1).energy == 0);
   CHECK(std::abs(at(S + (1 - 1e-6) * gap).curvature) < 1e-4 * at(S + 0.5 * gap).curvature);
-  // half way through a gap that is thin beside the rods 1.193 k gap, and more through others: x
-  // then is (S + gap/4)/(2 S + gap)
+  // halfway through a gap that is thin compared with the rods 1.193 k gap, and more through
+  // others: x then is (S + gap/4)/(2 S + gap)
   const auto pressed = [&](double wide) {
     const double half = S + 0.5 * wide;
     const auto value = ContactBarrier{wide, stiffness}.at(half * half, S);
@@ -170,7 +170,8 @@ TEST_CASE(
   };
   CHECK(pairs.thinness(edge(0, 1, 0), edge(1, 1, 0)) == 0);
   CHECK(pairs.thinness(edge(0, 1, 1), edge(1, 1, 0)) == 0.5);
-  CHECK(pairs.thinness(edge(0, 1, 1), edge(1, 0, 7)) == 0.5);  // the other way from the joint
+  CHECK(pairs.thinness(edge(0, 1, 1), edge(1, 0, 7)) ==
+        0.5);  // in the other direction from the joint
   CHECK(pairs.thinness(edge(0, 1, 2), edge(1, 1, 1)) == 1);
   CHECK(pairs.thinness(edge(0, 1, 0), edge(1, 1, 7)) == 1);  // next to different joints
   CHECK(pairs.thinness(edge(0, 0, 1), edge(1, 2, 1)) == 1);

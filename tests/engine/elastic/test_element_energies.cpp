@@ -75,7 +75,7 @@ Sample random_sample(std::mt19937& random, double turn) {
   return sample;
 }
 
-/// Of which no edge nearly turns back; half of them nearly straight.
+/// Samples in which no edge nearly reverses; half of them nearly straight.
 std::vector<Sample> samples(unsigned seed, int count) {
   std::mt19937 random(seed);
   std::vector<Sample> all;
@@ -86,8 +86,8 @@ std::vector<Sample> samples(unsigned seed, int count) {
   return all;
 }
 
-/// the definitions, frames carried from the sample's edges to wherever e and f are; `round` is
-/// EI/(2l) |kb|^2, `end` the same at a held end
+/// the definitions, frames transported from the sample's edges to the current e and f; `round` is
+/// EI/(2l) |kb|^2, `end` the same at a constrained end
 struct Definitions {
   T bend, twist, round, end;
 };
@@ -188,14 +188,14 @@ TEST_CASE("bend at a held end: derivatives, and half of what the edge and its mi
     CHECK(law.add(edges, out) == Approx(exact.value().value()).epsilon(1e-12));
     check(out.gradient, out.hessian, exact, 1e-11);
     const double c = at.t().dot(at.s()), mirrored = 2 * c * c - 1;
-    // of the length of both half edges, so half as stiff
+    // over the length of both half edges, so half as stiff
     const double half = 0.5 * 7.3 / 2 * (1 - mirrored) / (1 + mirrored);
     const double eighth = std::pow(1 - c, 4);  // as phi^8
     if (c > 0.9) CHECK(law.value(edges) == Approx(half).margin(40 * eighth));
   }
 }
 
-TEST_CASE("material bend: equal stiffness and no curvature at rest is the round rod's bend") {
+TEST_CASE("material bend: equal stiffness and no natural curvature is the round rod's bend") {
   std::mt19937 random(7);
   for (int trial = 0; trial < 20; ++trial) {
     Sample at = random_sample(random, 0.3);
@@ -228,7 +228,7 @@ TEST_CASE("a corner gives way as its two half edges in series do") {
                       2 * std::tan(h) * Eigen::Vector2d(std::cos(axis), std::sin(axis)));
   const SectionBending bending{law.bend};
   const Torsion torsion{law.torsion, 0};
-  // f with its frame, carried from e's, turned from rest
+  // f with its frame, transported from e's, rotated from its natural angle
   const auto energy = [&](const Eigen::Vector3d& psi) {
     const Eigen::Matrix3d by =
         psi.isZero(0) ? Eigen::Matrix3d(Eigen::Matrix3d::Identity())

@@ -51,7 +51,7 @@ Footprint rod_on_springs() {
   return net;
 }
 
-/// Its rest, supports where `motion` ends.
+/// Its equilibrium, with supports at the end of `motion`.
 struct Rested {
   RodMesh mesh = mesh_rods(rod_on_springs(), 20);
   Model model;
@@ -86,7 +86,9 @@ struct Rested {
 
 }  // namespace
 
-TEST_CASE("dead loads: the weight of all rods and the point loads come to the nodes whole") {
+TEST_CASE(
+    "dead loads: the weight of all rods and the point loads are distributed to the nodes "
+    "completely") {
   const RodMesh mesh = mesh_rods(fig1().footprint, 4);
   ShellRods loaded(section);
   double weight = 0;
@@ -183,7 +185,8 @@ TEST_CASE("a rod on two springs sinks by P/(2 k) and bends by P L^3/(48 EI)") {
   }
 }
 
-TEST_CASE("springs of supports: gradient and Hessian are the energy's derivatives, on both rungs") {
+TEST_CASE(
+    "springs of supports: gradient and Hessian are the energy's derivatives, on both rod models") {
   Footprint net = circular_footprint(52.0, 4, 20.0, Placement::half).value();
   net.rods[0].begin = net.rods[5].end = RodEnd::sprung;
   net.held_joints = {3, 4};
@@ -191,7 +194,7 @@ TEST_CASE("springs of supports: gradient and Hessian are the energy's derivative
   const RodMesh mesh = mesh_rods(net, 3);
   for (const RodModel rung : {RodModel::bend, RodModel::twist}) {
     const Model model = build_model(mesh, rods, rung).value();
-    // the supports and the joint that is held firmly, not what hangs on springs
+    // the supports and the fixed joint, not what is on springs
     for (const MeshSpring& spring : mesh.springs) {
       CHECK(model.pinned(spring.support));
       CHECK_FALSE(model.pinned(spring.node));
@@ -209,7 +212,7 @@ TEST_CASE("springs of supports: gradient and Hessian are the energy's derivative
   }
 }
 
-TEST_CASE("nested meshes with springs: what the coarse one has comes to the fine one") {
+TEST_CASE("nested meshes with springs: the coarse state is transferred to the fine one") {
   Footprint net = rod_on_springs();
   const RodMesh coarse = mesh_rods(net, 4), fine = mesh_rods(net, 8);
   Eigen::Matrix3Xd from = Eigen::Matrix3Xd::Zero(3, coarse.nodes()), to;

@@ -74,7 +74,7 @@ TEST_CASE("a bar: a strut on both sides, a cable that is slack, comes on and pul
       if (strain > 1e-3) CHECK(bar == Approx(0.5 * 500 * length * strain * strain).epsilon(1e-2));
       if (std::abs(strain) > 1e-4) check_derivatives(model, dome.state, {}, 1e-6, 1e-5, 1e-6);
     }
-  // where it comes on a step of differences must be small beside that strain
+  // where it becomes taut a step of differences must be small compared with that strain
   const NodeBar cable{0, 1, 10, 500, true};
   for (const double strain : {2e-6, 9e-6, 1.5e-5}) {
     constexpr double h = 1e-9;

@@ -132,7 +132,7 @@ TEST_CASE("the nets lie in their places, and closed() leaves no gap between them
   CHECK(middle.position.z() == Approx(rho).margin(1e-9));
   CHECK(pole.position.z() == Approx(rho).margin(1e-9));
   CHECK(pole.position.x() - middle.position.x() == Approx(half).margin(1e-6));
-  // two places at either side of a seam joint come together
+  // two positions on either side of a seam joint coincide
   Eigen::Matrix2Xd sides(2, 2);
   const double u = 50, near = 1e-7;
   sides << u - near, u + near, -u - near, -u + near;

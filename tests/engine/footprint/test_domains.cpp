@@ -94,7 +94,7 @@ TEST_CASE("curve domain: a peanut of spline points has a waist") {
       const double angle = std::atan2(31, u);
       CHECK(std::hypot(u, 31) == Approx(radius(angle)).epsilon(1e-4));
     }
-  // the seam of the periodic spline is as smooth as the rest
+  // the seam of the periodic spline is as smooth as the remaining curve
   const auto curve = ClosedCurve::spline(outline).value();
   const auto start = curve.at(0), end = curve.at(curve.last());
   CHECK((start.position - end.position).norm() < 1e-12);
@@ -135,7 +135,7 @@ TEST_CASE("boundary maps: by arc length and by angle") {
     const double angle = 2 * M_PI * ellipse.arc_length(t) / ellipse.length();
     CHECK((by_length(on) - 50 * Eigen::Vector2d(std::cos(angle), std::sin(angle))).norm() < 1e-10);
   }
-  // a circle shrinks evenly either way
+  // a circle shrinks evenly in both directions
   const auto large = ClosedCurve::ellipse(126, 126).value();
   for (const auto how : {Correspondence::angle, Correspondence::arc_length}) {
     const auto shrink = BoundaryMap::make(large, circle, how).value();

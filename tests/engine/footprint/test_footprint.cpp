@@ -60,7 +60,7 @@ TEST_CASE("footprint: what makes no sense is refused with its reason") {
       message(100, 12, 20, Placement::half) ==
       "12 rods a direction at d = 20 mm reach 110 mm, beyond the boundary: the longest leg R_o/d - "
       "(n-1)/2 = -0.5 must be above 0; take R_o >= 110.02 mm or n <= 10");
-  // the outermost rods of each family lie beyond the reach of all others
+  // the outermost rods of each family are outside the reach of all others
   CHECK(
       message(50.5, 6, 20, Placement::half) ==
       "the u-rod at v = -50 mm crosses no other rod: it would hang on its two ends alone; move the "
@@ -88,7 +88,7 @@ Footprint shell() { return circular_footprint(126.0, 12, 20.0, Placement::half).
 
 }  // namespace
 
-TEST_CASE("mesh: nodes, edges and rest lengths") {
+TEST_CASE("mesh: nodes, edges and natural lengths") {
   const Footprint net = shell();
   const RodMesh mesh = mesh_rods(net, 4);
   CHECK(mesh.nodes() - mesh.edge_points == 912);  // 2736 degrees of freedom

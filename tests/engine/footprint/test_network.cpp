@@ -11,7 +11,7 @@ using namespace gridshell;
 
 namespace {
 
-/// Rods between numbered places; points that are supported, and free.
+/// Rods between numbered positions; points that are supported, and free.
 RodNetwork network(const std::vector<Eigen::Vector2d>& points,
                    const std::vector<std::vector<int>>& rods,
                    const std::vector<int>& supported = {}, const std::vector<int>& free = {}) {
@@ -54,7 +54,7 @@ TEST_CASE("three rods through one joint") {
 }
 
 TEST_CASE("a rod that ends on another is joined there, ends alone at a free point to one another") {
-  // a T, its stem ending inside the bar, and a foot that goes on from the stem by a hinge
+  // a T, its stem ending inside the bar, and a foot that continues the stem by a hinge
   const auto made =
       value_of(network_footprint(network({{-10, 0}, {0, 0}, {10, 0}, {0, -10}, {5, -20}, {-5, -20}},
                                          {{0, 1, 2}, {1, 3}, {3, 4}, {3, 5}}, {}, {3})));
@@ -71,7 +71,7 @@ TEST_CASE("a rod that ends on another is joined there, ends alone at a free poin
 }
 
 TEST_CASE("a closed chain of rods whose ends meet is a frame where its joints are named") {
-  // four rods around a square, held at one corner and on springs at two
+  // four rods around a square, fixed at one corner and on springs at two
   const std::vector<Eigen::Vector2d> square{{0, -7}, {7, 0}, {0, 7}, {-7, 0}};
   RodNetwork net = network(square, {{0, 1}, {1, 2}, {2, 3}, {3, 0}}, {0, 1, 2});
   net.springs = {{1, {0, 0, 9}}, {2, {9, 0, 9}}};
@@ -183,12 +183,12 @@ TEST_CASE("springs along too few directions leave a network free") {
   refused(net, free);
   on({1, 1, 0});
   refused(net, free);
-  // sliding along x on one line and along y on others holds all but nothing free
+  // sliding along x on one line and along y on others fixes all but nothing free
   net.springs[1] = net.springs[2] = net.springs[3] = {0, 0, 1};
   CHECK(network_footprint(net));
   on({0, 0, 1});
   refused(net, free);
-  // held firmly at one point it still turns about it
+  // fixed at one point it still rotates about it
   net.springs.erase(1);
   refused(net, free);
   net.springs[3] = {1, 0, 1};
@@ -208,7 +208,7 @@ TEST_CASE("networks that do not make a shell are refused") {
   refused(network(star, {{1, 0, 2}, {3, 0, 4}}, {}, {0}), "point 0 is free, and inside a rod");
   refused(network(star, {{1, 0, 2}, {3, 0, 4}}, {1}, {1}), "point 1 is a support and free");
   refused(network(star, {{1, 0, 2}, {3, 0, 4}}, {}, {3, 4}), "fewer than three points");
-  // a second piece, held at one line
+  // a second piece, fixed on one line
   refused(network({{0, 0}, {9, 0}, {-9, 0}, {0, 9}, {0, -9}, {50, 0}, {60, 0}, {55, 0}, {55, 5}},
                   {{1, 0, 2}, {3, 0, 4}, {5, 7, 6}, {7, 8}}, {}, {8}),
           "rods[2] and what is joined to it");
@@ -236,7 +236,7 @@ TEST_CASE("rods in space are as long as their polyline there, and laid where the
   // what is level lies in the plane, whatever its height
   net.points.row(2).setZero();
   CHECK_FALSE(network_footprint(net)->footprint.in_space());
-  // held at places of one upright plane it stands, on one line it does not
+  // supported at points of one vertical plane it is stable, on one line it is not
   RodNetwork upright = network({{-3, 0}, {0, 0}, {3, 0}, {0, 0}, {0, 0}}, {{0, 1, 2}, {3, 1, 4}});
   upright.points.row(2) << 0, 0, 0, -5, 5;
   CHECK(network_footprint(upright));

@@ -36,7 +36,7 @@ TEST_CASE("mesh symmetries: an ellipse has eight, a cap of a net does not turn o
   const auto oval = found(curve(preset::CurveKind::ellipse, 90, 65, 0.8), 2);
   CHECK(oval.size() == 8);
   for (const MeshSymmetry& one : oval) CHECK(one.map(0, 0) != 0);
-  // the hemisphere's boundary is level: what is known of its ends alone does not tell up from down
+  // the hemisphere's boundary is level: its ends alone do not distinguish up from down
   CHECK(found(cap(0.5), 1).size() == 16);
 }
 

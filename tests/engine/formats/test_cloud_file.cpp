@@ -93,7 +93,7 @@ TEST_CASE("rows that may be read in two ways are refused") {
         "a.xyz:2: holds 4 values, must be 5, as in the rows before");
 }
 
-TEST_CASE("what is no cloud is refused with its place") {
+TEST_CASE("what is no cloud is refused with its position") {
   const std::string numbers = ", must be 3 numbers: x, y, z",
                     none = "a.xyz: holds no point, must hold one a line, 3 numbers: x, y, z";
   CHECK(fault_of("", "a.xyz") == none);

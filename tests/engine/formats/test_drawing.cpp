@@ -1,4 +1,4 @@
-// Drawings to scale: what stands in the file is what was drawn, to the digit.
+// Drawings to scale: the file has the drawn numbers, to the digit.
 #include <catch2/catch.hpp>
 
 #include "engine/formats/drawing.h"

@@ -1,4 +1,4 @@
-// What a DXF drawing holds: every entity is a curve, a mark, or refused.
+// Contents of a DXF drawing: every entity is a curve, a mark, or refused.
 #include "engine/formats/dxf_file.h"
 
 #include "tests/engine/formats/drawn_dxf.h"

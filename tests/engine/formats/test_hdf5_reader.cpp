@@ -102,7 +102,7 @@ TEST_CASE("objects that are not what they should be are refused before anything 
 TEST_CASE("a reading in a process of its own gets no more than a part of the machine's memory") {
   const auto taking = [](std::uint64_t bytes) {
     return read_in_subprocess([bytes] {
-      // asked for, not touched: it is the limit that refuses
+      // allocated, not touched: the limit refuses it
       void* memory = std::malloc(bytes);
       if (!memory) throw std::bad_alloc();
       std::free(memory);

@@ -12,7 +12,7 @@ std::string line(double x0, double y0, double x1, double y1, const std::string& 
   return entity("LINE", fmt::format("8 {} 10 {} 20 {} 11 {} 21 {}", layer, x0, y0, x1, y1));
 }
 
-/// Three rods along x and three along y, 20 mm apart.
+/// Three rods along x and three along y, at distances of 20 mm.
 std::string grid(const std::string& layer = "0") {
   std::string text;
   for (const int k : {-20, 0, 20}) text += line(-30, k, 30, k, layer) + line(k, -30, k, 30, layer);
@@ -36,7 +36,7 @@ std::string refused(const std::string& entities) {
   return refusal(read_network(drawn_dxf(entities), "d.dxf"));
 }
 
-/// The places of a rod's points.
+/// The positions of a rod's points.
 Points places(const NetworkData& network, std::size_t rod) {
   Points all;
   for (const int point : network.rods[rod]) all.push_back(network.points[std::size_t(point)]);
@@ -162,7 +162,7 @@ TEST_CASE("what is near and not joined is reported, and join_mm joins it") {
   REQUIRE(joined.network.rods.size() == 5);
   CHECK_THAT(joined.report.text, Catch::Contains("5 rods, 6 joints, 8 supports"));
   CHECK(places(joined.network, 3).front() == std::vector<double>{-20, 0, 0});
-  // of a file by numbers too
+  // also in a file of numbers
   const std::string twice = R"({"points_mm": [[-9, 0], [0, 0], [9, 0], [0, -9], [0.004, 0], [0, 9]],
     "rods": [[0, 1, 2], [3, 4, 5]]})";
   FileReport report;

@@ -1,4 +1,4 @@
-// Joints that a file of a network lists: what becomes one, where it stands, and what is refused.
+// Joints that a file of a network lists: what becomes one, its position, and what is refused.
 #include "engine/formats/network_file.h"
 #include "tests/results.h"
 
@@ -7,7 +7,7 @@ using namespace gridshell::preset;
 
 namespace {
 
-// two rods that cross 1 mm beside one another's points, and one that ends near the first
+// two rods that cross 1 mm from one another's points, and one that ends near the first
 const std::string beside = R"({
   "points_mm": [[-10, 0], [0.6, 0], [10, 0], [0, -10], [0, 0.8], [0, 10], [10, 0.2], [20, 5]],
   "rods": [

@@ -76,7 +76,7 @@ TEST_CASE("the commands of an SVG path close an outline, relative or not") {
         Approx(0.6 * 60 * 100).epsilon(1e-3));
   CHECK(outline(svg("<path d=\"M0 0 Q 50 60 100 0 Z\"/>"), "a.svg").area ==
         Approx(2.0 / 3 * 100 * 30).epsilon(1e-3));
-  // smooth commands go on with the mirrored control point
+  // smooth commands continue with the mirrored control point
   CHECK(outline(svg("<path d=\"M0 0 Q 25 30 50 0 T 100 0 L 100 50 H 0 z\"/>"), "a.svg").area ==
         Approx(5000).epsilon(1e-3));
 }
@@ -100,7 +100,7 @@ TEST_CASE("shapes of an SVG stand under their transforms, what is not drawn does
 }
 
 TEST_CASE("lines of a drawing that meet end to end are one outline, in any order") {
-  // a stadium of two lines and two arcs, one line drawn the other way
+  // a stadium of two lines and two arcs, one line drawn in reverse
   const std::string pieces = line_dxf({100, 0}, {0, 0}) + arc_dxf({0, 60}, 60, 90, 270) +
                              line_dxf({0, 120}, {100, 120}) + arc_dxf({100, 60}, 60, 270, 90);
   const double stadium = 100 * 120 + M_PI * 60 * 60;
@@ -122,7 +122,7 @@ TEST_CASE("an OBJ is an outline by its lines, else by its faces") {
   CHECK_THAT(refused(points + "l 1 2 9\n", "a.obj"), Contains("names vertex 9"));
 }
 
-TEST_CASE("what is no outline is refused with its place") {
+TEST_CASE("what is no outline is refused with its position") {
   CHECK_THAT(refused("<html/>", "a.svg"), Contains("a.svg: is no SVG"));
   CHECK_THAT(refused(svg("\n<path d=\"M 0 0 L 5\"/>"), "a.svg"),
              Contains("a.svg:4: <path> has a 'L' with fewer numbers than 2"));

@@ -12,7 +12,7 @@ std::string plain(std::string_view bytes) {
   return std::string(plain_text(bytes, storage));
 }
 
-/// The same in UTF-16, of letters below 256.
+/// The text in UTF-16, of letters below 256.
 std::string wide(const std::string& text, bool big, bool mark) {
   std::string bytes = !mark ? "" : big ? "\xFE\xFF" : "\xFF\xFE";
   for (const char c : text) {

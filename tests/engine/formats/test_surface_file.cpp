@@ -118,7 +118,7 @@ TEST_CASE("the same square comes out of every spelling of OBJ and STL") {
   wrong(stl_text().substr(0, stl_text().size() - 9), "a.stl", "is it cut short?");
 }
 
-TEST_CASE("heights come in any order, and a place without one is told") {
+TEST_CASE("heights come in any order, and a place without one is reported") {
   const auto grid = read_surface(heights(), "h.csv");
   REQUIRE(grid.has_value());
   CHECK(grid->x == std::vector<double>{0, 1, 2, 3, 4});
@@ -139,7 +139,7 @@ TEST_CASE("heights come in any order, and a place without one is told") {
   wrong(scattered, "h.txt", "must be a whole rectangle");
 }
 
-TEST_CASE("what is no mesh is refused with its place") {
+TEST_CASE("what is no mesh is refused with its position") {
   wrong(obj, "a.step", "must end in .csv or .txt");
   wrong("", "a.obj", "holds no triangle");
   wrong("v 1 2\n", "a.obj", "a.obj:1: a vertex must have three numbers");

@@ -31,7 +31,7 @@ inline DomeMesh ellipsoid_mesh(const Eigen::Vector3d& axes, double edge_mm,
     for (int k = 0; k < count; ++k)
       mesh.vertices.col(begin(ring) + k) =
           on_ellipsoid(axes, down * ring / rings, 2 * M_PI * k / count);
-    // along both rings, whichever is behind goes on
+    // along both rings, advancing the one that is behind
     for (int i = 0, k = 0; i < inner || k < count;) {
       const int here = begin(ring - 1) + (inner > 0 ? i % inner : 0),
                 there = begin(ring) + k % count;

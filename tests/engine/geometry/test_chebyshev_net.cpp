@@ -9,7 +9,7 @@ using namespace gridshell;
 
 namespace {
 
-/// visit(u, v) over the square that holds the hemisphere's footprint, without the folded corners
+/// visit(u, v) over the square that contains the hemisphere's footprint, without the folded corners
 template <class Visit>
 void each_point(double radius, Visit visit) {
   for (double u = -1.5; u <= 1.58; u += 0.0771)
@@ -90,7 +90,7 @@ TEST_CASE("sphere net: C_u and C_v integrate to C, Gauss and Hazzidakis") {
   CHECK(hazzidakis_residual(net, -60, 10, -15, 50) < 1e-12);
 }
 
-TEST_CASE("sphere net: a fold is named with its place") {
+TEST_CASE("sphere net: a fold is named with its position") {
   const SphereNet net(10);
   CHECK(net.at(13.6, 13.6));
   CHECK(refusal(net.at(13.7, 13.7)) ==

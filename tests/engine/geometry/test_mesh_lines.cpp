@@ -60,7 +60,7 @@ TEST_CASE("the longest closed line is the rim, others are holes, and ways across
   CHECK(lines.crossed(on(5, 0), on(25, 0)) == LineKind::hole);
   CHECK_FALSE(lines.crossed(on(5, 0), on(5, 12)).has_value());
   CHECK(lines.crossed(on(0, 90), on(0, 98)) == LineKind::rim);
-  // another sheet above is not in the way
+  // another sheet above is no obstacle
   CHECK_FALSE(
       lines.crossed(on(5, 0) + Eigen::Vector3d(0, 0, 30), on(25, 0) + Eigen::Vector3d(0, 0, 30))
           .has_value());

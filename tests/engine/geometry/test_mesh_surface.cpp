@@ -66,7 +66,7 @@ TEST_CASE("triangles of 6 mm make the sphere and the ellipsoid to 1e-3 mm") {
   CHECK(off_ellipsoid({140, 110, 90}, 6, 0) < 1e-3);
 }
 
-TEST_CASE("the surface of a mesh is found at its highest, and goes on a little beyond its rim") {
+TEST_CASE("the surface of a mesh is found at its highest, and extends slightly past its rim") {
   const DomeMesh dome = ellipsoid_mesh({120, 120, 120}, 10);
   const auto mesh = value_of(TriangleMesh::make(dome.vertices, dome.triangles));
   CHECK(highest_at(mesh, 30, -40).value() == Approx(std::sqrt(120. * 120 - 2500)).margin(0.3));
@@ -78,7 +78,7 @@ TEST_CASE("the surface of a mesh is found at its highest, and goes on a little b
   CHECK(std::abs(surface.at({0, 0, 123})) == Approx(3).margin(1e-2));
 }
 
-TEST_CASE("what is no smooth sheet is refused with the place") {
+TEST_CASE("what is no smooth sheet is refused with the position") {
   CHECK(fault_of(cap()) == "none");
   const auto changed = [](const auto& change) {
     DomeMesh dome = cap();

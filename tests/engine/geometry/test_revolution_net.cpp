@@ -127,7 +127,7 @@ TEST_CASE("tabulated profile: residuals as for the others, fourth order in the p
   CHECK(errors[1] / errors[2] > 12);
 }
 
-TEST_CASE("surfaces of revolution: folds and ends are named with their place") {
+TEST_CASE("surfaces of revolution: folds and ends are named with their position") {
   const Profile spool = spool_profile(100, 0.5).value();
   const RevolutionNet net = right_angled(spool);
   // r = sqrt(2) r_waist where the rods turn around the axis

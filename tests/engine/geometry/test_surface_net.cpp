@@ -43,7 +43,7 @@ double off_sphere(const ChebyshevNet& net, double cut_mm, double turned = 0) {
   return largest;
 }
 
-/// the same of the nodes of a grid of equal chords
+/// distance of the nodes of a grid of equal chords from the sphere
 double grid_off_sphere(double chord) {
   const SphereNet exact(rho);
   const auto grid =
@@ -90,7 +90,8 @@ TEST_CASE("a surface's curvatures are those of the sphere, the saddle and the cy
   CHECK(std::abs(pipe.axes(1, 0)) == Approx(1).epsilon(1e-6));
 }
 
-TEST_CASE("a grid of equal chords comes to the sphere's net at second order, 0.5 um at d/64") {
+TEST_CASE(
+    "a grid of equal chords converges to the sphere's net with second order, 0.5 um at d/64") {
   const double at_8 = grid_off_sphere(d / 8), at_16 = grid_off_sphere(d / 16);
   CHECK(at_8 / at_16 == Approx(4).epsilon(0.05));
   CHECK(at_16 / 16 <= 5e-4);  // d/64 takes seconds
@@ -116,7 +117,7 @@ TEST_CASE("a net on a surface has rods of unit speed, and obeys Gauss' equation"
 }
 
 TEST_CASE("where a net folds, or its surface or boundary does not serve, it is refused") {
-  // most of a sphere: beyond the equator the net folds
+  // most of a sphere: past the equator the net folds
   CHECK_THAT(refused(sphere, on_top({0, 0, rho}, -100)), Catch::Contains("the net folds"));
   // a boundary that no axis reaches
   CHECK_THAT(refused("z - 10", on_top({0, 0, 10}, 0)), Catch::Contains("does not cross"));

@@ -1,12 +1,12 @@
-// Which rung a preset runs on, what is refused with its reason, and keys that a kind does not use:
-// refused where they are set, and left out where a preset is written.
+// Which rod model a preset runs on, what is refused with its reason, and keys that a kind does not
+// use: refused where they are set, and left out where a preset is written.
 #include "engine/preset/consistency.h"
 #include "tests/presets.h"
 
 using namespace gridshell;
 using namespace gridshell::preset;
 
-TEST_CASE("auto takes the lowest rung that is exact") {
+TEST_CASE("auto takes the simplest model that is exact") {
   using Row = std::pair<std::string, std::string>;
   const auto [text, rung] = GENERATE(values<Row>({
       {"", "bend"},
@@ -41,7 +41,8 @@ TEST_CASE("auto takes the lowest rung that is exact") {
   CHECK(model_reason(preset).starts_with(rung));
 }
 
-TEST_CASE("a rung that cannot serve the scene, and physics that lacks something, are refused") {
+TEST_CASE(
+    "a rod model that cannot serve the scene, and physics that lacks something, are refused") {
   using Row = std::pair<std::string, std::string>;
   const auto [text, sentence] = GENERATE(values<Row>({
       {"[rod]\nshear_GPa = 31\n[ends]\nkind = \"clamped\"\n[accuracy]\nmodel = \"bend\"",
@@ -109,7 +110,7 @@ TEST_CASE("a circle is as large as its radius says, or its longest leg, and not 
              Catch::Contains("must be at most R_o = 50 by [footprint] longest_leg"));
 }
 
-TEST_CASE("a key that the kind does not use is refused with its place and the reason") {
+TEST_CASE("a key that the kind does not use is refused with its position and the reason") {
   CHECK(faults_of("[footprint]\nkind = \"net\"\n[net]\nwaist = 0.4\n") ==
         "bad.toml:4:9: [net] waist = 0.4: counts for nothing here, must be left out: [net] kind = "
         "\"sphere\" does not use it, only \"spool\" or \"beltrami\"");
@@ -139,14 +140,14 @@ TEST_CASE("pictures have keys that others put out of use") {
   CHECK(faults_of("[movie]\nazimuth_deg = 10.0\n", {{"--set", "movie.view", "top"}}) == "none");
 }
 
-TEST_CASE("a default that is written out is no fault, nor is what another kind uses") {
+TEST_CASE("a default that is written out is no error, nor is what another kind uses") {
   CHECK(faults_of("[net]\nwaist = 0.5\n") == "none");
   CHECK(faults_of("[footprint]\nkind = \"net\"\n[net]\nkind = \"spool\"\nwaist = 0.4\n") == "none");
   CHECK(faults_of("[footprint]\nkind = \"curve\"\nradius_mm = 90.0\n[actuation]\nscale = 0.8\n") ==
         "none");
 }
 
-TEST_CASE("one fault is told once: what a wrong kind would leave idle is not") {
+TEST_CASE("one error is reported once: what a wrong kind would leave idle is not") {
   const auto faults =
       faults_of("[footprint]\nkind = \"net\"\n[net]\nkind = \"spol\"\nwaist = 0.4\n");
   CHECK_THAT(faults, Catch::Contains("did you mean 'spool'") && !Catch::Contains("waist"));

@@ -43,7 +43,7 @@ radii_mm = [126, 110.5]
 }
 
 // more of them, through the whole program: tests/app/test_bad_input.cpp
-TEST_CASE("a fault names its place, key, value, what is wrong and what is right") {
+TEST_CASE("an error names its place, key, value, what is wrong and what is right") {
   using Row = std::pair<std::string, std::string>;
   const auto [text, sentence] = GENERATE(values<Row>({
       {"title = 12", "bad.toml:1:9: title = 12: is an integer, must be a string"},
@@ -103,7 +103,7 @@ TEST_CASE("text that is not TOML is refused where it stops being it") {
              Catch::StartsWith("bad.toml:3:") && Catch::Contains("redefine"));
 }
 
-TEST_CASE("all faults of a file are reported at once, in its order") {
+TEST_CASE("all errors of a file are reported at once, in its order") {
   CHECK(faults_of("[movie]\nfps = 0\n[footprint]\nradius_mm = -1\nrod = 3\n") ==
         "bad.toml:2:7: [movie] fps = 0: out of range, must be an integer from 1 to 240\n"
         "bad.toml:4:13: [footprint] radius_mm = -1: out of range, must be a number > 0\n"
@@ -130,7 +130,7 @@ TEST_CASE("an override (--set) lies over the file") {
   SECTION("the last one counts") {
     CHECK(good(text, {set("rod.young_GPa=1"), set("rod.young_GPa=2")}).base.rod.young_GPa == 2);
   }
-  SECTION("faults name the option") {
+  SECTION("errors name the option") {
     CHECK(faults_of(text, {set("rod.diameter_mm=thick")}) ==
           "--set: [rod] diameter_mm = \"thick\": is a string, must be a number > 0");
     CHECK(faults_of(text, {set("seed=up")}) ==
@@ -268,7 +268,7 @@ TEST_CASE("a case's list of tables stands in the place of the file's") {
   // nothing is left of the file's
   CHECK(one.block[0].net.radius_mm == default_items().block[0].net.radius_mm);
   CHECK(one.join.size() == 1);
-  // written down it comes to the same, and only where it differs
+  // written again it is the same, and only where it differs
   const std::string text = to_toml(presets);
   CHECK(text.find("[[case.block]]") != text.npos);
   CHECK(text.find("[[case.block]]") == text.rfind("[[case.block]]"));
@@ -325,7 +325,7 @@ TEST_CASE("a file is read once all that says how is known, and reported") {
   REQUIRE(metres.files.size() == 1);
   CHECK_THAT(metres.files[0],
              Catch::Contains("grid.obj: unit by file_unit; 3 rods, 2 joints, 6 supports"));
-  // an override takes the place of a file that is not there, and of the unit
+  // an override replaces a missing file, and the unit
   const Override other{"--set", "footprint.file", (folder / "grid.obj").string()};
   CHECK(value_of(read("", "none.obj", {other})).base.footprint.file.points[1][0] == 0.03);
   CHECK(value_of(read("", "none.obj", {other, {"--set", "footprint.file_unit", "cm"}}))

@@ -93,7 +93,8 @@ snow = 1.0
   CHECK(to_toml(again) == written);
 }
 
-TEST_CASE("what is wrong with a step is said with its place, its number and what would be right") {
+TEST_CASE(
+    "what is wrong with a step is said with its position, its number and what would be right") {
   using Row = std::pair<std::string, std::string>;
   const auto [text, sentence] = GENERATE(values<Row>({
       {"[[step]]\ndo = \"shove\"",

@@ -93,7 +93,7 @@ TEST_CASE("a sweep is laid over by the command line") {
   CHECK(SweepGrid(good("")).size() == 0);
 }
 
-TEST_CASE("hostile sweeps are told with file, line and key") {
+TEST_CASE("hostile sweeps are reported with file, line and key") {
   CHECK_THAT(faults_of(over("rod.diametre_mm = [0.2]")),
              Contains("bad.toml:2:") && Contains("[sweep.over] rod.diametre_mm = ") &&
                  Contains("did you mean 'rod.diameter_mm'?"));

@@ -50,7 +50,7 @@ Preset all_changed() {
           if (!field.words_of(c).empty()) point[c] = 1;
       }
   }
-  // files are read once, with their units: what is written holds what they came to
+  // files are read once, with their units: the written preset has their contents
   preset.footprint.file_unit = preset.net.file_unit = FileUnit::file;
   preset.footprint.join_mm = 0;
   preset.inverse.vary = {Vary::pins, Vary::legs};
@@ -59,7 +59,7 @@ Preset all_changed() {
   preset.movie.bins_range = preset.style.range = {-0.02, 0.07};
   // only a mesh is searched for an apex
   preset.net.apex = NetApex::given;
-  // each is checked apart: only circles have radii, only the bend rung pushes and snaps
+  // each is checked separately: only circles have radii, only the bend model pushes and snaps
   preset.figure.radii_mm.clear();
   preset.indentation.depth = preset.indentation.depth_mm = 0;
   preset.dynamics.snap = false;
@@ -70,7 +70,7 @@ Preset all_changed() {
     rod->yield_strain = rod->wall_mm = 0;
     rod->EA_N = rod->EI_Nmm2 = rod->GJ_Nmm2 = rod->mass_g_per_m = rod->modulus_mm3 = 0;
   }
-  // axes that lie apart are held by bolts
+  // axes at a distance are connected by bolts
   preset.joints.eccentricity_mm = 0;
   // only pinned ends have tails
   preset.ends.second_ring_mm = 0;
@@ -118,7 +118,7 @@ Preset of_blocks(NetKind kind) {
   return preset;
 }
 
-// a circle on the bend rung, its push placed by a latitude, or with `joint` by its indices
+// a circle with the bend model, its push given by a latitude, or with `joint` by its indices
 Preset pushed(bool joint) {
   Preset preset;
   const auto changed = all_changed();
@@ -148,13 +148,13 @@ Preset pushed(bool joint) {
   preset.sweep = changed.sweep;
   preset.sweep.over = {{"rod.young_GPa", {"70.0", "83.5"}}, {"actuation.seed", {"\"down\""}}};
   preset.sweep.plot = {"total_K", "force_N"};
-  // of a free view
+  // for a free view
   preset.movie.azimuth_deg = 12.5;
   preset.movie.elevation_deg = -3.5;
   return preset;
 }
 
-// a hand's steps, each alone: no deed uses all keys
+// the steps of a user, each alone: none uses all keys
 std::vector<Preset> stepped() {
   std::vector<Step> steps;
   const auto add = [&](StepKind deed) -> Step& {
@@ -295,7 +295,7 @@ TEST_CASE("the field table is sound") {
     CHECK(field.meaning.back() != '.');
     Preset preset = defaults;
     if (const auto* real = field.as<double>(preset)) CHECK(field.range.holds(*real));
-    // units stand in the key
+    // units are in the key
     if (field.unit == "mm") CHECK_THAT(field.key, Catch::EndsWith("_mm"));
     if (field.unit == "deg") CHECK_THAT(field.key, Catch::EndsWith("_deg"));
   }

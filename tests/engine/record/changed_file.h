@@ -25,7 +25,7 @@ inline std::string refusal(const std::string& bytes, bool unsealed = false) {
   return why.substr(start.size());
 }
 
-/// A trajectory as another program would leave it, without a seal, changed by `change(file)`
+/// A trajectory as another program would write it, without a checksum, changed by `change(file)`
 template <class Change>
 std::string changed(Change change, const Trajectory& run = sample_trajectory()) {
   TemporaryFolder folder;

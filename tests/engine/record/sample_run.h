@@ -18,7 +18,7 @@ inline Trajectory sample_trajectory() {
   layout.diameters_mm = {0.254, 0.3, 0.2, 1.0 / 3};
   layout.strength_MPa = {500, 500, 1.0 / 3, 500};
   layout.length_scale_mm = 126;
-  // four crossings of two rods each way, edge points 4 ... 11
+  // four crossings of two rods per direction, edge points 4 ... 11
   layout.rods = {{4, 0, 1, 5}, {6, 3, 2, 7}, {8, 0, 3, 9}, {10, 1, 2, 11}};
   layout.families = {"u", "u", "v", "v"};
   layout.supports = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};

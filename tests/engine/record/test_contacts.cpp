@@ -159,7 +159,7 @@ TEST_CASE("rods of a cell that bend onto each other touch, on any mesh in the sa
   for (const int edges : {8, 16, 32}) {
     const Grid grid(2, edges);
     Eigen::Matrix3Xd x = grid.sheared(10 * degree);
-    // the middle of a u rod's segment comes to the v rod beside it, 10 mm from the joint (0, 0)
+    // the middle of a u rod's segment touches the adjacent v rod, 10 mm from the joint (0, 0)
     const auto& u = grid.layout.rods[0];
     for (const int node : u)
       if (grid.flat(0, node) > 0 && grid.flat(0, node) < 20)
@@ -214,7 +214,7 @@ TEST_CASE("rods that are held at one place of the boundary are near there, and c
 TEST_CASE("a rod touches itself where a loop closes, not where it only bends") {
   constexpr int points = 200;
   Eigen::Matrix3Xd x(3, points);
-  // of a diameter of 1 mm: turns of a helix, a pitch apart
+  // of a diameter of 1 mm: windings of a helix at a distance of one pitch
   const auto helix = [&](double radius, double pitch) {
     for (int k = 0; k < points; ++k) {
       const double turn = 4 * std::numbers::pi * k / points;
@@ -251,7 +251,7 @@ TEST_CASE("neighbours along a rod do not touch where its points are closer than 
   layout.joint_height_mm = 5;
   for (int k = 0; k < points; ++k) layout.joints.push_back({k, 0, 0, 0, k});
   Eigen::Matrix3Xd x(3, points);
-  // an arch of radius 40, its points 0.4 mm apart on a rod of 1 mm
+  // an arch of radius 40, its points at distances of 0.4 mm on a rod of 1 mm
   for (int k = 0; k < points; ++k) {
     const double angle = 0.01 * k;
     x.col(k) << 40 * std::cos(angle), 40 * std::sin(angle), 0;
@@ -268,7 +268,7 @@ TEST_CASE("neighbours along a rod do not touch where its points are closer than 
   CHECK(helix.rod_gap_mm == Approx(-0.1).margin(0.01));
   CHECK(std::ranges::all_of(helix.places,
                             [](const Contact& at) { return at.kind == ContactKind::rods; }));
-  // of a ring also across the point at which it begins
+  // for a ring also across the point at which it starts
   Layout ring = layout;
   ring.rods[0].push_back(0);
   for (int k = 0; k < points; ++k) {

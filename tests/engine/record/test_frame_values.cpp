@@ -63,7 +63,7 @@ TEST_CASE("a node bears the mean force of its edges, and the energy of what goes
   CHECK(force[4] == 0);  // on no rod
   const Eigen::VectorXd bending = bending_of_nodes_mJ_per_m(tee(), tee_frame());
   CHECK(bending[1] == 6);  // the end on it does not bend
-  CHECK(bending[2] == 4);  // an end that holds its direction does
+  CHECK(bending[2] == 4);  // an end of prescribed direction has one
   CHECK(bending[3] == 0);
   Frame old = tee_frame();
   old.axial_force_N.resize(0);
@@ -72,7 +72,7 @@ TEST_CASE("a node bears the mean force of its edges, and the energy of what goes
   CHECK(bending_of_nodes_mJ_per_m(tee(), old).size() == 0);
 }
 
-TEST_CASE("a value is told in the digits that its error lets hold") {
+TEST_CASE("a value is reported in the digits that its error lets hold") {
   CHECK(with_error(0.123456, 7.1e-4, "N") == "0.1235 ± 0.0007 N");
   CHECK(with_error(39.9791, 0.02, "mJ") == "39.98 ± 0.02 mJ");
   CHECK(with_error(1234.5, 30, "N") == "1234 ± 30 N");

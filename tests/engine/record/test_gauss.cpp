@@ -31,7 +31,7 @@ Shape shape(double radius, int rods, int edges, Position position) {
 /// cell), 2 (pi/2 - alpha) at one of two opposite cells, 0 else. Computed from the four outgoing
 /// directions of the rods, not from cell_curvature.
 double total_curvature_from_corners(const Footprint& footprint, const JointTangents& tangents) {
-  // which of the four quadrants around a joint hold a cell, counter-clockwise from (+u, +v)
+  // which of the four quadrants around a joint contain a cell, counter-clockwise from (+u, +v)
   std::vector<std::array<bool, 4>> holds(footprint.joints.size(), {false, false, false, false});
   for (const FootprintCell& cell : footprint.cells)
     for (int corner = 0; corner < 4; ++corner) holds[cell.joints[corner]][corner] = true;

@@ -179,7 +179,7 @@ TEST_CASE("a disk that fills up leaves a journal of whole frames") {
           "cannot write '" + (folder / journal_name).string() + "': File too large");
   }
   CHECK(fs::file_size(folder / journal_name) == some);
-  // and goes on once there is room
+  // and continues once there is space
   REQUIRE(sink.take(frame_of(3)));
   CHECK(frames_in_journals(folder) == 4);
 }
@@ -208,7 +208,7 @@ TEST_CASE("a list of frames on the disk keeps few of them and reads like one in 
   CHECK(sum == 999 * 1000 / 2 - 500);
   CHECK(source->reads == 1000);
   CHECK(first.index == 0);
-  // those asked for last are still there
+  // the frames read last are still there
   CHECK(frames[998].index == 998);
   CHECK(source->reads == 1000);
   REQUIRE(frames.fault());

@@ -160,7 +160,7 @@ TEST_CASE("CSV lines hold the last frame, shortest numbers, and nothing for what
         "0,-1,10,-10,4,0,0,\n"
         "0,0,10,10,0,8,0,\n"
         "-1,0,-10,10,0,0,2,\n");
-  // beside a net
+  // next to a net
   run.layout.net_nodes = nodes;
   run.layout.net_nodes(1, 1) = 3;
   CHECK(joints_csv(run).find("\n0,-1,10,-10,4,0,0,3\n0,0,10,10,0,8,0,0\n") != std::string::npos);
@@ -207,7 +207,7 @@ TEST_CASE("the energies by term in a table sum up to energy_mJ") {
   CHECK(sum == total);
 }
 
-TEST_CASE("a rod beyond its strength breaks in plain words") {
+TEST_CASE("a rod above its strength breaks in plain words") {
   Summary summary = sample_summary();
   summary.utilisation = 2.083;
   CHECK(summary.breaking() == "BREAKS: 2.08 times the strength");

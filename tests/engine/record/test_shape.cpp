@@ -35,7 +35,7 @@ TEST_CASE("a tube is closed, its triangles look outwards, its volume is that of 
   const double radius = 0.5;
   const int sides = 8;
   const Tube tube = tube_around(line, radius, sides);
-  // each edge is met twice, once each way
+  // each edge occurs twice, once in each direction
   std::map<std::pair<int, int>, int> edges;
   double volume = 0;
   for (const auto& triangle : tube.triangles) {

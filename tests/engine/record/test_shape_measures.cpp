@@ -8,7 +8,7 @@ using namespace gridshell;
 
 TEST_CASE("bins of K: five, 0.4 wide, mean and standard deviation of the cells in each") {
   Eigen::VectorXd x(6), K(6);
-  x << -0.9, -0.7, 0.0, 0.19, 0.3, 1.02;  // one just beyond the end
+  x << -0.9, -0.7, 0.0, 0.19, 0.3, 1.02;  // one just outside the end
   K << 1, 3, 2, 4, 7, -1;
   const CurvatureBins bins = curvature_bins(x, K);
   REQUIRE(bins.low.size() == 5);

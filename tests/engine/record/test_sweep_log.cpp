@@ -37,7 +37,7 @@ void write(const std::filesystem::path& file, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;
 }
 
-/// In which the first three points stand.
+/// Checks that the file has the first three points.
 void three_points(const std::filesystem::path& file) {
   auto log = value_of(open(file));
   for (std::size_t point = 0; point < 3; ++point) REQUIRE(log.append(result(point)));
@@ -67,7 +67,7 @@ TEST_CASE("a log gives back what was put into it, to the bit") {
   CHECK_THAT(text_of(file), Contains(R"("keys":{"rod.diameter_mm":3.5,"actuation.seed":"up"})"));
 }
 
-TEST_CASE("a log that was cut anywhere keeps every whole line, and goes on") {
+TEST_CASE("a log that was cut anywhere keeps every whole line, and continues") {
   const TemporaryFolder folder;
   const auto file = folder / "sweep.jsonl";
   three_points(file);
@@ -196,7 +196,7 @@ TEST_CASE("a plateau that bends at its end has no exponent, nor count shells thr
   CHECK_FALSE(plateau.holds());
   CHECK(value_of(power_law(table, "", "law")).holds());
   CHECK(value_of(power_law(table, "", "noisy")).holds());
-  // points beside it that overlap change nothing
+  // other points near it that overlap change nothing
   const std::size_t points = plateau.law.size();
   PointResult overlaps;
   overlaps.figures = {{"plateau", 1.0}, {"law", 99.0}, {"noisy", 99.0}, {"contacts", 48.0}};

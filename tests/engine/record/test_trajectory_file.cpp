@@ -134,7 +134,7 @@ TEST_CASE("a file that is missing, foreign or cut short is refused in a sentence
     wrong[at] = static_cast<char>(wrong[at] ^ 4);
     CHECK(refusal(wrong) == damaged);
   }
-  // what another program rewrote has no seal, but must still be whole
+  // a file that another program rewrote has no checksum, but must still be complete
   CHECK(refusal(whole.substr(512, 2000), true) == "it is cut short or damaged");
 }
 
@@ -189,14 +189,15 @@ TEST_CASE("a column that an older version did not write is unknown") {
   CHECK(frame.event.empty());
 }
 
-TEST_CASE("a trajectory that another program rewrote is read only where that is asked for") {
+TEST_CASE("a trajectory that another program rewrote is read only where that is requested") {
   TemporaryFolder folder;
   const fs::path path = folder / "a.h5";
   const Trajectory run = sample_trajectory();
   const std::string bytes = changed([](hid_t) {}, run);
-  CHECK(refusal(bytes) ==
-        "it bears no seal, so another program wrote it (--unsealed, in Python unsealed=True, reads "
-        "it all the same)");
+  CHECK(
+      refusal(bytes) ==
+      "it has no checksum, so another program wrote it (--unsealed, in Python unsealed=True, reads "
+      "it all the same)");
   REQUIRE(write_file(path, bytes));
   const auto back = value_of(read_trajectory(path, {.unsealed = true}));
   CHECK(same_bits(back.frames[2].nodes, run.frames[2].nodes));

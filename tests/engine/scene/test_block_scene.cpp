@@ -28,7 +28,7 @@ start = "net"
 
 }  // namespace
 
-TEST_CASE("two quarter-spheres come to rest as the hemisphere does") {
+TEST_CASE("two quarter-spheres relax to the hemisphere") {
   const auto joined = run_stills(read(two_quarters)).summary;
   const auto whole = run_stills(on_net());
   const double scale = run_stills(read(two_quarters)).trajectory.layout.length_scale_mm;
@@ -75,7 +75,7 @@ second = "middle.west"
   CHECK(layout.seam_rods.size() == 2 * 22);
   for (const record::Part& part : layout.parts) CHECK(part.net.allFinite());
 
-  // from flat it comes to the same state
+  // from flat it reaches the same state
   stadium.actuation.start = preset::Start::flat;
   const auto flat = run_to_end(stadium, true);
   CHECK(distance(flat, outcome) < 1e-3);

@@ -78,7 +78,7 @@ TEST_CASE("a cylinder from a table of points is the cylinder") {
 }
 
 TEST_CASE("translation nets from two curves: certified, near the net") {
-  // on a saddle the rest at its net is unstable, the shell comes to one beside it
+  // on a saddle the equilibrium at its net is unstable, and the shell reaches one near it
   struct Curves {
     double u, v, height_u, height_v, near;
   };

@@ -74,7 +74,7 @@ TEST_CASE("a net on an L goes around its corner, and says what it reaches", "[st
 }
 
 TEST_CASE("what rods too close to parallel leave out is said with the reason", "[standard]") {
-  // most of a ball, whose net folds beyond the equator
+  // most of a ball, whose net folds past the equator
   auto p = on_mesh(ellipsoid_mesh({90, 90, 90}, 8, 2.3));
   p.net.least_angle_deg = 40;
   const auto scene = value_of(scene_of(p));

@@ -1,4 +1,4 @@
-// Shells designed on Chebyshev nets: footprints, boundaries, deviations, and both ways to start.
+// Shells designed on Chebyshev nets: footprints, boundaries, deviations, and both kinds of start.
 #include <cmath>
 
 #include "tests/engine/simulate/run.h"
@@ -31,7 +31,7 @@ TEST_CASE("the hemisphere on the axes, converged: deviation, total curvature and
   CHECK(s.error_estimate_mm < 1e-7 * 120);
 }
 
-TEST_CASE("from flat and from the net a cap comes to the same state") {
+TEST_CASE("from flat and from the net a cap reaches the same state") {
   for (const auto placement : {Placement::on_axis, Placement::half}) {
     preset::Preset p = cap(0.5);
     p.footprint.placement = placement;
@@ -44,12 +44,12 @@ TEST_CASE("from flat and from the net a cap comes to the same state") {
   }
 }
 
-TEST_CASE("from flat, through snaps, and from the net a saddle comes to the same state") {
+TEST_CASE("from flat, through snaps, and from the net a saddle reaches the same state") {
   const auto net = run_stills(spool()), flat = run_stills(spool(preset::Start::flat));
   CHECK(net.summary.limit == record::Limit::none);
   CHECK(flat.summary.limit == record::Limit::snap);
   CHECK(flat.summary.stable);
-  // what happened on the way from flat asked for finer meshes
+  // events on the path from flat required finer meshes
   CHECK(distance(net, flat) < net.summary.error_estimate_mm + flat.summary.error_estimate_mm);
 }
 
@@ -62,7 +62,7 @@ TEST_CASE("Beltrami's pseudosphere: stable, its cells negative on the whole") {
   CHECK(shell.summary.max_deviation < 0.03);
 }
 
-TEST_CASE("end rings let go: their ends are free, the others still held, the state stable") {
+TEST_CASE("end rings released: their ends are free, the others still held, the state stable") {
   preset::Preset p = on_net(preset::NetKind::cylinder, 80, 200);
   p.ends.rings = preset::Rings::free;
   const auto scene = value_of(scene_of(p));

@@ -1,4 +1,4 @@
-// Damaged files of networks: each is answered by its place and by what would be right.
+// Damaged files of networks: each message has the position and what would be valid.
 #include "engine/formats/network_file.h"
 #include "tests/presets.h"
 
@@ -41,7 +41,7 @@ struct Damage {
 
 }  // namespace
 
-TEST_CASE("damaged files of networks are answered by their place and what would be right") {
+TEST_CASE("damaged files of networks are answered by their position and what would be right") {
   CHECK(told(whole) == "none");
   const Damage all[] = {
       {"[20, 0]", "[20, NaN]", "n.json:2: is no JSON here"},

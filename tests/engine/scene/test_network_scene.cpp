@@ -15,7 +15,7 @@ preset::Preset fig1() {
   return p;
 }
 
-/// The same rods as a file has them, turned, in another order, every other one backwards.
+/// The same rods as in a file, rotated, in another order, every other one reversed.
 preset::NetworkData as_file(const Scene& scene, double turn, double scale) {
   const Eigen::Rotation2Dd by(turn);
   preset::NetworkData file;
@@ -44,7 +44,7 @@ Simulation open(const preset::Preset& p) {
   return value_of(Simulation::open(shared_scene(p), plan_of_mesh(p.accuracy.edges_per_segment)));
 }
 
-/// For every node of `to` the node of `from` at its place of the flat, turned.
+/// For every node of `to` the node of `from` at its position in the flat grid, rotated.
 std::vector<int> same_nodes(const RodMesh& from, const RodMesh& to, double turn) {
   const Eigen::Matrix2Xd turned = Eigen::Rotation2Dd(turn).toRotationMatrix() * from.flat;
   std::vector<int> nodes;
@@ -60,7 +60,7 @@ std::vector<int> same_nodes(const RodMesh& from, const RodMesh& to, double turn)
 
 }  // namespace
 
-TEST_CASE("the circle of Fig. 1 as a network comes to the circle's states", "[standard]") {
+TEST_CASE("the circle of Fig. 1 as a network reaches the circle's states", "[standard]") {
   Simulation circle = open(fig1());
   for (const double turn : {0.0, 0.3}) {
     preset::Preset p = fig1();
@@ -134,7 +134,7 @@ TEST_CASE("rods with sections of their own, springs and shearing joints work on 
   const auto thick = value_of(scene_of(p));
   CHECK(thick.rods.material(2).EI1 == Approx(16 * plain.rods.material(2).EI1));
   CHECK(thick.rods.material(1).EI1 == plain.rods.material(1).EI1);
-  // what is between a rod's own keys and what they may be is told with the rod
+  // conflicts of a rod's own keys are reported with the rod
   const auto fault_of = [&](const std::string& key, double value) {
     preset::Preset other = shipped("network_triaxial");
     other.footprint.file.own = {{3, key, value}};

@@ -1,4 +1,4 @@
-// Tails beyond the boundary whose far ends keep the net's tangents.
+// Tails outside the boundary whose far ends have the net's tangents.
 #include <cmath>
 
 #include "engine/scene/rod_ends.h"
@@ -81,7 +81,7 @@ TEST_CASE("on the way from the flat far ends turn about their edge points at the
   }
 }
 
-TEST_CASE("a cap with a second ring comes to one state from the flat, from the net and twisted",
+TEST_CASE("a cap with a second ring reaches one state from the flat, from the net and twisted",
           "[standard]") {
   auto preset = ringed(0.6, 10);
   const Simulation from_net = on_its_net(shared_scene(preset), 8);

@@ -106,7 +106,7 @@ TEST_CASE("heights and meshes of a cap have the sphere's own footprint and bound
   p.net.file.y = p.net.file.x;
   for (const double y : p.net.file.y) {
     p.net.file.z.emplace_back();
-    // a paraboloid goes on where the sphere has no height
+    // a paraboloid continues where the sphere has no height
     for (const double x : p.net.file.x) {
       const double square = x * x + y * y;
       p.net.file.z.back().push_back(square < 114 * 114 ? std::sqrt(14400 - square)

@@ -1,4 +1,4 @@
-// A network of mixed laws and holds, and the same one moved or listed otherwise.
+// A network of mixed laws and supports, and the same one moved or listed differently.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -8,8 +8,8 @@
 
 namespace gridshell {
 
-/// A shallow vault of three rods each way, laws and holds mixed, which its supports press by a
-/// little.
+/// A shallow vault of three rods per direction, with mixed laws and supports, slightly compressed
+/// by its supports.
 inline preset::NetworkData mixed_network() {
   preset::NetworkData file;
   for (const double u : {-2.0, -1.0, 0.1, 1.0, 2.2})
@@ -29,7 +29,7 @@ inline preset::NetworkData mixed_network() {
   return file;
 }
 
-/// Every place of it moved: turned, mirrored or stretched by a matrix, then shifted.
+/// All of its positions moved: rotated, mirrored or stretched by a matrix, then shifted.
 inline preset::NetworkData moved(preset::NetworkData file, const Eigen::Matrix3d& by,
                                  const Eigen::Vector3d& shift = Eigen::Vector3d::Zero()) {
   const auto move = [&](std::vector<double>& row, std::size_t first) {

@@ -1,4 +1,4 @@
-// Runs of presets that must come to an outcome; where one does not, the test fails with the reason.
+// Runs of presets that must succeed; where one does not, the test fails with the reason.
 #pragma once
 
 #include "engine/simulate/run.h"
@@ -63,7 +63,7 @@ inline Simulation formed(const preset::Preset& preset) {
   return formed(preset, plan_levels(preset.accuracy.tolerance));
 }
 
-/// A shell at rest beside its net, on one mesh and those that nest in it.
+/// A shell in equilibrium next to its net, on one mesh and the coarser ones nested in it.
 inline Simulation on_its_net(std::shared_ptr<const Scene> scene, int edges) {
   Simulation session = value_of(Simulation::open(std::move(scene), plan_of_mesh(edges)));
   const Report begun = value_of(session.begin_on_net(unwatched));

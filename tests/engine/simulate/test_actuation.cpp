@@ -83,7 +83,7 @@ TEST_CASE("the seed names the diagonal whose corner joints lie lower, and up or 
     }
 }
 
-TEST_CASE("the first frame is flat, the last does not depend on how many are asked for") {
+TEST_CASE("the first frame is flat, the last does not depend on how many are requested") {
   const auto few = run(fig1(2, 1e-3)), many = run(fig1(25, 1e-3));
   CHECK(last_frame(few).nodes == last_frame(many).nodes);
   CHECK(few.summary.energies[Term::bend] == many.summary.energies[Term::bend]);
@@ -127,7 +127,7 @@ TEST_CASE("joints and energy converge at second order, extrapolated they agree w
       CHECK(error / 126 == Approx(2.6e-3).epsilon(0.05));
     } else {
       CHECK(error < outcome.summary.error_estimate_mm);
-      // of all nodes, which are further off than the joints
+      // over all nodes, whose error is larger than that of the joints
       CHECK(outcome.summary.error_estimate_mm < 3 * error);
     }
     before = error;
@@ -152,7 +152,8 @@ TEST_CASE("a boundary that takes no rod out of the flat is refused before a run"
   CHECK(simulate::plan(small_shell()));
 }
 
-TEST_CASE("a still of the flat alone is the flat, and of rods curved at rest there is none") {
+TEST_CASE(
+    "a still of the flat alone is the flat, and of rods with natural curvature there is none") {
   preset::Preset p = circle(4, 42, 36);
   p.figure.radii_mm = {42};
   const auto flat = run_stills(p);
@@ -166,8 +167,8 @@ TEST_CASE("a still of the flat alone is the flat, and of rods curved at rest the
              Catch::Contains("no equilibrium in the flat"));
 }
 
-// Error estimates of random circles beside the true error, which is measured against meshes two
-// levels finer on the same branch. GRIDSHELL_TRIALS=100 looks at more of them.
+// Error estimates of random circles compared with the true error, which is measured against meshes
+// two levels finer on the same branch. GRIDSHELL_TRIALS=100 runs more of them.
 
 namespace {
 
@@ -209,7 +210,7 @@ TEST_CASE("random circles: the error estimate is honest and useful, the toleranc
     const double truth =
                      max_column_norm(joints - finer->simulation.nodes().leftCols(joints.cols())),
                  estimate = last_frame(*asked).error_estimate_mm, radius = p.footprint.radius_mm;
-    // which state a snap leads to is told, and judged by the chart of trust
+    // which state a snap leads to is reported, and judged by the chart of trust
     if (limit == record::Limit::snap && truth > 1e-2 * radius) continue;
     INFO(p.footprint.rods << " rods, " << radius << " mm: error " << truth << " estimate "
                           << estimate);

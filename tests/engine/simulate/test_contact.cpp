@@ -31,7 +31,7 @@ double number_after(const std::string& text, const std::string& words) {
 }  // namespace
 
 TEST_CASE(
-    "a shell that comes into contact says where on its path, whatever frames were asked for") {
+    "a shell that comes into contact says where on its path, whatever frames were requested") {
   const auto six = run(crowded(12));
   const record::Summary& s = six.summary;
   CHECK(s.limit == record::Limit::none);
@@ -52,7 +52,7 @@ TEST_CASE(
   auto other = crowded(12);
   other.movie.frames = 2;
   CHECK(run(other).summary.contact == s.contact);
-  // told, nothing else: the same states
+  // reported, nothing else: the same states
   other.limits.table = true;
   const auto with_table = run(other);
   CHECK(distance(with_table, six) == 0);
@@ -72,7 +72,7 @@ TEST_CASE("a run that is to stop at contact ends in the last state before") {
   CHECK(s.contact.empty());
   CHECK(s.rod_gap_mm > 0);
   CHECK(s.rod_gap_mm < 0.01);
-  CHECK_THAT(s.limit_reason, Catch::Contains(" is the last state without contact: beyond, rods "));
+  CHECK_THAT(s.limit_reason, Catch::Contains(" is the last state without contact: past it rods "));
   const record::Frame& last = last_frame(stopped);
   CHECK(last.event == "last state without contact");
   CHECK(last.progress == Approx(number_after(told, "touch at progress ")).margin(3e-3));
@@ -99,7 +99,7 @@ TEST_CASE("a contact inside the load step in which the equilibrium is lost is fo
   preset.limits.contact = preset::OnContact::stop;
   preset.indentation.at = preset::IndentationPlace::highest;
   std::vector<double> depths;
-  // steps end at 33.6, before the path turns back at 33.64, and at 32.5 and 35
+  // steps end at 33.6, before the limit point at 33.64, and at 32.5 and 35
   for (const double depth_mm : {36.0, 40.0}) {
     preset.indentation.depth_mm = depth_mm;
     const auto pushed = run(preset);
@@ -149,7 +149,7 @@ TEST_CASE("shells of the paper do not touch themselves: a rod near its joint is 
 
 TEST_CASE("a barrier keeps rods apart on the whole path, of wires and of rods that twist",
           "[full]") {
-  // further in, at 12 mm, meshes that the tolerance chooses go on for minutes
+  // further in, at 12 mm, meshes that the tolerance chooses continue for minutes
   auto preset = crowded(17);
   preset.accuracy.tolerance = 5e-3;
   preset.imperfection.size = 1e-4;  // the symmetric branch ends unstable
@@ -161,7 +161,7 @@ TEST_CASE("a barrier keeps rods apart on the whole path, of wires and of rods th
   preset.contact.model = preset::ContactModel::barrier;
   const auto apart = run(preset);
   INFO(apart.summary.limit_reason << "; " << apart.summary.contact);
-  // it snaps on its way, as told
+  // it snaps on its path, as reported
   CHECK(apart.summary.limit == record::Limit::snap);
   CHECK(apart.trajectory.frames.back().progress == 1);
   CHECK(apart.summary.stable);

@@ -1,4 +1,4 @@
-// Rods cut as they are drawn, with corners, and rods that are closed, beside closed forms.
+// Rods cut as they are drawn, with corners, and closed rods, compared with closed forms.
 #include <cmath>
 #include <numbers>
 
@@ -20,8 +20,8 @@ preset::Preset drawn(preset::NetworkData file, int edges) {
 const double EI = 2e3 * std::numbers::pi * std::pow(4, 4) / 64,
              GJ = 0.75e3 * std::numbers::pi * std::pow(4, 4) / 32;
 
-/// Two legs of 200 mm that a rod is cut with at a right angle, the first clamped, the second with
-/// its tip free and a bit beyond it, so that the load is on a joint.
+/// Two legs of 200 mm of one rod at a right angle, the first clamped, the second with a free tip
+/// slightly past its load, so that the load is on a joint.
 preset::NetworkData bracket(double first_piece) {
   preset::NetworkData file;
   file.points = {{0, 0, 0},     {first_piece, 0, 0}, {200, 0, 0},
@@ -40,7 +40,7 @@ simulate::ExperimentResult loaded(preset::Preset p, const Eigen::Vector3d& force
   return run_to_end(p);
 }
 
-/// A ring of so many points, held as a rigid body is, without a force.
+/// A ring of `points` points, fixed as a rigid body is, without a force.
 preset::NetworkData ring(double radius, int points) {
   preset::NetworkData file;
   file.rods.resize(1);
@@ -95,7 +95,7 @@ TEST_CASE("the error that a rod cut with a corner reports holds") {
   CHECK(error < outcome.summary.error_estimate_mm + 5e-5);
 }
 
-TEST_CASE("a rod that is closed keeps the twist that it has at rest") {
+TEST_CASE("a rod that is closed keeps the twist of its natural shape") {
   constexpr double radius = 50;
   preset::Preset p = drawn(ring(radius, 24), 4);
   const double L = 24 * 2 * radius * std::sin(std::numbers::pi / 24);
@@ -107,7 +107,7 @@ TEST_CASE("a rod that is closed keeps the twist that it has at rest") {
     CAPTURE(share, outcome.summary.model_reason, outcome.summary.limit_reason);
     CHECK(outcome.summary.model == "twist");
     CHECK_THAT(outcome.summary.model_reason, Catch::Contains("closed"));
-    // Michell's ring leaves its plane beyond
+    // Michell's ring leaves its plane above this
     if (share > 1) {
       CHECK(last_frame(outcome).energies[Term::twist] < 0.95 * 0.5 * GJ * twist * twist * L);
       continue;

@@ -19,7 +19,7 @@ preset::Preset layers(double apart, double push_N, int edges) {
   return p;
 }
 
-/// A circle of four rods a direction, or of laths on hinges, at the end of its actuation.
+/// A circle with four rods per direction, or of laths on hinges, at the end of its actuation.
 simulate::ExperimentResult layered(double eccentricity_mm, int edges, bool hinged = false) {
   preset::Preset p;
   p.footprint.rods = 4;
@@ -76,7 +76,7 @@ TEST_CASE("rods that lie above one another touch nowhere, either way up") {
   const auto above = layered(0.3, 4), below = layered(-0.3, 4);
   CHECK(above.summary.contacts == 0);
   CHECK(above.summary.energies.total() == Approx(below.summary.energies.total()).epsilon(1e-10));
-  // every rod's points are its own: the second rod's lie apart from the first's
+  // every rod has its own points: the second rod's are at a distance from the first's
   const record::Layout& layout = above.trajectory.layout;
   const Eigen::Matrix3Xd& nodes = last_frame(above).nodes;
   for (std::size_t k = 0; k < layout.joints.size(); ++k)

@@ -1,4 +1,4 @@
-// What is built by hand has the model's own lengths and places.
+// The fabrication plan has the model's own lengths and positions.
 #include "engine/footprint/mesh.h"
 #include "engine/simulate/run.h"
 #include "tests/engine/simulate/run.h"
@@ -26,7 +26,7 @@ FabricationPlan made(const preset::Preset& preset) {
 
 }  // namespace
 
-TEST_CASE("the cut list's total is the rest length of the model, marks are its joints") {
+TEST_CASE("the cut list's total is the natural length of the model, marks are its joints") {
   for (const auto& preset : {paper_circle(), ringed_cap(0), ringed_cap(10)}) {
     const FabricationPlan work = made(preset);
     const Scene scene = scene_of(preset).value();

@@ -1,5 +1,5 @@
-// The first buckled state: the one that the seed asks for, whatever mesh is asked for, and states
-// that nearly coincide with their own images.
+// The first buckled state: the one of the seed, for every requested mesh, and states that nearly
+// coincide with their own images.
 #include "engine/simulate/first_state.h"
 
 #include "tests/engine/simulate/run.h"
@@ -20,8 +20,8 @@ Energies first_energies(const std::shared_ptr<const Scene>& scene, int edges) {
 }  // namespace
 
 TEST_CASE("the first buckled state is the same one on meshes of every family") {
-  // a superellipse whose dome has several states of rest close to one another: brought to rest on
-  // each mesh by itself, it came to states 0.6 mm apart in height
+  // a superellipse whose dome has several equilibria close to one another: converged on each mesh
+  // separately, they were 0.6 mm apart in height
   const auto scene = shared_scene(
       superellipse(123.26901689171791, 102.08232879638672, 3.0916969776153564, 0.8719519721716642));
   // second order: 4 edges are the furthest off
@@ -47,8 +47,8 @@ TEST_CASE("rods too thick to buckle while they are soft go to the side of the se
   }
 }
 
-TEST_CASE("a state next to its own image is told as doubtful", "[standard]") {
-  // legs of a sixth of the spacing give way sideways, each to either side by 0.006 mm
+TEST_CASE("a state next to its own image is reported as doubtful", "[standard]") {
+  // legs of a sixth of the spacing buckle sideways, each to either side by 0.006 mm
   preset::Preset p = circle(5, 18.288596114, 12.958769254);
   p.footprint.spacing_mm = 8.419622877;
   p.actuation.seed = preset::Seed::down;
@@ -75,8 +75,8 @@ TEST_CASE("symmetric states, and those that are clearly not, are not doubtful") 
 }
 
 TEST_CASE("of a shell's mirror images it is the seed's, whichever mesh is followed") {
-  // rods of nearly one length, which buckle in many ways at once: next to the flat each mesh comes
-  // to an image of its own, 9.6 mm apart
+  // rods of nearly one length, which have many buckling modes at once: next to the flat each mesh
+  // reaches an image of its own, 9.6 mm apart
   preset::Preset p = superellipse(97.549340278, 104.313228855, 4.331419192, 0.9545160727);
   p.accuracy.tolerance = 3.6e-3;
   p.movie.frames = 2;
@@ -91,8 +91,8 @@ TEST_CASE("of a shell's mirror images it is the seed's, whichever mesh is follow
 }
 
 TEST_CASE("a branch on which states are found late is doubtful", "[full]") {
-  // at each of two corners rods give way to either side, all at nearly the same radius, which a
-  // leader of 4 or 8 edges does not see there
+  // at each of two corners rods buckle to either side, all at nearly the same radius, which a
+  // coarsest mesh of 4 or 8 edges does not resolve
   preset::Preset p = circle(14, 168.50041607, 151.962336432, 2);
   p.ends.kind = preset::EndKind::tangent;
   p.imperfection.seed = 930;

@@ -1,5 +1,5 @@
-// Axial forces, curvature, reactions and energies of frames: what they must add up to, closed forms
-// that they come to, and their errors.
+// Axial forces, curvature, reactions and energies of frames: their balance, closed forms, and their
+// errors.
 #include <cmath>
 
 #include "tests/engine/simulate/run.h"
@@ -16,7 +16,7 @@ preset::Preset four_rods() {
 
 Eigen::Vector3d sum_of(const record::Frame& frame) { return frame.reactions_N.rowwise().sum(); }
 
-/// What a value at every place of the rods comes to over their length.
+/// The integral over the rods' length of a value at every point.
 template <class Value>
 double over_rods(const record::Trajectory& run, const Value& value) {
   const auto& nodes = run.frames.back().nodes;
@@ -80,7 +80,7 @@ TEST_CASE("bending over length adds up to the bending energy, of any section and
   preset::Preset p = four_rods();
   p.accuracy.edges_per_segment = 8;
   SECTION("round rods") {}
-  SECTION("strips curved at rest") {
+  SECTION("strips with natural curvature") {
     p.rod.shear_GPa = 31;
     p.rod.width_mm = 0.4;
     p.rod.thickness_mm = 0.2;
@@ -162,7 +162,7 @@ double off_energy(const record::Frame& a, const record::Frame& b) {
   return largest;
 }
 
-/// What a run asked for at one tolerance is off a much finer one, by its own estimates.
+/// Compares a run at one tolerance with a much finer one, by its own estimates.
 void check_against_finer(preset::Preset p, double tolerance) {
   p.accuracy.tolerance = 1e-5;
   const auto fine = run(p);
@@ -179,7 +179,7 @@ void check_against_finer(preset::Preset p, double tolerance) {
 
 }  // namespace
 
-TEST_CASE("forces, energies and bending strain of pinned elasticas, as exact as is asked") {
+TEST_CASE("forces, energies and bending strain of pinned elasticas, as exact as requested") {
   for (const double m : {0.04968353, 0.24165275, 0.46400983})
     for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-6}) {
       const Elastica exact = elastica(m);
@@ -188,7 +188,7 @@ TEST_CASE("forces, energies and bending strain of pinned elasticas, as exact as 
       const auto outcome = run(p);
       const record::Frame& frame = last_frame(outcome);
       CAPTURE(m, tolerance, exact.force, frame.force_error_N, exact.energy, frame.energy_error_mJ);
-      // these rods give way by P L/EA along their length, which the inextensible ones do not
+      // these rods shorten by P L/EA along their length, which the inextensible ones do not
       const double EA = 83e3 * M_PI * radius * radius, stretch = 1e-5,
                    work = 2 * exact.force * exact.force * 2 * half_length / EA;
       const double off_force = std::abs(frame.largest_force_N - exact.force),
@@ -204,7 +204,7 @@ TEST_CASE("forces, energies and bending strain of pinned elasticas, as exact as 
     }
 }
 
-TEST_CASE("a mesh that is asked for tells its own forces, and alone no error") {
+TEST_CASE("a requested mesh reports its own forces, and without coarser ones no error") {
   const Elastica exact = elastica(0.24165275);
   preset::Preset p = crossed_rods(exact.shortening);
   double before = 0;
@@ -235,7 +235,7 @@ TEST_CASE("forces and energies are as exact as they say where loads act and rods
     p.loads.gravity_m_s2 = 9.81;
     p.rod.density_kg_m3 = 6450;
   }
-  SECTION("strips curved at rest") {
+  SECTION("strips with natural curvature") {
     p.rod.shear_GPa = 31;
     p.rod.width_mm = 0.4;
     p.rod.thickness_mm = 0.2;
@@ -275,7 +275,8 @@ TEST_CASE("the curve of a push lies within its error, and its stiffness is its s
   }
 }
 
-TEST_CASE("bending strain and utilisation end a path, and of two limits the first met is told") {
+TEST_CASE(
+    "bending strain and utilisation end a path, and of two limits the first met is reported") {
   const Elastica exact = elastica(0.46400983), limit = elastica(0.24165275);
   const auto ended = [&](double most_bending, double most_utilisation, const char* why) {
     preset::Preset p = crossed_rods(exact.shortening);

@@ -1,5 +1,4 @@
-// What is read off a path between its load steps is what all meshes say there, within the errors
-// that it is told with.
+// Interpolation between load steps: it agrees with all meshes within its reported errors.
 #include "engine/simulate/frames_between.h"
 
 #include "engine/simulate/mesh_policy.h"
@@ -16,8 +15,8 @@ double largest(const Energies& a) {
   return most;
 }
 
-/// How many of the samples of a segment are read off it; each is held against all meshes there, of
-/// the same path brought to rest more closely.
+/// How many samples of a segment are interpolated; each is compared with all meshes, on the same
+/// path with a smaller tolerance of convergence.
 int read_off(EquilibriumPath& path, EquilibriumPath& closely, int samples) {
   constexpr std::size_t segment = 0;
   Watch watch;
@@ -50,19 +49,19 @@ int read_off(EquilibriumPath& path, EquilibriumPath& closely, int samples) {
     CHECK(frame->height_mm == Approx(full.height_mm).margin(frame->error_estimate_mm));
     CHECK(frame->largest_bending_strain == Approx(full.largest_bending_strain).epsilon(1e-2));
     CHECK(frame->contacts == full.contacts);
-    // however it is come to
+    // independent of the order of the calls
     if (k % 7 == 0) CHECK(backwards.at(sample)->nodes == frame->nodes);
   }
   return read;
 }
 
-/// On the meshes of its tolerance, brought to rest as is usual there or more closely.
+/// On the meshes of its tolerance, converged as usual or more closely.
 std::shared_ptr<const Scene> scene_at_rest(preset::Preset preset, bool closely) {
   if (closely) preset.accuracy.tolerance = 1e-6;
   return shared_scene(preset);
 }
 
-/// Of the actuation of a preset.
+/// The path of the actuation of a preset.
 EquilibriumPath actuated(const preset::Preset& preset, bool closely = false) {
   return value_of(follow_actuation(scene_at_rest(preset, closely),
                                    initial_levels(*shared_scene(preset)), false, 1, unwatched));

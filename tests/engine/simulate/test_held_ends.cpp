@@ -1,4 +1,4 @@
-// Crossed rods with pinned ends and with ends whose direction is held, against the elastica.
+// Crossed rods with pinned ends and with ends of prescribed direction, against the elastica.
 #include "tests/engine/simulate/run.h"
 #include "tests/engine/solve/elastica.h"
 
@@ -8,7 +8,7 @@ namespace {
 
 constexpr double length = 200;
 
-/// Two rods that cross in their middle, their ends held so and drawn in.
+/// Two rods that cross in their middle, with this end condition, contracted.
 preset::Preset held_cross(preset::EndKind hold, double shorter) {
   preset::Preset p = network(cross(length / 2, length / 2), 0, 1);
   p.actuation.scale = shorter;
@@ -24,7 +24,7 @@ Elastica exact(preset::EndKind hold, double shorter) {
 
 }  // namespace
 
-TEST_CASE("the elastica that stretches comes to the inextensible one") {
+TEST_CASE("the extensible elastica converges to the inextensible one") {
   RodSection stiff = circular_section(0.254, 83);
   stiff.EA *= 1e6;
   for (const int quarters : {2, 4}) {
@@ -36,7 +36,8 @@ TEST_CASE("the elastica that stretches comes to the inextensible one") {
 }
 
 TEST_CASE(
-    "arches, pinned and held in direction, are elasticas to what tolerance and estimate promise",
+    "arches, pinned and of prescribed direction, are elasticas to what tolerance and estimate "
+    "promise",
     "[standard]") {
   const auto rung = GENERATE(RodModel::bend, RodModel::twist);
   const auto hold =
@@ -59,7 +60,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("ends held in direction: errors fall as even powers of the edge length") {
+TEST_CASE("ends of prescribed direction: errors fall as even powers of the edge length") {
   const auto hold = GENERATE(preset::EndKind::tangent, preset::EndKind::clamped);
   const Elastica known = exact(hold, 0.7);
   double coarser = 0, coarser_force = 0, before = 0, before_force = 0;

@@ -30,7 +30,7 @@ struct Laths {
   RodMesh mesh;
   RodMaterial lath;
   double spring = 0;         ///< N mm/rad
-  std::vector<double> rest;  ///< angles at which they rest, of every joint
+  std::vector<double> rest;  ///< natural angles, of every joint
 
   /// Where a joint is on a rod: before and after it lie the ends of the edge that it is in the
   /// middle of.
@@ -151,7 +151,7 @@ struct Laths {
     }
   };
 
-  /// The energy where its slopes vanish, looked for from a little beside these places.
+  /// The energy at its minimum, searched for from these perturbed positions.
   double least(const Eigen::Matrix3Xd& nodes) const {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> off(-0.01, 0.01);
@@ -194,7 +194,7 @@ TEST_CASE("a hinged X-shell, formed and opened, is where its energy is least") {
   CHECK(formed.summary.energies[Term::twist] > 1e-3);
   CHECK(laths.least(rest) == Approx(formed.summary.energies.total()).epsilon(1e-8));
 
-  // as its joints stand, and by how much they are to open
+  // the current angles of its joints, and the requested change
   constexpr double target = 1.2;
   laths.spring = 300;
   std::vector<double> standing(4);

@@ -144,7 +144,7 @@ namespace {
 void check_deep_push(Placement placement, Case which) {
   const auto outcome = run(hemisphere(which, 120, placement, 0.6, 31));
   for (const record::Frame& frame : outcome.trajectory.frames) {
-    // between a loss of stability and the next rest a frame says that it is not stable
+    // between a loss of stability and the next equilibrium a frame says that it is not stable
     CHECK((frame.negative_pivots == 0 || frame.event.starts_with("unstable")));
     CHECK((frame.kind == "interpolated" || frame.residual_N < 1e-5));
   }
@@ -183,10 +183,10 @@ TEST_CASE("unloading follows the way back, after a snap on another branch", "[st
   const auto snapped = run(fig1);
   CHECK(snapped.summary.limit == record::Limit::snap);
   CHECK_THAT(snapped.summary.limit_reason,
-             Catch::Contains("on its mesh the path turns back at 33.8"));
+             Catch::Contains("on its mesh the path has a limit point at 33.8"));
   const auto& way = snapped.trajectory.frames;
   REQUIRE(way.size() == 21);
-  // there and back differ between the snap on the way in and the one on the way out: hysteresis
+  // loading and unloading differ between their two snaps: hysteresis
   const auto snaps = [&](int from, int to) {
     int count = 0;
     for (int k = from; k < to; ++k) count += way[std::size_t(k)].event.starts_with("snap");
@@ -224,7 +224,7 @@ TEST_CASE("a joint that is not there is refused") {
   CHECK_THAT(refused_run(p), Catch::Contains("no such joint"));
 }
 
-TEST_CASE("pushes on the twist rung are those of the bend rung, to a millionth of rho") {
+TEST_CASE("pushes on the twist model are those of the bend model, to a millionth of rho") {
   for (const Case which : {Case::pole_inward, Case::pole_outward}) {
     preset::Preset p = hemisphere(which, 120, Placement::on_axis, 0.05, 3);
     p.accuracy.edges_per_segment = 4;

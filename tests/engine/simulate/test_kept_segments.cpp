@@ -1,4 +1,4 @@
-// A run that is stopped goes on from what it kept of its path.
+// A run that is stopped continues from the saved part of its path.
 #include "engine/simulate/kept_segments.h"
 
 #include <algorithm>
@@ -42,7 +42,7 @@ Run run_with(const fs::path& folder, double stop_at = 2) {
   Watch watch;
   std::atomic<bool> over = false;
   std::thread stopper([&] {
-    // on the second leader
+    // on the second mesh
     while (!over && !(watch.place().edges == 8 && watch.place().t > stop_at))
       std::this_thread::yield();
     if (!over) watch.cancel();
@@ -69,7 +69,7 @@ void check_same(const Run& a, const Run& b, double within_mm) {
 
 }  // namespace
 
-TEST_CASE("a run that is stopped on its path goes on from there, to the same states",
+TEST_CASE("a run that is stopped on its path continues from there, to the same states",
           "[standard]") {
   const TemporaryFolder folder;
   const Run whole = run_with({});

@@ -1,5 +1,5 @@
 // Equilibria under loads: a column that buckles under its own weight, a pinched ring, beams, a
-// grillage and a cable net formed by loads alone, each beside a closed form or an elastica.
+// grillage and a cable net formed by loads alone, each compared with a closed form or an elastica.
 #include <numbers>
 #include <regex>
 
@@ -14,7 +14,7 @@ constexpr double EI = 83e3 * std::numbers::pi * 0.254 * 0.254 * 0.254 * 0.254 / 
 constexpr double L = 200;                                                            // mm
 constexpr double stiff = 1000;                                                       // N/mm
 
-/// A rod from a held crossing of two others to `tip`, which is sprung.
+/// A rod from a fixed crossing of two others to `tip`, which is on a spring.
 preset::NetworkData rod_on_cross(const std::vector<double>& tip, const Eigen::Vector3d& spring) {
   preset::NetworkData file;
   file.points = {{0, 0, 0}, {20, 0, 0}, {-20, 0, 0}, {0, 20, 0}, {0, -20, 0}, tip};
@@ -52,8 +52,8 @@ double sag_of_half(double least, const Turn& turn) {
                       std::numbers::pi / 2))[3];
 }
 
-/// How high the top of the buckled column stands: a moment without a horizontal force H would bring
-/// it off the axis.
+/// Height of the top of the buckled column: a moment without a horizontal force H would displace it
+/// from the axis.
 double top_of_elastica(double times) {
   const double q = times * 18.568 * EI / (L * L * L);
   const auto shape = [&](double angle, double H) {
@@ -68,7 +68,7 @@ double top_of_elastica(double times) {
   return shape(angle, H_at(angle))[3];
 }
 
-/// What is told of an event: "at progress 0.6668 ± 0.0006".
+/// The reported position of an event: "at progress 0.6668 ± 0.0006".
 struct Place {
   double at = 0, error = 0;
 };
@@ -103,7 +103,7 @@ TEST_CASE("a heavy column branches at its critical weight and is the elastica be
   }
 }
 
-TEST_CASE("a column's state at a load does not hang on how much more was asked for") {
+TEST_CASE("a column's state at a load does not hang on how much more was requested") {
   // past a load of 1.2160 there is no arch left: it turns over and hangs below its base
   preset::Preset less = column(1.1), more = column(1.5), most = column(11);
   for (preset::Preset* p : {&less, &more, &most}) p->accuracy.edges_per_segment = 32;
@@ -156,7 +156,7 @@ TEST_CASE("a column buckles to any side, each as stable as the others") {
   CHECK(std::abs(sides[0] - sides[1]) > 0.01);
 }
 
-TEST_CASE("a pinched ring goes on past its double mode on every mesh", "[standard]") {
+TEST_CASE("a pinched ring continues past its double mode on every mesh", "[standard]") {
   preset::NetworkData file;
   file.rods.resize(1);
   for (int k = 0; k < 24; ++k) {
@@ -216,7 +216,7 @@ TEST_CASE("a grillage shares the force at its joint as its beams are stiff, at a
   };
   const auto beam = [](double length) { return 48 * EI / std::pow(length, 3); };
   CHECK(sag_of(200, 160, 1e-5) == Approx(1e-5 / (beam(200) + beam(160))).epsilon(1e-3));
-  // of two alike each carries a half, and each support a quarter
+  // of two equal rods each carries a half, and each support a quarter
   constexpr double P = 8e-3;
   const double sag = sag_of_half(0.1, [](double, double theta) { return P / 4 * std::sin(theta); });
   CHECK(sag_of(L, L, P) == Approx(sag).epsilon(1e-3));
@@ -225,7 +225,7 @@ TEST_CASE("a grillage shares the force at its joint as its beams are stiff, at a
 
 TEST_CASE("beams of a grillage have sections of their own") {
   preset::NetworkData file = cross(100, 100);
-  // a lath on its flat side beside a round rod
+  // a lath on its flat side next to a round rod
   file.own = {
       {0, "shear_GPa", 4}, {0, "thickness_mm", 0.5}, {0, "width_mm", 3}, {0, "young_GPa", 10}};
   preset::Preset p = network(file);

@@ -122,7 +122,7 @@ TEST_CASE("a mesh that memory does not have ends the doubling, with its reason")
   CHECK_THAT(path->mesh_disagreement, Catch::Contains("GB of [accuracy] memory_GB"));
 }
 
-TEST_CASE("on a mesh that is asked for the companion's doubt is said and nothing is doubled") {
+TEST_CASE("on a mesh that is requested the companion's doubt is said and nothing is doubled") {
   Scene scene = small();
   scene.edges_per_segment = 8;
   std::vector<int> tried;

@@ -1,4 +1,4 @@
-// The rungs from a preset on: each where it is exact, against one another.
+// The rod models of a preset: each where it is exact, compared with one another.
 #include <cmath>
 #include <random>
 
@@ -26,8 +26,8 @@ preset::Preset twelve_rods() {
   return p;
 }
 
-/// The largest joint distance between the two rungs at rest, over the shell's scale: on the twist
-/// rung from random edge angles.
+/// The largest joint distance between the two models in equilibrium, over the shell's scale: with
+/// the twist model from random edge angles.
 double distance_of_rungs(preset::Preset preset, int edges) {
   preset.accuracy.tolerance = 1e-6;
   const auto scene = shared_scene(preset);
@@ -43,7 +43,7 @@ double distance_of_rungs(preset::Preset preset, int edges) {
   std::mt19937 random(11);
   std::normal_distribution<double> normal;
   Eigen::Matrix3Xd x = state.x;
-  for (int node = 0; node < mesh.joints; ++node)  // and off the bend rung's rest
+  for (int node = 0; node < mesh.joints; ++node)  // and away from the bend model's equilibrium
     x.col(node) += 0.2 * Eigen::Vector3d(normal(random), normal(random), normal(random));
   move_to(model, x, state);
   std::uniform_real_distribution<double> radian(-1, 1);
@@ -58,17 +58,17 @@ double distance_of_rungs(preset::Preset preset, int edges) {
 
 }  // namespace
 
-TEST_CASE("twist rung: shells from random edge angles are the bend rung's") {
+TEST_CASE("twist model: shells from random edge angles are the bend model's") {
   for (const preset::Preset& preset : {on_net(), spool(), twelve_rods()})
     CHECK(distance_of_rungs(preset, 4) < 1e-8);
 }
 
-TEST_CASE("twist rung: the shell of Fig. 1 from random angles is the bend rung's, 16 edges",
+TEST_CASE("twist model: the shell of Fig. 1 from random angles is the bend model's, 16 edges",
           "[standard]") {
   CHECK(distance_of_rungs(twelve_rods(), 16) < 1e-7);
 }
 
-TEST_CASE("a circle on the twist rung ends where it does on the bend rung, without twist") {
+TEST_CASE("a circle on the twist model ends where it does on the bend model, without twist") {
   preset::Preset p = four_rods();
   p.accuracy.tolerance = 1e-6;
   const auto bend = run(p);
@@ -85,7 +85,7 @@ TEST_CASE("a circle on the twist rung ends where it does on the bend rung, witho
   CHECK(distance(bend, twist) < 1e-6 * p.footprint.radius_mm);
 }
 
-TEST_CASE("loads on the bend rung are those of the twist rung, and lower the shell") {
+TEST_CASE("loads on the bend model are those of the twist model, and lower the shell") {
   preset::Preset p = four_rods();
   p.accuracy.tolerance = 1e-6;
   const auto unloaded = run(p);
@@ -108,7 +108,7 @@ TEST_CASE("loads on the bend rung are those of the twist rung, and lower the she
       Catch::StartsWith("[loads] points: the footprint has no joint [7, 0], must be one of its "));
 }
 
-TEST_CASE("spring joints come to the shared ones as they stiffen, on both rungs") {
+TEST_CASE("spring joints converge to the shared ones as they stiffen, on both rod models") {
   preset::Preset p = four_rods();
   p.accuracy.model = GENERATE(RodModel::bend, RodModel::twist);
   p.accuracy.tolerance = 1e-5;
@@ -164,7 +164,7 @@ TEST_CASE("joints that resist shear: joints and energies at second order, beside
 }
 
 TEST_CASE("a cylinder whose ends are held along the helices is its net, to second order") {
-  // held against spin as well its rods are twisted
+  // with ends of prescribed twist too its rods are twisted
   for (const auto hold : {preset::EndKind::tangent, preset::EndKind::clamped}) {
     const bool clamped = hold == preset::EndKind::clamped;
     preset::Preset p = on_net(preset::NetKind::cylinder, clamped ? 60 : 80, clamped ? 280 : 200);
@@ -190,10 +190,10 @@ TEST_CASE("a strip lies down or stands up, and an arched rod rises by itself") {
   p.rod.curvature_per_mm = 0.005;
   const auto arched = run(p);
   CHECK(arched.summary.stable);
-  // curved as the dome is, it has less to bend; in the flat it is not at rest straight
+  // curved as the dome is, it bends less; in the flat it is not straight in equilibrium
   CHECK(arched.trajectory.frames.front().height_mm > 0.01);
   CHECK(arched.trajectory.frames.front().residual_N < 1e-6);
-  // the other way round its rods roll over, as their ends spin freely, and come to the same
+  // inverted, its rods roll over, as their ends rotate freely, and reach the same state
   p.rod.curvature_per_mm = -0.005;
   CHECK(run(p).summary.energies[Term::bend] ==
         Approx(arched.summary.energies[Term::bend]).epsilon(1e-9));
@@ -206,7 +206,7 @@ TEST_CASE("a strip lies down or stands up, and an arched rod rises by itself") {
   CHECK(flat.summary.height_mm != Approx(round).epsilon(1e-3));
 }
 
-TEST_CASE("the net rung says that nothing was solved for") {
+TEST_CASE("the net model says that nothing was solved for") {
   preset::Preset p;
   p.footprint.kind = preset::FootprintKind::net;
   p.accuracy.tolerance = 0.05;
@@ -256,7 +256,7 @@ TEST_CASE("a push that snaps is followed in time to the rest that ends it", "[st
   }
   CHECK(moving > 5);
   CHECK(moving <= 24);
-  // without it there is the same rest
+  // without it the equilibrium is the same
   p.dynamics.snap = false;
   CHECK(distance(outcome, run(p)) < 1e-3);
 }

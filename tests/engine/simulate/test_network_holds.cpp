@@ -1,4 +1,4 @@
-// Ends of a network that are held each in its own way.
+// Ends of a network with separate end conditions.
 #include "tests/engine/simulate/mixed_network.h"
 #include "tests/engine/simulate/run.h"
 
@@ -46,7 +46,7 @@ double sunk(const preset::Preset& p) {
   return -joints_of(outcome.trajectory)(2, 0);
 }
 
-/// The energies of its rest.
+/// The energies of its equilibrium.
 Energies at_rest(const preset::NetworkData& file) {
   preset::Preset p = network(file, 2);
   p.rod.width_mm = 2, p.rod.thickness_mm = 1, p.rod.young_GPa = 10, p.rod.shear_GPa = 4;
@@ -84,7 +84,7 @@ TEST_CASE("a network of mixed laws and holds rests alike turned, moved and liste
   const Energies upright = at_rest(file);
   constexpr std::array terms{Term::bend, Term::joint, Term::shear, Term::twist, Term::support};
   for (const Term term : terms) CHECK(upright[term] > 1e-3);
-  // springs pull alike along all axes, so that they turn with the rest
+  // springs pull equally along all axes, so that they rotate with the equilibrium
   for (const preset::NetworkData& same : same_otherwise(file, 0.8)) {
     const Energies other = at_rest(same);
     for (const Term term : terms) CHECK(other[term] == Approx(upright[term]).epsilon(1e-9));
@@ -108,7 +108,7 @@ TEST_CASE("holds of ends that have no support of their own are refused by rod an
     file.rods.push_back({25, 12});
     file.holds.push_back({6, 1, 1});
   });
-  // one clamped end holds a piece, one that lets it spin does not
+  // one clamped end fixes a piece, one with free rotation does not
   preset::NetworkData cantilever;
   cantilever.points = {{0, 0, 0}, {50, 0, 0}, {100, 0, 0}, {50, 30, 0}};
   cantilever.rods = {{0, 1, 2}, {1, 3}};

@@ -1,4 +1,4 @@
-// Networks that are drawn in space: where they come to rest, however they are turned.
+// Networks drawn in space: their equilibria, for any rotation of the file.
 #include <numbers>
 
 #include "tests/engine/simulate/mixed_network.h"
@@ -8,7 +8,7 @@ using namespace gridshell;
 
 namespace {
 
-/// The shipped vault, every foot with the place that it goes to.
+/// The shipped vault, every foot with its final position.
 preset::NetworkData vault(double scale) {
   preset::NetworkData file = shipped("network_space").footprint.file;
   for (std::size_t k = 0; k < file.points.size(); ++k) {
@@ -39,7 +39,7 @@ TEST_CASE("a tent of two rods drawn in space rests as the arches that a flat cro
 
 TEST_CASE("a vault drawn in space is the same however it is turned, moved supports and all") {
   const auto upright = run_to_end(network(vault(0.92), 4, 3));
-  // from the rest as drawn on: every frame is certified
+  // from the equilibrium of the drawn shape on: every frame is certified
   REQUIRE(upright.trajectory.frames.size() == 3);
   for (std::size_t k = 0; k < 3; ++k) {
     const record::Frame& frame = upright.trajectory.frames[k];
@@ -62,7 +62,7 @@ TEST_CASE("a vault drawn in space is the same however it is turned, moved suppor
   }
 }
 
-TEST_CASE("ends of a vault in space that hold directions, on both rungs, turned too") {
+TEST_CASE("ends of a vault in space that hold directions, on both rod models, turned too") {
   std::vector<double> tangent;
   for (const auto kind : {preset::EndKind::tangent, preset::EndKind::clamped}) {
     preset::Preset p = network(vault(0.96), 4);
@@ -76,11 +76,11 @@ TEST_CASE("ends of a vault in space that hold directions, on both rungs, turned 
     CHECK(other.summary.energies.total() == Approx(upright.summary.energies.total()).epsilon(1e-7));
     tangent.push_back(upright.summary.energies.total());
   }
-  // who holds the spin too stores no less
+  // ends with prescribed twist store no less
   CHECK(tangent[1] >= tangent[0] * (1 - 1e-9));
 }
 
-TEST_CASE("straight strips laid flat by their geodesic lengths come to the sphere", "[standard]") {
+TEST_CASE("straight strips laid flat by their geodesic lengths reach the sphere", "[standard]") {
   const auto outcome = run_to_end(shipped("lit_geodesic"), true);
   // the acute corners lie 40 degrees off the pole
   const Eigen::Vector3d middle(0, 0, -240 * std::cos(40 * std::numbers::pi / 180));

@@ -30,7 +30,7 @@ Eigen::Matrix3Xd joints_of(const Simulation& session) {
 
 TEST_CASE("stiff springs come to what held supports have, the distance falling as 1/k",
           "[standard]") {
-  // so little that no branch is left on the way
+  // so little that the path leaves no branch
   constexpr double scale = 0.99, shortening = 0.005;
   for (const auto rung : {RodModel::bend, RodModel::twist}) {
     const auto joints = [&](preset::Preset p) {
@@ -92,7 +92,7 @@ TEST_CASE("forces of springs are k times what the ends stay behind, and balance"
 TEST_CASE("a joint inside rods on a spring gives way, and may be pushed") {
   preset::Preset p = triaxial();
   auto& file = p.footprint.file;
-  // the joint of most rods, held from below
+  // the joint of most rods, supported from below
   std::vector<int> rods(file.points.size());
   for (const auto& rod : file.rods)
     for (const int point : rod) ++rods[std::size_t(point)];
@@ -112,7 +112,7 @@ TEST_CASE("a joint inside rods on a spring gives way, and may be pushed") {
   const double height = session.nodes()(2, joint);
   CHECK(height > 1);
   CHECK((reaction() - Eigen::Vector3d(0, 0, -1e-4 * height)).norm() < 1e-9);
-  // pushed by the hand: what holds it is hand and spring
+  // pushed by a user: the push and the spring support it
   REQUIRE(session.push(joint, {0, 0, -0.5}, Across::free, unwatched).end == Outcome::reached);
   CHECK(session.nodes()(2, joint) == Approx(height - 0.5));
   CHECK(reaction().z() ==
@@ -137,7 +137,7 @@ TEST_CASE("symmetries of a mesh keep what is held, and how stiffly") {
   CHECK(count(p) < all);
 }
 
-TEST_CASE("the cantilever of a public code comes to the elastica, and near what that code says") {
+TEST_CASE("the cantilever of a public code agrees with the elastica, and nearly with that code") {
   const auto outcome = run_stills(shipped("lit_drm_cantilever"));
   CHECK(outcome.summary.stable);
   // by shooting along theta'' = -P L^2/EI cos theta, of P L^2/EI = 1.185185
@@ -147,7 +147,7 @@ TEST_CASE("the cantilever of a public code comes to the elastica, and near what 
   CHECK(1000 - nodes.row(0).maxCoeff() == Approx(in).epsilon(2e-4));
   CHECK(std::abs(outcome.summary.height_mm - up) < 2 * outcome.summary.error_estimate_mm);
   CHECK(outcome.summary.height_mm == Approx(theirs).epsilon(2e-3));  // ten elements
-  // one alone, clamped; a little of it beyond its load
+  // one alone, clamped; a short piece extends past its load
   preset::Preset alone = shipped("lit_drm_cantilever");
   preset::NetworkData& file = alone.footprint.file;
   file = {};

@@ -1,4 +1,4 @@
-// The states of shells that are no square grid: shaken, pushed and judged as those of grids.
+// The states of shells that are no square grid: perturbed, pushed and judged as those of grids.
 #include <algorithm>
 #include <set>
 

@@ -20,8 +20,8 @@ preset::Preset network_of_rods(const preset::NetworkData& file, int edges) {
   return p;
 }
 
-/// Two families of three rods that cross at `angle`, in steps of 30 mm, held against rigid motions
-/// alone.
+/// Two families of three rods that cross at `angle`, in steps of 30 mm, fixed against rigid motions
+/// only.
 preset::NetworkData rhombi(double angle) {
   preset::NetworkData file;
   const auto at = [&](double p, double q) {
@@ -91,7 +91,7 @@ TEST_CASE(
     "rods cut as they are drawn lie there without stress, in space or a ring, ends held or not") {
   preset::NetworkData vault = mixed_network(), ring;
   vault.joint_laws = {{6, -1, 0}};
-  // of 24 corners, and a bow
+  // a polygon of 24 corners, and a bow
   ring.rods.resize(1);
   for (int k = 0; k < 24; ++k) {
     ring.points.push_back({50 * std::cos(15 * k * degree), 50 * std::sin(15 * k * degree), 0});
@@ -159,7 +159,7 @@ TEST_CASE("rhombi of straight rods open in the flat, against their shear alone")
   CHECK(outcome.summary.height_mm == Approx(0).margin(1e-6));
 }
 
-TEST_CASE("one joint opens all rhombi, and what is wrong with a step is told") {
+TEST_CASE("one joint opens all rhombi, and what is wrong with a step is reported") {
   preset::Preset p = linkage();
   preset::Step step = opened(0, 100);
   step.angles = {{12, 0, 70}};

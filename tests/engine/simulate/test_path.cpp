@@ -1,5 +1,5 @@
-// A path is one object: its events are the shell's, its branches are chosen by a rule that is told,
-// and frames only sample it.
+// A path is one object: its events belong to the shell, its branches are chosen by a documented
+// rule, and frames only sample it.
 #include <cmath>
 
 #include "tests/engine/simulate/run.h"
@@ -20,7 +20,7 @@ preset::Preset ellipse(int frames) {
   return p;
 }
 
-/// An ellipse drawn in, its rods beside the axes.
+/// A contracted ellipse with rods off the axes.
 preset::Preset drawn_ellipse(double half_x_mm, double half_y_mm, double scale, double tolerance) {
   preset::Preset p = curve(preset::CurveKind::ellipse, half_x_mm, half_y_mm, scale);
   p.movie.frames = 5;
@@ -53,7 +53,7 @@ double skew(const record::Trajectory& trajectory, std::size_t frame, int n) {
   return sum;
 }
 
-/// Every frame is at rest and says whether it is stable; where the path ended early it says why.
+/// Every frame is in equilibrium and says whether it is stable; a path that ended early says why.
 void check_frames(const simulate::ExperimentResult& outcome, int asked) {
   const auto& frames = outcome.trajectory.frames;
   CAPTURE(outcome.summary.limit_reason);
@@ -72,7 +72,7 @@ void check_frames(const simulate::ExperimentResult& outcome, int asked) {
 
 }  // namespace
 
-TEST_CASE("every frame asked for is there and at rest, or the run says why not") {
+TEST_CASE("every requested frame is there and in equilibrium, or the run says why not") {
   preset::Preset thick = on_net(), barely = circle(8, 77.9, 77.0, 3),
                  pipe = on_net(preset::NetKind::cylinder, 120, 125);
   thick.accuracy.tolerance = 1e-3;
@@ -95,12 +95,12 @@ TEST_CASE("every frame asked for is there and at rest, or the run says why not")
 }
 
 TEST_CASE("a snap that only the coarsest mesh sees is none of the shell") {
-  // a leader of 4 edges loses its stability at 0.3978 and ends at 30.27 mJ; finer ones do not
+  // a mesh of 4 edges loses its stability at 0.3978 and ends at 30.27 mJ; finer ones do not
   const auto outcome = run_to_end(circle(8, 77.9, 63.0));
   CHECK(bend(outcome) == Approx(31.4).epsilon(5e-3));
 }
 
-TEST_CASE("a loss of stability that two leading meshes see and the finest does not is none",
+TEST_CASE("a loss of stability that two coarse meshes have and the finest does not is none",
           "[standard]") {
   // the smallest eigenvalue comes within a tenth of its size to zero: 4, 5 and 10 edges cross it,
   // 16 and 20 do not
@@ -196,7 +196,7 @@ TEST_CASE(
   CHECK(run(p).summary.stable);
 }
 
-TEST_CASE("a saddle from flat loses its branch where two leading meshes say", "[standard]") {
+TEST_CASE("a saddle from flat loses its branch where two coarse meshes do", "[standard]") {
   const auto events = [](const LevelPlan& plan) {
     return value_of(simulate::follow_actuation(shared_scene(spool(preset::Start::flat)), plan,
                                                false, 1, unwatched))
@@ -210,9 +210,9 @@ TEST_CASE("a saddle from flat loses its branch where two leading meshes say", "[
   CHECK(bend(confirmed) == Approx(bend(run(spool()))).epsilon(5e-3));
 }
 
-TEST_CASE("the frame after a jump is the one that tells it, and it jumps where that is told",
+TEST_CASE("the frame after a jump is the one that tells it, and it jumps where that is reported",
           "[standard]") {
-  // of two jumps the second is a turn of the path, which a leader of twice the edges sees later
+  // of two snaps the second is a limit point of the path, which a mesh of twice the edges has later
   preset::Preset p = ellipse(60);
   p.footprint.placement = Placement::on_axis;
   p.accuracy.tolerance = 0.02;
@@ -243,7 +243,7 @@ TEST_CASE("estimates hold where the meshes show another order than the second", 
   CHECK(error < 1e-3 * 162.305);
 }
 
-TEST_CASE("the diagonal asked for lies lower, whatever the dome went to first") {
+TEST_CASE("the requested diagonal is lower, whichever one the dome buckled along first") {
   for (auto diagonal : {preset::SeedDiagonal::y_eq_x, preset::SeedDiagonal::y_eq_minus_x}) {
     preset::Preset p = circle(7, 36.058, 35.7);
     p.footprint.spacing_mm = 10.944;
@@ -253,9 +253,9 @@ TEST_CASE("the diagonal asked for lies lower, whatever the dome went to first") 
   }
 }
 
-TEST_CASE("the last frame is the state that the path came to, no leg flipped between joints") {
-  // sampled without what the path remembered, Newton's method on 8 edges left 1 mm beside the
-  // joints and 12 mm inside of a leg, for an equilibrium that is not stable
+TEST_CASE("the last frame is the state that the path reached, no leg flipped between joints") {
+  // sampled without the path's history, Newton's method on 8 edges left errors of 1 mm at the
+  // joints and 12 mm inside a leg, for an unstable equilibrium
   preset::Preset p = drawn_ellipse(133.62545281648636, 85.78375160704122, 0.7903740280121565, 0);
   p.accuracy = {};
   p.movie.frames = 3;
@@ -289,7 +289,8 @@ TEST_CASE("a lost branch is left to the side of the imperfection on every mesh",
 }
 
 TEST_CASE("the error of an event is of two meshes", "[standard]") {
-  // half a saddle: the finest mesh of one path and the leader of the other place its branch alike
+  // a saddle: the finest mesh of one path and the coarsest of the other have the branch at one
+  // parameter
   preset::Preset p = spool(preset::Start::flat);
   p.ends.rings = preset::Rings::pinned;
   const std::string told = run(p).summary.limit_reason;

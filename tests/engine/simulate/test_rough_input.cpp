@@ -15,7 +15,7 @@ std::shared_ptr<const Scene> fig1(double tolerance = 1e-4) {
   return shared_scene(p);
 }
 
-/// A course with the frames that were sampled of it.
+/// A path with the frames that were sampled from it.
 struct Run {
   simulate::EquilibriumPath course;
   record::Trajectory trajectory;

@@ -1,5 +1,5 @@
-// A hand's steps as a run: what each came to, where the shell stands after them, and what their
-// frames say.
+// The steps of a user as a run: their results, the state of the shell after them, and the texts of
+// their frames.
 #include "engine/simulate/steps.h"
 
 #include <algorithm>
@@ -47,14 +47,14 @@ TEST_CASE("frames fall to the steps that have a way, one to each of the others")
   CHECK(simulate::frames_of_steps(steps, 11) == std::vector{5, 1, 4});
   CHECK(simulate::frames_of_steps(steps, 2) == std::vector{1, 1, 1});
   CHECK(simulate::frames_of_steps({of(StepKind::rest)}, 20) == std::vector{1});
-  // edge points go straight to their places, and back
+  // edge points move straight to their positions, and back
   preset::Step dragged = move(0.9);
   dragged.edge_points = {{0, 1, 0, 0}};
   CHECK(simulate::frames_of_steps({dragged, of(StepKind::release), move(0.8), move(0.7)}, 11) ==
         std::vector{1, 1, 1, 7});
 }
 
-TEST_CASE("a push let go is the shell before, and every step says what it came to") {
+TEST_CASE("a released push gives the shell before, and every step reports its result") {
   preset::Preset preset = small_shell_on_four_edges();
   preset.step = {push(0, 0, 3), of(StepKind::release)};
   preset.movie.frames = 6;
@@ -63,7 +63,7 @@ TEST_CASE("a push let go is the shell before, and every step says what it came t
   REQUIRE(frames.size() == 6);
   CHECK(outcome.summary.limit == record::Limit::none);
   CHECK(difference(frames.front(), frames.back()) < 1e-5);
-  // four frames on the way of the push, as deep as evenly sampled
+  // four frames on the path of the push, as deep as evenly sampled
   for (std::size_t k = 1; k <= 4; ++k) {
     CHECK(frames[k].depth_mm == Approx(0.75 * double(k)).epsilon(1e-6));
     if (k > 1) CHECK(frames[k].force_N > frames[k - 1].force_N);
@@ -76,7 +76,7 @@ TEST_CASE("a push let go is the shell before, and every step says what it came t
   CHECK_THAT(outcome.summary.steps[0],
              Catch::StartsWith("1 push [0, 0]: reached, residual ") && Catch::Contains("stable"));
   CHECK_THAT(outcome.summary.steps[1], Catch::StartsWith("2 release: reached"));
-  // and is known to act while it holds alone
+  // and its reaction is known only while the constraint exists
   const record::Layout& layout = outcome.trajectory.layout;
   REQUIRE(layout.loaded_joints.size() == 1);
   CHECK(layout.loaded_joints[0].at_times);
@@ -162,16 +162,17 @@ TEST_CASE("steps on what is not there are errors with their number") {
   };
   CHECK_THAT(refused(push(40, 0, 1)), Catch::Contains("[[step]] 2") &&
                                           Catch::Contains("joint = [40, 0]: the footprint has no"));
-  CHECK_THAT(refused(of(StepKind::release)), Catch::Contains("[[step]] 2: no joint is held"));
+  CHECK_THAT(refused(of(StepKind::release)), Catch::Contains("[[step]] 2: no joint is fixed"));
   // which `check` says as well
-  CHECK_THAT(refusal(simulate::plan(preset)), Catch::StartsWith("[[step]] 2: no joint is held"));
+  CHECK_THAT(refusal(simulate::plan(preset)), Catch::StartsWith("[[step]] 2: no joint is fixed"));
   preset::Step edge = of(StepKind::move);
   edge.edge_points = {{400, 1, 0, 0}};
   CHECK_THAT(refused(edge), Catch::Contains("there is no edge point 400, they go from 0 to 23"));
 }
 
 TEST_CASE("a push that no mesh follows ends the run with its reason, and draws no load") {
-  // cables come in, and the first joint that is pushed is held by no mesh: it ended the program
+  // cables are added, and the first pushed joint has no constraint on any mesh: this ended the
+  // program
   preset::Preset p = circle(7, 75, 60);
   p.footprint.placement = Placement::on_axis;
   p.rod.shear_GPa = 31;

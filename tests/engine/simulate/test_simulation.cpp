@@ -1,4 +1,4 @@
-// One shell held in one hand through everything that a hand does.
+// One shell under all commands of a user.
 #include "engine/simulate/simulation.h"
 
 #include <pthread.h>
@@ -49,7 +49,7 @@ double shell_progress(const Scene& scene, double ratio) {
 
 }  // namespace
 
-TEST_CASE("a session goes through all that a hand does, and back by its checkpoints to the bit") {
+TEST_CASE("a session goes through all that a user does, and back by its checkpoints to the bit") {
   const auto model = GENERATE(RodModel::bend, RodModel::twist);
   CAPTURE(word_of(model));
   const auto shell = shared_scene(six_rods(1e-3, model));
@@ -124,7 +124,7 @@ TEST_CASE("what fails leaves the last certified state, what is cancelled says so
   watch.cancel();
   CHECK(session.push(7, {0, 0, -5}, Across::free, watch).end == Outcome::cancelled);
   CHECK(max_column_norm(session.nodes() - before) < 1e-6);
-  // outwards the rods come to their length: it stops there, certified
+  // outwards the rods reach the strain limit: it stops there, certified
 
   const Report pulled = session.push(0, {0, 0, 60}, Across::free, unwatched);
   CHECK(pulled.end == Outcome::locked);
@@ -133,7 +133,7 @@ TEST_CASE("what fails leaves the last certified state, what is cancelled says so
   CHECK(pulled.certificate.largest_strain < 1.1 * session.scene().max_strain);
 }
 
-TEST_CASE("a shell in motion comes to rest where the static solver finds it") {
+TEST_CASE("a shell in motion reaches the equilibrium of the static solver") {
   Simulation session = formed(six_rods(1e-3));
   const Eigen::Matrix3Xd before = session.nodes();
   certified(session, session.set_field({{3, {0, 0, -0.15}}}, unwatched));
@@ -178,7 +178,7 @@ TEST_CASE("a session begins flat, on other meshes, holds a joint where it is and
   const Eigen::Index joints = session.shell().finest().joints;
   CHECK(max_column_norm(session.nodes().leftCols(joints) - plain.leftCols(joints)) < 2 * estimate);
 
-  // a joint that is held stays while the boundary moves, and lets the shell back when it is let go
+  // a fixed joint stays while the boundary moves, and the shell relaxes when it is released
   const Eigen::Vector3d place = session.nodes().col(5);
   certified(session, session.push(5, {0, 0, 0}, Across::held, unwatched));
   CHECK(session.force(0).norm() < 1e-5);
@@ -190,7 +190,7 @@ TEST_CASE("a session begins flat, on other meshes, holds a joint where it is and
   CHECK(max_column_norm(session.nodes().leftCols(joints) - plain.leftCols(joints)) < 2 * estimate);
 }
 
-TEST_CASE("a session of 24 rods answers a wish to stop within 0.2 s on both rungs", "[standard]") {
+TEST_CASE("a session of 24 rods answers a cancel within 0.2 s on both rod models", "[standard]") {
   const auto model = GENERATE(RodModel::bend, RodModel::twist);
   preset::Preset p = six_rods(1e-3, model);
   p.footprint = paper_circle(24).footprint;
@@ -205,7 +205,7 @@ TEST_CASE("a session of 24 rods answers a wish to stop within 0.2 s on both rung
   clockid_t clock{};
   REQUIRE(pthread_getcpuclockid(pthread_self(), &clock) == 0);
   int stopped = 0;
-  // what the processor works between the wish and the answer
+  // processor time between the cancel and the answer
   const auto answers = [&](const char* what, const Checkpoint& from, const auto& act) {
     for (const int wait_ms : {20, 150}) {
       CAPTURE(word_of(model), what, wait_ms);

@@ -17,7 +17,7 @@ namespace {
 
 preset::Preset loaded_shell() {
   preset::Preset p = small_shell();
-  p.rod.diameter_mm = 2.5;  // what rests on it is far above round-off
+  p.rod.diameter_mm = 2.5;  // its load is far above round-off
   p.limits.max_strain = 0.05;
   p.rod.density_kg_m3 = 6450;
   p.loads.gravity_m_s2 = 9.81;
@@ -52,7 +52,7 @@ Eigen::Vector3d sum_of(const std::vector<NodeAction>& actions) {
       [](const Eigen::Vector3d& sum, const NodeAction& one) { return sum + one.force; });
 }
 
-/// Of all that is held, on the finest mesh.
+/// Reactions of all constraints, on the finest mesh.
 Eigen::Vector3d reactions(Simulation& simulation) {
   NestedShell& shell = simulation.shell();
   const int last = shell.levels() - 1;
@@ -117,7 +117,7 @@ TEST_CASE("load cases: what comes on is what the supports bear, to 1e-9 of it") 
     const Eigen::Vector3d left = reactions(simulation) + all;
     CAPTURE(left.norm() / all.norm());
     CHECK(left.norm() < 1e-9 * all.norm());
-    // as frames tell it, extrapolated
+    // as frames have it, extrapolated
     const record::Frame frame = frame_of(simulation);
     CHECK((frame.loads_N.rowwise().sum() - all).norm() < 1e-9 * all.norm());
     CHECK((frame.loads_N + frame.reactions_N).rowwise().sum().norm() < 1e-9 * all.norm());

@@ -1,4 +1,4 @@
-// The exact elastica, of a rod that stretches too: what a discrete rod must come to.
+// The exact elastica, also of an extensible rod: the limit of a discrete rod.
 #pragma once
 
 #include <catch2/catch.hpp>
@@ -9,8 +9,8 @@
 
 namespace gridshell {
 
-/// Angle, its slope and the place, at the end of a rod shot with an angle and a slope, by steps of
-/// Runge and Kutta: d/ds of them is (slope, turn(s, angle), (sin, cos) of the angle).
+/// Angle, its slope and the position, at the end of a rod shot with an angle and a slope, by
+/// Runge-Kutta steps: d/ds of them is (slope, turn(s, angle), (sin, cos) of the angle).
 template <class Turn>
 Eigen::Vector4d shot(double angle, double slope, double length, const Turn& turn) {
   constexpr int steps = 1000;
@@ -28,7 +28,7 @@ Eigen::Vector4d shot(double angle, double slope, double length, const Turn& turn
   return y;
 }
 
-/// Where a function that changes its sign between two places is zero.
+/// Zero of a function between two positions of opposite sign.
 template <class Function>
 double zero_of(const Function& f, double low, double high) {
   const bool rises = f(high) > 0;
@@ -39,16 +39,15 @@ double zero_of(const Function& f, double low, double high) {
   return low;
 }
 
-/// Between its ends a rod of one arch is made of equal quarters, each from a point without
-/// curvature to one where it runs level: two where its ends are pinned, four where they are held
-/// level.
+/// A rod of one arch consists of equal quarters, each from a point without curvature to one where
+/// it is level: two if its ends are pinned, four if they are clamped level.
 struct Elastica {
   double height = 0;  ///< of the middle above the ends, mm
   double thrust = 0;  ///< N
 };
 
-/// One quarter under a thrust P, with k = sin(alpha/2), alpha its steepest slope: rest length, span
-/// and height. With the strain -P cos(theta)/EA,
+/// One quarter under a thrust P, with k = sin(alpha/2), alpha its steepest slope: natural length,
+/// span and height. With the strain -P cos(theta)/EA,
 ///   EI theta'^2 = 2P (cos theta - cos alpha)(1 - P (cos theta + cos alpha)/(2 EA)),
 /// and sin(theta/2) = k sin(phi); over phi in (0, pi/2) the trapezoidal rule is exact to round-off.
 struct ElasticaQuarter {

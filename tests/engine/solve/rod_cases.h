@@ -23,7 +23,8 @@ struct SingleRod {
     }
   }
   Model model() const { return build_model(edges + 1, {rod}, RodModel::twist).value(); }
-  /// nodes on the straight line, `stretch` times the rest length, with a bump of this height in z
+  /// nodes on the straight line, `stretch` times the natural length, with a bump of this height in
+  /// z
   Eigen::Matrix3Xd line(double stretch = 1, double bump = 0) const {
     Eigen::Matrix3Xd x = Eigen::Matrix3Xd::Zero(3, edges + 1);
     for (int k = 0; k <= edges; ++k) {
@@ -51,7 +52,7 @@ inline void set_angle(const Model& model, State& state, int edge, double angle) 
   state.x.data()[model.spin[std::size_t(edge)]] = angle * model.spin_length;
 }
 
-/// At rest, or the test fails.
+/// Minimises the energy; the test fails if it does not converge.
 inline void settle(Linearisation& system, State& state, double tolerance = 1e-7) {
   MinimiseOptions options;
   options.tolerance_mm = tolerance;

@@ -52,7 +52,7 @@ TEST_CASE("by arc length an arch is followed over the limit of its load and back
     const PathPoint& point = path.at().point;
     most = std::max(most, point.t);
     unstable += !path.at().inertia.positive_definite();
-    // the same curve by displacement control, before the limit and beyond it
+    // the same curve by displacement control, before the limit point and past it
     const double z = point.state.x(2, 0);
     if ((checked < 1 && z < 0.8 * height) || (checked < 2 && z < 0.3 * height)) {
       ++checked;
@@ -65,8 +65,8 @@ TEST_CASE("by arc length an arch is followed over the limit of its load and back
   REQUIRE(turn);
   CHECK(*turn == Approx(most).epsilon(0.02));
   CHECK(unstable > 0);
-  // beyond the limit the load falls to nothing: another equilibrium of the unloaded arch, with its
-  // middle below the pins and not stable
+  // past the limit point the load falls to zero: another equilibrium of the unloaded arch, with its
+  // middle below the pins and unstable
   REQUIRE(unloaded_again);
   State rest = path.at().point.state;
   const Eigen::Matrix3Xd there = rest.x;

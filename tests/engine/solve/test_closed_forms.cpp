@@ -1,5 +1,5 @@
-// Rods whose answers are known in closed form: each on two meshes, which must come to it at second
-// order, and extrapolated from both nearer still.
+// Rods with closed-form solutions: each on two meshes, which must converge with second order, and
+// extrapolated from both with a smaller error.
 #include <functional>
 #include <string>
 
@@ -14,7 +14,7 @@ namespace {
 constexpr double length = 252, EI = 16.95832, EA = 4205.672, GJ = 12.667659;
 const RodMaterial wire{EA, EI, EI, GJ, {0, 0}, 0};
 
-/// The load factor at which the state that `model` comes to from `x` loses its stability.
+/// The load factor at which the equilibrium of `model` reached from `x` loses its stability.
 double critical_load(Model model, const State& from, double low, double high) {
   finish(model);
   Linearisation system(model);
@@ -74,7 +74,7 @@ double spring(int edges) {
                          {EA / 10, EI, EI, GJ, {coil / w2, 0}, rise / w2}, RodEnd::free,
                          RodEnd::free);
   Model model = single.model();
-  // six unknowns that hold it in space; the force passes through the first
+  // six unknowns that fix it in space; the force passes through the first
   model.pin(0);
   model.hold(1, 1);
   model.hold(1, 2);

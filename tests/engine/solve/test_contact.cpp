@@ -79,7 +79,7 @@ TEST_CASE("contact: two crossed rods press with the load, at the distance of the
   }
   Linearisation system(model);
   State state = start_state(model, x);
-  // 1e-10 mm is below what round-off leaves of the twist rung
+  // 1e-10 mm is below the round-off of the twist model
   REQUIRE(minimise(system, state, {.tolerance_mm = 1e-8}, unwatched).outcome == Outcome::reached);
   CHECK(system.at(state, false).positive_definite());
 
@@ -136,6 +136,6 @@ TEST_CASE("contact: an overhand knot stays one, and is gone without") {
   CHECK(nearest_of(touching, knot.x) < diameter + gap);
   const Energies stored = energies_of(touching, knot);
   CHECK(stored[Term::contact] > 1e-5);
-  // without, the rod goes through itself and comes to an arch
+  // without contact, the rod passes through itself and becomes an arch
   CHECK(energies_of(model, arch)[Term::bend] < 0.5 * stored[Term::bend]);
 }

@@ -73,7 +73,7 @@ TEST_CASE("damped motion: second order in the step, a slow vibration dies as its
                fine = max_column_norm(after(0.7, 80, 0) - exact);
   CAPTURE(coarse, fine);
   CHECK(std::log2(coarse / fine) == Approx(2).margin(0.2));
-  // a period on it stands where it began, smaller by exp(-c T/2)
+  // after a period it is at its start, reduced by exp(-c T/2)
   const double c = 0.4 / period;
   const int middle = 7;
   REQUIRE(model.flat(0, middle) == Approx(length / 2));
@@ -81,7 +81,7 @@ TEST_CASE("damped motion: second order in the step, a slow vibration dies as its
         Approx(std::exp(-0.2)).epsilon(5e-3));
 }
 
-TEST_CASE("a shallow arch of two crossing rods snaps in time and ends at a certified rest") {
+TEST_CASE("a shallow arch of two crossing rods snaps in time and ends in a certified equilibrium") {
   const Model model = build_model(crossing_rods(6), circular_section(diameter, 83)).value();
   Linearisation system(model);
   State state = crossing_arch(model);  // its ends come 2 % together
@@ -105,13 +105,14 @@ TEST_CASE("a shallow arch of two crossing rods snaps in time and ends at a certi
     REQUIRE(flagged);
     REQUIRE(pushed.x(2, 0) > 0);
 
-    // from there in time, the joint held where it is
+    // from there in time, with the joint fixed at its position
     DynamicsOptions options;
     options.step_s = 1e-3;
     options.damping_per_s = 40;
     DampedMotion moving(model, mass_of(model).value(), options, {}, {held});
     MovingState motion = MovingState::at_rest(pushed);
-    for (int node : model.free_columns)  // a breath: an unstable equilibrium could stand for ever
+    for (int node :
+         model.free_columns)  // a perturbation: an unstable equilibrium could last for ever
       if (node != 0)
         motion.velocity.col(node) << std::sin(1.3 * node), std::cos(2.1 * node),
             std::sin(0.7 * node);

@@ -1,4 +1,4 @@
-// The softest modes beside a dense decomposition, and frequencies with closed forms.
+// The lowest modes compared with a dense decomposition, and frequencies with closed forms.
 #include "engine/solve/eigenmodes.h"
 
 #include <cmath>
@@ -32,7 +32,7 @@ Eigen::VectorXd lambdas(Linearisation& system, const State& state, int count) {
   return found.values;
 }
 
-/// Of rods on 32 and 64 edges, extrapolated.
+/// Modes of rods on 32 and 64 edges, extrapolated.
 template <class OnMesh>
 Eigen::VectorXd extrapolated(const OnMesh& on) {
   return (4 * on(64) - on(32)) / 3;
@@ -55,8 +55,8 @@ double exact(int n, double strain) {
 
 }  // namespace
 
-TEST_CASE("softest modes: those of a dense decomposition, every copy of equal ones among them") {
-  // two rods alike, pulled tight: all modes come in pairs or fours
+TEST_CASE("lowest modes: those of a dense decomposition, every copy of equal ones among them") {
+  // two equal rods under tension: all modes come in pairs or fours
   const Model model = build_model(crossing_rods(4), section).value();
   Eigen::Matrix3Xd x = Eigen::Matrix3Xd::Zero(3, model.nodes);
   x.topRows(2) = 1.0005 * model.flat;
@@ -103,7 +103,7 @@ TEST_CASE("frequencies: under an axial force their squares grow evenly, and fall
     CHECK(found[0] == Approx(1 + load).epsilon(1e-4).margin(1e-5));
     CHECK(found[2] == Approx(exact(2, load * euler)).epsilon(1e-4));
   }
-  // beyond it the first is no vibration: so many eigenvalues are below zero
+  // above it the first is no vibration: that many eigenvalues are below zero
   const Eigen::VectorXd beyond = pinned_beam(-2 * euler, 4) / first;
   CHECK(beyond[0] == Approx(-1).epsilon(1e-4));
   CHECK(beyond[1] == Approx(-1).epsilon(1e-4));
@@ -168,7 +168,7 @@ TEST_CASE("frequencies: a shallow arch that a beam buckled to") {
   CHECK(found[3] == Approx(72).epsilon(1e-3));
 }
 
-TEST_CASE("softest modes: stopped when asked to") {
+TEST_CASE("lowest modes: stopped when cancelled") {
   const Model model = build_model(single_rod(16, L), section).value();
   Linearisation system(model);
   system.at(start_state(model, straight(model)), false);

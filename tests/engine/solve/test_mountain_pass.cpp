@@ -25,7 +25,7 @@ struct Arch {
     finish(model);
   }
 
-  /// At rest from a bump of so many half waves.
+  /// Equilibrium from a bump of `bump` half waves.
   State rest(Linearisation& system, double bump) const {
     State state = start_state(model, rod.line(shortening, bump));
     state.force.setZero();

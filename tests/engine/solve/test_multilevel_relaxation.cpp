@@ -1,4 +1,4 @@
-// Rests from rough states over meshes that grow finer, and how stiff they are.
+// Equilibria from rough states over meshes of increasing fineness, and their stiffness.
 #include "engine/solve/multilevel_relaxation.h"
 
 #include <random>
@@ -29,7 +29,7 @@ Eigen::Matrix3Xd thrown(const MultilevelRelaxation& cascade, unsigned seed) {
 
 }  // namespace
 
-TEST_CASE("cascade: nineteen of twenty rough states of eight rods come to a stable rest") {
+TEST_CASE("cascade: nineteen of twenty rough states of eight rods reach a stable equilibrium") {
   MultilevelRelaxation cascade = cascade_of(8);
   int at_rest = 0;
   for (unsigned seed = 0; seed < 20; ++seed) {

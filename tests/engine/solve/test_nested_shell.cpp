@@ -1,4 +1,4 @@
-// Finer meshes beside a path, and how little they cost there.
+// Finer meshes along a path, and their small cost there.
 #include "engine/solve/nested_shell.h"
 
 #include "tests/presets.h"
@@ -71,7 +71,7 @@ TEST_CASE("a companion without a state beside the fine one leaves the error unkn
   CHECK(shell.state().measured == 1);
   CHECK(std::isnan(shell.state().error_estimate_mm));
   CHECK_FALSE(shell.extrapolates_forces());
-  // what stands in its place is the fine state, restricted: going on from there is possible
+  // the fine state, restricted, replaces it: the path can continue from there
   CHECK(shell.state().levels[0].x.leftCols(shell.mesh(0).joints) ==
         shell.state().levels[1].x.leftCols(shell.mesh(0).joints));
   CHECK(shell.point().companions[0].x.size() == 0);

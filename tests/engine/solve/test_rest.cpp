@@ -9,7 +9,7 @@ namespace {
 
 const RodMesh mesh = crossing_rods(6);
 
-/// Where leave_saddle() comes to from a state, and the factorisations that it takes.
+/// The state that leave_saddle() reaches, and the factorisations that it takes.
 struct Rest {
   State state;
   int factorizations = 0;
@@ -29,7 +29,7 @@ Rest settled(Linearisation& system, const State& from, const Eigen::Matrix3Xd& m
 TEST_CASE("of two ways down that are mirror images one is gone, and it is the same one") {
   const Model model = build_model(mesh, circular_section(0.254, 83)).value();
   Linearisation system(model);
-  // straight rods pressed a little beyond their first buckling, a dome up or down
+  // straight rods compressed slightly past their first buckling load, a dome up or down
   Eigen::Matrix3Xd x = Eigen::Matrix3Xd::Zero(3, model.nodes);
   x.topRows(2) = (1 - 1e-5) * model.flat;
   State flat = start_state(model, x);
@@ -64,7 +64,7 @@ TEST_CASE("of two ways down that are mirror images one is gone, and it is the sa
   }
 }
 
-TEST_CASE("beyond a fold one way down is gone, and every side asked for ends there") {
+TEST_CASE("beyond a fold one way down is gone, and every requested side ends there") {
   Model model = build_model(mesh, circular_section(0.254, 83)).value();
   model.loads.push_back({0, {0, 0, -1}});  // N: far more than the arch bears
   Linearisation system(model);
@@ -76,7 +76,8 @@ TEST_CASE("beyond a fold one way down is gone, and every side asked for ends the
   Eigen::Matrix3Xd down = Eigen::Matrix3Xd::Zero(3, model.nodes);
   down.row(2) = arch.x.row(2);
   BranchSwitch departure;
-  // a push so small that the slope leads to one side from both, and one after which both ways meet
+  // a perturbation so small that both sides descend in one direction, and one after which both
+  // descents meet
   departure.amplitude_mm = GENERATE(1e-3, 0.4);
   const Rest any = settled(system, arch, down, departure);
   CHECK(any.state.x(2, 0) < -5);

@@ -43,8 +43,8 @@ Eigen::Vector2d cantilever(int edges, double load) {
   return {state.x(0, edges) / length, -state.x(2, edges) / length};
 }
 
-/// The same, shooting for the slope at its root: theta'' = -a cos theta, theta(0) = 0, theta'(1) =
-/// 0.
+/// Solution by shooting for the slope at its root: theta'' = -a cos theta, theta(0) = 0, theta'(1)
+/// = 0.
 Eigen::Vector2d cantilever_exact(double a) {
   const auto end = [&](double slope) {
     return shot(0, slope, 1, [&](double, double theta) { return -a * std::cos(theta); });
@@ -96,7 +96,7 @@ double michell(int edges, double ratio) {
     x.col(k) << r * std::cos(a), r * std::sin(a), 0;
   }
   Model model = build_model(edges, {rod}, RodModel::twist).value();
-  // six unknowns that hold the ring in space and do no more
+  // six unknowns that fix the ring in space and nothing more
   const int third = edges / 3;
   model.pin(0);
   model.hold(third, 0);
@@ -110,11 +110,12 @@ double michell(int edges, double ratio) {
              0.5 * expected, 1.5 * expected,
              [&](double twist) {
                State state = flat;
-               // cut, turned and closed again: the last bend rests turned, all share it
+               // cut, twisted and closed again: the last torsion element has the natural angle, all
+               // edges twist
                std::get<std::vector<Pair<Torsion>>>(model.pairs).back().law.rest = -twist;
                for (int k = 0; k < edges; ++k) set_angle(model, state, k, twist * k / edges);
                REQUIRE(newton(system, state, {.tolerance_mm = 1e-6}).outcome == Outcome::reached);
-               // of 40 mm: still plane
+               // with 40 mm: still plane
                REQUIRE(state.x.row(2).leftCols(edges).cwiseAbs().maxCoeff() < 1e-4);
                return system.at(state, false).positive_definite();
              }) /
@@ -132,7 +133,7 @@ void check_second_order(const Found& found, int edges, double exact, double near
 
 }  // namespace
 
-TEST_CASE("twist rung: the pinned elastica from random edge angles, second order") {
+TEST_CASE("twist model: the pinned elastica from random edge angles, second order") {
   for (const auto& [shortening, m] : {std::pair(0.1, 0.09871763), {0.5, 0.46400983}}) {
     const double exact = std::sqrt(m) / std::comp_ellint_1(std::sqrt(m));
     check_second_order([by = shortening](int edges) { return elastica_height(edges, by); }, 26,
@@ -140,7 +141,7 @@ TEST_CASE("twist rung: the pinned elastica from random edge angles, second order
   }
 }
 
-TEST_CASE("twist rung: a cantilever under an end load, large deflection, second order") {
+TEST_CASE("twist model: a cantilever under an end load, large deflection, second order") {
   // the table of Bisshopp and Drucker [1945]: deflection over L
   for (const auto& [load, deflection] : {std::pair(1.0, 0.30172), {5.0, 0.71379}}) {
     const Eigen::Vector2d exact = cantilever_exact(load);
@@ -153,7 +154,7 @@ TEST_CASE("twist rung: a cantilever under an end load, large deflection, second 
   }
 }
 
-TEST_CASE("twist rung: a rod curved and twisted at rest is the exact helix without energy") {
+TEST_CASE("twist model: a rod with natural curvature and twist is the exact helix without energy") {
   // curvature and torsion of a helix of radius r and pitch 2 pi c: r/(r^2+c^2), c/(r^2+c^2)
   const double r = 10, c = 4, w2 = r * r + c * c, w = std::sqrt(w2);
   double before = 0;
@@ -162,7 +163,7 @@ TEST_CASE("twist rung: a rod curved and twisted at rest is the exact helix witho
     const double L = 2 * M_PI * w;  // one turn
     const SingleRod single(edges, L, spring, RodEnd::free, RodEnd::free);
     Model model = single.model();
-    // six unknowns that hold it in space
+    // six unknowns that fix it in space
     model.pin(0);
     model.hold(1, 1);
     model.hold(1, 2);
@@ -185,7 +186,7 @@ TEST_CASE("twist rung: a rod curved and twisted at rest is the exact helix witho
   }
 }
 
-TEST_CASE("twist rung: the localised helix of a long twisted rod", "[standard]") {
+TEST_CASE("twist model: the localised helix of a long twisted rod", "[standard]") {
   // [Bergou 2008, section 8]; the envelope's closed form is [van der Heijden, Thompson 2000]
   const double L = 100, bending = 1.345, torsion = 0.789, slack = 3, turns = 27;
   const int edges = 400;
@@ -221,7 +222,7 @@ TEST_CASE("twist rung: the localised helix of a long twisted rod", "[standard]")
   }
   CAPTURE(widest * 180 / M_PI, middle);
   CHECK(widest == Approx(exact).epsilon(0.01));
-  // nothing holds the coil along the rod: its middle lies between edges, where phi is widest
+  // nothing constrains the coil along the rod: its middle is between edges, where phi is largest
   const double left = phi[std::size_t(middle - 1)], right = phi[std::size_t(middle + 1)];
   const double centre = middle + 0.5 * (left - right) / (left - 2 * widest + right);
   for (int e = middle - 80; e <= middle + 80; ++e) {
@@ -247,7 +248,7 @@ TEST_CASE("Michell's ring buckles at 2 pi sqrt(3) EI/GJ") {
 }
 
 TEST_CASE("joint shear: two rigid crossing rods turn by moment over stiffness") {
-  // stiff rods, one held, the other turned about the joint by a couple at its ends
+  // stiff rods, one fixed, the other rotated about the joint by a couple at its ends
   const RodMaterial stiff{1e6, 1e7, 1e7, 1e7, {0, 0}, 0};
   ModelRod a{{0, 5, 1, 6, 2}, {0, 5, 10, 15, 20}, stiff, {}, {0, 0, 1, 0, 0}};
   ModelRod b{{3, 7, 1, 8, 4}, {0, 5, 10, 15, 20}, stiff,       {},

@@ -15,7 +15,7 @@ struct ScanMaking {
   int points = 100;       ///< a top
   double missing = 0;     ///< share of the joints that the scanner does not see
   int spurious = 0;       ///< discs elsewhere
-  bool mirrored = false;  ///< the shell rests in its mirror image
+  bool mirrored = false;  ///< the shell is in its mirror image
   JointCylinder cylinder = {};
 };
 
@@ -70,7 +70,7 @@ inline MadeScan make_scan(const ScanTarget& form, const ScanMaking& how) {
           made.pose.turn * on + made.pose.shift + how.noise_mm * random_vector();
     }
   }
-  // a scanner tells no top from the next
+  // a scanner does not identify the tops
   std::vector<int> places(std::size_t(made.cloud.cols()));
   for (std::size_t k = 0; k < places.size(); ++k) places[k] = int(k);
   std::shuffle(places.begin(), places.end(), draw);
@@ -79,7 +79,7 @@ inline MadeScan make_scan(const ScanTarget& form, const ScanMaking& how) {
 }
 
 /// Joints that were given the top of another joint, or of none. The shell's own symmetries may
-/// exchange joints: then the place is that of the joint which the top was made from.
+/// exchange joints: then the index is that of the joint which the top was made from.
 inline int wrong_joints(const MadeScan& made, const ScanTarget& form, const RegisteredScan& scan,
                         double height_mm) {
   const Eigen::Matrix3Xd back = scan.pose.of(made.pose.of(made.tops));

@@ -39,7 +39,7 @@ TEST_CASE("a case starts and ends every mesh on the branch of its reference") {
   }
 }
 
-TEST_CASE("every method comes to the same state of its mesh, the error falls with the edges",
+TEST_CASE("every method reaches the same state of its mesh, the error falls with the edges",
           "[standard]") {
   Watch watch;
   AccuracyOptions options;

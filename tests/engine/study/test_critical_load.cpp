@@ -59,8 +59,8 @@ CriticalLoad column(int edges) {
 }
 
 /// A rod that buckled to a half wave of amplitude a between its hinges, under a half wave of load
-/// that is 1 where its thrust comes to four times Euler's load and the full wave goes soft: what is
-/// inextensible keeps its amplitude until then, so that q = 3 EI k^4 a.
+/// that is 1 where its thrust reaches four times Euler's load and the full wave loses stability: an
+/// inextensible rod has this amplitude until then, so that q = 3 EI k^4 a.
 CriticalLoad buckled_arch(int edges) {
   constexpr double thin = 4e3, a = 5;
   const SingleRod single(edges, L, {1e7, thin, thin, thin, {0, 0}, 0}, RodEnd::pinned,
@@ -91,7 +91,7 @@ LoadStudy studied(const preset::Preset& preset, int imperfections = 0) {
 
 }  // namespace
 
-TEST_CASE("a shallow sinusoidal arch turns back at its limit point") {
+TEST_CASE("a shallow sinusoidal arch has a limit point") {
   const CriticalLoad coarse = shallow_arch(32), fine = shallow_arch(64);
   CHECK(fine.event == BranchEvent::turn);
   CHECK((4 * fine.factor - coarse.factor) / 3 == Approx(1).epsilon(1e-3));
@@ -99,7 +99,7 @@ TEST_CASE("a shallow sinusoidal arch turns back at its limit point") {
   // it goes down, most in its middle
   REQUIRE(fine.mode.size() > 0);
   CHECK(std::abs(fine.mode(2, 32)) == Approx(1));
-  // and on beyond the limit point, not stable
+  // and continues past the limit point, unstable
   CHECK(std::ranges::any_of(fine.points, [&](const TracedPoint& point) {
     return point.negative_pivots == 1 && point.at.t < 0.999 * fine.factor;
   }));
@@ -138,7 +138,7 @@ TEST_CASE("what a shell carries lies within its error of finer meshes' answer", 
   CHECK(std::abs(row.critical_factor - exact.critical_factor) < 2 * row.error);
   CHECK(row.error < 0.1 * row.critical_factor);
   CHECK(exact.error < row.error);
-  // of shells that are not perfect some come to a limit point below
+  // some of the imperfect shells have a limit point below
   CHECK(row.imperfections <= 5);
   CHECK(found.modes[0].colwise().norm().maxCoeff() == Approx(1));
   CHECK(found.points.front().factor == 0);
@@ -152,7 +152,7 @@ TEST_CASE("a portal frame sways and a ring turns oval where their closed forms s
   preset::NetworkData file;
   SECTION("of three rods that are bolted at the corners, hinged at its feet: x tan x = 6") {
     constexpr double side = 100, round_EI = 83e3 * M_PI * 0.254 * 0.254 * 0.254 * 0.254 / 64;
-    // columns end on the beam, which goes on a little; corners stay in the plane
+    // columns end on the beam, which extends slightly past them; corners stay in the plane
     file.points = {{0, 0, 0},    {0, side, 0},  {side, side, 0},
                    {side, 0, 0}, {-5, side, 0}, {side + 5, side, 0}};
     file.rods = {{0, 1}, {4, 1, 2, 5}, {3, 2}};
@@ -211,7 +211,7 @@ TEST_CASE("a portal frame sways and a ring turns oval where their closed forms s
   }
 }
 
-TEST_CASE("a beam comes to its strength where M c/I says") {
+TEST_CASE("a beam reaches its strength where M c/I says") {
   constexpr double span = 200, diameter = 0.254, strength = 2;
   preset::NetworkData file = cross(span / 2, span / 2);
   file.supports = {{0}, {1}, {2}, {3}};

@@ -53,7 +53,7 @@ TEST_CASE("modes: masses and stiffness set the time, shapes and states stay") {
     CHECK(heavy.modes[k].frequency_Hz == Approx(light.modes[k].frequency_Hz / 2).epsilon(1e-9));
     CHECK(light.shapes[k].cols() == light.state.frames.back().nodes.cols());
     CHECK(light.shapes[k].colwise().norm().maxCoeff() == Approx(1));
-    // what is held does not move
+    // constrained nodes do not move
     for (const int node : light.state.layout.edge_points)
       CHECK(light.shapes[k].col(node).norm() < 1e-9);
   }
@@ -83,7 +83,7 @@ TEST_CASE("modes: a joint that is pushed is held along the push, and free across
   CHECK(across > 0.1);
 }
 
-TEST_CASE("modes: the twist rung sways as the bend rung does") {
+TEST_CASE("modes: the twist model vibrates as the bend model does") {
   preset::Preset p = massive();
   p.accuracy.edges_per_segment = 4;
   const Vibrations bend = vibrations(p, 4);

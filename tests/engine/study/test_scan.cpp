@@ -1,4 +1,5 @@
-// Clusters of points, points laid on places, and scans made of simulated shells, with a known pose.
+// Clusters of points, registration of points, and scans made of simulated shells, with a known
+// pose.
 #include "engine/study/scan.h"
 
 #include "tests/engine/simulate/run.h"
@@ -139,7 +140,7 @@ TEST_CASE("half a shell over a table is found, and one seen from one side") {
   for (const auto& p : whole.cloud.colwise())
     if (p.x() + 0.3 * p.y() > middle.x() + 0.3 * middle.y()) half.push_back(p);
   CHECK(shows(matrix_of(half), circle()));
-  // a table beside and below it, each point by itself
+  // a table next to the shell and below it, each point separate
   std::mt19937_64 draw(5);
   std::uniform_real_distribution<double> share(-0.5, 1.5);
   std::vector<Eigen::Vector3d> over_table = half;
@@ -156,7 +157,7 @@ TEST_CASE("half a shell over a table is found, and one seen from one side") {
   CHECK(shows(matrix_of(among), circle()));
 }
 
-TEST_CASE("a joint that lies elsewhere is told with its distance") {
+TEST_CASE("a joint that lies elsewhere is reported with its distance") {
   ScanTarget bent = circle();
   bent.joints.col(40) += Eigen::Vector3d(0, 0, 1.2);
   const auto scan = value_of(laid(make_scan(bent, {}), circle()));
@@ -176,7 +177,7 @@ TEST_CASE("tops that all lie further out along the normals tell by how much") {
       CAPTURE(height, told);
       CHECK(told == Approx(height).margin(0.15));
     }
-  // of the height known nothing is left
+  // with the known height nothing remains
   const auto known = value_of(laid(make_scan(hemisphere(), {}), hemisphere()));
   CHECK(std::abs(beyond_height(known, hemisphere())) < 0.05);
 }

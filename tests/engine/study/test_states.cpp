@@ -48,7 +48,7 @@ TEST_CASE("states: the same whatever the threads, each once, in the order of ene
     if (k > 0) CHECK(rows[k - 1].energy_mJ() <= rows[k].energy_mJ());
     met += rows[k].count;
     confined += rows[k].count_confined;
-    // upright, as up and down are alike
+    // upright, as up and down are equivalent
     CHECK(one.states[k].frame.nodes.row(2).mean() > 0);
   }
   CHECK(met + confined <= one.search.at_rest + one.search.confined_at_rest);
