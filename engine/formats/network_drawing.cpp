@@ -16,6 +16,7 @@
 #include "engine/formats/obj_ply.h"
 #include "engine/formats/outline_file.h"
 #include "engine/formats/plain_text.h"
+#include "engine/formats/point_file.h"
 
 namespace gridshell::preset {
 namespace {
@@ -187,8 +188,8 @@ class MeshEdges {
     TRY(met, builder_.join_in_line());
     builder_.thin_out();
     if (faces_ > 0)
-      report.text += fmt::format("the edges of {} ({} of four corners); ", counted(faces_, "face"),
-                                 quads_);
+      report.text +=
+          fmt::format("the edges of {} ({} of four corners); ", counted(faces_, "face"), quads_);
     report.text += fmt::format("rods of {}, which meet in line at {}; ",
                                counted(known_.size(), "edge"), counted(std::size_t(*met), "point"));
     return builder_.take(name);
@@ -268,10 +269,9 @@ Result<NetworkData> read_network_mesh(std::string_view bytes, const std::string&
                             if (item.element == "edge") return edges.add_edge(item.corners, at);
                             return {};
                           })
-          : read_off_lines(
-                bytes, name, {add_point, [&](const auto& face, const auto& at) {
-                                return edges.add_face(face, at);
-                              }});
+          : read_off_lines(bytes, name, {add_point, [&](const auto& face, const auto& at) {
+                                           return edges.add_face(face, at);
+                                         }});
   if (!read) return tl::unexpected(read.error());
   report.text += unit_text(options, ply ? "PLY" : "OFF") + "; ";
   return edges.take(name, report);

@@ -45,9 +45,9 @@ struct NetworkOptions {
 ///          "joints": [[a, b, ...], ...] lists points that are one joint though they lie apart; or
 ///          {"point": number or place, or "points": list, "law": "free", "hinge", "rigid" or
 ///          "spring" of "shear_Nmm" and "twist_Nmm", and "eccentricity_mm"}
-///   .obj   "v x y z" and polylines "l a b c ..."; without these the edges of its faces "f a b c ..."
-///   .ply, .off   the edges of faces, of a .ply those of its element "edge" too
-///   .dxf   the curves of model space that are shown (dxf_file.h), where there is a layer "rods" of
+///   .obj   "v x y z" and polylines "l a b c ..."; without these the edges of its faces "f a b c
+///   ..." .ply, .off   the edges of faces, of a .ply those of its element "edge" too .dxf   the
+///   curves of model space that are shown (dxf_file.h), where there is a layer "rods" of
 ///          that one alone; a circle that marks a point of a rod is none
 /// In drawings, .obj and .dxf, lines that meet end to end and turn by at most 30 degrees are
 /// one rod, and rods are joined wherever they cross or touch; in JSON where they name the same

@@ -11,6 +11,7 @@
 
 #include "engine/core/point_grid.h"
 #include "engine/geometry/mesh_lines.h"
+#include "engine/geometry/surface.h"
 
 namespace gridshell {
 namespace {
@@ -173,8 +174,8 @@ Sides joined_sides(const Eigen::Matrix3Xd& x, const Triangles& triangles) {
   return all;
 }
 
-/// Vertices of their own for what hangs together around each.
-void part(Eigen::Matrix3Xd& x, Triangles& triangles, const std::vector<Link>& links) {
+/// Vertices of their own for what hangs together around each; returns which each was.
+std::vector<int> part(Eigen::Matrix3Xd& x, Triangles& triangles, const std::vector<Link>& links) {
   Sets corners(3 * triangles.size());
   const auto corner_at = [&](int t, int vertex) {
     const auto& all = triangles[std::size_t(t)];
@@ -193,6 +194,26 @@ void part(Eigen::Matrix3Xd& x, Triangles& triangles, const std::vector<Link>& li
       vertex = found->second;
     }
   x = Eigen::Matrix3Xd(x(Eigen::all, from));
+  return from;
+}
+
+/// Vertices that were one and are not any more draw back a little, each into its triangles.
+void draw_apart(Eigen::Matrix3Xd& x, const Triangles& triangles, const std::vector<int>& from) {
+  constexpr double way = 1e-3;  // to the middle of its triangles
+  std::map<int, std::vector<int>> of;
+  for (int t = 0; t < int(triangles.size()); ++t)
+    for (const int vertex : triangles[std::size_t(t)]) of[vertex].push_back(t);
+  std::map<int, int> now;
+  for (const auto& [vertex, around] : of) ++now[from[std::size_t(vertex)]];
+  const Eigen::Matrix3Xd old = x;
+  for (const auto& [vertex, around] : of) {
+    if (now[from[std::size_t(vertex)]] < 2) continue;
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (const int t : around)
+      for (const int corner : triangles[std::size_t(t)])
+        middle += old.col(corner) / double(3 * around.size());
+    x.col(vertex) += way * (middle - old.col(vertex));
+  }
 }
 
 /// Keeps the piece with the largest area. Returns how many there are, and the fraction of the area
@@ -261,7 +282,8 @@ void keep_upper(const Eigen::Matrix3Xd& x, Triangles& triangles, const std::vect
   });
 }
 
-/// How many vertices were moved, and how far at most; none where that does not help.
+/// Moves vertices where triangles are folded onto one another or cross to the middle of those
+/// around; how many, and how far at most; none where that does not help.
 std::pair<std::size_t, double> unfold(Eigen::Matrix3Xd& x, const Triangles& triangles) {
   constexpr int most_rounds = 40;
   const double most = farthest * size_of(x);
@@ -274,6 +296,9 @@ std::pair<std::size_t, double> unfold(Eigen::Matrix3Xd& x, const Triangles& tria
       around[std::size_t(edge[0])].insert(edge[1]);
       around[std::size_t(edge[1])].insert(edge[0]);
     }
+  double mean_edge = 0;
+  for (const auto& [edge, at] : sides)
+    mean_edge += (x.col(edge[0]) - x.col(edge[1])).norm() / double(sides.size());
   const Eigen::Matrix3Xd before = x;
   for (int round = 0; round < most_rounds; ++round) {
     std::set<int> wrong;
@@ -286,6 +311,12 @@ std::pair<std::size_t, double> unfold(Eigen::Matrix3Xd& x, const Triangles& tria
       for (const auto& [t, k] : at)
         wrong.insert(triangles[std::size_t(t)][std::size_t(next(next(k)))]);
     }
+    // where it runs through itself, the vertices around
+    if (wrong.empty())
+      if (const auto crossing = first_crossing(x, triangles, mean_edge); crossing && *crossing)
+        for (int k = 0; k < int(x.cols()); ++k)
+          if ((x.col(k) - **crossing).norm() < 1.5 * mean_edge && !around[std::size_t(k)].empty())
+            wrong.insert(k);
     if (wrong.empty()) {
       const Eigen::RowVectorXd moved = (x - before).colwise().norm();
       return {std::size_t((moved.array() > 0).count()), moved.maxCoeff()};
@@ -316,12 +347,17 @@ MendedMesh mended(const Eigen::Matrix3Xd& vertices, std::vector<std::array<int, 
                            "triangles without area, or there twice, are") +
                    " left out");
   if (all.empty()) return mesh;
+  if (const auto [moved, far] = unfold(x, all); moved > 0)
+    done.push_back(
+        fmt::format("the mesh is folded onto itself: {} moved, by {:.2g} mm at most, to unfold it",
+                    counted(moved, "vertex is", "vertices are"), far));
   const Sides sides = joined_sides(x, all);
   if (sides.of_several > 0)
     done.push_back(counted(sides.of_several, "edge has", "edges have") +
                    " more than two triangles: the two that go on straightest stay joined");
-  part(x, all, sides.links);
-  auto [pieces, left_out] = keep_largest(x, all, sides.links);
+  const auto from = part(x, all, sides.links);
+  const auto [pieces, left_out] = keep_largest(x, all, sides.links);
+  draw_apart(x, all, from);
   if (joined_sides(x, all).open == 0) {
     const double area =
         std::accumulate(all.begin(), all.end(), 0.0,
@@ -329,8 +365,9 @@ MendedMesh mended(const Eigen::Matrix3Xd& vertices, std::vector<std::array<int, 
     keep_upper(x, all, joined_sides(x, all).links);
     if (all.empty()) return mesh;
     const auto links = joined_sides(x, all).links;
-    part(x, all, links);
+    const auto parted = part(x, all, links);
     const auto upper = keep_largest(x, all, links);
+    draw_apart(x, all, parted);
     const double kept =
         std::accumulate(all.begin(), all.end(), 0.0,
                         [&](double sum, const Triangle& t) { return sum + area_of(x, t).norm(); });

@@ -21,9 +21,10 @@ struct MendedMesh {
 ///   that such a triangle had on another's edge is divided there;
 /// - where more than two triangles share an edge the two that go on straightest stay joined, where
 ///   two are folded onto one another by more than 150 degrees they are parted, and so are parts
-///   that touch in one vertex;
+///   that touch in one vertex; vertices parted so draw back by a thousandth of their triangles;
 /// - of a closed mesh the part that faces up is taken;
-/// - single vertices at which the sheet is folded go to the mean of their neighbours, by no more
+/// - vertices at which noise folds the sheet or lets it cross itself go to the mean of their
+/// neighbours, by no more
 ///   than 3 % of the size, else they stay.
 MendedMesh mended(const Eigen::Matrix3Xd& vertices, std::vector<std::array<int, 3>> triangles);
 

@@ -194,7 +194,8 @@ TEST_CASE("the edges of a mesh are rods, those in line one, in OBJ, PLY and OFF"
       "ply\nformat ascii 1.0\nelement vertex 12\nproperty float x\nproperty float y\n"
       "property float z\nelement edge 3\nproperty int vertex1\nproperty int vertex2\n"
       "end_header\n";
-  for (const auto& [text, name] : {std::pair(rows + obj, "q.obj"), {ply + vertices + faces, "q.ply"},
+  for (const auto& [text, name] : {std::pair(rows + obj, "q.obj"),
+                                   {ply + vertices + faces, "q.ply"},
                                    {"OFF\n12 6 0 # remark\n" + vertices + faces, "q.off"}}) {
     FileReport report;
     const NetworkData network = value_of(read_network(text, name, {}, &report));
