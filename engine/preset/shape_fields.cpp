@@ -81,7 +81,8 @@ void add_footprint(std::vector<Field>& all) {
   };
   list.add<&Footprint::file>(
           "of a footprint of kind \"network\": its points, rods, supports and where these go "
-          "(.json), or its rods alone (.obj, .dxf); of boundary = \"file\": a drawing (.dxf, .svg, "
+          "(.json), or its rods alone (.obj, .dxf, .ply, .off); of boundary = \"file\": a drawing "
+          "(.dxf, .svg, "
           ".obj) whose largest closed line is the boundary, about the middle of the box around it; "
           "mm")
       .unused({"kind"}, "only a network, and a curve whose boundary is \"file\", use it",
