@@ -193,8 +193,11 @@ Result<NetworkData> read_network(std::string_view bytes, const std::string& name
     if (ending == ".json") return read_network_json(bytes, name, options);
     if (ending == ".obj") return read_network_obj(bytes, name, options, found);
     if (ending == ".dxf") return read_network_dxf(bytes, name, options, found);
+    if (ending == ".ply" || ending == ".off") return read_network_mesh(bytes, name, options, found);
     return invalid(
-        "{}: its name must end in .json (points, rods and supports), .obj or .dxf (rods)", name);
+        "{}: its name must end in .json (points, rods and supports), .obj or .dxf (rods), .ply or "
+        ".off (a mesh whose edges are rods)",
+        name);
   };
   auto network = read();
   if (!network || !report) return network;
