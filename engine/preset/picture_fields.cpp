@@ -60,7 +60,9 @@ void add_movie(FieldList<Movie> list) {
   list.add<&M::captions>("whether to write radius, height and frame");
   list.add<&M::beside>(
       "whether a movie shows the cases of a preset beside one another; else each has its own");
-  list.add<&M::view>("a standard view, in the place of azimuth_deg and elevation_deg");
+  list.add<&M::view>(
+      "a standard view, in the place of azimuth_deg and elevation_deg; push: from the side, with "
+      "the direction of the push in the plane of the picture");
   list.add<&M::target_mm>(
           "what stands in the middle of the shell's panel; empty: the middle of all that moves")
       .shape("[x, y, z]");
@@ -77,7 +79,8 @@ void add_movie(FieldList<Movie> list) {
   list.add<&M::seconds>(at_least(0),
                         "how long the movie is without hold and title card; 0: frames / fps")
       .unit("s");
-  list.add<&M::hold_s>(between(0, 60), "how long the last frame stands");
+  list.add<&M::hold_first_s>(between(0, 60), "how long the first frame is held before it moves");
+  list.add<&M::hold_s>(between(0, 60), "how long the last frame is held");
   list.add<&M::title_s>(between(0, 60),
                         "how long a card with title and source stands at the begin; 0: none");
   list.add<&M::pace>("eased: slow at both ends");
@@ -90,7 +93,7 @@ void add_style(FieldList<Style> list) {
   using S = Style;
   list.add<&S::theme>(
       "screen: coloured cells, floor and shadow; paper: black rods on white, as in the paper's "
-      "figures");
+      "figures; dark: as screen, light on a dark background");
   list.add<&S::rod_width_mm>(at_least(0),
                              "width of rods as drawn, no less than a pixel; 0: the theme's");
   list.add<&S::joint_width_mm>(at_least(0), "of joints; 0: the theme's");
@@ -115,6 +118,9 @@ void add_style(FieldList<Style> list) {
       "push "
       "has its own");
   list.add<&S::braces>("whether braces are shown");
+  list.add<&S::ghost>(
+      "whether a shell that is pushed, loaded or has snapped is shown over its first state in "
+      "grey");
   list.add<&S::far_fade>(between(0, 1), "by how much the far side pales into the background");
   list.add<&S::letters>("whether the panels of a figure bear letters");
   list.add<&S::font>("family of all text, in all cases; empty: DejaVu Sans, which has every sign");
@@ -155,6 +161,7 @@ void add_figure(FieldList<Figure> list) {
           "joints measured by others, mm, in the frame of the net: red over shells on their nets, "
           "and in the latitude plot")
       .points({"x", "y", "z"});
+  list.add<&Figure::title>("whether stills, figures and plots have their title above them");
   list.add<&Figure::quality>("of stills, as [movie] quality");
   list.add<&Figure::width_mm>(
       at_least(0), "width of a whole figure as printed; 0: as many pixels as [movie] size says");
@@ -172,6 +179,9 @@ void add_page(FieldList<Page> list) {
   list.add<&Page::kind>(
       "figure of the paper that `figure` lays out on one page; \"literature\": all cases alike");
   list.add<&Page::photo>("a PNG in the photograph's place; empty: an empty frame");
+  list.add<&Page::drawn>(
+      "whether the page is made with pictures of the shells too, NAME_page_drawn, beside that of "
+      "lines");
   list.add<&Page::sweep>(
           "finished sweep over legs and rods in the phase diagram's place: its folder, its "
           "sweep.csv, or fig2_phase_diagram.csv, which comes with the presets; empty: an empty "
