@@ -1,10 +1,11 @@
 // The mean of a pixel's samples, in linear light.
 uniform sampler2D samples;
 uniform vec2 texel_of_samples;
+uniform vec2 corner;  // of the samples, in the target
 out vec4 fragment;
 
 void main() {
-  ivec2 first = ivec2(gl_FragCoord.xy) * PER_SIDE;
+  ivec2 first = ivec2(gl_FragCoord.xy - corner) * PER_SIDE;
 #if PER_SIDE == 2
   fragment = textureLod(samples, (vec2(first) + 1.0) * texel_of_samples, 0.0);
 #else

@@ -3,7 +3,6 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec4 direction;  // axis, and radius with the sign of the card's side
 layout(location = 2) in vec4 colour;     // alpha in thirds: bit 0 the other side, bit 1 a ball
 uniform mat4 view_projection;
-uniform float ground_z;
 out vec3 surface;
 out vec4 shade;     // place on the shadow map, and the shine's hue
 out vec4 half_way;  // to the light, and the haze
@@ -34,5 +33,4 @@ void main() {
   half_way = vec4(normalize(sight + light_direction), haze_at(position));
   vec3 at = position + place.x * radius * right + place.y * high * up;
   gl_Position = view_projection * vec4(at, 1.0);
-  gl_ClipDistance[0] = position.z - ground_z;
 }

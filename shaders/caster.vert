@@ -11,7 +11,8 @@ out float cover;
 
 void main() {
   height = clamp((position.z - ground_z) * height_scale, 0.0, 1.0);
-  cover = colour.a;
+  // what dips below the ground lies in its openings
+  cover = position.z < ground_z ? 0.0 : colour.a;
   vec3 at = position;
   if (ribbons) at += sign(direction.w) * radius_of(direction.w) * across_of(direction.xyz, light);
   gl_Position = light_matrix * vec4(at, 1.0);

@@ -2,7 +2,6 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec4 direction;  // tangent, and radius with the side's sign
 layout(location = 2) in vec4 colour;
 uniform mat4 view_projection;
-uniform float ground_z;
 out vec4 surface;
 out vec4 shade;  // place on the shadow map, and the shine's hue
 // cosines of what is at right angles to the axis, across the ribbon and towards the eye
@@ -24,5 +23,4 @@ void main() {
                        haze_at(position));
   place = vec2(sign(direction.w) * reach, radius) / unit;
   gl_Position = view_projection * vec4(position + sign(direction.w) * reach * across, 1.0);
-  gl_ClipDistance[0] = position.z - ground_z;
 }

@@ -3,11 +3,9 @@
 layout(location = 0) in vec3 position;
 layout(location = 2) in vec4 colour;
 uniform mat4 view_projection;
-uniform float ground_z;
 out vec4 tint;  // premultiplied
 
 void main() {
   tint = vec4(colour.rgb * colour.a, colour.a);
   gl_Position = view_projection * vec4(position, 1.0);
-  gl_ClipDistance[0] = position.z - ground_z;
 }

@@ -125,7 +125,8 @@ Result<void> draw_push_pictures(const Runs& runs, const std::string& title,
   auto style = style_of(runs.front()->preset, Pictures::stills);
   // several are the preset's, and each bears its own title
   const bool several = runs.size() > 1;
-  if (several) style.title = title;
+  const std::string above = runs.front()->preset.figure.title ? title : "";
+  if (several) style.title = above;
   std::vector<render::NetRun> shells;
   std::vector<render::NamedRun> named;
   for (const Run* run : runs) {
@@ -138,7 +139,7 @@ Result<void> draw_push_pictures(const Runs& runs, const std::string& title,
                      with_suffix(stem, "_loads.png")));
   TRY_DO(render::write_plot(with_suffix(stem, "_force"), force, style.print));
   // one by itself has its title over its own plot
-  return render::write_push_bins(with_suffix(stem, "_bins"), named, several ? title : "",
+  return render::write_push_bins(with_suffix(stem, "_bins"), named, several ? above : "",
                                  style.print);
 }
 
@@ -146,7 +147,7 @@ Result<void> draw_push_pictures(const Runs& runs, const std::string& title,
 Result<void> draw_cases(const Runs& runs, const std::string& title, const SharedColourBar& bar,
                         render::Renderer& renderer, const fs::path& stem, Watch& watch) {
   auto style = render::still_style(style_of(runs.front()->preset, Pictures::stills));
-  style.title = title;
+  style.title = runs.front()->preset.figure.title ? title : "";
   style.heading = style.legends = style.look.floor = false;
   render::PanelFigure figure = render::empty_figure(style, 3);
   figure.colour_bar = bar;
@@ -196,15 +197,8 @@ Result<void> draw_together(const std::vector<Run>& runs, const std::string& titl
 
 Result<void> save_panels(const Result<render::PanelFigure>& figure, const fs::path& file,
                          double dpi) {
-  TRY(picture, figure.and_then(render::draw_panels));
-  TRY_DO(render::write_png(*picture, file, dpi));
-  if (!figure->panels.front().lines) return {};
-  const double width = figure->print.width_pt(0.5 * picture->width);
-  return render::write_figure(
-      fs::path(file).replace_extension() += "_lines", width,
-      width * picture->height / picture->width, figure->title, [&](render::Canvas& canvas) {
-        render::draw_panels_on(canvas, {0, 0, canvas.width(), canvas.height()}, *figure, true);
-      });
+  if (!figure) return tl::unexpected(figure.error());
+  return render::write_panels(*figure, file, dpi);
 }
 
 Result<void> draw_net_pictures(const Runs& runs, render::Renderer& renderer, const fs::path& stem,

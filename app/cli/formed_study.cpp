@@ -235,7 +235,7 @@ Result<void> draw_movie(const preset::Preset& preset, const Vibrations& found, s
                         render::Renderer& renderer, const fs::path& folder, Watch& watch) {
   Run run{.preset = preset, .pictures = Pictures::movie};
   run.preset.title = preset.title + ", " + render::plain(caption_of(found.modes[k]));
-  run.preset.movie.hold_s = run.preset.movie.title_s = 0;
+  run.preset.movie.hold_first_s = run.preset.movie.hold_s = run.preset.movie.title_s = 0;
   run.preset.movie.captions = false;
   run.preset.movie.colour_by = preset::ColourBy::displacement;
   run.preset.movie.turn_deg = 0;

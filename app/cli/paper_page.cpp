@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/cli/console.h"
@@ -28,6 +29,9 @@ class PageMaker {
     style_.look.letters = false;
     style_.scale_bar_mm = 0;
     style_.title.clear();
+    // lines take no light
+    style_.vector = true;
+    if (!records.front()->preset.page.drawn) style_.quality = preset::Quality::draft;
     // a floor would end at every panel's edge
     if (records.front()->preset.style.floor == preset::Visibility::automatic)
       style_.look.floor = false;
@@ -74,7 +78,10 @@ class PageMaker {
   }
 
   render::MovieStyle sized(render::MovieStyle style, double width_mm, double height_mm) const {
-    return at_size(std::move(style), width_mm, height_mm, records_.front()->preset.figure.dpi);
+    // widths of lines are no less than a pixel: of print, whatever the PNG has
+    constexpr double least_dpi = 300;
+    return at_size(std::move(style), width_mm, height_mm,
+                   std::max(least_dpi, records_.front()->preset.figure.dpi));
   }
 
   bool has_photo() const { return !records_.front()->preset.page.photo.empty(); }
@@ -103,8 +110,8 @@ class PageMaker {
     for (int k = 0; k < count; ++k) {
       const record::Frame& frame = run.frames[std::size_t(k)];
       TRY(picture, stage.draw_views(renderer_, {frame, k}));
-      render::Panel panel{std::move(*picture), fmt::format("{}{}", photo ? "B" : "A", k + 1), ""};
-      if (style.vector) panel.lines = render::shell_lines(stage.drawing(frame), stage.camera(k));
+      render::Panel panel{std::move(*picture), fmt::format("B{}", k + 1), ""};
+      panel.lines = render::shell_lines(stage.drawing(frame), stage.camera(k));
       const Box box =
           photo ? Box{97, 2 + k * height, width, height} : Box{2 + k * width, 2, width, height};
       page.add_panel(render::frame_state_caption(frame), box, std::move(panel));
@@ -123,19 +130,18 @@ class PageMaker {
     const bool photo = has_photo();
     if (photo) TRY_DO(add_photo(page, {2, 2, 52, 50}));
     const Box domains = photo ? Box{56, 2, 120, 50} : Box{2, 2, 174, 50};
-    page.add(photo ? "B" : "A", "", domains,
-             [runs = named_shells_](Canvas& canvas, const Box& box) {
-               render::draw_footprints(canvas, box, runs);
-             });
+    page.add("B", "", domains, [runs = named_shells_](Canvas& canvas, const Box& box) {
+      render::draw_footprints(canvas, box, runs);
+    });
     const Box left{2, 54, 84, 40}, below{2, 96, 174, 33};
     TRY(over, render::draw_over_nets({shells_.front()}, filling(left, 1), renderer_, watch_));
-    page.add_figure(photo ? "C" : "B", left, std::move(*over));
-    page.add_plot("", {90, 54, 86, 40},
+    page.add_figure("C1", left, std::move(*over));
+    page.add_plot("C2", {90, 54, 86, 40},
                   render::latitude_plot(named_shells_.front(), shells_.front().scanned));
     const int columns = std::min(6, int(shells_.size()));
     TRY(caps, render::draw_deviations(shells_, filling(below, columns, true), renderer_, watch_,
                                       columns));
-    page.add_figure(photo ? "D" : "C", below, std::move(*caps));
+    page.add_figure("D", below, std::move(*caps));
     note_shell(page, 130);
     return page;
   }
@@ -148,8 +154,8 @@ class PageMaker {
     page.add_note(
         {2, y, 174, 4},
         fmt::format(
-            "Hemisphere with rods {}: {} joints, at most {:.2f} % of *ρ* off the net (Δ).",
-            axis ? "on the axes, so that one joint is the pole" : "half a spacing off the axes",
+            "Hemisphere with rods {}: {} joints, maximum deviation Δ/*ρ* = {:.2f} %.",
+            axis ? "on the axes, so that one joint is the pole" : "offset by *d*/2 from the axes",
             one.trajectory.layout.joints.size(), 100 * one.summary.max_deviation));
   }
 
@@ -163,8 +169,8 @@ class PageMaker {
   /// Why the totals of K change.
   static std::string total_text(const record::Trajectory& run) {
     return fmt::format(
-        "D: Σ*K*_{{□}} = 2*π* − the turning of the complete cells' boundary ({:.3f} rad unloaded), "
-        "which a push changes.",
+        "D: Σ*K*_{{□}} = 2*π* minus the integrated geodesic curvature ({:.3f} rad unloaded) of the "
+        "boundary of all complete cells (Gauss–Bonnet).",
         2 * M_PI - run.frames.front().total_K);
   }
 
@@ -181,6 +187,7 @@ class PageMaker {
     if (push_ != nullptr) {
       push_style.azimuth_deg = push_->preset.movie.azimuth_deg;
       push_style.elevation_deg = push_->preset.movie.elevation_deg;
+      push_style.look.ghost = false;
     }
     TRY(pushes, render::draw_pushes(pushes_, push_style, renderer_, watch_));
     page.add_figure("C", middle, std::move(*pushes));
@@ -221,16 +228,18 @@ class PageMaker {
                  render::draw_block_footprints(
                      canvas, {box.x + room, box.y, box.width - room, box.height}, run, kinds);
                });
-    page.add_note({92, 52, 84, 4}, "B: blocks, joined; dashed: the rim of the shell at rest");
+    page.add_note({92, 52, 84, 4},
+                  "B: footprints of the blocks, joined; dashed: actuated boundary");
     TRY(over,
         render::draw_over_nets(shells_, filling(below, std::min(2, count)), renderer_, watch_, 2));
     for (int k = 0; k < count && count > 1; ++k)
       over->panels[std::size_t(k)].letter = numbered("C", k, count);
     // the blocks' colours are above
-    over->keys = {{over->keys.front().colour, "shell at rest, over the nets of A"}};
+    over->keys = {{over->keys.front().colour, "equilibrium, over the Chebyshev nets of A"}};
     page.add_figure(count > 1 ? "" : "C", below, std::move(*over));
-    TRY(more, add_experiment(page));
-    page.add_plot(*more, {116, 58, 60, 57}, low_curvature_plot());
+    TRY_DO(add_experiment(page));
+    // the paper has none of it, and so no letter
+    page.add_plot("", {116, 58, 60, 57}, low_curvature_plot());
     return page;
   }
 
@@ -240,7 +249,7 @@ class PageMaker {
     constexpr int columns = 3;
     constexpr double width = 57, high = 36, pitch = 51;  // mm
     const int count = int(records_.size());
-    Page page{178, 3 + pitch * ((count + columns - 1) / columns), {}};
+    Page page{178, 7 + pitch * ((count + columns - 1) / columns), {}};
     for (int k = 0; k < count; ++k) {
       const Run& run = *records_[std::size_t(k)];
       record::Frame frame = run.trajectory.frames.back();
@@ -251,13 +260,16 @@ class PageMaker {
       render::MovieStyle style = style_of(run.preset, Pictures::stills);
       style.look.floor = style.look.rings = style.look.loads = style.look.cells = false;
       style.colour_by = preset::ColourBy::none;
+      style.quality = style_.quality;
       style = sized(std::move(style), width - 4, high);
       style.captions = style.heading = style.inset = style.legends = false;
       style.turn_deg = 0;
       const render::Stage stage(last, style);
       TRY(picture, stage.draw_views(renderer_, {last.frames.front(), 0}));
+      render::Panel panel{std::move(*picture), std::string(1, char('A' + k)), ""};
+      panel.lines = render::shell_lines(stage.drawing(last.frames.front()), stage.camera(0));
       const Box box{2 + k % columns * (width + 1.5), 3 + k / columns * pitch, width, high};
-      page.add_image(std::string(1, char('A' + k)), "", box, std::move(*picture));
+      page.add_panel("", box, std::move(panel));
       const double units = high * 72 / 25.4 * stage.pixels_per_mm() / style.height();
       page.add_scale_bar({box.x + 3, box.bottom(), width - 3, 6}, round_length(34 / units), units);
       page.add_note({box.x + 3, box.bottom() + 6, width - 3, 4}, render::plain(run.preset.title));
@@ -280,16 +292,14 @@ class PageMaker {
     return count > 1 ? fmt::format("{}{}", letter, k + 1) : letter;
   }
 
-  /// D, a photograph, and E, the shell of which joints were measured, in a row of their own; the
-  /// letter after those that are there.
-  Result<std::string> add_experiment(Page& page) {
+  /// D, a photograph, and E, the shell of which joints were measured, in a row of their own.
+  Result<void> add_experiment(Page& page) {
     const auto measured =
         std::ranges::find_if(shells_, [](const auto& one) { return one.scanned.cols() > 0; });
-    char letter = 'D';
     const Box left{2, 118, 86, 50}, right{90, 118, 86, 50};
     if (has_photo()) {
       TRY(photo, as_input(render::read_png(records_.front()->preset.page.photo)));
-      page.add_image(std::string(1, letter++), "", left, std::move(*photo));
+      page.add_image("D", "", left, std::move(*photo));
     }
     if (measured != shells_.end()) {
       record::Trajectory alone;
@@ -299,10 +309,10 @@ class PageMaker {
       alone.frames = {measured->run->frames.back()};
       TRY(shell, render::draw_over_nets({{&alone, measured->caption, measured->scanned}},
                                         filling(right, 1), renderer_, watch_));
-      page.add_figure(std::string(1, letter++), right, std::move(*shell));
+      page.add_figure("E", right, std::move(*shell));
     }
-    if (letter > 'D') page.height_mm = 170;
-    return std::string(1, letter);
+    if (has_photo() || measured != shells_.end()) page.height_mm = 170;
+    return {};
   }
 
   const Runs& records_;
@@ -323,7 +333,7 @@ Result<void> draw_page(const Runs& records, render::Renderer& renderer, const fs
   TRY(page, PageMaker(records, renderer, watch).make(preset.page.kind));
   const render::Print print{preset.figure.width_mm, preset.figure.dpi};
   return render::write_page(fs::path(stem) += "_page", preset.source, page->width_mm,
-                            page->height_mm, page->panels, print, preset.figure.vector);
+                            page->height_mm, page->panels, print, preset.page.drawn);
 }
 
 }  // namespace gridshell::app

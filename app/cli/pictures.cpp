@@ -40,23 +40,6 @@ Result<PictureMaker> PictureMaker::create(const std::string& context) {
 
 namespace {
 
-// the last frame as lines
-Result<void> write_lines(const record::Trajectory& run, render::MovieStyle style,
-                         const fs::path& stem) {
-  style.captions = style.inset = style.legends = false;
-  style.turn_deg = 0;
-  const render::Stage stage(run, style);
-  const int last = stage.frames() - 1;
-  const double points = style.print.width_pt(0.5 * style.width());
-  const auto drawing = stage.drawing(run.frames.back());
-  return render::write_figure(fs::path(stem) += "_lines", points,
-                              points * style.height() / style.width(), style.title,
-                              [&](render::Canvas& canvas) {
-                                const render::Box page{0, 0, canvas.width(), canvas.height()};
-                                render::draw_shell_lines(canvas, page, drawing, stage.camera(last));
-                              });
-}
-
 /// Of stills that each show the end of a step: which; else what the stills say by themselves.
 std::vector<std::string> captions_of(const preset::Preset& preset, const record::Trajectory& run) {
   std::vector<std::string> captions;
@@ -88,7 +71,7 @@ Result<void> draw_stills(const preset::Preset& preset, const record::Trajectory&
   const auto style = style_of(preset, Pictures::stills);
   const auto stem = folder / fs::path(preset.name).filename();
   TRY_DO(render::write_stills(run, style, bar, renderer, stem, watch, captions_of(preset, run)));
-  return style.vector ? write_lines(run, style, stem) : Result<void>{};
+  return {};
 }
 
 Result<void> draw_movie(const Run& run, const SharedColourBar& bar, render::Renderer& renderer,

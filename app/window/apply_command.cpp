@@ -8,6 +8,7 @@
 #include "app/window/command.h"
 #include "app/window/edit_session.h"
 #include "engine/core/try.h"
+#include "engine/design/design_shell.h"
 #include "engine/gridshell.h"
 
 namespace gridshell::window {

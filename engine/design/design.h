@@ -14,6 +14,8 @@
 
 namespace gridshell {
 
+class DesignShell;
+
 /// Edges per segment: optima on 4 are saddles of the shell.
 inline constexpr int designed_on = 16, certified_on = 32;
 

@@ -6,6 +6,7 @@
 
 #include "engine/core/dense.h"
 #include "engine/core/try.h"
+#include "engine/design/design_shell.h"
 #include "engine/scene/net_design.h"
 
 namespace gridshell {

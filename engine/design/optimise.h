@@ -7,11 +7,14 @@
 #include <vector>
 
 #include "engine/core/watch.h"
-#include "engine/design/design_shell.h"
+#include "engine/design/variables.h"
 #include "engine/preset/preset.h"
 #include "engine/scene/scene.h"
 
 namespace gridshell {
+
+class DesignShell;
+struct Sensitivity;
 
 /// The distance of each joint from the target as a vector, 3 x joints, mm, and the projection of a
 /// joint's displacement that changes it: the identity if the joint's position on the net is the

@@ -1,4 +1,4 @@
-#include "engine/design/design_shell.h"
+#include "engine/design/variables.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -42,8 +42,10 @@ inline __attribute__((always_inline)) void along_rod(const Model& model, const M
 }
 
 template <class Law>
-PairGeometry pair_geometry(const Model& model, const State& state, const Pair<Law>& pair) {
+PairGeometry pair_geometry(const Model& model, const State& state, const Pair<Law>& pair,
+                           double opening = 0) {
   PairGeometry at;
+  at.opening = opening;
   at.e = geometry_of(state.x, model.edges[std::size_t(pair.e)]);
   at.f = geometry_of(state.x, model.edges[std::size_t(pair.f)]);
   if (!model.has_spins()) return at;
@@ -60,18 +62,21 @@ void each_pair_list(const Model& model, Visit visit) {
   std::apply([&](const auto&... lists) { (visit(lists), ...); }, model.pairs);
 }
 
-/// The mean of what pairs of edges have their parts of, rad.
-template <class Law>
-double mean_of(const Model& model, const State& state, const std::vector<Pair<Law>>& pairs,
-               double sum = 0) {
-  for (const auto& pair : pairs) sum += pair.law.excess(pair_geometry(model, state, pair));
-  return sum;
+/// visit(pair, place of its torque among the forces) for every joint with a spring
+template <class Visit>
+void each_spring(const Model& model, Visit visit) {
+  Eigen::Index place = Eigen::Index(model.edges.size());
+  for (const auto& pair : std::get<std::vector<Pair<JointAngle>>>(model.pairs))
+    visit(pair, place++);
 }
 
-/// Mean angle at a joint beyond that at rest, so much of its opening having come, rad.
-inline double excess_of(const Model& model, const State& state, const ModelShear& shear,
-                        double opening) {
-  return mean_of(model, state, shear.pairs, -opening * shear.opening);
+/// visit(edge, column of the angle's slope by its vector, among an assembly's tangents) for both
+/// edges of such a joint
+template <class Visit>
+void each_arm(const Model& model, const Pair<JointAngle>& pair, Eigen::Index place, Visit visit) {
+  const Eigen::Index first = 2 * place - Eigen::Index(model.edges.size());
+  visit(model.edges[std::size_t(pair.e)], first);
+  visit(model.edges[std::size_t(pair.f)], first + 1);
 }
 
 inline Eigen::Vector3d gap_of(const State& state, const NodeSpring& spring) {
@@ -131,9 +136,10 @@ void add_spin_hessian(const Model& model, const Pair<Law>& pair, const PairMatri
   }
 }
 
+/// By the edge vectors alone.
 template <class Law>
-void add_pair_hessian(const Model& model, const Pair<Law>& pair, const PairMatrix& H,
-                      BlockHessian& h) {
+void add_vector_hessian(const Model& model, const Pair<Law>& pair, const PairMatrix& H,
+                        BlockHessian& h) {
   const ModelEdge &e = model.edges[std::size_t(pair.e)], &f = model.edges[std::size_t(pair.f)];
   add_edge_block(e, H.block<3, 3>(0, 0), h);
   add_edge_block(f, H.block<3, 3>(3, 3), h);
@@ -142,6 +148,12 @@ void add_pair_hessian(const Model& model, const Pair<Law>& pair, const PairMatri
   for (int a = 0; a < 2; ++a)
     for (int b = 0; b < 2; ++b)
       add_block(of_e[a], of_f[b], pair.slots.across[a][b], a == b ? ef : Eigen::Matrix3d(-ef), h);
+}
+
+template <class Law>
+void add_pair_hessian(const Model& model, const Pair<Law>& pair, const PairMatrix& H,
+                      BlockHessian& h) {
+  add_vector_hessian(model, pair, H, h);
   if (model.has_spins()) add_spin_hessian(model, pair, H, h);
 }
 

@@ -3,6 +3,7 @@
 #include "engine/elastic/assembly.h"
 
 #include <cmath>
+#include <type_traits>
 
 #include "engine/core/block3.h"
 #include "engine/elastic/along_rods.h"
@@ -24,8 +25,9 @@ inline void keep_largest(double& largest, double value) {
 void reset(const Model& model, Assembly& out) {
   out.energies = {};
   out.gradient.setZero(3, model.columns());
-  out.force.resize(Eigen::Index(model.edges.size()));
-  out.tangents.resize(3, Eigen::Index(model.edges.size()));
+  const Eigen::Index edges = Eigen::Index(model.edges.size());
+  out.force.resize(model.forces());
+  out.tangents.resize(3, 2 * model.forces() - edges);
   out.smallest_cosine = 1;
   out.largest_strain = 0;
   out.overlap = false;
@@ -133,14 +135,15 @@ void add_action_hessian(const NodeAction& action, double factor, const Eigen::Ma
 void add_others(const Model& model, const State& state, const ExternalLoads& outside,
                 bool with_hessian, Assembly& out) {
   each_pair_list(model, [&]<class Law>(const std::vector<Pair<Law>>& list) {
-    for (const Pair<Law>& pair : list) {
-      PairEnergy energy;
-      out.energies[Law::term] += pair.law.add(pair_geometry(model, state, pair), energy);
-      add_pair_gradient(model, pair, energy, out);
-      if (with_hessian) add_pair_hessian(model, pair, energy.hessian, out.hessian);
-    }
+    if constexpr (!std::is_same_v<Law, JointAngle>)
+      for (const Pair<Law>& pair : list) {
+        PairEnergy energy{.with_hessian = with_hessian};
+        out.energies[Law::term] += pair.law.add(pair_geometry(model, state, pair), energy);
+        add_pair_gradient(model, pair, energy, out);
+        if (with_hessian) add_pair_hessian(model, pair, energy.hessian, out.hessian);
+      }
   });
-  add_joints(model, state, outside.opening, with_hessian, out);
+  add_links(model, state, with_hessian, out);
   for (const ModelSpring& spring : model.springs) {
     const Eigen::Vector3d gap = gap_of(state, spring.law), pull = spring.law.gradient(gap);
     out.energies[spring.law.term] += spring.law.value(gap);
@@ -259,8 +262,9 @@ bool worth_sharing(const Model& model) {
 /// whoever is free, each with a sum of its own.
 template <class OfRod>
 void assemble(const Model& model, const State& state, const ExternalLoads& outside,
-              bool with_hessian, Assembly& out, Team* team, OfRod of_rod) {
-  const bool apart = worth_sharing(model);
+              const Stiffness* stiffness, const Eigen::Matrix3Xd* before, Assembly& out, Team* team,
+              OfRod of_rod) {
+  const bool apart = worth_sharing(model), with_hessian = stiffness != nullptr;
   reset(model, out);
   if (with_hessian)
     out.hessian.reset(std::size_t(model.columns()), model.pattern.pairs().size(),
@@ -279,26 +283,28 @@ void assemble(const Model& model, const State& state, const ExternalLoads& outsi
     keep_smallest(out.smallest_cosine, sum.smallest_cosine);
     keep_largest(out.largest_strain, sum.largest_strain);
   }
+  add_joint_angles(model, state, outside.opening, stiffness, before, out);
   add_others(model, state, outside, with_hessian, out);
+  reduce_to_free(model, state, with_hessian, out);
 }
 
 }  // namespace
 
 void assemble_gradient(const Model& model, const State& state, const ExternalLoads& outside,
                        Assembly& out, Team* team) {
-  assemble(model, state, outside, false, out, team,
+  assemble(model, state, outside, nullptr, nullptr, out, team,
            [&](auto&... of) { rod_gradient(model, of..., state.x, out); });
 }
 
 void assemble_mixed_residual(const Model& model, const State& state, const ExternalLoads& outside,
                              const Eigen::Matrix3Xd& tangents, Assembly& out, Team* team) {
-  assemble(model, state, outside, false, out, team,
+  assemble(model, state, outside, nullptr, &tangents, out, team,
            [&](auto&... of) { rod_mixed_residual(model, of..., state, tangents, out); });
 }
 
 void assemble_hessian(const Model& model, const State& state, const ExternalLoads& outside,
                       const Stiffness& stiffness, Assembly& out, Team* team) {
-  assemble(model, state, outside, true, out, team,
+  assemble(model, state, outside, &stiffness, nullptr, out, team,
            [&](auto&... of) { rod_hessian(model, of..., state, stiffness, out); });
 }
 

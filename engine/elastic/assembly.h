@@ -19,8 +19,10 @@ struct RodSum {
 struct Assembly {
   Energies energies;          ///< by term, mJ
   Eigen::Matrix3Xd gradient;  ///< dE/dx in every column, held ones too (their reaction), N
-  Eigen::Matrix3Xd tangents;  ///< unit tangent of every edge
-  Eigen::VectorXd force;      ///< axial force EA (|e|/l - 1) of every edge, N
+  /// unit tangent of every edge; then by the vectors of its two edges how the angle grows of every
+  /// joint with a spring, 1/mm
+  Eigen::Matrix3Xd tangents;
+  Eigen::VectorXd force;  ///< axial force EA (|e|/l - 1) of every edge, N; then torques of joints
   BlockHessian hessian;
   double smallest_cosine = 1;  ///< of the turns between edges: below 0 they turn over 90 degrees
   double largest_strain = 0;   ///< of the edges, by size, with its sign
@@ -35,14 +37,14 @@ struct ExternalLoads {
   const std::vector<NodeAction>* steady = nullptr;
   const std::vector<NodeAction>* field = nullptr;
   double field_factor = 0;
-  double opening = 0;  ///< what has come of ModelShear::opening
+  double opening = 0;  ///< what has come of JointAngle::opening
 };
 
 /// How the Hessian's stretch is taken.
 struct Stiffness {
   /// The state's axial forces take the place of EA (|e|/l - 1) in the geometric stiffness
-  /// N/|e| (I - t t^T): the mixed form, whose axial forces are unknowns of their own, eliminated on
-  /// the edge.
+  /// N/|e| (I - t t^T), its torques that of k (angle - rest): the mixed form, whose forces are
+  /// unknowns of their own, eliminated on the edge.
   bool mixed = false;
   double EA_scale = 1;  ///< multiplies EA (continuation in stiffness)
 };
@@ -62,18 +64,23 @@ Eigen::VectorXd bending_strain_of(const Model& model, const State& state);
 void assemble_gradient(const Model& model, const State& state, const ExternalLoads& outside,
                        Assembly& out, Team* team = nullptr);
 
-/// What joints store, so much of their opening having come: their part of an assembly, and of
-/// energies alone.
-void add_joints(const Model& model, const State& state, double opening, bool with_hessian,
-                Assembly& out);
-void add_joint_energies(const Model& model, const State& state, double opening, Energies& sum);
+/// What bolts of eccentric joints store, and the spins of hinged rods.
+void add_joint_energies(const Model& model, const State& state, Energies& sum);
+/// Adds what springs and bolts of joints store to an assembly (`stiffness`: with its Hessian, then
+/// `before` is null; `before`: the mixed residual's tangents), and carries all over to the joints'
+/// own unknowns.
+void add_joint_angles(const Model& model, const State& state, double opening,
+                      const Stiffness* stiffness, const Eigen::Matrix3Xd* before, Assembly& out);
+void add_links(const Model& model, const State& state, bool with_hessian, Assembly& out);
+void reduce_to_free(const Model& model, const State& state, bool with_hessian, Assembly& out);
 
-/// How the gradient changes with the opening of the joints, N.
-Eigen::Matrix3Xd opening_rate(const Model& model, const State& state);
+/// How the gradient changes with the opening of the joints, N, by an assembly's tangents.
+Eigen::Matrix3Xd opening_rate(const Model& model, const Eigen::Matrix3Xd& tangents);
 
 /// The residual of the mixed form at a state with axial forces N, its condition N = EA strain
 /// eliminated with the edges' directions t0 of an earlier linearisation: the gradient with N t +
-/// (EA strain - N) t0 in the place of EA strain t. Where N = EA strain it is the gradient.
+/// (EA strain - N) t0 in the place of EA strain t, and torques likewise. Where N = EA strain it is
+/// the gradient.
 void assemble_mixed_residual(const Model& model, const State& state, const ExternalLoads& outside,
                              const Eigen::Matrix3Xd& tangents, Assembly& out, Team* team = nullptr);
 

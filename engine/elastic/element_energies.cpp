@@ -53,7 +53,7 @@ double NodeBar::stiffness(double e) const {
 
 PairEnergy& PairEnergy::operator+=(const PairEnergy& other) {
   gradient += other.gradient;
-  hessian += other.hessian;
+  if (with_hessian) hessian += other.hessian;
   return *this;
 }
 
@@ -68,12 +68,11 @@ Eigen::Matrix3d symmetric_product(const Eigen::Vector3d& a, const Eigen::Vector3
   return m + m.transpose();
 }
 
-namespace {
-
-/// I - t t^T of a unit tangent.
 Eigen::Matrix3d normal_projector(const Eigen::Vector3d& t) {
   return Eigen::Matrix3d::Identity() - t * t.transpose();
 }
+
+namespace {
 
 HalfwayFrame frame_of(const PairGeometry& at, const MaterialBend& bend) {
   return halfway_frame(at.e.tangent, at.director_e,
@@ -155,16 +154,6 @@ void add_twist_curvature(double weight, const CurvatureBinormal& b, PairMatrix& 
   out.block<3, 3>(3, 0) += across.transpose();
 }
 
-/// phi = theta_e - alpha - side pi/2, in (-pi, pi]: the angle about t from the joint's normal to
-/// the rod's director m1. alpha is that of the other rod's tangent s in the reference frame d1, d2
-/// of e; the normal is side * t x s, `side` +1 or -1.
-double joint_spin(int side, double theta, const EdgeGeometry& e, const Eigen::Vector3d& director,
-                  const EdgeGeometry& f) {
-  const Eigen::Vector3d &t = e.tangent, &s = f.tangent;
-  const double alpha = std::atan2(s.dot(t.cross(director)), s.dot(director));
-  return std::remainder(theta - alpha - side * M_PI / 2, 2 * M_PI);
-}
-
 double material_bend_value(const MaterialBend& bend, const Eigen::Vector2d& w) {
   return 0.5 * (bend.stiffness.array() * (w - bend.rest).array().square()).sum();
 }
@@ -197,7 +186,8 @@ void scale_to_edges(double length_e, double length_f, PairEnergy& out) {
   PairVector scale;
   scale << Eigen::Vector3d::Constant(1 / length_e), Eigen::Vector3d::Constant(1 / length_f), 1, 1;
   out.gradient.array() *= scale.array();
-  out.hessian = (scale.asDiagonal() * out.hessian * scale.asDiagonal()).eval();
+  if (out.with_hessian)
+    out.hessian = (scale.asDiagonal() * out.hessian * scale.asDiagonal()).eval();
 }
 
 void add_cosine(double by_c, double by_cc, const EdgeGeometry& e, const EdgeGeometry& f,
@@ -205,9 +195,10 @@ void add_cosine(double by_c, double by_cc, const EdgeGeometry& e, const EdgeGeom
   const Eigen::Vector3d &t = e.tangent, &s = f.tangent;
   const double c = t.dot(s), i = 1 / e.length, j = 1 / f.length;
   const Eigen::Vector3d p = i * (s - c * t), q = j * (t - c * s);
-  const Eigen::Matrix3d P = normal_projector(t), Q = normal_projector(s);
   out.gradient.head<3>() += by_c * p;
   out.gradient.segment<3>(3) += by_c * q;
+  if (!out.with_hessian) return;
+  const Eigen::Matrix3d P = normal_projector(t), Q = normal_projector(s);
   out.hessian.block<3, 3>(0, 0) +=
       by_cc * p * p.transpose() - 2 * by_c * i * symmetric_product(p, t) - by_c * c * i * i * P;
   out.hessian.block<3, 3>(3, 3) +=
@@ -221,12 +212,13 @@ void add_twist(double stiffness, double excess, const CurvatureBinormal& b, Pair
   PairVector slope;
   slope << 0.5 * b.kb, 0.5 * b.kb, -1, 1;
   out.gradient += stiffness * excess * slope;
+  if (!out.with_hessian) return;
   out.hessian.noalias() += (stiffness * slope) * slope.transpose();
   add_twist_curvature(stiffness * excess, b, out.hessian);
 }
 
 double Torsion::add(const PairGeometry& at, PairEnergy& out) const {
-  PairEnergy here;
+  PairEnergy here{.with_hessian = out.with_hessian};
   add_twist(stiffness, excess(at), curvature_binormal(at.e.tangent, at.f.tangent), here);
   scale_to_edges(at.e.length, at.f.length, here);
   out += here;
@@ -258,11 +250,14 @@ double add_material_bend(const MaterialBend& bend, const HalfwayFrame& mu, const
   if (bend.at_end()) {  // (s w)' = s w' + w s'
     const EndScale end(b.chi - 1);
     const PairVector by_c = chi_slope(b), pull = slope * g;
-    out.hessian += end.by_c * (by_c * pull.transpose() + pull * by_c.transpose());
-    out.hessian += g.dot(w) * (end.by_cc * by_c * by_c.transpose() + end.by_c * chi_curvature(b));
+    if (out.with_hessian) {
+      out.hessian += end.by_c * (by_c * pull.transpose() + pull * by_c.transpose());
+      out.hessian += g.dot(w) * (end.by_cc * by_c * by_c.transpose() + end.by_c * chi_curvature(b));
+    }
     slope = (scale * slope + end.by_c * by_c * w.transpose()).eval();
   }
   out.gradient += slope * g;
+  if (!out.with_hessian) return material_bend_value(bend, scale * w);
   out.hessian.noalias() += slope * bend.stiffness.asDiagonal() * slope.transpose();
 
   // the second derivatives of w, weighted by g
@@ -280,12 +275,6 @@ double add_material_bend(const MaterialBend& bend, const HalfwayFrame& mu, const
 Eigen::Vector2d MaterialBend::bent(const Eigen::Vector2d& excess) const {
   return Eigen::Rotation2Dd(axis) *
          Eigen::Vector2d(corner * corner * excess[0], corner * excess[1]);
-}
-
-Eigen::Vector2d MaterialBend::give() const {
-  const Eigen::Vector2d own(std::pow(corner, 4) / stiffness[0], corner * corner / stiffness[1]);
-  const double along = std::pow(std::cos(axis), 2);
-  return {along * own[0] + (1 - along) * own[1], along * own[1] + (1 - along) * own[0]};
 }
 
 CornerLaw::CornerLaw(const Eigen::Vector2d& EI, double GJ, double length_e, double length_f,
@@ -316,7 +305,7 @@ double SectionBending::value(const PairGeometry& at) const {
 }
 
 double SectionBending::add(const PairGeometry& at, PairEnergy& out) const {
-  PairEnergy here;
+  PairEnergy here{.with_hessian = out.with_hessian};
   const double value = add_material_bend(bend, frame_of(at, bend),
                                          binormal_with_slopes(at.e.tangent, at.f.tangent), here);
   scale_to_edges(at.e.length, at.f.length, here);
@@ -338,54 +327,6 @@ double EndBending::add(const PairGeometry& at, PairEnergy& out) const {
                           2 * x * (end.by_c * end.by_c + end.s * end.by_cc)),
              at.e, at.f, out);
   return value(at);
-}
-
-double JointAngle::excess(const PairGeometry& at) const {
-  return weight * (std::acos(std::clamp(at.e.tangent.dot(at.f.tangent), -1.0, 1.0)) - rest);
-}
-
-double JointAngle::add(const PairGeometry& at, PairEnergy& out) const {
-  const double c = at.e.tangent.dot(at.f.tangent), slope = 1 / std::sqrt(1 - c * c);
-  add_cosine(-weight * slope, -weight * c * slope * slope * slope, at.e, at.f, out);
-  return excess(at);
-}
-
-double JointSpin::excess(const PairGeometry& at) const {
-  return weight * joint_spin(side, at.angle_e, at.e, at.director_e, at.f);
-}
-
-double JointSpin::add(const PairGeometry& at, PairEnergy& out) const {
-  using Complex = Eigen::Vector3cd;
-  const Eigen::Vector3d &t = at.e.tangent, &s = at.f.tangent, &director = at.director_e;
-  const double c = t.dot(s);
-  const Complex d = director.cast<std::complex<double>>() +
-                    std::complex<double>(0, 1) * t.cross(director).cast<std::complex<double>>();
-  const std::complex<double> sd(s.dot(director), s.dot(t.cross(director)));
-  const Complex z = d / sd;
-  const Eigen::Matrix3d P = normal_projector(t), Q = normal_projector(s);
-  const Complex gp = -c * z, gq = Q * z;
-  const Eigen::Vector3d zi = z.imag(), qzi = gq.imag(), ps = P * s, qt = Q * t;
-
-  PairVector slope = PairVector::Zero();  // of phi
-  slope.head<3>() = -gp.imag();
-  slope.segment<3>(3) = -gq.imag();
-  slope[6] = 1;
-  Eigen::Matrix<double, 8, 8> curvature = PairMatrix::Zero();  // of alpha
-  const auto squares = [](const Complex& a, const Complex& b) -> Eigen::Matrix3d {
-    return (a * b.transpose()).imag();
-  };
-  curvature.block<3, 3>(0, 0) = c * (t * zi.transpose() + zi * t.transpose()) -
-                                0.5 * (zi * ps.transpose() + ps * zi.transpose()) - squares(gp, gp);
-  curvature.block<3, 3>(3, 3) = -(s * qzi.transpose() + qzi * s.transpose()) - squares(gq, gq);
-  curvature.block<3, 3>(0, 3) = -zi * qt.transpose() - squares(gp, gq);
-  curvature.block<3, 3>(3, 0) = curvature.block<3, 3>(0, 3).transpose();
-
-  PairEnergy here;
-  here.gradient = weight * slope;
-  here.hessian = -weight * curvature;
-  scale_to_edges(at.e.length, at.f.length, here);
-  out += here;
-  return excess(at);
 }
 
 }  // namespace gridshell

@@ -75,6 +75,7 @@ struct PairGeometry {
   double angle_e = 0, angle_f = 0;         ///< theta of each edge, rad
   Eigen::Vector3d director_e, director_f;  ///< of their reference frames
   double reference_twist = 0;              ///< m_ref from e to f, of edges that follow one another
+  double opening = 0;                      ///< how much joints that are opened have come
 
   /// tau = theta_f - theta_e + m_ref
   double twist() const { return angle_f - angle_e + reference_twist; }
@@ -89,6 +90,7 @@ using PairMatrix = Eigen::Matrix<double, 8, 8>;
 struct PairEnergy {
   PairVector gradient = PairVector::Zero();
   PairMatrix hessian = PairMatrix::Zero();
+  bool with_hessian = true;  ///< else that stays zero
 
   PairEnergy& operator+=(const PairEnergy& other);
 };
@@ -97,6 +99,9 @@ Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v);
 
 /// (a b^T + b a^T)/2
 Eigen::Matrix3d symmetric_product(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
+
+/// I - t t^T of a unit tangent.
+Eigen::Matrix3d normal_projector(const Eigen::Vector3d& t);
 
 /// kb = 2 t x s/chi, chi = 1 + t.s of unit tangents t (of e) and s (of f).
 struct CurvatureBinormal {
@@ -157,8 +162,6 @@ struct MaterialBend {
   double corner = 1;          ///< cos of half the angle by which a rod cut with a corner turns
 
   bool at_end() const { return share == 0 || share == 1; }
-  /// l/EI about m1 and m2, 1/(N mm).
-  Eigen::Vector2d give() const;
   /// l times the change of curvature that w - w_0 stands for, about m1 and m2.
   Eigen::Vector2d bent(const Eigen::Vector2d& excess) const;
 };
@@ -222,33 +225,47 @@ struct EndBending {
   double add(const PairGeometry& at, PairEnergy& out) const;
 };
 
-// The resistances of a joint, to shear and to spin: each acts on a mean over its pairs of edges.
+// The resistances of a joint, to shear and to spin, on the edges that are centred on it.
 
-/// The angle of a pair of edges at a joint, one part w (angle - rest) of their mean.
+/// The angle between two rods at a joint, E = k/2 (angle - rest - opening)^2. The mixed form has
+/// its torque T = k (angle - rest - opening) for an unknown, as an edge its axial force.
 struct JointAngle {
   static constexpr Term term = Term::shear;
-  double weight = 0.25;  ///< w
+  double stiffness = 0;  ///< k, N mm/rad
   double rest = M_PI / 2;
+  double opening = 0;  ///< in all, rad
+  int joint = 0;
+  /// +1, -1: rods with this side of the joint's normal, the first edge's director, have a positive
+  /// angle, and one that closes goes on below zero; 0: no normal is known
+  int side = 0;
 
   double excess(const PairGeometry& at) const;
-  double add(const PairGeometry& at, PairEnergy& out) const;
+  double value(const PairGeometry& at) const;
+  /// The angle by edge vectors.
+  PairEnergy slopes(const PairGeometry& at, bool with_hessian) const;
+
+ private:
+  double sign(const PairGeometry& at) const;
 };
 
 // The spin of a rod at a joint that passes twist: its director beside the joint's normal.
 
-/// The spin of the first edge of a pair, one part w phi of the mean of its rod. With the complex
-/// director d = d1 + i d2 and z = d/(s.d), alpha = Im log(s.d), and d carried in time
-/// d(t') = d - (d.t')/(1 + t.t') (t + t'),
+/// The spin phi of the first edge of a pair, E = k/2 phi^2. With the complex director d = d1 + i d2
+/// and z = d/(s.d), alpha = Im log(s.d), and d carried in time d(t') = d - (d.t')/(1 + t.t') (t +
+/// t'),
 ///   (s.d)'/(s.d)  = z.Qq - c z.p,
 ///   (s.d)''/(s.d) = 2 [c (t.p)(z.p) - (s.q)(z.Qq) - (z.p)(t.Qq + s.Pp/2)] + a real part,
 /// p = de/|e|, q = df/|f|.
 struct JointSpin {
   static constexpr Term term = Term::joint;
-  double weight = 0.25;  ///< w
+  double stiffness = 0;  ///< k, N mm/rad
   int side = 1;          ///< +1: the normal is t_e x t_f; -1: t_f x t_e
 
   double excess(const PairGeometry& at) const;
+  double value(const PairGeometry& at) const;
   double add(const PairGeometry& at, PairEnergy& out) const;
+  /// phi by edge vectors and angles.
+  static PairEnergy slopes(const PairGeometry& at, bool with_hessian);
 };
 
 }  // namespace gridshell

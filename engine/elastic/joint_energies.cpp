@@ -1,7 +1,9 @@
-// What joints store: by shear, by the spins of their rods, by bolts between rods that lie apart.
+// What joints store, and how what acts on nodes and angles that follow others
+// is carried over to the joints' own unknowns.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <utility>
 
 #include "engine/elastic/along_rods.h"
@@ -9,6 +11,16 @@
 
 namespace gridshell {
 namespace {
+
+/// phi = theta_e - alpha - side pi/2, in (-pi, pi]: the angle about t from the joint's normal to
+/// the rod's director m1. alpha is that of the other rod's tangent s in the reference frame d1, d2
+/// of e; the normal is side * t x s, `side` +1 or -1.
+double joint_spin(int side, double theta, const EdgeGeometry& e, const Eigen::Vector3d& director,
+                  const EdgeGeometry& f) {
+  const Eigen::Vector3d &t = e.tangent, &s = f.tangent;
+  const double alpha = std::atan2(s.dot(t.cross(director)), s.dot(director));
+  return std::remainder(theta - alpha - side * M_PI / 2, 2 * M_PI);
+}
 
 /// f = u.y, u = w/|w|, and its derivatives: by y u, by both (I - u u^T)/|w|.
 struct UnitDot {
@@ -24,224 +36,300 @@ struct UnitDot {
   }
 };
 
-using Vector1 = Eigen::Matrix<double, 1, 1>;
-using NineVector = Eigen::Matrix<double, 9, 1>;
-using NineMatrix = Eigen::Matrix<double, 9, 9>;
-
-/// What a link stores by d = x_b - x_a and the mean tangents t_a, t_b.
+/// What a link stores by d = x_b - x_a and the edge vectors u, v of the two rods:
+/// E = k/2 (d^2 + e^2) - k e n.d, n = u x v/|u x v|.
 struct LinkEnergy {
-  double value = 0;
-  NineVector slope = NineVector::Zero();
-  NineMatrix bend = NineMatrix::Zero();
+  double value;
+  Eigen::Matrix<double, 9, 1> slope;
+  Eigen::Matrix<double, 9, 9> bend;
 
-  /// k/2 r^2
-  void add(double k, double r, const NineVector& by, const NineMatrix& by_two) {
-    value += 0.5 * k * r * r;
-    slope += k * r * by;
-    bend += k * (by * by.transpose() + r * by_two);
+  LinkEnergy(const ModelLink& link, const Eigen::Vector3d& d, const Eigen::Vector3d& u,
+             const Eigen::Vector3d& v) {
+    const UnitDot off(u.cross(v), d);
+    const double k = link.stiffness, e = link.eccentricity;
+    value = 0.5 * k * (d.squaredNorm() + e * e) - k * e * off.value;
+    slope << off.unit, v.cross(off.by_w), off.by_w.cross(u);
+    Eigen::Matrix<double, 3, 9> w;
+    w << Eigen::Matrix3d::Zero(), -cross_matrix(v), cross_matrix(u);
+    bend = w.transpose() * off.by_ww * w;
+    bend.topRows<3>() += off.by_both * w;
+    bend.leftCols<3>() += w.transpose() * off.by_both;
+    bend.block<3, 3>(3, 6) -= cross_matrix(off.by_w);
+    bend.block<3, 3>(6, 3) += cross_matrix(off.by_w);
+    slope *= -k * e, bend *= -k * e;
+    slope.head<3>() += k * d;
+    bend.diagonal().head<3>().array() += k;
   }
 };
-
-LinkEnergy energy_of(const ModelLink& link, const Eigen::Vector3d& d, const Eigen::Vector3d& ta,
-                     const Eigen::Vector3d& tb) {
-  LinkEnergy out;
-  NineVector by;
-  // across: w = t_a x t_b
-  const UnitDot off(ta.cross(tb), d);
-  by << off.unit, tb.cross(off.by_w), off.by_w.cross(ta);
-  Eigen::Matrix<double, 3, 9> w;
-  w << Eigen::Matrix3d::Zero(), -cross_matrix(tb), cross_matrix(ta);
-  NineMatrix by_two = w.transpose() * off.by_ww * w;
-  by_two.topRows<3>() += off.by_both * w;
-  by_two.leftCols<3>() += w.transpose() * off.by_both;
-  by_two.block<3, 3>(3, 6) -= cross_matrix(off.by_w);
-  by_two.block<3, 3>(6, 3) += cross_matrix(off.by_w);
-  out.add(link.across, off.value - link.eccentricity, by, by_two);
-  for (const int rod : {0, 1}) {
-    const UnitDot along(rod == 0 ? ta : tb, d);
-    const int at = 3 + 3 * rod;
-    by.setZero(), by_two.setZero();
-    by.head<3>() = along.unit;
-    by.segment<3>(at) = along.by_w;
-    by_two.block<3, 3>(0, at) = by_two.block<3, 3>(at, 0) = along.by_both;
-    by_two.block<3, 3>(at, at) = along.by_ww;
-    out.add(rod == 0 ? link.along_a : link.along_b, along.value, by, by_two);
-  }
-  return out;
-}
-
-/// visit(rod, edge, share, vector) for the edges beside a link
-template <class Visit>
-void beside(const ModelLink& link, const Model& model, const Eigen::Matrix3Xd& x, Visit visit) {
-  for (const int rod : {0, 1})
-    for (const auto& [edge, share] : rod == 0 ? link.beside_a : link.beside_b) {
-      const ModelEdge& one = model.edges[std::size_t(edge)];
-      visit(rod, one, share, Eigen::Vector3d(x.col(one.to) - x.col(one.from)));
-    }
-}
 
 LinkEnergy energy_of(const ModelLink& link, const Model& model, const Eigen::Matrix3Xd& x) {
-  Eigen::Vector3d mean[2] = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
-  beside(link, model, x, [&](int rod, const ModelEdge&, double share, const Eigen::Vector3d& way) {
-    mean[rod] += share * way.normalized();
-  });
-  return energy_of(link, x.col(link.b) - x.col(link.a), mean[0], mean[1]);
-}
-
-/// What a joint's spins store by the spins a, b and the angle theta of its rods: with the moments
-/// m = C^-1 (a, b), E_theta = -m C' m/2 and so on.
-struct SpinEnergy {
-  double value = 0;
-  Eigen::Vector3d slope;  // by a, b, theta
-  Eigen::Matrix3d bend;
-};
-
-SpinEnergy energy_of(const ModelSpin& spin, const Eigen::Vector2d& spins, double theta) {
-  const double c = std::cos(theta), s = std::sin(theta), s2 = s * s;
-  // of [[1, c], [c, 1]]/s^2 by theta
-  const auto matrix = [&](double own, double both) {
-    return Eigen::Matrix2d(spin.out * (Eigen::Matrix2d() << own, both, both, own).finished());
+  const auto vector = [&](int edge) -> Eigen::Vector3d {
+    const ModelEdge& one = model.edges[std::size_t(edge)];
+    return x.col(one.to) - x.col(one.from);
   };
-  Eigen::Matrix2d give = matrix(1 / s2, c / s2);
-  give.diagonal() += Eigen::Vector2d(spin.own_a, spin.own_b);
-  const Eigen::Matrix2d once = matrix(-2 * c / (s2 * s), -(1 + c * c) / (s2 * s)),
-                        twice = matrix((2 + 4 * c * c) / (s2 * s2), c * (5 + c * c) / (s2 * s2));
-  const Eigen::Matrix2d hold = give.inverse();
-  const Eigen::Vector2d moment = hold * spins, turned = once * moment;
-  SpinEnergy out;
-  out.value = 0.5 * spin.share * spins.dot(moment);
-  out.slope << moment, -0.5 * moment.dot(turned);
-  out.bend.topLeftCorner<2, 2>() = hold;
-  out.bend.topRightCorner<2, 1>() = -hold * turned;
-  out.bend.bottomLeftCorner<1, 2>() = out.bend.topRightCorner<2, 1>().transpose();
-  out.bend(2, 2) = turned.dot(hold * turned) - 0.5 * moment.dot(twice * moment);
-  out.slope *= spin.share;
-  out.bend *= spin.share;
-  return out;
+  return {link, x.col(link.b) - x.col(link.a), vector(link.edge_a), vector(link.edge_b)};
 }
 
-SpinEnergy energy_of(const ModelSpin& spin, const Model& model, const State& state) {
-  const auto mean = [&](const auto& pairs) { return mean_of(model, state, pairs); };
-  return energy_of(spin, {mean(spin.spins[0]), mean(spin.spins[1])}, mean(spin.angle));
+double spin_energy(const ModelHinge& hinge, const Model& model, const State& state) {
+  const double spin = model.angle(state.x, hinge.pair.e);
+  return 0.5 * hinge.stiffness * spin * spin;
 }
 
-/// How n means change with the columns.
-template <int n>
-using Slopes = std::vector<std::pair<int, Eigen::Matrix<double, 3, n>>>;
-
-template <int n>
-Eigen::Matrix<double, 3, n>& at(Slopes<n>& slopes, int column) {
-  const auto known = std::ranges::find(slopes, column, &Slopes<n>::value_type::first);
-  if (known != slopes.end()) return known->second;
-  return slopes.emplace_back(column, Eigen::Matrix<double, 3, n>::Zero()).second;
+/// Row `row` of a block of the pattern, (followers' column, another).
+Eigen::RowVector3d row_of(const BlockHessian& h, BlockSlot slot, int row) {
+  const auto block = h.pair[std::size_t(slot >> 1)].matrix();
+  return slot & 1 ? Eigen::RowVector3d(block.col(row).transpose()) : block.row(row);
 }
 
-/// Puts the slope of a mean, the `k`-th, into `slopes`; `each` takes every pair's share.
-template <int n, class Law, class Each>
-void put_slope(const Model& model, const State& state, const std::vector<Pair<Law>>& pairs, int k,
-               Slopes<n>& slopes, Each each) {
-  for (const Pair<Law>& pair : pairs) {
-    PairEnergy mean;
-    pair.law.add(pair_geometry(model, state, pair), mean);
-    for (const auto& [edge, by] : {std::pair(pair.e, 0), std::pair(pair.f, 3)}) {
-      const Eigen::Vector3d part = mean.gradient.template segment<3>(by);
-      at(slopes, model.edges[std::size_t(edge)].from).col(k) -= part;
-      at(slopes, model.edges[std::size_t(edge)].to).col(k) += part;
+/// The angle of a hinged edge in its carried frame is phi + alpha(e, f), alpha that of the joint's
+/// normal: with a = alpha' the rows of the angle count a times for every node, its moment alpha''.
+void reduce(const ModelHinge& hinge, const Model& model, const State& state, bool with_hessian,
+            Assembly& out) {
+  const auto& [pair, other_half, stiffness, blocks] = hinge;
+  const PairEnergy phi = JointSpin::slopes(pair_geometry(model, state, pair), with_hessian);
+  const int place = model.spin[std::size_t(pair.e)], row = place % 3;
+  const double length = model.spin_length, moment = out.gradient.data()[place];
+  std::array<Eigen::Vector3d, 4> by{};  // of the angle's unknown, by every node
+  for (std::size_t k = 0; k < blocks.leading.size(); ++k) {
+    by[k].setZero();
+    for (const auto& [edge, at] : {std::pair(pair.e, 0), std::pair(pair.f, 3)}) {
+      const ModelEdge& one = model.edges[std::size_t(edge)];
+      const Eigen::Vector3d part = length * phi.gradient.segment<3>(at);
+      if (one.from == blocks.leading[k]) by[k] += part;
+      if (one.to == blocks.leading[k]) by[k] -= part;
     }
-    if (mean.gradient[6] != 0) {
-      const int place = model.spin[std::size_t(pair.e)];
-      at(slopes, place / 3)(place % 3, k) += mean.gradient[6] / model.spin_length;
-    }
-    each(pair, mean);
+    out.gradient.col(blocks.leading[k]) += moment * by[k];
   }
+  const double spin = model.angle(state.x, pair.e);
+  out.gradient.data()[place] += stiffness * spin / length;
+  if (!with_hessian) return;
+  auto own = out.hessian.diagonal[std::size_t(place / 3)].matrix();
+  PairMatrix both = -length * moment * phi.hessian;
+  both.topLeftCorner<6, 6>() +=
+      own(row, row) * length * length * phi.gradient.head<6>() * phi.gradient.head<6>().transpose();
+  add_vector_hessian(model, pair, both, out.hessian);
+  for (const auto& [column, slot, slots] : blocks.beside) {
+    const Eigen::RowVector3d couples = slot < 0 ? own.row(row) : row_of(out.hessian, slot, row);
+    for (std::size_t k = 0; k < blocks.leading.size(); ++k)
+      add_block(blocks.leading[k], column, slots[k], by[k] * couples, out.hessian);
+  }
+  own(row, row) += stiffness / (length * length);
 }
 
-/// E_i s_i and the sum of E_ij s_i s_j^T.
-template <int n>
-void add_slopes(const Model& model, const Slopes<n>& slopes, const Eigen::Matrix<double, n, 1>& by,
-                const Eigen::Matrix<double, n, n>& bend, bool with_hessian, Assembly& out) {
-  for (const auto& [column, slope] : slopes) out.gradient.col(column) += slope * by;
-  for (std::size_t a = 0; with_hessian && a < slopes.size(); ++a)
-    for (std::size_t b = 0; b <= a; ++b) {
-      const int row = slopes[a].first, column = slopes[b].first;
-      const Eigen::Matrix3d block = slopes[a].second * bend * slopes[b].second.transpose();
-      if (a == b)
-        out.hessian.diagonal[std::size_t(row)].matrix() += block;
-      else
-        out.hessian.add(model.pattern.find(row, column), block);
-    }
+/// H_cj += 2 H_sj, H_mj -= H_sj, and twice so on the diagonal.
+void reduce(const ModelFollower& one, const Model& model, BlockHessian& h) {
+  const auto& [node, centre, first, blocks] = one;
+  for (const auto& [column, slot, slots] : blocks.beside) {
+    if (slot < 0) continue;
+    Block3& known = h.pair[std::size_t(slot >> 1)];
+    const Eigen::Matrix3d block =
+        slot & 1 ? Eigen::Matrix3d(known.matrix().transpose()) : Eigen::Matrix3d(known.matrix());
+    add_block(centre, column, slots[0], 2 * block, h);
+    add_block(first, column, slots[1], -block, h);
+    known = {};
+  }
+  const Eigen::Matrix3d own = h.diagonal[std::size_t(node)].matrix();
+  h.diagonal[std::size_t(centre)].matrix() += 4 * own;
+  h.diagonal[std::size_t(first)].matrix() += own;
+  h.add(model.pattern.find(centre, first), -2 * own);
+  h.diagonal[std::size_t(node)] = {};
 }
 
-/// Of an energy E of n means with slopes s: E_i s_i and the sum of E_i s_i' + E_ij s_i s_j^T.
-template <int n, class... Pairs>
-void add_means(const Model& model, const State& state, const Eigen::Matrix<double, n, 1>& by,
-               const Eigen::Matrix<double, n, n>& bend, bool with_hessian, Assembly& out,
-               const Pairs&... lists) {
-  Slopes<n> slopes;
-  int k = 0;
-  const auto put = [&](const auto& pairs) {
-    const double moment = by[k];
-    put_slope(model, state, pairs, k++, slopes, [&](const auto& pair, const PairEnergy& mean) {
-      if (with_hessian) add_pair_hessian(model, pair, moment * mean.hessian, out.hessian);
-    });
+/// Blocks beyond the pattern on nodes that follow.
+void reduce_beyond(const Model& model, BlockHessian& h) {
+  const auto leading = [&](int column) {
+    std::vector<std::pair<int, double>> parts{{column, 1}};
+    for (const ModelFollower& one : model.followers)
+      if (one.node == column) parts = {{one.centre, 2}, {one.first, -1}};
+    return parts;
   };
-  (put(lists), ...);
-  add_slopes(model, slopes, by, bend, with_hessian, out);
-}
-
-void add(const ModelLink& link, const Model& model, const Eigen::Matrix3Xd& x, bool with_hessian,
-         Assembly& out) {
-  const LinkEnergy energy = energy_of(link, model, x);
-  out.energies[Term::joint] += energy.value;
-  Slopes<9> slopes;
-  at(slopes, link.a).leftCols<3>() -= Eigen::Matrix3d::Identity();
-  at(slopes, link.b).leftCols<3>() += Eigen::Matrix3d::Identity();
-  beside(link, model, x, [&](int rod, const ModelEdge& edge, double share, const auto& way) {
-    const int from = 3 + 3 * rod;
-    const UnitDot unit(way, share * energy.slope.segment<3>(from));
-    at(slopes, edge.from).middleCols<3>(from) -= share * unit.by_both;
-    at(slopes, edge.to).middleCols<3>(from) += share * unit.by_both;
-    if (with_hessian) add_edge_block(edge, unit.by_ww, out.hessian);
-  });
-  add_slopes(model, slopes, energy.slope, energy.bend, with_hessian, out);
+  const auto follows = [&](int column) {
+    return model.held[std::size_t(column)] == Model::follows;
+  };
+  const auto all = std::exchange(h.beyond, {});
+  for (const BlockHessian::Beyond& one : all) {
+    if (!follows(one.row) && !follows(one.column)) {
+      h.beyond.push_back(one);
+      continue;
+    }
+    for (const auto& [row, by] : leading(one.row))
+      for (const auto& [column, part] : leading(one.column)) {
+        const Eigen::Matrix3d block = by * part * one.block.matrix();
+        if (row == column) {
+          add_block(row, column, -1, block, h);
+          continue;
+        }
+        h.beyond.push_back({row, column, {}});
+        h.beyond.back().block.matrix() = block;
+      }
+  }
 }
 
 }  // namespace
 
-void add_joints(const Model& model, const State& state, double opening, bool with_hessian,
-                Assembly& out) {
-  for (const ModelShear& shear : model.shears) {
-    const double k = shear.stiffness, excess = excess_of(model, state, shear, opening);
-    out.energies[Term::shear] += 0.5 * k * excess * excess;
-    add_means<1>(model, state, Vector1(k * excess), Vector1(k), with_hessian, out, shear.pairs);
-  }
-  for (const ModelSpin& spin : model.joint_spins) {
-    const SpinEnergy energy = energy_of(spin, model, state);
-    out.energies[Term::joint] += energy.value;
-    add_means<3>(model, state, energy.slope, energy.bend, with_hessian, out, spin.spins[0],
-                 spin.spins[1], spin.angle);
-  }
-  for (const ModelLink& link : model.links) add(link, model, state.x, with_hessian, out);
+double JointAngle::sign(const PairGeometry& at) const {
+  return side != 0 && side * at.director_e.dot(at.e.tangent.cross(at.f.tangent)) < 0 ? -1 : 1;
 }
 
-void add_joint_energies(const Model& model, const State& state, double opening, Energies& sum) {
-  for (const ModelShear& shear : model.shears)
-    sum[Term::shear] +=
-        0.5 * shear.stiffness * std::pow(excess_of(model, state, shear, opening), 2);
-  for (const ModelSpin& spin : model.joint_spins)
-    sum[Term::joint] += energy_of(spin, model, state).value;
+double JointAngle::excess(const PairGeometry& at) const {
+  return sign(at) * std::acos(std::clamp(at.e.tangent.dot(at.f.tangent), -1.0, 1.0)) - rest -
+         at.opening * opening;
+}
+
+double JointAngle::value(const PairGeometry& at) const {
+  return 0.5 * stiffness * excess(at) * excess(at);
+}
+
+PairEnergy JointAngle::slopes(const PairGeometry& at, bool with_hessian) const {
+  const double c = at.e.tangent.dot(at.f.tangent), s = sign(at), slope = -1 / std::sqrt(1 - c * c);
+  PairEnergy angle{.with_hessian = with_hessian};
+  add_cosine(s * slope, s * c * slope * slope * slope, at.e, at.f, angle);
+  return angle;
+}
+
+double JointSpin::excess(const PairGeometry& at) const {
+  return joint_spin(side, at.angle_e, at.e, at.director_e, at.f);
+}
+
+double JointSpin::value(const PairGeometry& at) const {
+  return 0.5 * stiffness * excess(at) * excess(at);
+}
+
+double JointSpin::add(const PairGeometry& at, PairEnergy& out) const {
+  const PairEnergy phi = slopes(at, out.with_hessian);
+  out.gradient += stiffness * excess(at) * phi.gradient;
+  out.hessian += stiffness * (excess(at) * phi.hessian + phi.gradient * phi.gradient.transpose());
+  return value(at);
+}
+
+PairEnergy JointSpin::slopes(const PairGeometry& at, bool with_hessian) {
+  using Complex = Eigen::Vector3cd;
+  const Eigen::Vector3d &t = at.e.tangent, &s = at.f.tangent, &director = at.director_e;
+  const double c = t.dot(s);
+  const Complex d = director.cast<std::complex<double>>() +
+                    std::complex<double>(0, 1) * t.cross(director).cast<std::complex<double>>();
+  const std::complex<double> sd(s.dot(director), s.dot(t.cross(director)));
+  const Complex z = d / sd;
+  const Eigen::Matrix3d P = normal_projector(t), Q = normal_projector(s);
+  const Complex gp = -c * z, gq = Q * z;
+  const Eigen::Vector3d zi = z.imag(), qzi = gq.imag(), ps = P * s, qt = Q * t;
+
+  PairVector slope = PairVector::Zero();  // of phi
+  slope.head<3>() = -gp.imag();
+  slope.segment<3>(3) = -gq.imag();
+  slope[6] = 1;
+  PairEnergy phi{.gradient = slope, .with_hessian = with_hessian};
+  if (!with_hessian) {
+    scale_to_edges(at.e.length, at.f.length, phi);
+    return phi;
+  }
+  Eigen::Matrix<double, 8, 8> curvature = PairMatrix::Zero();  // of alpha
+  const auto squares = [](const Complex& a, const Complex& b) -> Eigen::Matrix3d {
+    return (a * b.transpose()).imag();
+  };
+  curvature.block<3, 3>(0, 0) = c * (t * zi.transpose() + zi * t.transpose()) -
+                                0.5 * (zi * ps.transpose() + ps * zi.transpose()) - squares(gp, gp);
+  curvature.block<3, 3>(3, 3) = -(s * qzi.transpose() + qzi * s.transpose()) - squares(gq, gq);
+  curvature.block<3, 3>(0, 3) = -zi * qt.transpose() - squares(gp, gq);
+  curvature.block<3, 3>(3, 0) = curvature.block<3, 3>(0, 3).transpose();
+
+  phi.hessian = -curvature;
+  scale_to_edges(at.e.length, at.f.length, phi);
+  return phi;
+}
+
+void Model::follow(Eigen::Matrix3Xd& x) const {
+  for (const ModelFollower& one : followers)
+    x.col(one.node) = 2 * x.col(one.centre) - x.col(one.first);
+}
+
+void Model::fold(Eigen::Matrix3Xd& force) const {
+  for (const ModelFollower& one : followers) {
+    force.col(one.centre) += 2 * force.col(one.node);
+    force.col(one.first) -= force.col(one.node);
+    force.col(one.node).setZero();
+  }
+}
+
+void add_joint_angles(const Model& model, const State& state, double opening,
+                      const Stiffness* stiffness, const Eigen::Matrix3Xd* before, Assembly& out) {
+  each_spring(model, [&](const auto& pair, Eigen::Index place) {
+    const PairGeometry at = pair_geometry(model, state, pair, opening);
+    const PairEnergy angle = pair.law.slopes(at, stiffness != nullptr);
+    const double torque = pair.law.stiffness * pair.law.excess(at), known = state.force[place];
+    out.energies[Term::shear] += pair.law.value(at);
+    out.force[place] = torque;
+    Eigen::Index from = 0;
+    each_arm(model, pair, place, [&](const ModelEdge& edge, Eigen::Index column) {
+      const Eigen::Vector3d slope = angle.gradient.segment<3>(std::exchange(from, 3));
+      out.tangents.col(column) = slope;
+      Eigen::Vector3d pull = torque * slope;
+      if (before) pull += (torque - known) * (before->col(column) - slope);
+      out.gradient.col(edge.from) -= pull;
+      out.gradient.col(edge.to) += pull;
+    });
+    if (!stiffness) return;
+    const PairMatrix H = pair.law.stiffness * angle.gradient * angle.gradient.transpose() +
+                         (stiffness->mixed ? known : torque) * angle.hessian;
+    add_vector_hessian(model, pair, H, out.hessian);
+  });
+}
+
+void add_links(const Model& model, const State& state, bool with_hessian, Assembly& out) {
+  for (const ModelLink& link : model.links) {
+    const LinkEnergy energy = energy_of(link, model, state.x);
+    out.energies[Term::joint] += energy.value;
+    // how much a node is of d, u and v
+    const std::array<int, 4> nodes = nodes_of(link, model);
+    const auto parts = [&](std::size_t k) {
+      const double side = k % 2 == 0 ? -1 : 1;
+      return Eigen::RowVector3d((nodes[k] == link.b) - (nodes[k] == link.a), k < 2 ? side : 0,
+                                k < 2 ? 0 : side);
+    };
+    for (std::size_t a = 0; a < 4; ++a) {
+      Eigen::Matrix<double, 9, 3> by;
+      for (int n = 0; n < 3; ++n)
+        by.middleRows<3>(3 * n) = parts(a)[n] * Eigen::Matrix3d::Identity();
+      out.gradient.col(nodes[a]) += by.transpose() * energy.slope;
+      for (std::size_t b = 0; with_hessian && b <= a; ++b) {
+        Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
+        for (int n = 0; n < 3; ++n)
+          block += parts(b)[n] * (by.transpose() * energy.bend).middleCols<3>(3 * n);
+        if (a == b)
+          out.hessian.diagonal[std::size_t(nodes[a])].matrix() += block;
+        else
+          out.hessian.add(model.pattern.find(nodes[a], nodes[b]), block);
+      }
+    }
+  }
+}
+
+void reduce_to_free(const Model& model, const State& state, bool with_hessian, Assembly& out) {
+  for (const ModelHinge& hinge : model.hinges) {
+    out.energies[Term::joint] += spin_energy(hinge, model, state);
+    reduce(hinge, model, state, with_hessian, out);
+  }
+  model.fold(out.gradient);
+  if (!with_hessian || model.followers.empty()) return;
+  for (const ModelFollower& one : model.followers) reduce(one, model, out.hessian);
+  reduce_beyond(model, out.hessian);
+}
+
+void add_joint_energies(const Model& model, const State& state, Energies& sum) {
+  for (const ModelHinge& hinge : model.hinges) sum[Term::joint] += spin_energy(hinge, model, state);
   for (const ModelLink& link : model.links)
     sum[Term::joint] += energy_of(link, model, state.x).value;
 }
 
-Eigen::Matrix3Xd opening_rate(const Model& model, const State& state) {
+Eigen::Matrix3Xd opening_rate(const Model& model, const Eigen::Matrix3Xd& tangents) {
   Eigen::Matrix3Xd rate = Eigen::Matrix3Xd::Zero(3, model.columns());
-  for (const ModelShear& shear : model.shears) {
-    if (shear.opening == 0) continue;
-    Slopes<1> slopes;
-    put_slope(model, state, shear.pairs, 0, slopes, [](const auto&...) {});
-    for (const auto& [node, by] : slopes) rate.col(node) -= shear.stiffness * shear.opening * by;
-  }
+  each_spring(model, [&](const auto& pair, Eigen::Index place) {
+    each_arm(model, pair, place, [&](const ModelEdge& edge, Eigen::Index column) {
+      const Eigen::Vector3d pull = pair.law.stiffness * pair.law.opening * tangents.col(column);
+      rate.col(edge.from) += pull;
+      rate.col(edge.to) -= pull;
+    });
+  });
   return rate;
 }
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
-#include <bit>
 #include <cmath>
 
 #include "engine/core/try.h"
@@ -72,9 +71,17 @@ class Builder {
     if (holds_direction(rod.begin))
       entry.ghost_begin =
           add_edge(entry, ghost(rod.ghost_begin), rod.nodes.front(), s[1] - s[0], 0);
-    for (int k = 0; k < edges; ++k)
-      add_edge(entry, rod.nodes[std::size_t(k)], rod.nodes[std::size_t(k + 1) % rod.nodes.size()],
-               s[k + 1] - s[k], rod.material.EA);
+    const auto node = [&](int k) { return rod.nodes[std::size_t(k) % rod.nodes.size()]; };
+    const auto centred = [&](int k) {
+      return !rod.centred.empty() && rod.centred[std::size_t(k) % rod.nodes.size()];
+    };
+    for (int k = 0; k < edges; ++k) {
+      const int edge = add_edge(entry, node(k), node(k + 1), s[k + 1] - s[k], rod.material.EA);
+      if (centred(k) || centred(k + 1))
+        model_.edges[std::size_t(edge)].centre = node(centred(k) ? k : k + 1);
+      if (centred(k) && (k > 0 || entry.closed))
+        model_.followers.push_back({node(k + 1), node(k), node(k > 0 ? k - 1 : edges - 1)});
+    }
     if (holds_direction(rod.end))
       entry.ghost_end =
           add_edge(entry, rod.nodes.back(), ghost(rod.ghost_end), s[edges] - s[edges - 1], 0);
@@ -85,7 +92,7 @@ class Builder {
       if (e == entry.ghost_begin) share = rod.begin == RodEnd::clamped ? 0 : 1;
       if (f == entry.ghost_end) share = rod.end == RodEnd::clamped ? 1 : 0;
       const std::size_t node = entry.ghost_begin >= 0 ? k - 1 : k;
-      add_bend(rod.material, entry, {e, f}, share, turn_of(rod, node));
+      add_bend(rod.material, {e, f}, share, turn_of(rod, node));
     }
     if (entry.closed) rings_.push_back({model_.rods.size(), rod.material, turn_of(rod, 0)});
     model_.rods.push_back(std::move(entry));
@@ -95,14 +102,18 @@ class Builder {
     // after all others, as they join edges that do not follow one another in the list
     for (const auto& [rod, material, turn] : rings_) {
       model_.rods[rod].closing_bend = int(model_.bends.size());
-      add_bend(material, model_.rods[rod],
-               {model_.rods[rod].edges.back(), model_.rods[rod].edges.front()}, 0.5, turn);
+      add_bend(material, {model_.rods[rod].edges.back(), model_.rods[rod].edges.front()}, 0.5,
+               turn);
     }
     crossings.resize(std::size_t(model_.nodes), 0);
     mark_shared(rods, crossings);
+    for (const ModelEdge& edge : model_.edges)
+      if (edge.centre >= 0) crossings[std::size_t(edge.from)] = crossings[std::size_t(edge.to)] = 1;
     model_.held.assign(std::size_t(model_.nodes), 0);
     if (twist_) place_spins(crossings);
     for (std::size_t r = 0; r < rods.size(); ++r) hold(rods[r], model_.rods[r]);
+    for (const ModelFollower& one : model_.followers)
+      model_.held[std::size_t(one.node)] = Model::follows;
     lay_along_rods(rods);
     find_segments(crossings);
     find_waves();
@@ -124,16 +135,17 @@ class Builder {
   }
 
   /// Between two edges; `share`: MaterialBend's, `turn`: one of ModelRod::turns.
-  void add_bend(const RodMaterial& m, const Model::Rod& entry, std::pair<int, int> edges,
-                double share, const Eigen::Vector2d& turn) {
+  void add_bend(const RodMaterial& m, std::pair<int, int> edges, double share,
+                const Eigen::Vector2d& turn) {
     const auto [e, f] = edges;
-    // at a held end only the half edge on the rod's side bends
-    const double before = e == entry.ghost_begin ? 0 : model_.edges[std::size_t(e)].rest_length,
-                 after = f == entry.ghost_end ? 0 : model_.edges[std::size_t(f)].rest_length;
-    const double length = 0.5 * (before + after), round = 2 * std::min(m.EI1, m.EI2) / length;
+    // at a held end only the half edge on the rod's side bends, between two halves nothing does
+    const double before = bending_length(model_, e), after = bending_length(model_, f),
+                 length = 0.5 * (before + after), round = 2 * std::min(m.EI1, m.EI2) / length;
     const bool plain = !twist_ || m.round_and_straight(), at_end = share != 0.5;
     const int bend = int(model_.bends.size());
-    model_.bends.push_back({e, f, plain && !at_end ? round : 0});
+    const bool halves = are_halves(e, f);
+    model_.bends.push_back({e, f, plain && !at_end && !halves ? round : 0});
+    if (halves) return;
     if (plain && at_end)
       std::get<std::vector<Pair<EndBending>>>(model_.pairs).push_back({e, f, bend, {round}});
     if (!twist_) return;
@@ -152,6 +164,11 @@ class Builder {
       std::get<std::vector<Pair<SectionBending>>>(model_.pairs).push_back({e, f, bend, {law}});
   }
 
+  bool are_halves(int e, int f) const {
+    const int centre = model_.edges[std::size_t(e)].centre;
+    return centre >= 0 && centre == model_.edges[std::size_t(f)].centre;
+  }
+
   /// nodes that rods share
   void mark_shared(const std::vector<ModelRod>& rods, std::vector<char>& crossings) const {
     std::vector<int> owner(crossings.size(), -1);
@@ -163,8 +180,8 @@ class Builder {
       }
   }
 
-  /// Angles three to a column, the two beside a crossing together: what is eliminated inside a
-  /// segment then does not reach across it.
+  /// Angles three to a column, those beside a crossing together: what is eliminated inside a
+  /// segment then does not reach across it. Two halves of an edge have one.
   void place_spins(const std::vector<char>& crossings) {
     model_.spin.resize(model_.edges.size());
     model_.spin_length = 0;
@@ -172,7 +189,16 @@ class Builder {
       model_.spin_length += edge.rest_length / double(model_.edges.size());
     for (const Model::Rod& rod : model_.rods) {
       int used = 3;  // of the last column
-      for (int edge : rod.edges) {
+      for (std::size_t k = 0; k < rod.edges.size(); ++k) {
+        const int edge = rod.edges[k];
+        const bool last = k + 1 == rod.edges.size();
+        int other = -1;
+        if (rod.closed && last && are_halves(edge, rod.edges.front())) other = rod.edges.front();
+        if (k > 0 && are_halves(edge - 1, edge)) other = edge - 1;
+        if (other >= 0) {
+          model_.spin[std::size_t(edge)] = model_.spin[std::size_t(other)];
+          continue;
+        }
         const bool after = crossings[std::size_t(model_.edges[std::size_t(edge)].from)],
                    before = crossings[std::size_t(model_.edges[std::size_t(edge)].to)];
         if (used == 3 || (before && !after)) {
@@ -268,44 +294,68 @@ class Builder {
   std::vector<Ring> rings_;
 };
 
-/// where the blocks of a pair of edges stand
+BlockSlot slot_of(Model& model, int a, int b) { return a == b ? -1 : model.pattern.slot(a, b); }
+
+/// where the blocks of a pair of edges stand, between their nodes and with their angles
 template <class Law>
-void place_pair(Model& model, Pair<Law>& pair) {
+void place_vectors(Model& model, Pair<Law>& pair) {
   const ModelEdge &e = model.edges[std::size_t(pair.e)], &f = model.edges[std::size_t(pair.f)];
-  const auto slot = [&](int a, int b) { return a == b ? -1 : model.pattern.slot(a, b); };
   PairSlots& slots = pair.slots;
   slots.e = e.slot, slots.f = f.slot;
   const int ends[4] = {e.from, e.to, f.from, f.to};
   for (int a = 0; a < 2; ++a)
-    for (int b = 0; b < 2; ++b) slots.across[a][b] = slot(ends[a], ends[2 + b]);
-  if (!model.has_spins()) return;
-  const int angle[2] = {model.spin[std::size_t(pair.e)] / 3, model.spin[std::size_t(pair.f)] / 3};
-  for (int end = 0; end < 4; ++end)
-    for (int k = 0; k < 2; ++k) slots.spin[end][k] = slot(ends[end], angle[k]);
-  slots.spins = slot(angle[0], angle[1]);
+    for (int b = 0; b < 2; ++b) slots.across[a][b] = slot_of(model, ends[a], ends[2 + b]);
 }
 
-void place_all(const std::vector<int>& columns, Model& model) {
-  for (const int row : columns)
-    for (const int column : columns)
-      if (row != column) model.pattern.slot(row, column);
+template <class Law>
+void place_pair(Model& model, Pair<Law>& pair) {
+  place_vectors(model, pair);
+  if (!model.has_spins()) return;
+  const ModelEdge &e = model.edges[std::size_t(pair.e)], &f = model.edges[std::size_t(pair.f)];
+  const int ends[4] = {e.from, e.to, f.from, f.to};
+  PairSlots& slots = pair.slots;
+  const int angle[2] = {model.spin[std::size_t(pair.e)] / 3, model.spin[std::size_t(pair.f)] / 3};
+  for (int end = 0; end < 4; ++end)
+    for (int k = 0; k < 2; ++k) slots.spin[end][k] = slot_of(model, ends[end], angle[k]);
+  slots.spins = slot_of(model, angle[0], angle[1]);
+}
+
+/// Where the blocks of what follows go, in the order in which they are carried over: angles first,
+/// as they follow nodes of which some follow others.
+void place_followers(Model& model) {
+  for (ModelHinge& hinge : model.hinges) place_vectors(model, hinge.pair);
+  std::vector<std::vector<int>> beside(std::size_t(model.columns()));
+  const auto& pairs = model.pattern.pairs();
+  std::size_t seen = 0;
+  const auto take_new = [&] {
+    for (; seen < pairs.size(); ++seen)
+      for (const int k : {0, 1}) beside[std::size_t(pairs[seen][k])].push_back(pairs[seen][1 - k]);
+  };
+  const auto blocks_of = [&](int follower, std::vector<int> leading) {
+    FollowerBlocks blocks{std::move(leading), {}};
+    take_new();
+    for (const int column : beside[std::size_t(follower)])
+      blocks.beside.push_back({column, slot_of(model, follower, column)});
+    // its own last: what it has with the leading ones is to be carried over as it is
+    blocks.beside.push_back({follower});
+    for (auto& [column, own, slots] : blocks.beside)
+      for (std::size_t k = 0; k < blocks.leading.size(); ++k)
+        slots[k] = slot_of(model, blocks.leading[k], column);
+    return blocks;
+  };
+  for (ModelHinge& hinge : model.hinges) {
+    std::vector<int> nodes;
+    for (const int edge : {hinge.pair.e, hinge.pair.f})
+      for (const int node :
+           {model.edges[std::size_t(edge)].from, model.edges[std::size_t(edge)].to})
+        if (std::ranges::find(nodes, node) == nodes.end()) nodes.push_back(node);
+    hinge.blocks = blocks_of(model.spin[std::size_t(hinge.pair.e)] / 3, nodes);
+  }
+  for (ModelFollower& one : model.followers)
+    one.blocks = blocks_of(one.node, {one.centre, one.first});
 }
 
 }  // namespace
-
-double length_between(const Model& model, int e, int f) {
-  const auto length = [&](int edge) {
-    const ModelEdge& one = model.edges[std::size_t(edge)];
-    return one.EA > 0 ? one.rest_length : 0;
-  };
-  return 0.5 * (length(e) + length(f));
-}
-
-int Model::dof() const {
-  int count = 0;
-  for (unsigned char bits : held) count += 3 - std::popcount(bits);
-  return count;
-}
 
 Result<Model> build_model(int nodes, const std::vector<ModelRod>& rods, RodModel rung,
                           const std::vector<char>& crossings) {
@@ -325,7 +375,10 @@ void finish(Model& model) {
                                    model.edges[std::size_t(bend.f)].to);
   for (ModelSpring& spring : model.springs)
     spring.slot = model.pattern.slot(spring.law.a, spring.law.b);
-  for (const ModelLink& link : model.links) place_all(nodes_of(link, model), model);
+  for (const ModelLink& link : model.links)
+    for (const int row : nodes_of(link, model))
+      for (const int column : nodes_of(link, model))
+        if (row != column) model.pattern.slot(row, column);
   for (ModelBar& bar : model.bars) bar.slot = model.pattern.slot(bar.law.a, bar.law.b);
   std::apply(
       [&](auto&... lists) {
@@ -335,13 +388,11 @@ void finish(Model& model) {
         (place(lists), ...);
       },
       model.pairs);
-  each_joint_list(model, [&](auto& pairs) {
-    for (auto& pair : pairs) place_pair(model, pair);
-  });
+  place_followers(model);
   model.free_index.assign(std::size_t(model.columns()), -1);
   model.free_columns.clear();
   for (int column = 0; column < model.columns(); ++column) {
-    if (model.pinned(column)) continue;
+    if ((model.held[std::size_t(column)] & Model::all_held) == Model::all_held) continue;
     model.free_index[std::size_t(column)] = model.free();
     model.free_columns.push_back(column);
   }

@@ -26,6 +26,7 @@ struct ModelEdge {
   double rest_length = 0;  ///< mm
   double EA = 0;           ///< N
   BlockSlot slot = 0;
+  int centre = -1;  ///< node that it is centred on, of which it is one half; -1: none
 };
 
 /// Bending at the node between edges e and f: f = e + 1, but where a ring closes.
@@ -67,41 +68,51 @@ struct Pair {
 
 /// All energies of two edges beside plain bending: an energy more is one list more.
 using PairLists = std::tuple<std::vector<Pair<Torsion>>, std::vector<Pair<SectionBending>>,
-                             std::vector<Pair<EndBending>>>;
+                             std::vector<Pair<EndBending>>, std::vector<Pair<JointAngle>>,
+                             std::vector<Pair<JointSpin>>>;
 
-/// The resistance of a joint to shear: E = k/2 (sum of w (angle - rest) over its pairs of edges)^2,
-/// less, of a joint that is opened, what has come of its opening.
-/// It acts on the rods' tangents at the joint alone; a sum of the squares would resist their
-/// bending there too, over an edge of each.
-struct ModelShear {
-  double stiffness = 0;  ///< k, N mm/rad
-  double opening = 0;    ///< in all, rad
-  std::vector<Pair<JointAngle>> pairs;
+// A joint with a law has unknowns of its own: its place x_c, and of each rod the vector of the edge
+// that is centred on it, by one of the nodes beside it, whose edges are its halves. What else is
+// there follows from these, and so do energies, forces and the Hessian: those by all nodes and
+// angles are taken first, then they are carried over to what is free (chain rule).
+
+/// A column that follows others: where its blocks of the Hessian go. Of every column that it has a
+/// block with the slot of that, and those of the leading ones with it (-1: it is the same column).
+struct FollowerBlocks {
+  struct Column {
+    int column = 0;
+    BlockSlot own = -1;
+    std::array<BlockSlot, 4> leading{-1, -1, -1, -1};
+  };
+  std::vector<int> leading;  ///< columns
+  std::vector<Column> beside;
 };
 
-/// The resistance of a joint to the spins a, b of two rods beside its normal, means over its pairs
-/// of edges as the angle theta between the rods is: E = share/2 (a, b) C^-1 (a, b)^T,
-///   C = diag(own_a, own_b) + out/sin^2 theta [[1, cos theta], [cos theta, 1]],
-/// how far both rods spin by a couple about each, rad/(N mm): own the joint's own and what the
-/// edges twist less than the joint, less what the rod itself bends out of the surface, out what
-/// both do.
-struct ModelSpin {
-  std::array<std::vector<Pair<JointSpin>>, 2> spins;
-  std::vector<Pair<JointAngle>> angle;
-  double own_a = 0, own_b = 0, out = 0, share = 1;
+/// The second node of a centred edge, x = 2 x_centre - x_first.
+struct ModelFollower {
+  int node = 0, centre = 0, first = 0;
+  FollowerBlocks blocks = {};
 };
 
-/// A bolt between the axes of two rods, a and b, that lie `eccentricity` apart at their joint,
-/// along the normal n = t_a x t_b/|t_a x t_b| to the rods' tangents there. With d = x_b - x_a,
-///   E = k/2 (n.d - eccentricity)^2 + k_a/2 (t_a.d)^2 + k_b/2 (t_b.d)^2.
-/// So a force F across the bolt puts the couple eccentricity n x F on the rods, each bearing the
-/// bending that the part of F along it asks for. t are the means of the tangents of the edges
-/// beside; what these turn less than the rod at the joint itself is in series with k as k_a, k_b.
+/// A rod at a joint that keeps its section near the joint's normal n = side t_e x t_f/|...|, t the
+/// tangents of the two rods' centred edges: n is the first reference director of edge e, whose
+/// angle then is the spin phi beside the normal, E = k/2 phi^2, or is held (k infinite).
+struct ModelHinge {
+  Pair<JointSpin> pair;
+  int other_half = -1;   ///< of edge e; -1: the rod ends there
+  double stiffness = 0;  ///< k, N mm/rad; 0: held
+  FollowerBlocks blocks = {};
+};
+
+/// A bolt between the axes of two rods that lie `eccentricity` apart at their joint, along the
+/// normal n = t_a x t_b/|t_a x t_b| to the tangents of their centred edges there. With d = x_b -
+/// x_a, E = k/2 |d - eccentricity n|^2. So a force F across the bolt puts the couple eccentricity
+/// n x F on the rods.
 struct ModelLink {
-  int a = 0, b = 0;                                        ///< nodes
-  std::vector<std::pair<int, double>> beside_a, beside_b;  ///< edges, and what each counts
-  double eccentricity = 0;                                 ///< mm
-  double across = 0, along_a = 0, along_b = 0;             ///< k, k_a, k_b, N/mm
+  int a = 0, b = 0;            ///< nodes
+  int edge_a = 0, edge_b = 0;  ///< half of each centred edge
+  double eccentricity = 0;     ///< mm
+  double stiffness = 0;        ///< k, N/mm
 };
 
 /// A rod: its nodes and their arc lengths at rest. A closed rod has one arc length more than nodes.
@@ -115,6 +126,7 @@ struct ModelRod {
   /// Curvature binormal at rest about m1 and m2 of the edge before, at every node, beside the
   /// material's curvature; empty: 0.
   std::vector<Eigen::Vector2d> turns{};
+  std::vector<char> centred{};  ///< of every node: an edge is centred on it; empty: none is
   RodEnd begin = RodEnd::pinned, end = RodEnd::pinned;
   Eigen::Vector3d director{0, 0, 1};     ///< m1 at the begin, as near as the tangent allows
   int ghost_begin = -1, ghost_end = -1;  ///< nodes of the ghosts; -1: numbered after the others
@@ -134,8 +146,8 @@ struct Model {
   std::vector<ModelBar> bars;    ///< braces
   std::vector<ModelLink> links;  ///< of eccentric joints
   PairLists pairs;
-  std::vector<ModelShear> shears;
-  std::vector<ModelSpin> joint_spins;
+  std::vector<ModelFollower> followers;
+  std::vector<ModelHinge> hinges;
   std::vector<NodeAction> loads;   ///< dead; they count times a load factor
   std::vector<NodeAction> ground;  ///< what the shell stands on
   ContactPairs contact;            ///< edges that may touch; none: nothing keeps them apart
@@ -158,9 +170,10 @@ struct Model {
   /// a node have one order, whoever goes along which rod.
   std::vector<std::vector<int>> waves;
 
-  /// per column: a bit set for each of its three unknowns that is prescribed or does not exist
+  /// per column: a bit set for each of its three unknowns that is prescribed or does not exist; all
+  /// of one that follows others, and a fourth
   std::vector<unsigned char> held;
-  static constexpr unsigned char all_held = 7;
+  static constexpr unsigned char all_held = 7, follows = 15;
 
   // worked out by finish()
   BlockPattern pattern;
@@ -170,6 +183,10 @@ struct Model {
   std::vector<int> segment;       ///< per column: the segment of a rod it is inside of, or -1
   std::vector<int> inside;        ///< columns inside segments, in order along the rods
 
+  /// Unknowns of the mixed form: axial forces of edges, then torques of joints with a spring.
+  Eigen::Index forces() const {
+    return Eigen::Index(edges.size() + std::get<std::vector<Pair<JointAngle>>>(pairs).size());
+  }
   int columns() const { return int(held.size()); }
   int free() const { return int(free_columns.size()); }
   int dof() const;
@@ -177,6 +194,10 @@ struct Model {
   void pin(int node) { held[std::size_t(node)] = all_held; }
   void hold(int column, int row) { held[std::size_t(column)] |= (unsigned char)(1 << row); }
   bool has_spins() const { return !spin.empty(); }
+  /// Puts nodes that follow others where these say: positions, or moves of them.
+  void follow(Eigen::Matrix3Xd& x) const;
+  /// Forces on nodes that follow others become forces on these.
+  void fold(Eigen::Matrix3Xd& force) const;
   /// Holds the angle of an edge.
   void hold_spin(int edge) { hold(spin[std::size_t(edge)] / 3, spin[std::size_t(edge)] % 3); }
   /// The angle of an edge in a state, rad.
@@ -185,17 +206,10 @@ struct Model {
   }
 };
 
-/// visit(pairs) for every list of pairs of edges by which joints resist
-template <class AnyModel, class Visit>
-void each_joint_list(AnyModel& model, Visit visit) {
-  for (auto& shear : model.shears) visit(shear.pairs);
-  for (auto& spin : model.joint_spins) {
-    for (auto& pairs : spin.spins) visit(pairs);
-    visit(spin.angle);
-  }
-}
-
-/// What bends between two edges, mm: the mean of their rest lengths; a ghost has none.
+/// The length of an edge that bends at its two nodes, mm: none of a ghost, of a half that of the
+/// whole centred edge.
+double bending_length(const Model& model, int edge);
+/// What bends between two edges, mm: the mean of their lengths.
 double length_between(const Model& model, int e, int f);
 
 /// Puts rods together; nodes that rods share are shared joints. `crossings` marks more nodes at
@@ -218,36 +232,33 @@ auto* law_of(AnyModel& model, int bend) {
 /// The edges of a rod that meet at a node, one or two.
 std::vector<int> edges_beside(const Model& model, int rod, int node);
 
+/// The tangent of a rod at a node, of one centred there that of its edge, else by the quadratic
+/// through the edges beside: t ~ t1 l2 + t2 l1.
+Eigen::Vector3d tangent_at(const Model& model, const Eigen::Matrix3Xd& x, int rod, int node);
+
 /// Where rods `a` and `b` of a model cross: at a node, or at two nodes that a spring joins.
 struct Crossing {
   int rod_a = 0, node_a = 0, rod_b = 0, node_b = 0;
 };
 
-/// Adds the resistance to shear `stiffness` (N mm/rad) where rods cross: of the edges before and
-/// after the node on each rod.
-/// It acts on the rods' tangents at the joint, which lie between those of the edges: what these
-/// turn less than the joint is put in series with it (of a rigid one, infinite, that alone is
-/// left). `rest_angle`: between edge e of `a` and edge f of `b`. `share`: how much of a joint of
-/// several pairs of rods this one is; `opening`: by how much it is to open, rad. finish()
-/// afterwards; so for the one below.
-void add_joint_shear(Model& model, const Crossing& at, double stiffness,
-                     const std::function<double(int e, int f)>& rest_angle, double share = 1,
-                     double opening = 0);
+/// Adds the resistance to shear `stiffness` (N mm/rad) where rods cross, on the angle between their
+/// centred edges: E = k/2 (angle - rest - opening)^2. finish() afterwards; so for those below.
+void add_joint_shear(Model& model, const Crossing& at, const JointAngle& law);
 
 /// Adds the resistance to spin `stiffness` (N mm/rad) of both rods where they cross: their first
 /// directors stay near the joint's normal, `side` times that from the direction of `a` to that of
-/// `b`. What the edges turn less than the joint is in series with it, as of the shear: a couple M_a
-/// about `a` that keeps it to the normal bends both out of the surface, `a` by M_a cot(theta), `b`
-/// by M_a/sin(theta).
-void add_joint_spin(Model& model, const Crossing& at, double stiffness, int side = 1,
-                    double share = 1);
+/// `b`; infinite: on it. The joint is of these two rods alone.
+void add_joint_hinge(Model& model, const Crossing& at, double stiffness, int side = 1);
+
+/// The same as an energy of every two of more rods, whose spins are no joint's own.
+void add_joint_spin(Model& model, const Crossing& at, double stiffness, int side = 1);
 
 /// Adds the bolt of two rods that lie apart where they cross, `eccentricity` along t_a x t_b: as
-/// stiff as so long a piece of the softer rod. finish() afterwards.
+/// stiff as so long a piece of the softer rod.
 void add_joint_link(Model& model, const Crossing& at, double eccentricity);
 
-/// The link's own two nodes first, then those of the edges beside them.
-std::vector<int> nodes_of(const ModelLink& link, const Model& model);
+/// The nodes of its two edges.
+std::array<int, 4> nodes_of(const ModelLink& link, const Model& model);
 
 /// Works out pattern and numbering after elements were added or unknowns held.
 void finish(Model& model);

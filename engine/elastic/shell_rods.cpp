@@ -1,5 +1,6 @@
 #include "engine/elastic/shell_rods.h"
 
+#include "engine/core/try.h"
 #include "engine/elastic/along_rods.h"
 #include "engine/elastic/model.h"
 #include "engine/elastic/rod_frame.h"
@@ -7,7 +8,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <tuple>
 #include <utility>
 
 namespace gridshell {
@@ -57,6 +58,22 @@ ModelRod rod_of(const RodMesh& mesh, std::size_t r, const RodMaterial& material,
   }
   // a closed rod comes back to its first node
   if (rod.nodes.front() == rod.nodes.back()) rod.nodes.pop_back();
+  for (const int node : rod.nodes) rod.centred.push_back(mesh.is_centred(node));
+  // the piece beside an end is as long as one beside a centred joint: half an edge
+  const auto halve_end = [&](int end, auto first, auto last, char& centred) {
+    const bool tail = !mesh.far_ends.empty() && mesh.far_ends[std::size_t(end)] >= 0;
+    const auto joint =
+        std::find_if(first, last, [&](int node) { return mesh.joint_of(node) >= 0; });
+    if (!tail && !holds_direction(mesh.end_of(end)) && joint != last)
+      centred |= mesh.is_centred(*joint);
+  };
+  halve_end(int(2 * r), rod.nodes.begin(), rod.nodes.end(), rod.centred.front());
+  halve_end(int(2 * r + 1), rod.nodes.rbegin(), rod.nodes.rend(), rod.centred.back());
+  if (material.as_drawn && std::ranges::count(rod.centred, 1) > 0)
+    for (std::size_t k = 1; k < rod.position.size(); ++k)
+      rod.position[k] =
+          rod.position[k - 1] +
+          (place(mesh, rod.nodes[k % rod.nodes.size()]) - place(mesh, rod.nodes[k - 1])).norm();
   if (material.as_drawn) rod.turns = turns_of(mesh, rod);
   // what hangs on a spring is free in itself
   const auto held = [&](RodEnd end) {
@@ -206,58 +223,61 @@ void add_links(const RodMesh& mesh, const Crossings& crossings,
   }
 }
 
-/// every two of the rods of every joint, by the law there
-void add_joints(const RodMesh& mesh, const ShellRods& shell, const Crossings& crossings,
-                const std::vector<Eigen::Vector3d>& normals, Model& model) {
-  const double spring = shell.joints.spring_N_per_mm;
+/// The largest stiffness of a law, N mm/rad: k edges a segment times 20 of what an edge of each rod
+/// has, `of` over its length. A rigid joint so gives less than what the mesh leaves out, and at
+/// second order.
+double stiff_limit(const RodMesh& mesh, const Model& model, const Crossing& at,
+                   const std::array<double, 2>& of) {
+  double sum = 0;
+  for (const auto& [rod, node, EI] :
+       {std::tuple(at.rod_a, at.node_a, of[0]), std::tuple(at.rod_b, at.node_b, of[1])}) {
+    const int edge = edges_beside(model, rod, node).front();
+    sum += EI / length_between(model, edge, edge);
+  }
+  return 20.0 * mesh.edges_per_segment * sum;
+}
+
+/// Every two of the rods of every joint, by the law there, and by bolts that keep angles.
+Result<void> add_laws(const RodMesh& mesh, const ShellRods& shell, const Crossings& crossings,
+                      const std::vector<Eigen::Vector3d>& normals, Model& model) {
+  const bool twist = model.has_spins(), springs = twist && shell.joints.spring_N_per_mm > 0;
   for (int joint = 0; joint < mesh.joints; ++joint) {
-    const auto own = shell.own_joints.find(joint);
-    const JointLaw& law = own == shell.own_joints.end() ? shell.joints : own->second;
     const std::vector<RodAt>& rods = crossings[std::size_t(joint)];
-    if (spring > 0)
-      model.springs.push_back({{joint, mesh.nodes() + joint, Eigen::Vector3d::Constant(spring)}});
-    // at rest as drawn: of a rod that is straight at rest by how it runs through the joint
-    const auto along = [&](const RodAt& of, int edge) {
-      const ModelEdge& one = model.edges[std::size_t(edge)];
-      return shell.material(std::size_t(of.rod)).as_drawn ? way(mesh, one.from, one.to)
-                                                          : direction_at(mesh, of);
-    };
+    if (springs)
+      model.springs.push_back(
+          {{joint, mesh.nodes() + joint, Eigen::Vector3d::Constant(shell.joints.spring_N_per_mm)}});
+    const JointLaw law = twist ? shell.law(joint) : JointLaw();
+    const bool bolted = shell.bolts && !shell.bolts->rods[std::size_t(joint)].empty();
+    if (rods.size() < 2 || (law.shear_Nmm == 0 && law.twist_Nmm == 0 && !bolted)) continue;
+    if (!mesh.is_centred(joint))
+      return invalid("joint {}: a law holds its rods, and the mesh has no edges centred on it",
+                     joint);
     each_two(rods.size(), [&](std::size_t k, std::size_t m, double share) {
-      const Crossing at = crossing(mesh, rods, joint, spring > 0, k, m);
-      const auto rest = [&](int e, int f) {
-        return angle_between(along(rods[k], e), along(rods[m], f));
-      };
-      if (law.shear_Nmm > 0) add_joint_shear(model, at, law.shear_Nmm, rest, share);
-      if (law.twist_Nmm > 0)
-        add_joint_spin(model, at, law.twist_Nmm,
-                       side_of(mesh, rods[k], rods[m], normals[std::size_t(joint)]), share);
-    });
-  }
-}
-
-/// how far the middle of an edge lies beyond one of its nodes, mm
-double beyond(const ModelEdge& edge, int node) {
-  return (edge.to == node ? -0.5 : 0.5) * edge.rest_length;
-}
-
-void add_bolts(const RodMesh& mesh, const Bolts& bolts, bool springs, const Crossings& crossings,
-               Model& model) {
-  for (int joint = 0; joint < mesh.joints; ++joint) {
-    const std::vector<RodAt>& rods = crossings[std::size_t(joint)];
-    const auto& held = bolts.rods[std::size_t(joint)];
-    const auto of = [&](const std::vector<double>& angles) {
-      return angles.empty() ? 0 : angles[std::size_t(joint)];
-    };
-    each_two(held.size(), [&](std::size_t k, std::size_t m, double share) {
       const Crossing at = crossing(mesh, rods, joint, springs, k, m);
-      const auto rest = [&](int e, int f) {
-        return of(bolts.opened) +
-               angle_between(held[k].at(beyond(model.edges[std::size_t(e)], at.node_a)),
-                             held[m].at(beyond(model.edges[std::size_t(f)], at.node_b)));
+      const RodMaterial &a = shell.material(std::size_t(at.rod_a)),
+                        &b = shell.material(std::size_t(at.rod_b));
+      const double most = stiff_limit(mesh, model, at, {a.EI1, b.EI1});
+      const int side = side_of(mesh, rods[k], rods[m], normals[std::size_t(joint)]);
+      const bool hinged = law.twist_Nmm > 0 && rods.size() == 2;
+      const auto shear = [&](JointAngle angle) {
+        angle.side = hinged ? side : 0;
+        add_joint_shear(model, at, angle);
       };
-      add_joint_shear(model, at, bolts.stiffness_Nmm, rest, share, of(bolts.opening));
+      if (law.shear_Nmm > 0)
+        shear({share * std::min(law.shear_Nmm, most),
+               angle_between(direction_at(mesh, rods[k]), direction_at(mesh, rods[m])), 0, joint});
+      if (bolted) shear(shell.bolts->law(joint, k, m, share, most));
+      if (law.twist_Nmm == 0) return;
+      if (hinged)
+        add_joint_hinge(model, at, law.twist_Nmm, side);
+      else
+        add_joint_spin(model, at,
+                       share * std::min(law.twist_Nmm,
+                                        stiff_limit(mesh, model, at, {a.EI2 + a.GJ, b.EI2 + b.GJ})),
+                       side);
     });
   }
+  return {};
 }
 
 /// edge points with a tail, or without a rod, joints that the boundary holds, supports of springs
@@ -293,16 +313,6 @@ void lay_flat(const RodMesh& mesh, Model& model) {
     model.flat.col(column) /= edges[std::size_t(column)];
 }
 
-/// whether a rod is cut with a corner at a node: it is drawn so, and bends there at rest
-bool has_corner(const RodMesh& mesh, const Model& model, int rod, const std::vector<int>& beside) {
-  const Model::Rod& one = model.rods[std::size_t(rod)];
-  const auto* law = law_of<SectionBending>(model, one.first_bend + beside[0] - one.edges.front());
-  const ModelEdge &e = model.edges[std::size_t(beside[0])],
-                  &f = model.edges[std::size_t(beside[1])];
-  return law && !law->bend.rest.isZero(0) &&
-         way(mesh, e.from, e.to).cross(way(mesh, f.from, f.to)).norm() > 1e-9;
-}
-
 }  // namespace
 
 ShellRods::ShellRods(const RodMaterial& material) : materials{material} {}
@@ -336,35 +346,19 @@ std::vector<NodeAction> dead_loads(const RodMesh& mesh, const ShellRods& rods) {
   return loads;
 }
 
-double angle_between(const std::vector<JointDirections>& rods) {
-  return angle_between(rods[0].at(0), rods[1].at(0));
-}
-
-Bolts tightened(const RodMesh& mesh, const Model& model, const Eigen::Matrix3Xd& columns,
-                double stiffness_Nmm) {
-  Bolts bolts{stiffness_Nmm, {}, {}, {}};
+Bolts tightened(const RodMesh& mesh, const Model& model, const State& state, double stiffness_Nmm) {
+  Bolts bolts{stiffness_Nmm, {}, {}, {}, {}};
   const auto crossings = crossings_of(mesh);
   const bool springs = model.nodes >= mesh.nodes() + mesh.joints;
   for (int joint = 0; joint < mesh.joints; ++joint) {
     auto& held = bolts.rods.emplace_back();
-    for (const auto& [rod, own] : crossings[std::size_t(joint)]) {
-      const int node = springs && !held.empty() ? mesh.nodes() + joint : own;
-      JointDirections& one = held.emplace_back();
-      const std::vector<int> beside = edges_beside(model, rod, node);
-      for (const int k : beside) {
-        const ModelEdge& edge = model.edges[std::size_t(k)];
-        const bool before = edge.to == node;
-        (before ? one.before : one.after) = geometry_between(columns, edge.from, edge.to).tangent;
-        (before ? one.before_mm : one.after_mm) = 0.5 * edge.rest_length;
-      }
-      if (beside.size() > 1 && has_corner(mesh, model, rod, beside))
-        one.before_mm = one.after_mm = std::numeric_limits<double>::infinity();
-      if (beside.size() > 1) continue;
-      const bool ends = one.before_mm > 0;
-      (ends ? one.after : one.before) = ends ? one.before : one.after;
-      one.before_mm = one.after_mm = 0;
-    }
+    for (const auto& [rod, own] : crossings[std::size_t(joint)])
+      held.push_back(
+          tangent_at(model, state.x, rod, springs && !held.empty() ? mesh.nodes() + joint : own));
   }
+  for (const ModelHinge& hinge : model.hinges)
+    if (is_closed(model, state, hinge))
+      bolts.closed.insert(mesh.joint_of(model.edges[std::size_t(hinge.pair.e)].centre));
   return bolts;
 }
 
@@ -393,12 +387,11 @@ Result<Model> build_model(const RodMesh& mesh, const ShellRods& shell, RodModel 
   auto model = build_model(nodes, rods, rung, crossings);
   if (!model) return model;
   add_links(mesh, at_joints, normals, *model);
-  if (rung == RodModel::twist) add_joints(mesh, shell, at_joints, normals, *model);
+  TRY_DO(add_laws(mesh, shell, at_joints, normals, *model));
   for (const MeshSpring& spring : mesh.springs)
     model->springs.push_back({{spring.support, spring.node, spring.N_per_mm, Term::support}});
   const std::vector<int> pinned = pinned_beside_ends(mesh);
   for (const int node : pinned) model->pin(node);
-  if (bolts) add_bolts(mesh, *bolts, springs, at_joints, *model);
   for (const Brace& brace : braces)
     model->bars.push_back({{brace.a, brace.b, brace.rest_length_mm, brace.EA, brace.cable}});
   if (rung == RodModel::twist || !pinned.empty() || bolts || !braces.empty() ||

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <map>
 #include <memory>
+#include <set>
 #include <vector>
 
 #include "engine/core/choices.h"
@@ -31,29 +32,21 @@ struct JointLaw {
   double twist_Nmm = 0;  ///< per rad; 0: they pass no twist; infinite: they keep to the normal
 };
 
-/// How a rod runs through a joint: unit tangents of the edges before and after it, and how far off
-/// their middles lie, mm; infinite where it is cut with a corner there. Of a rod that ends there
-/// both are those of its one edge.
-struct JointDirections {
-  Eigen::Vector3d before, after;
-  double before_mm = 0, after_mm = 0;
-
-  /// Where it points `mm` beyond the joint, between the two along a straight line, or round the
-  /// corner.
-  Eigen::Vector3d at(double mm) const;
-};
-
-/// Bolts that keep the angles that crossing rods had when they were tightened: free of stress in
-/// that shape, on every mesh. Joints that are opened strive for angles as much larger.
+/// Bolts that keep the angles that crossing rods had when they were tightened. Joints that are
+/// opened strive for angles as much larger.
 struct Bolts {
   double stiffness_Nmm = 0;                        ///< per rad, of each joint; infinite: rigid
-  std::vector<std::vector<JointDirections>> rods;  ///< of every joint, in its rods' order; or none
+  std::vector<std::vector<Eigen::Vector3d>> rods;  ///< of every joint, unit tangents; or none
   std::vector<double> opened{};   ///< of every joint, rad; empty: as they were tightened
   std::vector<double> opening{};  ///< what is to come beside that, rad; empty: nothing
-};
+  std::set<int> closed{};         ///< joints whose hinged rods had passed one another
 
-/// The angle between the first two rods of a joint, rad.
-double angle_between(const std::vector<JointDirections>& rods);
+  /// The angle between the first two rods of a joint as it was tightened, rad; of one that had
+  /// closed below zero.
+  double angle(int joint) const;
+  /// Of two of its rods, which count `share`; at most as stiff as `most`.
+  JointAngle law(int joint, std::size_t k, std::size_t m, double share, double most) const;
+};
 
 /// A straight member between two joints.
 struct Brace {
@@ -81,6 +74,10 @@ struct ShellRods {
   const RodMaterial& material(std::size_t rod) const {
     return materials.size() == 1 ? materials.front() : materials[rod];
   }
+  const JointLaw& law(int joint) const {
+    const auto own = own_joints.find(joint);
+    return own == own_joints.end() ? joints : own->second;
+  }
   bool loaded() const {
     // a member more does not compile here: whoever adds one says whether it loads the shell
     const auto& [rods, law, laws, weight, of_joints, loads, touching, tight, diagonals] = *this;
@@ -106,12 +103,14 @@ Result<Model> build_model(const RodMesh& mesh, const ShellRods& rods,
                           RodModel rung = RodModel::bend);
 
 /// Torques of bolts and of joints that resist shear, on each joint's rods, that would open it: sums
-/// of k (rest - angle) over its pairs of edges, N mm.
+/// of k (rest - angle) over every two of its rods, N mm.
 std::vector<double> joint_torques(const RodMesh& mesh, const Model& model, const State& state);
 
 /// Bolts tightened in a state of that model.
-Bolts tightened(const RodMesh& mesh, const Model& model, const Eigen::Matrix3Xd& columns,
-                double stiffness_Nmm);
+Bolts tightened(const RodMesh& mesh, const Model& model, const State& state, double stiffness_Nmm);
+
+/// The footprint with edges centred on the joints that bolts hold.
+Footprint centred(Footprint footprint, const Bolts* bolts);
 
 /// Columns of a model's state from positions of the mesh's nodes: twins of joints where these are,
 /// angles zero.

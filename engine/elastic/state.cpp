@@ -54,14 +54,50 @@ void carry_reference_twist(const Model& model, const Eigen::Matrix3Xd& tangents,
   }
 }
 
+/// Along each rod a frame without twist whose first director is the rod's.
+Eigen::Matrix3Xd start_directors(const Model& model, const Eigen::Matrix3Xd& tangents) {
+  Eigen::Matrix3Xd directors(3, tangents.cols());
+  for (const Model::Rod& rod : model.rods) {
+    int before = rod.edges.front();
+    Eigen::Vector3d director = normal_near(rod.director, tangents.col(before));
+    for (int edge : rod.edges) {
+      director = carried_director(director, tangents.col(before), tangents.col(edge));
+      directors.col(edge) = director;
+      before = edge;
+    }
+  }
+  return directors;
+}
+
+/// First directors of hinged edges are the joints' normals; of the two the one nearer to the
+/// director that is there, so that a joint that closes goes on with a negative angle.
+void put_normals(const Model& model, const Eigen::Matrix3Xd& x, Eigen::Matrix3Xd& director) {
+  for (const auto& [pair, other_half, stiffness, blocks] : model.hinges) {
+    const Eigen::Vector3d normal =
+        tangent_of(model, x, pair.e).cross(tangent_of(model, x, pair.f)).normalized();
+    const double side = std::copysign(1.0, normal.dot(director.col(pair.e)));
+    for (const int half : {pair.e, other_half})
+      if (half >= 0) director.col(half) = side * normal;
+  }
+}
+
+/// Joints in the middle of their centred edges.
+void centre(const Model& model, Eigen::Matrix3Xd& x) {
+  for (const auto& [node, middle, first, blocks] : model.followers)
+    x.col(first) = x.col(middle) - 0.5 * (x.col(node) - x.col(first));
+  model.follow(x);
+}
+
 /// Where each edge of a rod stands along it: its middle, a ghost at the end point itself.
 std::vector<double> places_along(const Model& model, const Model::Rod& rod) {
   std::vector<double> places;
   double s = 0;
   for (int edge : rod.edges) {
     const bool ghost = edge == rod.ghost_begin || edge == rod.ghost_end;
-    const double length = ghost ? 0 : model.edges[std::size_t(edge)].rest_length;
-    places.push_back(s + 0.5 * length);
+    const ModelEdge& one = model.edges[std::size_t(edge)];
+    const double length = ghost ? 0 : one.rest_length;
+    // of half a centred edge at the joint
+    places.push_back(s + (one.centre < 0 ? 0.5 : one.centre == one.to ? 1.0 : 0.0) * length);
     s += length;
   }
   return places;
@@ -71,6 +107,7 @@ std::vector<double> places_along(const Model& model, const Model::Rod& rod) {
 double interpolated(const std::vector<double>& at, const std::vector<double>& value, double s) {
   if (at.size() == 1) return value.front();
   const std::size_t k = piece_at(at, s);
+  if (at[k + 1] == at[k]) return value[k];
   const double share = (s - at[k]) / (at[k + 1] - at[k]);
   return value[k] + share * (value[k + 1] - value[k]);
 }
@@ -111,37 +148,42 @@ double twist_at(const Model& model, const State& state, int bend) {
 }  // namespace
 
 State start_state(const Model& model, const Eigen::Matrix3Xd& x) {
-  const Eigen::Index edges = Eigen::Index(model.edges.size());
-  State state{Eigen::Matrix3Xd::Zero(3, model.columns()), Eigen::VectorXd::Zero(edges)};
+  State state{Eigen::Matrix3Xd::Zero(3, model.columns()), Eigen::VectorXd::Zero(model.forces())};
   state.x.leftCols(x.cols()) = x;
+  centre(model, state.x);
   if (x.cols() < model.nodes) put_ghosts(model, state.x);
   if (!model.has_spins()) return state;
-  state.director.resize(3, edges);
   state.reference_twist = Eigen::VectorXd::Zero(Eigen::Index(model.bends.size()));
   const Eigen::Matrix3Xd tangents = tangents_of(model, state.x);
-  for (const Model::Rod& rod : model.rods) {
-    int before = rod.edges.front();
-    Eigen::Vector3d director = normal_near(rod.director, tangents.col(before));
-    for (int edge : rod.edges) {
-      director = carried_director(director, tangents.col(before), tangents.col(edge));
-      state.director.col(edge) = director;
-      before = edge;
-    }
-  }
+  state.director = start_directors(model, tangents);
+  for (const ModelHinge& hinge : model.hinges)
+    state.director.col(hinge.pair.e) =
+        hinge.pair.law.side * tangents.col(hinge.pair.e).cross(tangents.col(hinge.pair.f));
+  put_normals(model, state.x, state.director);
   carry_reference_twist(model, tangents, state);
   return state;
+}
+
+bool is_closed(const Model& model, const State& state, const ModelHinge& hinge) {
+  const auto& [e, f, bend, law, slots] = hinge.pair;
+  const Eigen::Vector3d across = tangent_of(model, state.x, e).cross(tangent_of(model, state.x, f));
+  return law.side * state.director.col(e).dot(across) < 0;
 }
 
 void move_to(const Model& model, const Eigen::Matrix3Xd& x, State& state) {
   if (!model.has_spins()) {
     state.x = x;
+    model.follow(state.x);
     return;
   }
-  const Eigen::Matrix3Xd before = tangents_of(model, state.x), after = tangents_of(model, x);
+  const Eigen::Matrix3Xd before = tangents_of(model, state.x);
+  state.x = x;
+  model.follow(state.x);
+  const Eigen::Matrix3Xd after = tangents_of(model, state.x);
   for (int edge = 0; edge < int(model.edges.size()); ++edge)
     state.director.col(edge) =
         carried_director(state.director.col(edge), before.col(edge), after.col(edge));
-  state.x = x;
+  put_normals(model, state.x, state.director);
   carry_reference_twist(model, after, state);
 }
 
@@ -161,18 +203,38 @@ State StateTransfer::carry(const State& state) const {
   Eigen::Matrix3Xd nodes;
   meshes_.nodes(nodes_of(from_mesh_, from_, state.x), nodes);
   State carried = start_state(to_, columns_of(to_mesh_, to_, nodes));
-  meshes_.edges(state.force, carried.force);
-  if (to_.has_spins()) carry_spins(state, carried);
+  Eigen::VectorXd axial;
+  meshes_.edges(state.force, axial);
+  carried.force << axial, state.force.tail(to_.forces() - axial.size());
+  if (!to_.has_spins()) return carried;
+  for (std::size_t k = 0; k < std::min(from_.hinges.size(), to_.hinges.size()); ++k) {
+    if (!is_closed(from_, state, from_.hinges[k])) continue;
+    for (const int half : {to_.hinges[k].pair.e, to_.hinges[k].other_half})
+      if (half >= 0) carried.director.col(half) *= -1;
+  }
+  carry_reference_twist(to_, tangents_of(to_, carried.x), carried);
+  carry_spins(state, carried);
   return carried;
 }
 
-/// The carried frames are without twist along each rod, so angles there are the twist itself.
+/// The carried frames are without twist along each rod, so angles there are the twist itself, but
+/// for those of hinged edges: their angle off the joint's normal is that, and how the frame without
+/// twist lies off the normal.
 void StateTransfer::carry_spins(const State& state, State& carried) const {
+  std::vector<double> off(to_.edges.size(), 0);
+  const Eigen::Matrix3Xd tangents = tangents_of(to_, carried.x);
+  Eigen::Matrix3Xd plain = start_directors(to_, tangents);
+  for (const ModelHinge& hinge : to_.hinges)
+    for (const int half : {hinge.pair.e, hinge.other_half})
+      if (half >= 0)
+        off[std::size_t(half)] =
+            signed_angle(carried.director.col(half), plain.col(half), tangents.col(half));
   for (std::size_t r = 0; r < from_.rods.size(); ++r) {
     const Model::Rod &before = from_.rods[r], &after = to_.rods[r];
     const std::vector<double> at = places_along(from_, before);
     std::vector<double> turned{
-        angle_between(from_, state, before.edges.front(), to_, carried, after.edges.front())};
+        angle_between(from_, state, before.edges.front(), to_, carried, after.edges.front()) -
+        off[std::size_t(after.edges.front())]};
     for (std::size_t k = 1; k < before.edges.size(); ++k)
       turned.push_back(turned.back() + twist_at(from_, state, before.first_bend + int(k) - 1));
     const std::vector<double> places = places_along(to_, after);
@@ -180,12 +242,24 @@ void StateTransfer::carry_spins(const State& state, State& carried) const {
       return carried.x.data()[to_.spin[std::size_t(edge)]];
     };
     for (std::size_t k = 0; k < after.edges.size(); ++k)
-      angle(after.edges[k]) = to_.spin_length * interpolated(at, turned, places[k]);
+      angle(after.edges[k]) = to_.spin_length * (interpolated(at, turned, places[k]) +
+                                                 off[std::size_t(after.edges[k])]);
     for (const auto& [old_end, new_end] :
          {std::pair(before.ghost_begin, after.ghost_begin), {before.ghost_end, after.ghost_end}})
       if (new_end >= 0)
         angle(new_end) +=
             to_.spin_length * angle_between(from_, state, old_end, to_, carried, new_end);
+  }
+  if (to_.hinges.empty()) return;
+  for (const ModelHinge& hinge : to_.hinges) {
+    double& spin = carried.x.data()[to_.spin[std::size_t(hinge.pair.e)]];
+    spin = to_.spin_length * std::remainder(spin / to_.spin_length, 2 * M_PI);
+    if (hinge.stiffness == 0) spin = 0;
+  }
+  // from edge to edge rods turn less than half round
+  for (std::size_t k = 0; k < to_.bends.size(); ++k) {
+    double& known = carried.reference_twist[Eigen::Index(k)];
+    known = unwrapped(known, known - twist_at(to_, carried, int(k)));
   }
 }
 
@@ -261,9 +335,9 @@ Energies energies_of(const Model& model, const State& state, const ExternalLoads
         });
   each_pair_list(model, [&]<class Law>(const std::vector<Pair<Law>>& list) {
     for (const Pair<Law>& pair : list)
-      sum[Law::term] += pair.law.value(pair_geometry(model, state, pair));
+      sum[Law::term] += pair.law.value(pair_geometry(model, state, pair, outside.opening));
   });
-  add_joint_energies(model, state, outside.opening, sum);
+  add_joint_energies(model, state, sum);
   for (const ModelSpring& spring : model.springs)
     sum[spring.law.term] += spring.law.value(gap_of(state, spring.law));
   for (const ModelBar& bar : model.bars)

@@ -8,10 +8,13 @@
 
 namespace gridshell {
 
+struct ModelHinge;
+
 /// Reference frames belong to the positions: move them by move_to() alone.
 struct State {
-  Eigen::Matrix3Xd x;                    ///< 3 x columns of the model: positions and angles, mm
-  Eigen::VectorXd force;                 ///< axial, one an edge, N: unknowns of the mixed form
+  Eigen::Matrix3Xd x;  ///< 3 x columns of the model: positions and angles, mm
+  /// unknowns of the mixed form: axial, one an edge, N; then torques of joints with a spring, N mm
+  Eigen::VectorXd force;
   Eigen::Matrix3Xd director = {};        ///< twist rung: of the reference frames, one an edge
   Eigen::VectorXd reference_twist = {};  ///< twist rung: m_ref, one a bend; whole turns count
 };
@@ -20,6 +23,10 @@ struct State {
 /// first director is the rod's. Ghosts that x does not have (fewer columns than nodes) go straight
 /// on beyond their ends, and angles are zero.
 State start_state(const Model& model, const Eigen::Matrix3Xd& x);
+
+/// Whether the rods of a hinge have passed one another since they were drawn: the angle between
+/// them is below zero.
+bool is_closed(const Model& model, const State& state, const ModelHinge& hinge);
 
 /// Moves the columns to x, the reference frames along with them (parallel in time).
 void move_to(const Model& model, const Eigen::Matrix3Xd& x, State& state);
@@ -32,9 +39,9 @@ void set_end_direction(const Model& model, int rod, bool at_end, const Eigen::Ve
 // States between meshes of one footprint.
 
 /// Carries states from a model on one mesh to a model on another: positions by cubic interpolation
-/// along the rods, axial forces edge by edge, and of the spins the material frames: their twist is
-/// spread along the arc length, and what a clamped end holds is kept to round-off. Meshes and
-/// models must outlive it.
+/// along the rods, axial forces edge by edge, torques joint by joint, and of the spins the material
+/// frames: their twist is spread along the arc length, and what a clamped end holds is kept to
+/// round-off. Meshes and models must outlive it.
 class StateTransfer {
  public:
   StateTransfer(const RodMesh& from_mesh, const Model& from, const RodMesh& to_mesh,

@@ -81,6 +81,7 @@ struct FootprintJoint {
   /// How far the axis of its second rod lies above that of the first along the normal, mm; 0: they
   /// meet. Of joints of two rods alone.
   double eccentricity = 0;
+  bool centred = false;  ///< a law holds its rods: each of them has an edge centred on it
 };
 
 /// A complete cell: joints (i,j), (i+1,j), (i+1,j+1), (i,j+1), all four rods between them present.

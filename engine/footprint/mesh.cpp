@@ -18,7 +18,7 @@ namespace {
 struct Stop {
   int node;
   double at;
-  bool joint = false;
+  bool joint = false, centred = false;
 };
 
 /// The node of rod `r` at a joint: its own, where another rod came before it and lies apart.
@@ -49,17 +49,67 @@ std::vector<Stop> stops_of(const Footprint& footprint, std::size_t r, std::vecto
     const int joint = rod.joints[k];
     const int node =
         node_at(footprint.joints[std::size_t(joint)], joint, int(r), first_rod, next, mesh);
-    stops.push_back({node, rod.marks[k], true});
+    stops.push_back({node, rod.marks[k], true, footprint.joints[std::size_t(joint)].centred});
   }
   if (rod.end != RodEnd::joined) stops.push_back({first + 1, rod.span.end});
   if (rod.tail_end > 0) far_end(first + 1, rod.span.end + rod.tail_end);
   return stops;
 }
 
-/// Legs and tails shorter than d/4 have fewer edges than a segment.
+/// Legs and tails shorter than d/4 have fewer edges than a segment; two centred edges need a node
+/// each.
 int edges_between(const Stop& a, const Stop& b, const Footprint& footprint, const RodMesh& mesh) {
+  if (a.centred && b.centred) return std::max(2, mesh.edges_per_segment);
   if ((a.joint && b.joint) || !(b.at - a.at < footprint.spacing / 4)) return mesh.edges_per_segment;
   return std::max(1, int(std::lround(mesh.edges_per_segment / 4.0)));
+}
+
+/// Where the nodes between stop k - 1 and stop k of a rod lie.
+std::vector<double> cuts_of(const std::vector<Stop>& stops, std::size_t k,
+                            const Footprint& footprint, const RodMesh& mesh) {
+  const std::size_t last = stops.size() - 1;
+  const bool ring = stops[0].node == stops[last].node;
+  const auto pieces = [&](std::size_t n) {
+    return edges_between(stops[n - 1], stops[n], footprint, mesh);
+  };
+  const auto piece = [&](std::size_t n) { return (stops[n].at - stops[n - 1].at) / pieces(n); };
+  // half the centred edge between two stretches; of a rod that ends there one is missing
+  const auto half = [&](std::size_t before, std::size_t after) {
+    const bool begins = before == 0 && !ring, ends = after > last && !ring;
+    const double h = piece(begins        ? after
+                           : before == 0 ? last
+                                         : before),
+                 g = piece(ends           ? before
+                           : after > last ? 1
+                                          : after);
+    return h * g / (h + g);
+  };
+  const Stop &from = stops[k - 1], &to = stops[k];
+  const int edges = pieces(k);
+  std::vector<double> cuts;
+  const auto at = [&](double share) { return from.at + (to.at - from.at) * share / edges; };
+  if (from.centred || to.centred)
+    for (int e = 0; e < edges; ++e) cuts.push_back(at(e + 0.5));
+  else
+    for (int e = 1; e < edges; ++e) cuts.push_back(at(e));
+  if (from.centred) cuts.front() = from.at + half(k - 1, k);
+  if (to.centred) cuts.back() = to.at - half(k, k + 1);
+  return cuts;
+}
+
+/// Puts the joint into the middle of each edge that is centred on it, where rods turn there.
+template <class Points>
+void centre_edges(const RodMesh& mesh, Points& points) {
+  const auto centre = [&](int before, int node, int after) {
+    if (!mesh.is_centred(node)) return;
+    const auto half = (0.5 * (points.col(after) - points.col(before))).eval();
+    points.col(before) = points.col(node) - half;
+    points.col(after) = points.col(node) + half;
+  };
+  for (const std::vector<int>& rod : mesh.rods) {
+    for (std::size_t k = 1; k + 1 < rod.size(); ++k) centre(rod[k - 1], rod[k], rod[k + 1]);
+    if (rod.front() == rod.back()) centre(rod[rod.size() - 2], rod.front(), rod[1]);
+  }
 }
 
 void add_ghosts(const Footprint& footprint, int& next, RodMesh& mesh) {
@@ -112,6 +162,7 @@ RodMesh mesh_rods(const Footprint& footprint, int edges_per_segment) {
   mesh.joints = int(footprint.joints.size());
   mesh.edge_points = 2 * int(footprint.rods.size());
   mesh.held_joints = footprint.held_joints;
+  for (const FootprintJoint& joint : footprint.joints) mesh.centred.push_back(joint.centred);
   int next = mesh.joints + mesh.edge_points;
   std::vector<int> first_rod(footprint.joints.size(), -1);
 
@@ -122,14 +173,12 @@ RodMesh mesh_rods(const Footprint& footprint, int edges_per_segment) {
     std::vector<int> nodes{stops.front().node};
     std::vector<double> position{stops.front().at};
     for (std::size_t k = 1; k < stops.size(); ++k) {
-      const Stop &from = stops[k - 1], &to = stops[k];
-      const int edges = edges_between(from, to, footprint, mesh);
-      for (int e = 1; e < edges; ++e) {
+      for (const double at : cuts_of(stops, k, footprint, mesh)) {
         nodes.push_back(next++);
-        position.push_back(from.at + (to.at - from.at) * e / edges);
+        position.push_back(at);
       }
-      nodes.push_back(to.node);
-      position.push_back(to.at);
+      nodes.push_back(stops[k].node);
+      position.push_back(stops[k].at);
     }
     mesh.rods.push_back(std::move(nodes));
     mesh.position.push_back(std::move(position));
@@ -155,6 +204,8 @@ RodMesh mesh_rods(const Footprint& footprint, int edges_per_segment) {
   for (const MeshSpring& spring : mesh.springs)
     mesh.flat.col(spring.support) = mesh.flat.col(spring.node);
   if (footprint.in_space()) lay_heights(footprint, mesh);
+  centre_edges(mesh, mesh.flat);
+  if (mesh.height.size() > 0) centre_edges(mesh, mesh.height);
   return mesh;
 }
 

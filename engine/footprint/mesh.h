@@ -52,6 +52,7 @@ struct RodMesh {
   std::vector<int> held_joints;  ///< that the boundary holds, some by springs
   std::vector<MeshSpring> springs;
   std::vector<EccentricJoint> eccentric;  ///< in the order of their second nodes
+  std::vector<char> centred;              ///< of every joint: edges are centred on it
   int ghosts = 0;
   double ghost_length = 0;                    ///< mm
   std::vector<std::vector<int>> rods;         ///< nodes of each rod from end to end
@@ -65,6 +66,11 @@ struct RodMesh {
   /// The joint at a node, of an eccentric one at either; else -1.
   int joint_of(int node) const;
   bool is_ghost(int node) const { return node >= rod_nodes(); }
+  /// Whether the edges of a rod beside a node are the halves of one that is centred there.
+  bool is_centred(int node) const {
+    const int joint = joint_of(node);
+    return joint >= 0 && std::size_t(joint) < centred.size() && centred[std::size_t(joint)];
+  }
   RodEnd end_of(int edge_point) const {
     return ends.empty() ? RodEnd::pinned : ends[std::size_t(edge_point)];
   }
@@ -73,6 +79,10 @@ struct RodMesh {
 /// Cuts each segment into `edges_per_segment` = k edges, each leg and tail too; one shorter than
 /// d/4 is cut into k/4 edges (rounded, at least one). So the meshes of 4, 8, 16 ... edges nest:
 /// halving every edge of one gives the next.
+/// Where a joint is centred, stretches of length h, h' a piece on its sides have their nodes half
+/// an edge further on: h/2, 3h/2, ... from it, but for the two beside the joint, which lie
+/// h h'/(h + h') off it on either side: the edge between them, the joint in its middle, is two
+/// halves in the lists here. So lengths halve from mesh to mesh, too.
 RodMesh mesh_rods(const Footprint& footprint, int edges_per_segment);
 
 /// The nodes of the unformed shell: (u, v) in the frame's plane, heights along z.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "engine/core/try.h"
@@ -15,6 +16,7 @@
 #include "engine/formats/obj_ply.h"
 #include "engine/formats/outline_file.h"
 #include "engine/formats/plain_text.h"
+#include "engine/formats/point_file.h"
 
 namespace gridshell::preset {
 namespace {
@@ -157,6 +159,55 @@ double unit_of(const DxfDrawing& drawing, const std::vector<const DrawnEntity*>&
 
 }  // namespace
 
+namespace {
+
+/// The edges of a mesh as lines, each once.
+class MeshEdges {
+ public:
+  explicit MeshEdges(NetworkBuilder& builder) : builder_(builder) {}
+
+  Result<void> add_face(const std::vector<long>& vertices, const std::string& at) {
+    if (vertices.size() < 3)
+      return invalid("{}: a face of {} vertices, must have 3 or more", at, vertices.size());
+    ++faces_, quads_ += vertices.size() == 4;
+    for (std::size_t k = 0; k < vertices.size(); ++k)
+      TRY_DO(add_edge({vertices[k], vertices[(k + 1) % vertices.size()]}, at));
+    return {};
+  }
+  Result<void> add_edge(const std::vector<long>& vertices, const std::string& at) {
+    if (vertices.size() != 2) return invalid("{}: must have vertex1 and vertex2", at);
+    TRY(first, builder_.point(vertices[0], at));
+    TRY(second, builder_.point(vertices[1], at));
+    if (*first == *second || !known_.insert(std::minmax(*first, *second)).second) return {};
+    return builder_.add_rod({*first, *second}, 0, at);
+  }
+  std::size_t faces() const { return faces_; }
+
+  /// The network, its edges in line being one rod.
+  Result<NetworkData> take(const std::string& name, FileReport& report) {
+    TRY(met, builder_.join_in_line());
+    builder_.thin_out();
+    if (faces_ > 0)
+      report.text +=
+          fmt::format("the edges of {} ({} of four corners); ", counted(faces_, "face"), quads_);
+    report.text += fmt::format("rods of {}, which meet in line at {}; ",
+                               counted(known_.size(), "edge"), counted(std::size_t(*met), "point"));
+    return builder_.take(name);
+  }
+
+ private:
+  NetworkBuilder& builder_;
+  std::set<std::pair<int, int>> known_;
+  std::size_t faces_ = 0, quads_ = 0;
+};
+
+std::string unit_text(const NetworkOptions& options, const char* format) {
+  return options.unit_mm > 0 ? "unit by file_unit"
+                             : fmt::format("in mm, as {} names no unit", format);
+}
+
+}  // namespace
+
 Result<NetworkData> read_network_obj(std::string_view bytes, const std::string& name,
                                      const NetworkOptions& options, FileReport& report) {
   NetworkBuilder builder(options.join_mm);
@@ -177,15 +228,53 @@ Result<NetworkData> read_network_obj(std::string_view bytes, const std::string& 
     return builder.add_rod(std::move(points), 0, at);
   };
   TRY(others, read_obj_lines(bytes, name, "l", {add_point, add_rod}));
-  if (lines == 0 && (*others)["f"] > 0)
-    return invalid("{}: holds {} and no line: rods must be lines (l)", name,
-                   counted(std::size_t((*others)["f"]), "face"));
+  if (lines == 0 && (*others)["f"] > 0) {
+    // no line: the edges of the faces are the members
+    NetworkBuilder of_faces(options.join_mm);
+    MeshEdges edges(of_faces);
+    const auto read = read_obj_lines(
+        bytes, name, "f",
+        {[&](std::vector<double> xyz, const std::string& at) {
+           for (double& value : xyz) value *= unit;
+           return of_faces.add_point(xyz, at);
+         },
+         [&](const auto& face, const auto& at) { return edges.add_face(face, at); }});
+    if (!read) return tl::unexpected(read.error());
+    report.text += unit_text(options, "OBJ") + "; ";
+    return edges.take(name, report);
+  }
   LeftOut left_out;
   for (const auto& [kind, count] : *others)
     for (int k = 0; k < count; ++k) left_out.add("", kind == "f" ? "face" : "point");
-  report.text += options.unit_mm > 0 ? "unit by file_unit" : "in mm, as OBJ names no unit";
-  report.text += left_out.text() + "; ";
+  report.text += unit_text(options, "OBJ") + left_out.text() + "; ";
   return finish(builder, name, lines, report);
+}
+
+Result<NetworkData> read_network_mesh(std::string_view bytes, const std::string& name,
+                                      const NetworkOptions& options, FileReport& report) {
+  NetworkBuilder builder(options.join_mm);
+  MeshEdges edges(builder);
+  const double unit = options.unit_mm > 0 ? options.unit_mm : 1;
+  const auto add_point = [&](const std::vector<double>& xyz, const std::string& at) {
+    return builder.add_point({unit * xyz[0], unit * xyz[1], unit * xyz[2]}, at);
+  };
+  const bool ply = ending_of(name) == ".ply";
+  const auto read =
+      ply ? each_ply_item(bytes, name,
+                          [&](const PlyItem& item) -> Result<void> {
+                            const auto at = item.place(name);
+                            if (item.element == "vertex")
+                              return add_point({item.xyz.x(), item.xyz.y(), item.xyz.z()}, at);
+                            if (item.element == "face") return edges.add_face(item.corners, at);
+                            if (item.element == "edge") return edges.add_edge(item.corners, at);
+                            return {};
+                          })
+          : read_off_lines(bytes, name, {add_point, [&](const auto& face, const auto& at) {
+                                           return edges.add_face(face, at);
+                                         }});
+  if (!read) return tl::unexpected(read.error());
+  report.text += unit_text(options, ply ? "PLY" : "OFF") + "; ";
+  return edges.take(name, report);
 }
 
 Result<PlanDrawing> read_outline_dxf(std::string_view bytes, const std::string& name,

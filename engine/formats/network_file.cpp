@@ -154,13 +154,16 @@ std::string network_fault(const NetworkData& network) {
   }
   std::set<double> ruled;
   for (const auto& row : network.joint_laws) {
-    if ((row.size() != 3 && row.size() != 4) || !there(row[0]) ||
+    if ((row.size() != 3 && row.size() != 4) || !(row[0] == every_joint || there(row[0])) ||
         !(row[1] <= 1e9 && row[2] <= 1e9 && std::abs(row.back()) <= 1e9))
-      return "joint_laws must be rows [point, shear_Nmm, twist_Nmm], below 0: rigid, and may end "
+      return "joint_laws must be rows [point (-1: all others), shear_Nmm, twist_Nmm], below 0: "
+             "rigid, and may end "
              "with "
              "an eccentricity_mm";
     if (!ruled.insert(row[0]).second)
-      return fmt::format("the joint at point {} has two laws, must have one", row[0]);
+      return row[0] == every_joint
+                 ? std::string("all joints have two laws, must have one")
+                 : fmt::format("the joint at point {} has two laws, must have one", row[0]);
   }
   std::set<std::pair<double, double>> held;
   for (const auto& row : network.holds) {
@@ -190,8 +193,11 @@ Result<NetworkData> read_network(std::string_view bytes, const std::string& name
     if (ending == ".json") return read_network_json(bytes, name, options);
     if (ending == ".obj") return read_network_obj(bytes, name, options, found);
     if (ending == ".dxf") return read_network_dxf(bytes, name, options, found);
+    if (ending == ".ply" || ending == ".off") return read_network_mesh(bytes, name, options, found);
     return invalid(
-        "{}: its name must end in .json (points, rods and supports), .obj or .dxf (rods)", name);
+        "{}: its name must end in .json (points, rods and supports), .obj or .dxf (rods), .ply or "
+        ".off (a mesh whose edges are rods)",
+        name);
   };
   auto network = read();
   if (!network || !report) return network;

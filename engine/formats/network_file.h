@@ -44,13 +44,17 @@ struct NetworkOptions {
 ///          out (as the preset says), and "spring_N_per_mm": k or [kx, ky, kz] puts it on a spring;
 ///          "joints": [[a, b, ...], ...] lists points that are one joint though they lie apart; or
 ///          {"point": number or place, or "points": list, "law": "free", "hinge", "rigid" or
-///          "spring" of "shear_Nmm" and "twist_Nmm", and "eccentricity_mm"}
-///   .obj   "v x y z" and polylines "l a b c ..."
+///          "spring" of "shear_Nmm" and "twist_Nmm", and "eccentricity_mm"};
+///          "law": one of these words, or {"law", "shear_Nmm", "twist_Nmm"}, of all other joints
+///   .obj   "v x y z" and polylines "l a b c ..."; without these the edges of its faces
+///          "f a b c ..."
+///   .ply, .off   the edges of faces, and of a .ply those of its element "edge"
 ///   .dxf   the curves of model space that are shown (dxf_file.h), where there is a layer "rods" of
 ///          that one alone; a circle that marks a point of a rod is none
-/// In the drawings of the last two, lines that meet end to end and turn by at most 30 degrees are
+/// In drawings, .obj and .dxf, lines that meet end to end and turn by at most 30 degrees are
 /// one rod, and rods are joined wherever they cross or touch; in JSON where they name the same
-/// point or place, or points of one listed joint. Points [x, y] lie at z = 0, others [x, y, z] in
+/// point or place, or points of one listed joint; edges of meshes where they share a vertex, those
+/// in line being one rod as the lines of drawings. Points [x, y] lie at z = 0, others [x, y, z] in
 /// space; a rod that ends where it begins is a ring. Errors (bad_input), with `name` and the line:
 /// not of the format, NaN, a point that is not there, in JSON one named by its number that lies
 /// where an earlier one does, a stretch of no length, an entity of a drawing that may be a rod and
@@ -169,6 +173,8 @@ Result<NetworkData> read_network_json(std::string_view bytes, const std::string&
                                       const NetworkOptions& options);
 Result<NetworkData> read_network_obj(std::string_view bytes, const std::string& name,
                                      const NetworkOptions& options, FileReport& report);
+Result<NetworkData> read_network_mesh(std::string_view bytes, const std::string& name,
+                                      const NetworkOptions& options, FileReport& report);
 Result<NetworkData> read_network_dxf(std::string_view bytes, const std::string& name,
                                      const NetworkOptions& options, FileReport& report);
 

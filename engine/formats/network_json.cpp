@@ -112,15 +112,15 @@ class Reader {
       : document_(document), name_(name), draft_(join_mm) {}
 
   Result<NetworkData> read() {
-    const std::vector<std::string> known{"points_mm", "rods", "joints", "supports"};
+    const std::vector<std::string> known{"points_mm", "rods", "joints", "supports", "law"};
     for (const auto& [key, value] : document_.json.items()) {
       if (std::ranges::find(known, key) == known.end())
-        return invalid("{}: unknown key '{}', must be points_mm, rods, joints or supports{}", name_,
-                       key.substr(0, 40),
+        return invalid("{}: unknown key '{}', must be points_mm, rods, joints, supports or law{}",
+                       name_, key.substr(0, 40),
                        std::ranges::count(known, key + "_mm") > 0
                            ? fmt::format("; did you mean '{}_mm'?", key)
                            : did_you_mean(key, known));
-      if (!value.is_array()) return invalid("{}: '{}' must be a list", name_, key);
+      if (key != "law" && !value.is_array()) return invalid("{}: '{}' must be a list", name_, key);
     }
     return each("points_mm", &Reader::point)
         .and_then([&] { return each("rods", &Reader::rod); })
@@ -128,6 +128,7 @@ class Reader {
         .and_then([&] { return each("supports", &Reader::support); })
         .and_then([&] { return draft_.join_listed(); })
         .and_then([&] { return draft_.join_ends(name_); })
+        .and_then([&] { return network_law(); })
         .and_then([&] { return draft_.take(name_); });
   }
 
@@ -250,8 +251,23 @@ class Reader {
     return first;
   }
 
-  /// "free", "hinge": turns about the normal alone; "rigid"; or "spring" of two stiffnesses.
-  Result<void> joint_with_law(const Json& value) {
+  /// That of all joints which have none of their own: a law, or an object as of a joint.
+  Result<void> network_law() {
+    const auto law = document_.json.find("law");
+    if (law == document_.json.end()) return {};
+    at_ = name_ + ": law";
+    const Json value = law->is_object() ? *law : Json{{"law", *law}};
+    if (value.contains("point") || value.contains("points") || value.contains("eccentricity_mm"))
+      return wrong(
+          "is that of all joints, must have \"law\", \"shear_Nmm\" and \"twist_Nmm\" alone");
+    TRY(row, law_of(value, every_joint));
+    draft_.add_law(std::move(*row));
+    return {};
+  }
+
+  /// "free", "hinge": turns about the normal alone; "rigid"; or "spring" of two stiffnesses. A row
+  /// of joint_laws.
+  Result<std::vector<double>> law_of(const Json& value, double point) const {
     static const std::map<std::string, std::pair<double, double>> laws{
         {"free", {0, 0}}, {"hinge", {0, -1}}, {"rigid", {-1, -1}}, {"spring", {0, 0}}};
     const auto text = value.find("law");
@@ -276,12 +292,18 @@ class Reader {
         return wrong("shear_Nmm and twist_Nmm must be numbers from 0 to 1e9");
       (key == "shear_Nmm" ? shear : twist) = inner.get<double>();
     }
+    std::vector<double> row{point, shear, twist};
+    if (value.contains("eccentricity_mm")) row.push_back(value["eccentricity_mm"].get<double>());
+    return row;
+  }
+
+  Result<void> joint_with_law(const Json& value) {
+    TRY(row, law_of(value, 0));
     if (value.contains("point") == value.contains("points"))
       return wrong("a law must be of a \"point\", or of \"points\" that are one joint");
     TRY(point, value.contains("point") ? point_of(value["point"]) : merged(value["points"]));
-    std::vector<double> row{double(*point), shear, twist};
-    if (value.contains("eccentricity_mm")) row.push_back(value["eccentricity_mm"].get<double>());
-    draft_.add_law(std::move(row));
+    row->front() = double(*point);
+    draft_.add_law(std::move(*row));
     return {};
   }
 

@@ -247,6 +247,8 @@ Result<PlyItem> read_item(const Element& element, std::size_t number, Numbers& n
       item.xyz[property.name[0] - 'x'] = values->front();
       ++coordinates;
     }
+    if (!property.count && (property.name == "vertex1" || property.name == "vertex2"))
+      item.corners.push_back(std::abs(values->front()) < 1e9 ? long(values->front()) : -1);
     if (property.count && (property.name == "vertex_indices" || property.name == "vertex_index"))
       for (const double corner : *values)
         item.corners.push_back(std::abs(corner) < 1e9 ? long(corner) : -1);
@@ -293,6 +295,56 @@ Result<std::map<std::string, int>> read_obj_lines(std::string_view bytes, const 
     if (auto taken = lines.element(corners, place); !taken) return tl::unexpected(taken.error());
   }
   return others;
+}
+
+Result<void> read_off_lines(std::string_view bytes, const std::string& name,
+                            const ObjCallbacks& lines) {
+  std::string storage;
+  bytes = plain_text(bytes, storage);
+  int number = 0;
+  const auto next_words = [&] {
+    std::vector<std::string_view> words;
+    while (words.empty() && !bytes.empty()) {
+      const std::string_view line = next_line(bytes);
+      words = words_in(line.substr(0, line.find('#')));
+      ++number;
+    }
+    return words;
+  };
+  auto words = next_words();
+  if (!words.empty() && words[0].ends_with("OFF")) words.erase(words.begin());
+  if (words.empty()) words = next_words();
+  const auto count = [&](std::size_t k) {
+    const auto value = k < words.size() ? parse_number<long>(words[k]) : std::nullopt;
+    return value && *value >= 0 ? *value : -1;
+  };
+  const long vertices = count(0), faces = count(1);
+  if (vertices < 0 || faces < 0)
+    return invalid("{}:{}: no OFF, must begin with \"OFF\" and the numbers of vertices and faces",
+                   name, number);
+  for (long k = 0; k < vertices + faces; ++k) {
+    words = next_words();
+    const auto place = fmt::format("{}:{}", name, number);
+    if (words.empty())
+      return invalid("{}: ends after {} of its {} vertices and {} faces", place, k, vertices,
+                     faces);
+    if (k < vertices) {
+      std::vector<double> xyz;
+      for (std::size_t n = 0; n < words.size() && n < 3; ++n)
+        if (const auto value = number_of(words[n])) xyz.push_back(*value);
+      if (xyz.size() != 3) return invalid("{}: a vertex must have three numbers, x y z", place);
+      if (auto taken = lines.vertex(xyz, place); !taken) return taken;
+      continue;
+    }
+    std::vector<long> corners;
+    const long size = count(0);
+    for (long n = 1; n <= size && n < long(words.size()); ++n)
+      corners.push_back(count(std::size_t(n)));
+    if (size < 0 || long(corners.size()) != size)
+      return invalid("{}: a face must have its number of vertices and these", place);
+    if (auto taken = lines.element(corners, place); !taken) return taken;
+  }
+  return {};
 }
 
 std::string PlyItem::place(const std::string& name) const {

@@ -29,6 +29,14 @@ Result<std::map<std::string, int>> read_obj_lines(std::string_view bytes, const 
                                                   std::string_view element,
                                                   const ObjCallbacks& lines);
 
+// Geomview OFF: "OFF", the numbers of vertices, faces and edges, then these a line each.
+
+/// Hands on the vertices of a file and its faces; what follows "#" is a remark, and what follows a
+/// face's vertices its colour. Errors (bad_input): no numbers of vertices and faces at its begin,
+/// fewer lines than these say, a line that is not as it must be, what `lines` says.
+Result<void> read_off_lines(std::string_view bytes, const std::string& name,
+                            const ObjCallbacks& lines);
+
 // Stanford PLY: elements with properties that its header names, as text or as bytes.
 
 /// One element of a file: a vertex, a face, or of another kind.
@@ -38,7 +46,7 @@ struct PlyItem {
   /// its properties x, y, z; NaN: it has none
   Eigen::Vector3d xyz = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   bool has_xyz = false;       ///< its element has all three
-  std::vector<long> corners;  ///< its list vertex_indices
+  std::vector<long> corners;  ///< its list vertex_indices; of an edge vertex1 and vertex2
 
   /// "dome.ply: vertex 3"
   std::string place(const std::string& name) const;

@@ -41,6 +41,9 @@ struct SurfaceData {
   bool empty() const { return z.empty() && triangles.empty(); }
 };
 
+/// Replaces a joint's point in a row of joint_laws: the row is of all joints without one.
+inline constexpr double every_joint = -1;
+
 /// End condition of a rod: prescribed position; direction too; twist angle too.
 enum class EndKind { pinned, tangent, clamped };
 
@@ -61,8 +64,8 @@ struct NetworkData {
   Points supports;                     ///< number of a point and where it goes: x, y, z, mm
   Points springs;         ///< number of a support's point, stiffness along x, y, z, N/mm
   std::vector<int> free;  ///< indices of points at free ends of rods
-  /// A joint's point, its shear_Nmm and twist_Nmm (below 0: rigid), and its eccentricity_mm, if it
-  /// differs from the preset's.
+  /// A joint's point (every_joint: all without a row), its shear_Nmm and twist_Nmm (below 0:
+  /// rigid), and its eccentricity_mm, if it differs from the preset's.
   Points joint_laws;
   Points holds;  ///< a rod, 0 (its start) or 1 (its end), the number of an EndKind
 

@@ -15,7 +15,7 @@ namespace gridshell::preset {
 /// Gathers vertices and polygons; `place` begins every error: "dome.obj:17".
 class MeshBuilder {
  public:
-  static constexpr std::size_t most_vertices = 100000, most_triangles = 200000;
+  static constexpr std::size_t most_vertices = 500000, most_triangles = 1000000;
 
   explicit MeshBuilder(double unit_mm) : unit_mm_(unit_mm) {}
 

@@ -58,7 +58,9 @@ void add_movie(FieldList<Movie> list) {
   list.add<&M::beside>(
       "whether a movie shows the cases of a preset next to each other; else each has its own "
       "movie");
-  list.add<&M::view>("a standard view, instead of azimuth_deg and elevation_deg");
+  list.add<&M::view>(
+      "a standard view, instead of azimuth_deg and elevation_deg; push: from the side, with the "
+      "direction of the push in the plane of the picture");
   list.add<&M::target_mm>(
           "point in the middle of the shell's panel; empty: the middle of all that moves")
       .shape("[x, y, z]");
@@ -75,6 +77,7 @@ void add_movie(FieldList<Movie> list) {
   list.add<&M::seconds>(at_least(0),
                         "duration of the movie without title and final still; 0: frames / fps")
       .unit("s");
+  list.add<&M::hold_first_s>(between(0, 60), "duration for which the first frame is shown");
   list.add<&M::hold_s>(between(0, 60), "duration for which the last frame is shown");
   list.add<&M::title_s>(between(0, 60),
                         "duration of a card with title and source at the start; 0: none");
@@ -88,7 +91,7 @@ void add_style(FieldList<Style> list) {
   using S = Style;
   list.add<&S::theme>(
       "screen: coloured cells, floor and shadow; paper: black rods on white, as in the paper's "
-      "figures");
+      "figures; dark: as screen, light on a dark background");
   list.add<&S::rod_width_mm>(at_least(0),
                              "width of rods as drawn, no less than a pixel; 0: the theme's");
   list.add<&S::joint_width_mm>(at_least(0), "width of joints; 0: the theme's");
@@ -112,6 +115,9 @@ void add_style(FieldList<Style> list) {
       "whether loads are shown as arrows to one scale, each at its joint; a push has its own "
       "arrow");
   list.add<&S::braces>("whether braces are shown");
+  list.add<&S::ghost>(
+      "whether the first state is drawn in grey behind a shell that is pushed, loaded or has "
+      "snapped");
   list.add<&S::far_fade>(between(0, 1), "how far the far side fades into the background");
   list.add<&S::letters>("whether the panels of a figure have letters");
   list.add<&S::font>("font of all text, in all cases; empty: DejaVu Sans, which has every sign");
@@ -151,6 +157,7 @@ void add_figure(FieldList<Figure> list) {
           "joints measured by others, mm, in the frame of the net: red over shells on their nets, "
           "and in the latitude plot")
       .points({"x", "y", "z"});
+  list.add<&Figure::title>("whether stills, figures and plots have their title above them");
   list.add<&Figure::quality>("quality of stills, as [movie] quality");
   list.add<&Figure::width_mm>(
       at_least(0), "width of a complete figure as printed; 0: the pixels of [movie] size");
@@ -168,6 +175,8 @@ void add_page(FieldList<Page> list) {
       "figure of the paper that `figure` lays out on one page; \"literature\": all cases in one "
       "style");
   list.add<&Page::photo>("a PNG instead of the photograph; empty: an empty frame");
+  list.add<&Page::drawn>(
+      "whether the page is also made with rendered pictures of the shells, NAME_page_drawn");
   list.add<&Page::sweep>(
           "finished sweep over legs and rods for the phase diagram: its folder, its sweep.csv, or "
           "fig2_phase_diagram.csv, which comes with the presets; empty: an empty frame")

@@ -22,7 +22,7 @@ enum class ColourBy {
   stress,
   utilisation
 };
-enum class View { free, front, side, top, corner };
+enum class View { free, front, side, top, corner, push };
 enum class Pace { even, eased };
 struct Movie {
   int frames = 240;
@@ -43,15 +43,16 @@ struct Movie {
   bool orthographic = false;
   std::vector<double> bins_range;  ///< (low, high) of the axis of the bins, rad; empty: the run's
   Points views;                    ///< (azimuth, elevation) of more views in each frame
-  /// of the movie without the still at its end and the title; 0: frames / fps
+  /// of the movie without the stills at its ends and the title; 0: frames / fps
   double seconds = 0;
-  double hold_s = 0;   ///< of the last frame
-  double title_s = 0;  ///< of a title card at the start
+  double hold_first_s = 0;  ///< of the first frame
+  double hold_s = 0;        ///< of the last frame
+  double title_s = 0;       ///< of a title card at the start
   Pace pace = Pace::even;
   bool webm = false, gif = false, poster = false;  ///< further files next to movie.mp4
 };
 
-enum class Theme { screen, paper };
+enum class Theme { screen, paper, dark };
 enum class ColourMap { automatic, diverging, sequential, grey };
 constexpr auto words(ColourMap) {
   return names_except<ColourMap>({{ColourMap::automatic, "auto"}});
@@ -70,7 +71,7 @@ struct Style {
   Visibility cells = Visibility::automatic, joints = Visibility::automatic,
              rings = Visibility::automatic, floor = Visibility::automatic,
              shadow = Visibility::automatic, loads = Visibility::automatic,
-             braces = Visibility::automatic;
+             braces = Visibility::automatic, ghost = Visibility::automatic;
   double far_fade = 0.25;  ///< by how much the far side pales
   bool letters = true;     ///< of the panels of a figure
   std::string font;        ///< family of all text; empty: the usual one
@@ -81,8 +82,9 @@ enum class PageKind { none, fig1, fig2, fig3, fig4, fig5, literature };
 /// A page that shows a figure of the paper, or shells of other authors next to one another.
 struct Page {
   PageKind kind = PageKind::none;
-  std::string photo;  ///< a PNG at the position of the photograph
-  std::string sweep;  ///< folder or table of a finished sweep, for the phase diagram
+  std::string photo;   ///< a PNG at the position of the photograph
+  std::string sweep;   ///< folder or table of a finished sweep, for the phase diagram
+  bool drawn = false;  ///< the page with rendered pictures of the shells too
 };
 
 struct Figure {
@@ -93,7 +95,8 @@ struct Figure {
   double cut_step_mm = 0.1;      ///< lengths and marks of cut lists are multiples of it; 0: as are
   std::vector<double> radii_mm;  ///< boundary radii of the stills
   double scale_bar_mm = 20;
-  Points scan;  ///< (x, y, z) of joints measured by others
+  bool title = true;  ///< over every still, figure and plot
+  Points scan;        ///< (x, y, z) of joints measured by others
 };
 
 }  // namespace gridshell::preset

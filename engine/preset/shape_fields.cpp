@@ -79,8 +79,9 @@ void add_footprint(std::vector<Field>& all) {
     return network(of) || (of.kind == Kinds::curve && of.boundary.kind == CurveKind::file);
   };
   list.add<&Footprint::file>(
-          "kind \"network\": points, rods, supports (.json), or rods alone (.obj, .dxf); boundary "
-          "= \"file\": a drawing (.dxf, .svg, .obj) whose largest closed line is the boundary")
+          "kind \"network\": points, rods, supports (.json), or rods alone (.obj, .dxf, .ply, "
+          ".off); boundary = \"file\": a drawing (.dxf, .svg, .obj) whose largest closed line is "
+          "the boundary")
       .unused({"kind"}, "only a network, and a curve whose boundary is \"file\", use it",
               [=](const Footprint& of) { return !drawn(of); })
       .refused({"boundary"},

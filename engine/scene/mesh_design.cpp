@@ -6,6 +6,7 @@
 
 #include "engine/core/try.h"
 #include "engine/footprint/domains.h"
+#include "engine/geometry/mesh_repair.h"
 #include "engine/scene/mesh_net.h"
 #include "engine/scene/surface_place.h"
 
@@ -22,6 +23,16 @@ std::vector<std::string> lines_text(const TriangleMesh& mesh) {
     if (count > 0) texts.push_back(fmt::format("{} {}{}", count, name, count > 1 ? "s" : ""));
   }
   return texts;
+}
+
+/// The mesh of a file, mended where it is no sheet with a rim.
+Result<TriangleMesh> sheet_of(const preset::SurfaceData& file, std::vector<std::string>& done) {
+  const Eigen::Matrix3Xd vertices = preset::matrix_of<3>(file.vertices);
+  auto made = TriangleMesh::make(vertices, file.triangles);
+  if (made && std::ranges::count(made->lines(), LineKind::rim, &MeshLine::kind) > 0) return made;
+  MendedMesh mesh = mended(vertices, file.triangles);
+  done = std::move(mesh.done);
+  return TriangleMesh::make(mesh.vertices, std::move(mesh.triangles));
 }
 
 /// Where the preset says that the net begins.
@@ -44,8 +55,8 @@ Result<NetDesign> mesh_design(const preset::Net& wanted, double spacing_mm) {
   const auto about_file = [](const Error& error) {
     return Error{error.fault, "[net] file: " + error.message};
   };
-  auto made = TriangleMesh::make(preset::matrix_of<3>(wanted.file.vertices), wanted.file.triangles)
-                  .map_error(about_file);
+  auto report = std::make_shared<MeshNetReport>();
+  auto made = sheet_of(wanted.file, report->mended).map_error(about_file);
   if (!made) return tl::unexpected(made.error());
   const auto mesh = std::make_shared<const TriangleMesh>(std::move(*made));
   auto fitted = MeshSurface::fit(*mesh, spacing_mm, wanted.fit_mm).map_error(about_file);
@@ -57,7 +68,6 @@ Result<NetDesign> mesh_design(const preset::Net& wanted, double spacing_mm) {
   const auto lines = std::make_shared<const Barriers>(*mesh);
   TRY(outside, outside_of(wanted));
   const double least_angle = wanted.least_angle_deg * degree;
-  auto report = std::make_shared<MeshNetReport>();
   if (wanted.apex == preset::NetApex::best) {
     TRY(starts, best_starts(shape.surface, *mesh, *lines, *outside, least_angle, spacing_mm));
     report->start = starts->front();

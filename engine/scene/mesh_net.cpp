@@ -203,7 +203,7 @@ std::vector<std::pair<RodStop, double>> MeshNetReport::reasons() const {
 }
 
 std::vector<std::string> MeshNetReport::sentences() const {
-  std::vector<std::string> all;
+  std::vector<std::string> all = mended;
   all.push_back(fmt::format(
       "the smooth surface lies {:.2g} mm off the mesh's vertices at most, near ({:.4g}, {:.4g}, "
       "{:.4g}) mm",

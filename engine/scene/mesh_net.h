@@ -46,6 +46,7 @@ Result<std::vector<NetStart>> best_starts(const Surface& surface, const Triangle
 
 /// Where a net begins on a mesh, what it reaches and what not.
 struct MeshNetReport {
+  std::vector<std::string> mended;  ///< what was done to make it one sheet, a sentence each
   double fit_mm = 0;  ///< largest distance of a vertex from the smooth surface, and where
   Eigen::Vector3d fit_at = Eigen::Vector3d::Zero();
   NetStart start;
@@ -60,7 +61,8 @@ struct MeshNetReport {
 
   /// Of the area, by reason, the largest first.
   std::vector<std::pair<RodStop, double>> reasons() const;
-  /// A sentence each: the fit, where it begins, what is reached, what is left out and why.
+  /// A sentence each: what was mended, the fit, where it begins, what is reached, what is left out
+  /// and why.
   std::vector<std::string> sentences() const;
 };
 

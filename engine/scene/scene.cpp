@@ -275,8 +275,7 @@ Result<void> check_crossings(Scene& scene) {
     for (const int joint : std::set<int>(rod.joints.begin(), rod.joints.end()))
       rods[std::size_t(joint)].push_back(&rod);
   for (int joint = 0; joint < int(rods.size()); ++joint) {
-    const auto own = scene.rods.own_joints.find(joint);
-    const JointLaw& law = own == scene.rods.own_joints.end() ? scene.rods.joints : own->second;
+    const JointLaw& law = scene.rods.law(joint);
     FootprintJoint& here = footprint.joints[std::size_t(joint)];
     if (law.shear_Nmm == 0 && law.twist_Nmm == 0 && here.eccentricity == 0) continue;
     if (here.eccentricity != 0 && rods[std::size_t(joint)].size() > 2)
@@ -298,6 +297,23 @@ Result<void> check_crossings(Scene& scene) {
   return {};
 }
 
+/// Every rod has an edge centred on joints that hold rods by a law or will, as steps put bolts in.
+void centre_edges(const preset::Preset& preset, Scene& scene) {
+  const bool bolted = std::ranges::any_of(preset.step, [](const preset::Step& step) {
+    return step.kind == preset::StepKind::tighten || step.kind == preset::StepKind::open;
+  });
+  std::vector<int> rods(scene.footprint.joints.size(), 0);
+  for (const FootprintRod& rod : scene.footprint.rods)
+    for (const int joint : std::set<int>(rod.joints.begin(), rod.joints.end()))
+      ++rods[std::size_t(joint)];
+  for (std::size_t joint = 0; joint < rods.size(); ++joint) {
+    FootprintJoint& here = scene.footprint.joints[joint];
+    const JointLaw& law = scene.rods.law(int(joint));
+    const bool held = scene.rung == RodModel::twist && (law.shear_Nmm > 0 || law.twist_Nmm > 0);
+    here.centred = rods[joint] > 1 && (bolted || held || here.eccentricity != 0);
+  }
+}
+
 /// Sets the natural shapes of a network's rods, and the joints with laws of their own.
 Result<void> put_laws(const preset::Preset& preset, Scene& scene) {
   const auto stiffness = [](double given) {
@@ -313,6 +329,11 @@ Result<void> put_laws(const preset::Preset& preset, Scene& scene) {
           "turned: a rod that is cut so must have two ends",
           scene.footprint.rods[r].number);
   for (const auto& row : preset.footprint.file.joint_laws) {
+    if (row[0] == preset::every_joint) {
+      scene.rods.joints.shear_Nmm = stiffness(row[1]);
+      scene.rods.joints.twist_Nmm = stiffness(row[2]);
+      continue;
+    }
     const int joint = joint_at(scene.footprint, int(row[0]), 0);
     if (joint < 0)
       return invalid(
@@ -368,6 +389,7 @@ Result<Scene> scene_of(const preset::Preset& preset) {
   TRY_DO(put_rods(preset, scene));
   scene.rung = preset::rod_model_of(preset);
   TRY_DO(put_laws(preset, scene));
+  centre_edges(preset, scene);
   const bool round = std::ranges::count(scene.laths_mm, 0) == long(scene.laths_mm.size());
   if (round || !holds_sections(scene)) scene.laths_mm.clear();
   scene.seed.up = preset.actuation.seed == preset::Seed::up ? 1 : -1;

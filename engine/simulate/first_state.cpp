@@ -1,8 +1,11 @@
 #include "engine/simulate/first_state.h"
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "engine/core/try.h"
+#include "engine/elastic/model.h"
 #include "engine/scene/net_design.h"
 #include "engine/scene/rod_ends.h"
 #include "engine/solve/buckling.h"
@@ -61,6 +64,28 @@ Result<State> chosen(FindShape& find, NestedShell& shell, const Scene& scene, co
   return minimise_from(shell.system(), std::move(state), watch);
 }
 
+/// Hinges whose rods lie along one another have no plane to turn in. Errors: bad_input.
+Result<void> check_open(const NestedShell& shell, const Scene& scene, const State& rest) {
+  constexpr double least = 1e-4;  // rad
+  const auto& hinges = shell.model().hinges;
+  const auto tangent = [&](int edge) -> Eigen::Vector3d {
+    const ModelEdge& one = shell.model().edges[std::size_t(edge)];
+    return (rest.x.col(one.to) - rest.x.col(one.from)).normalized();
+  };
+  const auto closed = [&](const ModelHinge& hinge) {
+    return tangent(hinge.pair.e).cross(tangent(hinge.pair.f)).norm() < least;
+  };
+  const auto first = std::ranges::find_if(hinges, closed);
+  if (first == hinges.end()) return {};
+  const int node = shell.model().edges[std::size_t(first->pair.e)].centre;
+  const FootprintJoint& at = scene.footprint.joints[std::size_t(shell.finest().joint_of(node))];
+  return invalid(
+      "joint [{}, {}] and {} others close: their rods come to lie along one another, where "
+      "a hinge has no plane to turn in; a weak spring beside the hinge keeps them open "
+      "(\"law\": \"spring\", \"shear_Nmm\": 0.1, \"twist_Nmm\": 1e9)",
+      at.i, at.j, std::ranges::count_if(hinges, closed) / 2 - 1);
+}
+
 }  // namespace
 
 double lower_on_diagonal(const RodMesh& mesh, const Eigen::Matrix3Xd& nodes) {
@@ -88,7 +113,10 @@ Result<State> state_as_drawn(NestedShell& shell, const Scene& scene, const Shell
   auto rest = scene.solved_model() == RodModel::twist
                   ? drawn_rest(shell.system(), shell.finest(), shell.motion(), 0, scene, watch)
                   : chosen(drawn_rest, shell, scene, rods, 0, watch);
-  return rest.map_error([](const Error& error) {
+  const auto is_open = [&](State&& found) {
+    return check_open(shell, scene, found).map([&] { return std::move(found); });
+  };
+  return std::move(rest).and_then(is_open).map_error([](const Error& error) {
     return Error{error.fault, "from the network as drawn: " + error.message};
   });
 }

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
+#include <utility>
 
 #include "engine/core/try.h"
 #include "engine/elastic/model.h"
@@ -89,8 +91,8 @@ void put_forces(const Simulation& simulation, record::Frame& frame) {
                frame);
   }
   const bool extrapolate = shell.extrapolates_forces();
-  const bool no_order = order_unknown(shell.model(last), by_term.back(), by_term.size());
-  CertifiedVectors force = certify_vectors(shell.model(last), reactions, extrapolate, no_order);
+  const bool no_order = order_unknown(by_term.back());
+  CertifiedVectors force = certify_vectors(reactions, extrapolate, no_order);
   put_reactions(std::move(force.value), frame);
   frame.force_error_N = force.error;
   frame.loads_N = loads_on(shell.finest(), shell.model(last), shell.state().levels.back().x,
@@ -98,8 +100,9 @@ void put_forces(const Simulation& simulation, record::Frame& frame) {
   frame.brace_force_N =
       brace_forces(simulation.scene().footprint, shell.model(last), shell.state().levels.back().x);
   frame.energies = by_term.back();
-  if (extrapolate) frame.energies = extrapolated(by_term.back(), by_term[by_term.size() - 2]);
-  frame.energy_error_mJ = certify_vectors(shell.model(last), energies, extrapolate, no_order).error;
+  if (extrapolate && by_term.size() > 1)
+    frame.energies = extrapolated(by_term.back(), by_term[by_term.size() - 2]);
+  frame.energy_error_mJ = certify_vectors(energies, extrapolate, no_order).error;
 }
 
 /// Adds the blocks on their own nets and the rods across their seams to a layout.
@@ -142,11 +145,36 @@ record::Summary summary_before(const preset::Preset& preset, const Scene& scene)
   s.preset = preset.name;
   s.model = word_of(scene.rung);
   s.model_reason = preset::model_reason(preset);
+  if (const std::string balls = ends_on_balls(scene); !balls.empty())
+    s.model_reason += "; " + balls;
   s.solved = scene.rung != RodModel::net;
   s.rods = int(scene.footprint.rods.size());
   s.joints = int(scene.footprint.joints.size());
   s.cells = int(scene.footprint.cells.size());
   return s;
+}
+
+std::string ends_on_balls(const Scene& scene) {
+  const auto passes = [&](int joint) { return scene.rods.law(joint).twist_Nmm > 0; };
+  const auto joints = int(scene.footprint.joints.size());
+  int held = 0, ends = 0;
+  for (int joint = 0; joint < joints; ++joint) held += passes(joint);
+  if (held == 0 || held == joints || scene.rung != RodModel::twist) return "";
+  std::set<int> balls;
+  for (const FootprintRod& rod : scene.footprint.rods)
+    for (const auto& [end, joint] :
+         {std::pair(rod.begin, rod.joints.front()), {rod.end, rod.joints.back()}}) {
+      if (end != RodEnd::joined || rod.closed() || passes(joint)) continue;
+      ++ends;
+      balls.insert(joint);
+    }
+  if (ends == 0) return "";
+  std::string text = fmt::format(
+      "{} ends of rods lie on balls, at {} joints without a law ([{}, {}] first), though laws hold "
+      "{} other joints: rods turn freely there and pass no bending or twist to one another",
+      ends, balls.size(), scene.footprint.joints[std::size_t(*balls.begin())].i,
+      scene.footprint.joints[std::size_t(*balls.begin())].j, held);
+  return text + "; \"law\": \"hinge\" in the network's file gives all joints one";
 }
 
 record::Layout parts_of(const Scene& scene, const RodMesh& mesh) {

@@ -79,12 +79,12 @@ std::string reason_of(HeldShell& pushed, const At& at, const Watch& watch) {
               turning_back(pushed.simulation, segment, event, pushed.depth_mm(), watch));
   const PathSegment& segment = pushed.segments.back();
   const double strain = segment.report.certificate.largest_strain;
-  if (pushed.limit == record::Limit::locking && strain > 0)
+  if (pushed.limit == record::Limit::locking && strain != 0)
     return fmt::format(
         "{} ({:.4f} of the length scale) and {:.4g} N the rods are at their length: {}",
         at(segment.report.t, {}), segment.report.t * pushed.depth_mm() / scene.length_scale_mm,
         pushed.push.displacement.normalized().dot(pushed.simulation.force(0)),
-        strain > 0.99 * scene.max_strain
+        std::abs(strain) > 0.99 * scene.max_strain
             ? fmt::format("the largest strain reaches {:g}", scene.max_strain)
             : "the push meets 100 times its first stiffness");
   return {};

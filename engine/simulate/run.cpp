@@ -226,15 +226,19 @@ Result<void> check_motion(const Scene& scene) {
 /// A L^2) = 2.2 (d/L)^2 to its bending [Timoshenko].
 std::vector<std::string> left_out_of(const Scene& scene) {
   constexpr double slender = 20;  // diameters from joint to joint; the share is then 0.5 %
+  std::vector<std::string> sentences;
+  if (std::string balls = ends_on_balls(scene); !balls.empty())
+    sentences.push_back(std::move(balls));
   const auto& diameters = scene.drawn_diameters_mm;
   const double thickest = diameters.empty() ? 0 : std::ranges::max(diameters),
                long_by = scene.footprint.spacing / thickest;
-  if (scene.rung == RodModel::net || !(long_by < slender)) return {};
-  return {
+  if (scene.rung == RodModel::net || !(long_by < slender)) return sentences;
+  sentences.push_back(
       fmt::format("rods of {:.3g} mm are {:.2g} diameters long from joint to joint, and lines in "
                   "this model: shear, which bends such a piece by some {:.2g} % more, and the "
                   "{:.3g} mm between the axes of rods that cross are not in the expected error",
-                  thickest, long_by, 100 * 2.2 / (long_by * long_by), thickest)};
+                  thickest, long_by, 100 * 2.2 / (long_by * long_by), thickest));
+  return sentences;
 }
 
 /// Follows and samples the experiment of a preset; for steps with a report of each.

@@ -1,6 +1,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -22,8 +23,7 @@ Result<void> check_formed(const Simulation& simulation) {
 
 Bolts now_tightened(const Simulation& simulation, double stiffness) {
   const NestedShell& shell = simulation.shell();
-  return tightened(shell.finest(), shell.model(shell.levels() - 1), shell.state().levels.back().x,
-                   stiffness);
+  return tightened(shell.finest(), shell.model(), shell.state().levels.back(), stiffness);
 }
 
 /// How far each joint is to open so that its bolt, of `now`, rests at the step's angle, rad; NaN of
@@ -32,7 +32,7 @@ Result<std::vector<double>> openings(const preset::Step& step, const Footprint& 
                                      const Bolts& now) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN(), rad = M_PI / 180;
   const auto rest = [&](std::size_t joint) {
-    return angle_between(now.rods[joint]) + (now.opened.empty() ? 0 : now.opened[joint]);
+    return now.angle(int(joint)) + (now.opened.empty() ? 0 : now.opened[joint]);
   };
   std::vector<double> by(now.rods.size(), none);
   for (const auto& row : step.angles) {
@@ -114,23 +114,39 @@ Result<Report> open(Simulation& simulation, const preset::Step& step, const Watc
 
 std::string text_of_opened(const Simulation& simulation) {
   const NestedShell& shell = simulation.shell();
-  const int last = shell.levels() - 1;
-  const Bolts now = now_tightened(simulation, 1);
-  const auto torques =
-      joint_torques(shell.finest(), shell.model(last), shell.state().levels.back());
-  double sum = 0, least = M_PI, most = 0, torque = 0;
-  int count = 0;
-  for (std::size_t joint = 0; joint < now.rods.size(); ++joint) {
-    if (now.rods[joint].size() != 2) continue;
-    const double angle = angle_between(now.rods[joint]);
-    sum += angle, ++count;
-    least = std::min(least, angle), most = std::max(most, angle);
-    torque = std::max(torque, std::abs(torques[joint]));
+  // mean, least and largest angle, deg, and largest torque, of the last meshes
+  std::array<std::vector<Eigen::Matrix3Xd>, 4> found;
+  for (int level = shell.first_of_last_three(); level < shell.levels(); ++level) {
+    const State& state = shell.state().levels[std::size_t(level)];
+    const Bolts now = tightened(shell.mesh(level), shell.model(level), state, 1);
+    double sum = 0, least = M_PI, most = 0, torque = 0;
+    int count = 0;
+    for (std::size_t joint = 0; joint < now.rods.size(); ++joint) {
+      if (now.rods[joint].size() != 2) continue;
+      const double angle = now.angle(int(joint));
+      sum += angle, ++count;
+      least = std::min(least, angle), most = std::max(most, angle);
+    }
+    for (const double one : joint_torques(shell.mesh(level), shell.model(level), state))
+      torque = std::max(torque, std::abs(one));
+    constexpr double deg = 180 / M_PI;
+    const double values[] = {deg * sum / std::max(count, 1), deg * least, deg * most, torque};
+    for (std::size_t k = 0; k < found.size(); ++k)
+      found[k].emplace_back(values[k] * Eigen::Vector3d::UnitX());
   }
-  constexpr double deg = 180 / M_PI;
-  return fmt::format(
-      "joints at {:.2f} degrees on average, {:.2f} to {:.2f}, torques to {:.4g} N mm",
-      deg * sum / std::max(count, 1), deg * least, deg * most, torque);
+  std::array<double, 4> value{}, error{};
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    const CertifiedVectors one = certify_vectors(found[k], shell.plan().extrapolate_forces, false);
+    value[k] = one.value(0, 0), error[k] = one.error;
+  }
+  std::string text =
+      fmt::format("joints at {:.2f} degrees on average, {:.2f} to {:.2f}, torques to {:.4g} N mm",
+                  value[0], value[1], value[2], value[3]);
+  // of one mesh none is known
+  if (std::isfinite(error[0]))
+    text += fmt::format(" (errors to {:.2g} degrees on average, {:.2g} of a joint, {:.2g} N mm)",
+                        error[0], std::max(error[1], error[2]), error[3]);
+  return text;
 }
 
 Result<Report> brace(Simulation& simulation, const preset::Step& step, const Watch& watch) {

@@ -34,6 +34,10 @@ Result<Eigen::Matrix3Xd> lumped_mass(const Model& model, const std::vector<doubl
       for (int node : {e.from, e.to}) mass.col(node).array() += 0.5 * own;
     }
   }
+  for (const ModelFollower& one : model.followers) {
+    mass.col(one.centre) += mass.col(one.node);
+    mass.col(one.node).setZero();
+  }
   return mass;
 }
 

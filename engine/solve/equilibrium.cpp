@@ -198,7 +198,8 @@ class Descent {
 
   Inertia assemble() {
     State weakened = state_;
-    weakened.force = state_.force.cwiseMax((1 - weakening_) * state_.force);
+    auto axial = weakened.force.head(Eigen::Index(system_.model().edges.size()));
+    axial = axial.cwiseMax((1 - weakening_) * axial).eval();
     return system_.at(weakened, true, shift_, options_.EA_scale);
   }
 

@@ -13,7 +13,7 @@ MeshLevel::~MeshLevel() = default;
 
 Result<void> MeshLevel::build(const Footprint& footprint, const ShellRods& rods, RodModel rung,
                               const BoundaryMotion& boundary, int edges_per_segment) {
-  mesh = mesh_rods(footprint, edges_per_segment);
+  mesh = mesh_rods(centred(footprint, rods.bolts.get()), edges_per_segment);
   TRY(built, build_model(mesh, rods, rung));
   model = std::move(*built);
   motion = pinned_motion(mesh, boundary);

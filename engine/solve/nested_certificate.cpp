@@ -41,13 +41,6 @@ double left_by_order(const Eigen::Matrix3Xd& step, const Eigen::Matrix3Xd& befor
   return std::min(std::abs(1 / (ratio - 1) - 1.0 / 3), 1.0) * max_column_norm(step);
 }
 
-/// What extrapolation at second order leaves of a part of first order, as where joints resist the
-/// spins of laths: of errors a + b of the finest mesh, b the first order's, steps are 3a + b and
-/// 12a + 2b, and 2b/3 is left.
-double left_of_first_order(const Eigen::Matrix3Xd& step, const Eigen::Matrix3Xd& before) {
-  return max_column_norm((4 * step - before) / 3);
-}
-
 Eigen::VectorXd weights_of(std::span<const MeshDifference> known, double t) {
   std::vector<double> at;
   for (const MeshDifference& one : known) at.push_back(one.t);
@@ -217,9 +210,7 @@ void NestedShell::polish(Level& finest, State& found, const NewtonReport& last) 
   system.gradient_at(found);
   const bool to_the_end = state_.t >= 1 || !system.holds().empty(),
              trusted = last.last_move_mm > options_.tolerance_mm;
-  if (!to_the_end && !trusted &&
-      system.force_misfit(found) <= seen * found.force.cwiseAbs().maxCoeff())
-    return;
+  if (!to_the_end && !trusted && system.forces_agree(found, seen)) return;
   const int most = to_the_end ? 4 : 1;
   Eigen::Matrix3Xd dx;
   for (int k = 0; k < most && state_.inertia.usable; ++k) {
@@ -274,7 +265,8 @@ bool NestedShell::vouches(const NewtonReport& report) const {
          report.inertia.positive_definite();
 }
 
-/// Of the last correction's factorisation, or of the energy's Hessian at the state, factorised anew.
+/// Of the last correction's factorisation, or of the energy's Hessian at the state, factorised
+/// anew.
 Inertia NestedShell::inertia_of(Level& level, const State& found,
                                 const NewtonReport& report) const {
   if (vouches(report)) return report.inertia;
@@ -314,7 +306,7 @@ void NestedShell::estimate(const Energies& energies) {
   const Eigen::Matrix3Xd step = step_to(last - 1, state_.x);
   const bool two = !extrapolates();
   // corrections stop at the tolerance
-  if (order_unknown(finest.model, energies, two ? 2 : 3)) {
+  if (order_unknown(energies)) {
     state_.error_estimate_mm = margin * largest(companion, step) + options_.tolerance_mm;
     return;
   }
@@ -332,17 +324,13 @@ void NestedShell::estimate(const Energies& energies) {
       std::max(margin_extrapolated * max_column_norm((4 * now - before) / 3) / 15,
                margin * left_by_order(now, before)) +
       options_.tolerance_mm;
-  if (!finest.model.joint_spins.empty())
-    state_.error_estimate_mm = std::max(state_.error_estimate_mm, left_of_first_order(now, before));
   // the correction is known at the companion's nodes; between them it is interpolated
   Eigen::Matrix3Xd correction;
   finest.from_coarser->meshes().nodes(step / 3, correction);
   state_.x += correction;
 }
 
-bool order_unknown(const Model& model, const Energies& energies, std::size_t meshes) {
-  return energies[Term::contact] > 0 || (meshes == 2 && !model.joint_spins.empty());
-}
+bool order_unknown(const Energies& energies) { return energies[Term::contact] > 0; }
 
 CertifiedVectors certify_vectors(const std::vector<Eigen::Matrix3Xd>& levels, bool extrapolate,
                                  bool no_order) {
@@ -359,15 +347,6 @@ CertifiedVectors certify_vectors(const std::vector<Eigen::Matrix3Xd>& levels, bo
       extrapolate
           ? std::max(margin_extrapolated * max_column_norm((4 * step - before) / 3) / 15, by_order)
           : found.error + by_order;
-  return found;
-}
-
-CertifiedVectors certify_vectors(const Model& model, const std::vector<Eigen::Matrix3Xd>& levels,
-                                 bool extrapolate, bool no_order) {
-  CertifiedVectors found = certify_vectors(levels, extrapolate, no_order);
-  if (levels.size() == 3 && !model.joint_spins.empty())
-    found.error =
-        std::max(found.error, left_of_first_order(levels[2] - levels[1], levels[1] - levels[0]));
   return found;
 }
 
@@ -393,9 +372,8 @@ void NestedShell::take_reactions(const std::vector<HeldForces>& levels) {
   }
   const Level& finest = *levels_.back();
   const bool extrapolate = extrapolates_forces();
-  const bool no_order =
-      order_unknown(finest.model, finest.system->assembly().energies, forces.size());
-  const CertifiedVectors force = certify_vectors(finest.model, forces, extrapolate, no_order),
+  const bool no_order = order_unknown(finest.system->assembly().energies);
+  const CertifiedVectors force = certify_vectors(forces, extrapolate, no_order),
                          growth = certify_vectors(stiffness, extrapolate, no_order);
   state_.reactions.clear();
   for (const auto& on : force.value.colwise()) state_.reactions.emplace_back(on);

@@ -54,19 +54,14 @@ struct CertifiedVectors {
   double error = 0;
 };
 
-/// Whether `meshes` levels show no order of convergence. Contact forces show none, since the
-/// element on which they act varies with the mesh; two meshes show none if joints resist twist,
-/// since the order may then be one. `energies`: of the finest mesh, mJ.
-bool order_unknown(const Model& model, const Energies& energies, std::size_t meshes);
+/// Whether meshes show no order of convergence: contact forces show none, since the element on
+/// which they act varies with the mesh. `energies`: of the finest mesh, mJ.
+bool order_unknown(const Energies& energies);
 
 /// Value and error from `levels`, coarse to fine, of which the last three are used. Without a known
 /// order the error is the complete difference of the last two.
 CertifiedVectors certify_vectors(const std::vector<Eigen::Matrix3Xd>& levels, bool extrapolate,
                                  bool no_order);
-/// The overload with a model: where its joints resist twist, the error from three meshes includes a
-/// first-order remainder of the extrapolation.
-CertifiedVectors certify_vectors(const Model& model, const std::vector<Eigen::Matrix3Xd>& levels,
-                                 bool extrapolate, bool no_order);
 
 /// Difference between a coarser level's state and the finer state restricted to its mesh. It
 /// predicts the coarser level's next state, so single precision is enough.

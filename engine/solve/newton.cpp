@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/core/dense.h"
+#include "engine/elastic/along_rods.h"
 #include "engine/elastic/edge_energies.h"
 #include "engine/elastic/model.h"
 
@@ -110,11 +111,14 @@ void Linearisation::solve(Eigen::Matrix3Xd& right_hand_side) const {
     ++effort_.factorizations;
     solver_->factor(assembly_.hessian, shift_);
   }
+  model_.fold(right_hand_side);
   solver_->solve(right_hand_side);
-  if (holds_.empty()) return;
-  const Eigen::VectorXd force = solution(compliance_, held_part(right_hand_side));
-  for (std::size_t k = 0; k < border_.size(); ++k)
-    right_hand_side -= force[Eigen::Index(k)] * border_[k];
+  if (!holds_.empty()) {
+    const Eigen::VectorXd force = solution(compliance_, held_part(right_hand_side));
+    for (std::size_t k = 0; k < border_.size(); ++k)
+      right_hand_side -= force[Eigen::Index(k)] * border_[k];
+  }
+  model_.follow(right_hand_side);
 }
 
 Eigen::MatrixXd Linearisation::held_stiffness() const {
@@ -159,28 +163,37 @@ void Linearisation::tangent(const Eigen::Matrix3Xd& prescribed,
   if (outside_velocity.field && outside_velocity.field_factor != 0)
     grow(*outside_velocity.field, outside_velocity.field_factor);
   if (outside_velocity.opening != 0)
-    velocity -= outside_velocity.opening * opening_rate(model_, state);
+    velocity -= outside_velocity.opening * opening_rate(model_, tangents_);
   solve(velocity);
   velocity += moved;
+  model_.follow(velocity);
 }
 
-Eigen::VectorXd Linearisation::force_change(const Eigen::Matrix3Xd& dx) const {
-  Eigen::VectorXd change(Eigen::Index(model_.edges.size()));
+Eigen::VectorXd Linearisation::force_change(const Eigen::Matrix3Xd& dx, double opening) const {
+  Eigen::VectorXd change(model_.forces());
   for (std::size_t k = 0; k < model_.edges.size(); ++k) {
     const ModelEdge& edge = model_.edges[k];
     change[Eigen::Index(k)] =
         EA_scale_ * edge.EA / edge.rest_length *
         tangents_.col(Eigen::Index(k)).dot(dx.col(edge.to) - dx.col(edge.from));
   }
+  each_spring(model_, [&](const auto& pair, Eigen::Index place) {
+    double angle = -opening * pair.law.opening;
+    each_arm(model_, pair, place, [&](const ModelEdge& edge, Eigen::Index column) {
+      angle += tangents_.col(column).dot(dx.col(edge.to) - dx.col(edge.from));
+    });
+    change[place] = pair.law.stiffness * angle;
+  });
   return change;
 }
 
-double Linearisation::force_misfit(const State& state) const {
+bool Linearisation::forces_agree(const State& state, double share) const {
   double largest = 0;
   for (std::size_t k = 0; k < model_.edges.size(); ++k)
     largest = std::max(largest, std::abs(EA_scale_ * force_of_strain(model_.edges[k], state.x) -
                                          state.force[Eigen::Index(k)]));
-  return largest;
+  return largest <=
+         share * state.force.head(Eigen::Index(model_.edges.size())).cwiseAbs().maxCoeff();
 }
 
 void Linearisation::apply(const Eigen::Matrix3Xd& dx, State& state, double share) const {
@@ -191,10 +204,7 @@ void Linearisation::apply(const Eigen::Matrix3Xd& dx, State& state, double share
     return;
   }
   state.force = assembly_.force + force_change(dx);
-  if (model_.has_spins())
-    move_to(model_, state.x + dx, state);
-  else
-    state.x += dx;
+  move_to(model_, state.x + dx, state);
 }
 
 void Linearisation::restore_lengths(const Eigen::VectorXd& force, State& state) const {
@@ -205,6 +215,14 @@ void Linearisation::restore_lengths(const Eigen::VectorXd& force, State& state) 
     pull.col(edge.from) += excess * tangents_.col(Eigen::Index(k));
     pull.col(edge.to) -= excess * tangents_.col(Eigen::Index(k));
   }
+  each_spring(model_, [&](const auto& pair, Eigen::Index place) {
+    const double angle = pair.law.excess(pair_geometry(model_, state, pair, outside.opening)),
+                 excess = pair.law.stiffness * angle - force[place];
+    each_arm(model_, pair, place, [&](const ModelEdge& edge, Eigen::Index column) {
+      pull.col(edge.from) += excess * tangents_.col(column);
+      pull.col(edge.to) -= excess * tangents_.col(column);
+    });
+  });
   solve(pull);
   move_to(model_, state.x + pull, state);
 }
@@ -324,9 +342,7 @@ NewtonReport newton(Linearisation& system, State& state, const NewtonOptions& op
       continue;
     }
     const auto forces_agree = [&] {
-      return !options.trusted_misfit ||
-             system.force_misfit(state) <=
-                 *options.trusted_misfit * state.force.cwiseAbs().maxCoeff();
+      return !options.trusted_misfit || system.forces_agree(state, *options.trusted_misfit);
     };
     // with a factor of another state, the first correction alone does not show convergence
     const bool doubtful = borrowed && (report.iterations == 1 || move > 0.1 * before);

@@ -114,10 +114,11 @@ class Linearisation {
   /// Solves K y = right_hand_side at the free columns, in place; constrained components of y are
   /// zero.
   void solve(Eigen::Matrix3Xd& right_hand_side) const;
-  /// Change of the axial forces with positions, EA B dx, at the linearisation point.
-  Eigen::VectorXd force_change(const Eigen::Matrix3Xd& dx) const;
-  /// Corrects a state after a long step so that its axial forces become `force` to first order: a
-  /// straight step perpendicular to a bent rod stretches it to second order.
+  /// Change of the axial forces with positions, EA B dx, at the linearisation point, and of the
+  /// torques of joints that open by `opening`.
+  Eigen::VectorXd force_change(const Eigen::Matrix3Xd& dx, double opening = 0) const;
+  /// Corrects a state after a long step so that its axial forces and torques become `force` to
+  /// first order: a straight step perpendicular to a bent rod stretches it to second order.
   void restore_lengths(const Eigen::VectorXd& force, State& state) const;
   /// Moves the state by a share of dx and updates its forces as the mixed form does: of an unknown
   /// of its own a share of the step is that share of its change.
@@ -127,9 +128,9 @@ class Linearisation {
     return gridshell::clear_share(model_, state.x, dx);
   }
 
-  /// By how much the axial force of an edge and that of its strain differ at most, N: what Newton's
-  /// step leaves at second order, and a residual of about that.
-  double force_misfit(const State& state) const;
+  /// Whether the axial force of every edge is that of its strain, but for so much of the largest:
+  /// what Newton's step leaves at second order is a residual of about that.
+  bool forces_agree(const State& state, double share) const;
 
   const Model& model() const { return model_; }
   const Assembly& assembly() const { return assembly_; }  ///< of the last assembly

@@ -59,7 +59,7 @@ void PinnedMotion::velocity(Linearisation& system, double t, const State& state,
   growing.field_factor = speed(t) * field.change;
   growing.opening = speed(t) * opening.change;
   system.tangent(rate(t), growing, state, velocity.x);
-  velocity.force = system.force_change(velocity.x);
+  velocity.force = system.force_change(velocity.x, growing.opening);
 }
 
 PinnedMotion pinned_motion(const RodMesh& mesh, const BoundaryMotion& motion) {

@@ -9,9 +9,10 @@
 #include "engine/core/watch.h"
 #include "engine/preset/preset.h"
 #include "engine/record/study_tables.h"
-#include "engine/study/benchmark_problem.h"
 
 namespace gridshell::study {
+
+class BenchmarkProblem;
 
 // Speed against accuracy: every method on the meshes that it can afford.
 

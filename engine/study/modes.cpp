@@ -155,7 +155,7 @@ Result<Vibrations> vibrations_of(FormedShell& formed, int count, const Watch& wa
   }
   const auto lambdas = lambdas_of(meshes);
   const int last = shell.levels() - 1;
-  const bool no_order = order_unknown(shell.model(last), shell.energies(last), meshes.size());
+  const bool no_order = order_unknown(shell.energies(last));
   std::vector<std::pair<record::ModeRow, Eigen::Matrix3Xd>> modes;
   for (std::size_t k = 0; k < lambdas.size(); ++k)
     modes.emplace_back(

@@ -12,6 +12,7 @@
 
 #include "engine/core/file_io.h"
 #include "engine/core/text.h"
+#include "render/canvas/colour_map.h"
 #include "render/canvas/text.h"
 
 namespace gridshell::render {
@@ -56,13 +57,15 @@ Canvas::~Canvas() {
 
 void Canvas::set_colour(Colour c) { cairo_set_source_rgba(cairo_, c.r, c.g, c.b, c.a); }
 
+bool Canvas::on_dark() const { return is_dark(paper_); }
+
 void Canvas::paint_path(Colour fill, const Stroke& stroke) {
   if (fill.a > 0) {
     set_colour(fill);
     cairo_fill_preserve(cairo_);
   }
   if (stroke.width > 0 && stroke.colour.a > 0) {
-    set_colour(stroke.colour);
+    set_colour(on_dark() ? line_on_dark(stroke.colour) : stroke.colour);
     cairo_set_line_width(cairo_, stroke.width);
     cairo_set_dash(cairo_, stroke.dash.data(), int(stroke.dash.size()), 0);
     cairo_stroke_preserve(cairo_);
@@ -260,6 +263,7 @@ Image draw_picture(double width, double height, double pixels_per_unit, Colour b
   cairo_paint(cairo.get());
   cairo_scale(cairo.get(), pixels_per_unit, pixels_per_unit);
   Canvas canvas(cairo.get(), width, height);
+  canvas.set_paper(background);
   draw(canvas);
   cairo_surface_flush(surface.get());
   const unsigned char* data = cairo_image_surface_get_data(surface.get());

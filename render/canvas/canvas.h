@@ -136,6 +136,9 @@ class Canvas {
   /// What `inside` draws is `scale` times as large.
   void enlarged(double scale, const std::function<void()>& inside);
 
+  /// What lies below: neutral text and lines that it would swallow are drawn lighter.
+  void set_paper(Colour paper) { paper_ = paper; }
+
   /// From here on text is not drawn but kept as SVG elements, so that it stays text.
   void keep_text() { keeps_text_ = true; }
   const std::string& text_elements() const { return text_elements_; }
@@ -146,6 +149,7 @@ class Canvas {
 
  private:
   void set_colour(Colour colour);
+  bool on_dark() const;
   void paint_path(Colour fill, const Stroke& stroke);
   Box scaled(const Box& box) const {
     return {scale_ * box.x, scale_ * box.y, scale_ * box.width, scale_ * box.height};
@@ -158,6 +162,7 @@ class Canvas {
   std::string text_elements_;
   std::vector<std::string> texts_;
   std::vector<Box> text_boxes_, markers_;
+  Colour paper_ = white;
   Box clip_;  ///< empty: everything is drawn
 };
 

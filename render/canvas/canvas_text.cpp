@@ -12,6 +12,7 @@
 
 #include "engine/core/text.h"
 #include "render/canvas/canvas.h"
+#include "render/canvas/colour_map.h"
 #include "render/canvas/text.h"
 
 namespace gridshell::render {
@@ -34,6 +35,8 @@ void insert(PangoAttrList* list, PangoAttribute* attribute, guint from, guint to
   pango_attr_list_insert(list, attribute);
 }
 
+constexpr double least_script = 5;  // points: what print keeps
+
 /// Size and rise of a piece of text, over those of the whole.
 struct ScriptLook {
   double size = 1, rise = 0;
@@ -52,7 +55,10 @@ PangoAttrList* attributes(const std::vector<TextRun>& runs, double size) {
     const guint to = from + static_cast<guint>(run.text.size());
     if (run.level != 0) {
       const ScriptLook look = look_of(run);
-      insert(list, pango_attr_size_new(int(look.size * size * PANGO_SCALE)), from, to);
+      insert(list,
+             pango_attr_size_new(
+                 int(std::max(look.size * size, std::min(least_script, size)) * PANGO_SCALE)),
+             from, to);
       insert(list, pango_attr_rise_new(int(look.rise * size * PANGO_SCALE)), from, to);
     }
     if (run.slanted) insert(list, pango_attr_style_new(PANGO_STYLE_OBLIQUE), from, to);
@@ -201,10 +207,10 @@ Box Canvas::text(const std::string& marked, Point anchor, const TextStyle& style
   cairo_move_to(cairo_, at.x, at.y);
   if (style.halo.a > 0 && !keeps_text_) {
     pango_cairo_layout_path(cairo_, layout.get());
-    paint_path({0, 0, 0, 0}, {style.halo, style.size / 4});
+    paint_path({0, 0, 0, 0}, {on_dark() ? paper_ : style.halo, style.size / 4});
     cairo_move_to(cairo_, at.x, at.y);
   }
-  set_colour(style.colour);
+  set_colour(on_dark() ? text_on_dark(style.colour) : style.colour);
   if (cairo_surface_get_type(cairo_get_target(cairo_)) == CAIRO_SURFACE_TYPE_IMAGE) {
     // as outlines: letters of a font are put at whole pixels by Cairo 1.16 and at quarters by 1.18
     pango_cairo_layout_path(cairo_, layout.get());

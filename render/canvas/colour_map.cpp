@@ -139,4 +139,21 @@ ColourScale symmetric_scale(std::vector<double> values, double quantile) {
   return {diverging, -end, end};
 }
 
+bool is_dark(Colour paper) { return paper.a > 0.5f && contrast_to_white(paper) > 7; }
+
+Colour text_on_dark(Colour colour) {
+  if (contrast_to_white(colour) < 3) return colour;
+  // towards white, and a saturated one less far so that its hue stays
+  const float most = std::max({colour.r, colour.g, colour.b}),
+              least = std::min({colour.r, colour.g, colour.b});
+  const float part = most - least > 0.25f ? 0.5f : std::clamp(0.95f - most, 0.3f, 0.9f);
+  return {std::lerp(colour.r, 1.f, part), std::lerp(colour.g, 1.f, part),
+          std::lerp(colour.b, 1.f, part), colour.a};
+}
+
+Colour line_on_dark(Colour colour) {
+  constexpr Colour grey{0.52f, 0.54f, 0.58f, 1};
+  return contrast_to_white(colour) < 7 ? colour : Colour{grey.r, grey.g, grey.b, colour.a};
+}
+
 }  // namespace gridshell::render

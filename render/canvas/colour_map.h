@@ -18,6 +18,11 @@ Colour to_colour(Oklab lab, float alpha = 1);
 
 /// How far a colour stands out from white: 1.05/(Y + 0.05), Y its relative luminance [WCAG 2.1].
 double contrast_to_white(Colour colour);
+/// Whether what is black would be lost on it; not of what is transparent.
+bool is_dark(Colour paper);
+/// Of a colour chosen for white, what text or a line has on dark paper.
+Colour text_on_dark(Colour colour);
+Colour line_on_dark(Colour colour);
 /// For words on white: the colour itself, or darker until its contrast is 4.5.
 Colour readable(Colour colour);
 

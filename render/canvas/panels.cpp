@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "engine/core/try.h"
 
@@ -116,8 +117,21 @@ Result<Image> draw_panels(const PanelFigure& figure) {
   const Grid grid = make_grid(figure);
   const double wished = figure.print.dpi * figure.print.width_mm / 25.4;
   const double scale = wished > 0 ? std::round(wished) / grid.total_width() : 1;
-  return draw_picture(grid.total_width(), grid.total_height(), scale, {1, 1, 1, 1},
+  return draw_picture(grid.total_width(), grid.total_height(), scale, figure.background,
                       [&](Canvas& canvas) { draw(canvas, figure, grid, false); });
+}
+
+Result<void> write_panels(const PanelFigure& figure, const std::filesystem::path& file,
+                          double dpi) {
+  TRY(picture, draw_panels(figure));
+  TRY_DO(write_png(*picture, file, dpi));
+  if (!figure.panels.front().lines) return {};
+  const double width = figure.print.width_pt(0.5 * picture->width);
+  return write_figure(
+      std::filesystem::path(file).replace_extension() += "_lines", width,
+      width * picture->height / picture->width, figure.title, [&](Canvas& canvas) {
+        draw_panels_on(canvas, {0, 0, canvas.width(), canvas.height()}, figure, true);
+      });
 }
 
 void draw_panels_on(Canvas& canvas, const Box& box, const PanelFigure& figure, bool lines) {

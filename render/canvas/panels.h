@@ -2,6 +2,7 @@
 // and one row of colour keys for all.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -30,12 +31,16 @@ struct PanelFigure {
   std::optional<ArrowKey> arrow = {};  ///< beside the scale bar
   std::optional<ColourBar> colour_bar;
   std::vector<ColourKey> keys = {};  ///< in a row below all panels
+  Colour background = white;
   Print print{178, 0};  ///< text is 8.5 pt at that width; with a dpi the figure is that wide
 };
 
 /// The figure, panels pixel by pixel as they are. Errors: Fault::bad_input for no panel or panels
 /// of different size (naming both).
 Result<Image> draw_panels(const PanelFigure& figure);
+
+/// That as `file`, a PNG, and where its panels have lines `<stem>_lines` beside it as SVG and PDF.
+Result<void> write_panels(const PanelFigure& figure, const std::filesystem::path& file, double dpi);
 
 /// The same on a canvas, as large as `box` allows, in its middle; its words are the canvas's text,
 /// and with `lines` its pictures are lines where there are some. Draws nothing where draw_panels()

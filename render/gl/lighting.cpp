@@ -111,7 +111,7 @@ void ShadowMap::fit(const Scene& scene, const Eigen::Vector3d& light, double gro
   if (box.isEmpty()) box.extend(Eigen::Vector3f::Zero());
   const Eigen::Vector3f middle = box.center();
   const float side = std::max(1e-3f, margin * std::max(box.sizes().x(), box.sizes().y()));
-  texel_mm_ = side / texels;
+  texel_mm_ = side / float(texels_);
   height_range_mm_ = std::max(1e-3f, top - float(ground_z));
   const float depth = std::max(1e-3f, margin * box.sizes().z());
 
@@ -123,7 +123,8 @@ void ShadowMap::fit(const Scene& scene, const Eigen::Vector3d& light, double gro
 
 Result<void> ShadowMap::render(const Scene& scene, const VertexStore& ribbons,
                                const VertexStore& sheets, const Eigen::Vector3d& light,
-                               double ground_z) {
+                               double ground_z, int texels) {
+  texels_ = texels;
   TRY_DO(target_.bind(texels, texels, GL_RG8));
   fit(scene, light, ground_z);
   caster_.use();
@@ -168,7 +169,7 @@ void ShadowMap::blur() {
   halve_.use();
   halve_.set("finer", 0);
   for (int level = 1; level < levels; ++level) {
-    const int side = texels >> level;
+    const int side = texels_ >> level;
     // reads one level only, writes the next
     gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, level - 1);
     gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, level - 1);

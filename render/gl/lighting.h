@@ -32,19 +32,22 @@ std::vector<Lighting> lighting_passes(const Camera& camera, int passes);
 
 class ShadowMap {
  public:
-  static constexpr int texels = 1024;  ///< along a side
-  static constexpr int levels = 7;     ///< of the cover, each half the size before
+  static constexpr int levels = 7;  ///< of the cover, each half the size before
 
   static Result<ShadowMap> create(const Gl& gl);
+
+  /// Along a side, for a picture so many pixels high: the same in all frames of a movie.
+  static int texels_for(int height) { return height > 800 ? 1024 : 512; }
 
   /// Draws the scene from the direction of the unit vector `light`. `ribbons` and `sheets` hold the
   /// scene's meshes, `ribbons` with its casters as list 1. A sheet holds back part of the light
   /// that its alpha would.
   Result<void> render(const Scene& scene, const VertexStore& ribbons, const VertexStore& sheets,
-                      const Eigen::Vector3d& light, double ground_z);
+                      const Eigen::Vector3d& light, double ground_z, int texels);
 
   GLuint cover() const { return target_.colour(); }
   GLuint depth() const { return target_.depth(); }
+  int texels() const { return texels_; }
   const Eigen::Matrix4f& matrix() const { return matrix_; }   ///< world to the map's [-1, 1]^3
   float texel_mm() const { return texel_mm_; }                ///< of the finest level
   float height_range_mm() const { return height_range_mm_; }  ///< ground to the shell's top
@@ -54,6 +57,7 @@ class ShadowMap {
   void fit(const Scene& scene, const Eigen::Vector3d& light, double ground_z);
   void draw_casters(const VertexStore& ribbons, const VertexStore& sheets) const;
   void blur();
+  int texels_ = 1024;
 
   const Gl* gl_;
   Program caster_, halve_;

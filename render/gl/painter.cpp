@@ -29,6 +29,7 @@ double sample_size(const RenderJob& shot) {
 /// The part of a tile that the shell may cover, empty where it covers none.
 Tile shell_in(const RenderJob& shot, const Tile& tile) {
   constexpr double room = 2;  // pixels: edges reach beyond what they are of
+  constexpr int step = 64;    // pixels: a moving shell's targets are of few sizes
   const Eigen::Matrix4d matrix = view_projection(shot.camera, double(shot.width) / shot.height,
                                                  shot.scene.centre(), shot.scene.radius());
   const Eigen::Vector3d *low = &shot.scene.low, *high = &shot.scene.high;
@@ -46,10 +47,12 @@ Tile shell_in(const RenderJob& shot, const Tile& tile) {
     return int(std::clamp(value, double(from), double(from + size)));
   };
   Tile part;
-  part.x = within(std::floor(seen.min().x() - room), tile.x, tile.width);
-  part.y = within(std::floor(seen.min().y() - room), tile.y, tile.height);
-  part.width = within(std::ceil(seen.max().x() + room), tile.x, tile.width) - part.x;
-  part.height = within(std::ceil(seen.max().y() + room), tile.y, tile.height) - part.y;
+  const auto below = [](double at) { return step * std::floor((at - room) / step); };
+  const auto above = [](double at) { return step * std::ceil((at + room) / step); };
+  part.x = within(below(seen.min().x()), tile.x, tile.width);
+  part.y = within(below(seen.min().y()), tile.y, tile.height);
+  part.width = within(above(seen.max().x()), tile.x, tile.width) - part.x;
+  part.height = within(above(seen.max().y()), tile.y, tile.height) - part.y;
   return part;
 }
 
@@ -89,8 +92,8 @@ Result<Painter::Programs> Painter::create_programs(int taps) const {
 
 /// The programs that the quality takes, each made when it is first asked for.
 Result<void> Painter::prepare(const DrawQuality& quality) {
-  // jittered light softens the shadow by itself
-  taps_ = !quality.shadow ? 0 : quality.jittered_passes > 1 ? 1 : 4;
+  // jittered light and several samples a pixel soften the shadow by themselves
+  taps_ = !quality.shadow ? 0 : quality.jittered_passes > 1 || quality.supersample > 1 ? 1 : 4;
   if (!programs_.count(taps_)) {
     TRY(programs, create_programs(taps_));
     programs_.emplace(taps_, std::move(*programs));
@@ -131,8 +134,8 @@ Result<void> Painter::paint(const RenderJob& shot, const Tile& tile, Image& imag
 Result<void> Painter::cast(const RenderJob& shot, int pass) {
   if (!shot.quality.shadow || shadow_of_ == pass) return {};
   const Lighting& light = passes_[std::size_t(pass)];
-  auto done =
-      shadow_.render(shot.scene, ribbons_, sheets_, light.direction, shot.drawing.ground_z_mm);
+  auto done = shadow_.render(shot.scene, ribbons_, sheets_, light.direction,
+                             shot.drawing.ground_z_mm, ShadowMap::texels_for(shot.height));
   if (!done) return done;
   shadow_of_ = pass;
   return Ground::seen(shot) ? ground_.soften(shot, shadow_, light, multi_pass()) : Result<void>{};
@@ -142,12 +145,14 @@ Result<void> Painter::paint_single_pass(const RenderJob& shot, const Tile& tile)
   TRY_DO(cast(shot, 0));
   const Eigen::Matrix4d matrix = matrix_of(shot, tile, passes_[0]);
   const int s = shot.quality.supersample;
-  if (s > 1) TRY_DO(paint_shell(shot, tile, passes_[0], layer_));
+  const Tile part = s > 1 ? shell_in(shot, tile) : Tile{};
+  const bool layered = part.width > 0 && part.height > 0;
+  if (layered) TRY_DO(paint_shell(shot, part, passes_[0], layer_));
   TRY_DO(pixels_.bind(tile.width, tile.height, GL_SRGB8_ALPHA8));
   ground_.draw(shot, matrix, passes_[0], shot.quality.shadow ? &shadow_ : nullptr);
-  if (s > 1)
-    composite_shell(s, tile);
-  else
+  if (layered)
+    composite_shell(s, part, {part.x - tile.x, part.y - tile.y});
+  else if (s == 1)
     draw_meshes(shot, passes_[0], matrix.cast<float>());
   return {};
 }
@@ -194,7 +199,7 @@ Result<void> Painter::accumulate_shell(const RenderJob& shot, const Tile& part,
     TRY_DO(pass_.bind(part.width, part.height, GL_RGBA16F));
     gl_->ClearColor(0, 0, 0, 0);
     gl_->Clear(GL_COLOR_BUFFER_BIT);
-    composite_shell(s, part);
+    composite_shell(s, part, {0, 0});
   }
   TRY_DO(sum_.bind(part.width, part.height, GL_RGBA32F));
   if (first) {
@@ -241,12 +246,15 @@ void Painter::show(GLuint texture, float share, const Eigen::Vector2i& corner) c
   screen_triangle();
 }
 
-void Painter::composite_shell(int per_side, const Tile& tile) const {
+/// Lays the samples of `part` over the bound target, whose pixel `corner` is their first.
+void Painter::composite_shell(int per_side, const Tile& part, const Eigen::Vector2i& corner) const {
   const Program& program = average_.at(per_side);
   program.use();
   program.set("samples", 0);
-  program.set("texel_of_samples", Eigen::Vector2f(1.f / float(per_side * tile.width),
-                                                  1.f / float(per_side * tile.height)));
+  program.set("texel_of_samples", Eigen::Vector2f(1.f / float(per_side * part.width),
+                                                  1.f / float(per_side * part.height)));
+  program.set("corner", Eigen::Vector2f(corner.cast<float>()));
+  gl_->Viewport(corner.x(), corner.y(), part.width, part.height);
   gl_->ActiveTexture(GL_TEXTURE0);
   gl_->BindTexture(GL_TEXTURE_2D, layer_.colour());
   // four samples of a pixel in one fetch between them
@@ -287,7 +295,7 @@ void Painter::set_shadow(const Program& program, const RenderJob& shot,
   const double past_rod = std::max(shot.drawing.rod_diameter_mm, 1.5 * shadow_.texel_mm());
   program.set("shadow_depth", 1);
   program.set("light_matrix", shadow_.matrix());
-  program.set("shadow_blur", shell_blur_mm / shadow_.texel_mm() / float(ShadowMap::texels));
+  program.set("shadow_blur", shell_blur_mm / shadow_.texel_mm() / float(shadow_.texels()));
   program.set("shadow_offset", Eigen::Vector3f((past_rod * light.direction).cast<float>()));
 }
 
@@ -295,16 +303,12 @@ void Painter::draw_meshes(const RenderJob& shot, const Lighting& light,
                           const Eigen::Matrix4f& matrix) {
   gl_->Disable(GL_DEPTH_TEST);
   gl_->Disable(GL_CULL_FACE);
-  // the ground hides what dips below it
-  const bool dips = Ground::seen(shot) && shot.scene.low.z() < shot.drawing.ground_z_mm;
-  if (dips) gl_->Enable(GL_CLIP_DISTANCE0);
   gl_->ActiveTexture(GL_TEXTURE1);
   gl_->BindTexture(GL_TEXTURE_2D, shadow_.depth());
   const Programs& programs = programs_.at(taps_);
   for (const Program* program : {&programs.sheet, &programs.ribbon, &programs.bead}) {
     program->use();
     program->set("view_projection", matrix);
-    program->set("ground_z", float(shot.drawing.ground_z_mm));
     if (program == &programs.sheet) continue;
     set_light(*program, shot, light);
     set_shadow(*program, shot, light);
@@ -325,7 +329,6 @@ void Painter::draw_meshes(const RenderJob& shot, const Lighting& light,
     paint(programs.ribbon, ribbons_, layers[k].ribbons, layers[k + 1].ribbons);
     paint(programs.bead, beads_, layers[k].beads, layers[k + 1].beads);
   }
-  if (dips) gl_->Disable(GL_CLIP_DISTANCE0);
 }
 
 void Painter::screen_triangle() const {

@@ -43,6 +43,7 @@ struct GhostRods {
   std::vector<std::vector<int>> rods;
   double diameter_mm = 0.5;
   Colour colour;
+  double behind_mm = 0;  ///< lies behind what is farther by less than this, too
 };
 
 /// An arrow with a solid head, tip at `to`.
@@ -57,6 +58,7 @@ struct PointMark {
   Eigen::Vector3d at;
   double diameter_mm = 4;
   Colour colour;
+  bool over = true;  ///< what is nearer by less than a spacing too
 };
 
 /// One frame's worth of geometry.

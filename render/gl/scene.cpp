@@ -14,10 +14,10 @@
 namespace gridshell::render {
 namespace {
 
-// what pieces longer than the edges of a mesh may miss, in samples: of a rod, whose outline shows
+// what pieces longer than the edges of a mesh may miss, in pixels: of a rod, whose outline shows
 // it, and of a cell, whose sides are hidden by rods
 struct Tolerance {
-  double rod_samples, cell_samples;
+  double rod_pixels, cell_pixels;
 };
 constexpr Tolerance fine{0.02, 0.25}, coarse{0.5, 1};
 
@@ -126,7 +126,7 @@ class Weaver {
                    [](const Colour& c) { return to_linear(c); });
     auto patches =
         render::add_cell_patches(scene_.sheets, *drawing_.layout, drawing_.nodes, colours,
-                                 float(tolerance_.cell_samples * mm_per_sample_));
+                                 float(tolerance_.cell_pixels * mm_per_pixel()));
     for (CellPatch& patch : patches) {
       double depth = 0;
       for (int joint : drawing_.layout->cells[patch.cell].joints)
@@ -226,8 +226,10 @@ class Weaver {
         const std::uint32_t first = add_ribbon(scene_.ribbons, ribbon);
         for (int begin = 0, last = int(rod.size()) - 1; begin < last; begin += edges) {
           const int end = std::min(begin + edges, last);
-          add_stretch(ribbon, first, begin, end,
-                      0.5 * forward_.dot((points[begin] + points[end]).cast<double>()), false);
+          add_stretch(
+              ribbon, first, begin, end,
+              0.5 * forward_.dot((points[begin] + points[end]).cast<double>()) + ghost.behind_mm,
+              false);
         }
       }
     }
@@ -255,9 +257,10 @@ class Weaver {
   void add_marks() {
     for (const PointMark& mark : drawing_.marks) {
       const auto radius = float(0.5 * mark.diameter_mm);
-      beads_.push_back({forward_.dot(mark.at) - radius - drawing_.layout->spacing_mm,
-                        add_bead(scene_.beads, mark.at.cast<float>(), Eigen::Vector3f::UnitZ(),
-                                 radius, BeadShape::ball, opaque(mark.colour))});
+      beads_.push_back(
+          {forward_.dot(mark.at) - radius - (mark.over ? drawing_.layout->spacing_mm : 0),
+           add_bead(scene_.beads, mark.at.cast<float>(), Eigen::Vector3f::UnitZ(), radius,
+                    BeadShape::ball, opaque(mark.colour))});
     }
   }
 
@@ -300,7 +303,8 @@ class Weaver {
     for (; next < pieces.size() && pieces[next].depth >= until; ++next)
       insert(indices, pieces[next].indices);
   }
-  float rod_tolerance() const { return float(tolerance_.rod_samples * mm_per_sample_); }
+  double mm_per_pixel() const { return quality_.supersample * mm_per_sample_; }
+  float rod_tolerance() const { return float(tolerance_.rod_pixels * mm_per_pixel()); }
   void add_stretch(const Ribbon& ribbon, std::uint32_t first, int begin, int end, double depth,
                    bool casts) {
     Piece piece{depth, {}};

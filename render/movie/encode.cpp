@@ -11,7 +11,7 @@ namespace gridshell::render {
 
 namespace {
 
-/// When every frame is shown, and how long the last one stays.
+/// When every frame is shown, and how long the first and the last are held.
 std::string timing_filters(const preset::Movie& timing) {
   std::string filters;
   const bool eased = timing.pace == Pace::eased && timing.frames > 1;
@@ -24,8 +24,10 @@ std::string timing_filters(const preset::Movie& timing) {
   } else if (timing.seconds > 0 && timing.frames > 0) {
     filters += fmt::format("setpts='N*{:.6f}/TB',fps={},", seconds / timing.frames, timing.fps);
   }
-  if (timing.hold_s > 0)
-    filters += fmt::format("tpad=stop_mode=clone:stop_duration={:.3f},", timing.hold_s);
+  if (timing.hold_first_s > 0 || timing.hold_s > 0)
+    filters += fmt::format(
+        "tpad=start_mode=clone:start_duration={:.3f}:stop_mode=clone:stop_duration={:.3f},",
+        timing.hold_first_s, timing.hold_s);
   return filters;
 }
 

@@ -16,8 +16,8 @@
 
 namespace gridshell::render {
 
-// How fast a movie of so many frames plays its preset says: fps, frames, seconds, hold_s, pace, and
-// title_s of the card before all, title.png beside the folder `frames`.
+// How fast a movie of so many frames plays its preset says: fps, frames, seconds, hold_first_s,
+// hold_s, pace, and title_s of the card before all, title.png beside the folder `frames`.
 
 /// The arguments that turn `frames`/frame_%05d.png into `movie`, to be run in any folder. By its
 /// extension: .mp4, H.264 with 4:2:0 colours, which every player knows, and tags that say which

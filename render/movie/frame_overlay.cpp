@@ -61,11 +61,13 @@ bool reached(const std::vector<Mark>& marks, MarkKind kind, int at) {
 }
 
 // a coloured length for a state that lasts, a sign for a moment
-void draw_marks(Canvas& canvas, const Box& bar, const std::vector<Mark>& marks, int at, int frames,
-                double size) {
-  const double step = bar.width / std::max(1, frames - 1);
+void draw_marks(Canvas& canvas, const Box& bar, const std::vector<Mark>& marks,
+                const std::vector<double>& places, int at, double size) {
+  // between frames too
   const auto place = [&](double frame) {
-    return std::clamp(bar.x + frame * step, bar.x, bar.right());
+    const double k = std::clamp(frame, 0.0, double(places.size() - 1));
+    const std::size_t before = std::size_t(k), after = std::min(before + 1, places.size() - 1);
+    return bar.x + bar.width * std::lerp(places[before], places[after], k - double(before));
   };
   for (const Sign& sign : signs)
     for (const Mark& mark : marks) {
@@ -160,7 +162,7 @@ FrameLayout lay_out_frame(const MovieStyle& style, const ColourBar* bar, bool lo
   }
   const bool scale_bar = style.scale_bar_mm > 0 && rest.height > 6 * line;
   const bool key = loads && rest.height > 6 * line;
-  Box foot = cut_bottom(rest, captions ? 2.8 * line : (scale_bar || key ? 1.7 * line : 0));
+  Box foot = cut_bottom(rest, captions ? 1.9 * line : (scale_bar || key ? 1.7 * line : 0));
   if (scale_bar) {
     Box place = cut_right(foot, 0.4 * foot.width);
     layout.scale_bar = cut_bottom(place, 1.7 * line);
@@ -170,8 +172,7 @@ FrameLayout lay_out_frame(const MovieStyle& style, const ColourBar* bar, bool lo
     layout.arrow_key = cut_bottom(place, 1.7 * line);
   }
   if (captions) {
-    layout.timeline = cut_bottom(foot, 0.8 * line);
-    layout.progress = cut_bottom(foot, line);
+    layout.timeline = cut_bottom(foot, 0.9 * line);
     layout.event = foot;
   }
   layout.view = rest.inset(0.5 * margin);
@@ -187,20 +188,9 @@ std::vector<std::string> state_captions(const record::Frame& frame) {
   if (std::isfinite(frame.boundary_radius_mm) && (!pushed || moved))
     captions.push_back("*R*_{a} = " + fixed(frame.boundary_radius_mm, 1) + " mm");
   captions.push_back("height " + fixed(frame.height_mm, 1) + " mm");
+  if (std::isfinite(frame.time_s))
+    captions.push_back("*t* = " + fixed(1e3 * frame.time_s, 0) + " ms");
   return captions;
-}
-
-std::string frame_caption(int at, int frames) {
-  return "frame " + std::to_string(at + 1) + " / " + std::to_string(frames);
-}
-
-std::string equilibrium_caption(const record::Frame& frame) {
-  if (std::isfinite(frame.time_s)) return "t = " + fixed(1e3 * frame.time_s, 0) + " ms";
-  if (!std::isfinite(frame.residual_N)) return "";  // a net, nothing was solved for
-  // its order alone, down to a micronewton: below, tolerances and round-off decide
-  const double order = std::ceil(std::log10(std::max(frame.residual_N, 1e-6)) - 1e-9);
-  const std::string text = "residual < " + scientific(std::pow(10, order), 1) + " N";
-  return frame.negative_pivots == 0 ? text + ", stable" : text;
 }
 
 void put_contacts(const record::Layout& layout, const record::Frame& frame, double thin_mm,
@@ -252,14 +242,15 @@ std::string contact_caption(const record::Frame& frame) {
 }
 
 std::string event_caption(const record::Frame& frame) {
-  if (!frame.event.empty()) return frame.event;
-  if (frame.negative_pivots <= 0) return contact_caption(frame);
-  return "unstable: " + std::to_string(frame.negative_pivots) + " negative pivot" +
-         (frame.negative_pivots > 1 ? "s" : "");
+  // how many directions it would leave in is for those who read its table
+  const bool counted = frame.event.empty() || frame.event.starts_with("unstable: ");
+  if (!counted) return frame.event;
+  return frame.negative_pivots > 0 ? "unstable equilibrium" : contact_caption(frame);
 }
 
-void draw_timeline(Canvas& canvas, const Box& box, const std::vector<Mark>& marks, int at,
-                   int frames, double font_size) {
+void draw_timeline(Canvas& canvas, const Box& box, const std::vector<Mark>& marks,
+                   const ProgressAxis& axis, int at, double font_size) {
+  const int frames = int(axis.places.size());
   // what stands beside the bar over the whole run decides its length, so that it does not move
   const double size = 0.8 * font_size, gap = 0.5 * size;
   const double apart = 6 * gap;  // of the bar and its signs from those beside it
@@ -267,13 +258,22 @@ void draw_timeline(Canvas& canvas, const Box& box, const std::vector<Mark>& mark
   for (const Sign& sign : signs)
     if (reached(marks, sign.kind, frames))
       words += size + gap + canvas.measure(sign.word, {.size = size}).width + 2 * gap;
-  const double length = std::min(box.width - words, std::max(0.3 * box.width, 16 * font_size));
+  const TextStyle text{.size = 0.85 * font_size, .align_y = AlignY::middle};
+  const bool named = !axis.name.empty();
+  const std::string first = named ? axis.name + " = " + fixed(axis.first, 1) : "",
+                    last = named ? fixed(axis.last, 1) + " mm" : "";
+  const double before = named ? canvas.measure(first, text).width + gap : 0,
+               after = named ? canvas.measure(last, text).width + gap : 0;
+  const double length =
+      std::min(box.width - words - before - after, std::max(0.3 * box.width, 16 * font_size));
   if (length < 4 * font_size || frames < 2) return;
-  const Box bar{box.x, box.middle().y - 0.16 * font_size, length, 0.32 * font_size};
+  const Box bar{box.x + before, box.middle().y - 0.16 * font_size, length, 0.32 * font_size};
+  canvas.text(first, {box.x, box.middle().y}, text);
+  canvas.text(last, {bar.right() + gap, box.middle().y}, text);
   canvas.rectangle(bar, way);
-  canvas.rectangle({bar.x, bar.y, bar.width * at / (frames - 1), bar.height}, done);
-  draw_marks(canvas, bar, marks, at, frames, font_size);
-  double x = bar.right() + apart;
+  canvas.rectangle({bar.x, bar.y, bar.width * axis.places[std::size_t(at)], bar.height}, done);
+  draw_marks(canvas, bar, marks, axis.places, at, font_size);
+  double x = bar.right() + after + apart;
   for (const Sign& sign : signs) {
     if (!reached(marks, sign.kind, at)) continue;
     canvas.marker(sign.marker, {x + size / 2, box.middle().y}, 0.8 * size, sign.colour, {{}, 0});

@@ -20,17 +20,17 @@ inline constexpr Colour pale_ink{0.38f, 0.39f, 0.42f, 1}, event_ink{0.70f, 0.10f
 
 /// Boxes in pixels; an empty one is not shown.
 struct FrameLayout {
-  double font_size = 17;          ///< of captions; follows the picture's height
-  Box title, state;               ///< upper left; the title in the lines below
-  Box heading;                    ///< of a still: its title's lines and its caption
-  Box event, progress, timeline;  ///< lower left, a line each
+  double font_size = 17;  ///< of captions; follows the picture's height
+  Box title, state;       ///< upper left; the title in the lines below
+  Box heading;            ///< of a still: its title's lines and its caption
+  Box event, timeline;    ///< lower left, a line each
   Box colour_bar, inset, scale_bar, arrow_key, plot;
   Box view;                              ///< what is left for the shell
   std::vector<std::string> title_lines;  ///< of the title, or of a still's heading
 
   std::vector<Box> parts() const {
-    return {title,      state, heading,   event,     progress, timeline,
-            colour_bar, inset, scale_bar, arrow_key, plot,     view};
+    return {title, state,     heading,   event, timeline, colour_bar,
+            inset, scale_bar, arrow_key, plot,  view};
   }
 };
 
@@ -47,14 +47,9 @@ FrameLayout lay_out_frame(const MovieStyle& style, const ColourBar* bar, bool lo
 
 /// What a frame's state is, the most telling first, as marked text: of a pushed shell "*δ* = 3.20
 /// mm" and "*F* = 0.214 N"; "*R*_{a} = 115.9 mm", of a pushed shell where its boundary is not where
-/// the actuation ends; then "height 42.1 mm". What does not apply is not there.
+/// the actuation ends; then "height 42.1 mm", or "*t* = 12 ms" where it moves in time. What does
+/// not apply is not there.
 std::vector<std::string> state_captions(const record::Frame& frame);
-
-/// "frame 120 / 240"; `at` from 0
-std::string frame_caption(int at, int frames);
-
-/// "residual < 1 × 10^{−6} N, stable". An unstable frame says so in its event.
-std::string equilibrium_caption(const record::Frame& frame);
 
 /// A mark where parts of the frame touch; `thin_mm`: the least width of what is to be seen.
 void put_contacts(const record::Layout& layout, const record::Frame& frame, double thin_mm,
@@ -82,11 +77,11 @@ std::string event_caption(const record::Frame& frame);
 
 // A thin bar under the shell: how far the run has come, and what happened on the way.
 
-/// Draws the bar of a run of `frames` at frame `at` into `box`. Of the marks those up to now are
-/// shown, unstable frames as red lengths, the others as signs; beside the bar stands what occurred,
-/// each once.
-void draw_timeline(Canvas& canvas, const Box& box, const std::vector<Mark>& marks, int at,
-                   int frames, double font_size);
+/// Draws the bar of a run at frame `at` into `box`, between the axis' ends. Of the marks those up
+/// to now are shown, unstable frames as red lengths, the others as signs; beside the bar is what
+/// occurred, each once.
+void draw_timeline(Canvas& canvas, const Box& box, const std::vector<Mark>& marks,
+                   const ProgressAxis& axis, int at, double font_size);
 
 // A small drawing of one frame seen from above: boundaries, cells, rods, joints.
 

@@ -1,9 +1,12 @@
 #include "render/movie/movie_style.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
+#include "engine/core/system_info.h"
 #include "render/movie/frame_overlay.h"
 
 namespace gridshell::render {
@@ -13,7 +16,7 @@ Appearance paper_appearance() {
   look.rod = {0, 0, 0, 1};
   look.joint_mm = 0;
   look.ring = {0, 0, 0, 1};
-  look.cells = look.floor = look.shadow = false;
+  look.cells = look.floor = look.shadow = look.ghost = false;
   look.sheen = 0;
   return look;
 }
@@ -36,6 +39,7 @@ void choose(bool& flag, preset::Visibility wish) {
 ViewDirection direction_of(const preset::Movie& movie) {
   switch (movie.view) {
     case preset::View::free:
+    case preset::View::push:  // the layout knows where to (Stage)
       break;
     case preset::View::front:
       return view_front;
@@ -62,17 +66,48 @@ bool boundary_moves(const preset::Preset& preset) {
          });
 }
 
+// in as few lines as the width takes, all about equally long
 std::string in_lines(const Canvas& canvas, const std::string& text, double width,
                      const TextStyle& style) {
+  auto lines = canvas.wrapped(text, width, style);
+  for (double narrow = 0, wide = width; wide - narrow > 0.01 * width;) {
+    const double middle = 0.5 * (narrow + wide);
+    auto other = canvas.wrapped(text, middle, style);
+    if (other.size() > lines.size()) {
+      narrow = middle;
+      continue;
+    }
+    wide = middle;
+    lines = std::move(other);
+  }
   std::string all;
-  for (const std::string& line : canvas.wrapped(text, width, style))
-    all += (all.empty() ? "" : "\n") + line;
+  for (const std::string& line : lines) all += (all.empty() ? "" : "\n") + line;
   return all;
 }
+
+/// "*n* = 12, *d* = 20 mm, *R*_{o} = 126 mm, *δ*_{0} = 12 mm, computed by gridshell 0.2.0"
+std::string parameters_of(const preset::Preset& preset) {
+  std::string text;
+  const auto add = [&](const char* name, double value, const char* unit) {
+    if (value > 0) text += fmt::format("{} = {:.4g}{}, ", name, value, unit);
+  };
+  const bool circle = preset.footprint.kind == preset::FootprintKind::circle;
+  if (circle) add("*n*", preset.footprint.rods, "");
+  if (circle || preset.on_net()) add("*d*", preset.footprint.spacing_mm, " mm");
+  if (circle) add("*R*_{o}", preset.original_radius_mm(), " mm");
+  const bool sphere = preset.on_net() && preset.net.kind == preset::NetKind::sphere;
+  if (sphere) add("*ρ*", preset.net.radius_mm, " mm");
+  if (sphere && preset.indentation.wanted())
+    add("*δ*_{0}", preset.indentation.depth * preset.net.radius_mm, " mm");
+  return text + "computed by gridshell " + version();
+}
+
+constexpr Colour dark_paper{0.075f, 0.085f, 0.1f, 1};
 
 /// The theme, and over it what the style says.
 Appearance appearance_of(const preset::Style& style) {
   Appearance look = style.theme == preset::Theme::paper ? paper_appearance() : Appearance{};
+  if (style.theme == preset::Theme::dark) look.background = dark_paper;
   choose(look.rod_mm, style.rod_width_mm);
   choose(look.joint_mm, style.joint_width_mm);
   choose(look.ring_mm, style.ring_width_mm);
@@ -80,12 +115,20 @@ Appearance appearance_of(const preset::Style& style) {
   choose(look.joint, style.joint_colour);
   choose(look.ring, style.ring_colour);
   choose(look.background, style.background);
+  if (is_dark(look.background)) {
+    // what was not chosen is seen on it, and on cells that are nearly white
+    for (const auto& [colour, wish] : {std::pair(&look.rod, &style.rod_colour),
+                                       {&look.joint, &style.joint_colour},
+                                       {&look.ring, &style.ring_colour}})
+      if (wish->empty()) *colour = line_on_dark({0, 0, 0, 1});
+  }
   choose(look.cells, style.cells);
   choose(look.rings, style.rings);
   choose(look.floor, style.floor);
   choose(look.shadow, style.shadow);
   choose(look.loads, style.loads);
   choose(look.braces, style.braces);
+  choose(look.ghost, style.ghost);
   if (style.joints == preset::Visibility::off) look.joint_mm = 0;
   if (style.joints == preset::Visibility::on && look.joint_mm == 0)
     look.joint_mm = Appearance{}.joint_mm;
@@ -107,6 +150,7 @@ MovieStyle movie_style(const preset::Preset& preset) {
   style.title = preset.title;
   style.source = preset.source;
   style.description = preset.description;
+  style.parameters = parameters_of(preset);
   style.font_scale = preset.style.font_size;
   style.look = appearance_of(preset.style);
   if (preset.style.rings == preset::Visibility::automatic)
@@ -120,6 +164,7 @@ MovieStyle figure_style(const preset::Preset& preset) {
   style.quality = figure.quality;
   style.scale_bar_mm = figure.scale_bar_mm;
   style.vector = figure.vector;
+  if (!figure.title) style.title.clear();
   if (figure.width_mm <= 0) return style;
   style.print = {figure.width_mm, figure.dpi};
   const double aspect = double(style.height()) / style.width();
@@ -130,7 +175,7 @@ MovieStyle figure_style(const preset::Preset& preset) {
 }
 
 DrawQuality draw_quality(Quality quality) {
-  return {.supersample = 1,
+  return {.supersample = quality == Quality::movie ? 2 : 1,
           .shadow = quality != Quality::draft,
           .jittered_passes = quality == Quality::figure ? 24 : 1};
 }
@@ -143,7 +188,7 @@ DrawQuality draw_quality(const MovieStyle& style) {
 
 Image title_card(const MovieStyle& style) {
   const double w = style.width(), h = style.height();
-  return draw_picture(w, h, 1, {1, 1, 1, 1}, [&](Canvas& canvas) {
+  return draw_picture(w, h, 1, style.look.background, [&](Canvas& canvas) {
     TextStyle title{.size = style.font_scale * 0.075 * std::min(h, 0.6 * w),
                     .colour = ink,
                     .bold = true,
@@ -160,13 +205,19 @@ Image title_card(const MovieStyle& style) {
     TextStyle more{.size = 0.5 * title.size, .align_x = AlignX::centre, .align_y = AlignY::top};
     const std::string said = in_lines(canvas, style.description, 0.8 * w, more);
     const double high = canvas.measure(plain(said), more).height;
-    more.size *= std::min(1.0, 0.24 * h / std::max(1.0, high));
+    more.size *= std::min(1.0, 0.22 * h / std::max(1.0, high));
     canvas.text(plain(said), {w / 2, 0.52 * h}, more);
+    const TextStyle numbers{.size = 0.45 * title.size,
+                            .colour = pale_ink,
+                            .align_x = AlignX::centre,
+                            .align_y = AlignY::middle};
+    canvas.text(style.parameters, {w / 2, 0.79 * h},
+                canvas.fitted(style.parameters, 0.9 * w, numbers));
     const TextStyle source{.size = 0.5 * title.size,
                            .colour = pale_ink,
                            .align_x = AlignX::centre,
                            .align_y = AlignY::middle};
-    canvas.text(plain(style.source), {w / 2, 0.86 * h},
+    canvas.text(plain(style.source), {w / 2, 0.87 * h},
                 canvas.fitted(plain(style.source), 0.9 * w, source));
   });
 }

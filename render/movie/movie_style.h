@@ -23,7 +23,8 @@ struct Appearance {
       background{1, 1, 1, 1};  ///< a background of alpha 0 stays out of the picture
   ColourMap map = nullptr;     ///< null: by the values
   std::vector<double> range;   ///< (low, high) of the colours; empty: by the values
-  bool cells = true, rings = true, floor = true, shadow = true, loads = true, braces = true;
+  bool cells = true, rings = true, floor = true, shadow = true, loads = true, braces = true,
+       ghost = true;
   double sheen = 1;        ///< of rods and joints; 0: ink
   double far_fade = 0.25;  ///< of the far side, into the background
   bool letters = true;     ///< of the panels of a figure
@@ -41,6 +42,7 @@ struct MovieStyle : preset::Movie {
   std::string title = {};        ///< shown as it is
   std::string source = {};       ///< figure or movie that it follows, on the title card
   std::string description = {};  ///< what is shown and what moves, there too
+  std::string parameters = {};   ///< the shell's numbers and the program, there too, marked text
   Print print = {};              ///< of figures
   bool vector = false;           ///< stills as lines too
   double font_scale = 1;         ///< of all text

@@ -162,6 +162,14 @@ class SideBySideMovie {
     for (std::size_t k = 0; k < runs.size(); ++k)
       stages_.push_back(
           std::make_unique<Stage>(runs[k].run->layout, std::move(surveys[k]), part, bar_));
+    // one bar for all that go the same way, with nothing on it that is one's own
+    const ProgressAxis& first = stages_.front()->progress();
+    one_bar_ = std::ranges::all_of(stages_, [&](const auto& stage) {
+      const ProgressAxis& axis = stage->progress();
+      return stage->survey().marks.empty() && axis.name == first.name &&
+             std::abs(axis.first - first.first) + std::abs(axis.last - first.last) < 0.05 &&
+             axis.places.size() == first.places.size();
+    });
   }
 
   int frames() const {
@@ -177,10 +185,12 @@ class SideBySideMovie {
       TRY(part, stages_[run]->draw_views(renderer, {frame(run, k), k}));
       parts.push_back(std::move(*part));
     }
-    return draw_picture(style_.width(), style_.height(), 1, {1, 1, 1, 1}, [&](Canvas& canvas) {
-      for (std::size_t k = 0; k < parts.size(); ++k) draw_part(canvas, k, parts[k], index);
-      draw_text(canvas, index);
-    });
+    return draw_picture(style_.width(), style_.height(), 1, style_.look.background,
+                        [&](Canvas& canvas) {
+                          for (std::size_t k = 0; k < parts.size(); ++k)
+                            draw_part(canvas, k, parts[k], index);
+                          draw_text(canvas, index);
+                        });
   }
 
  private:
@@ -234,9 +244,10 @@ class SideBySideMovie {
     text.colour = event_ink;
     canvas.text(plain(canvas.shortened(event_caption(shown), width, text)),
                 {x, box.bottom() + 0.8 * em_}, text);
+    if (one_bar_) return;
     const double length = std::min(width, 18 * em_);
     draw_timeline(canvas, {x - length / 2, box.bottom() + 1.7 * em_, length, 0.9 * em_},
-                  stages_[k]->survey().marks, now, stages_[k]->frames(), em_);
+                  stages_[k]->survey().marks, stages_[k]->progress(), now, em_);
   }
 
   void draw_text(Canvas& canvas, int index) const {
@@ -253,13 +264,15 @@ class SideBySideMovie {
         canvas.fitted(plain(style_.title), room,
                       {.size = 1.15 * em_, .bold = true, .align_y = AlignY::middle}, least);
     canvas.text(plain(canvas.shortened(style_.title, room, title)), {em_, 1.5 * em_}, title);
-    canvas.text(frame_caption(index, frames()), {em_, style_.height() - 1.2 * em_},
-                {.size = em_, .align_y = AlignY::middle});
+    if (one_bar_)
+      draw_timeline(canvas, {em_, style_.height() - 1.8 * em_, room - legend_, 1.2 * em_}, {},
+                    stages_.front()->progress(), at(*stages_.front(), index), em_);
   }
 
   const std::vector<NamedRun>& runs_;
   MovieStyle style_;
   int columns_ = 1;
+  bool one_bar_ = false;
   double em_ = 0, legend_ = 0;  // of the font; of the colour bar's column
   double spare_ = 0;            // height below the parts for the forces; 0: there is none
   Plot forces_;

@@ -68,7 +68,7 @@ void draw_empty_frame(Canvas& canvas, const Box& box, const std::string& of_what
 
 Result<void> write_page(const std::filesystem::path& stem, const std::string& title,
                         double width_mm, double height_mm, const std::vector<PagePanel>& panels,
-                        const Print& print, bool lines) {
+                        const Print& print, bool drawn) {
   const auto draw = [&](Canvas& canvas, bool as_lines) {
     for (const PagePanel& panel : panels) {
       const Box& mm = panel.box_mm;
@@ -93,8 +93,8 @@ Result<void> write_page(const std::filesystem::path& stem, const std::string& ti
         to, points_per_mm * width_mm, points_per_mm * height_mm, title,
         [&](Canvas& canvas) { draw(canvas, as_lines); }, print);
   };
-  return write(stem, false).and_then([&] {
-    return lines ? write(std::filesystem::path(stem) += "_lines", true) : Result<void>{};
+  return write(stem, true).and_then([&] {
+    return drawn ? write(std::filesystem::path(stem) += "_drawn", false) : Result<void>{};
   });
 }
 

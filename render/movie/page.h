@@ -33,11 +33,12 @@ void draw_fitted(Canvas& canvas, const Box& box, const Image& image);
 /// The empty frame of what is not there: "photograph".
 void draw_empty_frame(Canvas& canvas, const Box& box, const std::string& of_what);
 
-/// `<stem>.png`, `.svg` and `.pdf`, and with `lines` `<stem>_lines` beside them, shells as lines.
+/// `<stem>.png`, `.svg` and `.pdf`, shells as lines; with `drawn` `<stem>_drawn` beside them, with
+/// pictures of the shells.
 /// Errors: those of write_figure.
 Result<void> write_page(const std::filesystem::path& stem, const std::string& title,
                         double width_mm, double height_mm, const std::vector<PagePanel>& panels,
-                        const Print& print = {}, bool lines = false);
+                        const Print& print = {}, bool drawn = false);
 
 // Pictures before and after a change beside one another, to look at.
 

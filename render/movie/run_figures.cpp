@@ -75,9 +75,10 @@ double round_end(double largest) {
 
 /// What the colours over nets stand for.
 std::vector<ColourKey> over_net_keys(const std::vector<NetRun>& runs) {
-  std::vector<ColourKey> keys{{shell_ink, "shell at rest"}};
+  std::vector<ColourKey> keys{{shell_ink, "equilibrium"}};
   const record::Layout& layout = runs.front().run->layout;
-  if (layout.parts.empty() && layout.net_nodes.cols() > 0) keys.push_back({net_ink, "its net"});
+  if (layout.parts.empty() && layout.net_nodes.cols() > 0)
+    keys.push_back({net_ink, "Chebyshev net"});
   for (ColourKey key : BlockKinds(runs).keys()) {
     key.name.insert(0, "net of ");
     keys.push_back(std::move(key));
@@ -199,6 +200,7 @@ MovieStyle uncoloured(MovieStyle style) {
 PanelFigure empty_figure(const MovieStyle& style, int columns) {
   PanelFigure figure{.title = style.title, .panels = {}, .columns = columns, .colour_bar = {}};
   if (style.print.width_mm > 0) figure.print = style.print;
+  figure.background = style.look.background;
   return figure;
 }
 

@@ -199,7 +199,8 @@ Plot curvature_plot(const std::vector<NamedRun>& runs) {
   plot.x.label = "*x*/*L*";
   plot.x.low = -1.05;
   plot.x.high = 1.05;
-  plot.y.label = "integrated Gauss curvature of a cell, *K*_{□} (rad)";
+  plot.y.label = "integrated Gauss curvature, *K*_{□} (rad)";
+  if (runs.size() == 1) plot.legend = LegendPlace::none;
   plot.references.push_back({.at = 0, .label = ""});
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const record::Trajectory& run = *runs[r].run;
@@ -220,11 +221,11 @@ Plot curvature_plot(const std::vector<NamedRun>& runs) {
 
 Plot quantile_plot(const std::vector<NamedRun>& runs) {
   Plot plot;
-  plot.x.label = "share of the joints (%)";
+  plot.x.label = "fraction of joints (%)";
   plot.x.low = 0;
   plot.x.high = 100;
   const DeviationUnit unit = deviation_unit(runs.front().run->layout);
-  plot.y.label = "off the net, " + unit.label;
+  plot.y.label = "deviation from the net, " + unit.label;
   plot.y.low = 0;
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const record::Trajectory& run = *runs[r].run;
@@ -244,7 +245,7 @@ Plot latitude_plot(const NamedRun& named, const Eigen::Matrix3Xd& scan) {
   const double rho = run.layout.length_scale_mm;
   Plot plot;
   plot.x.label = "latitude (°)";
-  plot.y.label = "radius of a joint, *r*/*ρ*";
+  plot.y.label = "radial position of joints, *r*/*ρ*";
   Series net = line_series("net", net_ink, 1.3);
   net.add(latitude_deg(run.layout.actuated_boundary.row(2).mean() / rho), 1);
   net.add(90, 1);
@@ -379,7 +380,7 @@ Plot bins_plot(const RunSummary& run, long cells, const record::Frame& frame,
   before.y_error.clear();
   before.bar_width = 1.9 / double(std::max<std::size_t>(1, before.x.size()));
   before.colour = reference;
-  now.name = "now ± s.d.";
+  now.name = "loaded, mean ± s.d.";
   now.colour = now_ink;
   now.line_width = 0;
   now.marker = Marker::circle;
@@ -387,9 +388,10 @@ Plot bins_plot(const RunSummary& run, long cells, const record::Frame& frame,
   const Stroke dashed{reference_ink, 0.08 * font_size, {0.35 * font_size, 0.25 * font_size}},
       solid{mean_ink, 0.1 * font_size, {}};
   // lines across the plot have a row of the legend too
-  plot.series = {before, now,
-                 line_series("all cells, unloaded", dashed.colour, dashed.width, dashed.dash),
-                 line_series("all cells", solid.colour, solid.width)};
+  plot.series = {
+      before, now,
+      line_series("mean of all cells, unloaded", dashed.colour, dashed.width, dashed.dash),
+      line_series("mean of all cells", solid.colour, solid.width)};
   plot.references = {{true, run.first.total_K / double(cells), "", dashed},
                      {true, frame.total_K / double(cells), "", solid}};
   plot.title = total_K_caption(run.first.total_K, frame.total_K);

@@ -163,6 +163,7 @@ long node_count_of(const record::Layout& layout) {
 
 RunSummary::RunSummary(const record::Layout& layout)
     : lowest_z_mm(std::min(lowest(layout.original_boundary), lowest(layout.actuated_boundary))),
+      support_z_mm(lowest_z_mm),
       layout_(&layout),
       rod_points_(thinned(rod_points(layout), 600)) {}
 
@@ -172,6 +173,8 @@ void RunSummary::take(const record::Frame& frame) {
     largest_load_N = std::max(largest_load_N, frame.loads_N.colwise().norm().maxCoeff());
   sample_points(frame);
   lowest_z_mm = std::min(lowest_z_mm, lowest(frame.nodes));
+  depths_mm_.push_back(frame.depth_mm);
+  radii_mm_.push_back(frame.boundary_radius_mm);
   if (frame.depth_mm > depth_mm) depth_mm = frame.depth_mm;
   for (long k = 0; k < frame.K_bins.rows(); ++k)
     for (const double sign : {-1.0, 1.0})
@@ -195,6 +198,27 @@ void RunSummary::take(const record::Frame& frame) {
     marks.push_back({frames, kind});
   if (frame.contacts > 0) marks.push_back({frames, MarkKind::contact});
   ++frames;
+}
+
+ProgressAxis RunSummary::progress() const {
+  const auto along = [](const std::vector<double>& values, const char* name) {
+    ProgressAxis axis{name, values.front(), values.back(), {}};
+    const double range = axis.last - axis.first;
+    for (const double value : values) {
+      const double place = (value - axis.first) / range;
+      // also false of what is not known
+      if (!(place >= (axis.places.empty() ? 0 : axis.places.back()) && place <= 1))
+        return ProgressAxis{};
+      axis.places.push_back(place);
+    }
+    return axis;
+  };
+  ProgressAxis axis;
+  if (frames > 1) axis = along(depths_mm_, "*δ*");
+  if (frames > 1 && axis.places.empty()) axis = along(radii_mm_, "*R*_{a}");
+  for (int k = 0; axis.name.empty() && k < frames; ++k)
+    axis.places.push_back(double(k) / std::max(1, frames - 1));
+  return axis;
 }
 
 void RunSummary::sample_points(const record::Frame& frame) {

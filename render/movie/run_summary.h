@@ -99,6 +99,14 @@ struct RodSample {
   double part = 0;       ///< of the way between them
 };
 
+/// What a bar of progress shows of a run: the quantity, its ends, and each frame's place between
+/// them, 0 to 1. Without a name: frames alone.
+struct ProgressAxis {
+  std::string name;  ///< marked text
+  double first = 0, last = 1;
+  std::vector<double> places;
+};
+
 class RunSummary {
  public:
   /// The layout outlives the survey.
@@ -111,6 +119,7 @@ class RunSummary {
   record::Frame first;         ///< what later frames are compared with
   double depth_mm = 0;         ///< of a push, at its deepest; 0 without one
   double lowest_z_mm = 0;      ///< of all that is drawn
+  double support_z_mm = 0;     ///< of the lowest point of both boundaries
   double largest_load_N = 0;   ///< of Frame::loads_N
   Interval bins_rad;           ///< mean K of the bins, with their standard deviations
   double largest_move_mm = 0;  ///< of a joint, from where it was in the first frame
@@ -118,6 +127,9 @@ class RunSummary {
 
   /// Of what is coloured (colour_by.cpp), but for displacements, whose depth the end alone knows.
   const ColouredRange& spread(ColourBy by) const { return spreads_[std::size_t(by)]; }
+
+  /// Along the depth of a push that only grows, or the radius of a boundary that only shrinks.
+  ProgressAxis progress() const;
 
   /// Points that bound all frames, what is drawn of both boundaries, and the arrows of loads: some
   /// hundreds of some dozen frames, and the boundaries themselves. They lie at the same places of
@@ -130,6 +142,7 @@ class RunSummary {
 
   const record::Layout* layout_;
   std::array<ColouredRange, words_of<ColourBy>().size()> spreads_;
+  std::vector<double> depths_mm_, radii_mm_;      ///< of every frame
   std::vector<RodSample> rod_points_;             ///< the same places of the rods on every mesh
   double largest_actuation_ = -1;                 ///< the boundary has come
   int sample_stride_ = 1;                         ///< frame whose points are kept

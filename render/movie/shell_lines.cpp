@@ -127,27 +127,56 @@ class Lines {
  private:
   double width(double diameter_mm) const { return units_per_mm_ * diameter_mm; }
 
-  // pieces of one colour that are all hidden, or all not
+  // Pieces of one colour that are all hidden, or all not. Colours go in steps too small to see, and
+  // each piece begins under the one before it, so that no seam shows.
   void polyline(const Eigen::Matrix3Xd& points, bool hidden, const Stroke& stroke,
                 const std::vector<Colour>& colours) {
     std::vector<Point> line;
-    const auto flush = [&](Colour colour) {
+    Point end;
+    Colour colour = stroke.colour;
+    const auto flush = [&] {
+      if (!line.empty()) line.push_back(end);
       canvas_.polyline(line, {colour, stroke.width});
       line.clear();
+    };
+    // points nearer than the line is wide add nothing but length to a file; the last one stays
+    const auto add = [&](Point p) {
+      if (std::hypot(end.x - line.back().x, end.y - line.back().y) > 0.8 * stroke.width)
+        line.push_back(end);
+      end = p;
     };
     for (long k = 0; k + 1 < points.cols(); ++k) {
       const Eigen::Vector3d a = points.col(k), b = points.col(k + 1);
       const bool is_hidden = screen_.hides(eye_(0.5 * (a + b)), slack_);
-      const Colour colour = colours.empty() ? stroke.colour : colours[std::size_t(k)];
-      if (is_hidden != hidden) {
-        flush(colour);
-        continue;
+      const Colour here = colours.empty() ? stroke.colour : stepped(colours[std::size_t(k)]);
+      const bool other = here.r != colour.r || here.g != colour.g || here.b != colour.b;
+      if (is_hidden != hidden || other) {
+        const bool goes_on = is_hidden == hidden && !line.empty();
+        const Point before = goes_on ? line.back() : Point{};
+        flush();
+        colour = here;
+        if (is_hidden != hidden) continue;
+        if (goes_on) {
+          const Point at = eye_(a).at;
+          const double length = std::hypot(at.x - before.x, at.y - before.y);
+          const double part = std::min(0.5, 0.5 * stroke.width / std::max(length, 1e-9));
+          line.push_back({std::lerp(at.x, before.x, part), std::lerp(at.y, before.y, part)});
+          end = at;
+        }
       }
-      if (line.empty()) line.push_back(eye_(a).at);
-      line.push_back(eye_(b).at);
-      if (!colours.empty()) flush(colour);
+      if (line.empty()) {
+        end = eye_(a).at;
+        line.push_back(end);
+      }
+      add(eye_(b).at);
     }
-    flush(stroke.colour);
+    flush();
+  }
+
+  static Colour stepped(Colour colour) {
+    constexpr float steps = 20;
+    const auto step = [](float c) { return std::round(steps * c) / steps; };
+    return {step(colour.r), step(colour.g), step(colour.b), colour.a};
   }
 
   void arrows() {

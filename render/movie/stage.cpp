@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "engine/core/try.h"
 #include "render/movie/run_plots.h"
@@ -89,7 +90,50 @@ Box Framing::union_of_views(const Eigen::Matrix3Xd& points) const {
 namespace {
 
 constexpr Colour load_ink{0.05f, 0.05f, 0.06f, 1}, mark_ink{0.98f, 0.76f, 0.10f, 1},
-    original_ink{0.66f, 0.67f, 0.7f, 1};
+    original_ink{0.66f, 0.67f, 0.7f, 1}, ghost_ink{0.58f, 0.6f, 0.64f, 0.6f};
+
+// from the side, so that what is pushed moves in the picture's plane, near the style's own azimuth
+MovieStyle beside_the_push(MovieStyle style, const record::Layout& layout) {
+  if (style.view != preset::View::push) return style;
+  constexpr double elevation_deg = 18, least_slope = 0.05;
+  style.elevation_deg = elevation_deg;
+  style.turn_deg = 0;
+  for (const record::LoadedJoint& load : layout.loaded_joints) {
+    if (load.direction.head<2>().norm() < least_slope) continue;
+    const double across =
+        std::atan2(load.direction.y(), load.direction.x()) * 180 / std::numbers::pi + 90;
+    // of both sides the one that turns the camera least
+    style.azimuth_deg = across + 180 * std::round((style.azimuth_deg - across) / 180);
+    break;
+  }
+  return style;
+}
+
+// a ghost's rods, of a few nodes between two joints
+std::vector<std::vector<int>> thinned_rods(const record::Layout& layout) {
+  constexpr double points = 4;
+  std::vector<std::vector<int>> rods;
+  std::size_t stretches = 0, edges = 0;
+  for (const auto& rod : layout.rods) edges += rod.size();
+  stretches = 2 * layout.joints.size() + layout.rods.size();
+  const auto stride = std::size_t(std::max(1.0, double(edges) / (points * double(stretches))));
+  for (const auto& rod : layout.rods) {
+    std::vector<int>& thin = rods.emplace_back();
+    for (std::size_t k = 0; k < rod.size(); ++k)
+      if (k % stride == 0 || k + 1 == rod.size()) thin.push_back(rod[k]);
+  }
+  return rods;
+}
+
+// The plane of the supports, which a shell may reach below a little (a plate is open there), else
+// below all of it.
+double ground_of(const RunSummary& survey, const record::Layout& layout, const Appearance& look) {
+  constexpr double most_dip = 0.15;  // of the length scale
+  const bool stands = layout.actuated_boundary.cols() > 0 &&
+                      survey.support_z_mm - survey.lowest_z_mm < most_dip * layout.length_scale_mm;
+  return stands ? survey.support_z_mm - 0.5 * look.ring_mm
+                : survey.lowest_z_mm - 0.75 * std::max(look.joint_mm, 3.0);
+}
 
 // a square around everything that moves or bounds
 TopExtent top_extent(const Eigen::Matrix3Xd& points) {
@@ -209,14 +253,15 @@ Stage::Stage(const record::Layout& layout, RunSummary survey, const MovieStyle& 
              const std::optional<ColourBar>& shared)
     : run_(layout),
       survey_(std::move(survey)),
-      style_(style),
-      bar_(shared ? shared : colour_bar_of({&survey_}, style)),
-      layout_(lay_out_frame(style, bar_ && style.legends ? &*bar_ : nullptr,
-                            style.look.loads && survey_.largest_load_N > 0)),
-      panels_(panels_of(layout_, style)),
-      framings_(framings_of(panels_, layout_.view, survey_.bounds(), style)),
+      style_(beside_the_push(style, layout)),
+      progress_(survey_.progress()),
+      bar_(shared ? shared : colour_bar_of({&survey_}, style_)),
+      layout_(lay_out_frame(style_, bar_ && style_.legends ? &*bar_ : nullptr,
+                            style_.look.loads && survey_.largest_load_N > 0)),
+      panels_(panels_of(layout_, style_)),
+      framings_(framings_of(panels_, layout_.view, survey_.bounds(), style_)),
       top_(top_extent(survey_.bounds())),
-      ground_z_mm_(survey_.lowest_z_mm - 0.75 * std::max(style.look.joint_mm, 3.0)) {}
+      ground_z_mm_(ground_of(survey_, layout, style_.look)) {}
 
 Stage::Stage(const record::Trajectory& run, const MovieStyle& style)
     : Stage(run.layout, summarise_run(run), style) {}
@@ -251,6 +296,15 @@ std::optional<ArrowKey> Stage::arrow_key() const {
   return render::arrow_key(run_, survey_.largest_load_N);
 }
 
+// where the boundary is as it was, but the shell is not
+bool Stage::changed(const record::Frame& frame) const {
+  constexpr double least = 0.01;  // of the length scale
+  return frame.nodes.cols() == survey_.first.nodes.cols() &&
+         frame.actuation == survey_.first.actuation &&
+         survey_.largest_move_mm > least * run_.length_scale_mm &&
+         frame.nodes != survey_.first.nodes;
+}
+
 Drawing Stage::drawing(const record::Frame& frame) const {
   const Appearance& look = style_.look;
   const double thin = least_pixels(style_) / pixels_per_mm();
@@ -276,6 +330,14 @@ Drawing Stage::drawing(const record::Frame& frame) const {
     drawing.rings.push_back(
         {boundary_at(run_, frame.actuation), std::max(look.ring_mm, 1.6 * thin), look.ring});
   }
+  // balls in the holes of the plate
+  if (look.rings && drawing.joint_diameter_mm > 0)
+    for (const int node : run_.edge_points)
+      drawing.marks.push_back(
+          {frame.nodes.col(node), 1.3 * drawing.joint_diameter_mm, look.ring, false});
+  if (look.ghost && changed(frame))
+    drawing.ghosts.push_back({survey_.first.nodes, thinned_rods(run_),
+                              0.8 * drawing.rod_diameter_mm, ghost_ink, 0.25 * run_.spacing_mm});
   for (const LoadArrow& arrow : load_arrows(run_, frame)) {
     drawing.arrows.push_back({arrow.from, arrow.to, std::max(1.6, 2.0 * thin), load_ink});
     drawing.marks.push_back({frame.nodes.col(arrow.node), std::max(5.0, 6 * thin), mark_ink});
@@ -286,6 +348,12 @@ Drawing Stage::drawing(const record::Frame& frame) const {
   drawing.ground_z_mm = ground_z_mm_;
   drawing.ground = look.floor && style_.views.empty() && look.background.a > 0;
   drawing.background = look.background;
+  if (is_dark(look.background)) {
+    // a little lighter than what is far out
+    const auto lighter = [](float c) { return std::lerp(c, 1.f, 0.09f); };
+    drawing.ground_colour = {lighter(look.background.r), lighter(look.background.g),
+                             lighter(look.background.b)};
+  }
   drawing.far_fade = look.far_fade;
   drawing.sheen = look.sheen;
   return drawing;
@@ -326,8 +394,6 @@ void Stage::draw_captions(Canvas& canvas, const ShownFrame& shown) const {
   TextStyle title = title_style(style_, em);
   title.align_y = AlignY::middle;
   const TextStyle line{.size = em, .colour = ink, .align_y = AlignY::middle};
-  const TextStyle small{.size = 0.85 * em, .colour = pale_ink, .align_y = AlignY::middle};
-  const auto place = [](const Box& box) { return Point{box.x, box.middle().y}; };
   const std::vector<std::string>& lines = layout_.title_lines;
   const double line_height = layout_.title.height / std::max<double>(1, double(lines.size()));
   for (std::size_t k = 0; k < lines.size(); ++k)
@@ -353,15 +419,7 @@ void Stage::draw_captions(Canvas& canvas, const ShownFrame& shown) const {
   if (said.size() > 1) event.halo = {1, 1, 1, 0.8f};  // the first of two is over the picture
   for (auto text = said.rbegin(); text != said.rend(); ++text, y -= 1.3 * em)
     canvas.text(plain(canvas.shortened(*text, room, event)), {layout_.event.x, y}, event);
-  draw_timeline(canvas, layout_.timeline, survey_.marks, shown.at, frames(), em);
-  const std::string count = frame_caption(shown.at, frames());
-  const double count_width = canvas.measure(frame_caption(frames() - 1, frames()), line).width;
-  if (count_width > layout_.progress.width) return;
-  canvas.text(count, place(layout_.progress), line);
-  const std::string rest = equilibrium_caption(shown.frame);
-  const double rest_x = layout_.progress.x + count_width + 1.2 * em;
-  if (rest_x + canvas.measure(rest, small).width <= layout_.progress.right())
-    canvas.text(rest, {rest_x, layout_.progress.middle().y}, small);
+  draw_timeline(canvas, layout_.timeline, survey_.marks, progress_, shown.at, em);
 }
 
 void Stage::draw_overlay(Canvas& canvas, const ShownFrame& shown) const {
@@ -391,7 +449,10 @@ void Stage::draw_overlay(Canvas& canvas, const ShownFrame& shown) const {
 }
 
 void Stage::finish(Image& picture, const ShownFrame& shown) const {
-  draw_over(picture, [&](Canvas& canvas) { draw_overlay(canvas, shown); });
+  draw_over(picture, [&](Canvas& canvas) {
+    canvas.set_paper(style_.look.background);
+    draw_overlay(canvas, shown);
+  });
 }
 
 }  // namespace gridshell::render

@@ -77,6 +77,7 @@ class Stage {
   const MovieStyle& style() const { return style_; }
   const FrameLayout& layout() const { return layout_; }
   const RunSummary& survey() const { return survey_; }
+  const ProgressAxis& progress() const { return progress_; }
   /// over all frames; none when nothing is coloured
   const std::optional<ColourBar>& colour_bar() const { return bar_; }
   /// of the arrows of loads; none when there are none
@@ -104,11 +105,13 @@ class Stage {
   std::vector<Colour> cell_colours(const record::Frame& frame) const;
   std::vector<Colour> node_colours(const record::Frame& frame) const;
   void draw_captions(Canvas& canvas, const ShownFrame& shown) const;
+  bool changed(const record::Frame& frame) const;
   double moment(int at) const { return frames() > 1 ? double(at) / (frames() - 1) : 0; }
 
   const record::Layout& run_;
   RunSummary survey_;
   MovieStyle style_;
+  ProgressAxis progress_;
   std::optional<ColourBar> bar_;
   FrameLayout layout_;
   std::vector<Box> panels_;        ///< one a view

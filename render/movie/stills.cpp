@@ -25,16 +25,34 @@ int columns_of(const MovieStyle& style, int panels) {
   return std::min({panels, most, fit});
 }
 
-// side by side, panels need no more ground than the shell takes
-Image around(const Image& picture, const Box& shell) {
+// side by side, panels need no more ground than the shell takes: pixels of that part
+Box part_around(const Image& picture, const Box& shell) {
   const double margin = 0.05 * shell.width;
   const int x0 = std::max(0, int(shell.x - margin)), y0 = std::max(0, int(shell.y - margin));
   const int x1 = std::min(picture.width, int(std::ceil(shell.right() + margin)));
   const int y1 = std::min(picture.height, int(std::ceil(shell.bottom() + margin)));
-  Image part(x1 - x0, y1 - y0);
-  for (int y = y0; y < y1; ++y)
-    std::copy_n(picture.pixel(x0, y), 4 * std::size_t(part.width), part.pixel(0, y - y0));
+  return {double(x0), double(y0), double(x1 - x0), double(y1 - y0)};
+}
+
+Image around(const Image& picture, const Box& shell) {
+  const Box box = part_around(picture, shell);
+  const int x0 = int(box.x), y0 = int(box.y);
+  Image part(int(box.width), int(box.height));
+  for (int y = 0; y < part.height; ++y)
+    std::copy_n(picture.pixel(x0, y0 + y), 4 * std::size_t(part.width), part.pixel(0, y));
   return part;
+}
+
+// lines of a whole picture, of which the part fills the panel
+std::function<void(Canvas&, const Box&)> lines_around(
+    std::function<void(Canvas&, const Box&)> lines, const MovieStyle& style, const Box& part) {
+  return [=, width = style.width(), height = style.height()](Canvas& canvas, const Box& box) {
+    const double scale = box.width / part.width;
+    canvas.clipped(box, [&] {
+      lines(canvas,
+            {box.x - scale * part.x, box.y - scale * part.y, scale * width, scale * height});
+    });
+  };
 }
 
 /// A panel has no room for a legend: the marks in it are told beside its caption.
@@ -122,16 +140,19 @@ Result<std::vector<std::filesystem::path>> write_stills(
     figure.panels.push_back({around(*picture, stage.shell_box()),
                              stage.frames() > 1 ? panel_letter(style, std::size_t(k)) : "",
                              with_marks(caption, frame, style.look)});
+    if (style.vector)
+      figure.panels.back().lines = lines_around(shell_lines(stage.drawing(frame), stage.camera(k)),
+                                                style, part_around(*picture, stage.shell_box()));
     draw_over(*picture, [&](Canvas& canvas) {
+      canvas.set_paper(style.look.background);
       draw_still_labels(canvas, stage, {frame, k}, caption);
     });
     files.push_back(std::filesystem::path(stem) += fmt::format("_{}.png", k + 1));
     TRY_DO(write_png(*picture, files.back(), dpi));
     watch.report(double(k + 1) / (stage.frames() + 1));
   }
-  TRY(whole, draw_panels(figure));
   files.push_back(std::filesystem::path(stem) += ".png");
-  TRY_DO(write_png(*whole, files.back(), dpi));
+  TRY_DO(write_panels(figure, files.back(), dpi));
   watch.report(1);
   return files;
 }

@@ -54,14 +54,14 @@ TEST_CASE("states and a finished sweep's phase diagram stand on one page", "[sta
   const std::string empty = text_of(at / "out/page_figure/page_page.svg");
   CHECK_THAT(empty, Contains("names no sweep") && !Contains("longest leg"));
   good("sweep sweep.toml --quiet", at);
-  // drawn again with the sweep, shells as lines too
+  // drawn again with the sweep, with pictures of the shells too
   const Ended drawn = good(
-      "render out/page_figure -o again --quiet --set page.sweep=out/sweep --set figure.vector=true",
+      "render out/page_figure -o again --quiet --set page.sweep=out/sweep --set page.drawn=true",
       at);
   const std::string page = text_of(at / "again/page_page.svg");
   CHECK_THAT(page, Contains("longest leg") && !Contains("names no sweep"));
   CHECK(fs::exists(at / "again/page_page.pdf"));
-  CHECK(fs::exists(at / "again/page_page_lines.svg"));
+  CHECK(fs::exists(at / "again/page_page_drawn.svg"));
   // a folder without one, and one that is not finished
   const auto refused = [&](const std::string& named) {
     const Ended ended = gridshell_program(

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/design/design.h"
+#include "engine/design/design_shell.h"
 #include "tests/engine/simulate/run.h"
 
 using namespace gridshell;

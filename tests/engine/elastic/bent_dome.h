@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/elastic/assembly.h"
+#include "engine/elastic/model.h"
 #include "engine/elastic/shell_rods.h"
 
 namespace gridshell {

@@ -1,22 +1,28 @@
 // Gradient and Hessian of a model against central differences, frames carried along.
 #pragma once
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "engine/elastic/assembly.h"
+#include "engine/elastic/model.h"
 
 namespace gridshell {
 
-/// Compares derivatives with differences for all unknowns, positions and angles, including
-/// constrained ones. Tolerances are relative to the largest slope, to the norms of the Hessian's
-/// columns and to its own norm. `turns_frames`: the shell is bent so strongly that the rotation of
-/// frames must show.
+/// By every unknown that there is, positions and angles, held ones too, but not by what follows
+/// others. Tolerances are those of
+/// slopes over the largest, of the Hessian's columns and of all of it over their norms.
+/// `turns_frames`: the shell is so bent that the turning of frames must show.
 inline void check_derivatives(const Model& model, const State& state, const ExternalLoads& outside,
                               double of_gradient, double of_column, double of_hessian,
                               bool turns_frames = false) {
   std::vector<int> places(std::size_t(3 * model.nodes));
   for (std::size_t k = 0; k < places.size(); ++k) places[k] = int(k);
-  places.insert(places.end(), model.spin.begin(), model.spin.end());
+  std::erase_if(places,
+                [&](int place) { return model.held[std::size_t(place / 3)] == Model::follows; });
+  // two halves of an edge have one angle
+  for (const int place : model.spin)
+    if (std::ranges::find(places, place) == places.end()) places.push_back(place);
   const auto moved = [&](int place, double by) {
     State other = state;
     Eigen::Matrix3Xd x = state.x;

@@ -5,6 +5,7 @@
 #include <array>
 #include <random>
 
+#include "engine/elastic/model.h"
 #include "tests/engine/elastic/bent_dome.h"
 #include "tests/engine/elastic/differences.h"
 #include "tests/results.h"
@@ -26,21 +27,24 @@ BentDome noisy_dome(int edges) {
 
 const RodMaterial strip{900, 5, 12, 4, {0.02, -0.01}, 0.03};
 const RodMaterial wire{700, 6, 6, 3, {0, 0}, 0};
-const ExternalLoads outside{.load = 0.7};
+const ExternalLoads outside{.load = 0.7, .opening = 0.6};
 
-/// Two rods with a common node, one of them clamped, with section axes and a natural shape, sheared
-/// at the joint; a third connected by a spring and bolted above the second; loads, pressures and
-/// ground.
-Model sample_model() {
-  const ModelRod a{{0, 1, 2, 3, 4}, {0, 4, 9, 13, 18}, strip, {}, RodEnd::clamped, RodEnd::pinned};
-  const ModelRod b{{5, 6, 2, 7, 8}, {0, 5, 9, 14, 18}, wire, {}, RodEnd::tangent, RodEnd::free};
-  const ModelRod c{{9, 10, 11}, {0, 5, 10}, wire, {}, RodEnd::free, RodEnd::pinned};
+/// Two rods with edges centred on a joint that they share, one of them clamped, with axes and a
+/// shape at rest, hinged and sheared at the joint; a third hung on by a spring, that ends at a bolt
+/// above the second; loads, pressures and ground.
+Model sample_model(double hinge = 3.5) {
+  const ModelRod a{{0, 1, 2, 3, 4}, {0, 4, 9, 14, 18}, strip,         {},
+                   {0, 0, 1, 0, 0}, RodEnd::clamped,   RodEnd::pinned};
+  const ModelRod b{{5, 6, 2, 7, 8}, {0, 5, 9, 13, 18}, wire,        {},
+                   {0, 0, 1, 0, 0}, RodEnd::tangent,   RodEnd::free};
+  const ModelRod c{{9, 10, 11}, {0, 5, 10}, wire, {}, {1, 0, 0}, RodEnd::free, RodEnd::pinned};
   Model model = build_model(12, {a, b, c}, RodModel::twist).value();
   model.springs.push_back({{3, 9, {40, 40, 40}}});
   model.springs.push_back({{10, 8, {3, 0, 5}, Term::support}});
-  add_joint_shear(model, {0, 2, 1, 2}, 7.5, [](int, int) { return 1.4; });
-  add_joint_spin(model, {0, 2, 1, 2}, 3.5);
-  add_joint_link(model, {1, 7, 2, 10}, 0.8);
+  add_joint_shear(model, {0, 2, 1, 2}, {7.5, 1.4, 0.3});
+  add_joint_hinge(model, {0, 2, 1, 2}, hinge);
+  add_joint_spin(model, {1, 2, 2, 9}, 2.5);
+  add_joint_link(model, {1, 2, 2, 9}, 0.8);
   for (int node = 0; node < 12; ++node) model.loads.push_back({node, {0, 0, -0.1}});
   // pressures on a triangle and on a plane curve
   model.loads.push_back({.node = 1, .pressure = 0.05, .beside = {6, 3}});
@@ -87,6 +91,74 @@ TEST_CASE("assembly: gradient and Hessian are the energy's derivatives by every 
     CHECK(std::abs(alone[term.term]) > 1e-6);  // every term is at work
   }
   check_derivatives(model, state, outside, 1e-8, 1e-6, 1e-7, true);
+}
+
+TEST_CASE("joints: a hinge's rods keep to the common normal, edges stay centred, and all turns") {
+  for (const double stiffness : {3.5, std::numeric_limits<double>::infinity()}) {
+    const Model model = sample_model(stiffness);
+    const State state = sample_state(model);
+    REQUIRE(model.followers.size() == 2);
+    REQUIRE(model.hinges.size() == 2);
+    for (const ModelFollower& one : model.followers)
+      CHECK((state.x.col(one.node) + state.x.col(one.first) - 2 * state.x.col(one.centre)).norm() <
+            1e-13);
+    const auto across = [&](int edge) {
+      const ModelEdge& one = model.edges[std::size_t(edge)];
+      return Eigen::Vector3d((state.x.col(one.to) - state.x.col(one.from)).normalized());
+    };
+    const ModelHinge& hinge = model.hinges[0];
+    const Eigen::Vector3d normal = across(hinge.pair.e).cross(across(hinge.pair.f)).normalized();
+    for (const int half : {hinge.pair.e, hinge.other_half, model.hinges[1].pair.e})
+      CHECK((state.director.col(half) - normal).norm() < 1e-13);
+    if (!std::isinf(stiffness)) continue;
+    // its spin is no unknown
+    const int place = model.spin[std::size_t(hinge.pair.e)];
+    CHECK((model.held[std::size_t(place / 3)] >> place % 3 & 1) == 1);
+    // turned as a whole, with what is of rods and joints alone
+    Model free = model;
+    free.loads.clear(), free.ground.clear(), free.springs.clear();
+    const Eigen::Matrix3d turn =
+        Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 2).normalized()).toRotationMatrix();
+    State turned = state;
+    turned.x.leftCols(model.nodes) = turn * state.x.leftCols(model.nodes);
+    turned.director = turn * state.director;
+    CHECK(energies_of(free, turned).total() ==
+          Approx(energies_of(free, state).total()).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("joints: rods of a hinge that pass one another go on with a negative angle") {
+  const ModelRod a{{0, 1, 2, 3, 4}, {0, 4, 9, 14, 18}, strip,       {},
+                   {0, 0, 1, 0, 0}, RodEnd::free,      RodEnd::free};
+  const ModelRod b{{5, 6, 2, 7, 8}, {0, 4, 9, 14, 18}, strip,       {},
+                   {0, 0, 1, 0, 0}, RodEnd::free,      RodEnd::free};
+  const double infinite = std::numeric_limits<double>::infinity(), rest = 0.2, stiffness = 7;
+  Model model = build_model(9, {a, b}, RodModel::twist).value();
+  add_joint_shear(model, {0, 2, 1, 2}, {stiffness, rest, 0, 0, 1});
+  add_joint_hinge(model, {0, 2, 1, 2}, infinite);
+  finish(model);
+  const auto crossed = [&](double angle) {
+    Eigen::Matrix3Xd x = Eigen::Matrix3Xd::Zero(3, model.columns());
+    const double at[] = {-9, -5, 0, 5, 9};
+    for (int k = 0; k < 5; ++k) {
+      x(0, k) = at[k];
+      if (k == 2) continue;
+      x.col(k < 2 ? 5 + k : 4 + k) << at[k] * std::cos(angle), at[k] * std::sin(angle), 0;
+    }
+    return x;
+  };
+  State state = start_state(model, crossed(0.1));
+  const double others = energies_of(model, state).total() - energies_of(model, state)[Term::shear];
+  for (const double angle : {0.03, -0.04, -0.1}) {
+    move_to(model, crossed(angle), state);
+    CAPTURE(angle);
+    CHECK(is_closed(model, state, model.hinges[0]) == (angle < 0));
+    CHECK(state.director.col(model.hinges[0].pair.e).z() == Approx(1));
+    const Energies energies = energies_of(model, state);
+    CHECK(energies[Term::shear] == Approx(stiffness / 2 * (angle - rest) * (angle - rest)));
+    CHECK(energies.total() - energies[Term::shear] == Approx(others));
+  }
+  check_derivatives(model, state, {}, 1e-7, 1e-5, 1e-6);
 }
 
 TEST_CASE("assembly: both ways give one gradient, the mixed residual is it where N = EA strain") {
@@ -138,7 +210,7 @@ TEST_CASE("assembly: rods that meet go one after another, in the order of their 
     std::vector<double> position;
     for (std::size_t k = 0; k < nodes.size() + ring; ++k) position.push_back(5.0 * double(k));
     const RodEnd end = ring ? RodEnd::free : RodEnd::pinned;
-    return ModelRod{std::move(nodes), std::move(position), wire, {}, end, end};
+    return ModelRod{std::move(nodes), std::move(position), wire, {}, {}, end, end};
   };
   const Model model =
       build_model(10, {rod({0, 1, 2}), rod({3, 4, 5, 6}, true), rod({7, 1, 4}), rod({8, 9, 7})},
@@ -164,7 +236,7 @@ TEST_CASE("assembly: a rigid motion costs nothing, forces and moments balance") 
     moment += Eigen::Vector3d(dome.state.x.col(k)).cross(assembly.gradient.col(k).eval());
   CHECK(moment.norm() <= 1e-9 * assembly.gradient.norm() * 50);
 
-  const ModelRod rod{{0, 1, 2, 3}, {0, 4, 9, 13}, strip, {}, RodEnd::free, RodEnd::free};
+  const ModelRod rod{{0, 1, 2, 3}, {0, 4, 9, 13}, strip, {}, {}, RodEnd::free, RodEnd::free};
   const Model model = build_model(4, {rod}, RodModel::twist).value();
   Eigen::Matrix3Xd x = Eigen::Matrix3Xd::Random(3, 4);
   x.row(0) += Eigen::RowVector4d(0, 4, 9, 13);

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "engine/core/proximity.h"
+#include "engine/elastic/model.h"
 #include "tests/engine/elastic/differences.h"
 
 using namespace gridshell;
@@ -18,8 +19,8 @@ constexpr double radius = 0.127, gap = 0.05, stiffness = 10;
 Model two_edges() {
   const RodMaterial soft{1, 1, 1, 1, {0, 0}, 0};
   Model model = build_model(4,
-                            {{{0, 1}, {0, 5}, soft, {}, RodEnd::free, RodEnd::free},
-                             {{2, 3}, {0, 4}, soft, {}, RodEnd::free, RodEnd::free}},
+                            {{{0, 1}, {0, 5}, soft, {}, {}, RodEnd::free, RodEnd::free},
+                             {{2, 3}, {0, 4}, soft, {}, {}, RodEnd::free, RodEnd::free}},
                             RodModel::bend)
                     .value();
   model.contact = {{gap, stiffness},

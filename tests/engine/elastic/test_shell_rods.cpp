@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "engine/elastic/model.h"
 #include "engine/solve/nested_shell.h"
 #include "tests/engine/elastic/differences.h"
 #include "tests/engine/solve/single_rod.h"

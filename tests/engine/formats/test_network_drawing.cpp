@@ -173,3 +173,51 @@ TEST_CASE("what is near and not joined is reported, and join_mm joins it") {
         std::vector<int>{3, 1, 5});
   CHECK(report.notes.empty());
 }
+
+TEST_CASE("the edges of a mesh are rods, those in line one, in OBJ, PLY and OFF") {
+  // 3 x 2 squares of 20 mm, bent along x
+  std::string vertices, faces;
+  for (int j = 0; j <= 2; ++j)
+    for (int i = 0; i <= 3; ++i)
+      vertices += fmt::format("{} {} {}\n", 20 * i, 20 * j, 2 * i * (3 - i));
+  std::string obj;
+  for (const auto& row : {"1 2 6 5", "2 3 7 6", "3 4 8 7", "5 6 10 9", "6 7 11 10", "7 8 12 11"})
+    obj += fmt::format("f {}\n", row);
+  for (const auto& row : {"0 1 5 4", "1 2 6 5", "2 3 7 6", "4 5 9 8", "5 6 10 9", "6 7 11 10"})
+    faces += fmt::format("4 {}\n", row);
+  std::string rows = vertices;
+  for (std::size_t at = 0; at < rows.size(); at = rows.find('\n', at) + 1) rows.insert(at, "v ");
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 12\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 6\nproperty list uchar int vertex_indices\nend_header\n";
+  const std::string lone_edges =
+      "ply\nformat ascii 1.0\nelement vertex 12\nproperty float x\nproperty float y\n"
+      "property float z\nelement edge 3\nproperty int vertex1\nproperty int vertex2\n"
+      "end_header\n";
+  for (const auto& [text, name] : {std::pair(rows + obj, "q.obj"),
+                                   {ply + vertices + faces, "q.ply"},
+                                   {"OFF\n12 6 0 # remark\n" + vertices + faces, "q.off"}}) {
+    FileReport report;
+    const NetworkData network = value_of(read_network(text, name, {}, &report));
+    REQUIRE(network.rods.size() == 7);
+    std::vector<std::size_t> sizes;
+    for (const auto& rod : network.rods) sizes.push_back(rod.size());
+    CHECK(std::ranges::count(sizes, 4u) == 3);
+    CHECK(std::ranges::count(sizes, 3u) == 4);
+    CHECK_THAT(report.text, Catch::Contains("the edges of 6 faces (6 of four corners); rods of 17 "
+                                            "edges, which meet in line at 10 points; 7 rods, "
+                                            "8 joints"));
+  }
+  FileReport report;
+  const auto edges =
+      value_of(read_network(lone_edges + vertices + "0 1\n1 2\n1 5\n", "e.ply", {}, &report));
+  CHECK(edges.rods.size() == 2);
+  CHECK_THAT(report.text, Catch::Contains("rods of 3 edges"));
+  // in metres
+  CHECK(value_of(read_network(rows + obj, "q.obj", {.unit_mm = 1000})).points[1][0] == 20000);
+  CHECK(refusal(read_network("OFF\n2 1 0\n0 0 0\n1 0 0\n3 0 1 2\n", "q.off")) ==
+        "q.off:5: point 2, must be from 0 to 1");
+  CHECK_THAT(refusal(read_network("OFF\n2 1 0\n0 0 0\n", "q.off")),
+             Catch::Contains("ends after 1 of its 2 vertices and 1 faces"));
+  CHECK_THAT(refusal(read_network("2 x\n", "q.off")), Catch::Contains("no OFF"));
+}

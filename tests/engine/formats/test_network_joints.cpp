@@ -106,3 +106,18 @@ TEST_CASE("joints of a network have laws of their own, by point or by points tha
   wrong(R"({"law": "rigid"})", "a law must be of a");
   wrong(R"({"point": 99, "law": "rigid"})", "names a point that is not there");
 }
+
+TEST_CASE("a network's law is that of all joints which have none of their own") {
+  const auto lawful = [](const std::string& law) {
+    return R"({"points_mm": [[-10, 0], [0, 0], [10, 0], [0, -10], [0, 10]],
+      "rods": [[0, 1, 2], [3, 1, 4]], "law": )" +
+           law + "}";
+  };
+  CHECK(read(lawful(R"("hinge")")).joint_laws == Points{{every_joint, 0, -1}});
+  CHECK(read(lawful(R"({"law": "spring", "twist_Nmm": 2})")).joint_laws ==
+        Points{{every_joint, 0, 2}});
+  CHECK(network_fault(read(lawful(R"("rigid")"))).empty());
+  CHECK_THAT(refusal(read_network(lawful(R"({"law": "rigid", "point": 1})"), "n.json")),
+             Catch::Contains("law: is that of all joints"));
+  CHECK_THAT(refusal(read_network(lawful("3"), "n.json")), Catch::Contains("\"law\" must be"));
+}

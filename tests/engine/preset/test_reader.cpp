@@ -50,8 +50,8 @@ TEST_CASE("an error names its place, key, value, what is wrong and what is right
       {"[movie]\nelephant = true",
        "bad.toml:2:1: [movie] elephant = true: unknown key, must be one of frames, size, fps, "
        "quality, colour_by, azimuth_deg, elevation_deg, turn_deg, zoom, inset, bins, captions, "
-       "beside, view, target_mm, orthographic, bins_range, views, seconds, hold_s, title_s, pace, "
-       "webm, gif, poster"},
+       "beside, view, target_mm, orthographic, bins_range, views, seconds, hold_first_s, hold_s, "
+       "title_s, pace, webm, gif, poster"},
       {"radius_mm = 3.0",
        "bad.toml:1:1: radius_mm = 3.0: unknown key; did you mean 'footprint.radius_mm'?"},
       {"[actuatoin]\nradius_mm = 3",

@@ -10,7 +10,7 @@ using namespace gridshell;
 
 namespace {
 
-using T = Eigen::AutoDiffScalar<Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 90, 1>>;
+using T = Eigen::AutoDiffScalar<Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 100, 1>>;
 
 struct V {
   T x, y, z;
@@ -25,43 +25,6 @@ V cross(const V& a, const V& b) {
 T norm(const V& a) { return sqrt(dot(a, a)); }
 V unit(const V& a) { return T(1 / norm(a)) * a; }
 
-/// Next to a joint: an edge's tangent, its material director and its natural length.
-struct Beside {
-  V tangent, director;
-  double length = 0;
-};
-using Hinge = std::vector<std::vector<Beside>>;  // of each of a joint's two rods
-
-double share(const std::vector<Beside>& rod, std::size_t k) {
-  return rod[1 - k].length / (rod[0].length + rod[1].length);
-}
-
-/// What a rod turns between its joint and its edges, over its stiffness.
-double between(const std::vector<Beside>& rod) {
-  return rod[0].length * rod[1].length / (2 * (rod[0].length + rod[1].length));
-}
-
-template <class Angle>
-T mean(const Hinge& at, Angle angle) {
-  T sum(0);
-  for (std::size_t e = 0; e < 2; ++e)
-    for (std::size_t f = 0; f < 2; ++f)
-      sum += share(at[0], e) * share(at[1], f) * angle(at[0][e], at[1][f]);
-  return sum;
-}
-
-T mean_angle(const Hinge& at) {
-  return mean(at,
-              [](const Beside& e, const Beside& f) { return T(acos(dot(e.tangent, f.tangent))); });
-}
-
-/// About the tangent of the first from the joint's upper normal to its director.
-T spin(const Beside& e, const Beside& f) {
-  V n = cross(e.tangent, f.tangent);
-  if (n.z.value() < 0) n = T(-1.0) * n;
-  return atan2(dot(e.tangent, cross(n, e.director)), dot(n, e.director));
-}
-
 /// Laths of two families, hinged, with a spring at each joint.
 struct Laths {
   RodMesh mesh;
@@ -69,10 +32,23 @@ struct Laths {
   double spring = 0;         ///< N mm/rad
   std::vector<double> rest;  ///< natural angles, of every joint
 
+  /// Where a joint is on a rod: before and after it lie the ends of the edge that it is in the
+  /// middle of.
+  struct Centre {
+    int before, joint, after;
+  };
+  std::vector<Centre> centres() const {
+    std::vector<Centre> all;
+    for (const auto& rod : mesh.rods)
+      for (std::size_t k = 1; k + 1 < rod.size(); ++k)
+        if (rod[k] < mesh.joints) all.push_back({rod[k - 1], rod[k], rod[k + 1]});
+    return all;
+  }
   std::vector<int> free() const {
     std::vector<int> nodes;
     for (int node = 0; node < mesh.nodes(); ++node)
       if (node < mesh.joints || node >= mesh.joints + mesh.edge_points) nodes.push_back(node);
+    for (const Centre& one : centres()) std::erase(nodes, one.after);
     return nodes;
   }
   int edges() const {
@@ -81,64 +57,69 @@ struct Laths {
     return sum;
   }
 
-  /// E of positions and, for every edge, the angle of its section relative to a frame without
-  /// twist; the edges next to the joints are stored in `at`.
-  T energy(const std::vector<V>& x, const std::vector<T>& angle, std::vector<Hinge>& at) const {
+  /// The rods' tangents at every joint.
+  std::vector<std::vector<V>> tangents(const std::vector<V>& x) const {
+    std::vector<std::vector<V>> at(std::size_t(mesh.joints));
+    for (const Centre& one : centres())
+      at[std::size_t(one.joint)].push_back(
+          unit(x[std::size_t(one.after)] - x[std::size_t(one.before)]));
+    return at;
+  }
+
+  /// E of positions and, for every edge, the angle of its section beside a frame without twist; at
+  /// joints it is that of their normal.
+  T energy(const std::vector<V>& x, const std::vector<T>& angles) const {
     T sum(0);
-    at.assign(std::size_t(mesh.joints), {});
+    const auto at = tangents(x);
     std::size_t edge = 0;
     for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
       V before{}, frame{T(0), T(0), T(1)};
       double last = 0;
+      T turned(0);
       for (std::size_t k = 1; k < mesh.rods[r].size(); ++k, ++edge) {
-        const int node = mesh.rods[r][k - 1];
+        const int node = mesh.rods[r][k - 1], to = mesh.rods[r][k];
         const double length = mesh.position[r][k] - mesh.position[r][k - 1];
-        const V way = x[std::size_t(mesh.rods[r][k])] - x[std::size_t(node)], t = unit(way);
+        const V way = x[std::size_t(to)] - x[std::size_t(node)], t = unit(way);
         const T strain = norm(way) / length - 1.0;
         sum += 0.5 * lath.EA * length * strain * strain;
         if (k == 1)
           frame = unit(frame - dot(frame, t) * t);
         else
           frame = frame - T(dot(frame, t) / (1.0 + dot(before, t))) * (before + t);
-        const V side = cross(t, frame),
-                director = T(cos(angle[edge])) * frame + T(sin(angle[edge])) * side;
-        if (k > 1) {
-          const double l = 0.5 * (last + length);
-          const T twist = angle[edge] - angle[edge - 1],
-                  turn = 0.5 * (angle[edge] + angle[edge - 1]);
-          // kb is perpendicular to both tangents, so that both frames see it equally
+        const V side = cross(t, frame);
+        const int joint = node < mesh.joints ? node : to < mesh.joints ? to : -1;
+        T angle = angles[edge];
+        if (joint >= 0) {
+          V n = cross(at[std::size_t(joint)][0], at[std::size_t(joint)][1]);
+          if (n.z.value() < 0) n = T(-1.0) * n;
+          angle = atan2(dot(n, side), dot(n, frame));
+        }
+        // halves of an edge, at a joint or at a rod's end, stand for the whole
+        const double whole =
+            joint >= 0 || k == 1 || k + 1 == mesh.rods[r].size() ? 2 * length : length;
+        if (k > 1 && node >= mesh.joints) {
+          const double l = 0.5 * (last + whole);
+          const T twist = angle - turned, turn = 0.5 * (angle + turned);
+          // kb stands across both tangents, so that both frames see it alike
           const V kb = T(2.0 / (1.0 + dot(before, t))) * cross(before, t);
           const T a = dot(kb, frame), b = dot(kb, side);
           const T w1 = a * cos(turn) + b * sin(turn), w2 = b * cos(turn) - a * sin(turn);
           sum += 0.5 / l * (lath.GJ * twist * twist + lath.EI1 * w1 * w1 + lath.EI2 * w2 * w2);
         }
-        if (k > 1 && node < mesh.joints)
-          at[std::size_t(node)].back().push_back({t, director, length});
-        if (const int to = mesh.rods[r][k]; to < mesh.joints)
-          at[std::size_t(to)].push_back({{t, director, length}});
         before = t;
-        last = length;
+        last = whole;
+        turned = angle;
       }
     }
-    for (std::size_t joint = 0; joint < at.size(); ++joint) {
-      const Hinge& one = at[joint];
-      // couples about both rods, which twist them and bend them out of the surface
-      const double a = between(one[0]), b = between(one[1]);
-      const T angle = mean_angle(one), c = cos(angle), out = 1.0 / (lath.EI2 * (1.0 - c * c));
-      const T aa = a / lath.GJ + out * (b + a * c * c), bb = b / lath.GJ + out * (a + b * c * c),
-              ab = out * c * (a + b);
-      const T phi = mean(one, spin), psi = mean({one[1], one[0]}, spin);
-      sum += 0.5 * (bb * phi * phi - 2.0 * ab * phi * psi + aa * psi * psi) / (aa * bb - ab * ab);
-      if (spring == 0) continue;
-      const T off = mean_angle(one) - rest[joint];
-      sum += 0.5 / (1 / spring + (between(one[0]) + between(one[1])) / lath.EI1) * off * off;
+    for (std::size_t joint = 0; spring > 0 && joint < at.size(); ++joint) {
+      const T off = acos(dot(at[joint][0], at[joint][1])) - rest[joint];
+      sum += 0.5 * spring * off * off;
     }
     return sum;
   }
 
-  /// The energy with its derivatives by the free positions and the angles, which are in `at`.
-  T at_place(const Eigen::Matrix3Xd& nodes, const Eigen::VectorXd& by,
-             std::vector<Hinge>& at) const {
+  /// The same with its slopes by the free places and the angles.
+  T at_place(const Eigen::Matrix3Xd& nodes, const Eigen::VectorXd& by) const {
     const Eigen::Index size = by.size();
     std::vector<V> x;
     for (const auto& place : nodes.colwise())
@@ -149,9 +130,11 @@ struct Laths {
         *one = T(one->value() + by[k], size, k);
         ++k;
       }
+    for (const auto& [before, joint, after] : centres())
+      x[std::size_t(after)] = T(2.0) * x[std::size_t(joint)] - x[std::size_t(before)];
     std::vector<T> angle;
     for (; k < size; ++k) angle.emplace_back(by[k], size, k);
-    return energy(x, angle, at);
+    return energy(x, angle);
   }
 
   /// Its slopes, as the solver of equations asks for them.
@@ -160,8 +143,10 @@ struct Laths {
     const Eigen::Matrix3Xd& nodes;
 
     int operator()(const Eigen::VectorXd& by, Eigen::VectorXd& slopes) const {
-      std::vector<Hinge> at;
-      slopes = laths.at_place(nodes, by, at).derivatives();
+      slopes = laths.at_place(nodes, by).derivatives();
+      // what no energy has: angles at joints
+      for (Eigen::Index k = 0; k < slopes.size(); ++k)
+        if (slopes[k] == 0 && k >= 3 * Eigen::Index(laths.free().size())) slopes[k] = by[k];
       return 0;
     }
   };
@@ -175,8 +160,7 @@ struct Laths {
     Slopes slopes{*this, nodes};
     Eigen::HybridNonLinearSolver<Slopes> solver(slopes);
     solver.solveNumericalDiff(by);
-    std::vector<Hinge> at;
-    const T here = at_place(nodes, by, at);
+    const T here = at_place(nodes, by);
     CHECK(here.derivatives().norm() < 1e-6);
     return here.value();
   }
@@ -208,27 +192,21 @@ TEST_CASE("a hinged X-shell, formed and opened, is where its energy is least") {
   const Eigen::Matrix3Xd rest = last_frame(formed).nodes;
   REQUIRE(rest.cols() == laths.mesh.nodes());
   CHECK(formed.summary.energies[Term::twist] > 1e-3);
-  CHECK(formed.summary.energies[Term::joint] > 1e-3);
   CHECK(laths.least(rest) == Approx(formed.summary.energies.total()).epsilon(1e-8));
 
   // the current angles of its joints, and the requested change
   constexpr double target = 1.2;
   laths.spring = 300;
-  std::vector<Hinge> at;
-  const Eigen::Index size = 3 * Eigen::Index(laths.free().size()) + laths.edges();
-  laths.rest.assign(4, 0);
-  laths.at_place(rest, Eigen::VectorXd::Zero(size), at);
-  std::vector<double> standing;
-  for (const Hinge& one : at) {
-    const auto through = [](const std::vector<Beside>& rod) {
-      return T(share(rod, 0)) * rod[0].tangent + T(share(rod, 1)) * rod[1].tangent;
-    };
-    const V a = unit(through(one[0])), b = unit(through(one[1]));
-    standing.push_back(std::acos(dot(a, b).value()));
-  }
+  std::vector<double> standing(4);
+  const auto of = [&](const Laths::Centre& one) {
+    return Eigen::Vector3d((rest.col(one.after) - rest.col(one.before)).normalized());
+  };
+  for (const Laths::Centre& one : laths.centres())
+    for (const Laths::Centre& other : laths.centres())
+      if (one.joint == other.joint && one.before != other.before)
+        standing[std::size_t(one.joint)] = std::acos(of(one).dot(of(other)));
   const double by = target - std::accumulate(standing.begin(), standing.end(), 0.0) / 4;
-  for (std::size_t joint = 0; joint < 4; ++joint)
-    laths.rest[joint] = mean_angle(at[joint]).value() + by;
+  for (const double one : standing) laths.rest.push_back(one + by);
   preset::Step step;
   step.kind = preset::StepKind::open;
   step.angle_deg = target * 180 / M_PI;

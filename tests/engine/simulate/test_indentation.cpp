@@ -200,6 +200,24 @@ TEST_CASE("unloading follows the way back, after a snap on another branch", "[st
   for (const record::Frame& frame : way) CHECK(frame.negative_pivots == 0);
 }
 
+TEST_CASE("a push that ends at a limit after snaps names both", "[standard]") {
+  preset::Preset p;
+  p.imperfection.size = 0;  // the state with two mirrors
+  p.indentation.at = preset::IndentationPlace::highest;
+  p.indentation.depth_mm = 150;
+  p.movie.frames = 12;
+  const auto [trajectory, summary] = run(p);
+  CHECK(summary.limit == record::Limit::locking);
+  // no strain is near its limit, and that of compression is no reason
+  CHECK(std::abs(summary.largest_strain) < 0.9 * p.limits.max_strain);
+  CHECK_THAT(summary.limit_reason, Catch::Contains("100 times its first stiffness"));
+  int snaps = 0;
+  for (const record::Frame& frame : trajectory.frames) snaps += frame.event.starts_with("snap");
+  CHECK(snaps > 0);
+  CHECK(trajectory.frames.back().event == "locking");
+  CHECK(trajectory.frames.back().depth_mm < 150);
+}
+
 TEST_CASE("a joint that is not there is refused") {
   preset::Preset p = hemisphere(Case::pole_inward, 120, Placement::on_axis);
   p.indentation.joint = {40, 0};

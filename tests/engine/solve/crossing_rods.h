@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "engine/elastic/model.h"
 #include "engine/elastic/shell_rods.h"
 #include "engine/solve/newton.h"
 #include "tests/presets.h"

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "engine/elastic/model.h"
 #include "engine/solve/equilibrium.h"
 
 namespace gridshell {
@@ -15,7 +16,7 @@ struct SingleRod {
   ModelRod rod;
 
   SingleRod(int n, double L, const RodMaterial& material, RodEnd begin, RodEnd end)
-      : edges(n), length(L), rod{{}, {}, material, {}, begin, end} {
+      : edges(n), length(L), rod{{}, {}, material, {}, {}, begin, end} {
     for (int k = 0; k <= n; ++k) {
       rod.nodes.push_back(k);
       rod.position.push_back(L * k / n);

@@ -1,6 +1,7 @@
 // One rod without joints, pinned at its ends, with the bend model.
 #pragma once
 
+#include "engine/elastic/model.h"
 #include "engine/elastic/shell_rods.h"
 
 namespace gridshell {

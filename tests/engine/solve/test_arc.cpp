@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "engine/elastic/model.h"
 #include "engine/solve/arc_follower.h"
 #include "tests/engine/solve/crossing_rods.h"
 

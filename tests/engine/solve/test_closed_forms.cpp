@@ -3,6 +3,7 @@
 #include <functional>
 #include <string>
 
+#include "engine/elastic/model.h"
 #include "tests/engine/solve/elastica.h"
 #include "tests/engine/solve/rod_cases.h"
 
@@ -122,6 +123,7 @@ double arch(int edges) {
   ModelRod rod{{},
                {},
                {EA, EI, EI, GJ, {0, -1 / R}, 0},
+               {},
                {},
                RodEnd::clamped,
                RodEnd::pinned,

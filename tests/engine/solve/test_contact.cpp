@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/core/proximity.h"
+#include "engine/elastic/model.h"
 #include "engine/solve/equilibrium.h"
 
 using namespace gridshell;
@@ -14,7 +15,7 @@ constexpr double diameter = 0.254, gap = 0.05, stiffness = 10;
 const RodMaterial wire = circular_material(diameter, 83, 31);
 
 ModelRod rod_of(int first, const std::vector<double>& position) {
-  ModelRod rod{{}, position, wire, {}, RodEnd::free, RodEnd::free};
+  ModelRod rod{{}, position, wire, {}, {}, RodEnd::free, RodEnd::free};
   for (int k = 0; k < int(position.size()); ++k) rod.nodes.push_back(first + k);
   return rod;
 }

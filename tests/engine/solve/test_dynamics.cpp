@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "engine/elastic/model.h"
 #include "tests/engine/solve/crossing_rods.h"
 #include "tests/engine/solve/single_rod.h"
 #include "tests/results.h"

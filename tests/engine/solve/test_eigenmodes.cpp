@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/core/dense.h"
+#include "engine/elastic/model.h"
 #include "engine/solve/dynamics.h"
 #include "tests/engine/elastic/bent_dome.h"
 #include "tests/engine/solve/crossing_rods.h"

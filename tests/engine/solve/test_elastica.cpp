@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "engine/elastic/model.h"
 #include "engine/solve/equilibrium.h"
 #include "tests/engine/solve/single_rod.h"
 

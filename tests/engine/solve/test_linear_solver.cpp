@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/core/dense.h"
+#include "engine/elastic/model.h"
 #include "engine/solve/block_factor.h"
 #include "engine/solve/newton.h"
 #include "tests/engine/elastic/bent_dome.h"

@@ -1,5 +1,6 @@
 #include "engine/solve/mountain_pass.h"
 
+#include "engine/elastic/model.h"
 #include "tests/engine/solve/rod_cases.h"
 #include "tests/results.h"
 

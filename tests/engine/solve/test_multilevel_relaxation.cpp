@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "engine/elastic/model.h"
 #include "engine/solve/newton.h"
 #include "tests/engine/solve/single_rod.h"
 #include "tests/presets.h"

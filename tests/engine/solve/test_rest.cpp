@@ -1,4 +1,5 @@
-// Leaving an unstable state: which descents are computed.
+// Leaving a state that is not stable: which ways down are gone.
+#include "engine/elastic/model.h"
 #include "tests/engine/solve/crossing_rods.h"
 #include "tests/results.h"
 

@@ -138,12 +138,14 @@ TEST_CASE("hold, pace, title card and the kind of file stand in the command") {
     return text.find(part) != std::string::npos;
   };
   preset::Movie held, timed, eased, titled;
+  held.hold_first_s = 1;
   held.hold_s = 1.5;
   timed.frames = eased.frames = 60;
   timed.seconds = 4;
   eased.pace = Pace::eased;
   titled.title_s = 2;
-  CHECK(has(line(held, "m.mp4"), "tpad=stop_mode=clone:stop_duration=1.500"));
+  CHECK(has(line(held, "m.mp4"),
+            "tpad=start_mode=clone:start_duration=1.000:stop_mode=clone:stop_duration=1.500"));
   CHECK(has(line(timed, "m.mp4"), "N*0.066667/TB"));
   CHECK(has(line(eased, "m.mp4"), "asin(1-2*N/59)"));
   CHECK(has(line(titled, "m.mp4"), "file:title.png"));

@@ -85,7 +85,7 @@ TEST_CASE("quantiles of the deviation run from the nearest joint to the farthest
   // blocks are measured in millimetres
   run.layout.parts.emplace_back();
   CHECK(quantile_plot({{&run, "shell"}}).series[0].y.back() == Approx(5));
-  CHECK(quantile_plot({{&run, "shell"}}).y.label == "off the net, Δ (mm)");
+  CHECK(quantile_plot({{&run, "shell"}}).y.label == "deviation from the net, Δ (mm)");
 }
 
 TEST_CASE("seams are plotted about their middles, gap and kink") {
