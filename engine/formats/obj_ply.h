@@ -29,11 +29,11 @@ Result<std::map<std::string, int>> read_obj_lines(std::string_view bytes, const 
                                                   std::string_view element,
                                                   const ObjCallbacks& lines);
 
-// Geomview OFF: "OFF", the numbers of vertices, faces and edges, then these a line each.
+// Geomview OFF: "OFF", the numbers of vertices, faces and edges, then one of these per line.
 
-/// Hands on the vertices of a file and its faces; what follows "#" is a remark, and what follows a
-/// face's vertices its colour. Errors (bad_input): no numbers of vertices and faces at its begin,
-/// fewer lines than these say, a line that is not as it must be, what `lines` says.
+/// Passes on the vertices of a file and its faces; text after "#" is a remark, text after a face's
+/// vertices its colour. Errors (bad_input): no numbers of vertices and faces at its start, fewer
+/// lines than these say, an invalid line, errors of `lines`.
 Result<void> read_off_lines(std::string_view bytes, const std::string& name,
                             const ObjCallbacks& lines);
 

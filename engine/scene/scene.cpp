@@ -297,7 +297,8 @@ Result<void> check_crossings(Scene& scene) {
   return {};
 }
 
-/// Every rod has an edge centred on joints that hold rods by a law or will, as steps put bolts in.
+/// Gives every rod an edge centred on joints that connect rods by a law, now or after a step adds
+/// bolts.
 void centre_edges(const preset::Preset& preset, Scene& scene) {
   const bool bolted = std::ranges::any_of(preset.step, [](const preset::Step& step) {
     return step.kind == preset::StepKind::tighten || step.kind == preset::StepKind::open;

@@ -12,8 +12,8 @@ namespace gridshell::simulate {
 /// cells.
 record::Summary summary_before(const preset::Preset& preset, const Scene& scene);
 
-/// Which ends of rods lie on balls, as no law holds them at their joints, where laws hold others:
-/// a sentence; empty: none.
+/// Ends of rods that are ball joints, since their joints have no law, in a network where other
+/// joints have one: a sentence; empty: none.
 std::string ends_on_balls(const Scene& scene);
 
 /// What the shell is made of, on a mesh: rods, joints and their sizes, and a table.

@@ -9,10 +9,10 @@
 
 namespace gridshell {
 
-/// By every unknown that there is, positions and angles, held ones too, but not by what follows
-/// others. Tolerances are those of
-/// slopes over the largest, of the Hessian's columns and of all of it over their norms.
-/// `turns_frames`: the shell is so bent that the turning of frames must show.
+/// Compares derivatives with differences for all unknowns, positions and angles, including
+/// constrained ones but not those that follow others. Tolerances are relative to the largest slope,
+/// to the norms of the Hessian's columns and to its own norm. `turns_frames`: the shell is bent so
+/// strongly that the rotation of frames must show.
 inline void check_derivatives(const Model& model, const State& state, const ExternalLoads& outside,
                               double of_gradient, double of_column, double of_hessian,
                               bool turns_frames = false) {

@@ -29,9 +29,9 @@ const RodMaterial strip{900, 5, 12, 4, {0.02, -0.01}, 0.03};
 const RodMaterial wire{700, 6, 6, 3, {0, 0}, 0};
 const ExternalLoads outside{.load = 0.7, .opening = 0.6};
 
-/// Two rods with edges centred on a joint that they share, one of them clamped, with axes and a
-/// shape at rest, hinged and sheared at the joint; a third hung on by a spring, that ends at a bolt
-/// above the second; loads, pressures and ground.
+/// Two rods with edges centred on a common joint, one of them clamped, with section axes and a
+/// natural shape, hinged and sheared at the joint; a third connected by a spring that ends at a
+/// bolt above the second; loads, pressures and ground.
 Model sample_model(double hinge = 3.5) {
   const ModelRod a{{0, 1, 2, 3, 4}, {0, 4, 9, 14, 18}, strip,         {},
                    {0, 0, 1, 0, 0}, RodEnd::clamped,   RodEnd::pinned};
@@ -114,7 +114,7 @@ TEST_CASE("joints: a hinge's rods keep to the common normal, edges stay centred,
     // its spin is no unknown
     const int place = model.spin[std::size_t(hinge.pair.e)];
     CHECK((model.held[std::size_t(place / 3)] >> place % 3 & 1) == 1);
-    // turned as a whole, with what is of rods and joints alone
+    // rotated rigidly, with the terms of rods and joints alone
     Model free = model;
     free.loads.clear(), free.ground.clear(), free.springs.clear();
     const Eigen::Matrix3d turn =

@@ -35,7 +35,7 @@ Model with(const Dome& dome, const ShellRods& rods) {
   return value_of(build_model(dome.mesh, rods));
 }
 
-/// The same with edges centred on its joints, for bolts.
+/// A shell with edges centred on its joints, for bolts.
 struct Bolted {
   RodMesh mesh;
   Model loose;

@@ -41,7 +41,7 @@ TEST_CASE("a bolt between two layers puts force times eccentricity on the rod th
     const double push = 0.01, beside = 48 * EI / std::pow(length, 3);
     double moved[2], exact = 0;
     for (const int k : {0, 1}) {
-      // half an edge beside the joint bears the mean of the two rods' axial forces there
+      // half an edge next to the joint carries the mean of the two rods' axial forces
       const double along = length / (4 * EA), bend = apart * apart * length / (12 * EI),
                    give = bend + along * (1 - 1 / (16.0 * (k + 1))) + std::abs(apart) / EA;
       const double limit = bend + along + std::abs(apart) / EA;

@@ -66,8 +66,8 @@ struct Laths {
     return at;
   }
 
-  /// E of positions and, for every edge, the angle of its section beside a frame without twist; at
-  /// joints it is that of their normal.
+  /// E of positions and, for every edge, the angle of its section relative to a frame without
+  /// twist; at joints it is that of their normal.
   T energy(const std::vector<V>& x, const std::vector<T>& angles) const {
     T sum(0);
     const auto at = tangents(x);
@@ -94,13 +94,13 @@ struct Laths {
           if (n.z.value() < 0) n = T(-1.0) * n;
           angle = atan2(dot(n, side), dot(n, frame));
         }
-        // halves of an edge, at a joint or at a rod's end, stand for the whole
+        // halves of an edge, at a joint or at a rod's end, represent the complete edge
         const double whole =
             joint >= 0 || k == 1 || k + 1 == mesh.rods[r].size() ? 2 * length : length;
         if (k > 1 && node >= mesh.joints) {
           const double l = 0.5 * (last + whole);
           const T twist = angle - turned, turn = 0.5 * (angle + turned);
-          // kb stands across both tangents, so that both frames see it alike
+          // kb is perpendicular to both tangents, so that both frames see it equally
           const V kb = T(2.0 / (1.0 + dot(before, t))) * cross(before, t);
           const T a = dot(kb, frame), b = dot(kb, side);
           const T w1 = a * cos(turn) + b * sin(turn), w2 = b * cos(turn) - a * sin(turn);
@@ -118,7 +118,7 @@ struct Laths {
     return sum;
   }
 
-  /// The same with its slopes by the free places and the angles.
+  /// The energy with its derivatives by the free positions and the angles.
   T at_place(const Eigen::Matrix3Xd& nodes, const Eigen::VectorXd& by) const {
     const Eigen::Index size = by.size();
     std::vector<V> x;

@@ -1,4 +1,4 @@
-// Leaving a state that is not stable: which ways down are gone.
+// Leaving an unstable state: which descents are computed.
 #include "engine/elastic/model.h"
 #include "tests/engine/solve/crossing_rods.h"
 #include "tests/results.h"

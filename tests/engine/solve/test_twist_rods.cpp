@@ -1,5 +1,5 @@
-// Twisted rods with known answers: shapes at rest (the elastica, a cantilever, a helix, the
-// localised helix), loads at which they buckle (Euler, Greenhill, Michell), and a joint's shear.
+// Twisted rods with known solutions: equilibrium shapes (the elastica, a cantilever, a helix, the
+// localised helix), buckling loads (Euler, Greenhill, Michell), and a joint's shear.
 #include "engine/elastic/model.h"
 #include "engine/elastic/rod_frame.h"
 #include "tests/engine/solve/elastica.h"
