@@ -79,7 +79,7 @@ Result<ChartReport> draw_branches(const preset::Preset& preset, const fs::path& 
                       {"symmetry_order", found->symmetry_order},
                       {"all_followed", found->all_followed}};
   findings.text = fmt::format(
-      "on {} edges a segment; the amplitude is of what breaks {} of the "
+      "on {} edges per segment; the amplitude is of what breaks {} of the "
       "symmetries of the square\n",
       found->edges_per_segment, found->symmetry_order);
   tell(*found, findings);
@@ -124,7 +124,7 @@ Result<ChartReport> draw_sizes(const preset::Preset& preset, const ChartOptions&
   ChartReport findings;
   for (const auto& row : *rows)
     findings.text +=
-        fmt::format("{}: {} edges a segment, error {:.1e} in {:.3f} s ({})\n", row.method,
+        fmt::format("{}: {} edges per segment, error {:.1e} in {:.3f} s ({})\n", row.method,
                     row.edges_per_segment, row.error, row.cpu_s, word_of(row.outcome));
   return findings;
 }
@@ -163,7 +163,7 @@ Result<ChartReport> draw_accuracy(const preset::Preset& preset, const ChartOptio
   for (const auto& row : found->rows) silent += record::silently_wrong(row.outcome);
   findings.summary["silently_wrong"] = silent;
   if (const auto failed = render::failures_of(found->rows); !failed.empty())
-    findings.text += "failed (edges a segment): " + failed + "\n";
+    findings.text += "failed (edges per segment): " + failed + "\n";
   return findings;
 }
 

@@ -329,7 +329,7 @@ std::string found_text(const record::StateTables& states) {
     text += fmt::format("  {} of {} begun in symmetric forms; {} states in all\n",
                         search.confined_at_rest, search.confined_trials, states.rows.size());
   if (search.finer_lost + search.finer_merged > 0)
-    text += fmt::format("  of {} on {} edges a segment, finer meshes lose {} and merge {}\n",
+    text += fmt::format("  of {} on {} edges per segment, finer meshes lose {} and merge {}\n",
                         search.found, search.judged_edges, search.finer_lost, search.finer_merged);
   for (const auto& [why, count] : search.ended_otherwise)
     text += fmt::format("  {} trials: {}\n", count, why);
@@ -345,7 +345,7 @@ std::string found_text(const record::StateTables& states) {
   for (const record::Barrier& one : states.barriers)
     if (one.to != 0)
       text += fmt::format(
-          "  from state {} to {}: {:.4g} mJ, back {:.4g} mJ (on {} edges a segment)\n",
+          "  from state {} to {}: {:.4g} mJ, back {:.4g} mJ (on {} edges per segment)\n",
           one.from.text(), one.to.text(), one.barrier_mJ, one.back_mJ, search.judged_edges);
   return text;
 }
