@@ -231,7 +231,7 @@ Result<std::vector<preset::Override>> overrides_of_run(const Options& options,
     if (std::ranges::find(also, change.key) != also.end()) continue;
     const bool shows = change.key.starts_with("movie.") || change.key.starts_with("figure.") ||
                        change.key.starts_with("style.") || change.key == "page.photo" ||
-                       change.key == "page.sweep";
+                       change.key == "page.sweep" || change.key == "page.drawn";
     if (!shows || change.key == "movie.frames" || change.key == "figure.radii_mm")
       return invalid(
           "{}: {} cannot change once a run is finished; what can are keys of [movie], "

@@ -8,7 +8,6 @@
 #include "app/window/command.h"
 #include "app/window/edit_session.h"
 #include "engine/core/try.h"
-#include "engine/design/design_shell.h"
 #include "engine/gridshell.h"
 
 namespace gridshell::window {
@@ -83,7 +82,7 @@ DesignPoint point_of(const CertifiedStep& now) {
                     now.step.largest_move_mm,
                     0,
                     0};
-  const Eigen::VectorXd& diameter = now.shell.ends().diameter;
+  const Eigen::VectorXd& diameter = now.shell_ends.diameter;
   if (diameter.size() > 0)
     point.thinnest_mm = diameter.minCoeff(), point.thickest_mm = diameter.maxCoeff();
   return point;
@@ -284,7 +283,7 @@ Result<void> EditSession::act(const Design& command, const Watch& watch) {
   view_.layout.reset();
   const auto ended =
       design_live(preset, from, command.most_iterations, watch, [&](const CertifiedStep& now) {
-        state = now.shell.state();
+        state = now.state;
         designed.ends.table = now.ends;
         if (varies_rods(preset.inverse)) designed.rod_table = now.rods;
         show_design_step(*scene, now, course);
@@ -322,27 +321,25 @@ Result<void> EditSession::show_designed(const preset::Preset& designed, const St
 void EditSession::show_design_step(const Scene& scene, const CertifiedStep& now,
                                    DesignProgress& course) {
   ShellView& s = view_;
-  const DesignShell& shell = now.shell;
   course.iterations = now.step.iteration;
   course.points.push_back(point_of(now));
   if (!s.layout) {
-    auto layout = simulate::layout_of(scene, shell.mesh());
+    auto layout = simulate::layout_of(scene, now.mesh);
     if (!layout) return;
-    layout->flat_nodes = drawn_nodes(shell.mesh(), scene.flat).leftCols(shell.mesh().rod_nodes());
+    layout->flat_nodes = drawn_nodes(now.mesh, scene.flat).leftCols(now.mesh.rod_nodes());
     s.layout = std::make_shared<const record::Layout>(std::move(*layout));
   }
   if (varies_rods(course.inverse)) {
     auto layout = std::make_shared<record::Layout>(*s.layout);
-    const Eigen::VectorXd& diameters = shell.ends().diameter;
+    const Eigen::VectorXd& diameters = now.shell_ends.diameter;
     layout->diameters_mm.assign(diameters.begin(), diameters.end());
     s.layout = std::move(layout);
   }
-  const record::Frame before = std::exchange(
-      s.frame,
-      simulate::frame_of(scene, shell.mesh(), shell.model(), shell.state(), shell.forces()));
+  const record::Frame before =
+      std::exchange(s.frame, simulate::frame_of(scene, now.mesh, now.model, now.state, now.forces));
   s.frame.progress = s.frame.actuation = before.progress;
   s.frame.boundary_radius_mm = before.boundary_radius_mm;
-  s.certificate = {shell.residual(), 0, std::numeric_limits<double>::quiet_NaN(), 0};
+  s.certificate = {now.residual_N, 0, std::numeric_limits<double>::quiet_NaN(), 0};
   s.frame.residual_N = s.certificate.residual_N;
   s.meshes = {designed_on};
   s.refined = false;

@@ -255,7 +255,9 @@ Result<LiveDesignResult> design_live(const preset::Preset& preset, const DesignS
   const auto hand_over = [&](const DesignStep& step, double eigenvalue) {
     last = work.coarse->ends();
     const Eigen::VectorXd now = work.target.distances(work.coarse->joints()).size();
-    seen({step, *work.coarse, now, eigenvalue, table_of(*from.scene, last),
+    const DesignShell& coarse = *work.coarse;
+    seen({step, coarse, coarse.mesh(), coarse.model(), coarse.state(), coarse.forces(),
+          coarse.ends(), coarse.residual(), now, eigenvalue, table_of(*from.scene, last),
           rod_table_of(*from.scene, last)});
   };
 

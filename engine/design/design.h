@@ -15,6 +15,7 @@
 namespace gridshell {
 
 class DesignShell;
+struct Assembly;
 
 /// Edges per segment: optima on 4 are saddles of the shell.
 inline constexpr int designed_on = 16, certified_on = 32;
@@ -79,7 +80,13 @@ Result<Eigen::Matrix3Xd> nearest_to(const preset::Preset& preset, const Eigen::M
 /// least stability.
 struct CertifiedStep {
   const DesignStep& step;
-  const DesignShell& shell;             ///< on 16 edges, in the state of the step
+  const DesignShell& shell;  ///< on 16 edges, in the state of the step; next its parts
+  const RodMesh& mesh;
+  const Model& model;
+  const State& state;
+  const Assembly& forces;
+  const ShellEnds& shell_ends;
+  double residual_N = 0;
   const Eigen::VectorXd& distances_mm;  ///< of the joints from the target
   double eigenvalue = 0;                ///< smallest on 32 edges, N/mm^2
   preset::Points ends, rods;            ///< `[ends] table`, `[rod] table`

@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 
+#include "engine/core/algorithms.h"
 #include "engine/core/point_grid.h"
 #include "engine/geometry/mesh_lines.h"
 #include "engine/geometry/surface.h"
@@ -33,6 +34,11 @@ Eigen::Vector3d area_of(const Eigen::Matrix3Xd& x, const Triangle& t) {
   return 0.5 * (x.col(t[1]) - x.col(t[0])).cross(x.col(t[2]) - x.col(t[0]));
 }
 
+double total_area(const Eigen::Matrix3Xd& x, const Triangles& all) {
+  return std::accumulate(all.begin(), all.end(), 0.0,
+                         [&](double sum, const Triangle& t) { return sum + area_of(x, t).norm(); });
+}
+
 int next(int k) { return (k + 1) % 3; }
 
 MeshEdge edge_of(const Triangle& t, int k) {
@@ -43,21 +49,6 @@ MeshEdge edge_of(const Triangle& t, int k) {
 std::string counted(std::size_t count, const char* one, const char* more) {
   return fmt::format("{} {}", count, count == 1 ? one : more);
 }
-
-/// Of disjoint sets of numbers, each named by one of them.
-class Sets {
- public:
-  explicit Sets(std::size_t count) : above_(count) { std::iota(above_.begin(), above_.end(), 0); }
-  int of(int k) {
-    while (above_[std::size_t(k)] != k)
-      k = above_[std::size_t(k)] = above_[std::size_t(above_[std::size_t(k)])];
-    return k;
-  }
-  void join(int a, int b) { above_[std::size_t(of(a))] = of(b); }
-
- private:
-  std::vector<int> above_;
-};
 
 /// Vertices at one place become the first of them; returns how many were.
 std::size_t join_near(const Eigen::Matrix3Xd& x, Triangles& triangles) {
@@ -144,6 +135,14 @@ Eigen::Vector3d way_from(const Eigen::Matrix3Xd& x, const Triangle& t, int side)
   return (to - to.dot(along) * along).normalized();
 }
 
+/// Cosine of the turn between two triangles that share an edge, each (triangle, side): -1 if they
+/// are in one plane.
+double turn_between(const Eigen::Matrix3Xd& x, const Triangles& triangles,
+                    const std::array<int, 2>& a, const std::array<int, 2>& b) {
+  return way_from(x, triangles[std::size_t(a[0])], a[1])
+      .dot(way_from(x, triangles[std::size_t(b[0])], b[1]));
+}
+
 struct Sides {
   std::vector<Link> links;
   std::size_t of_several = 0, folded = 0, open = 0;  // edges
@@ -162,8 +161,7 @@ Sides joined_sides(const Eigen::Matrix3Xd& x, const Triangles& triangles) {
     std::optional<Link> best;
     for (std::size_t m = 0; m < at.size(); ++m)
       for (std::size_t n = 0; n < m; ++n) {
-        const double turn = way_from(x, triangles[std::size_t(at[m][0])], at[m][1])
-                                .dot(way_from(x, triangles[std::size_t(at[n][0])], at[n][1]));
+        const double turn = turn_between(x, triangles, at[m], at[n]);
         if (turn >= straightest) continue;
         straightest = turn;
         best = Link{at[n][0], at[n][1], at[m][0], at[m][1]};
@@ -176,7 +174,7 @@ Sides joined_sides(const Eigen::Matrix3Xd& x, const Triangles& triangles) {
 
 /// Vertices of their own for what hangs together around each; returns which each was.
 std::vector<int> part(Eigen::Matrix3Xd& x, Triangles& triangles, const std::vector<Link>& links) {
-  Sets corners(3 * triangles.size());
+  UnionFind corners(3 * triangles.size());
   const auto corner_at = [&](int t, int vertex) {
     const auto& all = triangles[std::size_t(t)];
     return 3 * t + int(std::ranges::find(all, vertex) - all.begin());
@@ -189,7 +187,7 @@ std::vector<int> part(Eigen::Matrix3Xd& x, Triangles& triangles, const std::vect
   for (int t = 0; t < int(triangles.size()); ++t)
     for (int k = 0; k < 3; ++k) {
       int& vertex = triangles[std::size_t(t)][std::size_t(k)];
-      const auto [found, fresh] = number.try_emplace(corners.of(3 * t + k), int(from.size()));
+      const auto [found, fresh] = number.try_emplace(corners.find(3 * t + k), int(from.size()));
       if (fresh) from.push_back(vertex);
       vertex = found->second;
     }
@@ -220,20 +218,20 @@ void draw_apart(Eigen::Matrix3Xd& x, const Triangles& triangles, const std::vect
 /// that is left out.
 std::pair<std::size_t, double> keep_largest(const Eigen::Matrix3Xd& x, Triangles& triangles,
                                             const std::vector<Link>& links) {
-  Sets pieces(triangles.size());
+  UnionFind pieces(triangles.size());
   for (const Link& link : links) pieces.join(link.first, link.second);
   std::map<int, double> areas;
   double whole = 0;
   for (int t = 0; t < int(triangles.size()); ++t) {
     const double area = area_of(x, triangles[std::size_t(t)]).norm();
-    areas[pieces.of(t)] += area;
+    areas[pieces.find(t)] += area;
     whole += area;
   }
   const auto largest =
       std::ranges::max_element(areas, {}, [](const auto& piece) { return piece.second; });
   Triangles kept;
   for (int t = 0; t < int(triangles.size()); ++t)
-    if (pieces.of(t) == largest->first) kept.push_back(triangles[std::size_t(t)]);
+    if (pieces.find(t) == largest->first) kept.push_back(triangles[std::size_t(t)]);
   triangles = std::move(kept);
   return {areas.size(), 1 - largest->second / whole};
 }
@@ -304,8 +302,7 @@ std::pair<std::size_t, double> unfold(Eigen::Matrix3Xd& x, const Triangles& tria
     std::set<int> wrong;
     for (const auto& [edge, at] : sides) {
       if (at.size() != 2) continue;
-      const double turn = way_from(x, triangles[std::size_t(at[0][0])], at[0][1])
-                              .dot(way_from(x, triangles[std::size_t(at[1][0])], at[1][1]));
+      const double turn = turn_between(x, triangles, at[0], at[1]);
       if (turn < folded_cos - 0.05) continue;
       wrong.insert(edge.begin(), edge.end());
       for (const auto& [t, k] : at)
@@ -359,18 +356,14 @@ MendedMesh mended(const Eigen::Matrix3Xd& vertices, std::vector<std::array<int, 
   const auto [pieces, left_out] = keep_largest(x, all, sides.links);
   draw_apart(x, all, from);
   if (joined_sides(x, all).open == 0) {
-    const double area =
-        std::accumulate(all.begin(), all.end(), 0.0,
-                        [&](double sum, const Triangle& t) { return sum + area_of(x, t).norm(); });
+    const double area = total_area(x, all);
     keep_upper(x, all, joined_sides(x, all).links);
     if (all.empty()) return mesh;
     const auto links = joined_sides(x, all).links;
     const auto parted = part(x, all, links);
     const auto upper = keep_largest(x, all, links);
     draw_apart(x, all, parted);
-    const double kept =
-        std::accumulate(all.begin(), all.end(), 0.0,
-                        [&](double sum, const Triangle& t) { return sum + area_of(x, t).norm(); });
+    const double kept = total_area(x, all);
     done.push_back(fmt::format(
         "the mesh is closed, as of a solid: the {} facing up is taken, {:.1f} % of its area",
         upper.first > 1 ? "largest part" : "part", 100 * kept / area));

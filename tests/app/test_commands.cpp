@@ -351,7 +351,8 @@ TEST_CASE("report puts a run into one PDF, with what it carries and how it sways
   // what is not known is said in it, and is no failure
   bench.good("run small.toml --set rod.density_kg_m3=0 -o out/light");
   bench.good("report out/light --to light.pdf");
-  check_refused("report out/small --to out/small/report.pdf", bench.at, Contains("beside it"));
+  check_refused("report out/small --to out/small/report.pdf", bench.at,
+                Contains("choose a folder outside it"));
   check_refused("report out/small --to report.txt", bench.at, Contains("must end in .pdf"));
   check_refused("report out/none", bench.at, Contains("out/none"));
 }

@@ -87,8 +87,8 @@ bool same(const render::MovieStyle& a, const render::MovieStyle& b) {
   };
   const auto look = [](const render::Appearance& l) {
     return std::tuple(l.rod_mm, l.joint_mm, l.ring_mm, l.rod, l.joint, l.ring, l.background, l.map,
-                      l.range, l.cells, l.rings, l.floor, l.shadow, l.loads, l.braces, l.sheen,
-                      l.far_fade, l.letters);
+                      l.range, l.cells, l.rings, l.floor, l.shadow, l.loads, l.braces, l.ghost,
+                      l.sheen, l.far_fade, l.letters);
   };
   // what counts with bins alone is not written without them
   return movie(a) == movie(b) && a.bins_range == b.bins_range && beside(a) == beside(b) &&
