@@ -245,7 +245,7 @@ Plot latitude_plot(const NamedRun& named, const Eigen::Matrix3Xd& scan) {
   const double rho = run.layout.length_scale_mm;
   Plot plot;
   plot.x.label = "latitude (°)";
-  plot.y.label = "radial position of joints, *r*/*ρ*";
+  plot.y.label = "radial position, *r*/*ρ*";
   Series net = line_series("net", net_ink, 1.3);
   net.add(latitude_deg(run.layout.actuated_boundary.row(2).mean() / rho), 1);
   net.add(90, 1);
