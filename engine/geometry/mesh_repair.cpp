@@ -13,6 +13,7 @@
 #include "engine/core/point_grid.h"
 #include "engine/geometry/mesh_lines.h"
 #include "engine/geometry/surface.h"
+#include "engine/geometry/triangles.h"
 
 namespace gridshell {
 namespace {
@@ -30,21 +31,12 @@ double size_of(const Eigen::Matrix3Xd& x) {
   return (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff();
 }
 
-Eigen::Vector3d area_of(const Eigen::Matrix3Xd& x, const Triangle& t) {
-  return 0.5 * (x.col(t[1]) - x.col(t[0])).cross(x.col(t[2]) - x.col(t[0]));
-}
-
 double total_area(const Eigen::Matrix3Xd& x, const Triangles& all) {
   return std::accumulate(all.begin(), all.end(), 0.0,
                          [&](double sum, const Triangle& t) { return sum + area_of(x, t).norm(); });
 }
 
 int next(int k) { return (k + 1) % 3; }
-
-MeshEdge edge_of(const Triangle& t, int k) {
-  const int a = t[std::size_t(k)], b = t[std::size_t(next(k))];
-  return {std::min(a, b), std::max(a, b)};
-}
 
 std::string counted(std::size_t count, const char* one, const char* more) {
   return fmt::format("{} {}", count, count == 1 ? one : more);

@@ -9,6 +9,7 @@
 
 #include "engine/core/proximity.h"
 #include "engine/core/try.h"
+#include "engine/geometry/triangles.h"
 
 namespace gridshell {
 namespace {
@@ -48,17 +49,8 @@ bool apart(const Eigen::AlignedBox3d& one, const Eigen::AlignedBox3d& other) {
 
 using Triangles = TriangleMesh::Triangles;
 
-Eigen::Vector3d area_of(const Eigen::Matrix3Xd& x, const std::array<int, 3>& t) {
-  return 0.5 * (x.col(t[1]) - x.col(t[0])).cross(x.col(t[2]) - x.col(t[0]));
-}
-
 using Edge = MeshEdge;
 using Sides = EdgeSides;
-
-Edge edge_of(const std::array<int, 3>& triangle, int k) {
-  const int a = triangle[std::size_t(k)], b = triangle[std::size_t((k + 1) % 3)];
-  return {std::min(a, b), std::max(a, b)};
-}
 
 bool runs_along(const std::array<int, 3>& triangle, const Edge& edge) {
   for (std::size_t k = 0; k < 3; ++k)
