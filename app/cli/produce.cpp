@@ -58,15 +58,17 @@ record::Kind kind_of(Pictures pictures) {
 // what may bring a run further that ended before its end, or ends it before; empty where nothing
 // is known
 std::string help_for(const preset::Preset& preset, record::Limit limit, double largest_strain) {
-  const std::string less =
-      preset.indentation.wanted() ? "less [indentation] depth" : "a larger actuated boundary";
+  const bool pushes = preset.indentation.wanted() || !preset.step.empty();
+  const std::string less = preset.indentation.wanted() ? "less [indentation] depth"
+                           : !preset.step.empty()      ? "a smaller depth_mm, angle or load there"
+                                                       : "a larger actuated boundary";
   switch (limit) {
     case record::Limit::none:
     case record::Limit::snap:
       return "";
     case record::Limit::locking:
       // a push may have met its stiffness instead
-      if (preset.indentation.wanted() && std::abs(largest_strain) < 0.9 * preset.limits.max_strain)
+      if (pushes && std::abs(largest_strain) < 0.9 * preset.limits.max_strain)
         return less + " ends before that";
       return less + " ends before that, more [limits] max_strain after it";
     case record::Limit::strength:

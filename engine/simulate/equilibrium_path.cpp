@@ -137,7 +137,7 @@ record::Limit limit_of(Outcome end) {
 }
 
 /// How a segment ended before its end.
-std::string how_it_ended(const PathSegment& segment, const At& at) {
+std::string how_it_ended(const PathSegment& segment, double max_strain, const At& at) {
   const Report& report = segment.report;
   const auto place = [&] {
     return at(report.t, report.events.empty() ? std::nullopt : report.events.back().error);
@@ -154,14 +154,16 @@ std::string how_it_ended(const PathSegment& segment, const At& at) {
         "max_strain allows",
         place());
   const double strain = report.certificate.largest_strain;
-  if (report.end == Outcome::locked && strain < 0)
+  const bool strained = std::abs(strain) > 0.9 * max_strain;
+  if (report.end == Outcome::locked && strained && strain < 0)
     return fmt::format(
         "{} a rod too short to buckle is compressed as far as [limits] max_strain allows: its "
         "strain is {:.3g}",
         at(report.t, {}), strain);
   if (report.end == Outcome::locked)
-    return fmt::format("{} the rods are at their length: the largest strain is {:.3g}",
-                       at(report.t, {}), strain);
+    return fmt::format("{} the rods are at their length: {}", at(report.t, {}),
+                       strained ? fmt::format("the largest strain is {:.3g}", strain)
+                                : "the push meets 100 times its first stiffness");
   if (report.end == Outcome::contact) {
     const std::string& what = report.events.back().what;
     const bool touched = !segment.load_steps.back().contacts.places.empty();
@@ -207,7 +209,7 @@ void set_limit(EquilibriumPath& path, const At& at) {
     if (ended != record::Limit::none) {
       const bool on_its_way = segment.back && !at_limit(segment.report.end);
       path.limit = on_its_way ? record::Limit::no_equilibrium : ended;
-      path.limit_reason = how_it_ended(segment, at);
+      path.limit_reason = how_it_ended(segment, path.simulation.scene().max_strain, at);
       break;
     }
     const char* way = segment.back ? "on the way back to the flat " : "";
