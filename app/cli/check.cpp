@@ -47,7 +47,7 @@ std::string joint_text(const preset::Preset& preset) {
       push.latitude_deg, push.longitude_deg);
 }
 
-/// What a run does to the shell beside forming it, a line each.
+/// What a run does to the shell in addition to forming it, one line each.
 std::vector<std::string> what_is_done(const preset::Preset& preset) {
   std::vector<std::string> lines;
   if (const preset::Indentation& push = preset.indentation; push.wanted())

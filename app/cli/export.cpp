@@ -89,7 +89,7 @@ Result<std::size_t> frame_of(const record::Trajectory& run, const std::string& a
   if (asked.empty()) return run.frames.size() - 1;
   const auto frame = parse_number<std::size_t>(asked);
   if (!frame || *frame >= run.frames.size())
-    return invalid("--frame {}: must be a number from 0 to {}", asked, run.frames.size() - 1);
+    return invalid("--frame {}: expected a number from 0 to {}", asked, run.frames.size() - 1);
   return *frame;
 }
 
@@ -234,7 +234,7 @@ Result<std::string> text_of(const ExportOptions& options) {
     return invalid("--to {}: a {} is written as {}", options.to.string(), what,
                    extensions_of(texts));
   }
-  return invalid("--what {}: must be one of\n{}", what, exported_formats());
+  return invalid("--what {}: expected one of\n{}", what, exported_formats());
 }
 
 /// Writes the file, whole or not at all, and says so.

@@ -43,7 +43,7 @@ std::string name_of(const preset::Preset& preset) {
 
 fs::path with_suffix(fs::path stem, const char* suffix) { return stem += suffix; }
 
-/// Of one assemblage: its blocks apart, their footprints, and how they meet.
+/// Draws one assemblage: its blocks separately, their footprints, and how they meet.
 Result<void> draw_block_pictures(const record::Trajectory& run, const render::MovieStyle& style,
                                  render::Renderer& renderer, const fs::path& stem, Watch& watch) {
   TRY_DO(save_panels(render::draw_blocks({{&run, ""}}, style, renderer, watch),
@@ -74,25 +74,25 @@ std::string caption_of(const record::Trajectory& run, const std::string& name, b
 std::string title_among(const Run& run, const std::string& of_all) {
   return run.preset.title == of_all && !run.name.empty() ? run.name : run.preset.title;
 }
-/// The same where it stands by itself.
+/// What a picture of one run calls it, marked text.
 std::string title_alone(const Run& run, const std::string& of_all) {
   const std::string title = title_among(run, of_all);
   return of_all.empty() || title == run.preset.title ? title : of_all + ": " + title;
 }
 
 bool is_still(const Run& run) { return run.pictures == Pictures::stills; }
-/// Whether its movie shows it beside the other cases.
+/// Whether its movie shows it next to the other cases.
 bool drawn_beside(const Run& run) {
   return run.pictures == Pictures::movie && run.preset.movie.beside && !run.name.empty();
 }
-/// A shell that was designed on a net is shown beside it, a pushed one by itself.
+/// A shell that was designed on a net is shown next to it, a pushed one by itself.
 bool shows_net(const Run& run) {
   const preset::Preset& preset = run.preset;
   return is_still(run) && preset.on_net() && !preset.indentation.wanted() &&
          !preset.jitter.wanted() && preset.step.empty();
 }
 bool shows_push(const Run& run) { return is_still(run) && run.preset.indentation.wanted(); }
-/// One of several that no other picture shows beside one another.
+/// One of several that no other picture shows next to one another.
 bool shows_case(const Run& run) {
   return is_still(run) && !run.name.empty() && !shows_net(run) && !shows_push(run) &&
          !run.preset.jitter.wanted();
@@ -331,7 +331,7 @@ void draw_refusals(const preset::Presets& presets, const fs::path& folder) {
     fs::path stem = folder;
     stem += (run.name.empty() ? "" : "_" + run.name) + "_refused";
     const auto style = style_of(run.preset, Pictures::stills);
-    std::error_code unmade;  // told by what writes
+    std::error_code unmade;  // reported by what writes
     if (stem.has_parent_path()) fs::create_directories(stem.parent_path(), unmade);
     const auto drawn = render::write_plot(
         stem,

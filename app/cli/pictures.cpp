@@ -40,7 +40,8 @@ Result<PictureMaker> PictureMaker::create(const std::string& context) {
 
 namespace {
 
-/// Of stills that each show the end of a step: which; else what the stills say by themselves.
+/// What tells stills apart that each show the end of a step: which step; else what the stills say
+/// themselves.
 std::vector<std::string> captions_of(const preset::Preset& preset, const record::Trajectory& run) {
   std::vector<std::string> captions;
   if (preset.step.empty() || run.frames.size() != preset.step.size() + 1) return captions;
@@ -48,7 +49,7 @@ std::vector<std::string> captions_of(const preset::Preset& preset, const record:
   for (std::size_t k = 0; k < preset.step.size(); ++k) {
     const preset::Step& step = preset.step[k];
     const record::Frame& frame = run.frames[k + 1];
-    // a depth belongs to the push that made it, not to what was done while it holds
+    // a depth belongs to the push that made it, not to what was done while the joint is prescribed
     const bool pushes = step.kind == preset::StepKind::push;
     captions.push_back(
         simulate::text_of(step) + ": " +
@@ -173,7 +174,7 @@ double expected_seconds(Pictures pictures, const preset::Preset& preset) {
                                                                        : 1.4;
   double count = movie.frames;
   if (stills) {
-    // the stills, and what stands beside nets and loads
+    // the stills, and what is shown next to nets and loads
     const bool push = preset.indentation.wanted();
     count = std::max(push ? 2.0 : 1.0, double(preset.figure.radii_mm.size()));
     if (preset.jitter.wanted()) count = preset.jitter.drawn;

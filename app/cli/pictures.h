@@ -47,7 +47,7 @@ render::MovieStyle style_of(const preset::Preset& preset, Pictures pictures);
 /// The joints that were measured on a real shell, 3 x n, mm.
 Eigen::Matrix3Xd scan_of(const preset::Preset& preset);
 
-/// Holds the OpenGL context, so it stays on the thread that made it.
+/// Owns the OpenGL context, so it stays on the thread that made it.
 class PictureMaker {
  public:
   /// `context` as in --context; `font` of all text, empty: the usual one. Errors: io when no

@@ -267,7 +267,7 @@ Result<int> make_report(ReportOptions options) {
     options.to = (run_folder.has_filename() ? run_folder : run_folder.parent_path()).string() +
                  "_report.pdf";
   if (options.to.extension() != ".pdf")
-    return invalid("--to {}: must end in .pdf", options.to.string());
+    return invalid("--to {}: expected a name that ends in .pdf", options.to.string());
   TRY_DO(check_beside_runs(options.to));
   TRY(runs, read_runs(options.input, {}, options.unsealed));
   TRY(maker, PictureMaker::create(options.context, runs->front().preset.style.font));

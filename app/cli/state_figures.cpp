@@ -378,7 +378,7 @@ Result<Page> states_page(const Runs& records, const render::MovieStyle& style,
   const Run& first = *records.front();
   if (first.states.rows.empty())
     return invalid(
-        "{}: [page] kind = \"fig2\" shows states: must have [jitter] trials or "
+        "{}: [page] kind = \"fig2\" shows states: expected [jitter] trials or "
         "confined above 0",
         first.preset.name);
   Page page{page_width, page_height};

@@ -72,7 +72,7 @@ std::vector<std::string> drawable(const preset::Presets& presets, const preset::
 Result<void> check_asked(const preset::Presets& presets, const preset::SweepGrid& grid) {
   if (grid.size() == 0)
     return invalid(
-        "{}: sweeps nothing: must have [sweep] over or seeds, for example --set "
+        "{}: sweeps nothing: expected [sweep] over or seeds, for example --set "
         "'sweep.over={{rod.diameter_mm=[0.2,0.3]}}'",
         presets.base.name);
   const auto names = drawable(presets, grid);

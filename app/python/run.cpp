@@ -86,7 +86,7 @@ Run load(const std::filesystem::path& folder, const std::optional<std::string>& 
                          folder.string(), app::progress_text(run))});
     return Run(std::move(run));
   }
-  raise({Fault::bad_input, fmt::format("'{}': case must be one of: {}", folder.string(),
+  raise({Fault::bad_input, fmt::format("'{}': case: expected one of: {}", folder.string(),
                                        names.empty() ? "none" : names)});
 }
 

@@ -87,7 +87,7 @@ Result<Done> Shell::refine(double tolerance_mm, const Watch& watch) {
   if (!formed_) return invalid("the shell is still flat: actuate it first");
   const double wanted =
       std::isnan(tolerance_mm) ? scene_->tolerance * scene_->length_scale_mm : tolerance_mm;
-  if (!(wanted > 0)) return invalid("tolerance_mm must be above 0");
+  if (!(wanted > 0)) return invalid("tolerance_mm: expected above 0");
   auto done = ended("refine", session_->refine(wanted, watch));
   const double left = session_->certificate().error_estimate_mm;
   if (watch.cancelled()) return stopped();

@@ -50,7 +50,7 @@ struct Control {
                           format(shown == 0, "%.6g").c_str(), ImGuiSliderFlags_AlwaysClamp))
       return false;
     if (!range.holds(double(shown))) {
-      viewer.say(fmt::format("{} must be {}", name_of(field), allowed(field)), true);
+      viewer.say(fmt::format("{}: expected {}", name_of(field), allowed(field)), true);
       return false;
     }
     // the digits that are seen, without those that a float adds
@@ -117,7 +117,7 @@ constexpr Variable variables[] = {
 
 const char* why_not(const preset::Preset& preset, preset::Vary kind) {
   if (kind == preset::Vary::directions && preset.ends.kind != preset::EndKind::tangent)
-    return "the ends hold no direction by itself: [ends] kind must be \"tangent\"";
+    return "the ends prescribe no direction by itself: expected [ends] kind \"tangent\"";
   if (kind == preset::Vary::diameters && (preset.rod.rectangular() || preset.rod_v.rectangular()))
     return "rectangular rods have no diameter";
   return nullptr;

@@ -66,14 +66,14 @@ std::string fault_of(FileUse use, const fs::path& file, const std::vector<Export
     if (format.ending == ending) return "";
     all += " " + format.ending;
   }
-  return fmt::format("'{}' is no format: must be one of{}", ending, all);
+  return fmt::format("format: got '{}', expected one of{}", ending, all);
 }
 
 }  // namespace
 
 Result<void> check_picture(int width, int height) {
   if (std::min(width, height) >= least_px && std::max(width, height) <= most_px) return {};
-  return invalid("a picture of {} x {}: must be {} to {} pixels each way", width, height, least_px,
+  return invalid("a picture of {} x {}: expected {} to {} pixels each way", width, height, least_px,
                  most_px);
 }
 

@@ -49,12 +49,12 @@ struct DesignProblem {
 Result<void> can_be_designed(const preset::Preset& preset, const Scene& scene) {
   if (preset.inverse.vary.empty())
     return invalid(
-        "nothing may change: [inverse] vary must name pins_radial, pins, pins_3d, legs, "
+        "[inverse] vary: got none, expected pins_radial, pins, pins_3d, legs, "
         "directions or diameters");
   if (!scene.net)
     return invalid(
-        "the footprint was not designed on a net, so there is no surface to meet: "
-        "[footprint] kind must be \"net\"");
+        "[footprint] kind: got a footprint that is not designed on a net, expected \"net\": a "
+        "design needs a target surface");
   if (scene.solved_model() != RodModel::bend)
     return invalid("only shells of the bend model can be designed; this one needs more: " +
                    preset::model_reason(preset));

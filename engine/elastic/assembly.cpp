@@ -1,5 +1,5 @@
-// Edges and bends run rod by rod, the hot loop beside the factorisation; what else stores energy is
-// added after them, list by list.
+// Edges and bends run rod by rod, the hot loop next to the factorisation; what else stores energy
+// is added after them, list by list.
 #include "engine/elastic/assembly.h"
 
 #include <cmath>
@@ -13,7 +13,7 @@
 namespace gridshell {
 namespace {
 
-/// a nan must survive: comparisons with it are false, so the test is the other way round
+/// a nan must survive: comparisons with it are false, so the test is written so that nan passes
 inline void keep_smallest(double& smallest, double value) {
   if (!(value >= smallest)) smallest = value;
 }
@@ -131,7 +131,7 @@ void add_action_hessian(const NodeAction& action, double factor, const Eigen::Ma
   add(second, third, x.col(action.node));
 }
 
-/// What stores energy beside edges and bends.
+/// What stores energy in addition to edges and bends.
 void add_others(const Model& model, const State& state, const ExternalLoads& outside,
                 bool with_hessian, Assembly& out) {
   each_pair_list(model, [&]<class Law>(const std::vector<Pair<Law>>& list) {

@@ -23,7 +23,7 @@ std::array<double, 3> log_barrier(double x) {
   return {-y * y * log, -2 * y * log - y * y / x, -2 * log - 4 * y / x + y * y / (x * x)};
 }
 
-/// Of every node the first that lies at its place: of edge points, in the flat.
+/// For every node, the first node at its position (of edge points, in the flat).
 std::vector<int> places_of(const RodMesh& mesh, const std::vector<double>& radius_mm) {
   std::vector<int> place(std::size_t(mesh.nodes()));
   for (int k = 0; k < mesh.nodes(); ++k) place[std::size_t(k)] = k;
@@ -81,7 +81,7 @@ struct NearEdges {
 };
 
 /// Gradient and Hessian of d^2, by the ends of both edges: with r = p(s) - q(t) and the weights w
-/// of the ends in it, 2 w_i r, and where s and t follow, 2 w_i w_j I less what they give way.
+/// of the ends in it, 2 w_i r, and where s and t follow, 2 w_i w_j I less what they yield.
 void differentiate(const NearEdges& near, Eigen::Matrix<double, 12, 1>& gradient,
                    Eigen::Matrix<double, 12, 12>& hessian) {
   const double w[4] = {1 - near.s, near.s, near.t - 1, -near.t};
@@ -150,7 +150,7 @@ double ContactPairs::thinness(const ContactEdge& a, const ContactEdge& b) const 
   for (const ContactEdge::End& i : a.ends)
     for (const ContactEdge::End& j : b.ends) {
       if (i.node != j.node) continue;
-      // where a rod goes on through a joint its two sides are not near each other
+      // where a rod continues through a joint its two sides are not near each other
       const double between = std::abs(i.at - j.at);
       if (one_rod && (between < 1e-9 || std::abs(between - closed) < 1e-9)) continue;
       thinness = std::min(thinness, std::max(i.near, j.near) / std::max(joint_mm, 4 * range));

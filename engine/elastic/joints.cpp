@@ -1,4 +1,4 @@
-// How rods that cross hold on to each other: what a joint adds to a model, and what it bears.
+// How rods that cross are connected: what a joint adds to a model, and what it bears.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <bit>
@@ -18,7 +18,7 @@ std::pair<int, int> halves_at(const Model& model, int rod, int node) {
   return {edges.front(), edges.size() > 1 ? edges.back() : -1};
 }
 
-/// A spin that cost nothing and was held does now.
+/// A spin that cost nothing and was fixed does now.
 void release_spin(Model& model, int rod) {
   int& held = model.rods[std::size_t(rod)].held_spin;
   if (held < 0) return;

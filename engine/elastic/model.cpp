@@ -39,14 +39,15 @@ Result<void> check(int index, int nodes, const ModelRod& rod, RodModel rung) {
       return wrong(fmt::format("node {} does not exist, there are {}", node, nodes));
   for (std::size_t k = 1; k < rod.position.size(); ++k)
     if (!(rod.position[k] > rod.position[k - 1]))
-      return wrong(fmt::format("arc lengths must ascend, {} follows {}", rod.position[k],
-                               rod.position[k - 1]));
-  if (!(m.EA > 0)) return wrong(fmt::format("EA = {} N, must be above 0", m.EA));
+      return wrong(fmt::format("arc lengths: got {} after {}, expected ascending values",
+                               rod.position[k], rod.position[k - 1]));
+  if (!(m.EA > 0)) return wrong(fmt::format("EA: got {} N, expected above 0", m.EA));
   if (!(m.EI1 > 0 && m.EI2 > 0))
-    return wrong(fmt::format("EI = {}, {} N mm^2, must be above 0", m.EI1, m.EI2));
+    return wrong(fmt::format("EI: got {} and {} N mm^2, expected above 0", m.EI1, m.EI2));
   if (rung == RodModel::twist && !(m.GJ > 0))
     return wrong(fmt::format(
-        "GJ = {} N mm^2, must be above 0: the twist rung needs the torsional stiffness", m.GJ));
+        "GJ: got {} N mm^2, expected above 0: the model twist needs the torsional stiffness",
+        m.GJ));
   if (!m.curvature.allFinite() || !std::isfinite(m.twist))
     return wrong("curvature or twist at rest is not finite");
   if (rod.closed() && (rod.begin != RodEnd::free || rod.end != RodEnd::free))
@@ -87,7 +88,7 @@ class Builder {
           add_edge(entry, rod.nodes.back(), ghost(rod.ghost_end), s[edges] - s[edges - 1], 0);
     for (std::size_t k = 1; k < entry.edges.size(); ++k) {
       const int e = entry.edges[k - 1], f = entry.edges[k];
-      // an end that lets the spin go has the frame of the edge beside it
+      // an end that leaves the spin free has the frame of the edge next to it
       double share = 0.5;
       if (e == entry.ghost_begin) share = rod.begin == RodEnd::clamped ? 0 : 1;
       if (f == entry.ghost_end) share = rod.end == RodEnd::clamped ? 1 : 0;
@@ -138,7 +139,7 @@ class Builder {
   void add_bend(const RodMaterial& m, std::pair<int, int> edges, double share,
                 const Eigen::Vector2d& turn) {
     const auto [e, f] = edges;
-    // at a held end only the half edge on the rod's side bends, between two halves nothing does
+    // at a fixed end only the half edge on the rod's side bends, between two halves nothing does
     const double before = bending_length(model_, e), after = bending_length(model_, f),
                  length = 0.5 * (before + after), round = 2 * std::min(m.EI1, m.EI2) / length;
     const bool plain = !twist_ || m.round_and_straight(), at_end = share != 0.5;
@@ -180,7 +181,7 @@ class Builder {
       }
   }
 
-  /// Angles three to a column, those beside a crossing together: what is eliminated inside a
+  /// Angles three to a column, those next to a crossing together: what is eliminated inside a
   /// segment then does not reach across it. Two halves of an edge have one.
   void place_spins(const std::vector<char>& crossings) {
     model_.spin.resize(model_.edges.size());
@@ -213,7 +214,7 @@ class Builder {
     }
   }
 
-  /// fixes what the ends of one rod hold, and its spin if nothing else does
+  /// fixes what the ends of one rod prescribe, and its spin if nothing else does
   void hold(const ModelRod& rod, Model::Rod& entry) {
     if (!entry.closed) {
       if (rod.begin != RodEnd::free) model_.pin(rod.nodes.front());
@@ -230,7 +231,7 @@ class Builder {
     model_.hold_spin(entry.held_spin);
   }
 
-  /// rods beside one another, for an ordering where no flat net is known
+  /// neighbouring rods, for an ordering where no flat net is known
   void lay_along_rods(const std::vector<ModelRod>& rods) {
     model_.flat = Eigen::Matrix2Xd::Zero(2, model_.columns());
     for (std::size_t r = 0; r < rods.size(); ++r)
@@ -296,7 +297,7 @@ class Builder {
 
 BlockSlot slot_of(Model& model, int a, int b) { return a == b ? -1 : model.pattern.slot(a, b); }
 
-/// where the blocks of a pair of edges stand, between their nodes and with their angles
+/// where the blocks of a pair of edges are, between their nodes and with their angles
 template <class Law>
 void place_vectors(Model& model, Pair<Law>& pair) {
   const ModelEdge &e = model.edges[std::size_t(pair.e)], &f = model.edges[std::size_t(pair.f)];

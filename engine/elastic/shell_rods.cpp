@@ -25,7 +25,7 @@ Eigen::Vector3d way(const RodMesh& mesh, int from, int to) {
 }
 
 /// the curvature binormal of a line as drawn at each of its nodes, about the directors m1 and m2
-/// that are carried along it from `director` at its begin; 0 at ends
+/// that are carried along it from `director` at its start; 0 at ends
 std::vector<Eigen::Vector2d> turns_of(const RodMesh& mesh, const ModelRod& rod) {
   const std::vector<int>& nodes = rod.nodes;
   const std::size_t size = nodes.size(), last = rod.closed() ? size : size - 2;
@@ -41,7 +41,7 @@ std::vector<Eigen::Vector2d> turns_of(const RodMesh& mesh, const ModelRod& rod) 
   return turns;
 }
 
-/// the rod without its ghosts, and what holds its ends
+/// the rod without its ghosts, and the constraints of its ends
 ModelRod rod_of(const RodMesh& mesh, std::size_t r, const RodMaterial& material,
                 const Eigen::Vector3d& director) {
   ModelRod rod;
@@ -59,7 +59,7 @@ ModelRod rod_of(const RodMesh& mesh, std::size_t r, const RodMaterial& material,
   // a closed rod comes back to its first node
   if (rod.nodes.front() == rod.nodes.back()) rod.nodes.pop_back();
   for (const int node : rod.nodes) rod.centred.push_back(mesh.is_centred(node));
-  // the piece beside an end is as long as one beside a centred joint: half an edge
+  // the piece next to an end is as long as one next to a centred joint: half an edge
   const auto halve_end = [&](int end, auto first, auto last, char& centred) {
     const bool tail = !mesh.far_ends.empty() && mesh.far_ends[std::size_t(end)] >= 0;
     const auto joint =
@@ -75,7 +75,7 @@ ModelRod rod_of(const RodMesh& mesh, std::size_t r, const RodMaterial& material,
           rod.position[k - 1] +
           (place(mesh, rod.nodes[k % rod.nodes.size()]) - place(mesh, rod.nodes[k - 1])).norm();
   if (material.as_drawn) rod.turns = turns_of(mesh, rod);
-  // what hangs on a spring is free in itself
+  // what is on a spring is free in itself
   const auto held = [&](RodEnd end) {
     return end == RodEnd::joined || end == RodEnd::sprung ? RodEnd::free : end;
   };
@@ -113,8 +113,8 @@ Eigen::Vector3d direction_at(const RodMesh& mesh, const RodAt& of) {
   return way(mesh, *before, *after);
 }
 
-/// visit(k, m, share) for every two of the rods at a joint, which count alike: all of them together
-/// as much as one rod with each of the others
+/// visit(k, m, share) for every two of the rods at a joint, which have equal fractions: all of them
+/// together as much as one rod with each of the others
 template <class Visit>
 void each_two(std::size_t rods, Visit visit) {
   for (std::size_t k = 0; k < rods; ++k)
@@ -178,8 +178,8 @@ std::vector<Eigen::Vector3d> normals_of(const RodMesh& mesh, const Crossings& cr
   return normals;
 }
 
-/// A rod's first director: the mean of its joints' normals, carried to its begin, so that it lies
-/// alike whichever way its points are listed.
+/// A rod's first director: the mean of its joints' normals, carried to its start, so that it does
+/// not depend on the order in which its points are listed.
 Eigen::Vector3d director_of(const RodMesh& mesh, std::size_t r,
                             const std::vector<Eigen::Vector3d>& normals) {
   const std::vector<int>& nodes = mesh.rods[r];
@@ -223,8 +223,8 @@ void add_links(const RodMesh& mesh, const Crossings& crossings,
   }
 }
 
-/// The largest stiffness of a law, N mm/rad: k edges a segment times 20 of what an edge of each rod
-/// has, `of` over its length. A rigid joint so gives less than what the mesh leaves out, and at
+/// The largest stiffness of a law, N mm/rad: k edges per segment times 20 of what an edge of each
+/// rod has, `of` over its length. A rigid joint so gives less than what the mesh leaves out, and at
 /// second order.
 double stiff_limit(const RodMesh& mesh, const Model& model, const Crossing& at,
                    const std::array<double, 2>& of) {
@@ -280,7 +280,7 @@ Result<void> add_laws(const RodMesh& mesh, const ShellRods& shell, const Crossin
   return {};
 }
 
-/// edge points with a tail, or without a rod, joints that the boundary holds, supports of springs
+/// edge points with a tail, or without a rod, joints that the boundary fixes, supports of springs
 std::vector<int> pinned_beside_ends(const RodMesh& mesh) {
   std::vector<int> nodes = mesh.held_joints;
   for (const MeshSpring& spring : mesh.springs) {

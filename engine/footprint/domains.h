@@ -27,7 +27,7 @@ class CurveDomain final : public Domain {
   double reach_ = 0;
 };
 
-// Original boundaries b that a net maps to a wanted boundary a, C(b) = a [Baek 2018, eq. 3].
+// Original boundaries b that a net maps to a given boundary a, C(b) = a [Baek 2018, eq. 3].
 
 /// The part of Chebyshev's net above the plane z = cut_height rho. Crossings of grid lines with the
 /// plane are solved to round-off (bracketed Newton iteration); boundary() takes even polar angles.

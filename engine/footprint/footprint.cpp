@@ -180,8 +180,8 @@ Result<Footprint> cut_footprint(const Domain& domain, double spacing, Placement 
   net.lone_lines = int(std::erase_if(net.rods, crosses_none));
   if (net.rods.empty())
     return invalid(
-        "no two rods of spacing {:g} mm cross within the boundary: it must be larger, or "
-        "the spacing smaller",
+        "got no two rods that cross within the boundary, expected a boundary larger than {:g} mm, "
+        "or the spacing smaller",
         spacing);
   find_cells(net);
   return net;
@@ -203,7 +203,7 @@ Result<Footprint> circular_footprint(double radius, int rods, double spacing, Pl
   if (!(longest > on_boundary))
     return invalid(
         "{} rods a direction at d = {:g} mm reach {:g} mm, beyond the boundary: the longest leg "
-        "R_o/d - (n-1)/2 = {:.4g} must be above 0; take R_o >= {:.7g} mm or n <= {}",
+        "R_o/d - (n-1)/2: got {:.4g}, expected above 0; take R_o >= {:.7g} mm or n <= {}",
         rods, spacing, (rods - 1) / 2.0 * spacing, longest,
         ((rods - 1) / 2.0 + short_leg) * spacing, rods - 2 * std::max(1, int(std::ceil(-longest))));
   Footprint net{spacing, placement, {}, {}, {}};

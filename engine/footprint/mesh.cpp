@@ -137,7 +137,7 @@ void add_supports(const Footprint& footprint, int& next, RodMesh& mesh) {
   }
 }
 
-/// Of a network in space.
+/// The curve of a rod of a network in space.
 void lay_heights(const Footprint& footprint, RodMesh& mesh) {
   mesh.height = Eigen::RowVectorXd::Zero(mesh.nodes());
   for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
@@ -190,7 +190,7 @@ RodMesh mesh_rods(const Footprint& footprint, int edges_per_segment) {
   for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
     const FootprintRod& rod = footprint.rods[r];
     for (std::size_t k = 0; k < mesh.rods[r].size(); ++k) {
-      // where rods meet in a joint the place is the joint's own
+      // where rods meet in a joint the position is the joint's own
       const int node = mesh.rods[r][k];
       if (node >= mesh.joints) mesh.flat.col(node) = rod.at(mesh.position[r][k]);
     }

@@ -187,7 +187,7 @@ Result<NetworkData> read_outline(std::string_view bytes, const std::string& name
     if (ending == ".dxf") return read_outline_dxf(bytes, name, options, found);
     if (ending == ".svg") return read_svg(bytes, name);
     if (ending == ".obj") return read_obj_outline(bytes, name);
-    return invalid("{}: its name must end in .dxf, .svg or .obj (a closed outline)", name);
+    return invalid("{}: expected a name that ends in .dxf, .svg or .obj (a closed outline)", name);
   };
   TRY(drawing, read());
   if (options.unit_mm > 0 && ending != ".dxf") {

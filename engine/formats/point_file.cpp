@@ -19,8 +19,8 @@ class CloudBuilder {
   Result<void> add(const Eigen::Vector3d& p, const std::string& name, auto place_of) {
     constexpr double largest = 1e9;
     if (!(p.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= largest))
-      return invalid("{}: a coordinate is {}, must be a number of at most 1e9", place_of(),
-                     p.allFinite() ? "too large" : "not a number");
+      return invalid("{}: got a coordinate that is {}, expected a number of at most 1e9",
+                     place_of(), p.allFinite() ? "too large" : "not a number");
     if (points_.size() >= 3 * most_cloud_points)
       return invalid("{}: holds more than {} points", name, most_cloud_points);
     points_.insert(points_.end(), p.data(), p.data() + 3);
@@ -104,7 +104,7 @@ Result<Cloud> read_cloud(std::string_view bytes, const std::string& name, double
   if (ending == ".ply") return read_vertices(bytes, name, unit_mm);
   for (const char* known : {".xyz", ".txt", ".asc", ".csv", ".pts"})
     if (ending == known) return read_rows(bytes, name, unit_mm);
-  return invalid("{}: its name must end in .ply, .xyz, .txt, .asc, .csv or .pts", name);
+  return invalid("{}: expected a name that ends in .ply, .xyz, .txt, .asc, .csv or .pts", name);
 }
 
 }  // namespace gridshell::preset

@@ -19,13 +19,13 @@ Result<void> MeshBuilder::add_vertex(std::vector<double> xyz, const std::string&
   for (double& value : xyz) {
     value *= unit_mm_;
     if (!(std::abs(value) <= largest))
-      return invalid("{}: a coordinate is {}, must be a number of at most 1e9", place,
+      return invalid("{}: got a coordinate that is {}, expected a number of at most 1e9", place,
                      std::isfinite(value) ? "too large" : "not a number");
   }
   const auto [found, fresh] = at_.try_emplace(xyz, int(mesh_.vertices.size()));
   // a separate triangle adds three vertices
   if (mesh_.vertices.size() == most_vertices || number_.size() == 3 * most_triangles)
-    return invalid("{}: more than {} vertices, must be fewer", place, most_vertices);
+    return invalid("{}: got more than {} vertices, expected fewer", place, most_vertices);
   number_.push_back(found->second);
   if (fresh) mesh_.vertices.push_back(xyz);
   return {};
@@ -33,7 +33,7 @@ Result<void> MeshBuilder::add_vertex(std::vector<double> xyz, const std::string&
 
 Result<void> MeshBuilder::add_polygon(const std::vector<long>& corners, const std::string& place) {
   if (corners.size() < 3)
-    return invalid("{}: a polygon of {} corners, must have 3 or more", place, corners.size());
+    return invalid("{}: got a polygon of {} corners, expected 3 or more", place, corners.size());
   std::vector<int> ring;
   for (const long corner : corners) {
     if (corner < 0 || corner >= long(number_.size()))
@@ -41,7 +41,7 @@ Result<void> MeshBuilder::add_polygon(const std::vector<long>& corners, const st
     ring.push_back(number_[std::size_t(corner)]);
   }
   if (mesh_.triangles.size() + ring.size() - 2 > most_triangles)
-    return invalid("{}: more than {} triangles, must be fewer", place, most_triangles);
+    return invalid("{}: got more than {} triangles, expected fewer", place, most_triangles);
   for (std::size_t k = 2; k < ring.size(); ++k)
     if (ring[0] != ring[k - 1] && ring[k - 1] != ring[k] && ring[k] != ring[0])
       mesh_.triangles.push_back({ring[0], ring[k - 1], ring[k]});
@@ -50,7 +50,7 @@ Result<void> MeshBuilder::add_polygon(const std::vector<long>& corners, const st
 
 Result<SurfaceData> MeshBuilder::take(const std::string& name) {
   if (!mesh_.triangles.empty()) return std::move(mesh_);
-  return invalid(name + ": holds no triangle, must be a mesh of triangles");
+  return invalid(name + ": got no triangle, expected a mesh of triangles");
 }
 
 // STL: triangles by the coordinates of their corners, as text or as 50 bytes each.
@@ -105,12 +105,11 @@ Result<SurfaceData> read_text(std::string_view bytes, const std::string& name, d
     for (std::size_t k = 1; k < words.size(); ++k)
       if (const auto value = number_of(words[k])) xyz.push_back(*value);
     if (xyz.size() != 3 || words.size() != 4)
-      return invalid(place + ": a vertex must have three numbers, vertex x y z");
+      return invalid(place + ": expected a vertex of three numbers, vertex x y z");
     TRY_DO(add_corner(draft, xyz, place));
   }
   if (draft.vertices() % 3 != 0)
-    return invalid("{}: ends within a triangle: {} vertices, must be three a triangle", name,
-                   draft.vertices());
+    return invalid("{}: got {} vertices, expected three per triangle", name, draft.vertices());
   if (!ended) return invalid("{}: ends without \"endsolid\": is it cut short?", name);
   return draft.take(name);
 }
@@ -149,51 +148,53 @@ Result<SurfaceData> read_heights(std::string_view bytes, const std::string& name
   for (std::size_t k = 0; k < points->size(); ++k)
     if (const double z = (*points)[k][2] / unit_mm; marks_a_hole(z))
       return invalid(
-          "{}:{}: a height of {:g}, which marks a place without one: a hole, must be a whole "
-          "rectangle",
-          name, lines[k], z);
+          "{}:{}: got a height of {:g}, which marks a hole, expected a complete rectangle", name,
+          lines[k], z);
   if (points->size() > most_heights)
-    return invalid("{}: holds {} points, must be at most {}", name, points->size(), most_heights);
+    return invalid("{}: got {} points, expected at most {}", name, points->size(), most_heights);
   SurfaceData grid{values_of(*points, 0), values_of(*points, 1), {}, {}, {}};
   const std::size_t columns = grid.x.size(), rows = grid.y.size();
   if (columns < least_side || rows < least_side)
-    return invalid("{}: {} different x and {} different y, must be a grid of at least 4 x 4 places",
-                   name, columns, rows);
+    return invalid(
+        "{}: got {} different x and {} different y, expected a grid of at least 4 x 4 points", name,
+        columns, rows);
   const auto holds =
       fmt::format("holds {} points on a grid of {} x {} places", points->size(), columns, rows);
   // scattered points form a grid with as many nodes as the square of their number
   if (columns * rows > 4 * points->size())
-    return invalid("{}: {}, must be a whole rectangle", name, holds);
+    return invalid("{}: got {}, expected a complete rectangle", name, holds);
   grid.z.assign(rows, std::vector<double>(columns, std::nan("")));
   for (std::size_t k = 0; k < points->size(); ++k) {
     const auto& point = (*points)[k];
     double& z = grid.z[nearest(grid.y, point[1])][nearest(grid.x, point[0])];
     if (!std::isnan(z))
-      return invalid("{}:{}: a second point at ({:g}, {:g}), must be one", name, lines[k], point[0],
-                     point[1]);
+      return invalid("{}:{}: got a second point at ({:g}, {:g}), expected one", name, lines[k],
+                     point[0], point[1]);
     z = point[2];
   }
   for (std::size_t j = 0; j < rows; ++j)
     for (std::size_t i = 0; i < columns; ++i)
       if (std::isnan(grid.z[j][i]))
-        return invalid("{}: {}, and none at ({:g}, {:g}): a hole, must be a whole rectangle", name,
-                       holds, grid.x[i], grid.y[j]);
+        return invalid(
+            "{}: got {}, and none at ({:g}, {:g}): a hole, expected a complete rectangle", name,
+            holds, grid.x[i], grid.y[j]);
   return grid;
 }
 
 std::string rising_fault(const char* key, const std::vector<double>& values) {
   if (values.size() < least_side)
-    return fmt::format("{} holds {} numbers, must be at least 4", key, values.size());
+    return fmt::format("{}: got {} numbers, expected at least 4", key, values.size());
   for (std::size_t k = 1; k < values.size(); ++k)
     if (!(values[k] > values[k - 1]))
-      return fmt::format("{} must rise, {:g} stands before {:g}", key, values[k - 1], values[k]);
+      return fmt::format("{}: got {:g} before {:g}, expected rising numbers", key, values[k - 1],
+                         values[k]);
   return "";
 }
 
 std::string mesh_fault(const SurfaceData& mesh) {
   MeshBuilder draft(1);
   for (const auto& vertex : mesh.vertices) {
-    if (vertex.size() != 3) return "vertices_mm must be points [x, y, z]";
+    if (vertex.size() != 3) return "vertices_mm: expected points [x, y, z]";
     if (auto added = draft.add_vertex(vertex, "vertices_mm"); !added) return added.error().message;
   }
   for (const auto& [a, b, c] : mesh.triangles)
@@ -220,7 +221,7 @@ Result<SurfaceData> read_ply(std::string_view bytes, const std::string& name, do
       return draft.add_vertex({item.xyz.x(), item.xyz.y(), item.xyz.z()}, item.place(name));
     if (item.element == "face") return draft.add_polygon(item.corners, item.place(name));
     if (item.element == "tristrips")
-      return invalid("{}: strips of triangles, must be faces", item.place(name));
+      return invalid("{}: got strips of triangles, expected faces", item.place(name));
     return {};
   });
   if (!read) return tl::unexpected(read.error());
@@ -250,11 +251,11 @@ std::string surface_fault(const SurfaceData& surface) {
   if (surface.x.size() * surface.y.size() > most_heights)
     return fmt::format("holds more than {} heights", most_heights);
   if (surface.z.size() != surface.y.size())
-    return fmt::format("z_mm holds {} rows, must be one for each of the {} y", surface.z.size(),
+    return fmt::format("z_mm: got {} rows, expected one for each of the {} y", surface.z.size(),
                        surface.y.size());
   for (const auto& row : surface.z)
     if (row.size() != surface.x.size())
-      return fmt::format("z_mm holds a row of {} heights, must be one for each of the {} x",
+      return fmt::format("z_mm: got a row of {} heights, expected one for each of the {} x",
                          row.size(), surface.x.size());
   return "";
 }
@@ -266,7 +267,7 @@ Result<SurfaceData> read_surface(std::string_view bytes, const std::string& name
   if (ending == ".ply") return read_ply(bytes, name, unit_mm);
   if (ending == ".stl") return read_stl(bytes, name, unit_mm);
   return invalid(
-      "{}: its name must end in .csv or .txt (heights x, y, z over a grid), or .obj, .ply "
+      "{}: expected a name that ends in .csv or .txt (heights x, y, z over a grid), or .obj, .ply "
       "or .stl (triangles)",
       name);
 }

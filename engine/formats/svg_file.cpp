@@ -77,7 +77,7 @@ class PathReader {
       if (const auto next = words.command())
         command = *next;
       else if (command == 0 || command == 'Z' || command == 'z')
-        return "a number where a command must be";
+        return "got a number, expected a command";
       if (std::string wrong = follow(command, words); !wrong.empty()) return wrong;
       // further pairs of a move are lines
       if (command == 'M') command = 'L';

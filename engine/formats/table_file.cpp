@@ -34,11 +34,11 @@ class TableReader {
     for (int line = 1; !text.empty(); ++line) TRY_DO(take(next_line(text), line));
     if (counted_) TRY_DO(check_count());
     if (table_.rows() == 0)
-      return invalid("{}: holds no point, must hold one a line, {}", name_, columns_text());
+      return invalid("{}: got no point, expected one per line, {}", name_, columns_text());
     if (table_.rows() > 2 && numbered_ && length_ > wanted_.size() && !table_.by_name)
       return invalid(
-          "{}:{}: the first column counts the rows: which columns are {}? A first line must name "
-          "them",
+          "{}:{}: the first column counts the rows: which columns are {}? Expected a first line "
+          "that names them",
           name_, table_.lines.front(), names_text());
     return std::move(table_);
   }
@@ -150,12 +150,12 @@ class TableReader {
   Result<void> take_count(int number) {
     if (counted_ && table_.rows() + table_.empty_rows == counted_from_)
       return invalid(
-          "{}: a second count of points: a scanner's grid (.ptx)? It must be exported as points, "
-          "one a line (.pts, .xyz, .ply)",
+          "{}: a second count of points: a scanner's grid (.ptx)? Expected points, one a line "
+          "(.pts, .xyz, .ply)",
           place(number));
     const double count = *number_of(cells_[0]);
     if (!(count >= 1 && count <= 1e9))
-      return invalid("{}: a count of {} points, must be from 1 to 1e9", place(number), cells_[0]);
+      return invalid("{}: got a count of {} points, expected 1 to 1e9", place(number), cells_[0]);
     counted_ = true;
     counted_from_ = table_.rows() + table_.empty_rows;
     expected_ = counted_from_ + std::size_t(count);
@@ -225,7 +225,7 @@ class TableReader {
     const bool plain = named.unit.empty() || named.unit == wanted.unit || named.unit == "-" ||
                        (!length && (named.unit == "n" || named.unit == "deg"));
     if ((length && mm > 0) || angle || plain) return {};
-    return invalid("{}: column {} is in '{}', must be in {}", place(line), wanted_[column].name,
+    return invalid("{}: column {}: got '{}', expected {}", place(line), wanted_[column].name,
                    named.unit,
                    length                ? "mm, cm, m, in or ft"
                    : wanted.unit.empty() ? "the unit of its key"
@@ -244,8 +244,8 @@ class TableReader {
     if (cells_.size() != length_ && !split_by_any()) return wrong_length(line);
     if (by_place && looks_like_commas())
       return invalid(
-          "{}: six whole numbers between commas: decimal commas, or further columns? A first line "
-          "must name the columns, or semicolons part them",
+          "{}: six whole numbers between commas: decimal commas, or further columns? Expected a "
+          "first line that names the columns, or semicolons part them",
           place(line));
     for (std::size_t k = 0; k < wanted_.size(); ++k) {
       TRY(value, value_in(cells_[place_[k]], k, line));
@@ -289,8 +289,8 @@ class TableReader {
                                  : length_ > wanted_.size()
                                      ? fmt::format("{}, as in the rows before", length_)
                                      : columns_text();
-    return invalid("{}: holds {} values, must be {}{}", place(line), cells_.size(), expected,
-                   commas ? "; with decimal commas semicolons must part the columns" : "");
+    return invalid("{}: got {} values, expected {}{}", place(line), cells_.size(), expected,
+                   commas ? "; with decimal commas, semicolons separate the columns" : "");
   }
 
   Result<double> value_in(std::string_view cell, std::size_t column, int line) {
@@ -298,7 +298,7 @@ class TableReader {
     if (!words.empty()) {
       const auto found = std::ranges::find(words, cell);
       if (found != words.end()) return double(found - words.begin());
-      return invalid("{}: '{}' is no value of its column, must be {}", place(line),
+      return invalid("{}: got '{}', which is no value of its column, expected {}", place(line),
                      shortened(std::string(cell)), columns_text());
     }
     const auto value =
@@ -306,15 +306,15 @@ class TableReader {
     if (!value) {
       const bool blank = cell.find(' ') != cell.npos;
       const auto got = fmt::format("'{}'", shortened(std::string(cell)));
-      return invalid("{}: {} is no number, must be {}{}", place(line),
+      return invalid("{}: got {}, which is no number, expected {}{}", place(line),
                      cell.empty() ? std::string("an empty cell") : got, columns_text(),
-                     blank ? "; a file must have one sign between its cells throughout" : "");
+                     blank ? "; expected one sign between all cells" : "");
     }
     const bool comma = cell.find(',') != cell.npos, point = cell.find('.') != cell.npos;
     commas_ = commas_ || comma;
     points_ = points_ || point;
     if (commas_ && points_)
-      return invalid("{}: '{}' after numbers with decimal {}, a file must have one decimal sign",
+      return invalid("{}: '{}' after numbers with decimal {}, expected one decimal sign",
                      place(line), cell, comma ? "points" : "commas");
     return *value;
   }

@@ -22,7 +22,7 @@ Result<Eigen::Matrix3Xd> points_on(const ChebyshevNet& net, const Eigen::Matrix2
 
 namespace {
 
-// the series about z = 0 converges for |z| < 2.95; with steps as below the rest is under 1e-17
+// the series about z = 0 converges for |z| < 2.95; with steps as below the remainder is under 1e-17
 constexpr int order = 36;
 using Series = std::array<double, order + 1>;
 

@@ -163,7 +163,7 @@ std::optional<LineKind> Barriers::crossing(const Eigen::Vector3d& p, const Eigen
                                            bool creases_alone) const {
   if (walls_.empty()) return std::nullopt;
   const Eigen::Vector3d way = q - p;
-  // cells of two mean edges along the way
+  // cells of two mean edges along the path
   const int steps = std::max(1, int(std::ceil(2 * way.norm() / height_)));
   const std::vector<int>* before = nullptr;
   for (int k = 0; k <= steps; ++k) {

@@ -58,7 +58,7 @@ bool runs_along(const std::array<int, 3>& triangle, const Edge& edge) {
   return false;
 }
 
-/// Vertices that are used, numbered anew.
+/// Vertices that are used, numbered again.
 Result<Eigen::Matrix3Xd> used_vertices(const Eigen::Matrix3Xd& all, Triangles& triangles) {
   std::vector<int> now(std::size_t(all.cols()), -1);
   std::vector<int> used;

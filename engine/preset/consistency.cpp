@@ -25,11 +25,12 @@ std::span<const RodValue> own_of(const NetworkData& network, int number) {
 std::string put_own(const RodValue& own, Preset& preset) {
   const Field* field = own.key == "diameter_mm" ? nullptr : find_field("rod", own.key);
   if (!field || field->as<Points>(preset))
-    return fmt::format("unknown key '{}', must be points, diameter_mm or another key of [rod]{}",
-                       own.key, did_you_mean(own.key, keys_of("rod")));
+    return fmt::format(
+        "got an unknown key '{}', expected points, diameter_mm or another key of [rod]{}", own.key,
+        did_you_mean(own.key, keys_of("rod")));
   bool* flag = field->as<bool>(preset);
   const bool fits = flag ? own.value == 0 || own.value == 1 : field->range.holds(own.value);
-  if (!fits) return fmt::format("{} = {:g}, must be {}", own.key, own.value, allowed(*field));
+  if (!fits) return fmt::format("{}: got {:g}, expected {}", own.key, own.value, allowed(*field));
   if (flag)
     *flag = own.value == 1;
   else
@@ -92,19 +93,19 @@ std::vector<KeyFault> model_conflicts(const Preset& preset) {
                      "model",
                      -1,
                      {need.label()},
-                     fmt::format("cannot serve {}: {}", need.label(), need.what)});
+                     fmt::format("it cannot compute {}: {}", need.label(), need.what)});
   if (rod_model_of(preset) != RodModel::twist) return found;
   const auto needs = key_faults(preset, RuleKind::needs_twist);
   const KeyFault cause =
-      needs.empty() ? KeyFault{"accuracy", "model", -1, {}, "it is asked for"} : needs.front();
+      needs.empty() ? KeyFault{"accuracy", "model", -1, {}, "the model is given"} : needs.front();
   const auto check = [&](const Rod& rod, const std::string& table) {
     if (rod.shear_GPa == 0 && rod.GJ_Nmm2 == 0)
       found.push_back({cause.table,
                        cause.key,
                        -1,
                        {fmt::format("{} shear_GPa", table)},
-                       fmt::format("twists the rods ({}), and their torsional stiffness is not "
-                                   "known: {} shear_GPa or GJ_Nmm2 must be above 0",
+                       fmt::format("the rods twist: {}; they have no torsional stiffness, expected "
+                                   "{} shear_GPa or GJ_Nmm2 above 0",
                                    cause.what, table)});
   };
   check(preset.rod, "[rod]");

@@ -85,7 +85,7 @@ void add_dynamics(FieldList<Dynamics> list) {
 void add_contact(FieldList<Contact> list) {
   const auto acts = [](const Contact& of) { return of.model == ContactModel::barrier; };
   const auto unless = [&](const char* key, const char* why, auto asked) {
-    list.refused({key}, fmt::format("{}, must be \"none\"", why),
+    list.refused({key}, fmt::format("{}, expected \"none\"", why),
                  [=](const Preset& preset, const Contact& of) {
                    return of.model == ContactModel::barrier && asked(preset);
                  });
@@ -122,20 +122,20 @@ void add_inverse(FieldList<Inverse> list) {
           "space (\"pins_3d\"); lengths of \"legs\"; \"directions\" of tangent ends; \"diameters\" "
           "of rods; empty: no design")
       .refused({"[ends] kind"},
-               "directions are held alone only with [ends] kind = \"tangent\", must not name "
-               "\"directions\"",
+               "directions are prescribed by themselves only with [ends] kind = \"tangent\", "
+               "expected a list without \"directions\"",
                [=](const Preset& preset, const I& of) {
                  return varies(of, Vary::directions) && preset.ends.kind != EndKind::tangent;
                })
       .refused({"[rod] width_mm", "[rod_v] width_mm"},
-               "rectangular rods have no diameters, must not name \"diameters\"",
+               "rectangular rods have no diameters, expected a list without \"diameters\"",
                [=](const Preset& preset, const I& of) {
                  return varies(of, Vary::diameters) &&
                         (preset.rod.rectangular() || preset.rod_v.rectangular());
                })
       .refused(
           {"[footprint] kind"},
-          "the footprint has no net, so there is no surface to meet, must be empty, or "
+          "the footprint has no net, so there is no surface to meet, expected an empty list, or "
           "[footprint] kind = \"net\"",
           [](const Preset& preset, const I& of) { return !of.vary.empty() && !preset.on_net(); });
   const auto designed = [&list]() {
@@ -172,11 +172,10 @@ void add_accuracy(FieldList<Accuracy> list) {
   const char* meshed = "a mesh is asked for";
   list.add<&Accuracy::tolerance>(
           between(1e-9, 1), "largest joint error allowed, over R_o of a circle or rho of a net")
-      .needs_equilibrium(
-          fmt::format("a net is a few hundredths of its radius off, the tolerance must be {} or "
-                      "more",
-                      net_tolerance),
-          [=](const Accuracy& of) { return of.tolerance < net_tolerance; });
+      .needs_equilibrium(fmt::format("a net deviates by a few hundredths of its radius, expected a "
+                                     "tolerance of {} or more",
+                                     net_tolerance),
+                         [=](const Accuracy& of) { return of.tolerance < net_tolerance; });
   list.add<&Accuracy::edges_per_segment>(
           between(0, 64), "edges between two joints of a rod; 0 chooses them from the tolerance")
       .needs_equilibrium(meshed, [](const Accuracy& of) { return of.edges_per_segment > 0; });
@@ -215,8 +214,8 @@ void add_jitter(FieldList<SearchSettings> list) {
           between(0, most_trials),
           "number of random trials; above 0 the run is a search for states and makes no movie")
       .refused({"[indentation] depth", "[indentation] depth_mm", "confined"},
-               "states are looked for of a shell that nothing pushes, must be 0, or the depth of "
-               "[indentation]",
+               "states are searched of a shell that nothing pushes, expected 0, or 0 for the depth "
+               "of [indentation]",
                [](const Preset& preset) {
                  return preset.jitter.wanted() && preset.indentation.wanted();
                });
@@ -292,8 +291,8 @@ void add_experiment_fields(std::vector<Field>& all) {
           "largest stress of a fibre (bending and axial) over the strength at which the run stops "
           "with limit \"strength\"; 0: no limit, it is reported")
       .refused({"[rod] strength_MPa", "[rod] yield_strain"},
-               "utilisation is of a strength, which the rods have none of: [rod] strength_MPa or "
-               "yield_strain must be above 0, those of [rod_v] too where these differ",
+               "the rods have no strength, expected 0, or [rod] strength_MPa or yield_strain above "
+               "0, and of [rod_v] where it differs",
                [](const Preset& preset, const Limits& of) {
                  return of.max_utilisation > 0 &&
                         (preset.rod.fibre_strength_MPa() == 0 ||

@@ -206,7 +206,7 @@ template <class Struct>
 void needs_mass(FieldList<Struct>& list, const char* what, bool (*asks)(const Struct&)) {
   for (const char* table : {"rod", "rod_v"})
     list.refused({fmt::format("[{}] density_kg_m3", table)},
-                 fmt::format("{} needs a mass, [{}] density_kg_m3 must be above 0", what, table),
+                 fmt::format("{} needs a mass, expected [{}] density_kg_m3 above 0", what, table),
                  [=, v = std::string(table) == "rod_v"](const Preset& preset, const Struct& of) {
                    const bool lacks = v ? preset.rod_v.differs && !preset.rod_v.has_mass()
                                         : !preset.rod.has_mass();

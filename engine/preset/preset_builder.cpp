@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "engine/core/text.h"
 #include "engine/preset/consistency.h"
 #include "engine/preset/field_table.h"
 #include "engine/preset/materials.h"
@@ -76,15 +77,20 @@ bool overridden_above(const PresetBuilder& draft, const std::vector<std::string>
   });
 }
 
-/// "[rod] diameter_mm = 20.0: neighbouring rods would touch, ..."
-std::string fault_text(const Preset& preset, const KeyFault& fault, const std::string& more = "") {
+/// "[rod] diameter_mm: got 20.0 (neighbouring rods would touch), expected ...", or of a key without
+/// effect "[net] waist = 0.4 has no effect, leave it out: ..."
+std::string fault_text(const Preset& preset, const KeyFault& fault, bool no_effect = false) {
   // a network or a table may be of thousands of points
   constexpr std::size_t longest = 60;
   auto value = value_text(*find_field(fault.table, fault.key), preset, fault.item);
   // a value from a file is reported with its position there
-  if (value.starts_with('{')) return fmt::format("{}: {}{}", fault.label(), more, fault.what);
+  if (value.starts_with('{'))
+    return fmt::format("{}: {}{}", fault.label(), no_effect ? "has no effect, leave it out: " : "",
+                       fault.what);
   if (value.size() > longest) value.replace(longest - 3, std::string::npos, "...");
-  return fmt::format("{} = {}: {}{}", fault.label(), value, more, fault.what);
+  if (no_effect)
+    return fmt::format("{} = {} has no effect, leave it out: {}", fault.label(), value, fault.what);
+  return got_text(fault.label(), value, fault.what);
 }
 
 // a refused value left its default behind, with which nothing that the user wrote is at odds
@@ -132,8 +138,7 @@ void check_unused_keys(const std::vector<PresetBuilder>& runs, LocatedFaults& fa
       if (overridden_above(draft, one.others, layer) || any_refused(draft, one.others) ||
           is_default(draft, one))
         continue;
-      faults.add(set->second,
-                 fault_text(draft.preset, one, "counts for nothing here, must be left out: "));
+      faults.add(set->second, fault_text(draft.preset, one, true));
     }
 }
 

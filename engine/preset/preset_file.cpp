@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "engine/core/file_io.h"
+#include "engine/core/text.h"
 #include "engine/preset/consistency.h"
 #include "engine/preset/field_table.h"
 #include "engine/preset/sweep_grid.h"
@@ -26,17 +27,17 @@ std::string case_name(const toml::table& table, const std::set<std::string>& tak
   const auto* node = table.get("name");
   const auto place = reading.place_of(node ? node->source() : table.source());
   if (!node) {
-    reading.faults().add(place, "[[case]]: has no name, must have one: name = \"...\"");
+    reading.faults().add(place, "[[case]] name: got none, expected a name: name = \"...\"");
     return "";
   }
   const auto name = node->value<std::string>();
   if (const auto wrong = case_name_fault(name.value_or("")); !wrong.empty()) {
-    reading.faults().add(place, fmt::format("[[case]] name = {}: {}", toml_text(*node), wrong));
+    reading.faults().add(place, got_text("[[case]] name", toml_text(*node), wrong));
     return "";
   }
   if (taken.contains(*name)) {
     reading.faults().add(
-        place, fmt::format("[[case]] name = {}: used twice, must be unique", toml_text(*node)));
+        place, got_text("[[case]] name", toml_text(*node), "used twice, expected a unique name"));
     return "";
   }
   return *name;
@@ -61,7 +62,8 @@ Presets read_presets(const toml::table& root, const std::string& name,
   };
   const auto* node = root.get("case");
   if (node && !node->is_array_of_tables()) {
-    reading.faults().add(reading.place_of(node->source()), "case: must be tables, each [[case]]");
+    reading.faults().add(reading.place_of(node->source()),
+                         "case: got one table or value, expected tables, each [[case]]");
     return presets;
   }
   std::set<std::string> taken;
@@ -147,23 +149,24 @@ std::string case_name_fault(const std::string& name) {
   const auto plain = [](unsigned char c) { return std::isalnum(c) || std::strchr("._-", c); };
   if (name.empty() || !std::isalnum((unsigned char)name.front()) ||
       !std::ranges::all_of(name, plain))
-    return "names a folder, must be letters, digits, '.', '_' or '-' and begin with a letter or "
+    return "the name of a folder, expected letters, digits, '.', '_' or '-' after a letter or "
            "digit";
   if (name.size() > longest_name)
-    return fmt::format("is {} letters long, must be at most {}", name.size(), longest_name);
+    return fmt::format("{} letters, expected at most {}", name.size(), longest_name);
   const auto kind = std::filesystem::path(name).extension().string();
   for (const char* taken : {".csv", ".gif", ".h5", ".journal", ".json", ".mp4", ".pdf", ".png",
                             ".svg", ".toml", ".webm"})
-    if (kind == taken) return fmt::format("must not end in {}, as the files of a run do", kind);
-  if (name == "frames") return "is the folder of a movie's pictures, must be another name";
-  if (name == "segments") return "is the folder of an unfinished run's path, must be another name";
+    if (kind == taken)
+      return fmt::format("a name of a file of a run, expected another ending than {}", kind);
+  if (name == "frames") return "the folder of a movie's pictures, expected another name";
+  if (name == "segments") return "the folder of an unfinished run's path, expected another name";
   return "";
 }
 
 Result<Override> parse_override(const std::string& argument) {
   const auto equals = argument.find('=');
   if (equals == std::string::npos || equals == 0)
-    return invalid("--set {}: must be table.key=value, for example --set footprint.radius_mm=126",
+    return invalid("--set {}: expected table.key=value, for example --set footprint.radius_mm=126",
                    argument);
   const auto trimmed = [](const std::string& text) {
     const auto first = text.find_first_not_of(' ');

@@ -49,11 +49,11 @@ class SweepCheck {
     for (const SweepAxis& axis : sweep_.over) {
       const auto set = draft_.set_at.find(name_of(field_of(axis.key)));
       if (set == draft_.set_at.end() || set->second.layer == ValueLayer::file) continue;
-      faults_.add(
-          set->second,
-          fmt::format(
-              "{}: is swept by [sweep] over, must not be set {} too", name_of(field_of(axis.key)),
-              set->second.layer == ValueLayer::one_case ? "by a case" : "by the command line"));
+      faults_.add(set->second,
+                  fmt::format("{}: is set {} and swept by [sweep] over, expected one of the two",
+                              name_of(field_of(axis.key)),
+                              set->second.layer == ValueLayer::one_case ? "by a case"
+                                                                        : "by the command line"));
     }
   }
 
@@ -136,14 +136,13 @@ void check_sweep(const std::vector<PresetBuilder>& runs, LocatedFaults& faults) 
   };
   const SourceLocation over = sweep.over.empty() ? place("seeds") : place("over");
   if (const double count = combinations(sweep) * double(runs.size()); count > most_runs)
-    return faults.add(
-        over, fmt::format("[sweep] over: comes to {:.0f} runs, must be at most {:.0f}", count,
-                          most_runs));
+    return faults.add(over, fmt::format("[sweep] over: got {:.0f} runs, expected at most {:.0f}",
+                                        count, most_runs));
   std::map<std::string, std::string> idle;  // until a point uses them
   for (const SweepAxis& axis : sweep.over) idle[name_of(field_of(axis.key))] = "";
   const char* drawn = "[imperfection] seed";
   if (sweep.seeds > 1 && idle.contains(drawn))
-    faults.add(over, fmt::format("[sweep] seeds = {}: {} is swept too, must be one of the two",
+    faults.add(over, fmt::format("[sweep] seeds = {}: {} is swept too, expected one of the two",
                                  sweep.seeds, drawn));
   if (sweep.seeds > 1) idle[drawn] = "";
   for (const PresetBuilder& run : runs) {

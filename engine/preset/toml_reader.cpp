@@ -53,7 +53,7 @@ std::string hint(const std::string& table, const std::string& name) {
     if (field.key == name)
       return fmt::format("; did you mean '{}{}{}'?", field.table, field.table.empty() ? "" : ".",
                          name);
-  return fmt::format(", must be one of {}", fmt::join(here, ", "));
+  return fmt::format(", expected one of {}", fmt::join(here, ", "));
 }
 
 constexpr std::int64_t most_values = 100000;
@@ -114,7 +114,7 @@ class AxisReader {
     const std::size_t before = faults_.size();
     field_ = find_field(entry_.table, entry_.key);
     if (in_list(entry_.name())) {
-      refuse(*entry_.value, "stands in each item of a list, must be a key that stands once");
+      refuse(*entry_.value, "each item of a list has this key, expected a key that exists once");
     } else if (!field_) {
       std::vector<std::string> names;
       for (const auto& field : field_table())
@@ -122,14 +122,14 @@ class AxisReader {
           names.push_back(field.table + "." + field.key);
       refuse(*entry_.value, "unknown key" + did_you_mean(entry_.name(), names));
     } else if (!affects_results(entry_.table)) {
-      refuse(*entry_.value, "changes no number of a run, must be a key of another table");
+      refuse(*entry_.value, "no number of a run depends on it, expected a key of another table");
     } else if (const auto* list = entry_.value->as_array()) {
-      if (list->empty()) refuse(*list, "is empty, must hold values");
+      if (list->empty()) refuse(*list, "an empty list, expected values");
       for (const auto& value : *list) take(value);
     } else if (const auto* range = entry_.value->as_table()) {
       take_range(*range);
     } else {
-      refuse(*entry_.value, "must be a list of values or { from, to, count }");
+      refuse(*entry_.value, "expected a list of values or { from, to, count }");
     }
     if (faults_.size() > before) return std::nullopt;
     return SweepAxis{entry_.name(), std::move(values_)};
@@ -139,9 +139,8 @@ class AxisReader {
   void refuse(const toml::node& value, const std::string& why) {
     const auto& region = value.source();
     // a computed value has no position in the file
-    faults_.push_back(
-        {region.begin.line > 0 ? region : entry_.place,
-         fmt::format("[sweep.over] {} = {}: {}", entry_.name(), toml_text(value), why)});
+    faults_.push_back({region.begin.line > 0 ? region : entry_.place,
+                       got_text("[sweep.over] " + entry_.name(), toml_text(value), why)});
   }
 
   void take(const toml::node& value) {
@@ -150,7 +149,7 @@ class AxisReader {
       return refuse(value, wrong);
     auto text = value_text(*field_, preset);
     if (!taken_.insert(text).second)
-      return refuse(value, "stands there twice, must be another value");
+      return refuse(value, "in the list twice, expected another value");
     values_.push_back(std::move(text));
   }
 
@@ -158,17 +157,17 @@ class AxisReader {
     static const std::vector<std::string> known{"from", "to", "count", "log"};
     for (const auto& [key, value] : range)
       if (const std::string name(key.str()); std::ranges::find(known, name) == known.end())
-        return refuse(range, fmt::format("has no '{}'{}, must be {{ from, to, count }}", name,
+        return refuse(range, fmt::format("unknown '{}'{}, expected {{ from, to, count }}", name,
                                          did_you_mean(name, known)));
     const auto from = range["from"].value<double>(), to = range["to"].value<double>();
     const auto count = range["count"].as_integer();
     const bool log = range["log"].value_or(false);
     if (!from || !to || !count || !std::isfinite(*from) || !std::isfinite(*to))
-      return refuse(range, "must be { from = a number, to = a number, count = an integer }");
+      return refuse(range, "expected { from = a number, to = a number, count = an integer }");
     if (count->get() < 2 || count->get() > most_values)
-      return refuse(range, fmt::format("count must be from 2 to {}", most_values));
+      return refuse(range, fmt::format("count: expected 2 to {}", most_values));
     if (range.contains("log") && !range["log"].is_boolean())
-      return refuse(range, "log must be true or false");
+      return refuse(range, "log: expected true or false");
     if (log && !(*from > 0 && *to > 0)) return refuse(range, "even factors need numbers > 0");
     for (std::int64_t k = 0; k < count->get(); ++k) {
       const double part = double(k) / double(count->get() - 1);
@@ -183,7 +182,7 @@ class AxisReader {
     Preset any = default_items();
     if (!field_->as<int>(any)) return take(toml::value<double>(value));
     if (value != std::round(value) || std::abs(value) > 1e9)
-      return refuse(range, fmt::format("comes to {}, must be {}", value, allowed(*field_)));
+      return refuse(range, fmt::format("gives {}, expected {}", value, allowed(*field_)));
     take(toml::value<std::int64_t>(std::int64_t(value)));
   }
 
@@ -238,9 +237,8 @@ void TomlReader::apply_override(const Override& change, PresetBuilder& draft) {
   const auto name = top ? change.key : change.key.substr(dot + 1);
   const auto value = override_value(change.value);
   if (!top && !is_table_name(table))
-    faults_.add({override_},
-                fmt::format("[{}] {} = {}: unknown table{}", table, name,
-                            toml_text(*value.get("x")), did_you_mean(table, table_names())));
+    faults_.add({override_}, fmt::format("[{}] {}: unknown table{}", table, name,
+                                         did_you_mean(table, table_names())));
   else
     assign_key(table, toml::key(name), *value.get("x"), draft);
   override_.clear();
@@ -256,8 +254,7 @@ void TomlReader::override_item(const std::string& list, const Override& change,
   const auto [end, wrong] = std::from_chars(rest.data(), rest.data() + dot, item);
   if (wrong != std::errc() || end != rest.data() + dot || item < 1 || item > items)
     return faults_.add({override_},
-                       fmt::format("{}: of {} [[{}]] must name one by its number, as "
-                                   "{}.1.{}",
+                       fmt::format("{}: got {} [[{}]], expected the number of one, as {}.1.{}",
                                    change.key, items, list, list, keys_of(list).front()));
   const auto value = override_value(change.value);
   assign_key(list, toml::key(dot < rest.size() ? rest.substr(dot + 1) : ""), *value.get("x"), draft,
@@ -269,7 +266,7 @@ void TomlReader::read_items(const std::string& name, const toml::key& key, const
                             PresetBuilder& draft) {
   if (!value.is_array_of_tables()) {
     faults_.add(place_of(key.source()),
-                fmt::format("{}: must be tables, each [[{}{}]]", name,
+                fmt::format("{}: expected tables, each [[{}{}]]", name,
                             layer_ == ValueLayer::one_case ? "case." : "", name));
     return;
   }
@@ -296,7 +293,7 @@ void TomlReader::read_table(const toml::key& key, const toml::node& value, Prese
       else
         assign_key(name, inner, item, draft);
   } else {
-    faults_.add(place, fmt::format("{} = {}: is a table, must hold keys: {}", name,
+    faults_.add(place, fmt::format("{}: got {}, expected a table of keys: {}", name,
                                    toml_text(value), fmt::join(keys_of(name), ", ")));
   }
 }
@@ -314,14 +311,14 @@ void TomlReader::assign_key(const std::string& table, const toml::key& key, cons
   const auto* field = find_field(table, name);
   const auto full = key_label(table, name, item);
   if (!field) {
-    faults_.add(place_of(key.source()),
-                fmt::format("{} = {}: unknown key{}", full, toml_text(value), hint(table, name)));
+    faults_.add(place_of(key.source()), fmt::format("{}: unknown key{}", full, hint(table, name)));
     return;
   }
   const auto place = place_of(value.source());
   if (table == "sweep" && place.layer == ValueLayer::one_case) {
-    faults_.add(place, fmt::format("{} = {}: stands outside of cases: a sweep runs all of them",
-                                   full, toml_text(value)));
+    faults_.add(
+        place,
+        full + ": got a key of a case, expected one outside of cases: a sweep runs all of them");
     return;
   }
   if (value.is_table() && field->as<std::vector<SweepAxis>>(draft.preset)) {
@@ -345,7 +342,7 @@ void TomlReader::assign_key(const std::string& table, const toml::key& key, cons
       draft.take_material(table);
   } else {
     draft.faulty.insert(full);
-    faults_.add(place, fmt::format("{} = {}: {}", full, toml_text(value), wrong));
+    faults_.add(place, got_text(full, toml_text(value), wrong));
   }
 }
 
@@ -359,7 +356,7 @@ void TomlReader::read_files(PresetBuilder& draft) {
     for (const std::string& note : report.notes) draft.notes.push_back(full + ": " + note);
     if (wrong.empty()) continue;
     draft.faulty.insert(full);
-    faults_.add(draft.set_at.at(full), fmt::format("{} = {}: {}", full, toml_text(value), wrong));
+    faults_.add(draft.set_at.at(full), full + ": " + wrong);  // names the file
   }
   // values that were read are stored in the preset in mm
   if (draft.files.contains(key_label("footprint", "file")) ||

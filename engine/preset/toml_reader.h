@@ -33,7 +33,7 @@ bool is_list_name(const std::string& name);
 /// What is wrong with a part of a table, and where.
 struct AxisFault {
   toml::source_region place;
-  std::string text;  ///< "[sweep.over] rod.diameter_mm = "x": is a string, must be a number > 0"
+  std::string text;  ///< "[sweep.over] rod.diameter_mm: got "x" (a string), expected a number > 0"
 };
 
 // Applies TOML to presets and collects the errors.

@@ -198,7 +198,7 @@ Result<void> check_frame(const Layout& layout, const Frame& frame, std::size_t k
     const Eigen::Index values =
         Values::RowsAtCompileTime == 3 ? (frame.*field).cols() : (frame.*field).size();
     if (const Eigen::Index wanted = size_of(layout); fits && values != 0 && values != wanted)
-      fits = invalid("frame {} has {} values of {}, must be {}", k, values, name + 1, wanted);
+      fits = invalid("{2} of frame {0}: got {1} values, expected {3}", k, values, name + 1, wanted);
   });
   return fits;
 }

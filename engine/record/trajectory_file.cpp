@@ -114,7 +114,7 @@ Result<Trajectory> read_checked(const std::filesystem::path& path) {
   const bool open = times_open(path) > 1;  // once by who asks
   const auto file = std::make_shared<hdf5::Reader>(path);
   if (!file->good())
-    return refuse(open ? "it is open in this process (by h5py?), and must be closed there first"
+    return refuse(open ? "it is open in this process (by h5py?): close it there first"
                        : "it is cut short or damaged");
   if (file->text_attribute("/", "format") != trajectory_format)
     return refuse(fmt::format("it does not say \"{}\"", trajectory_format));

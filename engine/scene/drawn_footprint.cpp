@@ -195,7 +195,7 @@ Result<void> check_diameters(const preset::Preset& preset, const Footprint& foot
     const double across = rod.rectangular() ? rod.width_mm : rod.diameter_mm;
     if (!(across < footprint.spacing))
       return invalid(
-          "rods[{}]: a {} of {:g} mm, must be less than the usual distance of {:g} mm "
+          "rods[{}]: got a {} of {:g} mm, expected less than the usual distance of {:g} mm "
           "between joints{}",
           drawn.number, rod.rectangular() ? "width" : "diameter", across, footprint.spacing,
           across < 500 * footprint.spacing

@@ -58,8 +58,8 @@ Result<NetDesign> translation(const preset::Net& wanted) {
   const Eigen::Vector3d across = (y.rightCols<1>() - y.leftCols<1>()).normalized();
   if (!(along.cross(across).z() > 0))
     return invalid(
-        "curve_v of the translation net must run to the left of curve_u as seen from "
-        "above: swap them, or turn one round");
+        "curve_v of the translation net: got a curve to the right, expected one to the left of "
+        "curve_u as seen from above: swap them, or turn one round");
   NetDesign design;
   auto net = std::make_shared<TranslationNet>(std::move(*made));
   design.domain = all_of(*net);

@@ -123,12 +123,13 @@ Result<void> apply_ends_table(const preset::Points& table, Scene& scene) {
       return wrong("the footprint has no such end that is held");
     if (seen[name] == found->second.size()) return wrong("named more often than it is there");
     const Eigen::Index k = found->second[seen[name]++];
-    if (!(row[6] > 0)) return wrong("the leg must be longer than 0 mm");
+    if (!(row[6] > 0)) return wrong("got a leg without length, expected above 0 mm");
     ends.at.col(k) << row[3], row[4], row[5];
     ends.leg[k] = row[6];
     if (!holds_direction(hold_of(scene, k))) continue;
     const Eigen::Vector3d along(row[7], row[8], row[9]);
-    if (!(along.norm() > 1e-6)) return wrong("tx, ty, tz must be a direction, as it is held");
+    if (!(along.norm() > 1e-6))
+      return wrong("tx, ty, tz: got no direction, expected that of the prescribed end");
     ends.direction.col(k) = along.normalized();
   }
   apply_ends(ends, scene);

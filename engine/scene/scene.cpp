@@ -80,10 +80,9 @@ Result<std::vector<preset::Rod>> rods_of(const preset::Preset& preset, const Foo
       return invalid("[rod] table: {}-rod {:g}: {}", row[0] == 0 ? "u" : "v", row[1], what);
     };
     if (!(row[2] > 0 && row[2] < preset.footprint.spacing_mm))
-      return wrong(
-          fmt::format("a diameter of {:g} mm, must be above 0 and less than "
-                      "[footprint] spacing_mm = {:g}",
-                      row[2], preset.footprint.spacing_mm));
+      return wrong(fmt::format(
+          "got a diameter of {:g} mm, expected above 0 and less than [footprint] spacing_mm = {:g}",
+          row[2], preset.footprint.spacing_mm));
     // of several rods on one line the first row belongs to the first rod
     std::size_t at = 0;
     while (at < rods.size() &&
@@ -279,8 +278,8 @@ Result<void> check_crossings(Scene& scene) {
     FootprintJoint& here = footprint.joints[std::size_t(joint)];
     if (law.shear_Nmm == 0 && law.twist_Nmm == 0 && here.eccentricity == 0) continue;
     if (here.eccentricity != 0 && rods[std::size_t(joint)].size() > 2)
-      return invalid("joint [{}, {}]: {} rods cross there, an eccentricity must be of two", here.i,
-                     here.j, rods[std::size_t(joint)].size());
+      return invalid("joint [{}, {}]: {} rods cross there, expected two for an eccentricity",
+                     here.i, here.j, rods[std::size_t(joint)].size());
     if (rods[std::size_t(joint)].front()->number > rods[std::size_t(joint)].back()->number)
       here.eccentricity *= -1;
     for (const FootprintRod* a : rods[std::size_t(joint)])
@@ -289,8 +288,8 @@ Result<void> check_crossings(Scene& scene) {
                               s = way_through(*b, joint).normalized();
         if (a < b && t.cross(s).norm() < 1e-3)
           return invalid(
-              "joint [{}, {}]: rods[{}] and rods[{}] run alike there, must cross, as the "
-              "joint holds them by the angle between them",
+              "joint [{}, {}]: rods[{}] and rods[{}] have equal directions there, expected rods "
+              "that cross, as the joint holds them by the angle between them",
               here.i, here.j, a->number, b->number);
       }
   }
@@ -326,8 +325,8 @@ Result<void> put_laws(const preset::Preset& preset, Scene& scene) {
   for (std::size_t r = 0; scene.drawn_in_space && r < scene.rods.materials.size(); ++r)
     if (scene.rods.materials[r].as_drawn && scene.footprint.rods[r].closed())
       return invalid(
-          "[rod] as_drawn: rods[{}] is a ring drawn in space, whose section comes round "
-          "turned: a rod that is cut so must have two ends",
+          "[rod] as_drawn: rods[{}] is a ring drawn in space, whose section is rotated after one "
+          "turn, expected a rod with two ends",
           scene.footprint.rods[r].number);
   for (const auto& row : preset.footprint.file.joint_laws) {
     if (row[0] == preset::every_joint) {
@@ -338,8 +337,7 @@ Result<void> put_laws(const preset::Preset& preset, Scene& scene) {
     const int joint = joint_at(scene.footprint, int(row[0]), 0);
     if (joint < 0)
       return invalid(
-          "[footprint] file: joints: no rods are joined at point {:g}, a law must be of a "
-          "joint",
+          "[footprint] file: joints: got point {:g}, where no rods are joined, expected a joint",
           row[0]);
     scene.rods.own_joints[joint] = {scene.rods.joints.spring_N_per_mm, stiffness(row[1]),
                                     stiffness(row[2])};
@@ -347,7 +345,7 @@ Result<void> put_laws(const preset::Preset& preset, Scene& scene) {
     if (row[3] != 0 && scene.rods.joints.spring_N_per_mm > 0)
       return invalid(
           "[footprint] file: joints: the axes at point {:g} lie apart and are held by a "
-          "bolt, [joints] kind must be \"shared\"",
+          "bolt, expected [joints] kind = \"shared\"",
           row[0]);
     scene.footprint.joints[std::size_t(joint)].eccentricity = row[3];
   }

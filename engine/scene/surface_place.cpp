@@ -69,7 +69,7 @@ Result<NetPlace> place_of(const preset::Net& wanted, const Surface& surface,
   if (up.z() < 0) up = -up;
   if (!(up.z() > steepest))
     return invalid(
-        "[net] apex_mm: the surface is upright there, it must face up where the net begins");
+        "[net] apex_mm: got a point where the surface is upright, expected one where it faces up");
   Eigen::Vector3d along = bent.axes.col(0);
   if (wanted.axis == preset::NetAxis::x || bent.umbilic)
     along = (Eigen::Vector3d::UnitX() - up.x() * up).normalized();

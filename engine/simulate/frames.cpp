@@ -18,7 +18,7 @@ namespace gridshell::simulate {
 namespace {
 
 constexpr int most_frames_in_motion = 24;
-constexpr double still_move = 0.01;  // of d: nearer to the rest nothing is seen to move
+constexpr double still_move = 0.01;  // of d: nearer to the equilibrium no motion is seen
 
 Eigen::VectorXd curvature(const Simulation& simulation, int level) {
   const NestedShell& shell = simulation.shell();

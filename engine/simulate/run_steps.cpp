@@ -261,8 +261,7 @@ Result<void> check_steps(const std::vector<preset::Step>& steps, const Footprint
     }
     if (one ? !held.contains(step.joint) : held.empty())
       return invalid(
-          "[[step]] {}: no joint is fixed that could be released: a step before it "
-          "must push or hold it",
+          "[[step]] {}: got no prescribed joint, expected a step \"push\" or \"hold\" before it",
           k + 1);
     if (one)
       held.erase(step.joint);

@@ -71,8 +71,8 @@ Result<Goal> goal_of(const Simulation& simulation, const preset::Step& step) {
         joint_normal(simulation.scene().footprint, simulation.shell(), *joint);
     if (normal.isZero(0))
       return invalid(
-          "no two rods cross at the joint, so the shell has no normal there: to_mm must "
-          "say where it goes");
+          "the shell has no normal at the joint, where no two rods cross, expected a target in "
+          "to_mm");
     way = -step.depth_mm * normal;
   }
   Goal goal{*joint, at + way, Eigen::Vector3d::UnitZ(), false};

@@ -18,7 +18,7 @@ Result<Eigen::Matrix3Xd> lumped_mass(const Model& model, const std::vector<doubl
     if (!(mass > 0))
       return fail(Fault::bad_input,
                   fmt::format("{} t/mm: motion in time needs a mass of all rods, [rod] "
-                              "density_kg_m3 must be above 0",
+                              "expected density_kg_m3 above 0",
                               mass));
   Eigen::Matrix3Xd mass = Eigen::Matrix3Xd::Zero(3, model.columns());
   mass.leftCols(on_nodes.size()).rowwise() += on_nodes;

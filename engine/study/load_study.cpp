@@ -235,7 +235,7 @@ Result<void> put_case(Simulation& simulation, const LoadCase& load, int imperfec
 
 Result<void> check_cases(std::size_t cases) {
   if (cases > 0) return {};
-  return invalid("there is nothing to carry: [[loads.case]] must name a case");
+  return invalid("got no load, expected a [[loads.case]]");
 }
 
 }  // namespace

@@ -105,7 +105,7 @@ Result<void> check(const PanelFigure& figure) {
     return invalid("the picture is too small for its panels: it takes more of [movie] size");
   for (const Panel& panel : figure.panels)
     if (panel.picture.width != first.width || panel.picture.height != first.height)
-      return invalid("panels of a figure must be of one size: {} x {} and {} x {}", first.width,
+      return invalid("panels of a figure: expected one size, got {} x {} and {} x {}", first.width,
                      first.height, panel.picture.width, panel.picture.height);
   return {};
 }

@@ -23,7 +23,7 @@ constexpr int most_samples = 16, most_passes = 4096, largest_picture = 65536;
 
 Result<void> check(const DrawQuality& quality, int width, int height) {
   if (width < 1 || height < 1 || width > largest_picture || height > largest_picture)
-    return invalid("a picture of {} x {} pixels: each must be 1 to {}", width, height,
+    return invalid("size: got {} x {} pixels, expected 1 to {} each", width, height,
                    largest_picture);
   if (quality.supersample < 1 || quality.supersample > most_samples)
     return invalid("supersample = {}: 1 to {}", quality.supersample, most_samples);

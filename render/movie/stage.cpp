@@ -208,11 +208,9 @@ std::vector<std::string> lines_of_event(const Canvas& canvas, const std::string&
 
 Result<void> check_size(const MovieStyle& style) {
   if (style.width() < 16 || style.height() < 16 || style.width() > 16384 || style.height() > 16384)
-    return invalid(
-        "a picture of {} x {} pixels cannot be made: both "
-        "sides must be 16 to 16384",
-        style.width(), style.height());
-  if (!(style.zoom > 0)) return invalid("the camera's zoom must be above 0");
+    return invalid("size: got {} x {} pixels, expected 16 to 16384 for both", style.width(),
+                   style.height());
+  if (!(style.zoom > 0)) return invalid("[movie] zoom: expected above 0");
   return {};
 }
 

@@ -300,7 +300,7 @@ TEST_CASE("usage errors exit with 2, help with 0") {
     INFO(wrong);
     CHECK(gridshell_program(wrong, folder).code == 2);
   }
-  check_refused({"run", "s1_actuation", "-o", ""}, folder, Contains("must name a folder"));
+  check_refused({"run", "s1_actuation", "-o", ""}, folder, Contains("expected a folder"));
   good("--help", folder);
   good("movie --help", folder);
   CHECK(folder.entries().empty());
@@ -353,7 +353,8 @@ TEST_CASE("report puts a run into one PDF, with what it carries and how it sways
   bench.good("report out/light --to light.pdf");
   check_refused("report out/small --to out/small/report.pdf", bench.at,
                 Contains("choose a folder outside it"));
-  check_refused("report out/small --to report.txt", bench.at, Contains("must end in .pdf"));
+  check_refused("report out/small --to report.txt", bench.at,
+                Contains("expected a name that ends in .pdf"));
   check_refused("report out/none", bench.at, Contains("out/none"));
 }
 

@@ -289,7 +289,7 @@ TEST_CASE("a shell is saved under a name, exported, and compared with a run", "[
   CHECK_THAT(text_of(folder / "deep/all.xdmf"), Contains("all_run/trajectory.h5:/nodes"));
   CHECK(fs::exists(folder / "deep/all_run/trajectory.h5"));
   CHECK_THAT(message_of(played(folder, "do export\n" + entered("deep/all.xyz"))),
-             Contains("must be one of .csv .dxf .glb .html .obj .pvd .vtp .xdmf .svg .pdf"));
+             Contains("expected one of .csv .dxf .glb .html .obj .pvd .vtp .xdmf .svg .pdf"));
   // a scan's joints, as `scan` writes them
   REQUIRE(write_file(folder / "scanned/scan.csv",
                      "i,j,x_mm,y_mm,z_mm,distance_mm,distance_radii\n0,0,0,0,99,,\n1,0,,,,,\n"));

@@ -86,7 +86,7 @@ def test_what_is_no_run_says_so(small_run, tmp_path):
     for folder in (tmp_path, tmp_path / "missing"):
         with pytest.raises(gs.BadInput, match="is no run"):
             gs.load(folder)
-    with pytest.raises(gs.BadInput, match="case must be one of"):
+    with pytest.raises(gs.BadInput, match="case: expected one of"):
         gs.load(small_run, case="third")
     with pytest.raises(TypeError):
         gs.load(None)

@@ -230,7 +230,7 @@ TEST_CASE("rods have the diameters of their table, and what is wrong with it is 
   };
   refused({{0, 99, 0.3}}, "no such rod");
   refused({{0, 0, 0.3}, {0, 0, 0.3}}, "more often than it is there");
-  refused({{1, 0, -0.3}}, "must be above 0");
+  refused({{1, 0, -0.3}}, "expected above 0");
   refused({{1, 0, 30}}, "less than [footprint] spacing_mm");
 }
 

@@ -59,7 +59,7 @@ TEST_CASE("footprint: what makes no sense is refused with its reason") {
   CHECK(
       message(100, 12, 20, Placement::half) ==
       "12 rods a direction at d = 20 mm reach 110 mm, beyond the boundary: the longest leg R_o/d - "
-      "(n-1)/2 = -0.5 must be above 0; take R_o >= 110.02 mm or n <= 10");
+      "(n-1)/2: got -0.5, expected above 0; take R_o >= 110.02 mm or n <= 10");
   // the outermost rods of each family are outside the reach of all others
   CHECK(
       message(50.5, 6, 20, Placement::half) ==

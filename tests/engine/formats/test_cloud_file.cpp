@@ -90,12 +90,12 @@ TEST_CASE("rows that may be read in two ways are refused") {
              Catch::Contains("a.xyz:1: the first column counts the rows"));
   CHECK_THAT(fault_of("2\n2\n0 0 0\n", "a.txt"), Catch::Contains("a.txt:2: a second count"));
   CHECK(fault_of("1 2 3 9 9\n4 5 6 9\n", "a.xyz") ==
-        "a.xyz:2: holds 4 values, must be 5, as in the rows before");
+        "a.xyz:2: got 4 values, expected 5, as in the rows before");
 }
 
 TEST_CASE("what is no cloud is refused with its position") {
-  const std::string numbers = ", must be 3 numbers: x, y, z",
-                    none = "a.xyz: holds no point, must hold one a line, 3 numbers: x, y, z";
+  const std::string numbers = ", expected 3 numbers: x, y, z",
+                    none = "a.xyz: got no point, expected one per line, 3 numbers: x, y, z";
   CHECK(fault_of("", "a.xyz") == none);
   CHECK(fault_of("x y z\n", "a.xyz") == none);
   CHECK(fault_of("1 2\n", "a.xyz") == "a.xyz:1: holds 2 values" + numbers);
@@ -103,13 +103,13 @@ TEST_CASE("what is no cloud is refused with its position") {
   CHECK(fault_of("1 2 3\n1 2 inf\n", "a.csv") == "a.csv:2: 'inf' is no number" + numbers);
   CHECK(fault_of("1 2 3\nfoo 2 3\n", "a.csv") == "a.csv:2: 'foo' is no number" + numbers);
   CHECK(fault_of("1 2 3e10\n", "a.csv") ==
-        "a.csv:1: a coordinate is too large, must be a number of at most 1e9");
+        "a.csv:1: got a coordinate that is too large, expected a number of at most 1e9");
   CHECK(fault_of("u,v\n1,2\n", "a.csv") ==
         "a.csv:1: names columns 'u', 'v', of which x, y, z are missing (a remark begins with #)");
   CHECK(fault_of("1 2 3\n", "a.obj") ==
-        "a.obj: its name must end in .ply, .xyz, .txt, .asc, .csv or .pts");
+        "a.obj: expected a name that ends in .ply, .xyz, .txt, .asc, .csv or .pts");
   CHECK(fault_of("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n",
                  "a.ply") ==
-        "a.ply: vertex 1: a coordinate is not a number, must be a number of at most 1e9");
+        "a.ply: vertex 1: got a coordinate that is not a number, expected a number of at most 1e9");
   CHECK(fault_of("ply\nformat ascii 1.0\nend_header\n", "a.ply") == "a.ply: holds no point");
 }

@@ -140,7 +140,8 @@ TEST_CASE("what is no whole drawing is refused") {
   CHECK(refused(whole.substr(0, whole.find("11\n1") + 5)) ==
         "d.dxf: ends within its section ENTITIES: is it cut short?");
   CHECK(refused("AutoCAD Binary DXF\r\n\x1a") ==
-        "d.dxf: a binary DXF, must be saved as text (ASCII)");
-  CHECK(refused("AC1032") == "d.dxf: a DWG, must be saved as DXF");
-  CHECK(refused("hello\nworld\n") == "d.dxf:1: is no DXF text, must be a code and a value in turn");
+        "d.dxf: got a binary DXF, expected text: save it as ASCII DXF");
+  CHECK(refused("AC1032") == "d.dxf: got a DWG, expected a DXF: save it as one");
+  CHECK(refused("hello\nworld\n") ==
+        "d.dxf:1: got no DXF text, expected a code and a value in turn");
 }

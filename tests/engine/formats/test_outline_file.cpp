@@ -130,5 +130,5 @@ TEST_CASE("what is no outline is refused with its position") {
   CHECK_THAT(refused(svg("<g transform=\"fold(3)\"/>"), "a.svg"), Contains("is not understood"));
   CHECK_THAT(refused(svg(""), "a.svg"), Contains("no closed outline, and no line"));
   CHECK_THAT(refused("<svg", "a.svg"), Contains("a tag does not end"));
-  CHECK_THAT(refused("", "plan.pdf"), Contains("must end in .dxf, .svg or .obj"));
+  CHECK_THAT(refused("", "plan.pdf"), Contains("ends in .dxf, .svg or .obj"));
 }

@@ -156,7 +156,7 @@ TEST_CASE("parts that do not fit each other are neither written nor read") {
   CHECK(refused([](Trajectory& run) { run.frames.edit()[0].cell_K.resize(0); }) ==
         "frame 0 has 0 values of cell_K for 1 cells");
   CHECK(refused([](Trajectory& run) { run.frames.edit()[2].axial_force_N.resize(11); }) ==
-        "frame 2 has 11 values of axial_force_N, must be 12");
+        "axial_force_N of frame 2: got 11 values, expected 12");
   CHECK(refused([](Trajectory& run) { run.layout.families.pop_back(); }) ==
         "3 families are named for 4 rods");
   CHECK(refused([](Trajectory& run) { run.layout.actuated_boundary.resize(3, 4); }) ==

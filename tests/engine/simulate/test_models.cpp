@@ -105,7 +105,8 @@ TEST_CASE("loads on the bend model are those of the twist model, and lower the s
   p.loads.points = {{7, 0, 0, 0, 1}};
   CHECK_THAT(
       refused_run(p),
-      Catch::StartsWith("[loads] points: the footprint has no joint [7, 0], must be one of its "));
+      Catch::StartsWith(
+          "[loads] points: got [7, 0], which is no joint, expected one of the footprint's "));
 }
 
 TEST_CASE("spring joints converge to the shared ones as they stiffen, on both rod models") {

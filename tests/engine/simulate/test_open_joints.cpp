@@ -170,7 +170,7 @@ TEST_CASE("one joint opens all rhombi, and what is wrong with a step is reported
   p.step[0].angles = {{12, 0, 70}, {12, 0, 80}};
   CHECK_THAT(refused_run(p), Catch::Contains("[12, 0] stands there twice"));
   p.step = {opened(179.5, 100)};
-  CHECK_THAT(refused_run(p), Catch::Contains("must be between 1 and 179"));
+  CHECK_THAT(refused_run(p), Catch::Contains("expected 1 to 179"));
   p.step = {opened(60, 100), opened(70, 200)};
   CHECK_THAT(refused_run(p), Catch::Contains("bolts of another stiffness"));
 }

@@ -173,7 +173,7 @@ TEST_CASE("what is made stiff too early, or is not there, is named") {
   Simulation flat = value_of(Simulation::open(scene, plan_levels(1e-2)));
   CHECK(flat.begin_flat().end == Outcome::reached);
   CHECK_THAT(refusal(apply_step(flat, step(StepKind::tighten), unwatched), Fault::bad_input),
-             Catch::Contains("must be formed"));
+             Catch::Contains("expected a formed shell"));
   preset::Preset p = loaded_shell();
   p.step = {step(StepKind::brace)};
   p.step[0].cells = {{40, 2}};

@@ -11,7 +11,7 @@
 
 namespace gridshell::test {
 
-/// While it lives, it is told of every canvas that is finished.
+/// While it lives, it gets every canvas that is finished.
 struct CanvasObserver {
   explicit CanvasObserver(std::function<void(const render::Canvas&)> told) {
     render::Canvas::on_finished = std::move(told);
@@ -21,7 +21,7 @@ struct CanvasObserver {
   CanvasObserver& operator=(const CanvasObserver&) = delete;
 };
 
-/// All words lie on the canvas, and no two over one another, nor, where that is asked for, over a
+/// All words lie on the canvas, and no two over one another, nor, where that is requested, over a
 /// marker.
 inline void check_apart(const render::Canvas& canvas, bool off_markers = false) {
   const std::vector<render::Box>& boxes = canvas.text_boxes();

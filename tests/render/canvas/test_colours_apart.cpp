@@ -1,4 +1,5 @@
-// Colours that tell things apart do so for readers with any of the three kinds of colour blindness.
+// Colours that distinguish things do so for readers with any of the three kinds of colour
+// blindness.
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 

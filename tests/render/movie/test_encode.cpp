@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Six frames at 20 a second, the last one held, after a title.
+/// Six frames at 20 a second, the last one repeated, after a title.
 preset::Movie of_size(int width, int height) {
   preset::Movie timing;
   timing.frames = 6;
@@ -203,7 +203,7 @@ TEST_CASE("a movie made while its frames are drawn is that of the frames, to the
 
 TEST_CASE("without ffmpeg no movie is in the making, and one that stops reading is an error") {
   const TemporaryFolder folder;
-  const Image large(800, 600);  // more than a socket holds
+  const Image large(800, 600);  // more than a socket contains
   {
     const FakeFfmpeg none("");
     const auto movie = value_of(MovieEncoder::begin("frames", of_size(800, 600), folder / "m.mp4"));

@@ -20,7 +20,7 @@ MovieStyle small(int width = 160, int height = 120) {
   return style;
 }
 
-/// Of a run in memory.
+/// The frames of a run in memory.
 Result<void> write(const record::Trajectory& run, Renderer& renderer,
                    const std::filesystem::path& folder, Watch& watch,
                    const FrameCallback& on_frame = {}) {

@@ -1,4 +1,4 @@
-// Sheets of A4: what comes on which, tables that go on, words that lie apart.
+// Sheets of A4: what is on which, tables that continue, words that do not overlap.
 #include "render/movie/fabrication_sheets.h"
 
 #include "tests/render/canvas/ink.h"

@@ -78,7 +78,7 @@ TEST_CASE("a frame says what it is") {
   // neither frames nor the solver's numbers
   for (const std::string& text : last)
     CHECK_FALSE((text.starts_with("frame ") || text.starts_with("residual")));
-  // an event is told by its own frame alone; the timeline keeps that there was one
+  // an event is reported by its own frame alone; the timeline keeps that there was one
   for (int k : {7, 8, 9}) {
     CHECK(test::has(texts_of(stage, run, k), "snap at a radius of 104.9 mm") == (k == 8));
     CHECK(test::has(texts_of(stage, run, k), "snap") == (k >= 8));
@@ -108,7 +108,7 @@ TEST_CASE("captions name only what is known") {
   frame.boundary_radius_mm = 115.9;
   frame.depth_mm = 7.5;
   frame.force_N = 0.2137;
-  // of a pushed shell the depth says more than the boundary where it stands still
+  // of a pushed shell the depth says more than the boundary where it does not move
   frame.actuation = 0.8;
   CHECK(state_captions(frame)[2] == "*R*_{a} = 115.9 mm");
   frame.actuation = 1;
@@ -250,7 +250,7 @@ TEST_CASE("a line goes through the supports of a network that move, and through 
   };
   const auto as_is = [](preset::Preset&) {};
   CHECK(ringed("network_space", as_is));     // scaled
-  CHECK(ringed("network_triaxial", as_is));  // each to its place
+  CHECK(ringed("network_triaxial", as_is));  // each to its position
   CHECK(ringed("fig1_actuation", as_is));
   CHECK_FALSE(ringed("lit_xshell_lens", as_is));
   CHECK(ringed("lit_xshell_lens",
@@ -375,8 +375,7 @@ TEST_CASE("a run that cannot be shown is refused with its reason") {
   CHECK(check_showable(run, {}));
   MovieStyle style;
   style.size[0] = 8;
-  CHECK(message(run, style) ==
-        "a picture of 8 x 720 pixels cannot be made: both sides must be 16 to 16384");
+  CHECK(message(run, style) == "size: got 8 x 720 pixels, expected 16 to 16384 for both");
   run.frames.edit()[1].nodes(2, 5) = std::numeric_limits<double>::quiet_NaN();
   CHECK(message(run, {}).find("frame 1 of the run has") == 0);
   run = synthetic::dome(3, 2);
@@ -492,7 +491,7 @@ TEST_CASE("zoom and target are about the panel, wherever it stands") {
   const auto points = summarise_run(run).bounds();
   MovieStyle style;
   const Framing plain(points, style, panel);
-  // the point that stands in the panel's middle
+  // the point in the panel's middle
   const Camera before = plain.camera(0);
   const CameraAxes axes = camera_axes(before);
   const double mm = 1 / plain.pixels_per_mm();
@@ -566,7 +565,7 @@ TEST_CASE("at the usual sizes nothing is left out, and text grows with the pictu
     for (const Box& part : {layout.title, layout.state, layout.event, layout.timeline,
                             layout.colour_bar, layout.inset, layout.scale_bar, layout.view})
       CHECK_FALSE(part.empty());
-    CHECK(layout.plot.empty());  // not asked for
+    CHECK(layout.plot.empty());  // not requested
     CHECK(layout.font_size > before);
     before = layout.font_size;
   }

@@ -68,7 +68,7 @@ TEST_CASE("panels of different size, or none, are refused") {
   CHECK_FALSE(draw_panels(figure));
   figure.panels = {{Image(20, 10), "", ""}, {Image(20, 12), "", ""}};
   CHECK(refusal(draw_panels(figure)) ==
-        "panels of a figure must be of one size: 20 x 10 and 20 x 12");
+        "panels of a figure: expected one size, got 20 x 10 and 20 x 12");
   figure.panels = {{Image(), "", ""}};
   CHECK_THAT(refusal(draw_panels(figure)), Catch::Contains("too small for its panels"));
 }

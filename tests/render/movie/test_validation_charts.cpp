@@ -26,7 +26,7 @@ TEST_CASE("accuracy chart: curves, spread, front, marks and what is too slow") {
   CHECK(test::series_named(plot, "bend")->x == std::vector<double>{1e-3, 4e-3});
   CHECK(test::series_named(plot, "bend")->x_span[1] == std::array<double, 2>{3e-3, 5e-3});
   CHECK(test::series_named(plot, "Pareto front")->y == std::vector<double>{4e-2, 2.5e-3});
-  // tolerances that come to the same meshes share a mark
+  // tolerances that give the same meshes share a mark
   CHECK(test::series_named(plot, "auto, by tolerance")->x.size() == 1);
   REQUIRE(plot.notes.size() == 1);
   CHECK(plot.notes[0].text == "10^{−2}, 10^{−3}");
