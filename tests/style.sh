@@ -212,15 +212,13 @@ lengths() {
     END { end(); printf "%d pages, %d too long\n", files, errors; exit !(files > 10 && !errors) }' $(pages)
 }
 
-# folders whose comments follow the glossary, and the files of them that do not yet
-commented="engine/core engine/design engine/formats engine/preset engine/record engine/scene engine/simulate
-  engine/solve engine/study app/cli app/python app/window tests"
-uncommented='formats/network_|scene/mesh_net|simulate/(stiffening|frames)\.cpp|nested_certificate|cli/(figure|pictures|check)|^tests/(render|images)'
+# folders whose comments follow the glossary
+commented="engine render app tests"
 
 # the text of each comment as FILE:LINE: text, without names and quotations; "1" where a comment begins
 comments() {
   # shellcheck disable=SC2086 # a list of folders
-  find $commented -name '*.h' -o -name '*.cpp' | grep -Ev "$uncommented" | sort | xargs awk '
+  find $commented -name '*.h' -o -name '*.cpp' | sort | xargs awk '
     FNR == 1 { inside = 0 }
     { line = $0; gsub(/"([^"\\]|\\.)*"/, "\"", line); at = match(line, /\/\/+<?( |$)/) }
     !at { inside = 0; next }

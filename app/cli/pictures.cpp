@@ -40,8 +40,7 @@ Result<PictureMaker> PictureMaker::create(const std::string& context) {
 
 namespace {
 
-/// What tells stills apart that each show the end of a step: which step; else what the stills say
-/// themselves.
+/// Captions of stills that each show the end of a step: which step; else those of the stills.
 std::vector<std::string> captions_of(const preset::Preset& preset, const record::Trajectory& run) {
   std::vector<std::string> captions;
   if (preset.step.empty() || run.frames.size() != preset.step.size() + 1) return captions;

@@ -350,7 +350,8 @@ CertifiedVectors certify_vectors(const std::vector<Eigen::Matrix3Xd>& levels, bo
   return found;
 }
 
-/// The held forces by its last factorisation, which is one correction away from the state.
+/// The forces at prescribed joints by its last factorisation, which is one correction away from the
+/// state.
 NestedShell::HeldForces NestedShell::held_forces(Level& level, const State& state) const {
   Linearisation& system = *level.system;
   system.gradient_at(state);

@@ -12,7 +12,7 @@ namespace {
 
 double bar_thickness(double font_size) { return 0.9 * font_size; }
 double tick_length(double font_size) { return 0.3 * font_size; }
-// of the column of words beside the ticks
+// of the column of words next to the ticks
 double words_column(const ColourBar& bar, double font_size) {
   return bar.words.empty() ? 0 : 1.35 * font_size;
 }

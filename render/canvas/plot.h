@@ -66,7 +66,7 @@ struct Band {
   Colour colour{0.5f, 0.5f, 0.5f, 0.2f};
 };
 
-/// The values of a member in the order in which they first come, of those that are wanted.
+/// The values of a member in the order in which they first come, of those that are selected.
 template <class Row, class Value, class Wanted>
 std::vector<Value> distinct(const std::vector<Row>& rows, Value Row::*member,
                             const Wanted& wanted) {

@@ -45,7 +45,7 @@ Range data_range(const Plot& plot, bool of_x) {
   return range;
 }
 
-// the range of an axis: given ends stand, others get 5 % of room
+// the range of an axis: given ends are kept, others get 5 % of room
 PlotAxis choose_range(const Plot& plot, bool of_x) {
   const Axis& axis = of_x ? plot.x : plot.y;
   Range range = data_range(plot, of_x);
@@ -182,7 +182,7 @@ PlotFrame lay_out_plot(const Canvas& canvas, const Box& box, const Plot& plot, d
                            : std::max(1.2 * line, canvas.measure(plot.y.label, style).height +
                                                       0.35 * plot.font_size);
   const double left = box.x + label + widest(canvas, frame.y_ticks, style) + gap;
-  // half of the last label may stand out to the right of the frame
+  // half of the last label may extend to the right of the frame
   const double right = box.right() - widest(canvas, ticks_of(frame.x, plot.x.ticks), style) / 2 - 1;
   frame.x.from = left;
   frame.x.to = right;

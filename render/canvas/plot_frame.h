@@ -1,4 +1,4 @@
-// From the values of a plot's axes to places on the canvas.
+// From the values of a plot's axes to positions on the canvas.
 #pragma once
 
 #include "render/canvas/plot.h"

@@ -21,7 +21,7 @@ constexpr double key_share = 0.55;         // of the light on ground that faces 
 constexpr double ground_share = 0.5;       // of the sky's light returned by the ground
 
 Eigen::Vector3d key_direction(const Camera& camera) {
-  // from straight above the picture's up is +y: the light stands as for a camera in the south
+  // from straight above the picture's up is +y: the light is as for a camera in the south
   const bool straight = std::abs(camera.elevation_deg) > 90 - 1e-6;
   const double azimuth = (straight ? -pi / 2 : camera.azimuth_deg * pi / 180) + key_azimuth;
   return {std::cos(key_elevation) * std::cos(azimuth), std::cos(key_elevation) * std::sin(azimuth),
@@ -72,7 +72,7 @@ std::vector<Lighting> lighting_passes(const Camera& camera, int passes) {
     const Eigen::Vector2d p = sequence(i, 0.5);
     result[i].direction = i < keys ? on_disc(key, p) : on_sky(p);
     result[i].bounce = bounce;
-    // each direction stands for its part of the sky: blurred so wide, single shadows do not show
+    // each direction represents its part of the sky: blurred so wide, single shadows do not show
     result[i].spread = i < keys ? 0.01 : std::sqrt(2 * pi / (passes - keys));
     result[i].pixel_shift = sequence(i, 0.25) - Eigen::Vector2d::Constant(0.5);
   }

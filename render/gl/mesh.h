@@ -23,7 +23,7 @@ struct Vertex {
   PackedColour colour;
 };
 
-/// Triangles over vertices; what a vertex tells differs from shader to shader.
+/// Triangles over vertices; what a vertex contains differs from shader to shader.
 struct Mesh {
   std::vector<Vertex> vertices;
   std::vector<std::uint32_t> indices;
@@ -48,7 +48,7 @@ struct Ribbon {
   bool closed = false;                       ///< the last point joins the first
 };
 
-/// The widest radius that vertices can tell; they hold theirs as a share of it.
+/// The widest radius that vertices can have; they store theirs as a fraction of it.
 inline constexpr float widest_radius_mm = 64;
 
 /// Adds two vertices a point, in order, and no triangles: position on the axis, unit tangent, and
@@ -56,7 +56,7 @@ inline constexpr float widest_radius_mm = 64;
 std::uint32_t add_ribbon(Mesh& mesh, const Ribbon& ribbon);
 
 /// How far from point `from` a straight piece may go, at most to `last`: all points between lie
-/// within `tolerance_mm` of it, their colours within a step of a screen's. (`last` may lie beyond
+/// within `tolerance_mm` of it, their colours within a step of a screen's. (`last` may be after
 /// the last point of a closed ribbon.)
 int longest_straight_piece(const Ribbon& ribbon, int from, int last, float tolerance_mm);
 

@@ -1,5 +1,5 @@
 // The only file that sees <GL/osmesa.h>: it declares the functions of libGL, which must not be
-// linked beside libOSMesa.
+// linked together with libOSMesa.
 #include <GL/osmesa.h>
 
 #include <array>

@@ -136,7 +136,7 @@ class Weaver {
     }
   }
 
-  /// A stretch between joints comes with the nearer of the cells beside it, so that these do not
+  /// A segment between joints comes with the nearer of the cells next to it, so that these do not
   /// cover half of it, and a joint with the nearest of its stretches.
   void add_rods() {
     const Neighbours neighbours(*drawing_.layout);

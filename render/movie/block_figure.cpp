@@ -15,7 +15,7 @@
 namespace gridshell::render {
 namespace {
 
-/// How far each block is moved so that they stand apart, in proportion to its place.
+/// How far each block is moved so that they are separate, in proportion to its position.
 std::vector<Eigen::Vector3d> apart(const std::vector<record::Part>& parts,
                                    Eigen::Matrix3Xd record::Part::*where, double share) {
   std::vector<Eigen::Vector3d> moves;

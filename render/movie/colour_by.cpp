@@ -68,7 +68,7 @@ ColourBar bar_of_sizes(const Surveys& runs, ColourBy by) {
   for (const RunSummary* run : runs)
     most.insert(most.end(), run->spread(by).most.begin(), run->spread(by).most.end());
   const Interval all = all_of(runs, by);
-  // where rods break must be told
+  // where rods break must be reported
   const bool whole = by == ColourBy::stress || by == ColourBy::utilisation;
   ColourBar bar{.label = {}, .scale = symmetric_scale(most, whole ? 1 : quantile)};
   const Quantity& quantity = quantity_of(by);

@@ -11,7 +11,7 @@ namespace gridshell::render {
 
 namespace {
 
-/// When every frame is shown, and how long the first and the last are held.
+/// When every frame is shown, and how long the first and the last are shown.
 std::string timing_filters(const preset::Movie& timing) {
   std::string filters;
   const bool eased = timing.pace == Pace::eased && timing.frames > 1;
@@ -74,7 +74,7 @@ std::vector<std::string> arguments_of(const std::vector<std::string>& input,
   return words;
 }
 
-/// Of ffmpeg, in the words of who asked for a movie.
+/// The error of ffmpeg, in the terms of who requested a movie.
 Error told(Error error, const std::filesystem::path& frames, const std::filesystem::path& movie) {
   if (error.fault == Fault::io)
     error.message = fmt::format(
@@ -92,7 +92,7 @@ std::vector<std::string> encode_arguments(const std::filesystem::path& frames,
   // in the pattern a percent sign of the folder's own name is doubled
   std::string pattern;
   for (char c : frames.string()) pattern += c == '%' ? std::string("%%") : std::string(1, c);
-  // ffmpeg takes what stands before a colon for a protocol, and a leading dash for an option
+  // ffmpeg takes what is before a colon for a protocol, and a leading dash for an option
   return arguments_of(
       {"-framerate", std::to_string(timing.fps), "-i", "file:" + pattern + "/frame_%05d.png"},
       frames, timing, movie);

@@ -54,7 +54,7 @@ ViewDirection direction_of(const preset::Movie& movie) {
 }
 
 /// Whether the boundary goes anywhere: supports of a network may stay where they are drawn, and the
-/// line through them would tell nothing then.
+/// line through them would mean nothing then.
 bool boundary_moves(const preset::Preset& preset) {
   if (preset.footprint.kind != preset::FootprintKind::network) return true;
   const double scale = preset.actuation.scale;

@@ -64,7 +64,7 @@ double draw_boundaries(Canvas& canvas, const Box& box, const std::vector<NamedRu
   for (std::size_t k = 0; k < runs.size(); ++k)
     canvas.polyline(place.line(runs[k].run->layout.original_boundary),
                     {runs.size() == 1 ? ink : series_colour(k), 1.4}, true);
-  // of one alone, where its boundary comes to
+  // of one alone, its actuated boundary
   if (runs.size() == 1)
     canvas.polyline(place.line(runs[0].run->layout.actuated_boundary), {net_ink, 1.1, {4, 2}},
                     true);
@@ -77,7 +77,7 @@ double draw_boundaries(Canvas& canvas, const Box& box, const std::vector<NamedRu
         text, at,
         canvas.fitted(text, canvas.width() - at.x - 4, {.size = 8, .align_y = AlignY::middle}));
   }
-  // caps are named beside the planes that cut them, where these are theirs alone
+  // caps are named at the planes that cut them, where these are theirs alone
   if (runs.size() > 1 && !(all_caps(runs) && planes_differ(runs)))
     draw_names(canvas, {length.right() + 14, left.y}, runs);
   return place.scale;
@@ -100,7 +100,7 @@ void draw_planes(Canvas& canvas, const Box& box, const std::vector<NamedRun>& ru
   }
   canvas.polyline(arc, {{0.55f, 0.56f, 0.6f, 1}, 1});
   constexpr double size = 7;
-  double free = INFINITY;  // above it a name may stand
+  double free = INFINITY;  // above it a name may be
   std::vector<double> shown;
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const double z = plane_of(runs[k]);
@@ -141,7 +141,7 @@ void add_by_latitude(const Eigen::Matrix3Xd& joints, double rho, Series& series)
     series.add(latitude_deg(joint.z() / joint.norm()), joint.norm() / rho);
 }
 
-/// A square about all lines, so that lengths are alike on both axes.
+/// A square about all lines, so that lengths are equal on both axes.
 void frame_about(const std::vector<Eigen::Matrix3Xd>& lines, Plot& plot) {
   constexpr double wider = 1.08;
   Eigen::Vector2d low = lines.front().col(0).head<2>(), high = low;
@@ -266,7 +266,7 @@ Plot latitude_plot(const NamedRun& named, const Eigen::Matrix3Xd& scan) {
 void draw_footprints(Canvas& canvas, const Box& box, const std::vector<NamedRun>& runs) {
   const bool caps = all_caps(runs);
   const double half = caps ? box.width / 2 : box.width;
-  // below the boundaries stands a length to read them by
+  // below the boundaries is a length to read them by
   const Box beside{box.x + half, box.y, half, box.height - 8};
   const double most =
       caps ? scale_of_planes(beside, runs.front().run->layout.length_scale_mm) : INFINITY;

@@ -43,7 +43,7 @@ Image around(const Image& picture, const Box& shell) {
   return part;
 }
 
-// lines of a whole picture, of which the part fills the panel
+// lines of a complete picture, of which the part fills the panel
 std::function<void(Canvas&, const Box&)> lines_around(
     std::function<void(Canvas&, const Box&)> lines, const MovieStyle& style, const Box& part) {
   return [=, width = style.width(), height = style.height()](Canvas& canvas, const Box& box) {
@@ -55,7 +55,7 @@ std::function<void(Canvas&, const Box&)> lines_around(
   };
 }
 
-/// A panel has no room for a legend: the marks in it are told beside its caption.
+/// A panel has no room for a legend: the marks in it are explained next to its caption.
 std::string with_marks(const std::string& caption, const record::Frame& frame,
                        const Appearance& look) {
   const std::string contacts = contact_caption(frame),

@@ -340,7 +340,7 @@ Plot sweep_plot(const SweepTable& table, const SweepView& view) {
     add_curve(curves[k], name, k, table.has_seeds && !table.axes.empty(), plot);
   }
   set_axes(curves, plot);
-  // what spans decades comes to no limit
+  // what spans decades tends to no limit
   for (std::size_t k = 0; k < cases.size() && !plot.y.logarithmic; ++k)
     mark_departure(mean_of(curves[k]), series_colour(k), view.departure, plot);
   add_mark_legend(curves, plot);

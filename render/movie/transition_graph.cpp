@@ -39,7 +39,7 @@ Box about(Point middle, double half_width, double half_height) {
   return {middle.x - half_width, middle.y - half_height, 2 * half_width, 2 * half_height};
 }
 
-/// The place nearest to `from` for a box so large that is free of all others, inside the frame.
+/// The position nearest to `from` for a box so large that is free of all others, inside the frame.
 Box free_place(Point from, const Box& size, const std::vector<Box>& taken, const Box& inside) {
   constexpr int directions = 24;
   for (double away = 9; away < 120; away += 3)
@@ -103,7 +103,7 @@ class TransitionGraph {
     plot.y = {.label = "energy (mJ)"};
     Series all;
     for (const Node& node : nodes_) all.add(node.row->height_mm, node.row->energy_mJ());
-    // a margin as wide as a node, and something to show where all are alike
+    // a margin as wide as a node, and something to show where all are equal
     for (const auto& [values, axis] : {std::pair(&all.x, &plot.x), {&all.y, &plot.y}}) {
       const auto [low, high] = std::ranges::minmax(*values);
       const double room = std::max(0.07 * (high - low), 1e-3 * std::abs(high));
@@ -191,7 +191,7 @@ class TransitionGraph {
     taken_.push_back(about(node.at, node.radius(), node.radius()));
   }
 
-  /// Beside the states that were disturbed, which stay where they are.
+  /// Names next to the states that were disturbed, which stay where they are.
   void draw_names(Canvas& canvas, const Box& inside) {
     const TextStyle style{.size = font,
                           .bold = true,
@@ -264,7 +264,7 @@ class TransitionGraph {
   const record::Trajectory& run_;
   std::vector<Node> nodes_;
   std::vector<int> disturbed_;
-  std::vector<Box> taken_;  // where no name may stand
+  std::vector<Box> taken_;  // where no name may be
 };
 
 }  // namespace

@@ -93,7 +93,7 @@ void add_stopped(const std::vector<AccuracyRow>& rows, const std::vector<std::st
   if (limit > 0) plot.references.push_back({.horizontal = false, .at = limit, .label = "too slow"});
 }
 
-/// `auto` in one mark for all tolerances that come to the same meshes.
+/// `auto` in one mark for all tolerances that give the same meshes.
 void add_auto(const std::vector<AccuracyRow>& rows, Plot& plot) {
   Series marks = mark_series("auto, by tolerance", ink, Marker::circle, 9, true);
   std::vector<Note> notes;
@@ -198,7 +198,7 @@ std::string failures_of(const std::vector<AccuracyRow>& rows) {
   std::string text;
   for (const AccuracyRow& row : rows) {
     if (row.outcome == RunOutcome::right || row.outcome == RunOutcome::too_slow) continue;
-    // a net rung where there is no net is no failure
+    // a row of the model net where there is no net is no failure
     if (row.edges_per_segment == 0 && row.outcome == RunOutcome::refused) continue;
     text += fmt::format("{}{} at {} ({})", text.empty() ? "" : "; ", row.method,
                         row.edges_per_segment, word_of(row.outcome));
