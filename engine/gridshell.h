@@ -47,4 +47,3 @@
 #include "engine/study/scan.h"                 // IWYU pragma: export
 #include "engine/study/state_library.h"        // IWYU pragma: export
 #include "engine/study/sweep_study.h"          // IWYU pragma: export
-#include "engine/study/trust_study.h"          // IWYU pragma: export

@@ -149,7 +149,7 @@ void add_preset_options(CommandArguments command, Options& options) {
   add_changes(command, options);
   command.option("--frames", options.frames, "frames of the movie");
   command.flag("--print-config", options.print_config,
-               "print what default < preset < --set came to, as a preset, and stop");
+               "print the preset with its defaults and --set, as a preset, and stop");
 }
 
 void add_work_options(CommandArguments command, Options& options, const std::string& output) {
@@ -167,7 +167,7 @@ void add_picture_options(CommandArguments command, Options& options) {
 }
 
 void add_unsealed(CommandArguments command, bool& unsealed) {
-  command.flag("--unsealed", unsealed,
+  command.flag("--no-checksum,--unsealed", unsealed,
                "take a trajectory.h5 that another program wrote or changed");
 }
 

@@ -145,7 +145,7 @@ void add_work_options(CommandArguments command, Options& options,
 /// --context: of commands that draw.
 void add_picture_options(CommandArguments command, Options& options);
 
-/// `--unsealed`: for commands that read a run's trajectory.
+/// `--no-checksum` (once `--unsealed`): for commands that read a run's trajectory.
 void add_unsealed(CommandArguments command, bool& unsealed);
 
 /// The options that change the preset, in the order in which they are laid over it. Errors:

@@ -238,7 +238,7 @@ void print_result(const Run& run, const fs::path& folder) {
   print_strength(at, run.preset.limits);
   // why it ended early is said as the error that it is
   if (!at.limit_reason.empty() && failure_of(at, true).empty())
-    fmt::print("\n  on its way: {}", at.limit_reason);
+    fmt::print("\n  on its path: {}", at.limit_reason);
   if (!at.contact.empty()) fmt::print("\n  contact: {}", at.contact);
   if (at.contacts > 0)
     fmt::print("\n  its last state has {} interpenetration{}: rods overlap there{}", at.contacts,

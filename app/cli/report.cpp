@@ -89,7 +89,7 @@ void add_geometry(Sheets& sheets, const Run& run, const exports::FabricationPlan
           : Eigen::Vector3d::Zero();
   sheets.values(
       {{"rods", fmt::format("{}, {:.4g} m in all", summary.rods, 1e-3 * plan.total_length_mm())},
-       {"joints", fmt::format("{}, {} mm apart", summary.joints, number(plan.spacing_mm))},
+       {"joints", fmt::format("{}, at {} mm", summary.joints, number(plan.spacing_mm))},
        {"plan of the boundary", number(span.x()) + " × " + with_unit(span.y(), "mm")},
        {"highest joint above it", with_unit(summary.height_mm, "mm")},
        {"model", fmt::format("{}, {} edges per segment", summary.model, summary.edges_per_segment)},
@@ -98,7 +98,7 @@ void add_geometry(Sheets& sheets, const Run& run, const exports::FabricationPlan
                  : summary.stable ? "in stable equilibrium"
                                   : "not stable"},
        {"force left over", with_unit(summary.residual_N, "N")}});
-  if (!summary.limit_reason.empty()) sheets.text("On its way: " + summary.limit_reason + ".");
+  if (!summary.limit_reason.empty()) sheets.text("On its path: " + summary.limit_reason + ".");
   if (!summary.doubt.empty()) sheets.text("In doubt: " + summary.doubt + ".");
   for (const std::string& step : summary.steps) sheets.text(step);
 }
@@ -179,7 +179,7 @@ Result<void> add_loads(Sheets& sheets, study::FormedShell& shell, const ReportOp
   }
   sheets.text(
       "Each case is applied to the state above, its factor growing by arc length until "
-      "stability is lost. Beside it the factor that the linearised problem would give. Red: "
+      "stability is lost. Next to it the factor that the linearised problem would give. Red: "
       "lost, or a fibre at its strength, below the whole load.");
   sheets.table({{"case", 62, AlignX::left},
                 {"sum *x* (N)", 44},

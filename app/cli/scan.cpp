@@ -214,7 +214,7 @@ Result<Scanned> read_all(const ScanOptions& options) {
     for (Candidate& one : candidates_of(scanned.runs[k], options.runs[k]))
       scanned.candidates.push_back(std::move(one));
   if (scanned.candidates.empty())
-    return invalid("'{}' holds no state to compare with", options.runs.front());
+    return invalid("'{}' contains no state to compare with", options.runs.front());
   const preset::Joints& joints = scanned.candidates.front().run->preset.joints;
   scanned.cylinder = {joints.diameter_mm, options.centres ? 0 : joints.height_mm};
   return scanned;
@@ -357,7 +357,7 @@ Result<int> produce_scan(const ScanOptions& options) {
   };
   TRY_DO(deliver({folder, "scan"}, phases, common.quiet, work));
   if (!common.quiet && scanned->empty_rows > 0)
-    fmt::print("{}: {} rows hold no point (nan)\n", points.string(), scanned->empty_rows);
+    fmt::print("{}: {} rows have no point (nan)\n", points.string(), scanned->empty_rows);
   if (!common.quiet) fmt::print("{}: {}", folder.string(), scan_text(*scan));
   return scan->of_best().shown ? ExitCode::done : ExitCode::different;
 }

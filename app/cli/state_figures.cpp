@@ -320,7 +320,7 @@ std::string found_text(const record::StateTables& states) {
   const record::StateSearch& search = states.search;
   const RichnessEstimate& all = search.completeness;
   std::string text = fmt::format(
-      "  {} of {} trials came to rest, in {} states ({} once, {} twice); Chao1: {:.0f} in all, 95 "
+      "  {} of {} trials converged, to {} states ({} once, {} twice); Chao1: {:.0f} in all, 95 "
       "%: "
       "{:.0f} to {:.0f}\n",
       search.at_rest, search.trials, all.seen, all.once, all.twice, all.estimate, all.low,

@@ -276,10 +276,10 @@ Result<std::string> carry_out(const SweepJob& work) {
   if (work.options.merge) {
     TRY_DO(gather_shards(work.folder, *log, work.presets, work.grid));
     if (!missing(work, *log).empty())
-      return fail(
-          Fault::no_equilibrium,
-          "{}; shards continue where they stopped, and without --merge the rest is computed here",
-          standing_of(work, *log));
+      return fail(Fault::no_equilibrium,
+                  "{}; shards continue where they stopped, and without --merge the remaining runs "
+                  "are computed here",
+                  standing_of(work, *log));
   } else {
     TRY_DO(compute(work, *log));
   }

@@ -117,7 +117,7 @@ Result<void> EditSession::do_step(preset::Step step, const Watch& watch) {
   const auto lost = [](const Event& e) { return e.kind == Event::Kind::stability_lost && !e.to; };
   if (!event_at.empty() && report->end == Outcome::reached && report->certificate.stable() &&
       std::ranges::all_of(report->events, lost))
-    view_.event = view_.message = "stable again; on the way " + view_.message;
+    view_.event = view_.message = "stable again; on the path " + view_.message;
   return done;
 }
 

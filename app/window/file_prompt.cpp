@@ -21,7 +21,7 @@ struct FileText {
 constexpr FileText file_texts[] = {
     {"Open", "Open", "a preset's file (.toml), or the folder of a run"},
     {"Compare with a run or scan", "Compare", "the folder of a run, or of a scan"},
-    {"Save preset as", "Save", "a preset; tables of its ends and rods come beside it"},
+    {"Save preset as", "Save", "a preset; tables of its ends and rods are saved next to it"},
     {"Save picture as", "Save", "a PNG of the view"},
     {"Export", "Export", "a file whose ending is the format"}};
 
@@ -213,7 +213,7 @@ void PresetPicker::card(const Panel& panel, const PresetCard& card, std::size_t 
 
 void PresetPicker::opened_last(const Panel& panel) const {
   if (panel.viewer.recent.empty() || !sought_.empty()) return;
-  heading(panel, "Opened last");
+  heading(panel, "Recent");
   const auto recent = panel.viewer.recent;
   for (const std::string& name : recent) {
     const std::string label = std::filesystem::path(name).filename().string();

@@ -155,7 +155,7 @@ std::string EditSession::note_way(const preset::Step& step, const simulate::Step
   add_marks(now_.marks, marks);
   for (const PathMark& mark : marks)
     if (mark.unstable && report.certificate.stable() && !leapt)
-      view_.message = view_.event = "stable again; not stable on the way at " + place_text(mark);
+      view_.message = view_.event = "stable again; not stable on the path at " + place_text(mark);
   const auto event = std::ranges::find(marks, false, &PathMark::unstable);
   return event == marks.end() ? "" : place_text(*event);
 }

@@ -73,8 +73,8 @@ std::string fault_of(FileUse use, const fs::path& file, const std::vector<Export
 
 Result<void> check_picture(int width, int height) {
   if (std::min(width, height) >= least_px && std::max(width, height) <= most_px) return {};
-  return invalid("a picture of {} x {}: expected {} to {} pixels each way", width, height, least_px,
-                 most_px);
+  return invalid("a picture of {} x {}: expected {} to {} pixels for each side", width, height,
+                 least_px, most_px);
 }
 
 /// The first path in the folder, numbered, of which no file has one of the endings.

@@ -79,7 +79,7 @@ void speed(const Panel& panel, float gap) {
 
 void path(const Panel& panel) {
   ViewerState& viewer = panel.viewer;
-  heading(panel, "Path");
+  heading(panel, "Boundary");
   const bool push = viewer.shell->push.joint >= 0;
   const float gap = 0.5f * ImGui::GetStyle().ItemSpacing.x;
   panel.button("play", viewer.playing ? "Stop##play" : "Play##play", true);
@@ -151,7 +151,7 @@ void dragged_edges(const Panel& panel) {
 void held(const Panel& panel) {
   ViewerState& viewer = panel.viewer;
   const ShellView& shell = *viewer.shell;
-  heading(panel, "Hand");
+  heading(panel, "Push");
   panel.tick("push_freely");
   for (const HeldJoint& one : shell.held) {
     const record::Joint& joint = shell.layout->joints[std::size_t(one.joint)];
@@ -208,7 +208,7 @@ void accuracy(const Panel& panel) {
     changed.accuracy.edges_per_segment = 0;
     viewer.post(Change{changed}, false);
   }
-  panel.named("tolerance", "largest error of a joint, over R_o or ρ, when the hand rests");
+  panel.named("tolerance", "largest error of a joint, over R_o or ρ, when nothing is dragged");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-1);
   // the net alone is geometry, which no command moves
@@ -260,7 +260,7 @@ std::string text_of(const SizeChoice& size) {
 void keep(const Panel& panel) {
   ViewerState& viewer = panel.viewer;
   PictureFormat& picture = viewer.picture;
-  heading(panel, "Keep");
+  heading(panel, "Save");
   panel.button("save_picture");
   ImGui::SameLine();
   panel.button("save_movie");

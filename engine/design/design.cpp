@@ -115,7 +115,7 @@ Result<std::unique_ptr<DesignShell>> begin(const std::shared_ptr<const Scene>& s
   if (simulation.progress() != 1)
     return fail(
         Fault::no_equilibrium,
-        "the shell does not come to its end before anything is changed: " + course->limit_reason);
+        "the shell does not reach its end before anything is changed: " + course->limit_reason);
   const NestedShell& shell = simulation.shell();
   const int last = shell.levels() - 1;
   return DesignShell::make(*scene, designed_on, shell.mesh(last), shell.model(last),

@@ -49,9 +49,9 @@ Result<void> check(int index, int nodes, const ModelRod& rod, RodModel rung) {
         "GJ: got {} N mm^2, expected above 0: the model twist needs the torsional stiffness",
         m.GJ));
   if (!m.curvature.allFinite() || !std::isfinite(m.twist))
-    return wrong("curvature or twist at rest is not finite");
+    return wrong("natural curvature or twist is not finite");
   if (rod.closed() && (rod.begin != RodEnd::free || rod.end != RodEnd::free))
-    return wrong("a closed rod has no ends to hold");
+    return wrong("a closed rod has no ends to prescribe");
   return {};
 }
 

@@ -250,7 +250,7 @@ Result<void> add_laws(const RodMesh& mesh, const ShellRods& shell, const Crossin
     const bool bolted = shell.bolts && !shell.bolts->rods[std::size_t(joint)].empty();
     if (rods.size() < 2 || (law.shear_Nmm == 0 && law.twist_Nmm == 0 && !bolted)) continue;
     if (!mesh.is_centred(joint))
-      return invalid("joint {}: a law holds its rods, and the mesh has no edges centred on it",
+      return invalid("joint {}: its rods have a law, and the mesh has no edges centred on it",
                      joint);
     each_two(rods.size(), [&](std::size_t k, std::size_t m, double share) {
       const Crossing at = crossing(mesh, rods, joint, springs, k, m);

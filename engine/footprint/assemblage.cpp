@@ -76,7 +76,7 @@ Result<void> check_sides(const Places& places, const std::vector<Join>& joins) {
                                 a.spacing, b.spacing));
     if (a.placement != b.placement)
       return refuse(places, join,
-                    "rods lie on the axes of one block and beside those of the other");
+                    "rods lie on the axes of one block and next to those of the other");
   }
   for (int k = 0; k < int(places.size()); ++k)
     for (const Side side : all_sides)
@@ -150,7 +150,7 @@ Result<void> place_all(Places& places, const std::vector<Join>& joins) {
   }
   for (std::size_t k = 0; k < places.size(); ++k)
     if (!placed[k])
-      return invalid("no join holds block \"{}\" to block \"{}\"", places[k].block.name,
+      return invalid("no join connects block \"{}\" to block \"{}\"", places[k].block.name,
                      places.front().block.name);
   return {};
 }
@@ -162,8 +162,9 @@ Result<Seam> seam_of(const Places& places, const Join& join, double max_gap) {
   if (shift->norm() > 1e-9 * d)
     return refuse(
         places, join,
-        fmt::format("the joins round the loop leave the sides ({:.4g}, {:.4g}) cells apart",
-                    shift->x() / d, shift->y() / d));
+        fmt::format(
+            "the joins round the loop leave a gap of ({:.4g}, {:.4g}) cells between the sides",
+            shift->x() / d, shift->y() / d));
   TRY(pairs, pairs_at(places, join));
   const auto joints = places[join.first.block].row(join.first.side);
   Seam seam{join.first, join.second, name_of(places, join), {}};
@@ -179,8 +180,8 @@ Result<Seam> seam_of(const Places& places, const Join& join, double max_gap) {
     return refuse(
         places, join,
         fmt::format(
-            "at the joint (u, v) = ({:g}, {:g}) mm the nets are {:.3g} mm apart "
-            "and the rods' tangents {:.3g} and {:.3g} degrees, expected a gap of at most {:g} mm",
+            "at the joint (u, v) = ({:g}, {:g}) mm the nets have a gap of {:.3g} mm and the rods' "
+            "tangents {:.3g} and {:.3g} degrees, expected a gap of at most {:g} mm",
             v.line_mm, u.line_mm, u.gap_mm, u.kink_deg, v.kink_deg, max_gap));
   }
   return seam;

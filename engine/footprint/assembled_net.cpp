@@ -30,7 +30,7 @@ class AssembledNet final : public ChebyshevNet {
   Result<NetPoint> at(double u, double v) const override {
     const Eigen::Vector2d uv(u, v);
     const auto held = holders(*places_, uv);
-    if (held.empty()) return invalid("no block holds (u, v) = ({:g}, {:g}) mm", u, v);
+    if (held.empty()) return invalid("no block contains (u, v) = ({:g}, {:g}) mm", u, v);
     NetPoint middle{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
     for (const auto* place : held) {
       const auto point = place->at(uv);

@@ -122,9 +122,7 @@ Result<void> check_points(const RodNetwork& network, const Roles& roles) {
     if ((free || roles.is_supported(point)) && passes + ends == 0)
       return invalid("point {} is {}, and no rod has it", point, free ? "free" : "a support");
     if (free && passes > 0)
-      return invalid(
-          "point {} is free, and inside a rod: only ends of rods are held unless they are free",
-          point);
+      return invalid("point {} is free, and inside a rod: only ends of rods can be free", point);
     if (free && roles.is_supported(point)) return invalid("point {} is a support and free", point);
   }
   return {};
@@ -153,10 +151,10 @@ Result<RodEnd> hold_of(const RodNetwork& network, const Roles& roles, int end) {
   const auto own = network.holds.find(end);
   if (own == network.holds.end()) return there == RodEnd::pinned ? network.hold : there;
   if (there == RodEnd::pinned) return own->second;
-  return invalid("rods[{}]: its {} {}, how it is held can be said of an end at a support alone",
-                 end / 2, end % 2 == 0 ? "begin" : "end",
+  return invalid("rods[{}]: its {} {}, a constraint is given only of an end at a support", end / 2,
+                 end % 2 == 0 ? "begin" : "end",
                  there == RodEnd::joined   ? "is joined there"
-                 : there == RodEnd::sprung ? "hangs on a spring"
+                 : there == RodEnd::sprung ? "is on a spring"
                                            : "is free");
 }
 
@@ -182,7 +180,7 @@ Result<FootprintRod> rod_of(const RodNetwork& network, std::size_t r, const Role
         std::ranges::find_if(numbers, [&](int point) { return roles.at(point).ends > 1; });
     if (met != numbers.end())
       return invalid(
-          "rods[{}]: is joined to no other rod: where rods only end, as at point {}, each is held "
+          "rods[{}]: is joined to no other rod: where rods only end, as at point {}, each is fixed "
           "by "
           "itself; {{\"point\": {}, \"to_mm\": \"free\"}} among the supports joins them by a "
           "hinge, a "
@@ -279,13 +277,13 @@ Result<void> check_held(const RodNetwork& network, const Roles& roles, const Foo
   for (const auto& [at, rod] : first_rod) {
     if (!off_a_line(held[at]))
       return invalid(
-          "rods[{}] and what is joined to it: held at fewer than three points, or at "
-          "points on one line, and would turn freely about it",
+          "rods[{}] and what is joined to it: fixed at fewer than three points, or at points on "
+          "one line, and would turn freely about it",
           rod);
     if (!hold_all(held[at]))
       return invalid(
-          "rods[{}] and what is joined to it: held by springs along too few directions, "
-          "and would move or turn freely",
+          "rods[{}] and what is joined to it: supported by springs along too few directions, and "
+          "would move or turn freely",
           rod);
   }
   return {};

@@ -97,7 +97,7 @@ class Gathering {
       return invalid("{}:{}: INSERT of block '{}', {}", name_, raw.line, raw.text(2), what);
     };
     if (found == raw_.blocks.end()) return wrong("which is not in the file");
-    if (depth == deepest) return wrong("which holds itself");
+    if (depth == deepest) return wrong("which contains itself");
     if (++insertions_ > most_insertions) return wrong("of too many");
     if (found->second.outside) {
       DrawnEntity missing = as;

@@ -109,7 +109,7 @@ Handle Reader::dataset(const std::string& name, hid_t type) {
   const std::uintmax_t each = referred ? 16 : H5Tget_size(found);
   if (count < 0 || each == 0 || std::uintmax_t(count) > file_bytes_ / each ||
       H5Dget_storage_size(set) != std::uintmax_t(count) * each)
-    return refuse("claims to hold more than the file does");
+    return refuse("claims to contain more than the file does");
   return set;
 }
 
@@ -126,7 +126,7 @@ Dims Reader::dims(const std::string& name, std::size_t rank, hid_t type) {
   H5Sget_simple_extent_dims(space, extents.data(), nullptr);
   // an empty dataset may have any extent
   for (const hsize_t extent : extents)
-    if (extent > file_bytes_) fail_because(name + " claims to hold more than the file does");
+    if (extent > file_bytes_) fail_because(name + " claims to contain more than the file does");
   return good() ? extents : Dims(rank);
 }
 
@@ -184,7 +184,7 @@ bool Reader::lists_fit(const std::string& name, hid_t set, hid_t type, hid_t spa
   hsize_t bytes = 0;
   if (!check(H5Dvlen_get_buf_size(set, type, space, &bytes), name)) return false;
   if (bytes <= file_bytes_) return true;
-  fail_because(name + " claims to hold more than the file does");
+  fail_because(name + " claims to contain more than the file does");
   return false;
 }
 

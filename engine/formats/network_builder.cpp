@@ -110,7 +110,7 @@ Result<void> NetworkBuilder::check_reach(const std::vector<int>& joint_of) const
       if (!(way <= farthest * shortest[j]))
         return invalid(
             "{}: got point {} at {:.4g} mm from the middle of the joint's points, expected at most "
-            "{:.4g} mm, a quarter of the shortest stretch of rod beside them",
+            "{:.4g} mm, a quarter of the shortest segment of rod next to them",
             joints_[j].at, point, way, farthest * shortest[j]);
     }
   }

@@ -80,7 +80,7 @@ Result<void> NetworkBuilder::add_rod(std::vector<int> points, double diameter_mm
   if (const auto same = std::ranges::adjacent_find(points); same != points.end())
     return invalid(
         "{}: got a segment of no length, expected points at a distance, and point {} follows "
-        "itself, or another point at its place",
+        "itself, or another point at its position",
         at, *same);
   entries_ += points.size();
   if (network_.rods.size() == most || entries_ > most_entries)
@@ -108,7 +108,7 @@ std::string spring_fault(const std::vector<double>& k) {
                          softest_spring, stiffest_spring);
     any = any || one > 0;
   }
-  return any ? "" : "a spring of 0 N/mm holds nothing, an end that is free has \"to_mm\": \"free\"";
+  return any ? "" : "a spring of 0 N/mm supports nothing, a free end has \"to_mm\": \"free\"";
 }
 
 std::string network_fault(const NetworkData& network) {
@@ -170,12 +170,12 @@ std::string network_fault(const NetworkData& network) {
   for (const auto& row : network.holds) {
     if (row.size() != 3 || !(row[1] == 0 || row[1] == 1) ||
         !(row[2] == 0 || row[2] == 1 || row[2] == 2))
-      return "holds: expected rows [rod, 0 (begin) or 1 (end), 0 (pinned), 1 (tangent) or 2 "
+      return "`holds`: expected rows [rod, 0 (begin) or 1 (end), 0 (pinned), 1 (tangent) or 2 "
              "(clamped)]";
     if (!(row[0] >= 0 && row[0] < double(rods) && row[0] == std::floor(row[0])))
-      return fmt::format("a hold of rod {:g} of {}", row[0], rods);
+      return fmt::format("a constraint of rod {:g} of {}", row[0], rods);
     if (!held.insert({row[0], row[1]}).second)
-      return fmt::format("rods[{}] has two holds at one end", row[0]);
+      return fmt::format("rods[{}] has two constraints at one end", row[0]);
   }
   std::set<int> freed;
   for (const int point : network.free) {

@@ -204,10 +204,10 @@ void report_network(const NetworkData& network, FileReport& report) {
                              size.y(), size.z() > 0 ? fmt::format(" x {:.6g}", size.z()) : "");
   if (together > 0)
     report.text +=
-        fmt::format("; at {} rods end together and are held", counted(together, "support"));
+        fmt::format("; at {} rods end together and are fixed", counted(together, "support"));
   if (size.y() < 1e-6 * size.x() && size.z() > 1e-3 * size.x())
     report.notes.push_back(
-        fmt::format("all rods stand upright in the plane y = {}: is y up in this drawing? Then "
+        fmt::format("all rods lie upright in the plane y = {}: is y up in this drawing? Then "
                     "exchange y and z",
                     box.min().y()));
   const double near = 0.1 * spacing_of(network);

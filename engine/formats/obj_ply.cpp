@@ -241,7 +241,8 @@ Result<PlyItem> read_item(const Element& element, std::size_t number, Numbers& n
   for (const Property& property : element.properties) {
     const auto values = values_of(property, numbers);
     if (!values)
-      return invalid(item.place(name) + ": the file ends there, or what stands there is no number");
+      return invalid(item.place(name) +
+                     ": got the end of the file or no number, expected a number");
     if (!property.count && property.name.size() == 1 && property.name[0] >= 'x' &&
         property.name[0] <= 'z') {
       item.xyz[property.name[0] - 'x'] = values->front();

@@ -149,7 +149,7 @@ Result<NetworkData> largest_loop(const PlanDrawing& drawing, const std::string& 
   const Loops loops = loops_of(drawing, near);
   const auto largest = std::ranges::max_element(loops.closed, {}, area_of);
   if (largest == loops.closed.end() || !(area_of(*largest) > touching * size * size))
-    return invalid("{}: holds no closed outline{}{}", name,
+    return invalid("{}: got no closed outline{}{}", name,
                    loops.open == 0
                        ? ", and no line"
                        : fmt::format(": {}{}", counted(loops.open, "open line"),
@@ -174,7 +174,7 @@ Result<NetworkData> largest_loop(const PlanDrawing& drawing, const std::string& 
   std::vector<std::string> others;
   if (loops.closed.size() > 1)
     report.text += fmt::format(", the largest of {} closed lines", loops.closed.size());
-  if (loops.open > 0) report.text += ", beside " + counted(loops.open, "open line");
+  if (loops.open > 0) report.text += ", in addition to " + counted(loops.open, "open line");
   report.text += drawing.left_out;
   return outline;
 }

@@ -22,13 +22,13 @@ class CloudBuilder {
       return invalid("{}: got a coordinate that is {}, expected a number of at most 1e9",
                      place_of(), p.allFinite() ? "too large" : "not a number");
     if (points_.size() >= 3 * most_cloud_points)
-      return invalid("{}: holds more than {} points", name, most_cloud_points);
+      return invalid("{}: got more than {} points", name, most_cloud_points);
     points_.insert(points_.end(), p.data(), p.data() + 3);
     return {};
   }
 
   Result<Cloud> take(const std::string& name, std::size_t empty_rows) const {
-    if (points_.empty()) return invalid(name + ": holds no point");
+    if (points_.empty()) return invalid(name + ": got no point");
     return Cloud{
         Eigen::Map<const Eigen::Matrix3Xd>(points_.data(), 3, Eigen::Index(points_.size() / 3)),
         empty_rows};

@@ -57,7 +57,7 @@ Result<SurfaceData> MeshBuilder::take(const std::string& name) {
 
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "numbers are read as they stand");
+static_assert(std::endian::native == std::endian::little, "numbers are read as they are");
 
 constexpr std::size_t header = 84, triangle = 50;
 
@@ -158,8 +158,7 @@ Result<SurfaceData> read_heights(std::string_view bytes, const std::string& name
     return invalid(
         "{}: got {} different x and {} different y, expected a grid of at least 4 x 4 points", name,
         columns, rows);
-  const auto holds =
-      fmt::format("holds {} points on a grid of {} x {} places", points->size(), columns, rows);
+  const auto holds = fmt::format("{} points on a grid of {} x {}", points->size(), columns, rows);
   // scattered points form a grid with as many nodes as the square of their number
   if (columns * rows > 4 * points->size())
     return invalid("{}: got {}, expected a complete rectangle", name, holds);
@@ -249,7 +248,7 @@ std::string surface_fault(const SurfaceData& surface) {
   for (const auto& [key, values] : {std::pair("x_mm", &surface.x), {"y_mm", &surface.y}})
     if (auto wrong = rising_fault(key, *values); !wrong.empty()) return wrong;
   if (surface.x.size() * surface.y.size() > most_heights)
-    return fmt::format("holds more than {} heights", most_heights);
+    return fmt::format("got more than {} heights", most_heights);
   if (surface.z.size() != surface.y.size())
     return fmt::format("z_mm: got {} rows, expected one for each of the {} y", surface.z.size(),
                        surface.y.size());

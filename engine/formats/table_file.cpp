@@ -165,8 +165,8 @@ class TableReader {
   Result<void> check_count() const {
     const std::size_t rows = table_.rows() + table_.empty_rows;
     if (rows == expected_) return {};
-    return invalid("{}: says that it holds {} points, and holds {}: is it cut short?", name_,
-                   expected_, rows);
+    return invalid("{}: got {1} points, expected {0} by its first line: is the file cut short?",
+                   name_, expected_, rows);
   }
 
   /// Uses a remark as the header if it names all columns of the first row.

@@ -79,7 +79,7 @@ Result<void> check_star(const ClosedCurve& curve, const char* name, Corresponden
   if (how == Correspondence::arc_length && on_axis > 1)
     return invalid(
         "the positive x-axis meets the {} boundary more than once: arc lengths need one "
-        "place to start",
+        "position to start",
         name);
   // seen from the origin a star turns in one direction only
   constexpr int samples = 2048;

@@ -50,7 +50,7 @@ std::string text_of(RodStop stop) {
     case RodStop::net:
       break;
   }
-  return "another part of the net is in the way";
+  return "another part of the net is there already";
 }
 
 MarchedGrid::MarchedGrid(double chord, int most) : chord_(chord), most_(most) {

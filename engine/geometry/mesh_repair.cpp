@@ -330,8 +330,8 @@ MendedMesh mended(const Eigen::Matrix3Xd& vertices, std::vector<std::array<int, 
   MendedMesh mesh{vertices, std::move(triangles), {}};
   auto& [x, all, done] = mesh;
   if (const auto joined = join_near(x, all); joined > 0)
-    done.push_back(counted(joined, "vertex at the place of another is joined to it",
-                           "vertices at the places of others are joined to these"));
+    done.push_back(counted(joined, "vertex at the position of another is joined to it",
+                           "vertices at the positions of others are joined to these"));
   if (const auto dropped = drop_needless(x, all); dropped > 0)
     done.push_back(counted(dropped, "triangle without area, or there twice, is",
                            "triangles without area, or there twice, are") +
@@ -344,7 +344,7 @@ MendedMesh mended(const Eigen::Matrix3Xd& vertices, std::vector<std::array<int, 
   const Sides sides = joined_sides(x, all);
   if (sides.of_several > 0)
     done.push_back(counted(sides.of_several, "edge has", "edges have") +
-                   " more than two triangles: the two that go on straightest stay joined");
+                   " more than two triangles: the two that continue straightest stay joined");
   const auto from = part(x, all, sides.links);
   const auto [pieces, left_out] = keep_largest(x, all, sides.links);
   draw_apart(x, all, from);

@@ -360,7 +360,7 @@ Result<Expression> Expression::parse(const std::string& text) {
     parsed->parser.Eval(values);
     if (values != 1) return invalid("got {} values, expected one", values);
   } catch (const mu::Parser::exception_type& wrong) {
-    return invalid("{} (at place {})", wrong.GetMsg(), int(wrong.GetPos()) + 1);
+    return invalid("{} (at character {})", wrong.GetMsg(), int(wrong.GetPos()) + 1);
   }
   return Expression(text, std::move(parsed));
 }

@@ -331,12 +331,12 @@ Result<void> SurfaceNet::check_whole(PartialNet* so_far) const {
             tell(*so_far);
             so_far->end = p;
           }
-          const char* why = node == ChordGrid::Node::folded ? "the net folds, its rods become "
-                                                              "parallel,"
-                            : node == ChordGrid::Node::lost
-                                ? "the surface ends, or bends too sharply for the net,"
-                                : "the boundary turns back towards the net's axes, beyond their "
-                                  "ends,";
+          const char* why =
+              node == ChordGrid::Node::folded ? "the net folds, its rods become "
+                                                "parallel,"
+              : node == ChordGrid::Node::lost
+                  ? "the surface ends, or bends too sharply for the net,"
+                  : "the boundary comes back towards the net's axes, past their ends,";
           return invalid(
               "{} near ({:.4g}, {:.4g}, {:.4g}) mm, (u, v) = ({:.4g}, {:.4g}) mm, inside "
               "the boundary or next to it{}",

@@ -165,7 +165,7 @@ Result<std::optional<Eigen::Vector3d>> first_crossing(const Eigen::Matrix3Xd& ve
   for (const auto& [cell, inside] : grid.cells())
     for (std::size_t a = 0; a < inside.size(); ++a)
       for (std::size_t b = 0; b < a; ++b) {
-        if (++pairs > most_pairs) return too_long("too many triangles lie in one place");
+        if (++pairs > most_pairs) return too_long("too many triangles lie at one position");
         const std::size_t s = std::size_t(inside[a]), t = std::size_t(inside[b]);
         if (apart(boxes[s], boxes[t]) || share_a_vertex(triangles[s], triangles[t])) continue;
         if (const auto at = meeting(vertices, triangles[s], triangles[t]))

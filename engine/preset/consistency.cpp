@@ -218,7 +218,7 @@ std::string model_reason(const Preset& preset) {
   switch (rod_model_of(preset)) {
     case RodModel::net:
       return fmt::format(
-          "net: the tolerance of {:g} allows the smooth net itself, and nothing is asked that "
+          "net: the tolerance of {:g} allows the smooth net itself, and nothing is requested that "
           "needs "
           "an equilibrium; none is solved for, so there is no residual and no word on stability",
           preset.accuracy.tolerance);
@@ -237,10 +237,11 @@ std::string model_reason(const Preset& preset) {
   }
   return fmt::format(
       "bend: the rods are round and naturally straight, their ends spin freely and the joints pass "
-      "no twist, so the twist energy is zero at rest and leaving it out changes nothing; joints "
+      "no twist, so the twist energy is zero in equilibrium and leaving it out changes nothing; "
+      "joints "
       "are {}",
       preset.joints.eccentricity_mm == 0 ? "shared nodes, the limit of stiff springs"
-                                         : "bolts between the axes of rods that lie apart");
+                                         : "bolts between the axes of rods at a distance");
 }
 
 }  // namespace gridshell::preset

@@ -36,7 +36,7 @@ void add_indentation(FieldList<Indentation> list) {
                            [](const I& of) { return !of.joint.empty(); });
   };
   list.add<&I::at>("joint that is pushed: the one nearest to the pole, or the highest");
-  by_place().unused({"latitude_deg"}, "[indentation] latitude_deg takes its place",
+  by_place().unused({"latitude_deg"}, "[indentation] latitude_deg replaces it",
                     [](const I& of) { return of.latitude_deg < 90; });
   list.add<&I::latitude_deg>(
       between(-90, 90),
@@ -57,7 +57,7 @@ void add_indentation(FieldList<Indentation> list) {
   list.add<&I::depth>(between(0, 10),
                       "depth of the push over rho of a net or R_o of a circle; 0: nothing is "
                       "pushed")
-      .unused({"depth_mm"}, "[indentation] depth_mm takes its place",
+      .unused({"depth_mm"}, "[indentation] depth_mm replaces it",
               [](const I& of) { return of.depth_mm > 0; })
       .needs_equilibrium("a net does not answer a push", [](const I& of) { return of.wanted(); });
   list.add<&I::depth_mm>(at_least(0), "depth of the push in mm, instead of `depth`");
@@ -101,7 +101,7 @@ void add_contact(FieldList<Contact> list) {
   unless("[inverse] vary", "a design takes no notice of contact",
          [](const Preset& preset) { return !preset.inverse.vary.empty(); });
   const auto none = [=](const Contact& of) { return !acts(of); };
-  const char* why = "nothing keeps rods apart: [contact] model is \"none\"";
+  const char* why = "contact is not modelled: [contact] model is \"none\"";
   list.add<&Contact::gap_mm>(above(0),
                              "gap between the rods' surfaces at which they start to repel")
       .unused({"model"}, why, none);
@@ -169,7 +169,7 @@ void add_inverse(FieldList<Inverse> list) {
 
 void add_accuracy(FieldList<Accuracy> list) {
   constexpr double net_tolerance = 0.05;
-  const char* meshed = "a mesh is asked for";
+  const char* meshed = "a mesh is given";
   list.add<&Accuracy::tolerance>(
           between(1e-9, 1), "largest joint error allowed, over R_o of a circle or rho of a net")
       .needs_equilibrium(fmt::format("a net deviates by a few hundredths of its radius, expected a "

@@ -84,7 +84,7 @@ void add_steps(FieldList<Step> list) {
   step_rules(list);
   list.add<&Step::progress>(
       between(0, 10), "move: 0 is the original boundary, 1 the actuated one, above 1 further");
-  only({K::move}).unused({"radius_mm"}, "radius_mm takes its place",
+  only({K::move}).unused({"radius_mm"}, "radius_mm replaces it",
                          [](const Step& of) { return of.radius_mm > 0; });
   list.add<&Step::radius_mm>(at_least(0),
                              "move: radius of a circle, instead of `progress`; 0: not given");
@@ -103,7 +103,7 @@ void add_steps(FieldList<Step> list) {
           "move: displacement of single edge points, counted from 0, relative to the boundary's "
           "motion")
       .points({"edge_point", "x_mm", "y_mm", "z_mm"});
-  only({K::move}).refused({}, "an edge point without a number, expected a whole number from 0",
+  only({K::move}).refused({}, "an edge point without a number, expected an integer from 0",
                           [](const Step& of) {
                             return std::ranges::any_of(of.edge_points, [](const auto& row) {
                               return row[0] < 0 || row[0] != double(int(row[0]));

@@ -40,7 +40,7 @@ void add_movie(FieldList<Movie> list) {
                         preset.rod.fibre_strength_MPa() == 0;
                });
   const auto free_view = [&list] {
-    list.unused({"view"}, "[movie] view takes its place",
+    list.unused({"view"}, "[movie] view replaces it",
                 [](const M& of) { return of.view != View::free; });
   };
   list.add<&M::azimuth_deg>(between(-360, 360),

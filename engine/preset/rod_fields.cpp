@@ -43,7 +43,7 @@ void add_rods(FieldList<Rod> rods, const std::string& table) {
   rods.add<&Rod::width_mm>(
           at_least(0),
           "width of a rectangular section, in the plane of the grid; 0: the rods are round")
-      .needs_twist("rods that are not alike in all directions spin as they bend", two_axes)
+      .needs_twist("rods that are not equal in all directions twist as they bend", two_axes)
       .refused({}, fmt::format(fmt::runtime(half), table, "thickness_mm"),
                [](const Rod& rod) { return rod.width_mm > 0 && rod.thickness_mm == 0; });
   rods.add<&Rod::thickness_mm>(
@@ -75,7 +75,7 @@ void add_rods(FieldList<Rod> rods, const std::string& table) {
       .unit("mm³")
       .refused({"width_mm"}, round,
                [](const Rod& rod) { return rod.modulus_mm3 > 0 && rod.rectangular(); });
-  const char* curved = "rods curved at rest spin to keep their curve";
+  const char* curved = "rods with natural curvature twist to keep their curve";
   rods.add<&Rod::curvature_per_mm>("natural curvature in the vertical plane; above 0 arches up")
       .needs_twist(curved, [](const Rod& rod) { return rod.curvature_per_mm != 0; });
   rods.add<&Rod::curvature_sideways_per_mm>(
@@ -84,7 +84,7 @@ void add_rods(FieldList<Rod> rods, const std::string& table) {
   // a round straight rod whose ends spin freely untwists by itself
   rods.add<&Rod::twist_rad_per_mm>("natural twist")
       .needs_twist(
-          "rods twisted at rest turn their axes", [=](const Preset& preset, const Rod& rod) {
+          "rods with natural twist turn their axes", [=](const Preset& preset, const Rod& rod) {
             const bool curved = rod.curvature_per_mm != 0 || rod.curvature_sideways_per_mm != 0;
             return rod.twist_rad_per_mm != 0 &&
                    (two_axes(rod) || curved || preset.ends.kind == EndKind::clamped ||
@@ -163,7 +163,7 @@ void add_ends(FieldList<Ends> ends) {
   ends.add<&Ends::kind>(
           "\"pinned\": position prescribed; \"tangent\": direction too, along the net's tangents "
           "or, in a circle, as in the flat grid; \"clamped\": rotation about the axis too")
-      .needs_twist("clamped ends hold the rods' spin",
+      .needs_twist("clamped ends prescribe the rods' twist angle",
                    [](const Ends& of) { return of.kind == EndKind::clamped; });
   const char* no_net = "a network has no net whose end rings it could be";
   ends.add<&Ends::rings>(

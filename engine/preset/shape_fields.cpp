@@ -50,7 +50,7 @@ template <class Struct>
 void radius_rules(FieldList<Struct>& list, Curve Struct::*boundary, double Struct::*other,
                   const std::string& label) {
   list.used_by_footprint({Kinds::circle, Kinds::curve})
-      .unused({label}, label + " takes its place",
+      .unused({label}, label + " replaces it",
               [=](const Preset& preset, const Struct& of) {
                 return is_circle(preset) && of.*other > 0;
               })
@@ -108,7 +108,7 @@ void add_footprint(std::vector<Field>& all) {
                    })
       .needs_twist("rods that are closed have no ends that could spin",
                    [=](const Footprint& of) { return network(of) && has_closed_rods(of.file); })
-      .needs_twist("clamped ends of the file hold the rods' spin",
+      .needs_twist("clamped ends of the file prescribe the rods' twist angle",
                    [=](const Footprint& of) { return network(of) && clamps(of.file); });
   const char* of_a_file =
       "is of a file that `file` names: rods listed here are in mm and as joined";
@@ -334,7 +334,7 @@ void add_surface(FieldList<Net> net) {
   net.add<&Net::cut_mm>(
       "height of the plane that cuts the surface, whose upper part remains; \"none\": a mesh ends "
       "at its own rim, other surfaces at 0");
-  surface().unused({"within"}, "[net] within is the boundary in the plane's place",
+  surface().unused({"within"}, "[net] within is the boundary in the plane instead",
                    [](const Net& of) { return !of.within.empty(); });
   net.add<&Net::within>(
       "G(x, y, z), negative where the net is retained, instead of the plane; empty: the plane");

@@ -152,9 +152,8 @@ void check_sweep(const std::vector<PresetBuilder>& runs, LocatedFaults& faults) 
   }
   for (const auto& [key, why] : idle)
     if (!why.empty())
-      faults.add(
-          key == drawn ? place("seeds") : over,
-          fmt::format("[sweep] over: {} counts for nothing in any of the runs: {}", key, why));
+      faults.add(key == drawn ? place("seeds") : over,
+                 fmt::format("[sweep] over: {} has no effect in any of the runs: {}", key, why));
 }
 
 }  // namespace gridshell::preset

@@ -212,7 +212,7 @@ FrameList read_frames(const std::shared_ptr<hdf5::Reader>& shared, const Layout&
   if (nodes[2] != 3 || cells[0] != nodes[0])
     file.fail_because(fmt::format("/nodes is {} x {} x {} and /cell_K {} x {}", nodes[0], nodes[1],
                                   nodes[2], cells[0], cells[1]));
-  if (nodes[1] == 0 && nodes[0] > 0) file.fail_because("/nodes holds frames without nodes");
+  if (nodes[1] == 0 && nodes[0] > 0) file.fail_because("/nodes has frames without nodes");
   if (!file.good()) return {};
   // the layout gives the size of a frame's arrays
   if (nodes[0] > 0)

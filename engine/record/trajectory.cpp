@@ -59,7 +59,7 @@ bool computable(const Eigen::Matrix3Xd& points) {
 
 Result<void> check_numbers(const Layout& layout) {
   const auto refuse = [](const char* what) {
-    return invalid("{} holds a number that is no length in mm", what);
+    return invalid("{}: got a number that is no length in mm", what);
   };
   for (const double length : {layout.spacing_mm, layout.rod_diameter_mm, layout.length_scale_mm})
     if (!(length >= 0 && length <= largest_mm)) return refuse("/layout");

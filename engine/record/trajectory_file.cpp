@@ -48,8 +48,8 @@ std::string header_fault(const ReadableFile& file, bool unsealed) {
   const auto start = file.read(0, std::min<std::uint64_t>(header_size, file.size()));
   if (start && start->starts_with("\x89HDF\r\n\x1a\n"))
     return unsealed ? ""
-                    : "it has no checksum, so another program wrote it (--unsealed, in Python "
-                      "unsealed=True, reads it all the same)";
+                    : "it has no checksum, so another program wrote it (--no-checksum, in Python "
+                      "no_checksum=True, reads it all the same)";
   if (!start || !start->starts_with(trajectory_format)) return "it is not an HDF5 file";
   if (start->size() < header_size) return "it is cut short";
   const bool older = start->find("FNV-1a") != start->npos;
@@ -57,7 +57,7 @@ std::string header_fault(const ReadableFile& file, bool unsealed) {
     return "";
   return "it is cut short, damaged or was changed: its checksum does not match (of one that "
          "another "
-         "program changed, --unsealed, in Python unsealed=True, reads what there is)";
+         "program changed, --no-checksum, in Python no_checksum=True, reads what there is)";
 }
 
 constexpr std::size_t longest_word = 60000;  // what an attribute takes

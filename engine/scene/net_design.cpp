@@ -132,7 +132,8 @@ std::string likely_cause(const preset::SurfaceData& file, double spacing_mm) {
   const double width = file.empty() || file.is_mesh() ? NAN : file.x.back() - file.x.front();
   if (!(width < 2 * spacing_mm)) return "";
   return fmt::format(
-      "; the whole surface is {:.3g} mm wide and the rods {:.3g} mm apart: is the file in metres? "
+      "; the whole surface is {:.3g} mm wide and the distance of the rods {:.3g} mm: is the file "
+      "in metres? "
       "[net] file_unit = \"m\" reads it so",
       width, spacing_mm);
 }

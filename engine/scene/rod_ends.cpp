@@ -120,7 +120,7 @@ Result<void> apply_ends_table(const preset::Points& table, Scene& scene) {
     };
     const auto found = named.find(name);
     if (found == named.end() || double(int(row[1])) != row[1])
-      return wrong("the footprint has no such end that is held");
+      return wrong("the footprint has no such fixed end");
     if (seen[name] == found->second.size()) return wrong("named more often than it is there");
     const Eigen::Index k = found->second[seen[name]++];
     if (!(row[6] > 0)) return wrong("got a leg without length, expected above 0 mm");

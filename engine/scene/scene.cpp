@@ -289,7 +289,7 @@ Result<void> check_crossings(Scene& scene) {
         if (a < b && t.cross(s).norm() < 1e-3)
           return invalid(
               "joint [{}, {}]: rods[{}] and rods[{}] have equal directions there, expected rods "
-              "that cross, as the joint holds them by the angle between them",
+              "that cross, as the joint has a law of the angle between them",
               here.i, here.j, a->number, b->number);
       }
   }
@@ -344,7 +344,7 @@ Result<void> put_laws(const preset::Preset& preset, Scene& scene) {
     if (row.size() < 4) continue;
     if (row[3] != 0 && scene.rods.joints.spring_N_per_mm > 0)
       return invalid(
-          "[footprint] file: joints: the axes at point {:g} lie apart and are held by a "
+          "[footprint] file: joints: the axes at point {:g} have a distance and are connected by a "
           "bolt, expected [joints] kind = \"shared\"",
           row[0]);
     scene.footprint.joints[std::size_t(joint)].eccentricity = row[3];

@@ -171,7 +171,7 @@ std::string how_it_ended(const PathSegment& segment, const At& at) {
   }
   if (segment.back)
     return fmt::format(
-        "{} on the way back to the flat {}, and no equilibrium was found past it: the states from "
+        "{} on the path back to the flat {}, and no equilibrium was found past it: the states from "
         "there on "
         "are certified; how the flat state leads to them is not known",
         words_of(report.end).what, at(report.t, {}));
@@ -210,7 +210,7 @@ void set_limit(EquilibriumPath& path, const At& at) {
       path.limit_reason = how_it_ended(segment, at);
       break;
     }
-    const char* way = segment.back ? "on the way back to the flat " : "";
+    const char* way = segment.back ? "on the path back to the flat " : "";
     const auto branches = branch_loss_places({&segment, 1}, at, false);
     if (!branches.empty())
       told += fmt::format(

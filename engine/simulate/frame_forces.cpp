@@ -144,7 +144,7 @@ std::string place_on_rod(const Footprint& footprint, const RodMesh& mesh, std::s
       }
     return std::string("its end");
   };
-  std::string text = fmt::format("{}, {:.2f} mm from its begin, ", name_of(footprint.rods[r]),
+  std::string text = fmt::format("{}, {:.2f} mm from its start, ", name_of(footprint.rods[r]),
                                  position[k] - position[first]);
   if (mesh.joint_of(nodes[k]) >= 0) return text + "at joint " + joint_from(k, 1);
   return text + fmt::format("between {} and {}", joint_from(k, -1), joint_from(k, 1));

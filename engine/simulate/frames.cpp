@@ -170,7 +170,7 @@ std::string ends_on_balls(const Scene& scene) {
     }
   if (ends == 0) return "";
   std::string text = fmt::format(
-      "{} ends of rods lie on balls, at {} joints without a law ([{}, {}] first), though laws hold "
+      "{} ends of rods are balls, at {} joints without a law ([{}, {}] first), though laws connect "
       "{} other joints: rods turn freely there and pass no bending or twist to one another",
       ends, balls.size(), scene.footprint.joints[std::size_t(*balls.begin())].i,
       scene.footprint.joints[std::size_t(*balls.begin())].j, held);

@@ -73,7 +73,8 @@ std::string reason_of(HeldShell& pushed, const At& at, const Watch& watch) {
       for (const Event& event : segment.report.events)
         if (event.to && event.leap)
           return fmt::format(
-              "held at the joint, the shell lost its {} {}{} and reached another equilibrium",
+              "with the joint prescribed, the shell lost its {} {}{} and reached another "
+              "equilibrium",
               event.kind == Event::Kind::stability_lost ? "stability" : "equilibrium",
               at(event.t, event.error),
               turning_back(pushed.simulation, segment, event, pushed.depth_mm(), watch));

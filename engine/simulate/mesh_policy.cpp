@@ -102,7 +102,8 @@ std::optional<std::string> mesh_disagreement(const EquilibriumPath& coarse,
     return std::nullopt;  // both ended early, at states of their own
   const double apart = distance_of_joints(coarse.simulation, fine.simulation.nodes()),
                d = coarse.simulation.scene().footprint.spacing;
-  if (apart > mesh_tolerances.same_state * d) return fmt::format("ends {:.3g} mm apart", apart);
+  if (apart > mesh_tolerances.same_state * d)
+    return fmt::format("ends at a distance of {:.3g} mm", apart);
   return std::nullopt;
 }
 

@@ -312,7 +312,7 @@ Result<Plan> plan(const preset::Preset& preset) {
   if (scene->blocks)
     for (const Seam& seam : scene->blocks->seams())
       plan.seams.push_back(fmt::format(
-          "{}: {} rods across, at most {:.2f} mm apart, kinked by at most {:.1f} degrees",
+          "{}: {} rods across, gaps of at most {:.2f} mm, kinks of at most {:.1f} degrees",
           seam.name, seam.rods.size(), seam.max_gap_mm(), seam.max_kink_deg()));
   return plan;
 }

@@ -87,7 +87,7 @@ Result<Work> do_steps(const std::shared_ptr<const Scene>& scene,
 }
 
 std::string on_its_way(double t, std::optional<double>) {
-  return fmt::format("at {:.3f} of its way", t);
+  return fmt::format("at {:.3f} of its path", t);
 }
 
 /// Hands the frames of one work to a sink.
@@ -182,7 +182,7 @@ std::string message_of(std::size_t k, const preset::Step& step, const PathSegmen
   std::string text = fmt::format("{} {}: {}", k + 1, text_of(step), words_of(report.end).name);
   for (const Event& event : report.events)
     if (event.to)
-      text += fmt::format(", {} at {:.3f} of its way",
+      text += fmt::format(", {} at {:.3f} of its path",
                           event.leap ? "snap to another state" : "branches", event.t);
   const Certificate& certificate = report.certificate;
   text += fmt::format(", residual {:.2g} N, ", certificate.residual_N);

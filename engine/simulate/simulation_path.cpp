@@ -289,7 +289,7 @@ Outcome Simulation::Walk::branch_ended(Outcome how, double next, const NestedSta
   if (auto limit = of_.beyond(limits_)) {
     // the state past it would need longer or thinner rods, or room where others are
     shell_.back_to(end_of_branch);
-    if (limit->kind == Event::Kind::locked) limit->what = "beyond a snap";
+    if (limit->kind == Event::Kind::locked) limit->what = "past a snap";
     return end_before(std::move(*limit), event.t, end_of_branch);
   }
   if (record_ && !moments.empty())

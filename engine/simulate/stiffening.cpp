@@ -40,7 +40,7 @@ Result<std::vector<double>> openings(const preset::Step& step, const Footprint& 
     if (joint < 0 || now.rods[std::size_t(joint)].size() != 2)
       return invalid("angles: [{:g}, {:g}] is no joint where two rods cross", row[0], row[1]);
     if (!std::isnan(by[std::size_t(joint)]))
-      return invalid("angles: [{:g}, {:g}] stands there twice", row[0], row[1]);
+      return invalid("angles: [{:g}, {:g}] is in the list twice", row[0], row[1]);
     by[std::size_t(joint)] = row[2] * rad - rest(std::size_t(joint));
   }
   if (step.angles.empty()) {

@@ -272,7 +272,7 @@ Result<State> minimise_from(Linearisation& system, State state, const Watch& wat
   if (watch.cancelled()) return fail(Fault::cancelled, "stopped while looking for an equilibrium");
   if (down.outcome == Outcome::lost)
     return fail(Fault::no_equilibrium,
-                "rods that press on one another, or cross without a joint, leave no way to an "
+                "rods that press on one another, or cross without a joint, leave no path to an "
                 "equilibrium");
   // nothing moves any more, but a mode without stiffness keeps it from being a minimum
   if (down.outcome == Outcome::not_converged && down.last_move_mm < 1e-3) {

@@ -44,10 +44,11 @@ std::string mismatch(const Drawing& drawing) {
         if (node < 0 || std::size_t(node) >= count) return true;
     return false;
   };
-  if (outside(layout.rods, nodes)) return fmt::format("has a rod beyond its {} nodes", nodes);
+  if (outside(layout.rods, nodes))
+    return fmt::format("has a rod with more than its {} nodes", nodes);
   for (const auto& joint : layout.joints)
     if (joint.node < 0 || std::size_t(joint.node) >= nodes)
-      return fmt::format("has joint ({}, {}) beyond its {} nodes", joint.i, joint.j, nodes);
+      return fmt::format("has joint ({}, {}) outside its {} nodes", joint.i, joint.j, nodes);
   for (const auto& ghost : drawing.ghosts)
     if (!ghost.nodes.allFinite() || outside(ghost.rods, std::size_t(ghost.nodes.cols())))
       return "has ghost rods with a node that is missing or not finite";

@@ -274,7 +274,7 @@ Plot load_plot(const std::vector<LoadPoint>& points, const std::vector<record::L
                const std::string& title) {
   Plot plot;
   plot.title = title;
-  plot.x.label = "way of the joint that goes furthest (mm)";
+  plot.x.label = "displacement of the joint that moves furthest (mm)";
   plot.y.label = "load factor";
   // cases whose factors are far apart would lie on one another
   constexpr double far_apart = 10, below = 1.0 / 30;

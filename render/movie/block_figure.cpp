@@ -232,7 +232,7 @@ Result<void> write_block_footprints(const std::filesystem::path& stem,
 std::vector<Plot> seam_plots(const record::Trajectory& run) {
   std::vector<Plot> plots(2);
   for (Plot& plot : plots) {
-    plot.x.label = "place along the seam (mm)";
+    plot.x.label = "position along the seam (mm)";
     plot.y.low = 0;
   }
   plots[0].y.label = "gap (mm)";

@@ -93,7 +93,7 @@ class PhasePlot {
     columns_ = double(std::set(legs.begin(), legs.end()).size());
     plot_.title = plain(title);
     plot_.x = {.label = "longest leg, *L̄*_{d} = *L*/*d*"};
-    plot_.y = {.label = "rods a direction, *n*"};
+    plot_.y = {.label = "rods per direction, *n*"};
     plot_.legend = LegendPlace::above;
     if (legs.empty()) return;
     const auto [short_leg, long_leg] = std::ranges::minmax(legs);
@@ -207,7 +207,7 @@ ClassLook look_of(StateClass kind) {
 
 Plot barrier_plot(const record::StateTables& states) {
   Plot plot;
-  plot.title = fmt::format("Barriers between states (heights found on {} edges a segment)",
+  plot.title = fmt::format("Barriers between states (heights found on {} edges per segment)",
                            states.search.judged_edges);
   plot.y = {.label = "elastic energy; heights of barriers (mJ)"};
   plot.legend = LegendPlace::none;

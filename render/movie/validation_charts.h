@@ -52,15 +52,4 @@ Result<void> write_outcome_maps(const std::filesystem::path& stem,
                                 const std::vector<record::StabilityRow>& rows,
                                 const std::string& title, double width_mm = 178);
 
-// A study of trust as pictures: what became of the scenes of each kind, and errors compared with
-// estimates.
-
-/// One bar a kind, parted by class with the number of scenes in each part, and a legend below.
-Result<void> write_trust_bars(const std::filesystem::path& stem,
-                              const std::vector<record::TrustRow>& rows);
-
-/// Error over estimate of the scenes that were judged, and the line above which an estimate was too
-/// small.
-Plot trust_plot(const std::vector<record::TrustRow>& rows);
-
 }  // namespace gridshell::render

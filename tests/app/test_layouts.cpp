@@ -149,7 +149,7 @@ TEST_CASE("in what `figure` and `movie` make of every preset no text meets anoth
     }
 }
 
-TEST_CASE("plots of bins and forces keep their words apart, however narrow") {
+TEST_CASE("words in plots of bins and forces do not overlap, however narrow") {
   const record::Trajectory run = eventful(true);
   const RunSummary survey = summarise_run(run);
   for (const double width : {150.0, 186.0, 260.0, 500.0}) {

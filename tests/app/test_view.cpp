@@ -82,7 +82,8 @@ TEST_CASE("a slider dragged in the window moves the boundary, in one step that c
   CHECK(number(back, "boundary_radius_mm") == Approx(54));
 }
 
-TEST_CASE("a joint dragged by the mouse is pushed and held, and saved it is a preset that runs") {
+TEST_CASE(
+    "a joint dragged by the mouse is pushed and prescribed, and saved it is a preset that runs") {
   const TemporaryFolder folder;
   const json pushed = played(
       folder, drag({"@joint:0,0 0 0", "@joint:0,0 0 10", "@joint:0,0 0 8"}) + "do save_preset\n",
@@ -188,8 +189,9 @@ TEST_CASE("every panel, light and dark, at twice the density, and in a small win
   }
 }
 
-TEST_CASE("a shell is designed in the window, kept and saved with its tables, and runs as it stood",
-          "[standard]") {
+TEST_CASE(
+    "a shell is designed in the window, kept and saved with its tables, and runs to the same state",
+    "[standard]") {
   const std::string cap =
       "title = \"cap\"\n[footprint]\nkind = \"net\"\nplacement = \"on_axis\"\n"
       "[net]\nkind = \"sphere\"\nradius_mm = 80.0\ncut_height = 0.5\n"

@@ -298,7 +298,7 @@ Result<LiveDesignResult> live(const preset::Preset& preset, const Watch& watch, 
 
 }  // namespace
 
-TEST_CASE("a design that is watched hands over every step that both meshes hold", "[standard]") {
+TEST_CASE("a design that is watched hands over every step that both meshes certify", "[standard]") {
   Handed handed;
   const auto end = value_of(live(low_cap(), unwatched, handed));
   CHECK_FALSE(end.stopped);
@@ -314,7 +314,7 @@ TEST_CASE("a design that is watched hands over every step that both meshes hold"
   CHECK(*end.rounded_max_mm == Approx(whole.rounded->max_mm).epsilon(1e-3));
 }
 
-TEST_CASE("stopped, a design stands in the last step that it handed over") {
+TEST_CASE("stopped, a design is in the last step that it handed over") {
   Handed all, some;
   REQUIRE(live(low_cap(), unwatched, all).has_value());
   Watch watch;

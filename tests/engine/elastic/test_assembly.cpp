@@ -127,7 +127,7 @@ TEST_CASE("joints: a hinge's rods keep to the common normal, edges stay centred,
   }
 }
 
-TEST_CASE("joints: rods of a hinge that pass one another go on with a negative angle") {
+TEST_CASE("joints: rods of a hinge that pass one another continue with a negative angle") {
   const ModelRod a{{0, 1, 2, 3, 4}, {0, 4, 9, 14, 18}, strip,       {},
                    {0, 0, 1, 0, 0}, RodEnd::free,      RodEnd::free};
   const ModelRod b{{5, 6, 2, 7, 8}, {0, 4, 9, 14, 18}, strip,       {},
@@ -161,7 +161,8 @@ TEST_CASE("joints: rods of a hinge that pass one another go on with a negative a
   check_derivatives(model, state, {}, 1e-7, 1e-5, 1e-6);
 }
 
-TEST_CASE("assembly: both ways give one gradient, the mixed residual is it where N = EA strain") {
+TEST_CASE(
+    "assembly: both methods give one gradient, the mixed residual equals it where N = EA strain") {
   const BentDome dome = noisy_dome(4);
   Assembly with_hessian, alone, mixed;
   assemble_hessian(dome.model, dome.state, {}, {}, with_hessian);

@@ -177,7 +177,7 @@ TEST_CASE("material bend: value, gradient and Hessian agree with automatic diffe
     }
 }
 
-TEST_CASE("bend at a held end: derivatives, and half of what the edge and its mirror image bend") {
+TEST_CASE("bend at a fixed end: derivatives, and half of what the edge and its mirror image bend") {
   for (Sample at : samples(8, 40)) {
     at.bend.share = 0;
     PairEnergy out;
@@ -210,7 +210,7 @@ TEST_CASE("material bend: equal stiffness and no natural curvature is the round 
   }
 }
 
-TEST_CASE("a corner gives way as its two half edges in series do") {
+TEST_CASE("a corner is as compliant as its two half edges in series") {
   const double GJ = 2.9, length_e = 1.7, length_f = 0.6;
   // a round rod about any axis, a section with two stiffnesses about one of its own
   const auto [EI, axis] = GENERATE(table<Eigen::Vector2d, double>({{{4.1, 4.1}, 0.0},

@@ -106,7 +106,7 @@ TEST_CASE(
   CHECK(dead_loads(mesh, ShellRods(section)).empty());
 }
 
-TEST_CASE("dead loads come on with the path: its tangent and the states agree") {
+TEST_CASE("dead loads are applied along the path: its tangent and the states agree") {
   ShellRods loaded(section);
   loaded.weight_N_per_mm.assign(fig1().footprint.rods.size(), 3.2e-6);
   loaded.points.push_back({0, {0, 0, -2e-3}});
@@ -148,7 +148,8 @@ TEST_CASE("rods of two kinds: a circle's state turns with its families") {
   CHECK(energy(thin) < u_thick);
 }
 
-TEST_CASE("a rod pulled by two springs: force 2 a/(2/k + L/EA), supports drawn apart by a each") {
+TEST_CASE(
+    "a rod pulled by two springs: force 2 a/(2/k + L/EA), supports moved outwards by a each") {
   const double apart = 1, force = 2 * apart / (2 / k.x() + length / section.EA);
   for (const RodModel rung : {RodModel::bend, RodModel::twist}) {
     const Rested rod(rung, apart, 0);

@@ -58,7 +58,7 @@ struct Bolted {
 
 }  // namespace
 
-TEST_CASE("a bar: a strut on both sides, a cable that is slack, comes on and pulls") {
+TEST_CASE("a bar: a strut on both sides, a cable that is slack, becomes taut and pulls") {
   const Dome dome(2);
   const double length = (dome.state.x.col(0) - dome.state.x.col(5)).norm();
   for (const bool cable : {false, true})
@@ -96,7 +96,7 @@ TEST_CASE("bolts are free of stress in the shape they were tightened in, on its 
   }
 }
 
-TEST_CASE("bolts of one mesh hold the shape of another, exactly on a surface of second degree") {
+TEST_CASE("bolts of one mesh keep the shape of another, exactly on a surface of second degree") {
   const Bolted fine(16);
   const Bolts bolts = tightened(fine.mesh, fine.loose, fine.state, 25);
   for (const int edges : {4, 8}) {

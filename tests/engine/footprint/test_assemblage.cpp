@@ -122,7 +122,7 @@ TEST_CASE("rods run on across the seams of an assemblage, its boundary is closed
   }
 }
 
-TEST_CASE("the nets lie in their places, and closed() leaves no gap between them") {
+TEST_CASE("the nets lie at their positions, and closed() leaves no gap between them") {
   const auto made = Assemblage::make(stadium(), in_a_row, 6).value();
   // the cylinder's middle is four rows from the left pole, cos(51 degrees) of that along x
   const double half = 4 * d * std::cos(51 * M_PI / 180);

@@ -61,10 +61,10 @@ TEST_CASE("footprint: what makes no sense is refused with its reason") {
       "12 rods a direction at d = 20 mm reach 110 mm, beyond the boundary: the longest leg R_o/d - "
       "(n-1)/2: got -0.5, expected above 0; take R_o >= 110.02 mm or n <= 10");
   // the outermost rods of each family are outside the reach of all others
-  CHECK(
-      message(50.5, 6, 20, Placement::half) ==
-      "the u-rod at v = -50 mm crosses no other rod: it would hang on its two ends alone; move the "
-      "boundary or the spacing");
+  CHECK(message(50.5, 6, 20, Placement::half) ==
+        "the u-rod at v = -50 mm crosses no other rod: it would be held only at its two ends "
+        "alone; move the "
+        "boundary or the spacing");
   CHECK(refusal(cut_footprint(Disk(1e6), 1.0, Placement::half)) != "none");
 }
 

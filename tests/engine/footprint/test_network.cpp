@@ -103,7 +103,7 @@ TEST_CASE("a ring comes back to its first joint and a polyline is as long as its
   CHECK(mesh.rods[0].size() == 17);
 }
 
-TEST_CASE("a network that is a square grid is named as one, whichever way its rods run") {
+TEST_CASE("a network that is a square grid is named as one, in whichever direction its rods run") {
   // 3 x 2 lines at 10 mm about the origin, rods crosswise and backwards
   std::vector<Eigen::Vector2d> points;
   std::vector<std::vector<int>> rods;
@@ -245,7 +245,7 @@ TEST_CASE("rods in space are as long as their polyline there, and laid where the
   refused(upright, "at points on one line");
 }
 
-TEST_CASE("the rim of points has those on the edges of their hull, each place once") {
+TEST_CASE("the rim of points has those on the edges of their hull, each position once") {
   Eigen::Matrix2Xd points(2, 7);
   points << 0, 1, 1, 0, 0.5, 0.5, 0.5, 0, 0, 1, 1, 0.5, 0, 0;
   CHECK(rim_of(points) == std::vector<int>{0, 5, 1, 2, 3});

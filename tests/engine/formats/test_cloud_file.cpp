@@ -65,7 +65,7 @@ TEST_CASE("points are the vertices of a PLY, as text and as bytes") {
   const auto binary = value_of(read_cloud(bytes, "a.ply"));
   CHECK(binary.points == two_points());
   CHECK(fault_of(bytes.substr(0, bytes.size() - 20), "a.ply") ==
-        "a.ply: vertex 2: the file ends there, or what stands there is no number");
+        "a.ply: vertex 2: got the end of the file or no number, expected a number");
 }
 
 TEST_CASE("rows without a point are left out and counted, and a file may be in metres") {
@@ -83,7 +83,7 @@ TEST_CASE("rows without a point are left out and counted, and a file may be in m
         two_points());
 }
 
-TEST_CASE("rows that may be read in two ways are refused") {
+TEST_CASE("rows with two readings are refused") {
   CHECK_THAT(fault_of("1,5,2,5,3,5\n4,5,5,5,6,5\n", "a.csv"),
              Catch::Contains("a.csv:1: six whole numbers between commas: decimal commas, or"));
   CHECK_THAT(fault_of("1 9 8 7\n2 8 7 6\n3 7 6 5\n", "a.xyz"),

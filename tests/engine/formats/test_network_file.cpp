@@ -45,7 +45,7 @@ std::string with(const std::string& from, const std::string& to) {
 
 }  // namespace
 
-TEST_CASE("a network in JSON: points by number or place, nearby ones are one") {
+TEST_CASE("a network in JSON: points by number or position, nearby ones are one") {
   const auto read = value_of(read_network(crossed, "net.json"));
   CHECK(read.points.size() == 6);
   CHECK(read.rods == std::vector<std::vector<int>>{{0, 4, 1}, {2, 4, 3}});

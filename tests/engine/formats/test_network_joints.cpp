@@ -36,7 +36,7 @@ void wrong(const std::string& joints, const std::string& reason) {
 
 }  // namespace
 
-TEST_CASE("points of a listed joint are one, at their mean place") {
+TEST_CASE("points of a listed joint are one, at their mean position") {
   const NetworkData network = read(beside);
   CHECK(network.rods == std::vector<std::vector<int>>{{0, 4, 2}, {3, 4, 5}, {2, 7}});
   CHECK(network.points[4] == std::vector<double>{0.3, 0.4, 0});

@@ -81,7 +81,7 @@ TEST_CASE("the commands of an SVG path close an outline, relative or not") {
         Approx(5000).epsilon(1e-3));
 }
 
-TEST_CASE("shapes of an SVG stand under their transforms, what is not drawn does not count") {
+TEST_CASE("shapes of an SVG have their transforms, what is not drawn does not count") {
   const Outline found = outline(
       svg("<defs><rect width=\"500\" height=\"500\"/></defs>"
           "<g transform=\"translate(10 20) scale(2)\"><rect width=\"30\" height=\"20\"/></g>"

@@ -80,7 +80,7 @@ const std::string obj =
 
 }  // namespace
 
-TEST_CASE("the same square comes out of every format") {
+TEST_CASE("every format gives the same square") {
   for (const auto& [name, bytes] : {std::pair<std::string, std::string>("a.obj", obj),
                                     {"a.ply", ply_text()},
                                     {"a.PLY", ply_bytes(false)},
@@ -94,7 +94,7 @@ TEST_CASE("the same square comes out of every format") {
   }
 }
 
-TEST_CASE("the same square comes out of every spelling of OBJ and STL") {
+TEST_CASE("every spelling of OBJ and STL gives the same square") {
   const auto upper = [](std::string text) {
     for (char& c : text) c = char(std::toupper((unsigned char)c));
     return text;
@@ -119,7 +119,7 @@ TEST_CASE("the same square comes out of every spelling of OBJ and STL") {
   wrong(stl_text().substr(0, stl_text().size() - 9), "a.stl", "is it cut short?");
 }
 
-TEST_CASE("heights come in any order, and a place without one is reported") {
+TEST_CASE("heights come in any order, and a position without one is reported") {
   const auto grid = read_surface(heights(), "h.csv");
   REQUIRE(grid.has_value());
   CHECK(grid->x == std::vector<double>{0, 1, 2, 3, 4});
@@ -165,7 +165,7 @@ TEST_CASE("what is no mesh is refused with its position") {
         "a.ply", "not a number");
 }
 
-TEST_CASE("a preset holds the surface of its file, and its text reads back as the same") {
+TEST_CASE("a preset contains the surface of its file, and its text reads back as the same") {
   const std::string text =
       "[footprint]\nkind = \"net\"\n[net]\nkind = \"surface\"\nfile = \"NAME\"\n";
   const std::map<std::string, std::string> files{{"h.csv", heights()}, {"a.obj", obj}};

@@ -47,7 +47,7 @@ TEST_CASE(
   const auto [text, sentence] = GENERATE(values<Row>({
       {"[rod]\nshear_GPa = 31\n[ends]\nkind = \"clamped\"\n[accuracy]\nmodel = \"bend\"",
        "bad.toml:6:9: [accuracy] model: got \"bend\": it cannot compute [ends] kind: clamped ends "
-       "hold the rods' spin"},
+       "prescribe the rods' twist angle"},
       {"[accuracy]\nmodel = \"net\"\ntolerance = 0.1",
        "bad.toml:2:9: [accuracy] model: got \"net\": it cannot compute [footprint] kind: a "
        "footprint that was not designed on a net has none"},
@@ -59,8 +59,9 @@ TEST_CASE(
        "bad.toml:2:13: [movie] colour_by: got \"deviation\" (\"deviation\" is measured from the "
        "net of a footprint), expected another value, or [footprint] kind = \"net\" or \"blocks\""},
       {"[ends]\nkind = \"clamped\"",
-       "bad.toml:2:8: [ends] kind: got \"clamped\" (the rods twist: clamped ends hold the rods' "
-       "spin; they have no torsional stiffness), expected [rod] shear_GPa or GJ_Nmm2 above 0"},
+       "bad.toml:2:8: [ends] kind: got \"clamped\" (the rods twist: clamped ends prescribe the "
+       "rods' twist angle; they have no torsional stiffness), expected [rod] shear_GPa or GJ_Nmm2 "
+       "above 0"},
       {"[accuracy]\nmodel = \"twist\"",
        "bad.toml:2:9: [accuracy] model: got \"twist\" (the rods twist: the model is given; they "
        "have no torsional stiffness), expected [rod] shear_GPa or GJ_Nmm2 above 0"},
@@ -97,9 +98,9 @@ TEST_CASE("a circle is as large as its radius says, or its longest leg, and not 
   CHECK_THAT(to_toml(presets), !Catch::Contains("radius_mm = 126"));
   CHECK_THAT(faults_of("[footprint]\nlongest_leg = 1.5\nradius_mm = 90\n"),
              Catch::StartsWith("bad.toml:3:13: [footprint] radius_mm") &&
-                 Catch::Contains("[footprint] longest_leg takes its place"));
+                 Catch::Contains("[footprint] longest_leg replaces it"));
   CHECK_THAT(faults_of("[actuation]\nratio = 0.5\nradius_mm = 90\n"),
-             Catch::Contains("[actuation] ratio takes its place"));
+             Catch::Contains("[actuation] ratio replaces it"));
   CHECK_THAT(faults_of("[footprint]\nkind = \"net\"\nlongest_leg = 1.5\n"),
              Catch::Contains("does not use it, only \"circle\""));
   CHECK_THAT(faults_of("[footprint]\nlongest_leg = -1\n"), Catch::Contains("longest_leg = -1"));
@@ -133,7 +134,7 @@ TEST_CASE("a key that the kind does not use is refused with its position and the
 
 TEST_CASE("pictures have keys that others put out of use") {
   CHECK_THAT(faults_of("[movie]\nview = \"top\"\nazimuth_deg = 10.0\n"),
-             Catch::Contains("[movie] view takes its place"));
+             Catch::Contains("[movie] view replaces it"));
   CHECK_THAT(faults_of("[page]\nphoto = \"a.png\"\n"), Catch::Contains("no page is made"));
   CHECK(faults_of("[movie]\nazimuth_deg = 10.0\n", {{"--set", "movie.view", "top"}}) == "none");
 }
@@ -182,7 +183,7 @@ TEST_CASE("a preset is written without the keys that count for nothing, and read
   CHECK(again.cases[1].preset.net.waist == 0.4);
 }
 
-TEST_CASE("values beyond any material, and joints larger than their distance, are doubted") {
+TEST_CASE("values above those of any material, and joints larger than their distance, are noted") {
   const auto notes = [](const std::string& text) { return good(text).notes; };
   CHECK(notes("").empty());
   const auto stiff = notes("[rod]\nyoung_GPa = 83000.0\n");

@@ -43,7 +43,7 @@ radii_mm = [126, 110.5]
 }
 
 // more of them, through the whole program: tests/app/test_bad_input.cpp
-TEST_CASE("an error names its place, key, value, what is wrong and what is right") {
+TEST_CASE("an error names its position, key, value, what is wrong and what is right") {
   using Row = std::pair<std::string, std::string>;
   const auto [text, sentence] = GENERATE(values<Row>({
       {"title = 12", "bad.toml:1:9: title: got 12 (an integer), expected a string"},
@@ -254,7 +254,7 @@ second = "right.west"
   CHECK(faults_of(text) == sentence);
 }
 
-TEST_CASE("a case's list of tables stands in the place of the file's") {
+TEST_CASE("a case's list of tables replaces the file's") {
   const auto presets = value_of(read_preset_text(
       "[footprint]\nkind = \"blocks\"\n[[block]]\nname = \"a\"\nradius_mm = 90.0\n[[block]]\n"
       "name = \"b\"\n[[join]]\nfirst = \"a.east\"\nsecond = \"b.west\"\n[[case]]\nname = \"both\"\n"
@@ -277,7 +277,7 @@ TEST_CASE("a case's list of tables stands in the place of the file's") {
   CHECK(to_toml(again) == text);
 }
 
-TEST_CASE("points stand in the preset or in a file beside it") {
+TEST_CASE("points are in the preset or in a file next to it") {
   const TemporaryFolder folder;
   const auto file = folder / "shell.toml";
   const auto with = [&](const std::string& points, const std::string& csv) {

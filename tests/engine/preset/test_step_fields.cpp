@@ -61,7 +61,7 @@ TEST_CASE("an override names an item of a list of tables by its number") {
   }
 }
 
-TEST_CASE("load cases stand in [loads], are written there and read back") {
+TEST_CASE("load cases are in [loads], are written there and read back") {
   const std::string text = R"(
 [loads]
 snow_N_m2 = 750.0

@@ -42,7 +42,7 @@ footprint.rods = 10
   CHECK(grid.at(2).preset.actuation.radius_mm == 100);
 }
 
-TEST_CASE("searches for states shake otherwise at every point, and as before when asked again") {
+TEST_CASE("searches for states perturb differently at every point, and equally when repeated") {
   const auto seeds_of = [](const std::string& text) {
     const auto presets = good(text);
     const SweepGrid grid(presets);
@@ -122,7 +122,7 @@ TEST_CASE("hostile sweeps are reported with file, line and key") {
   CHECK_THAT(faults_of("[sweep]\nover = {rod = {diameter_mm = {from = 1}}}"),
              Contains("expected { from"));
   CHECK_THAT(faults_of(over("net.waist = [0.2]")),
-             Contains("[net] waist counts for nothing in any of the runs"));
+             Contains("[net] waist has no effect in any of the runs"));
   CHECK_THAT(faults_of(over("actuation.radius_mm = [90, 200]")),
              Contains("bad.toml:1:") && Contains("at actuation.radius_mm = 200.0") &&
                  Contains("larger than the footprint"));
@@ -133,7 +133,7 @@ TEST_CASE("hostile sweeps are reported with file, line and key") {
   CHECK_THAT(faults_of(over("rod.young_GPa = [1]"), {{"--set", "rod.young_GPa", "2"}}),
              Contains("is set by the command line"));
   CHECK_THAT(faults_of("[imperfection]\nsize = 0.0\n[sweep]\nseeds = 3"),
-             Contains("counts for nothing"));
+             Contains("has no effect"));
   CHECK_THAT(faults_of("[sweep]\nseeds = 100000\n" +
                        over("rod.young_GPa = {from = 1, to = 2, count = 100000}")),
              Contains("expected at most 100000"));

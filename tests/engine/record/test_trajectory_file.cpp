@@ -124,7 +124,7 @@ TEST_CASE("a file that is missing, foreign or cut short is refused in a sentence
   CHECK(refusal(whole.substr(0, 100)) == "it is cut short");
   const std::string damaged =
       "it is cut short, damaged or was changed: its checksum does not match (of one that another "
-      "program changed, --unsealed, in Python unsealed=True, reads what there is)";
+      "program changed, --no-checksum, in Python no_checksum=True, reads what there is)";
   for (const double part : {0.3, 0.9})
     CHECK(refusal(whole.substr(0, static_cast<std::size_t>(part * whole.size()))) == damaged);
   // one bit anywhere
@@ -194,10 +194,10 @@ TEST_CASE("a trajectory that another program rewrote is read only where that is 
   const fs::path path = folder / "a.h5";
   const Trajectory run = sample_trajectory();
   const std::string bytes = changed([](hid_t) {}, run);
-  CHECK(
-      refusal(bytes) ==
-      "it has no checksum, so another program wrote it (--unsealed, in Python unsealed=True, reads "
-      "it all the same)");
+  CHECK(refusal(bytes) ==
+        "it has no checksum, so another program wrote it (--no-checksum, in Python "
+        "no_checksum=True, reads "
+        "it all the same)");
   REQUIRE(write_file(path, bytes));
   const auto back = value_of(read_trajectory(path, {.unsealed = true}));
   CHECK(same_bits(back.frames[2].nodes, run.frames[2].nodes));

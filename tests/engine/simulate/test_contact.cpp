@@ -112,7 +112,7 @@ TEST_CASE("a contact inside the load step in which the equilibrium is lost is fo
   CHECK(depths[1] == Approx(depths[0]).margin(0.01));
 }
 
-TEST_CASE("a shell that begins in contact goes no deeper into it, and may come out") {
+TEST_CASE("a shell that begins in contact goes no deeper into it, and may leave it") {
   auto preset = with_two_mirrors();
   preset.limits.table = true;
   const auto told = run(preset);
@@ -147,8 +147,7 @@ TEST_CASE("shells of the paper do not touch themselves: a rod near its joint is 
   CHECK(outcome.summary.contact.empty());
 }
 
-TEST_CASE("a barrier keeps rods apart on the whole path, of wires and of rods that twist",
-          "[full]") {
+TEST_CASE("a barrier separates rods on the whole path, of wires and of rods that twist", "[full]") {
   // further in, at 12 mm, meshes that the tolerance chooses continue for minutes
   auto preset = crowded(17);
   preset.accuracy.tolerance = 5e-3;

@@ -84,7 +84,7 @@ TEST_CASE("a bracket cut with a corner bends and twists as its legs do, at secon
   }
 }
 
-TEST_CASE("the error that a rod cut with a corner reports holds") {
+TEST_CASE("the error that a rod cut with a corner reports is a bound") {
   constexpr double L = 200, P = 5e-4;
   const auto outcome = loaded(drawn(bracket(100), 0), {0, 0, -P});
   const auto& layout = outcome.trajectory.layout;

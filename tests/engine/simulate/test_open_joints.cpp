@@ -88,7 +88,7 @@ TEST_CASE("a twisted network in space has one energy however it is turned, mirro
 }
 
 TEST_CASE(
-    "rods cut as they are drawn lie there without stress, in space or a ring, ends held or not") {
+    "rods cut as they are drawn lie there without stress, in space or a ring, ends fixed or not") {
   preset::NetworkData vault = mixed_network(), ring;
   vault.joint_laws = {{6, -1, 0}};
   // a polygon of 24 corners, and a bow
@@ -108,7 +108,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("joints of three rods count alike, whichever the file lists first") {
+TEST_CASE("joints of three rods count equally, whichever the file lists first") {
   preset::NetworkData file;
   file.points = {{-50, 0, 0},  {50, 0, 0},   {-25, -43, 2}, {25, 43, 2},
                  {-25, 43, 4}, {25, -43, 4}, {0, 0, 10}};
@@ -214,8 +214,7 @@ TEST_CASE("stiff springs cost a path no more steps than soft ones") {
   CHECK(outcome.summary.factorizations < 400);
 }
 
-TEST_CASE("straight strips that come to lie along one another are refused, a weak spring helps",
-          "[standard]") {
+TEST_CASE("straight strips that become parallel are refused, a weak spring helps", "[standard]") {
   preset::Preset p = shipped("lit_xshell_hyperboloid");
   p.movie.frames = 2;
   p.rod.as_drawn = false;

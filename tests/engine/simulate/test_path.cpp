@@ -210,7 +210,7 @@ TEST_CASE("a saddle from flat loses its branch where two coarse meshes do", "[st
   CHECK(bend(confirmed) == Approx(bend(run(spool()))).epsilon(5e-3));
 }
 
-TEST_CASE("the frame after a jump is the one that tells it, and it jumps where that is reported",
+TEST_CASE("the frame after a jump is the one that reports it, and it jumps where that is reported",
           "[standard]") {
   // of two snaps the second is a limit point of the path, which a mesh of twice the edges has later
   preset::Preset p = ellipse(60);
@@ -233,7 +233,7 @@ TEST_CASE("the frame after a jump is the one that tells it, and it jumps where t
   CHECK(told == 2);
 }
 
-TEST_CASE("estimates hold where the meshes show another order than the second", "[full]") {
+TEST_CASE("estimates are bounds where the meshes show another order than the second", "[full]") {
   preset::Preset p = circle(17, 162.305, 113.993);
   p.accuracy.tolerance = 1e-3;
   const auto asked = run(p);

@@ -71,7 +71,7 @@ double stiffness_of_push(Simulation simulation) {
 
 }  // namespace
 
-TEST_CASE("load cases: what comes on is what the supports bear, to 1e-9 of it") {
+TEST_CASE("load cases: what is applied is what the supports bear, to 1e-9 of it") {
   Simulation simulation = formed(loaded_shell());
   const Eigen::Matrix3Xd shape = simulation.nodes();
   double plan = 0, half = 0, covered = 0;
@@ -129,7 +129,9 @@ TEST_CASE("load cases: what comes on is what the supports bear, to 1e-9 of it") 
   }
 }
 
-TEST_CASE("bolts and braces change nothing as they come in, hold afterwards, and go again") {
+TEST_CASE(
+    "bolts and braces change nothing as they are added, stiffen afterwards, and are removed "
+    "again") {
   preset::Preset p = loaded_shell();
   // edges are centred on joints that will be bolted
   p.step = {step(StepKind::tighten)};

@@ -66,7 +66,7 @@ TEST_CASE("modes: masses and stiffness set the time, shapes and states stay") {
   CHECK(four.modes[0].frequency_Hz == Approx(joints.modes[0].frequency_Hz / 2).epsilon(5e-3));
 }
 
-TEST_CASE("modes: a joint that is pushed is held along the push, and free across it") {
+TEST_CASE("modes: a joint that is pushed is fixed along the push, and free across it") {
   preset::Preset p = massive();
   p.indentation.at = preset::IndentationPlace::highest;
   p.indentation.depth_mm = 2;

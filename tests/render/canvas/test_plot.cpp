@@ -102,7 +102,7 @@ TEST_CASE("labels, ticks, legend, references and notes are all there") {
   });
 }
 
-TEST_CASE("values stand where the axis says") {
+TEST_CASE("values are where the axis says") {
   const Plot plot = errors();
   laid_out(plot, [&](Canvas&, const PlotFrame& frame) {
     // on a logarithmic axis equal ratios take equal room

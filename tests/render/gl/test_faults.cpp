@@ -122,7 +122,7 @@ Change shaken(double size_mm, int seed) {
 
 }  // namespace
 
-TEST_CASE("the metric catches every injected fault", "[image][image][standard]") {
+TEST_CASE("the metric catches every injected error", "[image][image][standard]") {
   Easel paint;
   const Image good = paint(Subject());
   CHECK(faults().size() >= 20);

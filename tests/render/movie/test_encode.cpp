@@ -78,7 +78,7 @@ class FakeFfmpeg {
 
 }  // namespace
 
-TEST_CASE("without ffmpeg the command line is told instead, ready for a shell") {
+TEST_CASE("without ffmpeg the command line is printed instead, ready for a shell") {
   const FakeFfmpeg none("");
   const TemporaryFolder folder;
   REQUIRE(encode_movie("out/my run/frames", {}, folder / "movie.mp4", {}));
@@ -130,7 +130,7 @@ TEST_CASE("a shell reads the words back as they were") {
   CHECK(read_file(out).value() == expected);
 }
 
-TEST_CASE("hold, pace, title card and the kind of file stand in the command") {
+TEST_CASE("`hold`, pace, title card and the kind of file are in the command") {
   const auto line = [](const preset::Movie& timing, const char* file) {
     return shell_line(encode_arguments("frames", timing, file));
   };
@@ -154,7 +154,7 @@ TEST_CASE("hold, pace, title card and the kind of file stand in the command") {
   CHECK(has(line({}, "m.gif"), "paletteuse"));
 }
 
-TEST_CASE("a real ffmpeg makes movies of the length asked for", "[standard]") {
+TEST_CASE("a real ffmpeg makes movies of the requested length", "[standard]") {
   if (find_program("ffmpeg").empty() || find_program("ffprobe").empty()) {
     WARN("no ffmpeg, skipped");
     return;

@@ -30,7 +30,7 @@ Result<void> write(const record::Trajectory& run, Renderer& renderer,
 
 }  // namespace
 
-TEST_CASE("a movie is numbered frames, each told when it is whole") {
+TEST_CASE("a movie is numbered frames, each reported when it is complete") {
   const TemporaryFolder folder;
   const record::Trajectory run = synthetic::dome(3, 2);
   test::FakeRenderer renderer;
@@ -114,7 +114,7 @@ TEST_CASE("a movie is drawn from one frame at a time, and is that of the run in 
                 Fault::io) == "the file is gone");
 }
 
-TEST_CASE("nothing to show beside one another is refused, a stopped movie keeps whole frames") {
+TEST_CASE("nothing to show next to one another is refused, a stopped movie keeps complete frames") {
   const TemporaryFolder folder;
   test::FakeRenderer renderer;
   Watch watch;
@@ -151,7 +151,7 @@ TEST_CASE("a worker does its jobs on one thread of its own and says how each end
   CHECK(threads[0] != std::this_thread::get_id());
 }
 
-TEST_CASE("what a worker's job throws is thrown where it is waited for") {
+TEST_CASE("an exception of a worker's job reaches who waits for it") {
   Worker worker;
   worker.begin([]() -> Result<void> { throw std::bad_alloc(); });
   CHECK_THROWS_AS(worker.wait(), std::bad_alloc);

@@ -85,7 +85,7 @@ TEST_CASE("a frame says what it is") {
   }
 }
 
-TEST_CASE("an event that one line does not hold has two") {
+TEST_CASE("an event too long for one line has two") {
   record::Trajectory run = synthetic::dome(12, 2);
   const std::string snap = "snap at depth 33.851 mm;",
                     touch = "joints (-1, -1) and (0, 0) touch at depth 33.41 mm ± 0.04 mm";
@@ -140,7 +140,7 @@ TEST_CASE("an unstable frame says so once, a stable one never") {
   CHECK(event_caption(silent) == "unstable equilibrium");
 }
 
-TEST_CASE("the bar is of the radius or the depth where these only go one way, else of frames") {
+TEST_CASE("the bar is of the radius or the depth where these are monotonic, else of frames") {
   record::Trajectory run = synthetic::dome(5, 2);
   const ProgressAxis radius = summarise_run(run).progress();
   CHECK(radius.name == "*R*_{a}");
@@ -182,7 +182,7 @@ TEST_CASE("a pushed shell is seen over its first state, with the push in the pic
   }
 }
 
-TEST_CASE("what touches wears a mark, and words beside the bar and as the event") {
+TEST_CASE("what touches has a mark, and words next to the bar and as the event") {
   record::Trajectory run = synthetic::dome(4, 2);
   run.layout.joint_diameter_mm = 3;
   for (int k : {2, 3}) {
@@ -259,7 +259,7 @@ TEST_CASE("a line goes through the supports of a network that move, and through 
       ringed("lit_xshell_lens", [](preset::Preset& p) { p.style.rings = preset::Visibility::on; }));
 }
 
-TEST_CASE("a push of a step wears its arrow in the frames that it holds alone") {
+TEST_CASE("a push of a step has its arrow only in the frames in which it acts") {
   record::Trajectory run = synthetic::dome(3, 2);
   const int node = run.layout.joints[3].node;
   run.layout.loaded_joints = {{3, -Eigen::Vector3d::UnitZ(), true}};
@@ -298,7 +298,7 @@ TEST_CASE("zoom is about the shell's own panel, and nothing of the shell leaves 
   }
 }
 
-TEST_CASE("several views stand beside one another") {
+TEST_CASE("several views are next to one another") {
   const record::Trajectory run = synthetic::dome(3, 2);
   MovieStyle style = titled(900, 400);
   style.views = {{-90, 0}, {-90, 90}};
@@ -428,7 +428,7 @@ TEST_CASE("rods are coloured by their forces, grey where a frame does not know t
   CHECK(known.joint_colour == style.look.rod);
 }
 
-TEST_CASE("cells are coloured by how far they lie off the net") {
+TEST_CASE("cells are coloured by their deviation from the net") {
   record::Trajectory run = synthetic::dome(3, 2);
   run.layout.net_nodes = run.frames[2].nodes;
   run.layout.net_nodes.leftCols(60).row(2).array() += 2;
@@ -485,7 +485,7 @@ TEST_CASE("the camera turns evenly about one target and keeps its distance") {
   CHECK(first.elevation_deg == last.elevation_deg);
 }
 
-TEST_CASE("zoom and target are about the panel, wherever it stands") {
+TEST_CASE("zoom and target are about the panel, wherever it is") {
   const record::Trajectory run = synthetic::dome(4, 2);
   const Box panel{300, 50, 400, 600};
   const auto points = summarise_run(run).bounds();

@@ -40,7 +40,7 @@ std::vector<BranchPoint> points() {
 
 }  // namespace
 
-TEST_CASE("load factors are marked where the rods come to their strength, with the error") {
+TEST_CASE("load factors are marked where the rods reach their strength, with the error") {
   using record::LoadPoint;
   const std::vector<LoadPoint> path{{"snow", 0, 0, 0, BranchEvent::none, 0.2},
                                     {"snow", 1, 2, 0, BranchEvent::none, 0.6},
@@ -218,8 +218,7 @@ record::StateTables tables() {
 
 }  // namespace
 
-TEST_CASE(
-    "the graph of transitions writes every state and what came back, apart from one another") {
+TEST_CASE("the graph of transitions writes every state and what came back, without overlaps") {
   const TemporaryFolder folder;
   {
     const test::CanvasObserver watch([&](const Canvas& canvas) {

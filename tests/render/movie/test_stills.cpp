@@ -35,7 +35,7 @@ TEST_CASE("stills are one picture a frame and one of them all") {
   CHECK(test::rim_is_white(whole));
 }
 
-TEST_CASE("stills stop when asked to") {
+TEST_CASE("stills stop on request") {
   const TemporaryFolder folder;
   test::FakeRenderer renderer;
   check_stops([&](Watch& watch) {
@@ -44,7 +44,7 @@ TEST_CASE("stills stop when asked to") {
   CHECK(folder.entries().empty());
 }
 
-TEST_CASE("panels stand side by side, pixel by pixel, with their captions under them") {
+TEST_CASE("panels are side by side, pixel by pixel, with their captions under them") {
   PanelFigure figure;
   figure.columns = 2;
   for (int k = 0; k < 3; ++k) {
