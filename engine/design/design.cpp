@@ -256,8 +256,8 @@ Result<LiveDesignResult> design_live(const preset::Preset& preset, const DesignS
     last = work.coarse->ends();
     const Eigen::VectorXd now = work.target.distances(work.coarse->joints()).size();
     const DesignShell& coarse = *work.coarse;
-    seen({step, coarse, coarse.mesh(), coarse.model(), coarse.state(), coarse.forces(),
-          coarse.ends(), coarse.residual(), now, eigenvalue, table_of(*from.scene, last),
+    seen({step, coarse.mesh(), coarse.model(), coarse.state(), coarse.forces(), coarse.ends(),
+          coarse.residual(), now, eigenvalue, table_of(*from.scene, last),
           rod_table_of(*from.scene, last)});
   };
 

@@ -14,7 +14,6 @@
 
 namespace gridshell {
 
-class DesignShell;
 struct Assembly;
 
 /// Edges per segment: optima on 4 are saddles of the shell.
@@ -80,7 +79,7 @@ Result<Eigen::Matrix3Xd> nearest_to(const preset::Preset& preset, const Eigen::M
 /// least stability.
 struct CertifiedStep {
   const DesignStep& step;
-  const DesignShell& shell;  ///< on 16 edges, in the state of the step; next its parts
+  // on 16 edges per segment
   const RodMesh& mesh;
   const Model& model;
   const State& state;

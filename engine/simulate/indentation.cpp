@@ -124,9 +124,13 @@ Result<HeldShell> follow_push(const std::shared_ptr<const Scene>& scene,
   return pushed;
 }
 
-Caption caption_of(const HeldShell& pushed) {
+Caption caption_of(const HeldShell& pushed, bool unload) {
   const Simulation& simulation = pushed.simulation;
   return {at_depth(pushed.depth_mm()),
+          [unload](std::size_t segment, double t) {
+            if (!unload) return t;
+            return segment == 0 ? t / 2 : 1 - t / 2;
+          },
           [&](record::Frame& frame, double t, double) {
             frame.actuation = 1;
             frame.boundary_radius_mm = simulation.scene().radius_end_mm;
@@ -150,13 +154,6 @@ PathSample sample_of(std::size_t index, double progress, bool unload) {
   if (!unload) return {int(index), 0, progress, progress};
   const bool back = progress > 0.5;
   return {int(index), back ? 1u : 0u, back ? 2 * (1 - progress) : 2 * progress, progress};
-}
-
-/// Whether a push came as far as a sample.
-bool came_to(const EquilibriumPath& path, const PathSample& sample) {
-  if (sample.segment >= path.segments.size()) return false;
-  const PathSegment& segment = path.segments[sample.segment];
-  return segment.sign() * (segment.end() - sample.t) >= 0;
 }
 
 }  // namespace
@@ -250,23 +247,11 @@ Result<EquilibriumPath> run_indentation(std::shared_ptr<const Scene> scene,
   layout->loaded_joints = {{kept->push.joint, kept->push.displacement.normalized()}};
   layout->extrapolated = kept->simulation.shell().plan().extrapolate;
   TRY_DO(sink.begin(std::move(*layout)));
-  const Checkpoint end = kept->simulation.save();
-  PathSampler sampler(*kept, caption_of(*kept), sink, watch, progress.size());
   std::vector<PathSample> samples;
   for (std::size_t k = 0; k < progress.size(); ++k)
     samples.push_back(sample_of(k, progress[k], indentation.unload));
-  for (PathSample sample : samples) {
-    Result<bool> taken = false;
-    if (came_to(*kept, sample)) taken = sampler.at(sample);
-    if (!taken) return tl::unexpected<Error>(taken.error());
-    const Outcome ended = kept->segments.back().report.end;
-    if (*taken || !at_limit(ended)) continue;
-    // the last state before the limit
-    kept->simulation.restore(end);
-    sample.t = end.state.t;
-    TRY_DO(sampler.take_current(sample, limit_event(kept->simulation, ended), sample.t));
-    break;
-  }
+  PathSampler sampler(*kept, caption_of(*kept, indentation.unload), sink, watch, progress.size());
+  TRY_DO(sampler.all(samples));
   return EquilibriumPath(std::move(*kept));
 }
 

@@ -21,11 +21,44 @@ bool at_event(const PathSegment& segment, double t) {
   });
 }
 
+/// Whether the path was followed as far as a sample.
+bool came_to(const EquilibriumPath& path, const PathSample& sample) {
+  if (sample.segment >= path.segments.size()) return false;
+  const PathSegment& segment = path.segments[sample.segment];
+  // nearer to the flat than the segment back was followed there are no events
+  if (segment.back && segment.report.end == Outcome::reached) return true;
+  return segment.sign() * (segment.end() - sample.t) >= 0;
+}
+
 }  // namespace
 
 PathSampler::PathSampler(EquilibriumPath& path, Caption caption, record::Sink& sink, Watch& watch,
                          std::size_t count)
     : path_(path), caption_(std::move(caption)), sink_(sink), watch_(watch), count_(count) {}
+
+Result<void> PathSampler::all(const std::vector<PathSample>& samples) {
+  if (path_.segments.empty()) return {};
+  const Checkpoint end = path_.simulation.save();
+  const PathSegment& last = path_.segments.back();
+  for (const PathSample& sample : samples) {
+    if (came_to(path_, sample)) {
+      TRY(taken, at(sample));
+      if (*taken) continue;
+    }
+    if (!at_limit(last.report.end) || last.back) continue;
+    path_.simulation.restore(end);
+    // the path converges to its own tolerance, a frame to round-off
+    if (path_.simulation.sample(end.state.t, last.load_steps.back(), false, watch_).end !=
+        Outcome::reached)
+      path_.simulation.restore(end);
+    PathSample there{sample.index, path_.segments.size() - 1, end.state.t};
+    there.progress = caption_.progress(there.segment, there.t);
+    TRY_DO(take_current(there, limit_event(path_.simulation, last.report.end), there.t));
+    break;
+  }
+  path_.simulation.restore(end);
+  return {};
+}
 
 Result<bool> PathSampler::at(const PathSample& sample) {
   if (!between_) between_ = std::make_shared<FramesBetween>(path_, caption_.measure, watch_);

@@ -155,7 +155,9 @@ class Show {
   }
 
   Caption caption() {
-    return {on_its_way, [this](record::Frame& frame, double t, double) { put_boundary(frame, t); },
+    return {on_its_way,
+            {},
+            [this](record::Frame& frame, double t, double) { put_boundary(frame, t); },
             [this](record::Frame& frame, double, bool) { work_.simulation.put_push(frame); }};
   }
 

@@ -12,6 +12,7 @@
 #include "engine/core/file_io.h"
 #include "engine/core/try.h"
 #include "engine/formats/csv.h"
+#include "engine/preset/preset_file.h"
 #include "tests/bench/trust_study.h"
 
 using namespace gridshell;

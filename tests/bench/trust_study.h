@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/fields.h"
 #include "engine/core/result.h"
 #include "engine/core/watch.h"
 #include "engine/record/study_tables.h"
@@ -38,7 +39,7 @@ struct TrustRow {
   std::string kind;  ///< "circle", "push", ...
   TrustClass found = TrustClass::right;
   double error =
-      unknown;  ///< largest distance of a joint in a frame of both, over the length scale
+      record::unknown;  ///< largest distance of a joint in a frame of both, over the length scale
   double estimate = record::unknown;  ///< what that frame said of it
   /// likewise of the reactions, over the largest, and of the energies, over their sum
   double force_error = record::unknown, force_estimate = record::unknown;
@@ -52,14 +53,13 @@ struct TrustRow {
     return exit_default == 0 && exit_fine == 0 && snap_default != snap_fine;
   }
 };
-template <record::RecordOf<TrustRow> Row, class Visit>
+template <RecordOf<TrustRow> Row, class Visit>
 void fields(Row& row, const Visit& visit) {
-  record::visit_each(visit, "scene", row.scene, "kind", row.kind, "class", row.found, "error",
-                     row.error, "estimate", row.estimate, "force_error", row.force_error,
-                     "force_estimate", row.force_estimate, "energy_error", row.energy_error,
-                     "energy_estimate", row.energy_estimate, "exit_default", row.exit_default,
-                     "exit_fine", row.exit_fine, "snap_default", row.snap_default, "snap_fine",
-                     row.snap_fine, "doubt", row.doubt);
+  visit_each(visit, "scene", row.scene, "kind", row.kind, "class", row.found, "error", row.error,
+             "estimate", row.estimate, "force_error", row.force_error, "force_estimate",
+             row.force_estimate, "energy_error", row.energy_error, "energy_estimate",
+             row.energy_estimate, "exit_default", row.exit_default, "exit_fine", row.exit_fine,
+             "snap_default", row.snap_default, "snap_fine", row.snap_fine, "doubt", row.doubt);
 }
 
 struct TrustOptions {

@@ -288,10 +288,10 @@ Result<LiveDesignResult> live(const preset::Preset& preset, const Watch& watch, 
   return design_live(preset, {scene, shell.mesh(0), shell.model(0), shell.state().levels[0]}, 25,
                      watch, [&](const CertifiedStep& now) {
                        handed.steps.push_back(now.step);
-                       handed.joints.push_back(now.shell.joints());
+                       handed.joints.push_back(now.state.x.leftCols(now.mesh.joints));
                        handed.ends.push_back(now.ends);
                        CHECK(now.distances_mm.maxCoeff() == Approx(now.step.max_mm));
-                       CHECK(now.shell.residual() < 1e-6);
+                       CHECK(now.residual_N < 1e-6);
                        if (after) after();
                      });
 }

@@ -4,6 +4,7 @@
 #include <map>
 #include <random>
 
+#include "tests/bench/random_scenes.h"
 #include "tests/engine/simulate/run.h"
 
 using namespace gridshell;
@@ -174,7 +175,7 @@ namespace {
 
 /// 4 to 16 rods, longest leg 0.2 to 2.5 d, R_a/R_o 0.6 to 0.95, tolerance 1e-2 to 1e-6.
 preset::Preset random_circle(std::mt19937& random) {
-  study::RandomDraw draw(random);
+  bench::RandomDraw draw(random);
   const int rods = draw.integer(4, 16);
   const double radius = 20 * ((rods - 1) / 2.0 + draw.between(0.2, 2.5));
   preset::Preset p = circle(rods, radius, radius * draw.between(0.6, 0.95));
