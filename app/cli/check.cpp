@@ -50,7 +50,7 @@ std::string joint_text(const preset::Preset& preset) {
 /// What a run does to the shell in addition to forming it, one line each.
 std::vector<std::string> what_is_done(const preset::Preset& preset) {
   std::vector<std::string> lines;
-  if (const preset::Indentation& push = preset.indentation; push.wanted())
+  if (const preset::Indentation& push = preset.indentation; push.requested())
     lines.push_back(fmt::format(
         "push            {} {} by {}{}{}", joint_text(preset), word_of(push.direction),
         push.depth_mm > 0 ? fmt::format("{:g} mm", push.depth_mm)
@@ -106,7 +106,7 @@ void print_plan(const preset::Preset& preset, const simulate::Plan& plan) {
              plan.extrapolated ? ", extrapolated" : "");
   fmt::print("  size            {} rods, {} joints, {} cells, {} unknowns\n", plan.rods,
              plan.joints, plan.cells, plan.dof);
-  if (preset.jitter.wanted())
+  if (preset.jitter.requested())
     fmt::print("  search          {} trials, mode \"{}\", and {} from symmetric forms\n",
                preset.jitter.trials, word_of(preset.jitter.mode), preset.jitter.confined);
   for (const std::string& line : what_is_done(preset)) fmt::print("  {}\n", line);

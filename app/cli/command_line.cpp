@@ -166,8 +166,8 @@ void add_picture_options(CommandArguments command, Options& options) {
       .one_of(all_words<render::ContextKind>());
 }
 
-void add_unsealed(CommandArguments command, bool& unsealed) {
-  command.flag("--no-checksum,--unsealed", unsealed,
+void add_no_checksum(CommandArguments command, bool& no_checksum) {
+  command.flag("--no-checksum,--unsealed", no_checksum,
                "take a trajectory.h5 that another program wrote or changed");
 }
 

@@ -88,14 +88,14 @@ bool drawn_beside(const Run& run) {
 /// A shell that was designed on a net is shown next to it, a pushed one by itself.
 bool shows_net(const Run& run) {
   const preset::Preset& preset = run.preset;
-  return is_still(run) && preset.on_net() && !preset.indentation.wanted() &&
-         !preset.jitter.wanted() && preset.step.empty();
+  return is_still(run) && preset.on_net() && !preset.indentation.requested() &&
+         !preset.jitter.requested() && preset.step.empty();
 }
-bool shows_push(const Run& run) { return is_still(run) && run.preset.indentation.wanted(); }
+bool shows_push(const Run& run) { return is_still(run) && run.preset.indentation.requested(); }
 /// One of several that no other picture shows next to one another.
 bool shows_case(const Run& run) {
   return is_still(run) && !run.name.empty() && !shows_net(run) && !shows_push(run) &&
-         !run.preset.jitter.wanted();
+         !run.preset.jitter.requested();
 }
 bool has_net(const Run& run) {
   return shows_net(run) && run.trajectory.layout.net_nodes.size() > 0;
@@ -168,10 +168,10 @@ Result<void> draw_cases(const Runs& runs, const std::string& title, const Shared
 Result<void> draw_together(const std::vector<Run>& runs, const std::string& title,
                            const SharedColourBar& bar, render::Renderer& renderer,
                            const fs::path& stem, Progress& progress) {
-  const auto those = [&](bool (*wanted)(const Run&)) {
+  const auto those = [&](bool (*requested)(const Run&)) {
     Runs found;
     for (const Run& run : runs)
-      if (wanted(run)) found.push_back(&run);
+      if (requested(run)) found.push_back(&run);
     return found;
   };
   if (const Runs beside = those(drawn_beside); !beside.empty())
@@ -243,7 +243,7 @@ std::vector<Phase> drawing_phases(const std::vector<Run>& runs) {
     if (run.pictures != Pictures::none && !drawn_beside(run))
       phases.push_back(drawing("drawing" + (run.name.empty() ? "" : " " + run.name), expected));
   }
-  const auto any = [&](auto wanted) { return std::ranges::any_of(runs, wanted); };
+  const auto any = [&](auto requested) { return std::ranges::any_of(runs, requested); };
   if (any(drawn_beside)) {
     phases.push_back(drawing("drawing", seconds));
   } else if (any(is_still) && runs.front().preset.page.kind != preset::PageKind::none) {
@@ -269,7 +269,7 @@ Result<void> draw_all(std::vector<Run>& runs, const std::string& title, const fs
     const double start = seconds_now();
     Watch& watch = progress.next_phase();
     const std::string own = std::exchange(run.preset.title, title_alone(run, title));
-    if (run.preset.jitter.wanted())
+    if (run.preset.jitter.requested())
       TRY_DO(draw_states(run, renderer, to / fs::path(run.preset.name).filename(), watch));
     else
       TRY_DO(draw_run(run, bars[k], renderer, to, watch));

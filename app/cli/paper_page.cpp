@@ -36,7 +36,7 @@ class PageMaker {
     if (records.front()->preset.style.floor == preset::Visibility::automatic)
       style_.look.floor = false;
     for (const Run* one : records) {
-      const bool push = one->preset.indentation.wanted();
+      const bool push = one->preset.indentation.requested();
       if (push && push_ == nullptr) push_ = one;
       (push ? pushes_ : shells_)
           .push_back({&one->trajectory, render::plain(one->preset.title), scan_of(one->preset)});

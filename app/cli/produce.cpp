@@ -27,7 +27,7 @@ Result<std::vector<Run>> planned(const preset::Presets& presets, Pictures pictur
   std::vector<Run> runs;
   for (const preset::Case& one : runs_of(presets)) {
     const preset::Preset& preset = one.preset;
-    if (preset.jitter.wanted() && pictures == Pictures::movie)
+    if (preset.jitter.requested() && pictures == Pictures::movie)
       return invalid(
           "{}: a search for states ([jitter] trials or confined above 0) has no movie; "
           "'gridshell figure' draws the states, [jitter] trials = 0 and confined = 0 make "
@@ -59,14 +59,15 @@ record::Kind kind_of(Pictures pictures) {
 // is known
 std::string help_for(const preset::Preset& preset, record::Limit limit, double largest_strain) {
   const std::string less =
-      preset.indentation.wanted() ? "less [indentation] depth" : "a larger actuated boundary";
+      preset.indentation.requested() ? "less [indentation] depth" : "a larger actuated boundary";
   switch (limit) {
     case record::Limit::none:
     case record::Limit::snap:
       return "";
     case record::Limit::locking:
       // a push may have met its stiffness instead
-      if (preset.indentation.wanted() && std::abs(largest_strain) < 0.9 * preset.limits.max_strain)
+      if (preset.indentation.requested() &&
+          std::abs(largest_strain) < 0.9 * preset.limits.max_strain)
         return less + " ends before that";
       return less + " ends before that, more [limits] max_strain after it";
     case record::Limit::strength:
@@ -89,7 +90,7 @@ std::string help_for(const preset::Preset& preset, record::Limit limit, double l
 // one run, a path's or a search for states
 Result<record::Summary> computed(Run& run, int threads, const fs::path& segments,
                                  record::Sink& sink, Watch& watch) {
-  if (!run.preset.jitter.wanted()) {
+  if (!run.preset.jitter.requested()) {
     TRY(scene, scene_of(run.preset));
     scene->team = std::make_shared<Team>(threads);
     if (!segments.empty()) scene->kept = std::make_shared<simulate::KeptSegments>(segments);
@@ -115,7 +116,7 @@ Result<void> simulate(Run& run, int threads, const fs::path& folder, const fs::p
   run.summary = *summary;
   run.summary.kind = kind;
   TRY(trajectory, sink.finish(run.summary));
-  if (run.preset.jitter.wanted()) TRY_DO(record::write_state_tables(folder, run.states));
+  if (run.preset.jitter.requested()) TRY_DO(record::write_state_tables(folder, run.states));
   run.trajectory = std::move(*trajectory);
   if (run.pictures == Pictures::none) run.trajectory.frames = {};
   return {};
@@ -247,7 +248,7 @@ void print_result(const Run& run, const fs::path& folder) {
                    ? ""
                    : ", and contact is not modelled");
   fmt::print("\n");
-  if (run.preset.jitter.wanted()) fmt::print("{}", found_text(run.states));
+  if (run.preset.jitter.requested()) fmt::print("{}", found_text(run.states));
   fmt::print("{}", how_to_make_movie(folder_of(folder, run.name), run.preset));
 }
 

@@ -30,7 +30,7 @@ struct ReportOptions {
   fs::path to;
   std::string context = "auto";
   int modes = 6, imperfections = 0;
-  bool quiet = false, unsealed = false;
+  bool quiet = false, no_checksum = false;
 };
 
 /// Four digits, of thousands all before the point.
@@ -269,7 +269,7 @@ Result<int> make_report(ReportOptions options) {
   if (options.to.extension() != ".pdf")
     return invalid("--to {}: expected a name that ends in .pdf", options.to.string());
   TRY_DO(check_beside_runs(options.to));
-  TRY(runs, read_runs(options.input, {}, options.unsealed));
+  TRY(runs, read_runs(options.input, {}, options.no_checksum));
   TRY(maker, PictureMaker::create(options.context, runs->front().preset.style.font));
   std::vector<Phase> phases;
   for (const Run& run : *runs) {
@@ -303,7 +303,7 @@ void add_report(CommandLine& program) {
       .option("--imperfections", options.imperfections,
               "more shells per case, displaced by loads.imperfection")
       .in_range(0, 1000);
-  add_unsealed(command, options.unsealed);
+  add_no_checksum(command, options.no_checksum);
 }
 
 }  // namespace gridshell::app

@@ -158,7 +158,7 @@ struct ScanOptions {
   Options common;  ///< output, quiet, context, --set; `input` is the file of points
   std::vector<std::string> runs;
   std::string unit = "mm";
-  bool unsealed = false;
+  bool no_checksum = false;
   bool centres = false;     ///< the points are joints, not tops of cylinders
   double tolerance_mm = 0;  ///< 0: by the noise
 };
@@ -207,7 +207,7 @@ Result<Scanned> read_all(const ScanOptions& options) {
   scanned.cloud = std::move(cloud->points);
   scanned.empty_rows = cloud->empty_rows;
   for (const std::string& folder : options.runs) {
-    TRY(runs, read_runs(folder, *overrides, options.unsealed));
+    TRY(runs, read_runs(folder, *overrides, options.no_checksum));
     scanned.runs.push_back(std::move(*runs));
   }
   for (std::size_t k = 0; k < options.runs.size(); ++k)
@@ -375,7 +375,7 @@ void add_scan(CommandLine& program) {
   add_changes(command, options.common);
   add_work_options(command, options.common, "folder to write, by default out/<points>_scan");
   add_picture_options(command, options.common);
-  add_unsealed(command, options.unsealed);
+  add_no_checksum(command, options.no_checksum);
   command.flag("--centres", options.centres,
                "the points are the joints themselves, not tops of cylinders");
   command

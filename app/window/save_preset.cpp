@@ -122,9 +122,9 @@ preset::Preset ViewerState::preset_to_save() const {
   if (circle && moves && !shell->snapped) return preset;
   preset.step = steps_of(shell->steps);
   // the state that a perturbed shell reaches depends on round-off, except on one mesh
-  const bool shaken = std::ranges::any_of(
+  const bool perturbed = std::ranges::any_of(
       preset.step, [](const auto& step) { return step.kind == preset::StepKind::jitter; });
-  if (shaken) preset.accuracy.edges_per_segment = shell->meshes.back();
+  if (perturbed) preset.accuracy.edges_per_segment = shell->meshes.back();
   if (circle) preset.actuation.radius_mm = shell->radius_end_mm;
   return preset;
 }

@@ -269,9 +269,9 @@ void keep(const Panel& panel) {
     for (const SizeChoice& size : sizes)
       if (ImGui::Selectable(text_of(size).c_str(), size.width == picture.width))
         picture.width = size.width, picture.height = size.height;
-    int asked[2] = {picture.width, picture.height};
-    if (ImGui::InputInt2("##asked", asked, ImGuiInputTextFlags_EnterReturnsTrue))
-      viewer.size_picture(asked[0], asked[1]);
+    int requested[2] = {picture.width, picture.height};
+    if (ImGui::InputInt2("##asked", requested, ImGuiInputTextFlags_EnterReturnsTrue))
+      viewer.size_picture(requested[0], requested[1]);
     panel.named("picture_pixels", "width and height, pixels; Enter takes them");
     ImGui::EndCombo();
   }

@@ -16,8 +16,8 @@
 namespace gridshell {
 
 /// The requested number of threads; 0: as many as there are cores.
-inline int thread_count(int asked) {
-  return asked > 0 ? asked : std::max(1, int(std::thread::hardware_concurrency()));
+inline int thread_count(int requested) {
+  return requested > 0 ? requested : std::max(1, int(std::thread::hardware_concurrency()));
 }
 
 /// Calls `make()`, a Result, once per thread and on that thread, and `task(worker, k)` with its

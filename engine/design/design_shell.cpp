@@ -88,12 +88,12 @@ void DesignShell::find_legs() {
 void DesignShell::set_diameters(const ShellEnds& ends) {
   for (std::size_t r = 0; r < model_.rods.size(); ++r) {
     double& now = diameter_[Eigen::Index(r)];
-    const double wanted = ends.diameter[Eigen::Index(r)];
-    if (wanted == now) continue;
-    const double square = wanted * wanted / (now * now);
+    const double requested = ends.diameter[Eigen::Index(r)];
+    if (requested == now) continue;
+    const double square = requested * requested / (now * now);
     for (const int edge : model_.rods[r].edges) model_.edges[std::size_t(edge)].EA *= square;
     for (const int bend : bends_[r]) stiffness_of(model_, bend) *= square * square;
-    now = wanted;
+    now = requested;
   }
 }
 

@@ -28,7 +28,7 @@ BlockSlot BlockPattern::slot(int row, int column) {
 
 namespace {
 
-Result<void> check(int index, int nodes, const ModelRod& rod, RodModel rung) {
+Result<void> check(int index, int nodes, const ModelRod& rod, RodModel rod_model) {
   const auto wrong = [&](const std::string& what) { return invalid("rod {}: {}", index, what); };
   const RodMaterial& m = rod.material;
   if (rod.position.size() != rod.nodes.size() && !rod.closed())
@@ -44,7 +44,7 @@ Result<void> check(int index, int nodes, const ModelRod& rod, RodModel rung) {
   if (!(m.EA > 0)) return wrong(fmt::format("EA: got {} N, expected above 0", m.EA));
   if (!(m.EI1 > 0 && m.EI2 > 0))
     return wrong(fmt::format("EI: got {} and {} N mm^2, expected above 0", m.EI1, m.EI2));
-  if (rung == RodModel::twist && !(m.GJ > 0))
+  if (rod_model == RodModel::twist && !(m.GJ > 0))
     return wrong(fmt::format(
         "GJ: got {} N mm^2, expected above 0: the model twist needs the torsional stiffness",
         m.GJ));
@@ -58,7 +58,9 @@ Result<void> check(int index, int nodes, const ModelRod& rod, RodModel rung) {
 /// Rods into a model, one after the other.
 class Builder {
  public:
-  Builder(int nodes, RodModel rung) : twist_(rung == RodModel::twist) { model_.nodes = nodes; }
+  Builder(int nodes, RodModel rod_model) : twist_(rod_model == RodModel::twist) {
+    model_.nodes = nodes;
+  }
 
   void add(const ModelRod& rod) {
     Model::Rod entry;
@@ -358,11 +360,11 @@ void place_followers(Model& model) {
 
 }  // namespace
 
-Result<Model> build_model(int nodes, const std::vector<ModelRod>& rods, RodModel rung,
+Result<Model> build_model(int nodes, const std::vector<ModelRod>& rods, RodModel rod_model,
                           const std::vector<char>& crossings) {
-  Builder builder(nodes, rung);
+  Builder builder(nodes, rod_model);
   for (std::size_t r = 0; r < rods.size(); ++r) {
-    TRY_DO(check(int(r), nodes, rods[r], rung));
+    TRY_DO(check(int(r), nodes, rods[r], rod_model));
     builder.add(rods[r]);
   }
   return builder.build(rods, crossings);

@@ -218,7 +218,7 @@ double length_between(const Model& model, int e, int f);
 /// fixed. In the bend model a section with axes bends as its softer one (an initial guess for the
 /// twist model). Errors (bad_input): stiffness that is not positive, a torsional stiffness that is
 /// missing on the twist model, arc lengths that do not ascend, a node that does not exist.
-Result<Model> build_model(int nodes, const std::vector<ModelRod>& rods, RodModel rung,
+Result<Model> build_model(int nodes, const std::vector<ModelRod>& rods, RodModel rod_model,
                           const std::vector<char>& crossings = {});
 
 /// The law of a bend of which `bends` has no stiffness, if it is one of these; else null.

@@ -362,13 +362,13 @@ Bolts tightened(const RodMesh& mesh, const Model& model, const State& state, dou
   return bolts;
 }
 
-Result<Model> build_model(const RodMesh& mesh, const ShellRods& shell, RodModel rung) {
+Result<Model> build_model(const RodMesh& mesh, const ShellRods& shell, RodModel rod_model) {
   // a member more does not compile here: whoever adds one puts it into the model
   const auto& [materials, joints, own_joints, weight_N_per_mm, joint_weight_N, points, contact,
                bolts, braces] = shell;
   const Crossings at_joints = crossings_of(mesh);
   const std::vector<Eigen::Vector3d> normals = normals_of(mesh, at_joints);
-  const bool springs = rung == RodModel::twist && joints.spring_N_per_mm > 0;
+  const bool springs = rod_model == RodModel::twist && joints.spring_N_per_mm > 0;
   std::vector<ModelRod> rods;
   std::vector<char> taken(std::size_t(mesh.joints), 0);
   for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
@@ -384,7 +384,7 @@ Result<Model> build_model(const RodMesh& mesh, const ShellRods& shell, RodModel 
     if (springs) crossings[std::size_t(mesh.nodes() + joint)] = 1;
   }
   for (const EccentricJoint& at : mesh.eccentric) crossings[std::size_t(at.node)] = 1;
-  auto model = build_model(nodes, rods, rung, crossings);
+  auto model = build_model(nodes, rods, rod_model, crossings);
   if (!model) return model;
   add_links(mesh, at_joints, normals, *model);
   TRY_DO(add_laws(mesh, shell, at_joints, normals, *model));
@@ -394,7 +394,7 @@ Result<Model> build_model(const RodMesh& mesh, const ShellRods& shell, RodModel 
   for (const int node : pinned) model->pin(node);
   for (const Brace& brace : braces)
     model->bars.push_back({{brace.a, brace.b, brace.rest_length_mm, brace.EA, brace.cable}});
-  if (rung == RodModel::twist || !pinned.empty() || bolts || !braces.empty() ||
+  if (rod_model == RodModel::twist || !pinned.empty() || bolts || !braces.empty() ||
       !model->links.empty())
     finish(*model);
   model->loads = dead_loads(mesh, shell);

@@ -101,7 +101,7 @@ std::vector<NodeAction> dead_loads(const RodMesh& mesh, const ShellRods& rods);
 /// cross, each pair has such a fraction that all together are the joint's law. Errors as
 /// build_model().
 Result<Model> build_model(const RodMesh& mesh, const ShellRods& rods,
-                          RodModel rung = RodModel::bend);
+                          RodModel rod_model = RodModel::bend);
 
 /// Torques of bolts and of joints that resist shear, on each joint's rods, that would open it: sums
 /// of k (rest - angle) over every two of its rods, N mm.

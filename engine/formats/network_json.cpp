@@ -110,7 +110,7 @@ std::optional<std::vector<double>> numbers_in(const Json& value) {
 class Reader {
  public:
   Reader(const Document& document, const std::string& name, double join_mm)
-      : document_(document), name_(name), draft_(join_mm) {}
+      : document_(document), name_(name), builder_(join_mm) {}
 
   Result<NetworkData> read() {
     const std::vector<std::string> known{"points_mm", "rods", "joints", "supports", "law"};
@@ -128,10 +128,10 @@ class Reader {
         .and_then([&] { return each("rods", &Reader::rod); })
         .and_then([&] { return each("joints", &Reader::joint); })
         .and_then([&] { return each("supports", &Reader::support); })
-        .and_then([&] { return draft_.join_listed(); })
-        .and_then([&] { return draft_.join_ends(name_); })
+        .and_then([&] { return builder_.join_listed(); })
+        .and_then([&] { return builder_.join_ends(name_); })
         .and_then([&] { return network_law(); })
-        .and_then([&] { return draft_.take(name_); });
+        .and_then([&] { return builder_.take(name_); });
   }
 
  private:
@@ -167,18 +167,18 @@ class Reader {
   Result<void> point(const Json& value) {
     const auto xyz = numbers_in(value);
     if (!xyz) return unlike(value, "a point [x, y] or [x, y, z], mm");
-    return draft_.add_point(*xyz, at_);
+    return builder_.add_point(*xyz, at_);
   }
 
   /// The number of a point, or that of a point at a position. Who names one that lies where another
   /// does may not know that it is the same, but in a list of joints.
   Result<int> point_of(const Json& value, bool in_joint = false) {
     if (value.is_number_integer()) {
-      if (value.is_number_unsigned() && value.get<std::uint64_t>() > draft_.points())
+      if (value.is_number_unsigned() && value.get<std::uint64_t>() > builder_.points())
         return wrong("got a point that is not in points_mm");
       const long number = value.get<long>();
-      TRY(point, draft_.point(number, at_));
-      if (*point != number && !in_joint && !is_listed(value) && !draft_.joins_near())
+      TRY(point, builder_.point(number, at_));
+      if (*point != number && !in_joint && !is_listed(value) && !builder_.joins_near())
         return wrong(fmt::format(
             "got point {} at the position of point {}, expected that number, or another position",
             number, *point));
@@ -186,7 +186,7 @@ class Reader {
     }
     const auto xyz = numbers_in(value);
     if (!xyz) return unlike(value, "the number of a point, or its position [x, y] or [x, y, z]");
-    return draft_.place(*xyz, at_);
+    return builder_.place(*xyz, at_);
   }
 
   /// Whether "joints" lists a point by its number.
@@ -236,9 +236,9 @@ class Reader {
       TRY(point, point_of(item));
       points.push_back(*point);
     }
-    TRY_DO(draft_.add_rod(std::move(points), diameter, at_));
-    for (const auto& [key, number] : own) draft_.add_own(key, number);
-    for (const auto& [end, kind] : holds) draft_.add_hold(end, kind);
+    TRY_DO(builder_.add_rod(std::move(points), diameter, at_));
+    for (const auto& [key, number] : own) builder_.add_own(key, number);
+    for (const auto& [end, kind] : holds) builder_.add_hold(end, kind);
     return {};
   }
 
@@ -261,7 +261,7 @@ class Reader {
       points.push_back(*point);
     }
     const int first = points.front();
-    TRY_DO(draft_.add_joint(std::move(points), at_));
+    TRY_DO(builder_.add_joint(std::move(points), at_));
     return first;
   }
 
@@ -275,7 +275,7 @@ class Reader {
       return wrong(
           "got the law of all joints, expected \"law\", \"shear_Nmm\" and \"twist_Nmm\" alone");
     TRY(row, law_of(value, every_joint));
-    draft_.add_law(std::move(*row));
+    builder_.add_law(std::move(*row));
     return {};
   }
 
@@ -317,7 +317,7 @@ class Reader {
       return wrong("got a law of no joint, expected a \"point\", or \"points\" that are one joint");
     TRY(point, value.contains("point") ? point_of(value["point"]) : merged(value["points"]));
     row->front() = double(*point);
-    draft_.add_law(std::move(*row));
+    builder_.add_law(std::move(*row));
     return {};
   }
 
@@ -332,7 +332,7 @@ class Reader {
     if (value.contains("to_mm") && value["to_mm"] == "free") {
       if (value.contains("spring_N_per_mm"))
         return wrong("an end that is free has no spring_N_per_mm");
-      draft_.add_free(*point);
+      builder_.add_free(*point);
       return {};
     }
     std::vector<double> row{double(*point)};
@@ -343,7 +343,7 @@ class Reader {
         if (!(std::abs(one) <= 1e9)) return unlike("to_mm", value["to_mm"], "at most 1e9");
       row.insert(row.end(), to->begin(), to->end());
     }
-    draft_.add_support(std::move(row));
+    builder_.add_support(std::move(row));
     return value.contains("spring_N_per_mm") ? spring(*point, value["spring_N_per_mm"])
                                              : Result<void>();
   }
@@ -354,13 +354,13 @@ class Reader {
                                      : numbers_in(value).value_or(std::vector<double>());
     if (k.size() != 3) return unlike("spring_N_per_mm", value, "a number, or [kx, ky, kz]");
     if (const auto fault = spring_fault(k); !fault.empty()) return wrong(fault);
-    draft_.add_spring(point, k);
+    builder_.add_spring(point, k);
     return {};
   }
 
   const Document& document_;
   std::string name_, at_;
-  NetworkBuilder draft_;
+  NetworkBuilder builder_;
 };
 
 }  // namespace

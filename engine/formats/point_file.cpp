@@ -41,23 +41,23 @@ class CloudBuilder {
 Result<Cloud> read_rows(std::string_view text, const std::string& name, double unit_mm) {
   TRY(table, read_table(text, name, {{"x"}, {"y"}, {"z"}},
                         {.longer_rows = true, .empty_rows = true, .unit_mm = unit_mm}));
-  CloudBuilder draft;
+  CloudBuilder builder;
   for (std::size_t row = 0; row < table->rows(); ++row)
-    TRY_DO(draft.add({table->at(row, 0), table->at(row, 1), table->at(row, 2)}, name,
-                     [&] { return fmt::format("{}:{}", name, table->lines[row]); }));
-  return draft.take(name, table->empty_rows);
+    TRY_DO(builder.add({table->at(row, 0), table->at(row, 1), table->at(row, 2)}, name,
+                       [&] { return fmt::format("{}:{}", name, table->lines[row]); }));
+  return builder.take(name, table->empty_rows);
 }
 
 Result<Cloud> read_vertices(std::string_view bytes, const std::string& name, double unit_mm) {
-  CloudBuilder draft;
+  CloudBuilder builder;
   std::size_t empty = 0;
   const auto read = each_ply_item(bytes, name, [&](const PlyItem& item) -> Result<void> {
     if (item.element != "vertex") return {};
     if (item.has_xyz && item.xyz.array().isNaN().all()) return ++empty, Result<void>();
-    return draft.add(unit_mm * item.xyz, name, [&] { return item.place(name); });
+    return builder.add(unit_mm * item.xyz, name, [&] { return item.place(name); });
   });
   if (!read) return tl::unexpected(read.error());
-  return draft.take(name, empty);
+  return builder.take(name, empty);
 }
 
 }  // namespace

@@ -69,29 +69,29 @@ std::size_t count_in(std::string_view bytes) {
 }
 
 /// A corner; the third ends its triangle.
-Result<void> add_corner(MeshBuilder& draft, const std::vector<double>& xyz,
+Result<void> add_corner(MeshBuilder& builder, const std::vector<double>& xyz,
                         const std::string& place) {
-  if (auto added = draft.add_vertex(xyz, place); !added) return added;
-  const long count = long(draft.vertices());
+  if (auto added = builder.add_vertex(xyz, place); !added) return added;
+  const long count = long(builder.vertices());
   if (count % 3 != 0) return {};
-  return draft.add_polygon({count - 3, count - 2, count - 1}, place);
+  return builder.add_polygon({count - 3, count - 2, count - 1}, place);
 }
 
 Result<SurfaceData> read_binary(std::string_view bytes, const std::string& name, double unit_mm) {
-  MeshBuilder draft(unit_mm);
+  MeshBuilder builder(unit_mm);
   for (std::size_t k = 0; k < count_in(bytes); ++k)
     for (std::size_t corner = 0; corner < 3; ++corner) {
       float xyz[3];
       // the normal comes first
       std::memcpy(xyz, bytes.data() + header + k * triangle + 12 * (corner + 1), sizeof(xyz));
-      TRY_DO(
-          add_corner(draft, {xyz[0], xyz[1], xyz[2]}, fmt::format("{}: triangle {}", name, k + 1)));
+      TRY_DO(add_corner(builder, {xyz[0], xyz[1], xyz[2]},
+                        fmt::format("{}: triangle {}", name, k + 1)));
     }
-  return draft.take(name);
+  return builder.take(name);
 }
 
 Result<SurfaceData> read_text(std::string_view bytes, const std::string& name, double unit_mm) {
-  MeshBuilder draft(unit_mm);
+  MeshBuilder builder(unit_mm);
   bool ended = false;
   for (int number = 1; !bytes.empty(); ++number) {
     const auto words = words_in(next_line(bytes));
@@ -106,12 +106,12 @@ Result<SurfaceData> read_text(std::string_view bytes, const std::string& name, d
       if (const auto value = number_of(words[k])) xyz.push_back(*value);
     if (xyz.size() != 3 || words.size() != 4)
       return invalid(place + ": expected a vertex of three numbers, vertex x y z");
-    TRY_DO(add_corner(draft, xyz, place));
+    TRY_DO(add_corner(builder, xyz, place));
   }
-  if (draft.vertices() % 3 != 0)
-    return invalid("{}: got {} vertices, expected three per triangle", name, draft.vertices());
+  if (builder.vertices() % 3 != 0)
+    return invalid("{}: got {} vertices, expected three per triangle", name, builder.vertices());
   if (!ended) return invalid("{}: ends without \"endsolid\": is it cut short?", name);
-  return draft.take(name);
+  return builder.take(name);
 }
 
 constexpr std::size_t most_heights = 100000, least_side = 4;
@@ -191,13 +191,14 @@ std::string rising_fault(const char* key, const std::vector<double>& values) {
 }
 
 std::string mesh_fault(const SurfaceData& mesh) {
-  MeshBuilder draft(1);
+  MeshBuilder builder(1);
   for (const auto& vertex : mesh.vertices) {
     if (vertex.size() != 3) return "vertices_mm: expected points [x, y, z]";
-    if (auto added = draft.add_vertex(vertex, "vertices_mm"); !added) return added.error().message;
+    if (auto added = builder.add_vertex(vertex, "vertices_mm"); !added)
+      return added.error().message;
   }
   for (const auto& [a, b, c] : mesh.triangles)
-    if (auto added = draft.add_polygon({a, b, c}, "triangles"); !added)
+    if (auto added = builder.add_polygon({a, b, c}, "triangles"); !added)
       return added.error().message;
   return "";
 }
@@ -205,26 +206,28 @@ std::string mesh_fault(const SurfaceData& mesh) {
 /// Each function reads a complete file; `name` is its name in messages. Errors (bad_input): text
 /// that is not of the format, with its line or the number of its vertex or triangle.
 Result<SurfaceData> read_obj(std::string_view bytes, const std::string& name, double unit_mm) {
-  MeshBuilder draft(unit_mm);
+  MeshBuilder builder(unit_mm);
   return read_obj_lines(
              bytes, name, "f",
-             {[&](const auto& xyz, const auto& at) { return draft.add_vertex(xyz, at); },
-              [&](const auto& corners, const auto& at) { return draft.add_polygon(corners, at); }})
-      .and_then([&](const auto&) { return draft.take(name); });
+             {[&](const auto& xyz, const auto& at) { return builder.add_vertex(xyz, at); },
+              [&](const auto& corners, const auto& at) {
+                return builder.add_polygon(corners, at);
+              }})
+      .and_then([&](const auto&) { return builder.take(name); });
 }
 
 Result<SurfaceData> read_ply(std::string_view bytes, const std::string& name, double unit_mm) {
-  MeshBuilder draft(unit_mm);
+  MeshBuilder builder(unit_mm);
   const auto read = each_ply_item(bytes, name, [&](const PlyItem& item) -> Result<void> {
     if (item.element == "vertex")
-      return draft.add_vertex({item.xyz.x(), item.xyz.y(), item.xyz.z()}, item.place(name));
-    if (item.element == "face") return draft.add_polygon(item.corners, item.place(name));
+      return builder.add_vertex({item.xyz.x(), item.xyz.y(), item.xyz.z()}, item.place(name));
+    if (item.element == "face") return builder.add_polygon(item.corners, item.place(name));
     if (item.element == "tristrips")
       return invalid("{}: got strips of triangles, expected faces", item.place(name));
     return {};
   });
   if (!read) return tl::unexpected(read.error());
-  return draft.take(name);
+  return builder.take(name);
 }
 
 Result<SurfaceData> read_stl(std::string_view bytes, const std::string& name, double unit_mm) {

@@ -281,7 +281,7 @@ void MeshSurface::measure(const TriangleMesh& mesh) {
 
 Result<MeshSurface> MeshSurface::fit(const TriangleMesh& mesh, double detail_mm, double fit_mm) {
   const Barriers lines(mesh);
-  const double wanted = fit_mm > 0 ? fit_mm : 1e-3 * mesh.size();
+  const double requested = fit_mm > 0 ? fit_mm : 1e-3 * mesh.size();
   // vertices of a smooth surface lie on it to much less, and it is followed closely
   if (fit_mm == 0) {
     TRY(close, fitted(mesh, lines, detail_mm, usual_radii));
@@ -292,7 +292,7 @@ Result<MeshSurface> MeshSurface::fit(const TriangleMesh& mesh, double detail_mm,
     TRY(surface, fitted(mesh, lines, detail_mm, radii));
     if (best && surface->farthest_ > best->farthest_) continue;
     best = std::move(*surface);
-    if (best->farthest_ <= wanted) break;
+    if (best->farthest_ <= requested) break;
   }
   if (fit_mm > 0 && best->farthest_ > fit_mm)
     return mesh_fault(fmt::format("the mesh is not that smooth: got fit_mm = {:g}, expected at "

@@ -83,10 +83,10 @@ std::string list_of(const std::vector<KeyFault>& needs) {
 /// Keys that the requested rod model does not support, and rods whose stiffness it lacks.
 std::vector<KeyFault> model_conflicts(const Preset& preset) {
   std::vector<KeyFault> found;
-  const RodModel asked = preset.accuracy.model;
-  auto unmet = asked == RodModel::net ? key_faults(preset, RuleKind::needs_equilibrium)
-                                      : std::vector<KeyFault>();
-  if (asked == RodModel::net || asked == RodModel::bend)
+  const RodModel requested = preset.accuracy.model;
+  auto unmet = requested == RodModel::net ? key_faults(preset, RuleKind::needs_equilibrium)
+                                          : std::vector<KeyFault>();
+  if (requested == RodModel::net || requested == RodModel::bend)
     for (auto& need : key_faults(preset, RuleKind::needs_twist)) unmet.push_back(std::move(need));
   for (const KeyFault& need : unmet)
     found.push_back({"accuracy",

@@ -29,7 +29,7 @@ void add_indentation(FieldList<Indentation> list) {
     return list.unused({"depth", "depth_mm"},
                        "nothing is pushed: [indentation] depth and depth_mm "
                        "are 0",
-                       [](const I& of) { return !of.wanted(); });
+                       [](const I& of) { return !of.requested(); });
   };
   const auto by_place = [&]() -> FieldList<I>& {
     return pushed().unused({"joint"}, "[indentation] joint names the joint that is pushed",
@@ -59,7 +59,8 @@ void add_indentation(FieldList<Indentation> list) {
                       "pushed")
       .unused({"depth_mm"}, "[indentation] depth_mm replaces it",
               [](const I& of) { return of.depth_mm > 0; })
-      .needs_equilibrium("a net does not answer a push", [](const I& of) { return of.wanted(); });
+      .needs_equilibrium("a net does not answer a push",
+                         [](const I& of) { return of.requested(); });
   list.add<&I::depth_mm>(at_least(0), "depth of the push in mm, instead of `depth`");
   list.add<&I::lateral>("whether the joint pushed may move across the push");
   pushed();
@@ -84,10 +85,10 @@ void add_dynamics(FieldList<Dynamics> list) {
 
 void add_contact(FieldList<Contact> list) {
   const auto acts = [](const Contact& of) { return of.model == ContactModel::barrier; };
-  const auto unless = [&](const char* key, const char* why, auto asked) {
+  const auto unless = [&](const char* key, const char* why, auto requested) {
     list.refused({key}, fmt::format("{}, expected \"none\"", why),
                  [=](const Preset& preset, const Contact& of) {
-                   return of.model == ContactModel::barrier && asked(preset);
+                   return of.model == ContactModel::barrier && requested(preset);
                  });
   };
   list.add<&Contact::model>(
@@ -95,7 +96,7 @@ void add_contact(FieldList<Contact> list) {
           "other within a small gap, away from their joints")
       .needs_equilibrium("a net's rods bear no forces", acts);
   unless("[jitter] trials", "a search throws rods through one another",
-         [](const Preset& preset) { return preset.jitter.wanted(); });
+         [](const Preset& preset) { return preset.jitter.requested(); });
   unless("[dynamics] snap", "a snap in time takes no notice of contact",
          [](const Preset& preset) { return preset.dynamics.snap; });
   unless("[inverse] vary", "a design takes no notice of contact",
@@ -192,13 +193,13 @@ void add_accuracy(FieldList<Accuracy> list) {
 void add_jitter(FieldList<SearchSettings> list) {
   using S = SearchSettings;
   constexpr int most_trials = 1000000;
-  const auto wanted = [&list]() -> FieldList<S>& {
+  const auto requested = [&list]() -> FieldList<S>& {
     return list.unused({"trials", "confined"},
                        "no states are looked for: [jitter] trials and confined are 0",
-                       [](const S& of) { return !of.wanted(); });
+                       [](const S& of) { return !of.requested(); });
   };
   const auto of_mode = [&](SearchMode mode, const char* other, int S::*others) {
-    wanted().unused({"mode", other}, [=](const S& of) {
+    requested().unused({"mode", other}, [=](const S& of) {
       return of.mode == mode || (others && of.*others > 0)
                  ? ""
                  : fmt::format("[jitter] mode = \"{}\" does not use it, only \"{}\"",
@@ -209,7 +210,7 @@ void add_jitter(FieldList<SearchSettings> list) {
       "\"gravity\": a partly actuated shell in a random uniform force, which is then removed; "
       "\"random\": every joint is displaced by a random vector; \"poke\": random joints are pushed "
       "and released");
-  wanted();
+  requested();
   list.add<&S::trials>(
           between(0, most_trials),
           "number of random trials; above 0 the run is a search for states and makes no movie")
@@ -217,15 +218,15 @@ void add_jitter(FieldList<SearchSettings> list) {
                "states are searched of a shell that nothing pushes, expected 0, or 0 for the depth "
                "of [indentation]",
                [](const Preset& preset) {
-                 return preset.jitter.wanted() && preset.indentation.wanted();
+                 return preset.jitter.requested() && preset.indentation.requested();
                });
   list.add<&S::seed>(between(0, 1 << 30),
                      "seed of the trials; the same seed finds the same states");
-  wanted();
+  requested();
   list.add<&S::levels>({0, 1, true},
                        "progress of the actuation at which trials start, in turn; empty: 0.02 to "
                        "0.5 for \"gravity\", the end for the others");
-  wanted();
+  requested();
   list.add<&S::field_N_per_mm>(above(0), "largest force per millimetre of rod");
   of_mode(SearchMode::gravity, "mode", nullptr);
   list.add<&S::amplitude>({0, 10, true},
@@ -238,24 +239,24 @@ void add_jitter(FieldList<SearchSettings> list) {
                          "turn; counted separately");
   list.add<&S::tolerance>({0, 1, true},
                           "states whose joints differ by less than this are one state, over d");
-  wanted();
+  requested();
   list.add<&S::drawn>(between(1, 24), "states in the picture");
-  wanted();
+  requested();
   list.add<&S::transitions>(
       between(0, 1000),
       "number of states, lowest first, for which it is found out what they become after release "
       "and contraction of the boundary, and after pushes");
-  wanted();
+  requested();
   list.add<&S::barriers>(
       "whether the barriers between the states in the picture are searched for, on 4 edges per "
       "segment");
-  wanted();
+  requested();
 }
 
 void add_sweep(FieldList<Sweep> list) {
   // a preset that sweeps nothing needs no line about it
   list.unused({"over", "seeds"}, "nothing is swept: [sweep] over is empty and seeds is 1",
-              [](const Sweep& of) { return !of.wanted(); });
+              [](const Sweep& of) { return !of.requested(); });
   list.add<&Sweep::over>(
       "keys that change from run to run, all combinations; `count` values from `from` to `to`, "
       "both among them, even steps or with `log = true` even factors");

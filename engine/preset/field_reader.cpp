@@ -53,7 +53,7 @@ std::string points_fault(const Points& points) {
 }
 
 // the index of a name among the allowed ones
-std::optional<double> place_of(const toml::node& value, const std::vector<std::string>& words) {
+std::optional<double> index_of(const toml::node& value, const std::vector<std::string>& words) {
   const auto* text = value.as_string();
   if (!text) return std::nullopt;
   const auto found = std::ranges::find(words, text->get());
@@ -139,8 +139,8 @@ std::string surface_text(const SurfaceData& surface) {
 class Reader {
  public:
   Reader(const Field& field, const toml::node& value, const Preset& preset,
-         const FileContext& beside, FileReport* report)
-      : field_(field), value_(value), preset_(preset), beside_(beside), report_(report) {}
+         const FileContext& context, FileReport* report)
+      : field_(field), value_(value), preset_(preset), context_(context), report_(report) {}
 
   /// Whatever its type, a member is changed only where nothing is wrong.
   template <class T>
@@ -151,9 +151,9 @@ class Reader {
     return wrong;
   }
   std::string operator()(const OneWord& word) {
-    const auto place = place_of(value_, field_.words);
-    if (!place) return value_.is_string() ? "unknown name" : "is " + type_text(value_);
-    word.set(word.member, int(*place));
+    const auto location = index_of(value_, field_.words);
+    if (!location) return value_.is_string() ? "unknown name" : "is " + type_text(value_);
+    word.set(word.member, int(*location));
     return "";
   }
   std::string operator()(const SomeWords& words) {
@@ -161,16 +161,16 @@ class Reader {
     if (!list) return "is " + type_text(value_);
     std::vector<int> places;
     for (const auto& item : *list) {
-      const auto place = place_of(item, field_.words);
-      if (!place) return item.is_string() ? "unknown name" : "a list with " + type_text(item);
-      if (std::ranges::count(places, int(*place)) > 0) return "a name twice";
-      places.push_back(int(*place));
+      const auto location = index_of(item, field_.words);
+      if (!location) return item.is_string() ? "unknown name" : "a list with " + type_text(item);
+      if (std::ranges::count(places, int(*location)) > 0) return "a name twice";
+      places.push_back(int(*location));
     }
     words.set(words.member, places);
     return "";
   }
   /// Whether what is wrong was said in full, as of a file.
-  bool told_in_full() const { return told_in_full_; }
+  bool reported_in_full() const { return reported_in_full_; }
 
  private:
   std::string read(const toml::node& value, double& number) const {
@@ -238,8 +238,8 @@ class Reader {
       report(name->get(),
              fmt::format("{} points: {}", points.size(), fmt::join(field_.coordinates, ", ")));
       const auto wrong = points_fault(points);
-      told_in_full_ = !wrong.empty();
-      return told_in_full_ ? (beside_.folder / name->get()).string() + ": " + wrong : wrong;
+      reported_in_full_ = !wrong.empty();
+      return reported_in_full_ ? (context_.folder / name->get()).string() + ": " + wrong : wrong;
     }
     const auto* list = value.as_array();
     if (!list) return type_text(value);
@@ -251,7 +251,7 @@ class Reader {
       auto& numbers = points.emplace_back();
       for (const auto& number : *point) {
         const auto words = field_.words_of(numbers.size());
-        const auto real = words.empty() ? real_of(number) : place_of(number, words);
+        const auto real = words.empty() ? real_of(number) : index_of(number, words);
         if (!real) return "a point with " + type_text(number);
         numbers.push_back(*real);
       }
@@ -297,7 +297,7 @@ class Reader {
 
   /// Reports the value read, for `check`.
   void report(const std::string& name, const std::string& text) {
-    if (report_) report_->text = fmt::format("{}: {}", (beside_.folder / name).string(), text);
+    if (report_) report_->text = fmt::format("{}: {}", (context_.folder / name).string(), text);
   }
 
   // points, a surface or a network out of a file, or none where the name is empty
@@ -305,13 +305,13 @@ class Reader {
   std::string read_file_of(const std::string& name, const auto& read_data, std::size_t largest,
                            Data& data) {
     if (name.empty()) return "";
-    const bool known = beside_.built_in && beside_.built_in->contains(name);
-    const auto file = beside_.folder / name;
-    Result<Data> found = known ? read_data(beside_.built_in->at(name), name)
+    const bool known = context_.built_in && context_.built_in->contains(name);
+    const auto file = context_.folder / name;
+    Result<Data> found = known ? read_data(context_.built_in->at(name), name)
                                : read_file(file, largest).and_then([&](const std::string& bytes) {
                                    return read_data(bytes, file.string());
                                  });
-    told_in_full_ = !found;
+    reported_in_full_ = !found;
     if (!found) return found.error().message;
     data = std::move(*found);
     return "";
@@ -320,19 +320,19 @@ class Reader {
   const Field& field_;
   const toml::node& value_;
   const Preset& preset_;
-  const FileContext& beside_;
+  const FileContext& context_;
   FileReport* report_;
   const char* kind_ = "";  // what comes before the type of the value found
-  bool told_in_full_ = false;
+  bool reported_in_full_ = false;
 };
 
 }  // namespace
 
 std::string assign(const Field& field, const toml::node& value, Preset& preset,
-                   const FileContext& beside, int item, FileReport* report) {
-  Reader reader(field, value, preset, beside, report);
+                   const FileContext& context, int item, FileReport* report) {
+  Reader reader(field, value, preset, context, report);
   const auto wrong = std::visit(reader, field.in(preset, item));
-  if (wrong.empty() || reader.told_in_full() || wrong.find("expected ") != std::string::npos)
+  if (wrong.empty() || reader.reported_in_full() || wrong.find("expected ") != std::string::npos)
     return wrong;
   std::string text = wrong + ", expected " + allowed(field);
   if (field.as_word(preset) && value.is_string())

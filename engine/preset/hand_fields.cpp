@@ -10,13 +10,13 @@ void step_rules(FieldList<Step>& list) {
   list.refused({"[indentation] depth", "[indentation] depth_mm"},
                "[indentation] pushes already, expected a step \"push\" instead of it",
                [=](const Preset& preset, const Step& of) {
-                 return first(preset, of) && preset.indentation.wanted();
+                 return first(preset, of) && preset.indentation.requested();
                })
       .refused({"[jitter] trials", "[jitter] confined"},
                "states are searched of a shell without steps, expected no [[step]], or [jitter] "
                "trials and confined 0",
                [=](const Preset& preset, const Step& of) {
-                 return first(preset, of) && preset.jitter.wanted();
+                 return first(preset, of) && preset.jitter.requested();
                })
       .needs_equilibrium("a net does not answer a hand", first);
 }

@@ -21,12 +21,12 @@ std::string LocatedFaults::report() const {
     const auto rank = [](const SourceLocation& p) {
       return std::tuple(p.line == 0, p.line, p.column);
     };
-    return rank(a.place) < rank(b.place);
+    return rank(a.location) < rank(b.location);
   });
   std::string text;
   std::set<std::string> seen;
   for (const auto& one : sorted) {
-    const auto line = one.place.text() + ": " + one.text;
+    const auto line = one.location.text() + ": " + one.text;
     if (seen.insert(line).second) text += (text.empty() ? "" : "\n") + line;
   }
   return text;
@@ -69,11 +69,11 @@ void PresetBuilder::take_material(const std::string& table) {
 namespace {
 
 // whether a deciding key was set in a layer above that of the key, which had an effect in its layer
-bool overridden_above(const PresetBuilder& draft, const std::vector<std::string>& deciders,
+bool overridden_above(const PresetBuilder& builder, const std::vector<std::string>& deciders,
                       ValueLayer layer) {
   return std::ranges::any_of(deciders, [&](const std::string& decider) {
-    const auto set = draft.set_at.find(decider);
-    return set != draft.set_at.end() && set->second.layer > layer;
+    const auto set = builder.set_at.find(decider);
+    return set != builder.set_at.end() && set->second.layer > layer;
   });
 }
 
@@ -94,51 +94,52 @@ std::string fault_text(const Preset& preset, const KeyFault& fault, bool no_effe
 }
 
 // a refused value left its default behind, with which nothing that the user wrote is at odds
-bool any_refused(const PresetBuilder& draft, const std::vector<std::string>& keys) {
-  return std::ranges::any_of(keys, [&](const auto& key) { return draft.faulty.contains(key); });
+bool any_refused(const PresetBuilder& builder, const std::vector<std::string>& keys) {
+  return std::ranges::any_of(keys, [&](const auto& key) { return builder.faulty.contains(key); });
 }
 
-bool is_default(const PresetBuilder& draft, const KeyFault& fault) {
+bool is_default(const PresetBuilder& builder, const KeyFault& fault) {
   static const Preset defaults = default_items();
   const Field& field = *find_field(fault.table, fault.key);
-  return value_text(field, draft.preset, fault.item) == value_text(field, defaults);
+  return value_text(field, builder.preset, fault.item) == value_text(field, defaults);
 }
 
 }  // namespace
 
-void check_conflicts(const PresetBuilder& draft, const std::string& source, LocatedFaults& faults) {
-  for (const KeyFault& fault : conflicts(draft.preset)) {
+void check_conflicts(const PresetBuilder& builder, const std::string& source,
+                     LocatedFaults& faults) {
+  for (const KeyFault& fault : conflicts(builder.preset)) {
     auto keys = fault.others;
     keys.insert(keys.begin(), fault.label());
-    if (any_refused(draft, keys)) continue;
+    if (any_refused(builder, keys)) continue;
     if (fault.item >= 0) keys.push_back(key_label(fault.table, "", fault.item));
     const auto set = std::ranges::find_if(
-        keys, [&](const std::string& key) { return draft.set_at.contains(key); });
-    faults.add(set == keys.end() ? SourceLocation{source} : draft.set_at.at(*set),
-               fault_text(draft.preset, fault));
+        keys, [&](const std::string& key) { return builder.set_at.contains(key); });
+    faults.add(set == keys.end() ? SourceLocation{source} : builder.set_at.at(*set),
+               fault_text(builder.preset, fault));
   }
 }
 
 void check_unused_keys(const std::vector<PresetBuilder>& runs, LocatedFaults& faults) {
   std::map<std::string, std::size_t> unused_in;
   std::vector<std::vector<KeyFault>> unused;
-  for (const PresetBuilder& draft : runs)
-    for (const KeyFault& one : unused.emplace_back(unused_keys(draft.preset)))
+  for (const PresetBuilder& builder : runs)
+    for (const KeyFault& one : unused.emplace_back(unused_keys(builder.preset)))
       ++unused_in[one.label()];
   for (std::size_t run = 0; run < runs.size(); ++run)
     for (const KeyFault& one : unused[run]) {
-      const PresetBuilder& draft = runs[run];
+      const PresetBuilder& builder = runs[run];
       const auto name = one.label();
-      const auto set = draft.set_at.find(name);
-      if (set == draft.set_at.end() || draft.faulty.contains(name)) continue;
+      const auto set = builder.set_at.find(name);
+      if (set == builder.set_at.end() || builder.faulty.contains(name)) continue;
       const ValueLayer layer = set->second.layer;
       // what the base says may be for another case
       if (layer != ValueLayer::one_case && unused_in[name] < runs.size()) continue;
       // a key that says its default asks for nothing
-      if (overridden_above(draft, one.others, layer) || any_refused(draft, one.others) ||
-          is_default(draft, one))
+      if (overridden_above(builder, one.others, layer) || any_refused(builder, one.others) ||
+          is_default(builder, one))
         continue;
-      faults.add(set->second, fault_text(draft.preset, one, true));
+      faults.add(set->second, fault_text(builder.preset, one, true));
     }
 }
 

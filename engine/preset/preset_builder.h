@@ -26,8 +26,8 @@ struct SourceLocation {
 /// All errors of a file, with their positions.
 class LocatedFaults {
  public:
-  void add(const SourceLocation& place, std::string text) {
-    faults_.push_back({place, std::move(text)});
+  void add(const SourceLocation& location, std::string text) {
+    faults_.push_back({location, std::move(text)});
   }
   bool empty() const { return faults_.empty(); }
 
@@ -36,7 +36,7 @@ class LocatedFaults {
 
  private:
   struct LocatedFault {
-    SourceLocation place;
+    SourceLocation location;
     std::string text;
   };
   std::vector<LocatedFault> faults_;
@@ -53,7 +53,7 @@ struct NamedFile {
   std::string table, key;
   int item = -1;  ///< of a list of tables
   std::string name;
-  FileContext beside;
+  FileContext context;
 };
 
 // A preset while its file is read, and what its keys say together once all are laid.
@@ -76,7 +76,8 @@ struct PresetBuilder {
 
 /// Adds errors for values that contradict each other; if none of them was set, the error is in
 /// `source`.
-void check_conflicts(const PresetBuilder& draft, const std::string& source, LocatedFaults& faults);
+void check_conflicts(const PresetBuilder& builder, const std::string& source,
+                     LocatedFaults& faults);
 
 /// Keys that count for nothing in any of the runs of a file, because of what others are set to.
 void check_unused_keys(const std::vector<PresetBuilder>& runs, LocatedFaults& faults);

@@ -25,19 +25,19 @@ constexpr std::size_t longest_name = 100;
 std::string case_name(const toml::table& table, const std::set<std::string>& taken,
                       TomlReader& reading) {
   const auto* node = table.get("name");
-  const auto place = reading.place_of(node ? node->source() : table.source());
+  const auto location = reading.location_of(node ? node->source() : table.source());
   if (!node) {
-    reading.faults().add(place, "[[case]] name: got none, expected a name: name = \"...\"");
+    reading.faults().add(location, "[[case]] name: got none, expected a name: name = \"...\"");
     return "";
   }
   const auto name = node->value<std::string>();
   if (const auto wrong = case_name_fault(name.value_or("")); !wrong.empty()) {
-    reading.faults().add(place, got_text("[[case]] name", toml_text(*node), wrong));
+    reading.faults().add(location, got_text("[[case]] name", toml_text(*node), wrong));
     return "";
   }
   if (taken.contains(*name)) {
-    reading.faults().add(
-        place, got_text("[[case]] name", toml_text(*node), "used twice, expected a unique name"));
+    reading.faults().add(location, got_text("[[case]] name", toml_text(*node),
+                                            "used twice, expected a unique name"));
     return "";
   }
   return *name;
@@ -49,10 +49,10 @@ Presets read_presets(const toml::table& root, const std::string& name,
   PresetBuilder base;
   base.preset.name = name;
   reading.apply(root, "case", base);  // and with it the lists of tables
-  const auto finish = [&](PresetBuilder draft) {
-    for (const auto& change : overrides) reading.apply_override(change, draft);
-    reading.read_files(draft);
-    return draft;
+  const auto finish = [&](PresetBuilder builder) {
+    for (const auto& change : overrides) reading.apply_override(change, builder);
+    reading.read_files(builder);
+    return builder;
   };
   const auto whole = finish(base);
   Presets presets{whole.preset, {}};
@@ -62,7 +62,7 @@ Presets read_presets(const toml::table& root, const std::string& name,
   };
   const auto* node = root.get("case");
   if (node && !node->is_array_of_tables()) {
-    reading.faults().add(reading.place_of(node->source()),
+    reading.faults().add(reading.location_of(node->source()),
                          "case: got one table or value, expected tables, each [[case]]");
     return presets;
   }
@@ -71,23 +71,23 @@ Presets read_presets(const toml::table& root, const std::string& name,
   const toml::array none;  // a copy of the list would lose its positions
   for (const auto& item : node ? *node->as_array() : none) {
     const auto& table = *item.as_table();
-    PresetBuilder draft = base;
-    reading.apply(table, "name", draft);
-    draft = finish(std::move(draft));
+    PresetBuilder builder = base;
+    reading.apply(table, "name", builder);
+    builder = finish(std::move(builder));
     const auto own = case_name(table, taken, reading);
     taken.insert(own);
-    draft.preset.name = name + "/" + own;
-    runs.push_back(draft);
-    presets.cases.push_back({own, std::move(draft.preset)});
+    builder.preset.name = name + "/" + own;
+    runs.push_back(builder);
+    presets.cases.push_back({own, std::move(builder.preset)});
   }
   if (runs.empty()) runs.push_back(whole);
-  for (const PresetBuilder& draft : runs) {
-    add_once(draft.read, presets.files);
-    add_once(draft.notes, presets.notes);
-    add_once(doubtful_values(draft.preset), presets.notes);
+  for (const PresetBuilder& builder : runs) {
+    add_once(builder.read, presets.files);
+    add_once(builder.notes, presets.notes);
+    add_once(doubtful_values(builder.preset), presets.notes);
   }
-  for (const PresetBuilder& draft : runs)
-    check_conflicts(draft, reading.source(), reading.faults());
+  for (const PresetBuilder& builder : runs)
+    check_conflicts(builder, reading.source(), reading.faults());
   check_unused_keys(runs, reading.faults());
   check_sweep(runs, reading.faults());
   return presets;

@@ -88,9 +88,9 @@ class StoredFrames : public FrameSource {
     each_rod_field([&]<class Values>(const char* name, const char*, SizeOf size, const char*,
                                      Values Frame::*) {
       if (!file_->has(name)) return;
-      const Dims wanted = dims_of<Values>(heads_.size(), size(layout));
-      const Dims dims = file_->dims(name, wanted.size());
-      if (file_->good() && dims != wanted)
+      const Dims requested = dims_of<Values>(heads_.size(), size(layout));
+      const Dims dims = file_->dims(name, requested.size());
+      if (file_->good() && dims != requested)
         file_->fail_because(std::string(name) + " does not fit the rods and the frames");
     });
   }

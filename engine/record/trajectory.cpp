@@ -197,8 +197,9 @@ Result<void> check_frame(const Layout& layout, const Frame& frame, std::size_t k
                                    Values Frame::*field) {
     const Eigen::Index values =
         Values::RowsAtCompileTime == 3 ? (frame.*field).cols() : (frame.*field).size();
-    if (const Eigen::Index wanted = size_of(layout); fits && values != 0 && values != wanted)
-      fits = invalid("{2} of frame {0}: got {1} values, expected {3}", k, values, name + 1, wanted);
+    if (const Eigen::Index requested = size_of(layout); fits && values != 0 && values != requested)
+      fits =
+          invalid("{2} of frame {0}: got {1} values, expected {3}", k, values, name + 1, requested);
   });
   return fits;
 }

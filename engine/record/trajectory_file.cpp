@@ -43,17 +43,19 @@ std::optional<std::string> expected_header(const ReadableFile& file,
 }
 
 /// Why a file is not trusted, or empty. A file without a header was written by another program: it
-/// is trusted if `unsealed` is set.
-std::string header_fault(const ReadableFile& file, bool unsealed) {
+/// is trusted if `no_checksum` is set.
+std::string header_fault(const ReadableFile& file, bool no_checksum) {
   const auto start = file.read(0, std::min<std::uint64_t>(header_size, file.size()));
   if (start && start->starts_with("\x89HDF\r\n\x1a\n"))
-    return unsealed ? ""
-                    : "it has no checksum, so another program wrote it (--no-checksum, in Python "
-                      "no_checksum=True, reads it all the same)";
+    return no_checksum
+               ? ""
+               : "it has no checksum, so another program wrote it (--no-checksum, in Python "
+                 "no_checksum=True, reads it all the same)";
   if (!start || !start->starts_with(trajectory_format)) return "it is not an HDF5 file";
   if (start->size() < header_size) return "it is cut short";
   const bool older = start->find("FNV-1a") != start->npos;
-  if (unsealed || start == expected_header(file, older ? ChecksumKind::fnv1a : ChecksumKind::crc32))
+  if (no_checksum ||
+      start == expected_header(file, older ? ChecksumKind::fnv1a : ChecksumKind::crc32))
     return "";
   return "it is cut short, damaged or was changed: its checksum does not match (of one that "
          "another "
@@ -149,7 +151,8 @@ Result<Trajectory> read_trajectory(const std::filesystem::path& path,
     return invalid("'{}' is no trajectory of a run: {}", path.string(), reason);
   };
   TRY(file, ReadableFile::open(path));
-  if (const auto reason = header_fault(*file, how.unsealed); !reason.empty()) return refuse(reason);
+  if (const auto reason = header_fault(*file, how.no_checksum); !reason.empty())
+    return refuse(reason);
   try {
     if (how.trial)
       if (auto survived = read_in_subprocess([&] { (void)read_checked(path); }); !survived)

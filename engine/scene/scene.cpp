@@ -309,7 +309,8 @@ void centre_edges(const preset::Preset& preset, Scene& scene) {
   for (std::size_t joint = 0; joint < rods.size(); ++joint) {
     FootprintJoint& here = scene.footprint.joints[joint];
     const JointLaw& law = scene.rods.law(int(joint));
-    const bool held = scene.rung == RodModel::twist && (law.shear_Nmm > 0 || law.twist_Nmm > 0);
+    const bool held =
+        scene.rod_model == RodModel::twist && (law.shear_Nmm > 0 || law.twist_Nmm > 0);
     here.centred = rods[joint] > 1 && (bolted || held || here.eccentricity != 0);
   }
 }
@@ -386,7 +387,7 @@ Result<Scene> scene_of(const preset::Preset& preset) {
   if (preset.ends.second_ring_mm > 0) TRY_DO(add_second_ring(preset.ends.second_ring_mm, scene));
   TRY_DO(apply_ends_table(preset.ends.table, scene));
   TRY_DO(put_rods(preset, scene));
-  scene.rung = preset::rod_model_of(preset);
+  scene.rod_model = preset::rod_model_of(preset);
   TRY_DO(put_laws(preset, scene));
   centre_edges(preset, scene);
   const bool round = std::ranges::count(scene.laths_mm, 0) == long(scene.laths_mm.size());

@@ -138,7 +138,7 @@ Result<State> rest_after_bifurcation(NestedShell& shell, const Scene& scene, con
     return fail(Fault::no_equilibrium, "rods would go through one another");
   if (kind == Event::Kind::stability_lost)
     state = unstable_branch(system, state, 0.1 * scene.footprint.spacing, watch).value_or(state);
-  if (!scene.snap.wanted) return leave_saddle(system, state, mode, departure, watch);
+  if (!scene.snap.requested) return leave_saddle(system, state, mode, departure, watch);
   auto moved = rest_in_time(
       shell, scene, perturbed_along_mode(system, state, mode, departure.side),
       {.still_N = 1e-4, .still_mJ = 1e-7},

@@ -32,8 +32,8 @@ FramesBetween::FramesBetween(EquilibriumPath& path,
       watch_(watch),
       contacts_(parts_of(path.simulation.scene(), path.simulation.shell().finest())) {
   const Simulation& simulation = path.simulation;
-  wanted_ = simulation.shell().levels() > 1 && !simulation.scene().rods.contact.barrier.acts() &&
-            strains_by_curvature(simulation.shell().model());
+  requested_ = simulation.shell().levels() > 1 && !simulation.scene().rods.contact.barrier.acts() &&
+               strains_by_curvature(simulation.shell().model());
 }
 
 Eigen::VectorXd FramesBetween::curvature(const Eigen::Matrix3Xd& nodes) const {
@@ -129,7 +129,7 @@ std::optional<Eigen::Matrix3Xd> FramesBetween::nodes_at(double t, const Knots& k
 std::optional<record::Frame> FramesBetween::at(const PathSample& sample) {
   const PathSegment& segment = path_.segments[sample.segment];
   if (std::exchange(segment_, sample.segment) != sample.segment) known_.clear();
-  const auto window = wanted_ ? window_at(segment, sample.t) : std::nullopt;
+  const auto window = requested_ ? window_at(segment, sample.t) : std::nullopt;
   if (!window) return {};
   // earlier knots are no longer needed; a segment back is shown in reverse
   std::erase_if(known_, [&](const auto& known) {

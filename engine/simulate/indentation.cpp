@@ -71,7 +71,7 @@ std::string reason_of(HeldShell& pushed, const At& at, const Watch& watch) {
   if (pushed.limit == record::Limit::snap)
     for (const PathSegment& segment : pushed.segments)
       for (const Event& event : segment.report.events)
-        if (event.to && event.leap)
+        if (event.to && event.jump)
           return fmt::format(
               "with the joint prescribed, the shell lost its {} {}{} and reached another "
               "equilibrium",
@@ -111,11 +111,11 @@ void set_push_limit(HeldShell& pushed, const Watch& watch) {
 }
 
 Result<HeldShell> follow_push(const std::shared_ptr<const Scene>& scene,
-                              const preset::Indentation& asked, const LevelPlan& plan,
+                              const preset::Indentation& requested, const LevelPlan& plan,
                               const Watch& watch) {
-  auto pushed = hold_to_push(scene, asked, plan, watch);
+  auto pushed = hold_to_push(scene, requested, plan, watch);
   if (pushed && pushed->too_coarse()) return pushed;
-  for (double to : asked.unload ? std::vector<double>{1, 0} : std::vector<double>{1}) {
+  for (double to : requested.unload ? std::vector<double>{1, 0} : std::vector<double>{1}) {
     if (!pushed) break;
     const PathSegment& segment = follow_segment(*pushed, to, {}, watch);
     if (watch.cancelled()) return stopped();
@@ -183,7 +183,7 @@ Result<int> pushed_joint(const preset::Indentation& indentation, const Footprint
                     joints.colwise().normalized().transpose() * direction_of(indentation));
 }
 
-Result<PushOf> push_of(const preset::Indentation& asked, const Scene& scene,
+Result<PushOf> push_of(const preset::Indentation& requested, const Scene& scene,
                        const NestedShell& shell) {
   const Eigen::Index joints = Eigen::Index(scene.footprint.joints.size());
   Eigen::Matrix3Xd places = shell.state().x.leftCols(joints);
@@ -191,7 +191,7 @@ Result<PushOf> push_of(const preset::Indentation& asked, const Scene& scene,
     TRY(net, points_on(*scene.net, shell.finest().flat.leftCols(joints)));
     places = std::move(*net);
   }
-  TRY(joint, pushed_joint(asked, scene.footprint, places));
+  TRY(joint, pushed_joint(requested, scene.footprint, places));
   TRY_DO(not_on_boundary(scene.footprint, *joint));
   PushOf push{*joint};
   if (scene.net) {
@@ -205,24 +205,25 @@ Result<PushOf> push_of(const preset::Indentation& asked, const Scene& scene,
           "[indentation]: no two rods cross at the joint pushed, so the "
           "shell has no normal there");
   }
-  const double depth = asked.depth_mm > 0 ? asked.depth_mm : asked.depth * scene.length_scale_mm;
-  push.displacement *= asked.direction == preset::Direction::inward ? -depth : depth;
+  const double depth =
+      requested.depth_mm > 0 ? requested.depth_mm : requested.depth * scene.length_scale_mm;
+  push.displacement *= requested.direction == preset::Direction::inward ? -depth : depth;
   return push;
 }
 
 Result<HeldShell> hold_to_push(const std::shared_ptr<const Scene>& scene,
-                               const preset::Indentation& asked, const LevelPlan& plan,
+                               const preset::Indentation& requested, const LevelPlan& plan,
                                const Watch& watch) {
   TRY(actuated, follow_whole_actuation(scene, plan, "to push", watch));
   if (actuated->too_coarse()) return HeldShell{std::move(*actuated), {}, {}};
   Simulation& simulation = actuated->simulation;
-  TRY(push, push_of(asked, *scene, simulation.shell()));
+  TRY(push, push_of(requested, *scene, simulation.shell()));
   const auto joints = Eigen::Index(scene->footprint.joints.size());
   Eigen::Matrix3Xd before = simulation.nodes().leftCols(joints);
   HeldShell held{std::move(*actuated), *push, std::move(before)};
   held.earlier = std::exchange(held.segments, {});
   Constraint hold{push->joint};
-  if (asked.lateral == preset::Lateral::free) hold.directions = push->displacement.normalized();
+  if (requested.lateral == preset::Lateral::free) hold.directions = push->displacement.normalized();
   const Report taken = held.simulation.begin_joint_push({hold}, {push->displacement}, watch);
   if (taken.end != Outcome::reached)
     return fail(Fault::no_equilibrium,

@@ -20,8 +20,8 @@ using preset::StepKind;
 
 /// A finished step; its segment of the path has the same index.
 struct Done {
-  Checkpoint way_end, end;  ///< at the end of its path; the state of the shell after the step
-  std::string told = {};    ///< sentence about it in addition to its certificate
+  Checkpoint way_end, end;    ///< at the end of its path; the state of the shell after the step
+  std::string reported = {};  ///< sentence about it in addition to its certificate
 };
 
 /// A hand's whole work on one plan of meshes.
@@ -43,7 +43,7 @@ bool has_way(const std::vector<preset::Step>& steps, std::size_t k) {
 
 bool snapped(const PathSegment& segment) {
   return std::ranges::any_of(segment.report.events,
-                             [](const Event& one) { return one.to && one.leap; });
+                             [](const Event& one) { return one.to && one.jump; });
 }
 
 /// A step without a sampled path is a segment of its start and end alone.
@@ -80,7 +80,7 @@ Result<Work> do_steps(const std::shared_ptr<const Scene>& scene,
     static_cast<PathRecord&>(segment) = std::move(way);
     close(segment, simulation);
     work.done.push_back({std::move(way.end), simulation.save()});
-    if (kind == StepKind::open) work.done.back().told = ", " + text_of_opened(simulation);
+    if (kind == StepKind::open) work.done.back().reported = ", " + text_of_opened(simulation);
     if (segment.report.end != Outcome::reached) break;
   }
   return work;
@@ -185,7 +185,7 @@ std::string message_of(std::size_t k, const preset::Step& step, const PathSegmen
   for (const Event& event : report.events)
     if (event.to)
       text += fmt::format(", {} at {:.3f} of its path",
-                          event.leap ? "snap to another state" : "branches", event.t);
+                          event.jump ? "snap to another state" : "branches", event.t);
   const Certificate& certificate = report.certificate;
   text += fmt::format(", residual {:.2g} N, ", certificate.residual_N);
   text += certificate.stable()
@@ -220,8 +220,8 @@ void put_loads(const Work& work, const std::vector<preset::Step>& steps, record:
     const auto joint_pushed = joint_of(steps[k], work.simulation.scene().footprint);
     // a push that failed leaves no constraint
     const auto origin =
-        joint_pushed ? end.grip_origins.find(*joint_pushed) : end.grip_origins.end();
-    if (origin == end.grip_origins.end()) continue;
+        joint_pushed ? end.constraint_origins.find(*joint_pushed) : end.constraint_origins.end();
+    if (origin == end.constraint_origins.end()) continue;
     const int joint = origin->first;
     const Eigen::Vector3d moved = end.state.x.col(joint) - origin->second;
     const bool there = std::ranges::any_of(layout.loaded_joints,
@@ -309,7 +309,7 @@ Result<StepsResult> run_steps(const std::shared_ptr<const Scene>& scene,
   StepsResult stepped{EquilibriumPath(std::move(*work))};
   for (std::size_t k = 0; k < stepped.path.segments.size(); ++k)
     stepped.messages.push_back(message_of(k, steps[k], stepped.path.segments[k]) +
-                               (k < work->done.size() ? work->done[k].told : ""));
+                               (k < work->done.size() ? work->done[k].reported : ""));
   return stepped;
 }
 

@@ -92,7 +92,7 @@ class Simulation::Walk {
   void keep();
   bool goes_on();
   bool watches_stability() const {
-    return record_ && of_.actuating_ && leaving_.wanted && scene_.imperfection.chooses();
+    return record_ && of_.actuating_ && leaving_.requested && scene_.imperfection.chooses();
   }
   void keep_segment(std::optional<Outcome> end);
   Outcome step();
@@ -232,7 +232,7 @@ Outcome Simulation::Walk::step() {
   if (end == Outcome::reached) return step_came(next, good);
   const bool ended = end == Outcome::unstable || end == Outcome::lost;
   const std::size_t most = shell_.model().contact.any() ? most_events_in_contact : most_events;
-  if (!ended || !leaving_.wanted || events_.size() >= most) return end;
+  if (!ended || !leaving_.requested || events_.size() >= most) return end;
   return branch_ended(end, next, good);
 }
 
@@ -357,7 +357,7 @@ bool Simulation::Walk::leave(Event& event, std::vector<TimedState>& moments) {
     if (watch_.cancelled()) return false;
     if (rest && shell_.start(there, *rest, watch_).end == Outcome::reached) {
       event.to = there;
-      event.leap = event.kind != Event::Kind::stability_lost ||
+      event.jump = event.kind != Event::Kind::stability_lost ||
                    !on_branch_from(shell_, scene_, last, there, *rest, watch_);
       shell_.apply_loads();
       return true;

@@ -151,7 +151,7 @@ Result<Report> take_step(Simulation& simulation, const preset::Step& step, const
     case preset::StepKind::push:
     case preset::StepKind::hold: {
       TRY(goal, goal_of(simulation, step));
-      simulation.grip_origins.emplace(goal->joint, simulation.nodes().col(goal->joint));
+      simulation.constraint_origins.emplace(goal->joint, simulation.nodes().col(goal->joint));
       return push(simulation, *goal, watch, way);
     }
     case preset::StepKind::release:
@@ -199,7 +199,7 @@ double progress_of(const preset::Step& step, const Scene& scene) {
 Result<Report> apply_step(Simulation& simulation, const preset::Step& step, const Watch& watch,
                           StepPath* way) {
   auto report = take_step(simulation, step, watch, way);
-  std::erase_if(simulation.grip_origins, [&](const auto& origin) {
+  std::erase_if(simulation.constraint_origins, [&](const auto& origin) {
     return std::ranges::none_of(simulation.holds(),
                                 [&](const Constraint& hold) { return hold.node == origin.first; });
   });

@@ -145,22 +145,22 @@ bool DampedMotion::step(MovingState& moving, const Watch& watch) {
 Result<void> DampedMotion::settle(MovingState& moving, const RestOptions& rest,
                                   const std::function<void(const MovingState&)>& seen,
                                   const Watch& watch) {
-  const double wanted = options_.step_s, end = moving.time + rest.longest_s;
+  const double requested = options_.step_s, end = moving.time + rest.longest_s;
   struct Back {  // restores the requested step for the next motion
     double& step;
-    double wanted;
-    ~Back() { step = wanted; }
-  } back{options_.step_s, wanted};
+    double requested;
+    ~Back() { step = requested; }
+  } back{options_.step_s, requested};
   while (moving.time < end) {
     if (watch.cancelled()) return fail(Fault::cancelled, "stopped during a snap");
     if (!step(moving, watch)) {
       options_.step_s /= 2;
-      if (options_.step_s < 1e-6 * wanted)
+      if (options_.step_s < 1e-6 * requested)
         return fail(Fault::no_equilibrium,
                     fmt::format("no time step however small succeeds at {:.4g} s", moving.time));
       continue;
     }
-    options_.step_s = std::min(wanted, 2 * options_.step_s);
+    options_.step_s = std::min(requested, 2 * options_.step_s);
     if (seen) seen(moving);
     if (kinetic_energy(mass_, moving) < rest.still_mJ && residual(moving.state) < rest.still_N)
       return {};

@@ -45,13 +45,13 @@ MultilevelRelaxation::MultilevelRelaxation(const FlatFrame& flat, double spacing
     : flat_(flat), spacing_mm_(spacing_mm) {}
 
 Result<MultilevelRelaxation> MultilevelRelaxation::make(const Footprint& footprint,
-                                                        const ShellRods& rods, RodModel rung,
+                                                        const ShellRods& rods, RodModel rod_model,
                                                         const BoundaryMotion& motion,
                                                         const FlatFrame& flat, int edges) {
   MultilevelRelaxation cascade(flat, footprint.spacing);
   for (int k = 1; k <= edges; k *= 2) {
     auto level = std::make_unique<Level>();
-    TRY_DO(level->build(footprint, rods, rung, motion, k));
+    TRY_DO(level->build(footprint, rods, rod_model, motion, k));
     level->symmetries = symmetries_of(level->mesh, level->motion.at(1));
     if (k > 1) {
       const Level& coarser = *cascade.levels_.back();

@@ -98,11 +98,11 @@ State NestedShell::predicted(const Level& level, double t, const State& base) co
 
 /// Where rods may touch, as far from the companion's last state towards the requested one as they
 /// do not go through one another: on longer edges that one need not be clear.
-State NestedShell::clear_of_contact(Level& level, const State& before, State wanted) const {
-  if (!level.model.contact.any() || before.x.cols() != wanted.x.cols()) return wanted;
+State NestedShell::clear_of_contact(Level& level, const State& before, State requested) const {
+  if (!level.model.contact.any() || before.x.cols() != requested.x.cols()) return requested;
   State clear = before;
   level.motion.impose(*level.system, state_.t, clear);
-  const Eigen::Matrix3Xd move = wanted.x - clear.x;
+  const Eigen::Matrix3Xd move = requested.x - clear.x;
   move_to(level.model, clear.x + level.system->clear_share(clear, move) * move, clear);
   return clear;
 }
@@ -172,14 +172,14 @@ NestedReport NestedShell::certify(const PathFollower& path, const Watch& watch,
   state_.step = point.step;
   Level& finest = *levels_.back();
   State& found = state_.levels.back();
-  const bool anew = !known.usable && !vouches(path.last());
+  const bool again = !known.usable && !vouches(path.last());
   state_.inertia = known.usable ? known : inertia_of(finest, found, path.last());
   if (!state_.inertia.usable) return refused(Outcome::not_finite);
   if (!state_.inertia.positive_definite() && !options_.allow_unstable)
     return refused(Outcome::unstable);
   polish(finest, found, path.last());
   if (!known.usable && state_.velocity.x.size() > 0) {
-    if (anew)
+    if (again)
       finest.motion.velocity(*finest.system, state_.t, found, state_.velocity);
     else
       refine_velocity(finest, found);

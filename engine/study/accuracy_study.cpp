@@ -18,7 +18,7 @@ using record::RunOutcome;
 
 /// A method on meshes from coarse to fine; finer meshes than one that is too slow are not run.
 struct Ladder {
-  std::vector<Method> rungs;
+  std::vector<Method> rod_models;
   double allowed = INFINITY;  // error promised if one mesh gives no estimate
 };
 
@@ -62,7 +62,7 @@ Row row_of(const Method& method, const Measured& measured) {
 template <class Make>
 Ladder ladder(Make make, int most_edges) {
   Ladder ladder;
-  for (int k = 1; k <= most_edges; k *= 2) ladder.rungs.push_back(make(k));
+  for (int k = 1; k <= most_edges; k *= 2) ladder.rod_models.push_back(make(k));
   return ladder;
 }
 
@@ -108,7 +108,7 @@ Result<std::vector<AccuracyRow>> climb(BenchmarkProblem& study, const std::vecto
   std::vector<std::vector<AccuracyRow>> rows(ladders.size());
   const auto climb_one = [&](int k) {
     const Ladder& ladder = ladders[std::size_t(k)];
-    for (const Method& method : ladder.rungs) {
+    for (const Method& method : ladder.rod_models) {
       if (watch.cancelled()) return;
       const Measured measured = measure(study, method, ladder.allowed, options, watch);
       auto& row = rows[std::size_t(k)].emplace_back(row_of<AccuracyRow>(method, measured));

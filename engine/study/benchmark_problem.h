@@ -20,7 +20,7 @@ enum class Task { actuation, beside_net, push };
 
 /// Rod model and joints of a method.
 struct ModelVariant {
-  RodModel rung = RodModel::bend;
+  RodModel rod_model = RodModel::bend;
   double spring_N_per_mm = 0;  ///< of spring joints; 0: shared nodes
 };
 
@@ -78,7 +78,7 @@ class BenchmarkProblem {
  private:
   BenchmarkProblem(std::shared_ptr<const Scene> scene, const preset::Indentation& pushed);
   Result<void> follow(int finest, Watch& watch);
-  Result<State> rest_beside(const Problem& problem, const Eigen::Matrix3Xd& wanted, double t,
+  Result<State> rest_beside(const Problem& problem, const Eigen::Matrix3Xd& requested, double t,
                             const Watch& watch) const;
   ShellRods rods_on(const ModelVariant& on) const;
   void push(NestedShell& shell) const;

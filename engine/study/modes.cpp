@@ -113,7 +113,7 @@ Result<void> check_masses(const Scene& scene) {
 
 Result<FormedShell> form(const preset::Preset& preset, const std::shared_ptr<const Scene>& scene,
                          Watch& watch) {
-  if (scene->rung == RodModel::net)
+  if (scene->rod_model == RodModel::net)
     return invalid(
         "a net that nothing is solved for neither vibrates nor carries: [accuracy] model "
         "expected another model, or tolerance below 0.05");

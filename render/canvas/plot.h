@@ -69,10 +69,10 @@ struct Band {
 /// The values of a member in the order in which they first come, of those that are selected.
 template <class Row, class Value, class Wanted>
 std::vector<Value> distinct(const std::vector<Row>& rows, Value Row::*member,
-                            const Wanted& wanted) {
+                            const Wanted& requested) {
   std::vector<Value> values;
   for (const Row& row : rows)
-    if (wanted(row.*member) && std::ranges::find(values, row.*member) == values.end())
+    if (requested(row.*member) && std::ranges::find(values, row.*member) == values.end())
       values.push_back(row.*member);
   return values;
 }

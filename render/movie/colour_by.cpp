@@ -118,13 +118,13 @@ Eigen::VectorXd coloured_values(ColourBy by, const record::Layout& layout,
 }
 
 tl::unexpected<Error> missing_values_error(ColourBy by) {
-  const std::string asked = fmt::format("[movie] colour_by = \"{}\"", word_of(by));
+  const std::string requested = fmt::format("[movie] colour_by = \"{}\"", word_of(by));
   if (by == ColourBy::deviation)
-    return invalid(asked + ": the run has no net that its shell could lie off");
+    return invalid(requested + ": the run has no net that its shell could lie off");
   return invalid(
       "{}: no frame of the run knows the rods' {}, as runs of an older version "
       "and of a net do not; run it again",
-      asked,
+      requested,
       by == ColourBy::axial_force ? "axial forces"
       : by == ColourBy::energy    ? "bending energy"
       : by == ColourBy::stress    ? "stress"

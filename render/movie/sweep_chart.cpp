@@ -96,13 +96,13 @@ Series mean_of(const Curve& curve) {
 }
 
 template <class Wanted>
-Series marks_of(const Curve& curve, Series style, const Wanted& wanted) {
+Series marks_of(const Curve& curve, Series style, const Wanted& requested) {
   style.x.clear();
   style.y.clear();
   style.name.clear();
   style.line_width = 0;
   for (const SweepMark& spot : curve.spots)
-    if (wanted(spot)) style.add(spot.x, spot.y);
+    if (requested(spot)) style.add(spot.x, spot.y);
   return style;
 }
 

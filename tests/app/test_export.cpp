@@ -5,13 +5,13 @@ TEST_CASE("export writes a run in every format, and what is for the workshop", "
   const TemporaryFolder at;
   copy_shared_run("s1_actuation", at / "run");
   const auto before = files_under(at / "run", "");
-  const std::vector<std::pair<std::string, std::string>> wanted{
+  const std::vector<std::pair<std::string, std::string>> requested{
       {"", "a.csv"},         {"", "a.dxf"},          {"", "a.glb"},          {"", "a.html"},
       {"", "a.obj"},         {"", "a.pvd"},          {"", "a.vtp"},          {"", "a.xdmf"},
       {"tubes", "t.obj"},    {"footprint", "f.svg"}, {"footprint", "f.dxf"}, {"plate", "p.svg"},
       {"plate", "p.dxf"},    {"plate", "pins.csv"},  {"cutlist", "cut.csv"}, {"cutlist", "cut.pdf"},
       {"sheet", "sheet.pdf"}};
-  for (const auto& [what, file] : wanted) {
+  for (const auto& [what, file] : requested) {
     std::vector<std::string> arguments{"export", "run", "--to", file};
     if (!what.empty()) arguments.insert(arguments.end(), {"--what", what});
     const auto ended = gridshell_program(arguments, at);

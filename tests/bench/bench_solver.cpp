@@ -262,10 +262,10 @@ int main(int argc, char** argv) {
   Figures figures(argc, argv);
   paper_shell(7, figures);
   drag(figures);
-  const auto asked = [&](const char* word) {
+  const auto requested = [&](const char* word) {
     return std::ranges::count(figures.words(), word) > 0;
   };
-  if (asked("sizes")) sizes(figures, asked("96"));
-  if (asked("growth")) growth(figures);
-  if (asked("rests")) rests(figures);
+  if (requested("sizes")) sizes(figures, requested("96"));
+  if (requested("growth")) growth(figures);
+  if (requested("rests")) rests(figures);
 }

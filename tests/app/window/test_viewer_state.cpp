@@ -299,10 +299,11 @@ TEST_CASE(
   CHECK(marks[0].to == Approx(0.6 * 0.6));
   Event lost;
   lost.t = 0.35;
-  const auto told = marks_of(way, {lost}, -1, progress_at);
-  REQUIRE(told.size() == 2);
-  CHECK(told[0].from == Approx(0.35 * 0.35));
-  CHECK((!told[1].unstable && told[1].from == told[1].to && told[1].what == "stability lost"));
+  const auto reported = marks_of(way, {lost}, -1, progress_at);
+  REQUIRE(reported.size() == 2);
+  CHECK(reported[0].from == Approx(0.35 * 0.35));
+  CHECK((!reported[1].unstable && reported[1].from == reported[1].to &&
+         reported[1].what == "stability lost"));
 }
 
 TEST_CASE("ranges of several paths that meet are one, separate ones or of other joints are not") {

@@ -8,7 +8,7 @@ using namespace gridshell::preset;
 
 TEST_CASE("auto takes the simplest model that is exact") {
   using Row = std::pair<std::string, std::string>;
-  const auto [text, rung] = GENERATE(values<Row>({
+  const auto [text, rod_model] = GENERATE(values<Row>({
       {"", "bend"},
       {"[loads]\nfield_N_per_mm = 1e-6\npoints = [[0, 0, 0, 0, -0.1]]", "bend"},
       {"[rod_v]\ndiffers = true\ndiameter_mm = 0.3", "bend"},
@@ -37,8 +37,8 @@ TEST_CASE("auto takes the simplest model that is exact") {
   }));
   CAPTURE(text);
   const Preset preset = good(text).base;
-  CHECK(word_of(rod_model_of(preset)) == rung);
-  CHECK(model_reason(preset).starts_with(rung));
+  CHECK(word_of(rod_model_of(preset)) == rod_model);
+  CHECK(model_reason(preset).starts_with(rod_model));
 }
 
 TEST_CASE(

@@ -181,7 +181,7 @@ TEST_CASE("a column that an older version did not write is unknown") {
   TemporaryFolder folder;
   const fs::path path = folder / "a.h5";
   REQUIRE(write_file(path, changed(without)));
-  const auto back = value_of(read_trajectory(path, {.unsealed = true}));
+  const auto back = value_of(read_trajectory(path, {.no_checksum = true}));
   const Frame& frame = back.frames[1];
   CHECK(std::isnan(frame.energies[Term::load]));
   CHECK_FALSE(std::isnan(frame.energies[Term::bend]));
@@ -199,7 +199,7 @@ TEST_CASE("a trajectory that another program rewrote is read only where that is 
         "no_checksum=True, reads "
         "it all the same)");
   REQUIRE(write_file(path, bytes));
-  const auto back = value_of(read_trajectory(path, {.unsealed = true}));
+  const auto back = value_of(read_trajectory(path, {.no_checksum = true}));
   CHECK(same_bits(back.frames[2].nodes, run.frames[2].nodes));
 }
 

@@ -26,7 +26,7 @@ const std::string whole = R"({
 })";
 
 /// What the program says of a file; "none" where nothing.
-std::string told(const std::string& text) {
+std::string reported(const std::string& text) {
   const auto file = preset::read_network(text, "n.json");
   if (!file) return refusal(file);
   preset::Preset p = network(*file);
@@ -42,7 +42,7 @@ struct Damage {
 }  // namespace
 
 TEST_CASE("damaged files of networks are answered by their position and what would be right") {
-  CHECK(told(whole) == "none");
+  CHECK(reported(whole) == "none");
   const Damage all[] = {
       {"[20, 0]", "[20, NaN]", "n.json:2: got no JSON"},
       {"[20, 0]", "[20, 1e400]", "n.json:2: "},
@@ -78,9 +78,9 @@ TEST_CASE("damaged files of networks are answered by their position and what wou
     REQUIRE(at != text.npos);
     text.replace(at, std::string(one.from).size(), one.to);
     CAPTURE(one.from, one.to);
-    CHECK_THAT(told(text), Catch::Contains(one.answer));
+    CHECK_THAT(reported(text), Catch::Contains(one.answer));
   }
   // cut short anywhere
   for (std::size_t size = 0; size < whole.size(); size += 7)
-    CHECK_THAT(told(whole.substr(0, size)), Catch::Contains("JSON"));
+    CHECK_THAT(reported(whole.substr(0, size)), Catch::Contains("JSON"));
 }

@@ -95,17 +95,17 @@ TEST_CASE(
 }
 
 TEST_CASE("constraints of ends that have no support of their own are refused by rod and end") {
-  const auto told = [](const char* reason, const auto& change) {
+  const auto reported = [](const char* reason, const auto& change) {
     preset::NetworkData file = mixed_network();
     change(file);
     CHECK_THAT(refusal(scene_of(network(file, 4))), Catch::Contains(reason));
   };
-  told("rods[1]: its begin hangs on a spring", [](auto& file) { file.holds[2] = {1, 0, 2}; });
-  told("rods[3]: its begin is free", [](auto& file) {
+  reported("rods[1]: its begin hangs on a spring", [](auto& file) { file.holds[2] = {1, 0, 2}; });
+  reported("rods[3]: its begin is free", [](auto& file) {
     std::erase_if(file.supports, [](const auto& row) { return row[0] == 2; });
     file.free = {2};
   });
-  told("rods[6]: its end is joined there", [](auto& file) {
+  reported("rods[6]: its end is joined there", [](auto& file) {
     file.points.push_back({0, -80, 0});
     file.rods.push_back({25, 12});
     file.holds.push_back({6, 1, 1});

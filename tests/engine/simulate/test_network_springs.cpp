@@ -31,9 +31,9 @@ Eigen::Matrix3Xd joints_of(const Simulation& session) {
 TEST_CASE("stiff springs converge to fixed supports, the distance falling as 1/k", "[standard]") {
   // so little that the path leaves no branch
   constexpr double scale = 0.99, shortening = 0.005;
-  for (const auto rung : {RodModel::bend, RodModel::twist}) {
+  for (const auto rod_model : {RodModel::bend, RodModel::twist}) {
     const auto joints = [&](preset::Preset p) {
-      p.accuracy.model = rung;
+      p.accuracy.model = rod_model;
       p.rod.shear_GPa = 30;
       p.actuation.scale = scale;
       return joints_of(formed(p, {{4}, false}, shortening));
@@ -44,7 +44,7 @@ TEST_CASE("stiff springs converge to fixed supports, the distance falling as 1/k
     for (const double k : {100.0, 1e3, 1e4}) {
       const double off =
           (joints(on_springs(Eigen::Vector3d::Constant(k))) - held).colwise().norm().maxCoeff();
-      CAPTURE(int(rung), k, off);
+      CAPTURE(int(rod_model), k, off);
       CHECK(off < 1);
       if (before > 0) CHECK(before / off == Approx(10).epsilon(0.05));
       before = off;

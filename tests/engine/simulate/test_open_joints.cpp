@@ -63,9 +63,9 @@ Energies energy_drawn(const preset::NetworkData& file, preset::EndKind ends,
   p.rod.as_drawn = as_drawn;
   p.ends.kind = ends;
   const Scene scene = value_of(scene_of(p));
-  CHECK(scene.rung == RodModel::twist);
+  CHECK(scene.rod_model == RodModel::twist);
   const RodMesh mesh = mesh_rods(scene.footprint, 3);
-  const Model model = value_of(build_model(mesh, scene.rods, scene.rung));
+  const Model model = value_of(build_model(mesh, scene.rods, scene.rod_model));
   Eigen::Matrix3Xd nodes = drawn_nodes(mesh, scene.flat);
   return energies_of(model, start_state(model, columns_of(mesh, model, nodes)));
 }

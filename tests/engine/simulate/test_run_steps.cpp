@@ -17,9 +17,9 @@ preset::Preset small_shell_on_four_edges() {
   return preset;
 }
 
-preset::Step of(StepKind deed) {
+preset::Step of(StepKind task) {
   preset::Step step;
-  step.kind = deed;
+  step.kind = task;
   return step;
 }
 

@@ -83,8 +83,8 @@ TEST_CASE("past a fold one descent is taken, and every requested side ends there
   CHECK(any.state.x(2, 0) < -5);
   for (const BranchSide side : {BranchSide::along, BranchSide::against}) {
     departure.side = side;
-    const Rest asked = settled(system, arch, down, departure);
-    CHECK(max_column_norm(asked.state.x - any.state.x) < 1e-6);
-    CHECK(any.factorizations < 1.6 * asked.factorizations);
+    const Rest requested = settled(system, arch, down, departure);
+    CHECK(max_column_norm(requested.state.x - any.state.x) < 1e-6);
+    CHECK(any.factorizations < 1.6 * requested.factorizations);
   }
 }

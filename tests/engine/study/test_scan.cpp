@@ -173,9 +173,9 @@ TEST_CASE("tops that all lie further out along the normals give the offset") {
       how.missing = 0.1;
       const MadeScan made = make_scan(*form, how);
       const auto scan = value_of(laid(made, *form));
-      double told = JointCylinder{}.height_mm + beyond_height(scan, *form);
-      CAPTURE(height, told);
-      CHECK(told == Approx(height).margin(0.15));
+      double reported = JointCylinder{}.height_mm + beyond_height(scan, *form);
+      CAPTURE(height, reported);
+      CHECK(reported == Approx(height).margin(0.15));
     }
   // with the known height nothing remains
   const auto known = value_of(laid(make_scan(hemisphere(), {}), hemisphere()));

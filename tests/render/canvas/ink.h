@@ -13,8 +13,8 @@ namespace gridshell::test {
 
 /// While it lives, it gets every canvas that is finished.
 struct CanvasObserver {
-  explicit CanvasObserver(std::function<void(const render::Canvas&)> told) {
-    render::Canvas::on_finished = std::move(told);
+  explicit CanvasObserver(std::function<void(const render::Canvas&)> reported) {
+    render::Canvas::on_finished = std::move(reported);
   }
   ~CanvasObserver() { render::Canvas::on_finished = nullptr; }
   CanvasObserver(const CanvasObserver&) = delete;

@@ -111,7 +111,7 @@ const std::map<std::string, Change>& faults() {
 }
 
 // round-off and other processors: numbers a little off
-Change shaken(double size_mm, int seed) {
+Change perturbed(double size_mm, int seed) {
   return [=](Subject& s) {
     std::mt19937 random(static_cast<unsigned>(seed));
     std::uniform_real_distribution<double> off(-size_mm, size_mm);
@@ -168,7 +168,7 @@ TEST_CASE("the metric passes every harmless variation", "[image][image][standard
   for (const double size : {1e-9, 1e-6, 1e-5, 1e-4, 1e-3, 5e-3})
     for (int seed = 1; seed <= 2; ++seed) {
       Subject subject;
-      shaken(size, seed)(subject);
+      perturbed(size, seed)(subject);
       check(paint(subject));
     }
   // a grey level more or less here and there, as other rounding gives

@@ -35,16 +35,16 @@ TEST_CASE("a movie is numbered frames, each reported when it is complete") {
   const record::Trajectory run = synthetic::dome(3, 2);
   test::FakeRenderer renderer;
   Watch watch;
-  std::vector<int> told;
+  std::vector<int> reported;
   const auto report =
       write(run, renderer, folder / "frames", watch, [&](int index, const Image& picture) {
-        told.push_back(index);
+        reported.push_back(index);
         const auto file = value_of(read_png(folder / "frames" / frame_name(index)));
         CHECK(file.rgba == picture.rgba);
         CHECK(watch.progress() == Approx((index + 1) / 3.0));
       });
   REQUIRE(report);
-  CHECK(told == std::vector<int>{0, 1, 2});
+  CHECK(reported == std::vector<int>{0, 1, 2});
   CHECK(watch.progress() == 1);
   CHECK(names_in(folder / "frames") ==
         std::vector<std::string>{"frame_00000.png", "frame_00001.png", "frame_00002.png"});
@@ -93,13 +93,13 @@ TEST_CASE("a movie is drawn from one frame at a time, and is that of the run in 
   test::FakeRenderer renderer;
   Watch watch;
   REQUIRE(write(run, renderer, folder / "memory", watch));
-  std::vector<int> asked;
+  std::vector<int> requested;
   const FrameSource source{&run.layout, 4, [&](int k) -> Result<record::Frame> {
-                             asked.push_back(k);
+                             requested.push_back(k);
                              return run.frames[std::size_t(k)];
                            }};
   REQUIRE(write_movie(source, summarise_run(run), small(), {}, renderer, folder / "one", watch));
-  CHECK(asked == std::vector<int>{0, 1, 2, 3});
+  CHECK(requested == std::vector<int>{0, 1, 2, 3});
   for (int k = 0; k < 4; ++k) {
     const auto a = read_png(folder / "memory" / frame_name(k));
     const auto b = read_png(folder / "one" / frame_name(k));
