@@ -151,25 +151,25 @@ class Reader {
     return wrong;
   }
   std::string operator()(const OneWord& word) {
-    const auto location = index_of(value_, field_.words);
-    if (!location) return value_.is_string() ? "unknown name" : "is " + type_text(value_);
-    word.set(word.member, int(*location));
+    const auto index = index_of(value_, field_.words);
+    if (!index) return value_.is_string() ? "unknown name" : type_text(value_);
+    word.set(word.member, int(*index));
     return "";
   }
   std::string operator()(const SomeWords& words) {
     const auto* list = value_.as_array();
-    if (!list) return "is " + type_text(value_);
-    std::vector<int> places;
+    if (!list) return type_text(value_);
+    std::vector<int> indices;
     for (const auto& item : *list) {
-      const auto location = index_of(item, field_.words);
-      if (!location) return item.is_string() ? "unknown name" : "a list with " + type_text(item);
-      if (std::ranges::count(places, int(*location)) > 0) return "a name twice";
-      places.push_back(int(*location));
+      const auto index = index_of(item, field_.words);
+      if (!index) return item.is_string() ? "unknown name" : "a list with " + type_text(item);
+      if (std::ranges::count(indices, int(*index)) > 0) return "a name twice";
+      indices.push_back(int(*index));
     }
-    words.set(words.member, places);
+    words.set(words.member, indices);
     return "";
   }
-  /// Whether what is wrong was said in full, as of a file.
+  /// Whether the error is complete, as of a file.
   bool reported_in_full() const { return reported_in_full_; }
 
  private:
