@@ -63,7 +63,7 @@ Result<std::vector<std::string>> case_names(const fs::path& folder) {
     if (!one.is_object() || !one.contains("name") || !one["name"].is_string()) continue;
     const auto name = one["name"].get<std::string>();
     // it becomes the name of a folder that is written
-    if (const auto wrong = preset::case_name_fault(name); !wrong.empty())
+    if (const auto wrong = preset::case_name_error(name); !wrong.empty())
       return invalid("'{}': case {}: {}", file.string(), shown(name), wrong);
     if (std::ranges::find(names, name) != names.end())
       return invalid("'{}': case \"{}\" is listed twice", file.string(), name);

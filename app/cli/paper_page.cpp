@@ -199,7 +199,7 @@ class PageMaker {
       // too low for more words; B has them
       plot.y.label = "mean *K*_{□} (rad)";
       if (k == 0) page.add_legend({2, 146, 174, 5}, plot);
-      plot.legend = render::LegendPlace::none;
+      plot.legend = render::LegendPosition::none;
       const double width = 174.0 / double(named_pushes_.size());
       page.add_plot(k == 0 ? "D" : "", {2 + width * double(k), 151, width - 1, 38}, plot);
     }

@@ -38,7 +38,7 @@ using Runs = std::vector<const Run*>;
 /// A colour bar of several runs; none where each has its own.
 using SharedColourBar = std::optional<render::ColourBar>;
 
-/// One a run: the bar that it shares with all others that are coloured by the same quantity.
+/// One per run: the bar that it shares with all others that are coloured by the same quantity.
 std::vector<SharedColourBar> shared_bars(const std::vector<Run>& runs);
 
 /// How the preset wants its run shown.

@@ -98,7 +98,7 @@ render::Plot lives_plot(const record::StateTables& states) {
   const bool circle = std::ranges::none_of(
       states.rows, [](const StateRow& row) { return std::isnan(row.lives_to_radius_mm); });
   plot.y = {.label = circle ? "largest *R*_{a} (mm)" : "least progress"};
-  plot.legend = render::LegendPlace::above;
+  plot.legend = render::LegendPosition::above;
   plot.series = by_class(states.rows, [&](const StateRow& row) {
     return circle ? row.lives_to_radius_mm : row.lives_to;
   });

@@ -254,7 +254,7 @@ std::string why_not_designed(const ShellView& shell) {
   if (!shell.any()) return "there is no shell yet";
   if (shell.layout->net_nodes.cols() == 0)
     return "this shell was not designed on a net, so there is no surface that it could meet";
-  if (const auto needs = key_faults(shell.preset, preset::RuleKind::needs_twist); !needs.empty())
+  if (const auto needs = key_errors(shell.preset, preset::RuleKind::needs_twist); !needs.empty())
     return "only rods that stretch and bend can be designed: " + needs.front().what;
   if (!shell.held.empty()) return "a joint is fixed: release all joints first";
   if (!shell.steps.empty() || shell.rods_changed_late)

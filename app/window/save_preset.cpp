@@ -50,7 +50,7 @@ const char* ending_of(FileUse use) {
 }
 
 /// Why no file of that name is written; empty: it is.
-std::string fault_of(FileUse use, const fs::path& file, const std::vector<ExportFormat>& formats) {
+std::string error_of(FileUse use, const fs::path& file, const std::vector<ExportFormat>& formats) {
   std::error_code error;
   // one new folder is made
   const fs::path folder = fs::absolute(file, error).parent_path();
@@ -187,7 +187,7 @@ void ViewerState::take_file() {
   const bool reads = is_read(request.use);
   if (!reads && (file.filename().empty() || fs::is_directory(file, error)))
     return say("'" + request.path + "' is a folder: a file's name is to follow", true);
-  if (const std::string fault = reads ? "" : fault_of(request.use, file, library.export_formats);
+  if (const std::string fault = reads ? "" : error_of(request.use, file, library.export_formats);
       !fault.empty())
     return say(fault, true);
   if (!reads && fs::exists(file, error) && request.replaced != request.path) {

@@ -33,8 +33,8 @@ bool slider(const Panel& panel, const char* name, float& value, float low, float
 
 namespace {
 
-/// On the slider that was drawn last, where no shell stays (red) and what happened (amber);
-/// `share_of` takes a progress to a share of the slider.
+/// Marks, on the slider that was drawn last, ranges without a stable state (red) and events
+/// (amber); `share_of` takes a progress to a fraction of the slider.
 template <class ShareOf>
 void mark_slider(const Panel& panel, const ShareOf& share_of) {
   const TextColours& colours = text_colours(panel.viewer.show.dark);
@@ -52,7 +52,7 @@ void mark_slider(const Panel& panel, const ShareOf& share_of) {
   }
 }
 
-/// What the marks are, a line each.
+/// What the marks are, one line each.
 std::string text_of_marks(const ShellView& shell) {
   std::string text;
   const bool circle = shell.preset.footprint.kind == preset::FootprintKind::circle;
@@ -89,10 +89,10 @@ void path(const Panel& panel) {
   }
   speed(panel, gap);
   float part = float(viewer.part());
-  // what finer meshes moved the joint by before it was pushed is no push
+  // the correction of finer meshes before the push does not count as a push
   if (std::abs(part) < 5e-4f || (push && viewer.shell->steps.empty())) part = 0;
   if (slider(panel, "path", part, 0, std::max(1.f, part), push ? "push %.3f" : "progress %.3f",
-             push ? "share of the preset's depth"
+             push ? "fraction of the preset's depth"
                   : "fraction of the boundary's displacement" + text_of_marks(*viewer.shell)))
     viewer.playing = false, viewer.go(part, true);
   const double whole = std::max(1.0, viewer.part());
@@ -130,7 +130,7 @@ bool small_button(const Panel& panel, const char* label, const std::string& name
   return pressed;
 }
 
-/// The first of the edge points off the boundary, and how many more.
+/// Names the first edge point that was moved off the boundary, and how many more there are.
 void dragged_edges(const Panel& panel) {
   constexpr std::size_t most = 3;
   const auto& dragged = panel.viewer.shell->edges_dragged;

@@ -83,7 +83,7 @@ Result<void> parallel_for(int count, int threads, Watch& watch, const Task& task
 
 /// A `done` that reports to a watch: the completed fraction, mapped to a range of its progress.
 inline auto reporting(Watch& watch, double from = 0, double to = 1) {
-  return [&watch, from, to](double share) { watch.report(from + (to - from) * share); };
+  return [&watch, from, to](double fraction) { watch.report(from + (to - from) * fraction); };
 }
 
 }  // namespace gridshell

@@ -48,7 +48,7 @@ struct BlockHessian {
     diagonal.assign(columns, {});
     pair.resize(pairs);
     const int pieces = team ? team->threads() : 1;
-    share(team, pieces, [&](int k) {
+    parallel_for(team, pieces, [&](int k) {
       const auto at = [&](int piece) { return pair.begin() + long(pairs * piece / pieces); };
       std::fill(at(k), at(k + 1), Block3{});
     });

@@ -35,7 +35,7 @@ struct ContactBarrier {
 /// How far the rods of a footprint are kept apart.
 struct ContactLaw {
   ContactBarrier barrier;
-  std::vector<double> radius_mm;  ///< one a rod
+  std::vector<double> radius_mm;  ///< one per rod
   double joint_mm = 0;            ///< diameter of the joints' cylinders
 };
 
@@ -92,17 +92,17 @@ struct EdgeContact {
 /// m so small (a twentieth of the gap's range of d^2) that it is the distance but where edges are
 /// parallel within a degree: there the nearest points would jump from end to end, and with it they
 /// move smoothly, so that the energy has a continuous slope everywhere. It never is above the
-/// distance. Where edges are shorter than the range S + gap they count by that share each, so that
-/// a contact does not grow stiffer with the mesh. A node's contact is that of both its edges.
+/// distance. Where edges are shorter than the range S + gap they count by that fraction each, so
+/// that a contact does not grow stiffer with the mesh. A node's contact is that of both its edges.
 /// Calls for every two edges with an energy; with derivatives also for those within two gaps, whose
 /// blocks are zero: so the pattern of the Hessian seldom changes. Time: a sweep of their boxes.
 void each_contact(const Model& model, const Eigen::Matrix3Xd& x, bool with_derivatives,
                   const std::function<void(const EdgeContact&)>& visit);
 
-/// The share of a straight move that goes ahead before the axes of two edges are within half their
-/// radii (where they are within already half their distance, at most to a quarter of their radii),
-/// 1 where none are: edges never go through one another, in however many moves. By conservative
-/// steps, none longer than the distance left [Li 2021, ACCD].
-double clear_share(const Model& model, const Eigen::Matrix3Xd& x, const Eigen::Matrix3Xd& dx);
+/// The fraction of a straight move that goes ahead before the axes of two edges are within half
+/// their radii (where they are within already half their distance, at most to a quarter of their
+/// radii), 1 where none are: edges never go through one another, in however many moves. By
+/// conservative steps, none longer than the distance left [Li 2021, ACCD].
+double clear_fraction(const Model& model, const Eigen::Matrix3Xd& x, const Eigen::Matrix3Xd& dx);
 
 }  // namespace gridshell

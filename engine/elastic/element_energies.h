@@ -157,11 +157,11 @@ struct Torsion {
 struct MaterialBend {
   Eigen::Vector2d stiffness;  ///< EI1/l, EI2/l (mJ)
   Eigen::Vector2d rest;       ///< w_0 = l * natural curvature
-  double share = 0.5;         ///< of the twist, from e on, where the frame is; at an end 0 or 1
+  double fraction = 0.5;      ///< of the twist, from e on, where the frame is; at an end 0 or 1
   double axis = 0;            ///< from m1 to the first axis of w, about the rod, rad
   double corner = 1;          ///< cos of half the angle by which a rod cut with a corner turns
 
-  bool at_end() const { return share == 0 || share == 1; }
+  bool at_end() const { return fraction == 0 || fraction == 1; }
   /// l times the change of curvature that w - w_0 represents, about m1 and m2.
   Eigen::Vector2d bent(const Eigen::Vector2d& excess) const;
 };
@@ -175,7 +175,7 @@ struct MaterialBend {
 /// stiff in the corner's plane. To first order in psi, which is one in the edge length:
 ///   psi_n: l/EI_n,
 ///   psi_v: sum over both halves of l_k/2 (cos^2 h/EI_m + sin^2 h/GJ), psi_u: cos and sin
-///   exchanged, both:  (l_e - l_f)/2 sin h cos h (1/EI_m - 1/GJ), which moves `share`.
+///   exchanged, both:  (l_e - l_f)/2 sin h cos h (1/EI_m - 1/GJ), which moves `fraction`.
 /// EI_n, EI_m: about n and across it; that a section with two stiffnesses which lies askew to the
 /// corner couples them is left out.
 struct CornerLaw {
@@ -190,11 +190,12 @@ struct CornerLaw {
 /// mu: columns m1, m2 of e turned by half the twist, in 3D.
 using HalfwayFrame = Eigen::Matrix<double, 3, 2>;
 
-/// The middle frame: e's reference director turned by its angle + share * tau about e's tangent.
+/// The middle frame: e's reference director turned by its angle + fraction * tau about e's tangent.
 HalfwayFrame halfway_frame(const Eigen::Vector3d& tangent, const Eigen::Vector3d& director,
                            double angle);
 
-/// Adds gradient and Hessian in increments; returns the value. With phi' = theta_e' + share tau',
+/// Adds gradient and Hessian in increments; returns the value. With phi' = theta_e' + fraction
+/// tau',
 ///   w'  = mu.kb' - i phi' w,
 ///   w'' = mu.kb'' + (mu.p)(kb.p) - 2i phi' mu.kb' - i phi'' w - phi'^2 w.
 double add_material_bend(const MaterialBend& bend, const HalfwayFrame& mu, const BinormalSlopes& b,

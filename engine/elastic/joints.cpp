@@ -113,13 +113,13 @@ double Bolts::angle(int joint) const {
   return (closed.contains(joint) ? -1 : 1) * turn_between(first, second);
 }
 
-JointAngle Bolts::law(int joint, std::size_t k, std::size_t m, double share, double most) const {
+JointAngle Bolts::law(int joint, std::size_t k, std::size_t m, double fraction, double most) const {
   const auto of = [&](const std::vector<double>& angles) {
     return angles.empty() ? 0 : angles[std::size_t(joint)];
   };
   const auto& held = rods[std::size_t(joint)];
   const double turn = held.size() == 2 ? angle(joint) : turn_between(held[k], held[m]);
-  return {share * std::min(stiffness_Nmm, most), of(opened) + turn, of(opening), joint};
+  return {fraction * std::min(stiffness_Nmm, most), of(opened) + turn, of(opening), joint};
 }
 
 Footprint centred(Footprint footprint, const Bolts* bolts) {

@@ -91,11 +91,11 @@ class Builder {
     for (std::size_t k = 1; k < entry.edges.size(); ++k) {
       const int e = entry.edges[k - 1], f = entry.edges[k];
       // an end that leaves the spin free has the frame of the edge next to it
-      double share = 0.5;
-      if (e == entry.ghost_begin) share = rod.begin == RodEnd::clamped ? 0 : 1;
-      if (f == entry.ghost_end) share = rod.end == RodEnd::clamped ? 1 : 0;
+      double fraction = 0.5;
+      if (e == entry.ghost_begin) fraction = rod.begin == RodEnd::clamped ? 0 : 1;
+      if (f == entry.ghost_end) fraction = rod.end == RodEnd::clamped ? 1 : 0;
       const std::size_t node = entry.ghost_begin >= 0 ? k - 1 : k;
-      add_bend(rod.material, {e, f}, share, turn_of(rod, node));
+      add_bend(rod.material, {e, f}, fraction, turn_of(rod, node));
     }
     if (entry.closed) rings_.push_back({model_.rods.size(), rod.material, turn_of(rod, 0)});
     model_.rods.push_back(std::move(entry));
@@ -137,14 +137,14 @@ class Builder {
     return entry.edges.back();
   }
 
-  /// Between two edges; `share`: MaterialBend's, `turn`: one of ModelRod::turns.
-  void add_bend(const RodMaterial& m, std::pair<int, int> edges, double share,
+  /// Between two edges; `fraction`: MaterialBend's, `turn`: one of ModelRod::turns.
+  void add_bend(const RodMaterial& m, std::pair<int, int> edges, double fraction,
                 const Eigen::Vector2d& turn) {
     const auto [e, f] = edges;
     // at a fixed end only the half edge on the rod's side bends, between two halves nothing does
     const double before = bending_length(model_, e), after = bending_length(model_, f),
                  length = 0.5 * (before + after), round = 2 * std::min(m.EI1, m.EI2) / length;
-    const bool plain = !twist_ || m.round_and_straight(), at_end = share != 0.5;
+    const bool plain = !twist_ || m.round_and_straight(), at_end = fraction != 0.5;
     const int bend = int(model_.bends.size());
     const bool halves = are_halves(e, f);
     model_.bends.push_back({e, f, plain && !at_end && !halves ? round : 0});
@@ -153,7 +153,7 @@ class Builder {
       std::get<std::vector<Pair<EndBending>>>(model_.pairs).push_back({e, f, bend, {round}});
     if (!twist_) return;
     const Eigen::Vector2d EI(m.EI1, m.EI2);
-    MaterialBend law{EI / length, length * m.curvature + turn, share};
+    MaterialBend law{EI / length, length * m.curvature + turn, fraction};
     double torsion = m.GJ / length;
     if (!at_end && !turn.isZero(1e-9)) {
       const CornerLaw corner(EI, m.GJ, before, after, turn);

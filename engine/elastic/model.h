@@ -135,8 +135,8 @@ struct ModelRod {
 };
 
 /// The unknowns are in columns of three: one per node (mm), then, of the twist model, the angles of
-/// edges, three a column and times `spin_length`, so that every unknown is a length, every force a
-/// force and every stiffness N/mm.
+/// edges, three per column and times `spin_length`, so that every unknown is a length, every force
+/// a force and every stiffness N/mm.
 struct Model {
   int nodes = 0;           ///< ghosts too
   double spin_length = 1;  ///< mm; the mean edge

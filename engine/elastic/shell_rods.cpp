@@ -113,8 +113,8 @@ Eigen::Vector3d direction_at(const RodMesh& mesh, const RodAt& of) {
   return way(mesh, *before, *after);
 }
 
-/// visit(k, m, share) for every two of the rods at a joint, which have equal fractions: all of them
-/// together as much as one rod with each of the others
+/// visit(k, m, fraction) for every two of the rods at a joint, which have equal fractions: all of
+/// them together as much as one rod with each of the others
 template <class Visit>
 void each_two(std::size_t rods, Visit visit) {
   for (std::size_t k = 0; k < rods; ++k)
@@ -252,7 +252,7 @@ Result<void> add_laws(const RodMesh& mesh, const ShellRods& shell, const Crossin
     if (!mesh.is_centred(joint))
       return invalid("joint {}: its rods have a law, and the mesh has no edges centred on it",
                      joint);
-    each_two(rods.size(), [&](std::size_t k, std::size_t m, double share) {
+    each_two(rods.size(), [&](std::size_t k, std::size_t m, double fraction) {
       const Crossing at = crossing(mesh, rods, joint, springs, k, m);
       const RodMaterial &a = shell.material(std::size_t(at.rod_a)),
                         &b = shell.material(std::size_t(at.rod_b));
@@ -264,17 +264,18 @@ Result<void> add_laws(const RodMesh& mesh, const ShellRods& shell, const Crossin
         add_joint_shear(model, at, angle);
       };
       if (law.shear_Nmm > 0)
-        shear({share * std::min(law.shear_Nmm, most),
+        shear({fraction * std::min(law.shear_Nmm, most),
                angle_between(direction_at(mesh, rods[k]), direction_at(mesh, rods[m])), 0, joint});
-      if (bolted) shear(shell.bolts->law(joint, k, m, share, most));
+      if (bolted) shear(shell.bolts->law(joint, k, m, fraction, most));
       if (law.twist_Nmm == 0) return;
       if (hinged)
         add_joint_hinge(model, at, law.twist_Nmm, side);
       else
-        add_joint_spin(model, at,
-                       share * std::min(law.twist_Nmm,
-                                        stiff_limit(mesh, model, at, {a.EI2 + a.GJ, b.EI2 + b.GJ})),
-                       side);
+        add_joint_spin(
+            model, at,
+            fraction *
+                std::min(law.twist_Nmm, stiff_limit(mesh, model, at, {a.EI2 + a.GJ, b.EI2 + b.GJ})),
+            side);
     });
   }
   return {};
@@ -282,7 +283,7 @@ Result<void> add_laws(const RodMesh& mesh, const ShellRods& shell, const Crossin
 
 /// edge points with a tail, or without a rod, joints that the boundary fixes, supports of springs
 std::vector<int> pinned_beside_ends(const RodMesh& mesh) {
-  std::vector<int> nodes = mesh.held_joints;
+  std::vector<int> nodes = mesh.fixed_joints;
   for (const MeshSpring& spring : mesh.springs) {
     std::erase(nodes, spring.node);
     nodes.push_back(spring.support);

@@ -44,8 +44,8 @@ struct Bolts {
   /// The angle between the first two rods of a joint as it was tightened, rad; of one that had
   /// closed below zero.
   double angle(int joint) const;
-  /// The law between two of its rods, which have the fraction `share`; at most as stiff as `most`.
-  JointAngle law(int joint, std::size_t k, std::size_t m, double share, double most) const;
+  /// The law between two of its rods, which count by `fraction`; at most as stiff as `most`.
+  JointAngle law(int joint, std::size_t k, std::size_t m, double fraction, double most) const;
 };
 
 /// A straight member between two joints.
@@ -57,10 +57,10 @@ struct Brace {
 
 /// Sections, joints and dead loads of the rods of a footprint.
 struct ShellRods {
-  std::vector<RodMaterial> materials;   ///< one a rod, or one for all
+  std::vector<RodMaterial> materials;   ///< one per rod, or one for all
   JointLaw joints;                      ///< of the twist model; in the bend model rods share nodes
   std::map<int, JointLaw> own_joints;   ///< of joints that turn by other laws
-  std::vector<double> weight_N_per_mm;  ///< one a rod, downwards; empty: none
+  std::vector<double> weight_N_per_mm;  ///< one per rod, downwards; empty: none
   double joint_weight_N = 0;            ///< of every joint, downwards
   std::vector<PointLoad> points;
   ContactLaw contact;

@@ -108,8 +108,8 @@ double interpolated(const std::vector<double>& at, const std::vector<double>& va
   if (at.size() == 1) return value.front();
   const std::size_t k = piece_at(at, s);
   if (at[k + 1] == at[k]) return value[k];
-  const double share = (s - at[k]) / (at[k + 1] - at[k]);
-  return value[k] + share * (value[k + 1] - value[k]);
+  const double fraction = (s - at[k]) / (at[k + 1] - at[k]);
+  return value[k] + fraction * (value[k + 1] - value[k]);
 }
 
 /// m1 of an edge.

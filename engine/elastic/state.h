@@ -13,7 +13,7 @@ struct ModelHinge;
 /// Reference frames belong to the positions: move them by move_to() alone.
 struct State {
   Eigen::Matrix3Xd x;  ///< 3 x columns of the model: positions and angles, mm
-  /// unknowns of the mixed form: axial, one an edge, N; then torques of joints with a spring, N mm
+  /// unknowns of the mixed form: axial, one per edge, N; then torques of joints with a spring, N mm
   Eigen::VectorXd force;
   Eigen::Matrix3Xd director = {};        ///< twist model: of the reference frames, one per edge
   Eigen::VectorXd reference_twist = {};  ///< twist model: m_ref, one per bend; complete turns count

@@ -36,11 +36,11 @@ class AssembledNet final : public ChebyshevNet {
       const auto point = place->at(uv);
       if (!point) return point;
       if (held.size() == 1) return point;
-      const double share = 1.0 / double(held.size());
-      middle.position += share * point->position;
+      const double fraction = 1.0 / double(held.size());
+      middle.position += fraction * point->position;
       middle.tangent_u += point->tangent_u;
       middle.tangent_v += point->tangent_v;
-      middle.K += share * point->K;
+      middle.K += fraction * point->K;
     }
     middle.tangent_u.normalize();
     middle.tangent_v.normalize();

@@ -40,13 +40,13 @@ Eigen::Matrix2Xd CurveDomain::boundary(int points) const {
       ring.col(k) = curve_.at(curve_.at_arc_length(curve_.length() * k / points)).position;
     return ring;
   }
-  // each piece has its share of the points, from its first corner on
+  // each piece has its fraction of the points, from its first corner on
   int first = 0;
   for (int k = 0; k < pieces; ++k) {
     const double from = curve_.arc_length(breaks[k]), to = curve_.arc_length(breaks[k + 1]);
-    const auto share = static_cast<int>(points * to / curve_.length() + 0.5);
+    const auto fraction = static_cast<int>(points * to / curve_.length() + 0.5);
     const int end =
-        k + 1 == pieces ? points : std::clamp(share, first + 1, points - (pieces - k - 1));
+        k + 1 == pieces ? points : std::clamp(fraction, first + 1, points - (pieces - k - 1));
     for (int n = first; n < end; ++n)
       ring.col(n) =
           curve_.at(curve_.at_arc_length(from + (to - from) * (n - first) / (end - first)))

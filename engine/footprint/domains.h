@@ -40,7 +40,7 @@ Result<std::unique_ptr<Domain>> cap_of(const SphereNet& net, double cut_height);
 /// (bad_input): length not positive; the net folds or ends before (says where).
 Result<std::unique_ptr<Domain>> half_of(const RevolutionNet& net, double length_mm);
 
-/// The same between the two ends of the net, where its profile ends or it folds.
+/// Half of the net between the two ends of the net, where its profile ends or it folds.
 std::unique_ptr<Domain> half_of_all(const RevolutionNet& net);
 
 /// All of a translation net: a rectangle along u and v.

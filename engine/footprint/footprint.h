@@ -150,7 +150,7 @@ struct Footprint {
   std::vector<FootprintJoint> joints;
   std::vector<FootprintRod> rods;
   std::vector<FootprintCell> cells;      ///< none where rods are not of a square grid
-  std::vector<int> held_joints{};        ///< those that the boundary fixes, as it does edge points
+  std::vector<int> fixed_joints{};       ///< those that the boundary fixes, as it does edge points
   std::vector<SupportSpring> springs{};  ///< of the supports on springs; none of the remaining ones
   int lone_lines = 0;  ///< pieces of grid lines within the boundary that no other crosses
 

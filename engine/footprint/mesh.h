@@ -46,9 +46,9 @@ struct RodMesh {
   int edges_per_segment = 0;
   int joints = 0;
   int edge_points = 0;
-  std::vector<RodEnd> ends;      ///< of every edge point; empty: all pinned
-  std::vector<int> far_ends;     ///< of every edge point, -1: no tail; empty: none has one
-  std::vector<int> held_joints;  ///< that the boundary fixes, some by springs
+  std::vector<RodEnd> ends;       ///< of every edge point; empty: all pinned
+  std::vector<int> far_ends;      ///< of every edge point, -1: no tail; empty: none has one
+  std::vector<int> fixed_joints;  ///< that the boundary fixes, some by springs
   std::vector<MeshSpring> springs;
   std::vector<EccentricJoint> eccentric;  ///< in the order of their second nodes
   std::vector<char> centred;              ///< of every joint: edges are centred on it

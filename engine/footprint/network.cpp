@@ -312,7 +312,7 @@ void put_springs(const RodNetwork& network, NetworkFootprint& made) {
   }
   for (std::size_t k = 0; k < made.joints.size(); ++k)
     if (const auto spring = network.springs.find(made.joints[k]); spring != network.springs.end())
-      footprint.springs.push_back({-1, footprint.held_joints[k], spring->second});
+      footprint.springs.push_back({-1, footprint.fixed_joints[k], spring->second});
 }
 
 }  // namespace
@@ -330,7 +330,7 @@ Result<NetworkFootprint> network_footprint(const RodNetwork& network) {
     if (!roles.is_joint(point)) continue;
     joint_at[point] = int(footprint.joints.size());
     if (roles.is_supported(point)) {
-      footprint.held_joints.push_back(joint_at[point]);
+      footprint.fixed_joints.push_back(joint_at[point]);
       made.joints.push_back(point);
     }
     const Eigen::Vector3d at = network.points.col(point);

@@ -81,7 +81,7 @@ std::optional<std::vector<int>> image_of(const RodMesh& mesh, const Eigen::Matri
 }  // namespace
 
 std::vector<int> held_nodes(const RodMesh& mesh) {
-  std::vector<int> held = mesh.held_joints;
+  std::vector<int> held = mesh.fixed_joints;
   for (int k = 0; k < mesh.edge_points; ++k)
     if (is_held(mesh.end_of(k))) held.push_back(mesh.joints + k);
   for (int node = mesh.rod_nodes(); node < mesh.rod_nodes() + mesh.ghosts; ++node)

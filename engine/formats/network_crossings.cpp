@@ -28,7 +28,7 @@ struct Stretch {
   Eigen::Vector3d begin, end;
 
   Eigen::Vector3d way() const { return end - begin; }
-  Eigen::Vector3d at(double share) const { return begin + share * way(); }
+  Eigen::Vector3d at(double fraction) const { return begin + fraction * way(); }
   double length() const { return way().norm(); }
   double low() const { return std::min(begin.x(), end.x()) - one_point_mm; }
   /// Whether they reach over one another along an axis.
@@ -39,7 +39,7 @@ struct Stretch {
   double high() const { return std::max(begin.x(), end.x()) + one_point_mm; }
 };
 
-/// A point to come into a stretch, at a share of its length.
+/// A point to come into a stretch, at a fraction of its length.
 struct Cut {
   std::size_t rod, first;
   double at;
@@ -104,7 +104,7 @@ double overlap(const Stretch& a, const Stretch& b) {
 }
 
 /// The point of a segment nearest to a position, as a fraction of its length.
-double nearest_share(const Stretch& stretch, const Eigen::Vector3d& place) {
+double nearest_fraction(const Stretch& stretch, const Eigen::Vector3d& place) {
   const Eigen::Vector3d way = stretch.way();
   return std::clamp((place - stretch.begin).dot(way) / way.squaredNorm(), 0.0, 1.0);
 }
@@ -137,14 +137,14 @@ Result<void> NetworkBuilder::join_ends(const std::string& name) {
       double least = near_mm_;
       for (const Stretch& one : all) {
         if (one.low() - near_mm_ > at.x()) break;
-        const double away = (one.at(nearest_share(one, at)) - at).norm();
+        const double away = (one.at(nearest_fraction(one, at)) - at).norm();
         if (one.rod != r && away < least) least = away, nearest = &one;
       }
       if (!nearest) continue;
-      const double share = nearest_share(*nearest, at);
-      const Eigen::Vector3d foot = nearest->at(share);
+      const double fraction = nearest_fraction(*nearest, at);
+      const Eigen::Vector3d foot = nearest->at(fraction);
       place = {foot.x(), foot.y(), foot.z()};
-      cuts.push_back({nearest->rod, nearest->first, share, end});
+      cuts.push_back({nearest->rod, nearest->first, fraction, end});
     }
   put(std::move(cuts), network_.rods);
   return {};

@@ -64,8 +64,8 @@ class Marks {
                          const Eigen::Vector3d& b) {
     const Eigen::Vector3d way = b - a;
     const double length = way.squaredNorm();
-    const double share = length > 0 ? std::clamp((p - a).dot(way) / length, 0.0, 1.0) : 0;
-    return (a + share * way - p).norm();
+    const double fraction = length > 0 ? std::clamp((p - a).dot(way) / length, 0.0, 1.0) : 0;
+    return (a + fraction * way - p).norm();
   }
 
   const std::vector<const DrawnEntity*>& drawn_;

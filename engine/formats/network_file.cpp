@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t most = 100000, most_entries = 1000000;
 constexpr double largest_mm = 1e9;
 
-std::string coordinates_fault(const std::vector<double>& xyz) {
+std::string coordinates_error(const std::vector<double>& xyz) {
   if (xyz.size() < 2 || xyz.size() > 3)
     return fmt::format("got a point of {} coordinates, expected [x, y] or [x, y, z]", xyz.size());
   for (const double value : xyz)
@@ -43,7 +43,7 @@ int NetworkBuilder::known(const std::vector<double>& xyz) const {
 }
 
 Result<void> NetworkBuilder::add_point(const std::vector<double>& xyz, const std::string& at) {
-  if (const auto wrong = coordinates_fault(xyz); !wrong.empty()) return invalid(at + ": " + wrong);
+  if (const auto wrong = coordinates_error(xyz); !wrong.empty()) return invalid(at + ": " + wrong);
   if (points() == most) return invalid("{}: expected at most {} points", at, most);
   const std::vector<double> place{xyz[0], xyz[1], xyz.size() == 3 ? xyz[2] : 0};
   const int number = int(points()), same = known(place);
@@ -57,7 +57,7 @@ Result<void> NetworkBuilder::add_point(const std::vector<double>& xyz, const std
 }
 
 Result<int> NetworkBuilder::place(const std::vector<double>& xyz, const std::string& at) {
-  if (const auto wrong = coordinates_fault(xyz); !wrong.empty()) return invalid(at + ": " + wrong);
+  if (const auto wrong = coordinates_error(xyz); !wrong.empty()) return invalid(at + ": " + wrong);
   const int same = known({xyz[0], xyz[1], xyz.size() == 3 ? xyz[2] : 0});
   if (same >= 0) return same;
   TRY_DO(add_point(xyz, at));
@@ -95,12 +95,12 @@ Result<void> NetworkBuilder::add_rod(std::vector<int> points, double diameter_mm
 Result<NetworkData> NetworkBuilder::take(const std::string& name) {
   if (network_.rods.empty()) return invalid(name + ": got no rods, expected at least one");
   if (!diameters_) network_.diameters.clear();
-  if (const auto wrong = network_fault(network_); !wrong.empty())
+  if (const auto wrong = network_error(network_); !wrong.empty())
     return invalid(name + ": " + wrong);
   return std::move(network_);
 }
 
-std::string spring_fault(const std::vector<double>& k) {
+std::string spring_error(const std::vector<double>& k) {
   bool any = false;
   for (const double one : k) {
     if (!(one == 0 || (one >= softest_spring && one <= stiffest_spring)))
@@ -111,12 +111,12 @@ std::string spring_fault(const std::vector<double>& k) {
   return any ? "" : "a spring of 0 N/mm supports nothing, a free end has \"to_mm\": \"free\"";
 }
 
-std::string network_fault(const NetworkData& network) {
+std::string network_error(const NetworkData& network) {
   const std::size_t points = network.points.size(), rods = network.rods.size();
   if (rods == 0 || rods > most || points > most)
     return fmt::format("got {} points and {} rods, expected 1 to {}", points, rods, most);
   for (const auto& point : network.points)
-    if (point.size() != 3 || !coordinates_fault(point).empty())
+    if (point.size() != 3 || !coordinates_error(point).empty())
       return "points_mm: expected points [x, y, z], mm";
   const auto there = [&](double number) {
     return number >= 0 && number < double(points) && number == std::floor(number);
@@ -151,7 +151,7 @@ std::string network_fault(const NetworkData& network) {
     if (row.size() != 4) return "springs_N_per_mm: expected rows [point, kx, ky, kz]";
     if (!named.contains(row[0]) || !sprung.insert(row[0]).second)
       return fmt::format("got a spring at point {}, expected a support", row[0]);
-    if (const auto wrong = spring_fault({row[1], row[2], row[3]}); !wrong.empty()) return wrong;
+    if (const auto wrong = spring_error({row[1], row[2], row[3]}); !wrong.empty()) return wrong;
   }
   std::set<double> ruled;
   for (const auto& row : network.joint_laws) {

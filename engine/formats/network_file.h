@@ -73,10 +73,10 @@ inline Eigen::Vector3d place_of(const NetworkData& network, int point) {
 double spacing_of(const NetworkData& network);
 
 /// What is wrong with a spring's stiffnesses along x, y, z; empty: nothing.
-std::string spring_fault(const std::vector<double>& k);
+std::string spring_error(const std::vector<double>& k);
 
 /// What is wrong with a network that a preset contains itself; empty: nothing.
-std::string network_fault(const NetworkData& network);
+std::string network_error(const NetworkData& network);
 
 // A network of rods while it is read: points at one position become one.
 

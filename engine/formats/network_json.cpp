@@ -353,7 +353,7 @@ class Reader {
     const auto k = value.is_number() ? std::vector<double>(3, value.get<double>())
                                      : numbers_in(value).value_or(std::vector<double>());
     if (k.size() != 3) return unlike("spring_N_per_mm", value, "a number, or [kx, ky, kz]");
-    if (const auto fault = spring_fault(k); !fault.empty()) return wrong(fault);
+    if (const auto fault = spring_error(k); !fault.empty()) return wrong(fault);
     builder_.add_spring(point, k);
     return {};
   }

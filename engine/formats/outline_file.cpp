@@ -55,7 +55,7 @@ Next next_of(const Line& chain, const std::vector<Line>& open) {
 struct Loops {
   std::vector<Line> closed;
   std::size_t open = 0;   ///< chains that do not close
-  double gap = INFINITY;  ///< the smallest of theirs
+  double gap = INFINITY;  ///< the smallest gap between their ends
 };
 
 Loops loops_of(const PlanDrawing& drawing, double near) {

@@ -180,7 +180,7 @@ Result<SurfaceData> read_heights(std::string_view bytes, const std::string& name
   return grid;
 }
 
-std::string rising_fault(const char* key, const std::vector<double>& values) {
+std::string rising_error(const char* key, const std::vector<double>& values) {
   if (values.size() < least_side)
     return fmt::format("{}: got {} numbers, expected at least 4", key, values.size());
   for (std::size_t k = 1; k < values.size(); ++k)
@@ -190,7 +190,7 @@ std::string rising_fault(const char* key, const std::vector<double>& values) {
   return "";
 }
 
-std::string mesh_fault(const SurfaceData& mesh) {
+std::string mesh_error(const SurfaceData& mesh) {
   MeshBuilder builder(1);
   for (const auto& vertex : mesh.vertices) {
     if (vertex.size() != 3) return "vertices_mm: expected points [x, y, z]";
@@ -246,10 +246,10 @@ Result<SurfaceData> read_stl(std::string_view bytes, const std::string& name, do
 
 }  // namespace
 
-std::string surface_fault(const SurfaceData& surface) {
-  if (surface.is_mesh()) return mesh_fault(surface);
+std::string surface_error(const SurfaceData& surface) {
+  if (surface.is_mesh()) return mesh_error(surface);
   for (const auto& [key, values] : {std::pair("x_mm", &surface.x), {"y_mm", &surface.y}})
-    if (auto wrong = rising_fault(key, *values); !wrong.empty()) return wrong;
+    if (auto wrong = rising_error(key, *values); !wrong.empty()) return wrong;
   if (surface.x.size() * surface.y.size() > most_heights)
     return fmt::format("got more than {} heights", most_heights);
   if (surface.z.size() != surface.y.size())

@@ -46,7 +46,7 @@ Result<std::vector<MeshLine>> rims_of(const Eigen::Matrix3Xd& x, const EdgeSides
   std::set<int> seen;
   for (const auto& [begin, ways] : next) {
     if (ways.size() != 2)
-      return mesh_fault("two parts of the mesh touch in one vertex", x.col(begin));
+      return mesh_error("two parts of the mesh touch in one vertex", x.col(begin));
     if (seen.contains(begin)) continue;
     rims.push_back({LineKind::hole, followed(next, begin, ways[0])});
     seen.insert(rims.back().vertices.begin(), rims.back().vertices.end());

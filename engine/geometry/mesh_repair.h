@@ -8,7 +8,7 @@
 
 namespace gridshell {
 
-/// A mesh that was mended, and what was done to it, a sentence each.
+/// A mesh that was mended, and what was done to it, one sentence each.
 struct MendedMesh {
   Eigen::Matrix3Xd vertices;
   std::vector<std::array<int, 3>> triangles;

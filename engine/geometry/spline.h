@@ -10,11 +10,12 @@
 
 namespace gridshell {
 
-/// Second derivatives at the knots t of cubic splines through values (a row each, a column a knot),
-/// not-a-knot: the third derivative is continuous at the second and the last but one of 4 or more.
+/// Second derivatives at the knots t of cubic splines through values (one row each, a column a
+/// knot), not-a-knot: the third derivative is continuous at the second and the last but one of 4 or
+/// more.
 Eigen::MatrixXd second_derivatives(const std::vector<double>& t, const Eigen::MatrixXd& points);
 
-/// Cubic spline through points of the plane or of space (one a column), knots by chord length,
+/// Cubic spline through points of the plane or of space (one per column), knots by chord length,
 /// not-a-knot at its ends: twice continuously differentiable, error of fourth order in the spacing.
 class SplineCurve {
  public:

@@ -295,7 +295,7 @@ Result<MeshSurface> MeshSurface::fit(const TriangleMesh& mesh, double detail_mm,
     if (best->farthest_ <= requested) break;
   }
   if (fit_mm > 0 && best->farthest_ > fit_mm)
-    return mesh_fault(fmt::format("the mesh is not that smooth: got fit_mm = {:g}, expected at "
+    return mesh_error(fmt::format("the mesh is not that smooth: got fit_mm = {:g}, expected at "
                                   "least {:.2g}, as a vertex lies so far off the closest surface",
                                   fit_mm, best->farthest_),
                       best->farthest_at_);

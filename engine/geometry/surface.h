@@ -25,7 +25,7 @@ Result<std::optional<Eigen::Vector3d>> first_crossing(
 // A mesh of triangles that is a surface.
 
 /// What is wrong with a mesh, with the position.
-tl::unexpected<Error> mesh_fault(const std::string& what, const Eigen::Vector3d& place);
+tl::unexpected<Error> mesh_error(const std::string& what, const Eigen::Vector3d& place);
 
 /// One connected, two-sided sheet of triangles, all with the same orientation, that does not meet
 /// itself.

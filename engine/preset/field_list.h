@@ -56,7 +56,7 @@ std::vector<std::string> words_of_type(const std::vector<T>*) {
   return words_of_type(static_cast<const T*>(nullptr));
 }
 
-/// What the lists of all structs share, compiled once and not once a key.
+/// What the lists of all structs share, compiled once and not once per key.
 class AnyFieldList {
  protected:
   using StructOf = std::function<void*(Preset& preset, int item)>;

@@ -33,7 +33,7 @@ std::optional<double> real_of(const toml::node& value) {
 constexpr double least_magnitude = 1e-9, largest_magnitude = 1e9;
 
 // why a number cannot be computed with, or empty
-std::string magnitude_fault(double value) {
+std::string magnitude_error(double value) {
   const double size = std::abs(value);
   if (size == 0 || (size >= least_magnitude && size <= largest_magnitude)) return "";
   return std::string(size > 1 ? "too large" : "too small") +
@@ -41,7 +41,7 @@ std::string magnitude_fault(double value) {
 }
 
 // only the magnitude of coordinates is limited: a value meant as zero is often slightly off zero
-std::string points_fault(const Points& points) {
+std::string points_error(const Points& points) {
   constexpr std::size_t most_places = 100000;
   if (points.size() > most_places)
     return fmt::format("{} points, more than {}", points.size(), most_places);
@@ -178,7 +178,7 @@ class Reader {
     if (!real) return kind_ + type_text(value);
     if (!field_.range.holds(*real)) return "out of range";
     number = *real;
-    return magnitude_fault(*real);
+    return magnitude_error(*real);
   }
   std::string read(const toml::node& value, int& number) const {
     const auto* integer = value.as_integer();
@@ -237,7 +237,7 @@ class Reader {
         return wrong;
       report(name->get(),
              fmt::format("{} points: {}", points.size(), fmt::join(field_.coordinates, ", ")));
-      const auto wrong = points_fault(points);
+      const auto wrong = points_error(points);
       reported_in_full_ = !wrong.empty();
       return reported_in_full_ ? (context_.folder / name->get()).string() + ": " + wrong : wrong;
     }
@@ -256,7 +256,7 @@ class Reader {
         numbers.push_back(*real);
       }
     }
-    return points_fault(points);
+    return points_error(points);
   }
   std::string read(const toml::node& value, SurfaceData& surface) {
     if (const auto* name = value.as_string()) {
@@ -275,7 +275,7 @@ class Reader {
     }
     if (!value.is_table()) return type_text(value);
     const auto wrong = read_parts(*value.as_table(), surface);
-    return wrong.empty() ? surface_fault(surface) : wrong;
+    return wrong.empty() ? surface_error(surface) : wrong;
   }
   std::string read(const toml::node& value, NetworkData& network) {
     if (const auto* name = value.as_string()) {
@@ -292,7 +292,7 @@ class Reader {
     }
     if (!value.is_table()) return type_text(value);
     const auto wrong = read_parts(*value.as_table(), network);
-    return wrong.empty() ? network_fault(network) : wrong;
+    return wrong.empty() ? network_error(network) : wrong;
   }
 
   /// Reports the value read, for `check`.

@@ -124,7 +124,7 @@ void add_style(FieldList<Style> list) {
 }
 
 /// Why the radii of a circle's stills do not fall from R_o to R_a; empty: they do.
-std::string radii_fault(const Preset& preset) {
+std::string radii_error(const Preset& preset) {
   if (preset.figure.radii_mm.empty()) return "";
   if (preset.footprint.kind != FootprintKind::circle)
     return "only a circle's boundary has a radius on all of its path, expected [] for any other "
@@ -148,7 +148,7 @@ void add_figure(FieldList<Figure> list) {
           "boundary radii of the stills, falling from R_o to R_a; empty: the final state alone")
       .refused({"[footprint] kind", "[footprint] radius_mm", "[footprint] longest_leg",
                 "[actuation] radius_mm", "[actuation] ratio"},
-               radii_fault);
+               radii_error);
   list.add<&Figure::scale_bar_mm>(at_least(0),
                                   "length of the scale bar; a round length instead if it would be "
                                   "a dot or longer than the shell; 0: none");

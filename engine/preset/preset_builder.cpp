@@ -15,9 +15,9 @@ std::string SourceLocation::text() const {
   return line == 0 ? source : fmt::format("{}:{}:{}", source, line, column);
 }
 
-std::string LocatedFaults::report() const {
-  auto sorted = faults_;
-  std::ranges::stable_sort(sorted, [](const LocatedFault& a, const LocatedFault& b) {
+std::string LocatedErrors::report() const {
+  auto sorted = errors_;
+  std::ranges::stable_sort(sorted, [](const LocatedError& a, const LocatedError& b) {
     const auto rank = [](const SourceLocation& p) {
       return std::tuple(p.line == 0, p.line, p.column);
     };
@@ -79,7 +79,7 @@ bool overridden_above(const PresetBuilder& builder, const std::vector<std::strin
 
 /// "[rod] diameter_mm: got 20.0 (neighbouring rods would touch), expected ...", or of a key without
 /// effect "[net] waist = 0.4 has no effect, leave it out: ..."
-std::string fault_text(const Preset& preset, const KeyFault& fault, bool no_effect = false) {
+std::string error_text(const Preset& preset, const KeyError& fault, bool no_effect = false) {
   // a network or a table may be of thousands of points
   constexpr std::size_t longest = 60;
   auto value = value_text(*find_field(fault.table, fault.key), preset, fault.item);
@@ -98,7 +98,7 @@ bool any_refused(const PresetBuilder& builder, const std::vector<std::string>& k
   return std::ranges::any_of(keys, [&](const auto& key) { return builder.faulty.contains(key); });
 }
 
-bool is_default(const PresetBuilder& builder, const KeyFault& fault) {
+bool is_default(const PresetBuilder& builder, const KeyError& fault) {
   static const Preset defaults = default_items();
   const Field& field = *find_field(fault.table, fault.key);
   return value_text(field, builder.preset, fault.item) == value_text(field, defaults);
@@ -107,27 +107,27 @@ bool is_default(const PresetBuilder& builder, const KeyFault& fault) {
 }  // namespace
 
 void check_conflicts(const PresetBuilder& builder, const std::string& source,
-                     LocatedFaults& faults) {
-  for (const KeyFault& fault : conflicts(builder.preset)) {
+                     LocatedErrors& errors) {
+  for (const KeyError& fault : conflicts(builder.preset)) {
     auto keys = fault.others;
     keys.insert(keys.begin(), fault.label());
     if (any_refused(builder, keys)) continue;
     if (fault.item >= 0) keys.push_back(key_label(fault.table, "", fault.item));
     const auto set = std::ranges::find_if(
         keys, [&](const std::string& key) { return builder.set_at.contains(key); });
-    faults.add(set == keys.end() ? SourceLocation{source} : builder.set_at.at(*set),
-               fault_text(builder.preset, fault));
+    errors.add(set == keys.end() ? SourceLocation{source} : builder.set_at.at(*set),
+               error_text(builder.preset, fault));
   }
 }
 
-void check_unused_keys(const std::vector<PresetBuilder>& runs, LocatedFaults& faults) {
+void check_unused_keys(const std::vector<PresetBuilder>& runs, LocatedErrors& errors) {
   std::map<std::string, std::size_t> unused_in;
-  std::vector<std::vector<KeyFault>> unused;
+  std::vector<std::vector<KeyError>> unused;
   for (const PresetBuilder& builder : runs)
-    for (const KeyFault& one : unused.emplace_back(unused_keys(builder.preset)))
+    for (const KeyError& one : unused.emplace_back(unused_keys(builder.preset)))
       ++unused_in[one.label()];
   for (std::size_t run = 0; run < runs.size(); ++run)
-    for (const KeyFault& one : unused[run]) {
+    for (const KeyError& one : unused[run]) {
       const PresetBuilder& builder = runs[run];
       const auto name = one.label();
       const auto set = builder.set_at.find(name);
@@ -139,7 +139,7 @@ void check_unused_keys(const std::vector<PresetBuilder>& runs, LocatedFaults& fa
       if (overridden_above(builder, one.others, layer) || any_refused(builder, one.others) ||
           is_default(builder, one))
         continue;
-      faults.add(set->second, fault_text(builder.preset, one, true));
+      errors.add(set->second, error_text(builder.preset, one, true));
     }
 }
 

@@ -27,16 +27,16 @@ std::string case_name(const toml::table& table, const std::set<std::string>& tak
   const auto* node = table.get("name");
   const auto location = reading.location_of(node ? node->source() : table.source());
   if (!node) {
-    reading.faults().add(location, "[[case]] name: got none, expected a name: name = \"...\"");
+    reading.errors().add(location, "[[case]] name: got none, expected a name: name = \"...\"");
     return "";
   }
   const auto name = node->value<std::string>();
-  if (const auto wrong = case_name_fault(name.value_or("")); !wrong.empty()) {
-    reading.faults().add(location, got_text("[[case]] name", toml_text(*node), wrong));
+  if (const auto wrong = case_name_error(name.value_or("")); !wrong.empty()) {
+    reading.errors().add(location, got_text("[[case]] name", toml_text(*node), wrong));
     return "";
   }
   if (taken.contains(*name)) {
-    reading.faults().add(location, got_text("[[case]] name", toml_text(*node),
+    reading.errors().add(location, got_text("[[case]] name", toml_text(*node),
                                             "used twice, expected a unique name"));
     return "";
   }
@@ -62,7 +62,7 @@ Presets read_presets(const toml::table& root, const std::string& name,
   };
   const auto* node = root.get("case");
   if (node && !node->is_array_of_tables()) {
-    reading.faults().add(reading.location_of(node->source()),
+    reading.errors().add(reading.location_of(node->source()),
                          "case: got one table or value, expected tables, each [[case]]");
     return presets;
   }
@@ -87,9 +87,9 @@ Presets read_presets(const toml::table& root, const std::string& name,
     add_once(doubtful_values(builder.preset), presets.notes);
   }
   for (const PresetBuilder& builder : runs)
-    check_conflicts(builder, reading.source(), reading.faults());
-  check_unused_keys(runs, reading.faults());
-  check_sweep(runs, reading.faults());
+    check_conflicts(builder, reading.source(), reading.errors());
+  check_unused_keys(runs, reading.errors());
+  check_sweep(runs, reading.errors());
   return presets;
 }
 
@@ -108,7 +108,7 @@ std::string cell(std::string text) {
 class Used {
  public:
   explicit Used(const Preset& preset) {
-    for (const KeyFault& idle : unused_keys(preset))
+    for (const KeyError& idle : unused_keys(preset))
       idle_.insert({idle.table, idle.key, idle.item});
   }
   bool operator()(const Field& field, int item = -1) const {
@@ -145,7 +145,7 @@ std::string list_text(const std::string& table, const Preset& preset, const Used
 
 }  // namespace
 
-std::string case_name_fault(const std::string& name) {
+std::string case_name_error(const std::string& name) {
   const auto plain = [](unsigned char c) { return std::isalnum(c) || std::strchr("._-", c); };
   if (name.empty() || !std::isalnum((unsigned char)name.front()) ||
       !std::ranges::all_of(name, plain))
@@ -188,7 +188,7 @@ Result<Presets> read_preset_text(const std::string& text, const std::string& sou
   }
   TomlReader reading(source, {std::filesystem::path(source).parent_path(), &files});
   auto presets = read_presets(root, name, overrides, reading);
-  if (!reading.faults().empty()) return invalid(reading.faults().report());
+  if (!reading.errors().empty()) return invalid(reading.errors().report());
   return presets;
 }
 

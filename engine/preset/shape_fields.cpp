@@ -92,7 +92,7 @@ void add_footprint(std::vector<Field>& all) {
       .refused({},
                [=](const Preset& preset) {
                  const Footprint& of = preset.footprint;
-                 return network(of) ? own_value_fault(of.file) : std::string();
+                 return network(of) ? own_value_error(of.file) : std::string();
                })
       .refused({"[rod] width_mm"},
                "it has diameters, and rectangular rods have none, expected [rod] width_mm = 0",

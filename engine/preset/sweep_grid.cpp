@@ -42,14 +42,14 @@ std::string setting(const Sweep& sweep, const SweepPoint& point) {
 /// Checks the points of one run of the file.
 class SweepCheck {
  public:
-  SweepCheck(const PresetBuilder& builder, LocatedFaults& faults)
-      : builder_(builder), sweep_(builder.preset.sweep), faults_(faults) {}
+  SweepCheck(const PresetBuilder& builder, LocatedErrors& errors)
+      : builder_(builder), sweep_(builder.preset.sweep), errors_(errors) {}
 
   void keys_set_elsewhere() {
     for (const SweepAxis& axis : sweep_.over) {
       const auto set = builder_.set_at.find(name_of(field_of(axis.key)));
       if (set == builder_.set_at.end() || set->second.layer == ValueLayer::file) continue;
-      faults_.add(set->second,
+      errors_.add(set->second,
                   fmt::format("{}: is set {} and swept by [sweep] over, expected one of the two",
                               name_of(field_of(axis.key)),
                               set->second.layer == ValueLayer::one_case ? "by a case"
@@ -61,9 +61,9 @@ class SweepCheck {
     const SweepGrid grid({builder_.preset, {}});
     for (std::size_t k = 0; k < grid.size(); ++k) {
       const SweepPoint point = grid.at(k);
-      for (const KeyFault& conflict : conflicts(point.preset)) {
+      for (const KeyError& conflict : conflicts(point.preset)) {
         const Field& field = *find_field(conflict.table, conflict.key);
-        faults_.add(location("over"),
+        errors_.add(location("over"),
                     fmt::format("[sweep] over: at {}: {} = {}: {}", setting(sweep_, point),
                                 conflict.label(), value_text(field, point.preset, conflict.item),
                                 conflict.what));
@@ -83,14 +83,14 @@ class SweepCheck {
   static void forget_used(const SweepPoint& point, std::map<std::string, std::string>& idle) {
     if (idle.empty()) return;
     std::map<std::string, std::string> still;
-    for (const KeyFault& key : unused_keys(point.preset))
+    for (const KeyError& key : unused_keys(point.preset))
       if (const auto name = key.label(); idle.contains(name)) still[name] = key.what;
     idle = std::move(still);
   }
 
   const PresetBuilder& builder_;
   const Sweep& sweep_;
-  LocatedFaults& faults_;
+  LocatedErrors& errors_;
 };
 
 }  // namespace
@@ -126,7 +126,7 @@ SweepPoint SweepGrid::at(std::size_t point) const {
   return found;
 }
 
-void check_sweep(const std::vector<PresetBuilder>& runs, LocatedFaults& faults) {
+void check_sweep(const std::vector<PresetBuilder>& runs, LocatedErrors& errors) {
   const PresetBuilder& first = runs.front();
   const Sweep& sweep = first.preset.sweep;
   if (!sweep.requested() || first.faulty.contains("[sweep] over")) return;
@@ -136,23 +136,23 @@ void check_sweep(const std::vector<PresetBuilder>& runs, LocatedFaults& faults) 
   };
   const SourceLocation over = sweep.over.empty() ? location("seeds") : location("over");
   if (const double count = combinations(sweep) * double(runs.size()); count > most_runs)
-    return faults.add(over, fmt::format("[sweep] over: got {:.0f} runs, expected at most {:.0f}",
+    return errors.add(over, fmt::format("[sweep] over: got {:.0f} runs, expected at most {:.0f}",
                                         count, most_runs));
   std::map<std::string, std::string> idle;  // until a point uses them
   for (const SweepAxis& axis : sweep.over) idle[name_of(field_of(axis.key))] = "";
   const char* drawn = "[imperfection] seed";
   if (sweep.seeds > 1 && idle.contains(drawn))
-    faults.add(over, fmt::format("[sweep] seeds = {}: {} is swept too, expected one of the two",
+    errors.add(over, fmt::format("[sweep] seeds = {}: {} is swept too, expected one of the two",
                                  sweep.seeds, drawn));
   if (sweep.seeds > 1) idle[drawn] = "";
   for (const PresetBuilder& run : runs) {
-    SweepCheck check(run, faults);
+    SweepCheck check(run, errors);
     check.keys_set_elsewhere();
     check.points(idle);
   }
   for (const auto& [key, why] : idle)
     if (!why.empty())
-      faults.add(key == drawn ? location("seeds") : over,
+      errors.add(key == drawn ? location("seeds") : over,
                  fmt::format("[sweep] over: {} has no effect in any of the runs: {}", key, why));
 }
 

@@ -108,10 +108,10 @@ bool affects_results(const std::string& table) {
 /// Reads one entry; errors have its name.
 class AxisReader {
  public:
-  AxisReader(const Entry& entry, std::vector<AxisFault>& faults) : entry_(entry), faults_(faults) {}
+  AxisReader(const Entry& entry, std::vector<AxisError>& errors) : entry_(entry), errors_(errors) {}
 
   std::optional<SweepAxis> read() {
-    const std::size_t before = faults_.size();
+    const std::size_t before = errors_.size();
     field_ = find_field(entry_.table, entry_.key);
     if (in_list(entry_.name())) {
       refuse(*entry_.value, "each item of a list has this key, expected a key that exists once");
@@ -131,7 +131,7 @@ class AxisReader {
     } else {
       refuse(*entry_.value, "expected a list of values or { from, to, count }");
     }
-    if (faults_.size() > before) return std::nullopt;
+    if (errors_.size() > before) return std::nullopt;
     return SweepAxis{entry_.name(), std::move(values_)};
   }
 
@@ -139,7 +139,7 @@ class AxisReader {
   void refuse(const toml::node& value, const std::string& why) {
     const auto& region = value.source();
     // a computed value has no position in the file
-    faults_.push_back({region.begin.line > 0 ? region : entry_.location,
+    errors_.push_back({region.begin.line > 0 ? region : entry_.location,
                        got_text("[sweep.over] " + entry_.name(), toml_text(value), why)});
   }
 
@@ -187,18 +187,18 @@ class AxisReader {
   }
 
   const Entry& entry_;
-  std::vector<AxisFault>& faults_;
+  std::vector<AxisError>& errors_;
   const Field* field_ = nullptr;
   std::vector<std::string> values_;
   std::set<std::string> taken_;
 };
 
-/// The axes in the order of the file. Errors are added to `faults`, and an axis with an error is
+/// The axes in the order of the file. Errors are added to `errors`, and an axis with an error is
 /// left out. Each value was assigned to its key once and is in range.
-std::vector<SweepAxis> read_axes(const toml::table& over, std::vector<AxisFault>& faults) {
+std::vector<SweepAxis> read_axes(const toml::table& over, std::vector<AxisError>& errors) {
   std::vector<SweepAxis> axes;
   for (const Entry& entry : entries_of(over))
-    if (auto axis = AxisReader(entry, faults).read()) axes.push_back(std::move(*axis));
+    if (auto axis = AxisReader(entry, errors).read()) axes.push_back(std::move(*axis));
   return axes;
 }
 
@@ -237,7 +237,7 @@ void TomlReader::apply_override(const Override& change, PresetBuilder& builder) 
   const auto name = top ? change.key : change.key.substr(dot + 1);
   const auto value = override_value(change.value);
   if (!top && !is_table_name(table))
-    faults_.add({override_}, fmt::format("[{}] {}: unknown table{}", table, name,
+    errors_.add({override_}, fmt::format("[{}] {}: unknown table{}", table, name,
                                          did_you_mean(table, table_names())));
   else
     assign_key(table, toml::key(name), *value.get("x"), builder);
@@ -253,7 +253,7 @@ void TomlReader::override_item(const std::string& list, const Override& change,
   int item = 0;
   const auto [end, wrong] = std::from_chars(rest.data(), rest.data() + dot, item);
   if (wrong != std::errc() || end != rest.data() + dot || item < 1 || item > items)
-    return faults_.add({override_},
+    return errors_.add({override_},
                        fmt::format("{}: got {} [[{}]], expected the number of one, as {}.1.{}",
                                    change.key, items, list, list, keys_of(list).front()));
   const auto value = override_value(change.value);
@@ -265,7 +265,7 @@ void TomlReader::override_item(const std::string& list, const Override& change,
 void TomlReader::read_items(const std::string& name, const toml::key& key, const toml::node& value,
                             PresetBuilder& builder) {
   if (!value.is_array_of_tables()) {
-    faults_.add(location_of(key.source()),
+    errors_.add(location_of(key.source()),
                 fmt::format("{}: expected tables, each [[{}{}]]", name,
                             layer_ == ValueLayer::one_case ? "case." : "", name));
     return;
@@ -284,7 +284,7 @@ void TomlReader::read_table(const toml::key& key, const toml::node& value, Prese
   const std::string name(key.str());
   const auto location = location_of(key.source());
   if (!is_table_name(name)) {
-    faults_.add(location,
+    errors_.add(location,
                 fmt::format("[{}]: unknown table{}", name, did_you_mean(name, table_names())));
   } else if (const auto* table = value.as_table()) {
     for (const auto& [inner, item] : *table)
@@ -293,15 +293,15 @@ void TomlReader::read_table(const toml::key& key, const toml::node& value, Prese
       else
         assign_key(name, inner, item, builder);
   } else {
-    faults_.add(location, fmt::format("{}: got {}, expected a table of keys: {}", name,
+    errors_.add(location, fmt::format("{}: got {}, expected a table of keys: {}", name,
                                       toml_text(value), fmt::join(keys_of(name), ", ")));
   }
 }
 
 void TomlReader::read_sweep_axes(const toml::table& over, PresetBuilder& builder) {
-  std::vector<AxisFault> wrong;
+  std::vector<AxisError> wrong;
   builder.preset.sweep.over = read_axes(over, wrong);
-  for (auto& fault : wrong) faults_.add(location_of(fault.location), std::move(fault.text));
+  for (auto& fault : wrong) errors_.add(location_of(fault.location), std::move(fault.text));
   if (!wrong.empty()) builder.faulty.insert("[sweep] over");
 }
 
@@ -311,13 +311,13 @@ void TomlReader::assign_key(const std::string& table, const toml::key& key, cons
   const auto* field = find_field(table, name);
   const auto full = key_label(table, name, item);
   if (!field) {
-    faults_.add(location_of(key.source()),
+    errors_.add(location_of(key.source()),
                 fmt::format("{}: unknown key{}", full, hint(table, name)));
     return;
   }
   const auto location = location_of(value.source());
   if (table == "sweep" && location.layer == ValueLayer::one_case) {
-    faults_.add(
+    errors_.add(
         location,
         full + ": got a key of a case, expected one outside of cases: a sweep runs all of them");
     return;
@@ -343,7 +343,7 @@ void TomlReader::assign_key(const std::string& table, const toml::key& key, cons
       builder.take_material(table);
   } else {
     builder.faulty.insert(full);
-    faults_.add(location, got_text(full, toml_text(value), wrong));
+    errors_.add(location, got_text(full, toml_text(value), wrong));
   }
 }
 
@@ -357,7 +357,7 @@ void TomlReader::read_files(PresetBuilder& builder) {
     for (const std::string& note : report.notes) builder.notes.push_back(full + ": " + note);
     if (wrong.empty()) continue;
     builder.faulty.insert(full);
-    faults_.add(builder.set_at.at(full), full + ": " + wrong);  // names the file
+    errors_.add(builder.set_at.at(full), full + ": " + wrong);  // names the file
   }
   // values that were read are stored in the preset in mm
   if (builder.files.contains(key_label("footprint", "file")) ||

@@ -31,7 +31,7 @@ bool is_list_name(const std::string& name);
 //   actuation.radius_mm = { from = 90, to = 110, count = 5 }
 
 /// What is wrong with a part of a table, and where.
-struct AxisFault {
+struct AxisError {
   toml::source_region location;
   std::string text;  ///< "[sweep.over] rod.diameter_mm: got "x" (a string), expected a number > 0"
 };
@@ -53,7 +53,7 @@ class TomlReader {
 
   const std::string& source() const { return source_; }
   SourceLocation location_of(const toml::source_region& region) const;
-  LocatedFaults& faults() { return faults_; }
+  LocatedErrors& errors() { return errors_; }
 
  private:
   void read_items(const std::string& name, const toml::key& key, const toml::node& value,
@@ -69,7 +69,7 @@ class TomlReader {
   FileContext context_;                  // the file
   std::string override_;                 // while an override is laid: its option
   ValueLayer layer_ = ValueLayer::file;  // of what is laid of the file
-  LocatedFaults faults_;
+  LocatedErrors errors_;
 };
 
 }  // namespace gridshell::preset

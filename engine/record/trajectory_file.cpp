@@ -44,7 +44,7 @@ std::optional<std::string> expected_header(const ReadableFile& file,
 
 /// Why a file is not trusted, or empty. A file without a header was written by another program: it
 /// is trusted if `no_checksum` is set.
-std::string header_fault(const ReadableFile& file, bool no_checksum) {
+std::string header_error(const ReadableFile& file, bool no_checksum) {
   const auto start = file.read(0, std::min<std::uint64_t>(header_size, file.size()));
   if (start && start->starts_with("\x89HDF\r\n\x1a\n"))
     return no_checksum
@@ -77,7 +77,7 @@ Origin read_origin(hdf5::Reader& file) {
 }
 
 /// The HDF5 part onto a descriptor, then the header before it; why that failed, or empty.
-std::string write_fault(int descriptor, const AtomicFile& target, const Trajectory& trajectory) {
+std::string write_error(int descriptor, const AtomicFile& target, const Trajectory& trajectory) {
   hdf5::Stream stream{descriptor, header_size, 0};
   hdf5::Writer file(stream);
   file.attribute("/", "format", trajectory_format);
@@ -139,7 +139,7 @@ Result<void> write_trajectory(const std::filesystem::path& path, const Trajector
   AtomicFile target(path);
   Descriptor file(::open(target.temporary().c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
   if (file < 0) return fail_io("write", path, errno);
-  if (const std::string fault = write_fault(file, target, trajectory); !fault.empty())
+  if (const std::string fault = write_error(file, target, trajectory); !fault.empty())
     return fail(Fault::io, "cannot write '{}': {}", path.string(), fault);
   if (const int code = file.close()) return fail_io("write", path, code);
   return target.commit();
@@ -151,7 +151,7 @@ Result<Trajectory> read_trajectory(const std::filesystem::path& path,
     return invalid("'{}' is no trajectory of a run: {}", path.string(), reason);
   };
   TRY(file, ReadableFile::open(path));
-  if (const auto reason = header_fault(*file, how.no_checksum); !reason.empty())
+  if (const auto reason = header_error(*file, how.no_checksum); !reason.empty())
     return refuse(reason);
   try {
     if (how.trial)

@@ -110,7 +110,7 @@ void add_pressure(const Face& face, double pressure, std::vector<NodeAction>& ac
 Result<void> check_pressure(const LoadCase& load, const std::string& key,
                             const Footprint& footprint) {
   if (load.pressure_N_mm2 == 0) return {};
-  std::set<int> held(footprint.held_joints.begin(), footprint.held_joints.end());
+  std::set<int> held(footprint.fixed_joints.begin(), footprint.fixed_joints.end());
   const int joints = int(footprint.joints.size());
   for (std::size_t r = 0; r < footprint.rods.size(); ++r) {
     if (is_held(footprint.rods[r].begin)) held.insert(joints + 2 * int(r));

@@ -46,7 +46,7 @@ Result<std::vector<NetStart>> best_starts(const Surface& surface, const Triangle
 
 /// Where a net begins on a mesh, what it reaches and what not.
 struct MeshNetReport {
-  std::vector<std::string> mended;  ///< what was done to make it one sheet, a sentence each
+  std::vector<std::string> mended;  ///< what was done to make it one sheet, one sentence each
   double fit_mm = 0;  ///< largest distance of a vertex from the smooth surface, and where
   Eigen::Vector3d fit_at = Eigen::Vector3d::Zero();
   NetStart start;

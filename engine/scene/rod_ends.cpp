@@ -199,11 +199,11 @@ void place_tails(const Scene& scene, const RodMesh& mesh, Eigen::Matrix3Xd& plac
       const double at = mesh.position[r][k];
       const bool before = at < rod.span.begin;
       if (!before && at <= rod.span.end) continue;
-      const double share =
+      const double fraction =
           before ? (rod.span.begin - at) / rod.tail_begin : (at - rod.span.end) / rod.tail_end;
       const Eigen::Index end = 2 * Eigen::Index(r) + (before ? 0 : 1);
       places.col(mesh.rods[r][k]) =
-          (1 - share) * scene.motion.end.col(end) + share * scene.motion.end_far.col(end);
+          (1 - fraction) * scene.motion.end.col(end) + fraction * scene.motion.end_far.col(end);
     }
   }
 }

@@ -13,9 +13,9 @@
 namespace gridshell::simulate {
 namespace {
 
-constexpr double share_of_tolerance = 0.1;  // that a polynomial in t may leave
-constexpr double share_of_errors = 0.5;     // of those of the meshes, likewise
-constexpr double share_of_colour = 5e-3;    // of the largest curvature, likewise
+constexpr double fraction_of_tolerance = 0.1;  // that a polynomial in t may leave
+constexpr double fraction_of_errors = 0.5;     // of those of the meshes, likewise
+constexpr double share_of_colour = 5e-3;       // of the largest curvature, likewise
 constexpr std::size_t most_knots = 6;
 
 bool smooth(const PathSegment& segment, std::size_t k) {
@@ -147,8 +147,8 @@ std::optional<record::Frame> FramesBetween::between(double t, const Knots& knots
   using record::Frame;
   if (knots.size() < 3) return {};
   const Scene& scene = path_.simulation.scene();
-  const double share = share_of_tolerance * scene.tolerance,
-               allowed_mm = share * scene.length_scale_mm;
+  const double fraction = fraction_of_tolerance * scene.tolerance,
+               allowed_mm = fraction * scene.length_scale_mm;
   double nodes_mm = 0;
   const auto nodes = nodes_at(t, knots, nodes_mm);
   if (!nodes || !(nodes_mm <= allowed_mm)) return {};
@@ -195,7 +195,7 @@ std::optional<record::Frame> FramesBetween::between(double t, const Knots& knots
   const double mJ = doubt(&Frame::energies, of_energies), N = doubt(&Frame::reactions_N, largest);
   // as much as the meshes leave is not seen
   const auto seen = [&](double off, double size, double Frame::*error) {
-    return !(off <= std::max(share * size, share_of_errors * around(error)));
+    return !(off <= std::max(fraction * size, fraction_of_errors * around(error)));
   };
   const double curved = largest(sum(weights.all, &Frame::curvature_per_mm));
   if (!(nodes_mm <= allowed_mm) ||

@@ -161,7 +161,7 @@ PathSample sample_of(std::size_t index, double progress, bool unload) {
 double HeldShell::depth_mm() const { return push.displacement.norm(); }
 
 Result<void> not_on_boundary(const Footprint& footprint, int joint) {
-  if (std::ranges::find(footprint.held_joints, joint) == footprint.held_joints.end() ||
+  if (std::ranges::find(footprint.fixed_joints, joint) == footprint.fixed_joints.end() ||
       footprint.is_sprung(joint))
     return {};
   const FootprintJoint& at = footprint.joints[std::size_t(joint)];

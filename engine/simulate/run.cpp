@@ -225,7 +225,7 @@ Result<void> check_motion(const Scene& scene) {
 /// deformation of a round rod of Poisson's ratio 0.3 between joints adds a fraction 12 EI/(kappa G
 /// A L^2) = 2.2 (d/L)^2 to its bending [Timoshenko].
 std::vector<std::string> left_out_of(const Scene& scene) {
-  constexpr double slender = 20;  // diameters from joint to joint; the share is then 0.5 %
+  constexpr double slender = 20;  // diameters from joint to joint; the fraction is then 0.5 %
   std::vector<std::string> sentences;
   if (std::string balls = ends_on_balls(scene); !balls.empty())
     sentences.push_back(std::move(balls));

@@ -163,9 +163,9 @@ std::optional<Event> Simulation::beyond(const Limits& limits) const {
   if (locked()) return met;
   met.kind = Event::Kind::overbent;
   if (scene_->limits_strength()) {
-    auto [share, by] = strained();
+    auto [fraction, by] = strained();
     met.what = std::move(by);
-    if (share > limits.strained) return met;
+    if (fraction > limits.strained) return met;
   }
   if (!scene_->stops_at_contact) return std::nullopt;
   met.kind = Event::Kind::contact;

@@ -47,7 +47,7 @@ double kinetic_energy(const Eigen::Matrix3Xd& mass, const MovingState& moving) {
 
 namespace {
 
-constexpr double gamma = 2 - M_SQRT2;  // share of the trapezoidal part
+constexpr double gamma = 2 - M_SQRT2;  // fraction of the trapezoidal part
 constexpr double held_mass = 1e6;      // of what is prescribed, over the shell's
 
 }  // namespace

@@ -70,7 +70,7 @@ Eigen::Matrix3Xd MultilevelRelaxation::stretched_flat(double t) const {
     rows << flat.transpose(), Eigen::VectorXd::Ones(flat.cols());
     return rows;
   };
-  std::vector<int> on_boundary = mesh.held_joints;
+  std::vector<int> on_boundary = mesh.fixed_joints;
   for (int end = 0; end < mesh.edge_points; ++end)
     if (mesh.end_of(end) != RodEnd::joined) on_boundary.push_back(mesh.joints + end);
   const Eigen::Matrix3Xd moved = levels_.front()->motion.at(t);

@@ -103,7 +103,7 @@ State NestedShell::clear_of_contact(Level& level, const State& before, State req
   State clear = before;
   level.motion.impose(*level.system, state_.t, clear);
   const Eigen::Matrix3Xd move = requested.x - clear.x;
-  move_to(level.model, clear.x + level.system->clear_share(clear, move) * move, clear);
+  move_to(level.model, clear.x + level.system->clear_fraction(clear, move) * move, clear);
   return clear;
 }
 

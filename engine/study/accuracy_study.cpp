@@ -136,8 +136,8 @@ double fastest(const std::vector<AccuracyRow>& rows, double error) {
   return best;
 }
 
-std::vector<AutoStanding> standings_of(const std::vector<AccuracyRow>& rows) {
-  std::vector<AutoStanding> standings;
+std::vector<AutoOutcome> standings_of(const std::vector<AccuracyRow>& rows) {
+  std::vector<AutoOutcome> standings;
   for (const AccuracyRow& row : rows)
     if (is_auto(row)) {
       const double tolerance = auto_tolerances[standings.size()];
@@ -236,12 +236,12 @@ Result<std::vector<AccuracyRow>> sizes_study(const preset::Preset& preset,
   std::vector<AccuracyRow> rows;
   for (std::size_t k = 0; k < sizes.size(); ++k) {
     preset::Preset sized = preset;
-    const double share = preset.actuated_radius_mm() / preset.original_radius_mm();
+    const double fraction = preset.actuated_radius_mm() / preset.original_radius_mm();
     sized.footprint.radius_mm = preset.original_radius_mm();
     const double d = preset.footprint.spacing_mm, leg = leg_of(sized.footprint);
     set_rods(sized.footprint, sizes[k]);
     const double radius = d * ((sizes[k] - 1) / 2.0 + leg);
-    sized.set_radii(radius, share * radius);
+    sized.set_radii(radius, fraction * radius);
     TRY(made, BenchmarkProblem::create(sized, options.finest, watch));
     for (const double tolerance : tolerances) {
       const Method method = auto_method(tolerance);

@@ -52,8 +52,8 @@ class BenchmarkProblem {
   static Result<std::unique_ptr<BenchmarkProblem>> create(const preset::Preset& preset, int finest,
                                                           Watch& watch, double EA_scale = 1);
 
-  /// Made once a mesh, from any thread. Errors: no_equilibrium where the mesh has no state near the
-  /// reference's.
+  /// Made once per mesh, from any thread. Errors: no_equilibrium where the mesh has no state near
+  /// the reference's.
   Result<const Problem*> problem(int edges, const Watch& watch);
 
   /// Largest distance of a joint from the reference's end over the length scale; `x` has the joints

@@ -20,7 +20,7 @@ namespace {
 // energies of one state differ by round-off, and by what joints within the tolerance are worth
 constexpr double same_energy = 1e-3;
 
-// shares of the work, for the progress
+// fractions of the work, for the progress
 constexpr double perturbed = 0.55, measured = 0.8, followed = 0.9;
 
 /// What a trial ended in.

@@ -195,7 +195,7 @@ struct Print {
   bool operator==(const Print&) const = default;
 };
 
-/// The same drawing as `<stem>.png` with its dpi, `<stem>.svg` and `<stem>.pdf`, each whole or
+/// Writes one drawing as `<stem>.png` with its dpi, `<stem>.svg` and `<stem>.pdf`, each whole or
 /// absent, enlarged to the width of print. Errors: Fault::io naming the path.
 Result<void> write_figure(const std::filesystem::path& stem, double width_pt, double height_pt,
                           const std::string& title, const DrawOn& draw, const Print& print = {});

@@ -39,7 +39,7 @@ Colour sequential(double t, double start = 0);
 /// Light to dark grey over t in [0, 1], for print without colours.
 Colour grey(double t, double start = 0);
 
-/// One of the three. `start` leaves out that share of a map of [0, 1] at its light end.
+/// One of the three. `start` leaves out that fraction of a map of [0, 1] at its light end.
 using ColourMap = Colour (*)(double t, double start);
 
 /// What a value looks like: `low` … `high` over the whole map, of the diverging one as far as the

@@ -168,10 +168,10 @@ void draw_plot(Canvas& canvas, const Box& box, const Plot& plot) {
   if (frame.inside.empty()) return;
   // the legend is in a free corner, else above the axes
   const Legend legend(canvas, plot);
-  LegendPlace corner = plot.legend;
-  if (plot.legend == LegendPlace::automatic) corner = legend.free_corner(canvas, frame);
+  LegendPosition corner = plot.legend;
+  if (plot.legend == LegendPosition::automatic) corner = legend.free_corner(canvas, frame);
   const bool above =
-      !legend.empty() && (corner == LegendPlace::none || corner == LegendPlace::above);
+      !legend.empty() && (corner == LegendPosition::none || corner == LegendPosition::above);
   if (above) frame = lay_out_plot(canvas, box, plot, legend.height_above_axes(frame.inside.width));
 
   canvas.clipped(frame.inside, [&] {

@@ -98,7 +98,15 @@ struct Note {
   Colour colour = ink;
 };
 
-enum class LegendPlace { none, automatic, above, upper_left, upper_right, lower_left, lower_right };
+enum class LegendPosition {
+  none,
+  automatic,
+  above,
+  upper_left,
+  upper_right,
+  lower_left,
+  lower_right
+};
 
 struct Plot {
   std::string title;  ///< marked text; empty: none
@@ -107,7 +115,7 @@ struct Plot {
   std::vector<Series> series;
   std::vector<ReferenceLine> references;
   std::vector<Note> notes;
-  LegendPlace legend = LegendPlace::automatic;
+  LegendPosition legend = LegendPosition::automatic;
   double font_size = 8.5;
 
   /// On top of all others; left out where it has no point.

@@ -43,8 +43,8 @@ std::vector<Eigen::Vector3f> tangents(std::span<const Eigen::Vector3f> points, b
 /// A polyline of some width.
 struct Ribbon {
   std::span<const Eigen::Vector3f> points;   ///< at least 2, or 3 when closed; mm
-  std::span<const Eigen::Vector4f> colours;  ///< linear, one a point
-  std::span<const float> radii;              ///< mm, one for all or one a point
+  std::span<const Eigen::Vector4f> colours;  ///< linear, one per point
+  std::span<const float> radii;              ///< mm, one for all or one per point
   bool closed = false;                       ///< the last point joins the first
 };
 
@@ -82,8 +82,8 @@ struct CellPatch {
 /// One Coons patch [Coons 1967] a cell, so that its edges lie on the rods however these bend:
 /// S(u, v) = (1-v) c0(u) + v c1(u) + (1-u) d0(v) + u d1(v) - bilinear(corners).
 /// Adds their vertices to the mesh; their triangles are for whoever knows the order. `colours` are
-/// linear, one a cell; cells whose alpha is 0 are left out. A patch is as coarse as may be with all
-/// points that it leaves out within the tolerance.
+/// linear, one per cell; cells whose alpha is 0 are left out. A patch is as coarse as may be with
+/// all points that it leaves out within the tolerance.
 std::vector<CellPatch> add_cell_patches(Mesh& mesh, const record::Layout& layout,
                                         const Eigen::Matrix3Xd& nodes,
                                         std::span<const Eigen::Vector4f> colours,

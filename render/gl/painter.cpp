@@ -236,11 +236,11 @@ Eigen::Matrix4d Painter::matrix_of(const RenderJob& shot, const Tile& tile, cons
 
 /// Adds a fraction of the contents of another target to the bound one, or puts it there, its first
 /// pixel at `corner`.
-void Painter::show(GLuint texture, float share, const Eigen::Vector2i& corner) const {
+void Painter::show(GLuint texture, float fraction, const Eigen::Vector2i& corner) const {
   mean_.use();
   mean_.set("corner", Eigen::Vector2f(corner.cast<float>()));
   mean_.set("sum", 0);
-  mean_.set("share", share);
+  mean_.set("share", fraction);
   gl_->ActiveTexture(GL_TEXTURE0);
   gl_->BindTexture(GL_TEXTURE_2D, texture);
   screen_triangle();

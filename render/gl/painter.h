@@ -92,7 +92,7 @@ class Painter {
                            Target& to);
   static Eigen::Matrix4d matrix_of(const RenderJob& shot, const Tile& tile, const Lighting& light);
   void composite_shell(int per_side, const Tile& part, const Eigen::Vector2i& corner) const;
-  void show(GLuint texture, float share, const Eigen::Vector2i& corner) const;
+  void show(GLuint texture, float fraction, const Eigen::Vector2i& corner) const;
   void set_light(const Program& program, const RenderJob& shot, const Lighting& light) const;
   void set_shadow(const Program& program, const RenderJob& shot, const Lighting& light) const;
   void draw_meshes(const RenderJob& shot, const Lighting& light, const Eigen::Matrix4f& matrix);

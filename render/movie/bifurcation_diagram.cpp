@@ -236,7 +236,7 @@ Plot branches_plot(const std::vector<BranchPoint>& points, BranchAxis axis) {
   Plot plot;
   plot.x.label = has_radius(points) ? "*R*_{a} (mm)" : "progress";
   plot.y.label = axis == BranchAxis::height ? "height (mm)" : "amplitude of broken symmetry";
-  plot.legend = LegendPlace::none;
+  plot.legend = LegendPosition::none;
   plot.font_size = 8;
   plot.series = pieces_of(points, place);
   // the path itself on top

@@ -17,7 +17,7 @@ namespace {
 
 /// How far each block is moved so that they are separate, in proportion to its position.
 std::vector<Eigen::Vector3d> apart(const std::vector<record::Part>& parts,
-                                   Eigen::Matrix3Xd record::Part::*where, double share) {
+                                   Eigen::Matrix3Xd record::Part::*where, double fraction) {
   std::vector<Eigen::Vector3d> moves;
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const record::Part& part : parts) {
@@ -25,7 +25,7 @@ std::vector<Eigen::Vector3d> apart(const std::vector<record::Part>& parts,
     middle += moves.back() / double(parts.size());
   }
   for (Eigen::Vector3d& move : moves) {
-    move = share * (move - middle);
+    move = fraction * (move - middle);
     move.z() = 0;
   }
   return moves;

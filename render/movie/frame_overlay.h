@@ -23,7 +23,7 @@ struct FrameLayout {
   double font_size = 17;  ///< of captions; follows the picture's height
   Box title, state;       ///< upper left; the title in the lines below
   Box heading;            ///< of a still: its title's lines and its caption
-  Box event, timeline;    ///< lower left, a line each
+  Box event, timeline;    ///< lower left, one line each
   Box colour_bar, inset, scale_bar, arrow_key, plot;
   Box view;                              ///< what is left for the shell
   std::vector<std::string> title_lines;  ///< of the title, or of a still's heading
@@ -91,7 +91,7 @@ struct TopExtent {
   double half_mm = 1;
 };
 
-/// `cell_colours`: one a cell, or empty. Boundaries and joints are drawn where the look has any.
+/// `cell_colours`: one per cell, or empty. Boundaries and joints are drawn where the look has any.
 void draw_top_view(Canvas& canvas, const Box& box, const record::Layout& layout,
                    const record::Frame& frame, const TopExtent& extent,
                    const std::vector<Colour>& cell_colours, const Appearance& look = {});

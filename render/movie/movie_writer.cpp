@@ -19,7 +19,7 @@ Worker::Worker() {
   try {
     thread_ = std::thread([this] { loop(); });
   } catch (const std::system_error&) {
-    // whoever begins a job does it
+    // the caller that begins a job runs it
   }
 }
 

@@ -276,7 +276,7 @@ Result<PanelFigure> draw_deviations(const std::vector<NetRun>& runs, const Movie
   const ColourScale scale{sequential, 0, round_end(largest), 0.2};
   const auto dress = [&](const NetRun& one, Drawing& drawing) {
     const Eigen::VectorXd deviation = last_deviation(*one.run);
-    for (double share : deviation) drawing.node_colours.push_back(scale(unit.factor * share));
+    for (double fraction : deviation) drawing.node_colours.push_back(scale(unit.factor * fraction));
     drawing.rod_diameter_mm *= 1.8;
     drawing.joint_diameter_mm = 0;
   };
@@ -376,7 +376,7 @@ Result<void> write_plots(const std::filesystem::path& stem, std::vector<Plot> pl
   legend.series = plots.front().series;
   legend.font_size = font;
   for (Plot& plot : plots) {
-    plot.legend = LegendPlace::none;
+    plot.legend = LegendPosition::none;
     plot.font_size = font;
   }
   return write_figure(

@@ -24,8 +24,8 @@ struct NamedRun {
 /// boundary along x.
 Plot curvature_plot(const std::vector<NamedRun>& runs);
 
-/// Delta/rho that a share of the joints does not exceed, against that share: from the nearest joint
-/// to the farthest.
+/// Delta/rho that a fraction of the joints does not exceed, against that fraction: from the nearest
+/// joint to the farthest.
 Plot quantile_plot(const std::vector<NamedRun>& runs);
 
 /// r/rho of the joints and of the net (a line at 1) against latitude, for nets on a sphere; joints

@@ -97,7 +97,7 @@ class Stage {
 
   /// Draws captions, colour bar, top view and scale bar of a frame over its picture.
   void finish(Image& picture, const ShownFrame& shown) const;
-  /// The same onto any canvas of the picture's size.
+  /// Draws captions and legends onto any canvas of the picture's size.
   void draw_overlay(Canvas& canvas, const ShownFrame& shown) const;
 
  private:
@@ -114,8 +114,8 @@ class Stage {
   ProgressAxis progress_;
   std::optional<ColourBar> bar_;
   FrameLayout layout_;
-  std::vector<Box> panels_;        ///< one a view
-  std::vector<Framing> framings_;  ///< one a view, each in a picture of its panel's size
+  std::vector<Box> panels_;        ///< one per view
+  std::vector<Framing> framings_;  ///< one per view, each in a picture of its panel's size
   TopExtent top_;
   double ground_z_mm_ = 0;
 };
@@ -133,7 +133,7 @@ std::vector<bool> hidden_points(const Drawing& drawing, const Camera& camera,
 /// out).
 void draw_shell_lines(Canvas& canvas, const Box& box, const Drawing& drawing, const Camera& camera);
 
-/// The same at a later time: keeps the drawing and its layout.
+/// Draws the shell later: the returned function keeps the drawing and its layout.
 std::function<void(Canvas&, const Box&)> shell_lines(Drawing drawing, const Camera& camera);
 
 }  // namespace gridshell::render

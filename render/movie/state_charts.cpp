@@ -94,7 +94,7 @@ class PhasePlot {
     plot_.title = plain(title);
     plot_.x = {.label = "longest leg, *L̄*_{d} = *L*/*d*"};
     plot_.y = {.label = "rods per direction, *n*"};
-    plot_.legend = LegendPlace::above;
+    plot_.legend = LegendPosition::above;
     if (legs.empty()) return;
     const auto [short_leg, long_leg] = std::ranges::minmax(legs);
     const auto [few, many] = std::ranges::minmax(rods);
@@ -210,7 +210,7 @@ Plot barrier_plot(const record::StateTables& states) {
   plot.title = fmt::format("Barriers between states (heights found on {} edges per segment)",
                            states.search.judged_edges);
   plot.y = {.label = "elastic energy; heights of barriers (mJ)"};
-  plot.legend = LegendPlace::none;
+  plot.legend = LegendPosition::none;
   // of the states as everywhere else; of passes only the height above their states is known, which
   // on another mesh hardly differs, as their energies do
   std::map<int, double> energy;

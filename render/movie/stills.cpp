@@ -88,7 +88,7 @@ void draw_still_labels(Canvas& canvas, const Stage& stage, const ShownFrame& sho
   const TextStyle text{.size = layout.font_size, .align_y = AlignY::top};
   const TextStyle fitted = canvas.fitted(caption, room.width, text);
   const Box said = canvas.text(caption, {room.x, room.bottom() - line}, fitted);
-  // a row each, contacts as the marks that they are in the picture
+  // one row each, contacts as the marks that they are in the picture
   const double size = fitted.size;
   double y = said.bottom() + size;
   if (const auto loads = load_caption(shown.frame); !loads.empty() && stage.style().look.loads) {

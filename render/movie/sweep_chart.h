@@ -45,16 +45,16 @@ std::vector<std::string> cases_of(const record::SweepTable& table);
 struct SweepView {
   std::string figure = {};  ///< "max_deviation"
   std::string x = {};       ///< a figure instead of the key; empty: the key
-  double departure = 0;     ///< share by which a curve has left its value at the right where that
-                            ///< is marked; 0: nowhere
-  std::string title = {};   ///< plain
+  double departure = 0;    ///< fraction by which a curve has left its value at the right where that
+                           ///< is marked; 0: nowhere
+  std::string title = {};  ///< plain
 };
 
 /// Where y, from the largest x to the smaller ones, first differs from its value there by more than
-/// `share` of it: linear between points, in log x where all x are positive. Points that are not
+/// `fraction` of it: linear between points, in log x where all x are positive. Points that are not
 /// finite are passed over. Empty where it never does.
 std::optional<double> deviation_onset(const std::vector<double>& x, const std::vector<double>& y,
-                                      double share);
+                                      double fraction);
 
 /// The figure over the one key, a curve a case (the mean over the seeds, each run a mark). Runs
 /// that met a limit are hollow, those that are not stable crossed; where there is no state a grey

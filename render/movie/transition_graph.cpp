@@ -98,7 +98,7 @@ class TransitionGraph {
   PlotFrame axes(Canvas& canvas, const Box& box) const {
     Plot plot;
     plot.font_size = font;
-    plot.legend = LegendPlace::none;
+    plot.legend = LegendPosition::none;
     plot.x = {.label = "height (mm)"};
     plot.y = {.label = "energy (mJ)"};
     Series all;
@@ -129,7 +129,7 @@ class TransitionGraph {
       x = canvas.text(text, {x + 27, y}, {.size = font, .align_y = AlignY::middle}).right() + 14;
     };
     entry(Disturbance::released, "boundary released and contracted again");
-    // only of what was pushed more than once an arrow has a number
+    // only of what was pushed more than once a arrow has a number
     const bool numbers = std::ranges::any_of(states_.transitions, [](const Transition& one) {
       return one.by == Disturbance::pushed && one.to != 0 && one.to != one.from && one.count > 1;
     });
@@ -204,11 +204,11 @@ class TransitionGraph {
       const Box box = free_place(node.at, canvas.measure(name, style), taken_, inside);
       const Point near{std::clamp(node.at.x, box.x, box.right()),
                        std::clamp(node.at.y, box.y, box.bottom())};
-      const double share = node.radius() / std::max(node.radius(), distance(near, node.at));
-      canvas.line(
-          near,
-          {node.at.x + share * (near.x - node.at.x), node.at.y + share * (near.y - node.at.y)},
-          {ink, 0.5});
+      const double fraction = node.radius() / std::max(node.radius(), distance(near, node.at));
+      canvas.line(near,
+                  {node.at.x + fraction * (near.x - node.at.x),
+                   node.at.y + fraction * (near.y - node.at.y)},
+                  {ink, 0.5});
       canvas.text(name, box.middle(), style);
       taken_.push_back(box);
     }

@@ -21,7 +21,7 @@ inline constexpr const char* auto_prefix = "auto ";
 Plot accuracy_plot(const std::vector<record::AccuracyRow>& rows, const std::string& title,
                    bool of_sizes = false);
 
-/// The same errors over the number of unknowns.
+/// The errors over the number of unknowns.
 Plot unknowns_plot(const std::vector<record::AccuracyRow>& rows, const std::string& title);
 
 /// Time over rods per direction, log-log; the legend bears the exponents.

@@ -49,10 +49,10 @@ std::string typed(const std::string& field, const std::string& text) {
 double number(const json& of, const char* key) { return of[key].get<double>(); }
 std::string message_of(const json& of) { return of["message"].get<std::string>(); }
 
-/// A key of both has one value, to that share of it.
-void check_same(const json& a, const json& b, const char* key, double share = 1e-9) {
+/// A key of both has one value, to that fraction of it.
+void check_same(const json& a, const json& b, const char* key, double fraction = 1e-9) {
   INFO(key);
-  CHECK(number(a, key) == Approx(number(b, key)).epsilon(share));
+  CHECK(number(a, key) == Approx(number(b, key)).epsilon(fraction));
 }
 
 /// Result of `run` on the saved preset, which has the energy that was reported of the shell.

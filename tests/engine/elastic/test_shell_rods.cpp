@@ -190,7 +190,7 @@ TEST_CASE(
     "springs of supports: gradient and Hessian are the energy's derivatives, on both rod models") {
   Footprint net = circular_footprint(52.0, 4, 20.0, Placement::half).value();
   net.rods[0].begin = net.rods[5].end = RodEnd::sprung;
-  net.held_joints = {3, 4};
+  net.fixed_joints = {3, 4};
   net.springs = {{0, -1, k}, {11, -1, {0, 7, 2}}, {-1, 3, {6, 5, 0}}};
   const RodMesh mesh = mesh_rods(net, 3);
   for (const RodModel rod_model : {RodModel::bend, RodModel::twist}) {

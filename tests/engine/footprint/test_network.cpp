@@ -81,7 +81,7 @@ TEST_CASE("a closed chain of rods whose ends meet is a frame where its joints ar
   net.joined = {0, 1, 2, 3};
   const auto made = value_of(network_footprint(net));
   CHECK(made.footprint.joints.size() == 4);
-  CHECK(made.footprint.held_joints.size() == 3);
+  CHECK(made.footprint.fixed_joints.size() == 3);
   for (const FootprintRod& rod : made.footprint.rods) {
     CHECK(rod.begin == RodEnd::joined);
     CHECK(rod.end == RodEnd::joined);
@@ -97,7 +97,7 @@ TEST_CASE("a ring comes back to its first joint and a polyline is as long as its
   CHECK(ring.at(3).isApprox(Eigen::Vector2d(-1, 0)));
   CHECK(ring.tangent(3).isApprox(Eigen::Vector2d(0, -1)));
   CHECK(made.footprint.joints.size() == 4);
-  CHECK(made.footprint.held_joints == std::vector<int>{1, 2, 3});
+  CHECK(made.footprint.fixed_joints == std::vector<int>{1, 2, 3});
   const RodMesh mesh = mesh_rods(made.footprint, 4);
   CHECK(mesh.rods[0].front() == mesh.rods[0].back());
   CHECK(mesh.rods[0].size() == 17);
@@ -157,7 +157,7 @@ TEST_CASE("supports on springs: of an end, of ends that meet, of a joint inside 
   CHECK(footprint.rods[0].end == RodEnd::joined);
   CHECK(footprint.rods[2].begin == RodEnd::joined);
   CHECK(footprint.rods[2].end == RodEnd::pinned);
-  CHECK(footprint.held_joints == std::vector<int>{0, 1});
+  CHECK(footprint.fixed_joints == std::vector<int>{0, 1});
   REQUIRE(footprint.springs.size() == 3);
   CHECK(footprint.springs[0].end == 0);
   CHECK(footprint.springs[0].N_per_mm == Eigen::Vector3d(1, 2, 3));

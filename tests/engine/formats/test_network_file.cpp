@@ -151,7 +151,7 @@ TEST_CASE("files of networks that are broken say where") {
 
 TEST_CASE("a network is needed, and what names rods of a square grid is refused") {
   const auto message = [](const std::string& keys) {
-    return faults_of("[footprint]\nkind = \"network\"\n" + keys);
+    return errors_of("[footprint]\nkind = \"network\"\n" + keys);
   };
   const std::string file =
       "file = {points_mm = [[-9, 0, 0], [9, 0, 0], [0, 9, 0], [0, 0, 0]], "

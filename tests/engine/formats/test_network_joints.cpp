@@ -98,7 +98,7 @@ TEST_CASE("joints of a network have laws of their own, by point or by points tha
     {"points": [2, 6], "law": "spring", "shear_Nmm": 3.5, "twist_Nmm": 2})"));
   CHECK(network.rods[0] == std::vector<int>{0, 4, 2});
   CHECK(network.joint_laws == Points{{4, 0, -1}, {2, 3.5, 2}});
-  CHECK(network_fault(network).empty());
+  CHECK(network_error(network).empty());
   wrong(R"({"points": [4, 1], "law": "stiff"})", "expected \"law\" of");
   wrong(R"({"points": [4, 1], "law": "hinge", "shear_Nmm": 1})", "expected {\"point\"");
   wrong(R"({"points": [4, 1], "law": "spring", "shear_Nmm": -1})", "_Nmm: got ");
@@ -115,7 +115,7 @@ TEST_CASE("a network's law is that of all joints which have none of their own") 
   CHECK(read(lawful(R"("hinge")")).joint_laws == Points{{every_joint, 0, -1}});
   CHECK(read(lawful(R"({"law": "spring", "twist_Nmm": 2})")).joint_laws ==
         Points{{every_joint, 0, 2}});
-  CHECK(network_fault(read(lawful(R"("rigid")"))).empty());
+  CHECK(network_error(read(lawful(R"("rigid")"))).empty());
   CHECK_THAT(refusal(read_network(lawful(R"({"law": "rigid", "point": 1})"), "n.json")),
              Catch::Contains("law: is that of all joints"));
   CHECK_THAT(refusal(read_network(lawful("3"), "n.json")), Catch::Contains("expected \"law\" of"));

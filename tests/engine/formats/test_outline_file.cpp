@@ -24,7 +24,7 @@ Outline outline(const std::string& text, const std::string& name,
   const NetworkData data = value_of(read_outline(text, name, options, &report));
   REQUIRE(data.rods.size() == 1);
   REQUIRE(data.rods[0].front() == data.rods[0].back());
-  CHECK(network_fault(data).empty());
+  CHECK(network_error(data).empty());
   Outline found;
   for (std::size_t k = 0; k + 1 < data.rods[0].size(); ++k) {
     const Eigen::Vector2d a = place_of(data, data.rods[0][k]).head<2>(),

@@ -86,7 +86,7 @@ TEST_CASE(
        "bad.toml:2:10: [loads] points: got [ [ 0, 0, 1 ] ] (a point of 3 coordinates), expected a "
        "list of points [i, j, F_x, F_y, F_z]"},
   }));
-  CHECK_THAT(faults_of(text), Catch::Contains(sentence));
+  CHECK_THAT(errors_of(text), Catch::Contains(sentence));
 }
 
 TEST_CASE("a circle is as large as its radius says, or its longest leg, and not both") {
@@ -96,69 +96,69 @@ TEST_CASE("a circle is as large as its radius says, or its longest leg, and not 
   CHECK(presets.base.original_radius_mm() == Approx(120));
   CHECK(presets.base.actuated_radius_mm() == Approx(90));
   CHECK_THAT(to_toml(presets), !Catch::Contains("radius_mm = 126"));
-  CHECK_THAT(faults_of("[footprint]\nlongest_leg = 1.5\nradius_mm = 90\n"),
+  CHECK_THAT(errors_of("[footprint]\nlongest_leg = 1.5\nradius_mm = 90\n"),
              Catch::StartsWith("bad.toml:3:13: [footprint] radius_mm") &&
                  Catch::Contains("[footprint] longest_leg replaces it"));
-  CHECK_THAT(faults_of("[actuation]\nratio = 0.5\nradius_mm = 90\n"),
+  CHECK_THAT(errors_of("[actuation]\nratio = 0.5\nradius_mm = 90\n"),
              Catch::Contains("[actuation] ratio replaces it"));
-  CHECK_THAT(faults_of("[footprint]\nkind = \"net\"\nlongest_leg = 1.5\n"),
+  CHECK_THAT(errors_of("[footprint]\nkind = \"net\"\nlongest_leg = 1.5\n"),
              Catch::Contains("does not use it, only \"circle\""));
-  CHECK_THAT(faults_of("[footprint]\nlongest_leg = -1\n"), Catch::Contains("longest_leg = -1"));
-  CHECK_THAT(faults_of("[actuation]\nratio = 1.5\n"), Catch::Contains("from 0 to 1"));
-  CHECK_THAT(faults_of("[footprint]\nrods = 4\nlongest_leg = 1.0\n"),
+  CHECK_THAT(errors_of("[footprint]\nlongest_leg = -1\n"), Catch::Contains("longest_leg = -1"));
+  CHECK_THAT(errors_of("[actuation]\nratio = 1.5\n"), Catch::Contains("from 0 to 1"));
+  CHECK_THAT(errors_of("[footprint]\nrods = 4\nlongest_leg = 1.0\n"),
              Catch::Contains("expected at most R_o = 50 by [footprint] longest_leg"));
 }
 
 TEST_CASE("a key that the kind does not use is refused with its position and the reason") {
-  CHECK(faults_of("[footprint]\nkind = \"net\"\n[net]\nwaist = 0.4\n") ==
+  CHECK(errors_of("[footprint]\nkind = \"net\"\n[net]\nwaist = 0.4\n") ==
         "bad.toml:4:9: [net] waist = 0.4 has no effect, leave it out: [net] kind = \"sphere\" does "
         "not use it, only \"spool\" or \"beltrami\"");
-  CHECK(faults_of("[net]\nradius_mm = 80\n") ==
+  CHECK(errors_of("[net]\nradius_mm = 80\n") ==
         "bad.toml:2:13: [net] radius_mm = 80.0 has no effect, leave it out: [footprint] kind = "
         "\"circle\" does not use it, only \"net\"");
-  CHECK_THAT(faults_of("[footprint]\nkind = \"curve\"\nradius_mm = 90.0\nboundary = \"ellipse\"\n"
+  CHECK_THAT(errors_of("[footprint]\nkind = \"curve\"\nradius_mm = 90.0\nboundary = \"ellipse\"\n"
                        "[actuation]\nscale = 0.8\n"),
              Catch::StartsWith("bad.toml:3:13: [footprint] radius_mm") &&
                  Catch::Contains("[footprint] boundary = \"ellipse\" does not use it"));
-  CHECK_THAT(faults_of("[indentation]\ndirection = \"outward\"\n"),
+  CHECK_THAT(errors_of("[indentation]\ndirection = \"outward\"\n"),
              Catch::Contains("nothing is pushed"));
-  CHECK_THAT(faults_of("[dynamics]\nstep_s = 0.001\n"), Catch::Contains("no snap is followed"));
-  CHECK_THAT(faults_of("[rod]\nwidth_mm = 1.0\nthickness_mm = 0.5\nshear_GPa = 31.0\n"
+  CHECK_THAT(errors_of("[dynamics]\nstep_s = 0.001\n"), Catch::Contains("no snap is followed"));
+  CHECK_THAT(errors_of("[rod]\nwidth_mm = 1.0\nthickness_mm = 0.5\nshear_GPa = 31.0\n"
                        "diameter_mm = 0.3\n"),
              Catch::Contains("make the rods rectangular"));
-  CHECK_THAT(faults_of("[footprint]\nkind = \"blocks\"\n[[block]]\nname = \"a\"\n[[block]]\n"
+  CHECK_THAT(errors_of("[footprint]\nkind = \"blocks\"\n[[block]]\nname = \"a\"\n[[block]]\n"
                        "name = \"b\"\nwaist = 0.4\n"),
              Catch::Contains("bad.toml:7:9: [[block]] 2 waist") &&
                  Catch::Contains("[[block]] 2 kind = \"sphere\" does not use it"));
 }
 
 TEST_CASE("pictures have keys that others put out of use") {
-  CHECK_THAT(faults_of("[movie]\nview = \"top\"\nazimuth_deg = 10.0\n"),
+  CHECK_THAT(errors_of("[movie]\nview = \"top\"\nazimuth_deg = 10.0\n"),
              Catch::Contains("[movie] view replaces it"));
-  CHECK_THAT(faults_of("[page]\nphoto = \"a.png\"\n"), Catch::Contains("no page is made"));
-  CHECK(faults_of("[movie]\nazimuth_deg = 10.0\n", {{"--set", "movie.view", "top"}}) == "none");
+  CHECK_THAT(errors_of("[page]\nphoto = \"a.png\"\n"), Catch::Contains("no page is made"));
+  CHECK(errors_of("[movie]\nazimuth_deg = 10.0\n", {{"--set", "movie.view", "top"}}) == "none");
 }
 
 TEST_CASE("a default that is written out is no error, nor is what another kind uses") {
-  CHECK(faults_of("[net]\nwaist = 0.5\n") == "none");
-  CHECK(faults_of("[footprint]\nkind = \"net\"\n[net]\nkind = \"spool\"\nwaist = 0.4\n") == "none");
-  CHECK(faults_of("[footprint]\nkind = \"curve\"\nradius_mm = 90.0\n[actuation]\nscale = 0.8\n") ==
+  CHECK(errors_of("[net]\nwaist = 0.5\n") == "none");
+  CHECK(errors_of("[footprint]\nkind = \"net\"\n[net]\nkind = \"spool\"\nwaist = 0.4\n") == "none");
+  CHECK(errors_of("[footprint]\nkind = \"curve\"\nradius_mm = 90.0\n[actuation]\nscale = 0.8\n") ==
         "none");
 }
 
 TEST_CASE("one error is reported once: what a wrong kind would leave idle is not") {
-  const auto faults =
-      faults_of("[footprint]\nkind = \"net\"\n[net]\nkind = \"spol\"\nwaist = 0.4\n");
-  CHECK_THAT(faults, Catch::Contains("did you mean 'spool'") && !Catch::Contains("waist"));
+  const auto errors =
+      errors_of("[footprint]\nkind = \"net\"\n[net]\nkind = \"spol\"\nwaist = 0.4\n");
+  CHECK_THAT(errors, Catch::Contains("did you mean 'spool'") && !Catch::Contains("waist"));
 }
 
 TEST_CASE("what a case or --set lays over a kind leaves the keys below in peace") {
   const std::string spool = "[footprint]\nkind = \"net\"\n[net]\nkind = \"spool\"\nwaist = 0.4\n";
-  CHECK(faults_of(spool, {{"--set", "net.kind", "sphere"}}) == "none");
-  CHECK_THAT(faults_of(spool, {{"--set", "net.cut_height", "0.3"}}),
+  CHECK(errors_of(spool, {{"--set", "net.kind", "sphere"}}) == "none");
+  CHECK_THAT(errors_of(spool, {{"--set", "net.cut_height", "0.3"}}),
              Catch::StartsWith("--set: [net] cut_height"));
-  CHECK(faults_of(spool + "[[case]]\nname = \"a\"\nnet.kind = \"sphere\"\n") == "none");
-  CHECK_THAT(faults_of(spool + "[[case]]\nname = \"a\"\nnet.cut_height = 0.3\n"),
+  CHECK(errors_of(spool + "[[case]]\nname = \"a\"\nnet.kind = \"sphere\"\n") == "none");
+  CHECK_THAT(errors_of(spool + "[[case]]\nname = \"a\"\nnet.cut_height = 0.3\n"),
              Catch::StartsWith("bad.toml:8:18: [net] cut_height"));
 }
 
@@ -166,8 +166,8 @@ TEST_CASE("a key of the base may be for one of the cases") {
   const std::string base = "[footprint]\nkind = \"net\"\n[net]\nwaist = 0.4\n";
   const std::string cap = "[[case]]\nname = \"cap\"\n";
   const std::string saddle = "[[case]]\nname = \"saddle\"\nnet.kind = \"spool\"\n";
-  CHECK(faults_of(base + cap + saddle) == "none");
-  CHECK_THAT(faults_of(base + cap), Catch::Contains("[net] waist = 0.4 has no effect"));
+  CHECK(errors_of(base + cap + saddle) == "none");
+  CHECK_THAT(errors_of(base + cap), Catch::Contains("[net] waist = 0.4 has no effect"));
 }
 
 TEST_CASE("a preset is written without the keys that count for nothing, and reads back") {
@@ -198,13 +198,13 @@ TEST_CASE("values above those of any material, and joints larger than their dist
 }
 
 TEST_CASE("utilisation needs a strength, which is said once") {
-  CHECK_THAT(faults_of("[limits]\nmax_utilisation = 0.8\n"),
+  CHECK_THAT(errors_of("[limits]\nmax_utilisation = 0.8\n"),
              Catch::Contains("[rod] strength_MPa or yield_strain above 0"));
-  CHECK_THAT(faults_of("[movie]\ncolour_by = \"utilisation\"\n"),
+  CHECK_THAT(errors_of("[movie]\ncolour_by = \"utilisation\"\n"),
              Catch::Contains("[rod] strength_MPa or yield_strain above 0"));
-  CHECK_THAT(faults_of("[rod]\nstrength_MPa = 500.0\nyield_strain = 0.01\n"),
+  CHECK_THAT(errors_of("[rod]\nstrength_MPa = 500.0\nyield_strain = 0.01\n"),
              Catch::Contains("expected 0 for one of both"));
-  CHECK_THAT(faults_of("[rod]\nstrength_MPa = 500.0\n[rod_v]\ndiffers = true\n[limits]\n"
+  CHECK_THAT(errors_of("[rod]\nstrength_MPa = 500.0\n[rod_v]\ndiffers = true\n[limits]\n"
                        "max_utilisation = 0.8\n"),
              Catch::Contains("those of [rod_v] too"));
 }

@@ -92,19 +92,19 @@ TEST_CASE("an error names its position, key, value, what is wrong and what is ri
        "bad.toml:2:12: [figure] radii_mm: got [126.0, 80.0] (80 is not on the path), expected "
        "values that fall from at most R_o = 126 to at least R_a = 94.5"},
   }));
-  CHECK(faults_of(text) == sentence);
+  CHECK(errors_of(text) == sentence);
 }
 
 TEST_CASE("text that is not TOML is refused where it stops being it") {
-  CHECK_THAT(faults_of("title = \"x\"\nrods == 3"),
+  CHECK_THAT(errors_of("title = \"x\"\nrods == 3"),
              Catch::StartsWith("bad.toml:2:") && Catch::Contains(": not TOML: "));
   // a key given twice would silently win or lose
-  CHECK_THAT(faults_of("[rod]\nyoung_GPa = 1.0\nyoung_GPa = 2.0"),
+  CHECK_THAT(errors_of("[rod]\nyoung_GPa = 1.0\nyoung_GPa = 2.0"),
              Catch::StartsWith("bad.toml:3:") && Catch::Contains("redefine"));
 }
 
 TEST_CASE("all errors of a file are reported at once, in its order") {
-  CHECK(faults_of("[movie]\nfps = 0\n[footprint]\nradius_mm = -1\nrod = 3\n") ==
+  CHECK(errors_of("[movie]\nfps = 0\n[footprint]\nradius_mm = -1\nrod = 3\n") ==
         "bad.toml:2:7: [movie] fps: got 0 (out of range), expected an integer from 1 to "
         "240\nbad.toml:4:13: [footprint] radius_mm: got -1 (out of range), expected a number > "
         "0\nbad.toml:5:1: [footprint] rod: unknown key; did you mean 'rods'?");
@@ -112,7 +112,7 @@ TEST_CASE("all errors of a file are reported at once, in its order") {
 
 TEST_CASE("a refused value conflicts with nothing") {
   // the default of 126 mm, left behind by the refused -1, is not what the user wrote
-  CHECK(faults_of("[footprint]\nradius_mm = -1\n[actuation]\nradius_mm = 200.0") ==
+  CHECK(errors_of("[footprint]\nradius_mm = -1\n[actuation]\nradius_mm = 200.0") ==
         "bad.toml:2:13: [footprint] radius_mm: got -1 (out of range), expected a number > 0");
 }
 
@@ -131,13 +131,13 @@ TEST_CASE("an override (--set) lies over the file") {
     CHECK(good(text, {set("rod.young_GPa=1"), set("rod.young_GPa=2")}).base.rod.young_GPa == 2);
   }
   SECTION("errors name the option") {
-    CHECK(faults_of(text, {set("rod.diameter_mm=thick")}) ==
+    CHECK(errors_of(text, {set("rod.diameter_mm=thick")}) ==
           "--set: [rod] diameter_mm: got \"thick\" (a string), expected a number > 0");
-    CHECK(faults_of(text, {set("seed=up")}) ==
+    CHECK(errors_of(text, {set("seed=up")}) ==
           "--set: seed: unknown key; did you mean 'actuation.seed'?");
-    CHECK(faults_of(text, {set("foot.rods=3")}) ==
+    CHECK(errors_of(text, {set("foot.rods=3")}) ==
           "--set: [foot] rods: unknown table; did you mean 'footprint'?");
-    CHECK(faults_of(text, {set("footprint.radius_mm=90")}) ==
+    CHECK(errors_of(text, {set("footprint.radius_mm=90")}) ==
           "--set: [actuation] radius_mm: got 94.5 (larger than the footprint), expected at most "
           "[footprint] radius_mm = 90");
   }
@@ -193,7 +193,7 @@ TEST_CASE("cases need names that can be folders, each its own") {
        "bad.toml:3:23: [actuation] radius_mm: got 200.0 (larger than the footprint), expected at "
        "most [footprint] radius_mm = 126"},
   }));
-  CHECK(faults_of(text) == sentence);
+  CHECK(errors_of(text) == sentence);
 }
 
 TEST_CASE("lists of tables: blocks and joins, and what is wrong with them") {
@@ -251,7 +251,7 @@ second = "right.west"
        "bad.toml:9:8: [[block]] 1 east: got 0.5 (a number), expected an integer from -500 to 500, "
        "or \"none\""},
   }));
-  CHECK(faults_of(text) == sentence);
+  CHECK(errors_of(text) == sentence);
 }
 
 TEST_CASE("a case's list of tables replaces the file's") {
@@ -334,7 +334,7 @@ TEST_CASE("a file is read once all that says how is known, and reported") {
   CHECK_THAT(refusal(read("", "none.obj")),
              Catch::Contains("shell.toml:3:8: [footprint] file = \"none.obj\": cannot read"));
   CHECK_THAT(
-      faults_of("[footprint]\nkind = \"network\"\njoin_mm = 0.1\nfile = {points_mm = [[-9, 0, 0], "
+      errors_of("[footprint]\nkind = \"network\"\njoin_mm = 0.1\nfile = {points_mm = [[-9, 0, 0], "
                 "[9, 0, 0], [0, 9, 0], [0, 0, 0]], rods = [[0, 3, 1], [3, 2]]}\n"),
       Catch::Contains("join_mm = 0.1: is of a file that"));
 }

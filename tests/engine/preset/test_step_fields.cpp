@@ -136,5 +136,5 @@ TEST_CASE(
        "\"push\" instead of it"},
       {"[step]\ndo = \"rest\"", "bad.toml:1:2: step: expected tables, each [[step]]"},
   }));
-  CHECK(faults_of(text) == sentence);
+  CHECK(errors_of(text) == sentence);
 }

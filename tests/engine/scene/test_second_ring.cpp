@@ -102,7 +102,7 @@ TEST_CASE("a cap with a second ring reaches one state from the flat, from the ne
 TEST_CASE(
     "a second ring is refused where there is no net, or where directions are prescribed already") {
   const auto refused = [](const std::string& text, const char* reason) {
-    CHECK_THAT(preset::faults_of(text), Catch::Contains(reason));
+    CHECK_THAT(preset::errors_of(text), Catch::Contains(reason));
   };
   refused("[ends]\nsecond_ring_mm = 10.0\n", "this footprint has none");
   refused("[footprint]\nkind = \"net\"\n[ends]\nkind = \"tangent\"\nsecond_ring_mm = 10.0\n",

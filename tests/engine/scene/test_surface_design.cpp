@@ -129,7 +129,7 @@ TEST_CASE("of a net that is refused there is a picture to draw, of another there
 
 TEST_CASE("a preset names the surface once, and a point of it") {
   const auto wrong = [](const std::string& net, const char* reason) {
-    CHECK_THAT(preset::faults_of("[footprint]\nkind = \"net\"\n[net]\nkind = \"surface\"\n" + net),
+    CHECK_THAT(preset::errors_of("[footprint]\nkind = \"net\"\n[net]\nkind = \"surface\"\n" + net),
                Catch::Contains(reason));
   };
   wrong("", "needs an expression");

@@ -65,7 +65,7 @@ Change camera(std::function<void(Camera&)> change) {
   return [change](Subject& s) { s.spoil = [change](Drawing&, Camera& c) { change(c); }; };
 }
 
-const std::map<std::string, Change>& faults() {
+const std::map<std::string, Change>& errors() {
   static const std::map<std::string, Change> all{
       {"a lost rod", [](Subject& s) { s.run.layout.rods.erase(s.run.layout.rods.begin() + 5); }},
       {"a lost cell", drawing([](Drawing& d) { d.cell_colours[40].a = 0; })},
@@ -125,8 +125,8 @@ Change perturbed(double size_mm, int seed) {
 TEST_CASE("the metric catches every injected error", "[image][image][standard]") {
   Easel paint;
   const Image good = paint(Subject());
-  CHECK(faults().size() >= 20);
-  for (const auto& [name, change] : faults()) {
+  CHECK(errors().size() >= 20);
+  for (const auto& [name, change] : errors()) {
     Subject subject;
     change(subject);
     const auto worst = value_of(compare(good, paint(subject)));
