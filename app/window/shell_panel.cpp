@@ -253,7 +253,7 @@ struct SizeChoice {
 };
 constexpr SizeChoice sizes[] = {{0, 0}, {1280, 720}, {1920, 1080}, {3840, 2160}};
 
-std::string text_of(const SizeChoice& size) {
+std::string size_text(const SizeChoice& size) {
   return size.width == 0 ? "twice the view" : fmt::format("{} x {}", size.width, size.height);
 }
 
@@ -265,9 +265,9 @@ void keep(const Panel& panel) {
   ImGui::SameLine();
   panel.button("save_movie");
   ImGui::SetNextItemWidth(panel.px(120));
-  if (ImGui::BeginCombo("##size", text_of({picture.width, picture.height}).c_str())) {
+  if (ImGui::BeginCombo("##size", size_text({picture.width, picture.height}).c_str())) {
     for (const SizeChoice& size : sizes)
-      if (ImGui::Selectable(text_of(size).c_str(), size.width == picture.width))
+      if (ImGui::Selectable(size_text(size).c_str(), size.width == picture.width))
         picture.width = size.width, picture.height = size.height;
     int requested[2] = {picture.width, picture.height};
     if (ImGui::InputInt2("##asked", requested, ImGuiInputTextFlags_EnterReturnsTrue))
