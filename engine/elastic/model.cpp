@@ -32,11 +32,12 @@ Result<void> check(int index, int nodes, const ModelRod& rod, RodModel rod_model
   const auto wrong = [&](const std::string& what) { return invalid("rod {}: {}", index, what); };
   const RodMaterial& m = rod.material;
   if (rod.position.size() != rod.nodes.size() && !rod.closed())
-    return wrong(fmt::format("{} nodes and {} arc lengths", rod.nodes.size(), rod.position.size()));
+    return wrong(fmt::format("got {} nodes and {} arc lengths, expected as many of each",
+                             rod.nodes.size(), rod.position.size()));
   if (rod.nodes.size() < 2) return wrong("has no edge");
   for (int node : rod.nodes)
     if (node < 0 || node >= nodes)
-      return wrong(fmt::format("node {} does not exist, there are {}", node, nodes));
+      return wrong(fmt::format("got node {}, expected a number below {}", node, nodes));
   for (std::size_t k = 1; k < rod.position.size(); ++k)
     if (!(rod.position[k] > rod.position[k - 1]))
       return wrong(fmt::format("arc lengths: got {} after {}, expected ascending values",

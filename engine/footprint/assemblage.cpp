@@ -323,7 +323,7 @@ double Seam::max_kink_deg() const {
 
 Result<Assemblage> Assemblage::make(std::vector<Block> blocks, const std::vector<Join>& joins,
                                     double max_gap) {
-  if (blocks.empty()) return invalid("there is no block to assemble");
+  if (blocks.empty()) return invalid("got no block, expected at least one");
   auto places = std::make_shared<Places>();
   for (Block& block : blocks) places->push_back({std::move(block)});
   TRY_DO(check_sides(*places, joins));

@@ -191,7 +191,7 @@ Result<Footprint> cut_footprint(const Domain& domain, double spacing, Placement 
 constexpr double short_leg = 1e-3;
 
 Result<Footprint> circular_footprint(double radius, int rods, double spacing, Placement placement) {
-  if (rods < 2) return invalid("{} rod a direction makes no cell: take at least 2", rods);
+  if (rods < 2) return invalid("rods: got {} per direction, expected at least 2", rods);
   if (rods > 1000) return invalid("rods: got {} per direction, expected at most 1000", rods);
   const bool even = rods % 2 == 0;
   if (even != (placement == Placement::half))

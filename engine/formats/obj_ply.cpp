@@ -100,7 +100,7 @@ Result<Property> property_of(const std::vector<std::string_view>& words, const s
   const auto value = number_type(words[words.size() - 2]);
   if (list) property.count = number_type(words[2]);
   if (!value || (list && !property.count))
-    return invalid(place + ": names a type that PLY does not have");
+    return invalid(place + ": got a type that PLY does not have");
   property.value = *value;
   return property;
 }
@@ -119,7 +119,7 @@ Result<Header> read_header(std::string_view& bytes, const std::string& name) {
     if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
     if (words[0] == "end_header") {
       if (formed) return header;
-      return invalid(place + ": the header names no format");
+      return invalid(place + ": got a header without a format");
     }
     if (words[0] == "format" && words.size() == 3) {
       formed = true;
@@ -146,7 +146,7 @@ Result<Header> read_header(std::string_view& bytes, const std::string& name) {
       header.elements.back().properties.push_back(std::move(*property));
       continue;
     }
-    return invalid(place + ": is no line of a PLY header");
+    return invalid(place + ": got no line of a PLY header");
   }
   return invalid(name + ": ends within its header");
 }

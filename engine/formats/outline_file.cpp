@@ -120,7 +120,7 @@ Result<PlanDrawing> read_obj_outline(std::string_view bytes, const std::string& 
     line.closed = faces;
     for (const long number : numbers) {
       if (number < 0 || number >= long(points.size()))
-        return invalid("{}: names vertex {}, and there are {}", place, number + 1, points.size());
+        return invalid("{}: got vertex {}, expected at most {}", place, number + 1, points.size());
       line.points.push_back(points[std::size_t(number)]);
     }
     return {};

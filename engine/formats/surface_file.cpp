@@ -37,7 +37,7 @@ Result<void> MeshBuilder::add_polygon(const std::vector<long>& corners, const st
   std::vector<int> ring;
   for (const long corner : corners) {
     if (corner < 0 || corner >= long(number_.size()))
-      return invalid("{}: names a vertex that is none of the {} before it", place, number_.size());
+      return invalid("{}: got a vertex that is none of the {} before it", place, number_.size());
     ring.push_back(number_[std::size_t(corner)]);
   }
   if (mesh_.triangles.size() + ring.size() - 2 > most_triangles)
@@ -239,7 +239,7 @@ Result<SurfaceData> read_stl(std::string_view bytes, const std::string& name, do
   const std::size_t first = std::min(text.find_first_not_of(" \t\r\n"), text.size());
   if (lower(text.substr(first, 5)) == "solid") return read_text(text, name, unit_mm);
   return invalid(
-      "{}: no STL: begins without \"solid\", and its {} bytes are not those of the {} "
+      "{}: got no STL: it begins without \"solid\", and its {} bytes are not those of the {} "
       "triangles that it says",
       name, bytes.size(), count_in(bytes));
 }

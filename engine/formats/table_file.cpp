@@ -190,7 +190,7 @@ class TableReader {
       for (std::size_t c = 0; c < cells.size(); ++c) {
         const ColumnName named = column_name(cells[c]);
         if (named.base != requested.base) continue;
-        if (at) return invalid("{}: names column {} twice", place(line), requested_[k].name);
+        if (at) return invalid("{}: got column {} twice", place(line), requested_[k].name);
         at = c;
         TRY_DO(take_unit(k, named, requested, line));
       }
@@ -200,7 +200,7 @@ class TableReader {
         missing.push_back(requested_[k].name);
     }
     if (!missing.empty())
-      return invalid("{}: names columns '{}', of which {} {} missing (a remark begins with #)",
+      return invalid("{}: got columns '{}', of which {} {} missing (a remark begins with #)",
                      place(line), shortened(fmt::format("{}", fmt::join(cells, "', '"))),
                      fmt::join(missing, ", "), missing.size() > 1 ? "are" : "is");
     place_ = found;

@@ -29,7 +29,7 @@ Result<Eigen::Matrix2Xd> cleaned(const Eigen::Matrix2Xd& given) {
   if (points.cols() > 1 && points.col(0) == points.col(points.cols() - 1))
     points.conservativeResize(2, points.cols() - 1);
   const Eigen::Index n = points.cols();
-  if (n < 3) return invalid("a closed curve needs at least 3 points, not {}", n);
+  if (n < 3) return invalid("a closed curve: got {} points, expected at least 3", n);
   double area = 0;
   for (Eigen::Index k = 0; k < n; ++k) {
     if (!points.col(k).allFinite())

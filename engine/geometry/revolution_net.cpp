@@ -131,7 +131,8 @@ Result<Profile> tabulated_profile(const Eigen::Matrix2Xd& r_z) {
 
 Result<RevolutionNet> RevolutionNet::make(Profile profile, double c) {
   const double cr = c * profile.at(profile.origin).r;
-  if (!(c > 0)) return invalid("a net on the {} needs c > 0, not {:g} / mm", profile.name, c);
+  if (!(c > 0))
+    return invalid("c of the net on the {}: got {:g} / mm, expected above 0", profile.name, c);
   if (!exists(profile, c, profile.origin))
     return invalid(
         "no net exists on the {} with c = {:g} / mm: in its middle sin(omega/2) = c r is "

@@ -44,7 +44,7 @@ Eigen::MatrixXd second_derivatives(const std::vector<double>& t, const Eigen::Ma
 
 Result<SplineCurve> SplineCurve::through(const Eigen::MatrixXd& points) {
   const Eigen::Index n = points.cols();
-  if (n < 4) return invalid("a curve needs at least 4 points, not {}", n);
+  if (n < 4) return invalid("a curve: got {} points, expected at least 4", n);
   for (Eigen::Index k = 0; k < n; ++k)
     if (!points.col(k).allFinite()) return invalid("point {} of the curve is not finite", k + 1);
   SplineCurve curve;

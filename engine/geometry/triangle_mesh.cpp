@@ -65,7 +65,7 @@ Result<Eigen::Matrix3Xd> used_vertices(const Eigen::Matrix3Xd& all, Triangles& t
   for (auto& triangle : triangles)
     for (int& corner : triangle) {
       if (corner < 0 || corner >= all.cols())
-        return invalid("a triangle names vertex {} of {}", corner, all.cols());
+        return invalid("got vertex {} in a triangle, expected one of {}", corner, all.cols());
       int& number = now[std::size_t(corner)];
       if (number < 0) {
         number = int(used.size());
@@ -179,8 +179,8 @@ tl::unexpected<Error> mesh_error(const std::string& what, const Eigen::Vector3d&
 }
 
 Result<TriangleMesh> TriangleMesh::make(const Eigen::Matrix3Xd& vertices, Triangles triangles) {
-  if (triangles.empty()) return invalid("the mesh has no triangle");
-  if (!vertices.allFinite()) return invalid("a vertex of the mesh is not finite");
+  if (triangles.empty()) return invalid("got a mesh without a triangle");
+  if (!vertices.allFinite()) return invalid("got a vertex that is not finite");
   TRY(used, used_vertices(vertices, triangles));
   const Eigen::Matrix3Xd& x = *used;
   TRY(sides, sides_of(x, triangles));

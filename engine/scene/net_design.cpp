@@ -92,7 +92,7 @@ Result<Block> block_of(const preset::Block& requested, const preset::Footprint& 
 Result<BlockSide> block_side(const preset::Preset& preset, const std::string& name) {
   const auto side = preset::side_named(preset, name);
   const auto facing = side ? find_word<Side>(side->side) : std::nullopt;
-  if (!facing) return invalid("\"{}\" is no side of a block", name);
+  if (!facing) return invalid("got \"{}\", expected a side of a block", name);
   return BlockSide{side->block, *facing};
 }
 

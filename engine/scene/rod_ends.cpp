@@ -120,8 +120,9 @@ Result<void> apply_ends_table(const preset::Points& table, Scene& scene) {
     };
     const auto found = named.find(name);
     if (found == named.end() || double(int(row[1])) != row[1])
-      return wrong("the footprint has no such fixed end");
-    if (seen[name] == found->second.size()) return wrong("named more often than it is there");
+      return wrong("got no end of the footprint that is fixed");
+    if (seen[name] == found->second.size())
+      return wrong("got more rows than the footprint has of it");
     const Eigen::Index k = found->second[seen[name]++];
     if (!(row[6] > 0)) return wrong("got a leg without length, expected above 0 mm");
     ends.at.col(k) << row[3], row[4], row[5];

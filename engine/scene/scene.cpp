@@ -89,8 +89,8 @@ Result<std::vector<preset::Rod>> rods_of(const preset::Preset& preset, const Foo
            (named[at] || footprint.rods[at].family != family || footprint.rods[at].index != row[1]))
       ++at;
     if (at == rods.size())
-      return wrong("the footprint has no such rod, or it is named more often than it is there");
-    if (rods[at].rectangular()) return wrong("is rectangular, it has no diameter");
+      return wrong("got no such rod, or more rows than the footprint has of it");
+    if (rods[at].rectangular()) return wrong("got a diameter of a rectangular rod, expected none");
     named[at] = true;
     rods[at].diameter_mm = row[2];
   }

@@ -165,7 +165,7 @@ Result<void> not_on_boundary(const Footprint& footprint, int joint) {
       footprint.is_sprung(joint))
     return {};
   const FootprintJoint& at = footprint.joints[std::size_t(joint)];
-  return invalid("joint [{}, {}] is a support: nothing can push it", at.i, at.j);
+  return invalid("joint: got [{}, {}], which is a support, expected a free joint", at.i, at.j);
 }
 
 Result<int> pushed_joint(const preset::Indentation& indentation, const Footprint& footprint,
@@ -173,7 +173,7 @@ Result<int> pushed_joint(const preset::Indentation& indentation, const Footprint
   if (indentation.joint.size() == 2) {
     const int joint = joint_at(footprint, indentation.joint[0], indentation.joint[1]);
     if (joint >= 0) return joint;
-    return invalid("[indentation] joint = [{}, {}]: the footprint has no such joint",
+    return invalid("[indentation] joint: got [{}, {}], expected a joint of the footprint",
                    indentation.joint[0], indentation.joint[1]);
   }
   const Eigen::VectorXd height = joints.row(2).transpose();

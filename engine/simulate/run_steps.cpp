@@ -249,8 +249,8 @@ Result<void> check_steps(const std::vector<preset::Step>& steps, const Footprint
       if (std::ranges::none_of(footprint.cells, [&](const FootprintCell& one) {
             return one.i == cell[0] && one.j == cell[1];
           }))
-        return invalid("[[step]] {} cells: the footprint has no cell [{:g}, {:g}]", k + 1, cell[0],
-                       cell[1]);
+        return invalid("[[step]] {} cells: got [{:g}, {:g}], expected a cell of the footprint",
+                       k + 1, cell[0], cell[1]);
     if (step.kind == preset::StepKind::brace && footprint.cells.empty())
       return invalid("[[step]] {}: the footprint has no cells to brace", k + 1);
     if (step.kind == preset::StepKind::tighten || step.kind == preset::StepKind::open)
@@ -259,7 +259,8 @@ Result<void> check_steps(const std::vector<preset::Step>& steps, const Footprint
     if (step.kind != preset::StepKind::release) continue;
     if (step.what != preset::Released::joints) {
       if (strengthened.erase(step.what) > 0) continue;
-      return invalid("[[step]] {} what: there are no {} to take out", k + 1, word_of(step.what));
+      return invalid("[[step]] {} what: got {}, of which there are none, expected others", k + 1,
+                     word_of(step.what));
     }
     if (one ? !held.contains(step.joint) : held.empty())
       return invalid(

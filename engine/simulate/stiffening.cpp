@@ -38,9 +38,10 @@ Result<std::vector<double>> openings(const preset::Step& step, const Footprint& 
   for (const auto& row : step.angles) {
     const int joint = joint_at(footprint, int(row[0]), int(row[1]));
     if (joint < 0 || now.rods[std::size_t(joint)].size() != 2)
-      return invalid("angles: [{:g}, {:g}] is no joint where two rods cross", row[0], row[1]);
+      return invalid("angles: got [{:g}, {:g}], expected a joint where two rods cross", row[0],
+                     row[1]);
     if (!std::isnan(by[std::size_t(joint)]))
-      return invalid("angles: [{:g}, {:g}] is in the list twice", row[0], row[1]);
+      return invalid("angles: got [{:g}, {:g}] twice, expected it once", row[0], row[1]);
     by[std::size_t(joint)] = row[2] * rad - rest(std::size_t(joint));
   }
   if (step.angles.empty()) {
@@ -168,7 +169,7 @@ Result<Report> brace(Simulation& simulation, const preset::Step& step, const Wat
     }
   }
   if (rods.braces.size() == simulation.rods().braces.size())
-    return invalid("the footprint has no such cells");
+    return invalid("got cells that the footprint does not have");
   return simulation.set_rods(rods, watch);
 }
 
@@ -176,7 +177,7 @@ Result<Report> take_out(Simulation& simulation, preset::Released what, const Wat
   ShellRods rods = simulation.rods();
   const bool bolts = what == preset::Released::bolts;
   if (bolts ? !rods.bolts : rods.braces.empty())
-    return invalid("there are no {} to take out", word_of(what));
+    return invalid("got no {}, expected some to take out", word_of(what));
   if (bolts)
     rods.bolts.reset();
   else
@@ -188,7 +189,8 @@ Result<Report> bring_case(Simulation& simulation, const std::string& name, doubl
                           const Watch& watch) {
   const Scene& scene = simulation.scene();
   const auto known = std::ranges::find(scene.load_cases, name, &LoadCase::name);
-  if (known == scene.load_cases.end()) return invalid("there is no load case \"{}\"", name);
+  if (known == scene.load_cases.end())
+    return invalid("got load case \"{}\", expected the name of a [[loads.case]]", name);
   auto& cases = simulation.cases;
   auto on = std::ranges::find(cases, name, &CaseOnShell::name);
   if (on == cases.end())

@@ -231,7 +231,7 @@ Result<std::vector<AccuracyRow>> sizes_study(const preset::Preset& preset,
                                              const AccuracyOptions& options, Watch& watch) {
   constexpr double tolerances[] = {1e-2, 1e-3, 1e-4};
   if (preset.footprint.kind != preset::FootprintKind::circle)
-    return invalid("--sizes are of a circle: [footprint] kind is another");
+    return invalid("--sizes: got another kind of footprint, expected [footprint] kind \"circle\"");
   keep_blas_on_one_thread();
   std::vector<AccuracyRow> rows;
   for (std::size_t k = 0; k < sizes.size(); ++k) {

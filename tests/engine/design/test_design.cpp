@@ -228,7 +228,7 @@ TEST_CASE("rods have the diameters of their table, and what is wrong with it is 
     wrong.rod_table = std::move(table);
     CHECK_THAT(refusal(scene_of(wrong)), Catch::Contains(reason));
   };
-  refused({{0, 99, 0.3}}, "no such rod");
+  refused({{0, 99, 0.3}}, "got no such rod");
   refused({{0, 0, 0.3}, {0, 0, 0.3}}, "more often than it is there");
   refused({{1, 0, -0.3}}, "expected above 0");
   refused({{1, 0, 30}}, "less than [footprint] spacing_mm");

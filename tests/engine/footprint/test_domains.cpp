@@ -114,7 +114,7 @@ TEST_CASE("closed curves: lengths, nearest points, and what is refused") {
   CHECK_THAT(refusal(ClosedCurve::polygon(points({{0, 0}, {10, 10}, {10, 0}, {0, 8}}))),
              Catch::StartsWith("the closed curve crosses itself near ("));
   CHECK(refusal(ClosedCurve::polygon(points({{0, 0}, {1, 1}}))) ==
-        "a closed curve needs at least 3 points, not 2");
+        "a closed curve: got 2 points, expected at least 3");
   CHECK(refusal(ClosedCurve::spline(points({{0, 0}, {1, 1}, {1, 1}, {0, 3}}))) ==
         "points 2 and 3 of the closed curve are the same");
   CHECK(refusal(ClosedCurve::polygon(points({{0, 0}, {1, NAN}, {1, 2}}))) ==

@@ -52,7 +52,7 @@ TEST_CASE("footprint: what makes no sense is refused with its reason") {
     return refusal(circular_footprint(radius, rods, spacing, placement));
   };
   CHECK(message(126, 1, 20, Placement::on_axis) ==
-        "1 rod a direction makes no cell: take at least 2");
+        "rods: got 1 per direction, expected at least 2");
   CHECK(message(126, 11, 20, Placement::half) ==
         "11 rods a direction do not fit placement \"half\": rods at (i + 1/2) d (\"half\") are an "
         "even number, rods at i d (\"on_axis\") an odd one");

@@ -105,7 +105,7 @@ TEST_CASE("what is no cloud is refused with its position") {
   CHECK(error_of("1 2 3e10\n", "a.csv") ==
         "a.csv:1: got a coordinate that is too large, expected a number of at most 1e9");
   CHECK(error_of("u,v\n1,2\n", "a.csv") ==
-        "a.csv:1: names columns 'u', 'v', of which x, y, z are missing (a remark begins with #)");
+        "a.csv:1: got columns 'u', 'v', of which x, y, z are missing (a remark begins with #)");
   CHECK(error_of("1 2 3\n", "a.obj") ==
         "a.obj: expected a name that ends in .ply, .xyz, .txt, .asc, .csv or .pts");
   CHECK(error_of("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n",

@@ -119,11 +119,11 @@ TEST_CASE("an OBJ is an outline by its lines, else by its faces") {
   const std::string points = "v 0 0 0\nv 10 0 0\nv 10 10 3\nv 0 10 0\n";
   CHECK(outline(points + "l 1 2 3 4 1\n", "a.obj").area == Approx(100));
   CHECK(outline(points + "f 1 2 3 4\n", "a.obj").area == Approx(100));
-  CHECK_THAT(refused(points + "l 1 2 9\n", "a.obj"), Contains("names vertex 9"));
+  CHECK_THAT(refused(points + "l 1 2 9\n", "a.obj"), Contains("got vertex 9"));
 }
 
 TEST_CASE("what is no outline is refused with its position") {
-  CHECK_THAT(refused("<html/>", "a.svg"), Contains("a.svg: is no SVG"));
+  CHECK_THAT(refused("<html/>", "a.svg"), Contains("a.svg: got no <svg>"));
   CHECK_THAT(refused(svg("\n<path d=\"M 0 0 L 5\"/>"), "a.svg"),
              Contains("a.svg:4: <path> has a 'L' with fewer numbers than 2"));
   CHECK_THAT(refused(svg("<path d=\"M0 0 X 5\"/>"), "a.svg"), Contains("a command 'X'"));

@@ -146,7 +146,7 @@ TEST_CASE("what is no mesh is refused with its position") {
   wrong("v 1 2\n", "a.obj", "a.obj:1: expected a vertex of three numbers");
   wrong("v 1 2 nan\n", "a.obj", "a.obj:1: expected a vertex of three numbers");
   wrong("v 1 2 1e300\n", "a.obj", "too large");
-  wrong(obj + "f 1 2 7\n", "a.obj", "a.obj:8: names a vertex that is none of the 4");
+  wrong(obj + "f 1 2 7\n", "a.obj", "a.obj:8: got a vertex that is none of the 4");
   wrong(obj + "f 1 2 x\n", "a.obj", "a.obj:8: 'x' is no vertex");
   wrong(obj + "f 1 2\n", "a.obj", "a polygon of 2 corners");
   wrong("a mesh", "a.stl", "no STL");
@@ -155,7 +155,7 @@ TEST_CASE("what is no mesh is refused with its position") {
   wrong("solid\nvertex 1 2 inf\n", "a.stl", "a.stl:2: expected a vertex of three numbers");
   wrong("plywood\n", "a.ply", "a.ply:1: no PLY");
   wrong("ply\nformat ascii 1.0\nelement vertex 3\n", "a.ply", "ends within its header");
-  wrong("ply\nformat morse 1.0\n", "a.ply", "a.ply:2: is no line of a PLY header");
+  wrong("ply\nformat morse 1.0\n", "a.ply", "a.ply:2: got no line of a PLY header");
   wrong("ply\nformat ascii 1.0\nelement vertex 1\nproperty quaternion x\n", "a.ply",
         "a type that PLY does not have");
   const auto cut = ply_bytes(false);

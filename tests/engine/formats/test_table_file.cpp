@@ -55,9 +55,9 @@ TEST_CASE("columns are found by their names, wherever they are, and lengths in t
         Points{{3, 2, 4, 5, -1}});
   wrong("x [furlong],y\n1,2\n", "t.csv:1: column x: got 'furlong', expected mm, cm, m, in or ft");
   wrong("Fx [kN],Fy\n1,2\n", "column F_x is in 'kn'", {"F_x", "F_y"});
-  wrong("x,z\n1,2\n", "t.csv:1: names columns 'x', 'z', of which y is missing");
-  wrong("x,y,X\n1,2,3\n", "t.csv:1: names column x twice");
-  wrong("Outline of the shell\nx,y\n1,2\n", "t.csv:1: names columns 'Outline");
+  wrong("x,z\n1,2\n", "t.csv:1: got columns 'x', 'z', of which y is missing");
+  wrong("x,y,X\n1,2,3\n", "t.csv:1: got column x twice");
+  wrong("Outline of the shell\nx,y\n1,2\n", "t.csv:1: got columns 'Outline");
 }
 
 TEST_CASE("a row that cannot be read is refused with its line, never left out") {

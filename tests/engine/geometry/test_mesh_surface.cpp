@@ -99,8 +99,8 @@ TEST_CASE("what is no smooth sheet is refused with the position") {
         "near");
   wrong(changed([](DomeMesh& d) { d.vertices.col(2) = d.vertices.col(1); }), "no area");
   wrong(changed([](DomeMesh& d) { d.vertices(0, 7) = std::nan(""); }), "not finite");
-  wrong(changed([](DomeMesh& d) { d.triangles.front()[1] = 99999; }), "names vertex 99999");
-  wrong({Eigen::Matrix3Xd(3, 0), {}}, "no triangle");
+  wrong(changed([](DomeMesh& d) { d.triangles.front()[1] = 99999; }), "got vertex 99999");
+  wrong({Eigen::Matrix3Xd(3, 0), {}}, "without a triangle");
   const DomeMesh one = cap();
   const int count = int(one.vertices.cols());
   DomeMesh two{Eigen::Matrix3Xd(3, 2 * count), one.triangles};

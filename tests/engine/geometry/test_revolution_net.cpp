@@ -169,5 +169,6 @@ TEST_CASE("profiles: what is no surface is refused") {
         "radius of point 3 of the profile: got -3 mm, expected above 0");
   r_z(0, 2) = std::nan("");
   CHECK(refusal(tabulated_profile(r_z)) == "point 3 of the curve is not finite");
-  CHECK(refusal(tabulated_profile(r_z.leftCols(3))) == "a curve needs at least 4 points, not 3");
+  CHECK(refusal(tabulated_profile(r_z.leftCols(3))) ==
+        "a curve: got 3 points, expected at least 4");
 }

@@ -107,7 +107,7 @@ TEST_CASE("hostile sweeps are reported with file, line and key") {
       Contains("bad.toml:3:1") &&
           Contains("[sweep.over] rod.diameter_mm: got \"thick\" (a string), expected a number"));
   CHECK_THAT(errors_of(over("rod.diameter_mm = [0.2, -1, nan]")),
-             Contains("-1: out of range") && Contains("nan: is not finite"));
+             Contains("-1 (out of range)") && Contains("nan (not finite)"));
   CHECK_THAT(errors_of(over("rod.diameter_mm = 0.2")),
              Contains("expected a list of values or { from, to, count }"));
   CHECK_THAT(errors_of(over("rod.diameter_mm = [0.2, 0.20]")), Contains("stands there twice"));

@@ -101,7 +101,7 @@ TEST_CASE("a summary that is none is refused by its key") {
         "\"limit\": got \"crackle\", expected one of \"none\", \"locking\", \"snap\", "
         "\"branch_lost\", "
         "\"no_equilibrium\", \"strength\", \"contact\"");
-  CHECK(refusal("{", "[") == "not a JSON object");
+  CHECK(refusal("{", "[") == "got no JSON object");
 }
 
 TEST_CASE("a summary of version 0.1 is read, what it did not say is unknown") {

@@ -154,7 +154,7 @@ TEST_CASE("parts that do not fit each other are neither written nor read") {
   CHECK(refused([](Trajectory& run) { run.layout.cells[0].joints[3] = -1; }) ==
         "cell 0 names joint -1 of 4");
   CHECK(refused([](Trajectory& run) { run.frames.edit()[0].cell_K.resize(0); }) ==
-        "frame 0 has 0 values of cell_K for 1 cells");
+        "frame 0: got 0 values of cell_K, expected 1");
   CHECK(refused([](Trajectory& run) { run.frames.edit()[2].axial_force_N.resize(11); }) ==
         "axial_force_N of frame 2: got 11 values, expected 12");
   CHECK(refused([](Trajectory& run) { run.layout.families.pop_back(); }) ==

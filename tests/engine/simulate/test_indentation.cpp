@@ -221,7 +221,7 @@ TEST_CASE("a push that ends at a limit after snaps names both", "[standard]") {
 TEST_CASE("a joint that is not there is refused") {
   preset::Preset p = hemisphere(Case::pole_inward, 120, Placement::on_axis);
   p.indentation.joint = {40, 0};
-  CHECK_THAT(refused_run(p), Catch::Contains("no such joint"));
+  CHECK_THAT(refused_run(p), Catch::Contains("expected a joint of the footprint"));
 }
 
 TEST_CASE("pushes on the twist model are those of the bend model, to a millionth of rho") {

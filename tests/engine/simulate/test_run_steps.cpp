@@ -167,7 +167,7 @@ TEST_CASE("steps on what is not there are errors with their number") {
   CHECK_THAT(refusal(simulate::plan(preset)), Catch::StartsWith("[[step]] 2: no joint is fixed"));
   preset::Step edge = of(StepKind::move);
   edge.edge_points = {{400, 1, 0, 0}};
-  CHECK_THAT(refused(edge), Catch::Contains("there is no edge point 400, they go from 0 to 23"));
+  CHECK_THAT(refused(edge), Catch::Contains("got edge point 400, expected 0 to 23"));
 }
 
 TEST_CASE("a push that no mesh follows ends the run with its reason, and draws no load") {

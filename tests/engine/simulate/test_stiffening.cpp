@@ -165,7 +165,7 @@ TEST_CASE(
   CHECK(!simulation.rods().bolts);
   CHECK(max_column_norm(simulation.nodes() - shape) < 1e-3);
   CHECK(refusal(apply_step(simulation, out, unwatched), Fault::bad_input) ==
-        "there are no bolts to take out");
+        "got no bolts, expected some to take out");
   simulation.restore(before);
   CHECK(max_column_norm(simulation.nodes() - shape) == 0);
 }
@@ -180,8 +180,9 @@ TEST_CASE("what is made stiff too early, or is not there, is named") {
   p.step = {step(StepKind::brace)};
   p.step[0].cells = {{40, 2}};
   CHECK(refusal(plan(p), Fault::bad_input) ==
-        "[[step]] 1 cells: the footprint has no cell [40, 2]");
+        "[[step]] 1 cells: got [40, 2], expected a cell of the footprint");
   p.step = {step(StepKind::release)};
   p.step[0].what = preset::Released::braces;
-  CHECK(refusal(plan(p), Fault::bad_input) == "[[step]] 1 what: there are no braces to take out");
+  CHECK(refusal(plan(p), Fault::bad_input) ==
+        "[[step]] 1 what: got braces, of which there are none, expected others");
 }
