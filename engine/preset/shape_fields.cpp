@@ -111,7 +111,7 @@ void add_footprint(std::vector<Field>& all) {
       .needs_twist("clamped ends of the file prescribe the rods' twist angle",
                    [=](const Footprint& of) { return network(of) && clamps(of.file); });
   const char* of_a_file =
-      "is of a file that `file` names: rods listed here are in mm and as joined";
+      "it is for a file that `file` names, expected none: rods listed here are in mm and joined";
   list.add<&Footprint::file_unit>(
           "unit of a drawing (.obj, .dxf, .svg), of [actuation] file too; \"file\": the one that "
           "it names, else mm")
@@ -291,8 +291,9 @@ void add_surface(FieldList<Net> net) {
   surface().refused({"implicit", "height"}, twice,
                     [=](const Net& of) { return given(of) > 1 && !of.file.empty(); });
   net.add<&Net::file_unit>("unit of the file's numbers; \"file\": the one that it names, else mm");
-  surface().refused({"file"}, "is of a file that `file` names: a surface listed here is in mm",
-                    [](const Net& of) { return of.file_unit != FileUnit::file; });
+  surface().refused(
+      {"file"}, "it is for a file that `file` names, expected none: a surface listed here is in mm",
+      [](const Net& of) { return of.file_unit != FileUnit::file; });
   const auto mesh = [](const Net& of) { return of.kind == NetKind::surface && of.file.is_mesh(); };
   const auto of_mesh = [&] {
     surface().unused({"file"}, "only a net on a mesh of triangles uses it",

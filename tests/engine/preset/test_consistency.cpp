@@ -103,7 +103,7 @@ TEST_CASE("a circle is as large as its radius says, or its longest leg, and not 
              Catch::Contains("[actuation] ratio replaces it"));
   CHECK_THAT(errors_of("[footprint]\nkind = \"net\"\nlongest_leg = 1.5\n"),
              Catch::Contains("does not use it, only \"circle\""));
-  CHECK_THAT(errors_of("[footprint]\nlongest_leg = -1\n"), Catch::Contains("longest_leg = -1"));
+  CHECK_THAT(errors_of("[footprint]\nlongest_leg = -1\n"), Catch::Contains("longest_leg: got -1"));
   CHECK_THAT(errors_of("[actuation]\nratio = 1.5\n"), Catch::Contains("from 0 to 1"));
   CHECK_THAT(errors_of("[footprint]\nrods = 4\nlongest_leg = 1.0\n"),
              Catch::Contains("expected at most R_o = 50 by [footprint] longest_leg"));
@@ -206,5 +206,5 @@ TEST_CASE("utilisation needs a strength, which is said once") {
              Catch::Contains("expected 0 for one of both"));
   CHECK_THAT(errors_of("[rod]\nstrength_MPa = 500.0\n[rod_v]\ndiffers = true\n[limits]\n"
                        "max_utilisation = 0.8\n"),
-             Catch::Contains("those of [rod_v] too"));
+             Catch::Contains("and of [rod_v] where it differs"));
 }

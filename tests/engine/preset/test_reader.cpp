@@ -332,11 +332,11 @@ TEST_CASE("a file is read once all that says how is known, and reported") {
   CHECK(value_of(read("", "none.obj", {other, {"--set", "footprint.file_unit", "cm"}}))
             .base.footprint.file.points[1][0] == Approx(0.3));
   CHECK_THAT(refusal(read("", "none.obj")),
-             Catch::Contains("shell.toml:3:8: [footprint] file = \"none.obj\": cannot read"));
+             Catch::Contains("shell.toml:3:8: [footprint] file: cannot read"));
   CHECK_THAT(
       errors_of("[footprint]\nkind = \"network\"\njoin_mm = 0.1\nfile = {points_mm = [[-9, 0, 0], "
                 "[9, 0, 0], [0, 9, 0], [0, 0, 0]], rods = [[0, 3, 1], [3, 2]]}\n"),
-      Catch::Contains("join_mm = 0.1: is of a file that"));
+      Catch::Contains("join_mm: got 0.1 (it is for a file"));
 }
 
 TEST_CASE("a file is read under its own name") {
