@@ -1,9 +1,9 @@
 #!/bin/sh
-# tests/style.sh format [--fix]  every source file stands as .clang-format says; --fix makes it so
+# tests/style.sh format [--fix]  every source file is as .clang-format says; --fix makes it so
 # tests/style.sh tidy [--all]    clang-tidy with the checks of .clang-tidy, on what changed or on all
 # tests/style.sh clang [--all]   clang takes every source file without a warning, what changed or all
 # tests/style.sh warnings        every source file is built with warnings as errors, none silenced
-# tests/style.sh equal           no 50 tokens stand twice in engine/ but where equal_tokens.txt says why
+# tests/style.sh equal           no 50 tokens occur twice in engine/ unless equal_tokens.txt says why
 # tests/style.sh names           every source file that a comment or a .md file names is there
 # tests/style.sh pages           pages have short paragraphs and cells; the README and versions of CHANGELOG are short
 # tests/style.sh words           pages, comments and strings use the words of the glossary, not those of tests/words.txt
@@ -159,14 +159,14 @@ equal() {
         print "equal: " $0 }
       END {
         for (k = 1; k <= lists; ++k) if (!used[k]) { print "no such pair any more:" list[k]; ++old }
-        printf "%d pairs of places look alike, of %d it is told why\n", pairs, known
+        printf "%d pairs of passages are equal, %d of them with a reason\n", pairs, known
         exit !(pairs > 0 && known == pairs && !old) }' tests/equal_tokens.txt -
 }
 
 names() {
   list=$(mktemp)
   find engine render app tests -name '*.h' -o -name '*.cpp' >"$list"
-  # of a line what stands behind its last //, or of a .md file all of it
+  # of a line what is behind its last //, or of a .md file all of it
   grep -rnE '[a-z0-9_]+\.(h|cpp)\>' --include='*.h' --include='*.cpp' --include='*.md' \
     engine render app shaders presets tests ./*.md |
     awk 'NR == FNR { sub(/.*\//, ""); there[$0] = 1; next }
