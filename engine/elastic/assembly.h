@@ -30,14 +30,14 @@ struct Assembly {
   std::vector<RodSum> of_rod;  ///< of a small model one of all
 };
 
-/// What acts on a model from outside in addition to its ground: its dead loads times a factor, a
-/// field that is there, and one that comes or goes; and how much joints that are opened have come.
+/// Loads on a model in addition to its ground: the factor of its dead loads, a constant load per
+/// node, one that changes along the path; and the fraction of the joint actuation that is applied.
 struct ExternalLoads {
   double load = 1;
   const std::vector<NodeAction>* steady = nullptr;
   const std::vector<NodeAction>* field = nullptr;
   double field_factor = 0;
-  double opening = 0;  ///< what has come of JointAngle::opening
+  double opening = 0;  ///< applied fraction of JointAngle::opening
 };
 
 /// How the Hessian's stretch is taken.

@@ -18,7 +18,7 @@ struct RodMesh;
 /// press with 1.2 k gap, more through others. Below x = 0.05, where that is 24 k gap, b continues
 /// as its parabola: so states of a coarser mesh that overlap a little on a finer one still have an
 /// energy and are pressed apart, and what keeps rods from going through one another is
-/// clear_share().
+/// clear_fraction().
 struct ContactBarrier {
   double gap_mm = 0;              ///< 0: none
   double stiffness_N_per_mm = 0;  ///< k

@@ -75,7 +75,7 @@ struct PairGeometry {
   double angle_e = 0, angle_f = 0;         ///< theta of each edge, rad
   Eigen::Vector3d director_e, director_f;  ///< of their reference frames
   double reference_twist = 0;              ///< m_ref from e to f, of edges that follow one another
-  double opening = 0;                      ///< how much joints that are opened have come
+  double opening = 0;  ///< actuation angle so far of the joint that is opened, rad
 
   /// tau = theta_f - theta_e + m_ref
   double twist() const { return angle_f - angle_e + reference_twist; }

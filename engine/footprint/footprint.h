@@ -115,7 +115,7 @@ struct FootprintRod {
   bool reversed = false;        ///< of that rod: it runs against its order in the file
   RodEnd begin = RodEnd::pinned, end = RodEnd::pinned;
   double tail_begin = 0, tail_end = 0;  ///< past the edge point to a second pin, mm; 0: none
-  /// of a designed shell: what its legs are longer than those that end on the net's boundary, mm
+  /// by how much the legs of a designed shell are longer than to the net's boundary, mm
   double longer_begin = 0, longer_end = 0;
 
   /// On the grid line v = `line` (u-rod) or u = `line`.

@@ -28,7 +28,7 @@ struct RodNetwork {
 struct NetworkFootprint {
   Footprint footprint;
   std::vector<int> ends;    ///< of each end: begin of rod r at 2 r
-  std::vector<int> joints;  ///< of each of its held_joints
+  std::vector<int> joints;  ///< of each of its fixed_joints
 };
 
 /// What points are:

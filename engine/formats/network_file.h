@@ -139,7 +139,7 @@ class NetworkBuilder {
   /// A point of a curved piece, which may be left out.
   void mark_sample(int point) { samples_.insert(point); }
   std::size_t points() const { return network_.points.size(); }
-  /// Errors (bad_input): no rods; what network_fault() says.
+  /// Errors (bad_input): no rods; what network_error() says.
   Result<NetworkData> take(const std::string& name);
 
  private:

@@ -42,7 +42,7 @@ class Legend {
   Legend(const Canvas& canvas, const Plot& plot);
 
   bool empty() const { return entries_.empty(); }
-  /// the corner that hides no data; LegendPlace::none where each of them does
+  /// the corner that hides no data; LegendPosition::none where each of them does
   LegendPosition free_corner(const Canvas& canvas, const PlotFrame& frame) const;
   /// height of the legend as rows above axes of that width
   double height_above_axes(double width) const;
