@@ -1,5 +1,5 @@
 // The library in one header: presets, scenes, sessions, experiments, designs, studies, run folders.
-// Programs of 30 lines stand in app/examples/; the program itself sees no other of the engine's
+// Programs of 30 lines are in app/examples/; the program itself sees no other of the engine's
 // headers but those of core/. The model of rods itself is engine/elastic/model.h.
 #pragma once
 

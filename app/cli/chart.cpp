@@ -116,7 +116,8 @@ Result<ChartReport> draw_sizes(const preset::Preset& preset, const ChartOptions&
   TRY(sizes, sizes_in(options.sizes));
   TRY(rows, study::sizes_study(preset, *sizes, how, watch));
   TRY_DO(write_file(folder / "accuracy.csv", record::csv_table(*rows)));
-  const std::string title = render::plain(preset.title) + ": error over time, by rods a direction";
+  const std::string title =
+      render::plain(preset.title) + ": error over time, by rods per direction";
   TRY_DO(render::write_plot(folder / "accuracy", render::accuracy_plot(*rows, title, true),
                             {wide_mm}, high));
   ChartReport findings;
@@ -191,7 +192,7 @@ Result<ChartReport> draw_stability(const preset::Preset& preset, const ChartOpti
   TRY(rows, study::stability_study(preset, limited<study::StabilityOptions>(options), watch));
   TRY_DO(write_file(folder / "stability.csv", record::csv_table(*rows)));
   TRY_DO(render::write_outcome_maps(folder / "stability", *rows,
-                                    render::plain(preset.title) + ": where methods hold and fail"));
+                                    render::plain(preset.title) + ": where methods work and fail"));
   ChartReport findings;
   count_silent(*rows, findings);
   return findings;
@@ -243,7 +244,7 @@ Result<int> chart_preset(const ChartOptions& options) {
 
 void add_chart(CommandLine& program) {
   auto [command, options] = program.add<ChartOptions>(
-      "chart", "speed against accuracy; where methods hold and fail; branches", chart_preset);
+      "chart", "speed against accuracy; where methods work and fail; branches", chart_preset);
   command.option("KIND", options.kind, "accuracy, stability, or branches (the bifurcation diagram)")
       .required()
       .one_of({"accuracy", "stability", "branches"});

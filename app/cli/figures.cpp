@@ -43,7 +43,7 @@ std::string name_of(const preset::Preset& preset) {
 
 fs::path with_suffix(fs::path stem, const char* suffix) { return stem += suffix; }
 
-/// Of one assemblage: its blocks apart, their footprints, and how they meet.
+/// Draws one assemblage: its blocks separately, their footprints, and how they meet.
 Result<void> draw_block_pictures(const record::Trajectory& run, const render::MovieStyle& style,
                                  render::Renderer& renderer, const fs::path& stem, Watch& watch) {
   TRY_DO(save_panels(render::draw_blocks({{&run, ""}}, style, renderer, watch),
@@ -74,28 +74,28 @@ std::string caption_of(const record::Trajectory& run, const std::string& name, b
 std::string title_among(const Run& run, const std::string& of_all) {
   return run.preset.title == of_all && !run.name.empty() ? run.name : run.preset.title;
 }
-/// The same where it stands by itself.
+/// What a picture of one run calls it, marked text.
 std::string title_alone(const Run& run, const std::string& of_all) {
   const std::string title = title_among(run, of_all);
   return of_all.empty() || title == run.preset.title ? title : of_all + ": " + title;
 }
 
 bool is_still(const Run& run) { return run.pictures == Pictures::stills; }
-/// Whether its movie shows it beside the other cases.
+/// Whether its movie shows it next to the other cases.
 bool drawn_beside(const Run& run) {
   return run.pictures == Pictures::movie && run.preset.movie.beside && !run.name.empty();
 }
-/// A shell that was designed on a net is shown beside it, a pushed one by itself.
+/// A shell that was designed on a net is shown next to it, a pushed one by itself.
 bool shows_net(const Run& run) {
   const preset::Preset& preset = run.preset;
-  return is_still(run) && preset.on_net() && !preset.indentation.wanted() &&
-         !preset.jitter.wanted() && preset.step.empty();
+  return is_still(run) && preset.on_net() && !preset.indentation.requested() &&
+         !preset.jitter.requested() && preset.step.empty();
 }
-bool shows_push(const Run& run) { return is_still(run) && run.preset.indentation.wanted(); }
-/// One of several that no other picture shows beside one another.
+bool shows_push(const Run& run) { return is_still(run) && run.preset.indentation.requested(); }
+/// One of several that no other picture shows next to one another.
 bool shows_case(const Run& run) {
   return is_still(run) && !run.name.empty() && !shows_net(run) && !shows_push(run) &&
-         !run.preset.jitter.wanted();
+         !run.preset.jitter.requested();
 }
 bool has_net(const Run& run) {
   return shows_net(run) && run.trajectory.layout.net_nodes.size() > 0;
@@ -168,10 +168,10 @@ Result<void> draw_cases(const Runs& runs, const std::string& title, const Shared
 Result<void> draw_together(const std::vector<Run>& runs, const std::string& title,
                            const SharedColourBar& bar, render::Renderer& renderer,
                            const fs::path& stem, Progress& progress) {
-  const auto those = [&](bool (*wanted)(const Run&)) {
+  const auto those = [&](bool (*requested)(const Run&)) {
     Runs found;
     for (const Run& run : runs)
-      if (wanted(run)) found.push_back(&run);
+      if (requested(run)) found.push_back(&run);
     return found;
   };
   if (const Runs beside = those(drawn_beside); !beside.empty())
@@ -243,7 +243,7 @@ std::vector<Phase> drawing_phases(const std::vector<Run>& runs) {
     if (run.pictures != Pictures::none && !drawn_beside(run))
       phases.push_back(drawing("drawing" + (run.name.empty() ? "" : " " + run.name), expected));
   }
-  const auto any = [&](auto wanted) { return std::ranges::any_of(runs, wanted); };
+  const auto any = [&](auto requested) { return std::ranges::any_of(runs, requested); };
   if (any(drawn_beside)) {
     phases.push_back(drawing("drawing", seconds));
   } else if (any(is_still) && runs.front().preset.page.kind != preset::PageKind::none) {
@@ -269,7 +269,7 @@ Result<void> draw_all(std::vector<Run>& runs, const std::string& title, const fs
     const double start = seconds_now();
     Watch& watch = progress.next_phase();
     const std::string own = std::exchange(run.preset.title, title_alone(run, title));
-    if (run.preset.jitter.wanted())
+    if (run.preset.jitter.requested())
       TRY_DO(draw_states(run, renderer, to / fs::path(run.preset.name).filename(), watch));
     else
       TRY_DO(draw_run(run, bars[k], renderer, to, watch));
@@ -331,7 +331,7 @@ void draw_refusals(const preset::Presets& presets, const fs::path& folder) {
     fs::path stem = folder;
     stem += (run.name.empty() ? "" : "_" + run.name) + "_refused";
     const auto style = style_of(run.preset, Pictures::stills);
-    std::error_code unmade;  // told by what writes
+    std::error_code unmade;  // reported by what writes
     if (stem.has_parent_path()) fs::create_directories(stem.parent_path(), unmade);
     const auto drawn = render::write_plot(
         stem,

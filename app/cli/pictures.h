@@ -38,7 +38,7 @@ using Runs = std::vector<const Run*>;
 /// A colour bar of several runs; none where each has its own.
 using SharedColourBar = std::optional<render::ColourBar>;
 
-/// One a run: the bar that it shares with all others that are coloured by the same quantity.
+/// One per run: the bar that it shares with all others that are coloured by the same quantity.
 std::vector<SharedColourBar> shared_bars(const std::vector<Run>& runs);
 
 /// How the preset wants its run shown.
@@ -47,7 +47,7 @@ render::MovieStyle style_of(const preset::Preset& preset, Pictures pictures);
 /// The joints that were measured on a real shell, 3 x n, mm.
 Eigen::Matrix3Xd scan_of(const preset::Preset& preset);
 
-/// Holds the OpenGL context, so it stays on the thread that made it.
+/// Owns the OpenGL context, so it stays on the thread that made it.
 class PictureMaker {
  public:
   /// `context` as in --context; `font` of all text, empty: the usual one. Errors: io when no

@@ -25,7 +25,7 @@ Eigen::Vector3d way(const RodMesh& mesh, int from, int to) {
 }
 
 /// the curvature binormal of a line as drawn at each of its nodes, about the directors m1 and m2
-/// that are carried along it from `director` at its begin; 0 at ends
+/// that are carried along it from `director` at its start; 0 at ends
 std::vector<Eigen::Vector2d> turns_of(const RodMesh& mesh, const ModelRod& rod) {
   const std::vector<int>& nodes = rod.nodes;
   const std::size_t size = nodes.size(), last = rod.closed() ? size : size - 2;
@@ -41,7 +41,7 @@ std::vector<Eigen::Vector2d> turns_of(const RodMesh& mesh, const ModelRod& rod) 
   return turns;
 }
 
-/// the rod without its ghosts, and what holds its ends
+/// the rod without its ghosts, and the constraints of its ends
 ModelRod rod_of(const RodMesh& mesh, std::size_t r, const RodMaterial& material,
                 const Eigen::Vector3d& director) {
   ModelRod rod;
@@ -59,7 +59,7 @@ ModelRod rod_of(const RodMesh& mesh, std::size_t r, const RodMaterial& material,
   // a closed rod comes back to its first node
   if (rod.nodes.front() == rod.nodes.back()) rod.nodes.pop_back();
   for (const int node : rod.nodes) rod.centred.push_back(mesh.is_centred(node));
-  // the piece beside an end is as long as one beside a centred joint: half an edge
+  // the piece next to an end is as long as one next to a centred joint: half an edge
   const auto halve_end = [&](int end, auto first, auto last, char& centred) {
     const bool tail = !mesh.far_ends.empty() && mesh.far_ends[std::size_t(end)] >= 0;
     const auto joint =
@@ -75,7 +75,7 @@ ModelRod rod_of(const RodMesh& mesh, std::size_t r, const RodMaterial& material,
           rod.position[k - 1] +
           (place(mesh, rod.nodes[k % rod.nodes.size()]) - place(mesh, rod.nodes[k - 1])).norm();
   if (material.as_drawn) rod.turns = turns_of(mesh, rod);
-  // what hangs on a spring is free in itself
+  // what is on a spring is free in itself
   const auto held = [&](RodEnd end) {
     return end == RodEnd::joined || end == RodEnd::sprung ? RodEnd::free : end;
   };
@@ -113,8 +113,8 @@ Eigen::Vector3d direction_at(const RodMesh& mesh, const RodAt& of) {
   return way(mesh, *before, *after);
 }
 
-/// visit(k, m, share) for every two of the rods at a joint, which count alike: all of them together
-/// as much as one rod with each of the others
+/// visit(k, m, fraction) for every two of the rods at a joint, which have equal fractions: all of
+/// them together as much as one rod with each of the others
 template <class Visit>
 void each_two(std::size_t rods, Visit visit) {
   for (std::size_t k = 0; k < rods; ++k)
@@ -178,8 +178,8 @@ std::vector<Eigen::Vector3d> normals_of(const RodMesh& mesh, const Crossings& cr
   return normals;
 }
 
-/// A rod's first director: the mean of its joints' normals, carried to its begin, so that it lies
-/// alike whichever way its points are listed.
+/// A rod's first director: the mean of its joints' normals, carried to its start, so that it does
+/// not depend on the order in which its points are listed.
 Eigen::Vector3d director_of(const RodMesh& mesh, std::size_t r,
                             const std::vector<Eigen::Vector3d>& normals) {
   const std::vector<int>& nodes = mesh.rods[r];
@@ -223,8 +223,8 @@ void add_links(const RodMesh& mesh, const Crossings& crossings,
   }
 }
 
-/// The largest stiffness of a law, N mm/rad: k edges a segment times 20 of what an edge of each rod
-/// has, `of` over its length. A rigid joint so gives less than what the mesh leaves out, and at
+/// The largest stiffness of a law, N mm/rad: k edges per segment times 20 of what an edge of each
+/// rod has, `of` over its length. A rigid joint so gives less than what the mesh leaves out, and at
 /// second order.
 double stiff_limit(const RodMesh& mesh, const Model& model, const Crossing& at,
                    const std::array<double, 2>& of) {
@@ -250,9 +250,9 @@ Result<void> add_laws(const RodMesh& mesh, const ShellRods& shell, const Crossin
     const bool bolted = shell.bolts && !shell.bolts->rods[std::size_t(joint)].empty();
     if (rods.size() < 2 || (law.shear_Nmm == 0 && law.twist_Nmm == 0 && !bolted)) continue;
     if (!mesh.is_centred(joint))
-      return invalid("joint {}: a law holds its rods, and the mesh has no edges centred on it",
+      return invalid("joint {}: its rods have a law, and the mesh has no edges centred on it",
                      joint);
-    each_two(rods.size(), [&](std::size_t k, std::size_t m, double share) {
+    each_two(rods.size(), [&](std::size_t k, std::size_t m, double fraction) {
       const Crossing at = crossing(mesh, rods, joint, springs, k, m);
       const RodMaterial &a = shell.material(std::size_t(at.rod_a)),
                         &b = shell.material(std::size_t(at.rod_b));
@@ -264,25 +264,26 @@ Result<void> add_laws(const RodMesh& mesh, const ShellRods& shell, const Crossin
         add_joint_shear(model, at, angle);
       };
       if (law.shear_Nmm > 0)
-        shear({share * std::min(law.shear_Nmm, most),
+        shear({fraction * std::min(law.shear_Nmm, most),
                angle_between(direction_at(mesh, rods[k]), direction_at(mesh, rods[m])), 0, joint});
-      if (bolted) shear(shell.bolts->law(joint, k, m, share, most));
+      if (bolted) shear(shell.bolts->law(joint, k, m, fraction, most));
       if (law.twist_Nmm == 0) return;
       if (hinged)
         add_joint_hinge(model, at, law.twist_Nmm, side);
       else
-        add_joint_spin(model, at,
-                       share * std::min(law.twist_Nmm,
-                                        stiff_limit(mesh, model, at, {a.EI2 + a.GJ, b.EI2 + b.GJ})),
-                       side);
+        add_joint_spin(
+            model, at,
+            fraction *
+                std::min(law.twist_Nmm, stiff_limit(mesh, model, at, {a.EI2 + a.GJ, b.EI2 + b.GJ})),
+            side);
     });
   }
   return {};
 }
 
-/// edge points with a tail, or without a rod, joints that the boundary holds, supports of springs
+/// edge points with a tail, or without a rod, joints that the boundary fixes, supports of springs
 std::vector<int> pinned_beside_ends(const RodMesh& mesh) {
-  std::vector<int> nodes = mesh.held_joints;
+  std::vector<int> nodes = mesh.fixed_joints;
   for (const MeshSpring& spring : mesh.springs) {
     std::erase(nodes, spring.node);
     nodes.push_back(spring.support);
@@ -362,13 +363,13 @@ Bolts tightened(const RodMesh& mesh, const Model& model, const State& state, dou
   return bolts;
 }
 
-Result<Model> build_model(const RodMesh& mesh, const ShellRods& shell, RodModel rung) {
+Result<Model> build_model(const RodMesh& mesh, const ShellRods& shell, RodModel rod_model) {
   // a member more does not compile here: whoever adds one puts it into the model
   const auto& [materials, joints, own_joints, weight_N_per_mm, joint_weight_N, points, contact,
                bolts, braces] = shell;
   const Crossings at_joints = crossings_of(mesh);
   const std::vector<Eigen::Vector3d> normals = normals_of(mesh, at_joints);
-  const bool springs = rung == RodModel::twist && joints.spring_N_per_mm > 0;
+  const bool springs = rod_model == RodModel::twist && joints.spring_N_per_mm > 0;
   std::vector<ModelRod> rods;
   std::vector<char> taken(std::size_t(mesh.joints), 0);
   for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
@@ -384,7 +385,7 @@ Result<Model> build_model(const RodMesh& mesh, const ShellRods& shell, RodModel 
     if (springs) crossings[std::size_t(mesh.nodes() + joint)] = 1;
   }
   for (const EccentricJoint& at : mesh.eccentric) crossings[std::size_t(at.node)] = 1;
-  auto model = build_model(nodes, rods, rung, crossings);
+  auto model = build_model(nodes, rods, rod_model, crossings);
   if (!model) return model;
   add_links(mesh, at_joints, normals, *model);
   TRY_DO(add_laws(mesh, shell, at_joints, normals, *model));
@@ -394,7 +395,7 @@ Result<Model> build_model(const RodMesh& mesh, const ShellRods& shell, RodModel 
   for (const int node : pinned) model->pin(node);
   for (const Brace& brace : braces)
     model->bars.push_back({{brace.a, brace.b, brace.rest_length_mm, brace.EA, brace.cable}});
-  if (rung == RodModel::twist || !pinned.empty() || bolts || !braces.empty() ||
+  if (rod_model == RodModel::twist || !pinned.empty() || bolts || !braces.empty() ||
       !model->links.empty())
     finish(*model);
   model->loads = dead_loads(mesh, shell);

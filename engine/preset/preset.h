@@ -233,7 +233,7 @@ struct SearchSettings {
   int transitions = 0;      ///< number of states whose transitions are followed
   bool barriers = false;    ///< whether barriers between the states in the picture are computed
 
-  bool wanted() const { return trials > 0 || confined > 0; }
+  bool requested() const { return trials > 0 || confined > 0; }
 };
 
 struct Accuracy {
@@ -257,7 +257,7 @@ struct Sweep {
   std::string x;                  ///< result on the x axis; empty: the first key
   double departure = 0;           ///< value at which a line chart is marked; 0: no mark
 
-  bool wanted() const { return !over.empty() || seeds > 1; }
+  bool requested() const { return !over.empty() || seeds > 1; }
 };
 
 struct Preset {

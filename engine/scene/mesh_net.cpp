@@ -161,7 +161,7 @@ Result<std::vector<NetStart>> best_starts(const Surface& surface, const Triangle
   for (const Eigen::Vector3d& place : spread(samples, places))
     for (double turned = 0; turned < 90; turned += turn_deg)
       if (auto start = trial.from(place, turned, samples)) found.push_back(std::move(*start));
-  if (found.empty()) return invalid("no place of the mesh faces up inside the boundary");
+  if (found.empty()) return invalid("no part of the mesh faces up inside the boundary");
   const auto better = [](const NetStart& a, const NetStart& b) { return rank_of(a) > rank_of(b); };
   std::ranges::stable_sort(found, better);
   // one of each kind
@@ -216,7 +216,7 @@ std::vector<std::string> MeshNetReport::sentences() const {
   if (second)
     all.push_back(
         fmt::format("the second best begins at {} and reaches {:.1f} % (as far as the "
-                    "search's coarse grid tells)",
+                    "search's coarse grid finds)",
                     text_of(*second), 100 * second->reached));
   for (const auto& [why, fraction] : reasons())
     if (fraction >= 0.0005)

@@ -80,18 +80,17 @@ Result<std::vector<preset::Rod>> rods_of(const preset::Preset& preset, const Foo
       return invalid("[rod] table: {}-rod {:g}: {}", row[0] == 0 ? "u" : "v", row[1], what);
     };
     if (!(row[2] > 0 && row[2] < preset.footprint.spacing_mm))
-      return wrong(
-          fmt::format("a diameter of {:g} mm, must be above 0 and less than "
-                      "[footprint] spacing_mm = {:g}",
-                      row[2], preset.footprint.spacing_mm));
+      return wrong(fmt::format(
+          "got a diameter of {:g} mm, expected above 0 and less than [footprint] spacing_mm = {:g}",
+          row[2], preset.footprint.spacing_mm));
     // of several rods on one line the first row belongs to the first rod
     std::size_t at = 0;
     while (at < rods.size() &&
            (named[at] || footprint.rods[at].family != family || footprint.rods[at].index != row[1]))
       ++at;
     if (at == rods.size())
-      return wrong("the footprint has no such rod, or it is named more often than it is there");
-    if (rods[at].rectangular()) return wrong("is rectangular, it has no diameter");
+      return wrong("got no such rod, or more rows than the footprint has of it");
+    if (rods[at].rectangular()) return wrong("got a diameter of a rectangular rod, expected none");
     named[at] = true;
     rods[at].diameter_mm = row[2];
   }
@@ -279,8 +278,8 @@ Result<void> check_crossings(Scene& scene) {
     FootprintJoint& here = footprint.joints[std::size_t(joint)];
     if (law.shear_Nmm == 0 && law.twist_Nmm == 0 && here.eccentricity == 0) continue;
     if (here.eccentricity != 0 && rods[std::size_t(joint)].size() > 2)
-      return invalid("joint [{}, {}]: {} rods cross there, an eccentricity must be of two", here.i,
-                     here.j, rods[std::size_t(joint)].size());
+      return invalid("joint [{}, {}]: {} rods cross there, expected two for an eccentricity",
+                     here.i, here.j, rods[std::size_t(joint)].size());
     if (rods[std::size_t(joint)].front()->number > rods[std::size_t(joint)].back()->number)
       here.eccentricity *= -1;
     for (const FootprintRod* a : rods[std::size_t(joint)])
@@ -289,8 +288,8 @@ Result<void> check_crossings(Scene& scene) {
                               s = way_through(*b, joint).normalized();
         if (a < b && t.cross(s).norm() < 1e-3)
           return invalid(
-              "joint [{}, {}]: rods[{}] and rods[{}] run alike there, must cross, as the "
-              "joint holds them by the angle between them",
+              "joint [{}, {}]: rods[{}] and rods[{}] have equal directions there, expected rods "
+              "that cross, as the joint has a law of the angle between them",
               here.i, here.j, a->number, b->number);
       }
   }
@@ -310,7 +309,8 @@ void centre_edges(const preset::Preset& preset, Scene& scene) {
   for (std::size_t joint = 0; joint < rods.size(); ++joint) {
     FootprintJoint& here = scene.footprint.joints[joint];
     const JointLaw& law = scene.rods.law(int(joint));
-    const bool held = scene.rung == RodModel::twist && (law.shear_Nmm > 0 || law.twist_Nmm > 0);
+    const bool held =
+        scene.rod_model == RodModel::twist && (law.shear_Nmm > 0 || law.twist_Nmm > 0);
     here.centred = rods[joint] > 1 && (bolted || held || here.eccentricity != 0);
   }
 }
@@ -326,8 +326,8 @@ Result<void> put_laws(const preset::Preset& preset, Scene& scene) {
   for (std::size_t r = 0; scene.drawn_in_space && r < scene.rods.materials.size(); ++r)
     if (scene.rods.materials[r].as_drawn && scene.footprint.rods[r].closed())
       return invalid(
-          "[rod] as_drawn: rods[{}] is a ring drawn in space, whose section comes round "
-          "turned: a rod that is cut so must have two ends",
+          "[rod] as_drawn: rods[{}] is a ring drawn in space, whose section is rotated after one "
+          "turn, expected a rod with two ends",
           scene.footprint.rods[r].number);
   for (const auto& row : preset.footprint.file.joint_laws) {
     if (row[0] == preset::every_joint) {
@@ -338,16 +338,15 @@ Result<void> put_laws(const preset::Preset& preset, Scene& scene) {
     const int joint = joint_at(scene.footprint, int(row[0]), 0);
     if (joint < 0)
       return invalid(
-          "[footprint] file: joints: no rods are joined at point {:g}, a law must be of a "
-          "joint",
+          "[footprint] file: joints: got point {:g}, where no rods are joined, expected a joint",
           row[0]);
     scene.rods.own_joints[joint] = {scene.rods.joints.spring_N_per_mm, stiffness(row[1]),
                                     stiffness(row[2])};
     if (row.size() < 4) continue;
     if (row[3] != 0 && scene.rods.joints.spring_N_per_mm > 0)
       return invalid(
-          "[footprint] file: joints: the axes at point {:g} lie apart and are held by a "
-          "bolt, [joints] kind must be \"shared\"",
+          "[footprint] file: joints: the axes at point {:g} have a distance and are connected by a "
+          "bolt, expected [joints] kind = \"shared\"",
           row[0]);
     scene.footprint.joints[std::size_t(joint)].eccentricity = row[3];
   }
@@ -388,7 +387,7 @@ Result<Scene> scene_of(const preset::Preset& preset) {
   if (preset.ends.second_ring_mm > 0) TRY_DO(add_second_ring(preset.ends.second_ring_mm, scene));
   TRY_DO(apply_ends_table(preset.ends.table, scene));
   TRY_DO(put_rods(preset, scene));
-  scene.rung = preset::rod_model_of(preset);
+  scene.rod_model = preset::rod_model_of(preset);
   TRY_DO(put_laws(preset, scene));
   centre_edges(preset, scene);
   const bool round = std::ranges::count(scene.laths_mm, 0) == long(scene.laths_mm.size());

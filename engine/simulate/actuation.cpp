@@ -45,7 +45,7 @@ Result<Checkpoint> begin_from_flat(EquilibriumPath& path, const Watch& watch) {
     if (first->end != Outcome::reached) continue;
     std::vector<PathSegment> before = std::exchange(path.segments, {});
     Checkpoint start = path.simulation.save();
-    const bool connected = follow_back(path, {.wanted = false, .through_unstable = true}, watch);
+    const bool connected = follow_back(path, {.requested = false, .through_unstable = true}, watch);
     if (connected || !found)
       found = std::move(start);
     else

@@ -51,7 +51,7 @@ Outcome Simulation::Walk::branch_ended(Outcome how, double next, const NestedSta
   if (auto limit = of_.beyond(limits_)) {
     // the state past it would need longer or thinner rods, or room where others are
     shell_.back_to(end_of_branch);
-    if (limit->kind == Event::Kind::locked) limit->what = "beyond a snap";
+    if (limit->kind == Event::Kind::locked) limit->what = "past a snap";
     return end_before(std::move(*limit), event.t, end_of_branch);
   }
   if (record_ && !moments.empty())
@@ -119,7 +119,7 @@ bool Simulation::Walk::leave(Event& event, std::vector<TimedState>& moments) {
     if (watch_.cancelled()) return false;
     if (rest && shell_.start(there, *rest, watch_).end == Outcome::reached) {
       event.to = there;
-      event.leap = event.kind != Event::Kind::stability_lost ||
+      event.jump = event.kind != Event::Kind::stability_lost ||
                    !on_branch_from(shell_, scene_, last, there, *rest, watch_);
       shell_.apply_loads();
       return true;

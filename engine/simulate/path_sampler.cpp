@@ -111,7 +111,7 @@ Result<void> PathSampler::take_at(record::Frame frame, const PathSample& sample,
 
 Result<void> PathSampler::take(record::Frame frame, const PathSample& sample) {
   // with frames of a snap in between, all are counted
-  frame.index = path_.simulation.scene().snap.wanted ? taken_ : sample.index;
+  frame.index = path_.simulation.scene().snap.requested ? taken_ : sample.index;
   frame.progress = sample.progress;
   caption_.place(frame, sample.t, sample.progress);
   ++taken_;
@@ -147,16 +147,16 @@ std::string PathSampler::events(const PathSample& sample, double past) const {
   if (last_ && last_->segment == sample.segment) before = last_reached_t_;
   std::string text;
   // snaps come first: what a frame's text begins with is what it is marked by
-  for (const bool leap : {true, false}) {
+  for (const bool jump : {true, false}) {
     std::string places;
     for (const Event& event : segment.report.events) {
-      if (!event.to || event.leap != leap) continue;
+      if (!event.to || event.jump != jump) continue;
       const double seen = segment.back ? event.t : *event.to;
       if (way * (seen - before) <= 0 || way * (past - seen) < 0) continue;
       places += (places.empty() ? "" : " and ") + caption_.at(event.t, {});
     }
     if (!places.empty())
-      text += (text.empty() ? "" : "; ") + std::string(leap ? "snap " : "branches ") + places;
+      text += (text.empty() ? "" : "; ") + std::string(jump ? "snap " : "branches ") + places;
   }
   for (const ContactEvent& event : path_.contacts) {
     if (event.segment != sample.segment) continue;

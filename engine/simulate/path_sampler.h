@@ -1,4 +1,4 @@
-// Frames of a path, one a sample, handed to a sink in order.
+// Frames of a path, one per sample, handed to a sink in order.
 #pragma once
 
 #include <functional>

@@ -141,7 +141,7 @@ Outcome Simulation::Walk::step() {
   if (end == Outcome::reached) return step_came(next, good);
   const bool ended = end == Outcome::unstable || end == Outcome::lost;
   const std::size_t most = shell_.model().contact.any() ? most_events_in_contact : most_events;
-  if (!ended || !leaving_.wanted || events_.size() >= most) return end;
+  if (!ended || !leaving_.requested || events_.size() >= most) return end;
   return branch_ended(end, next, good);
 }
 

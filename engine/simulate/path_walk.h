@@ -45,7 +45,7 @@ class Simulation::Walk {
   void keep();
   bool goes_on();
   bool watches_stability() const {
-    return record_ && of_.actuating_ && leaving_.wanted && scene_.imperfection.chooses();
+    return record_ && of_.actuating_ && leaving_.requested && scene_.imperfection.chooses();
   }
   void keep_segment(std::optional<Outcome> end);
   Outcome step();

@@ -93,7 +93,7 @@ void add_stopped(const std::vector<AccuracyRow>& rows, const std::vector<std::st
   if (limit > 0) plot.references.push_back({.horizontal = false, .at = limit, .label = "too slow"});
 }
 
-/// `auto` in one mark for all tolerances that come to the same meshes.
+/// `auto` in one mark for all tolerances that give the same meshes.
 void add_auto(const std::vector<AccuracyRow>& rows, Plot& plot) {
   Series marks = mark_series("auto, by tolerance", ink, Marker::circle, 9, true);
   std::vector<Note> notes;
@@ -140,7 +140,7 @@ Plot unknowns_plot(const std::vector<AccuracyRow>& rows, const std::string& titl
 }
 
 Plot scaling_plot(const std::vector<record::ScalingRow>& rows, const std::string& title) {
-  Plot plot = empty_plot(title, "rods a direction, *n*", "processor time (s)");
+  Plot plot = empty_plot(title, "rods per direction, *n*", "processor time (s)");
   plot.x.ticks = 12;
   const auto names = distinct(rows, &record::ScalingRow::method);
   for (std::size_t m = 0; m < names.size(); ++m) {
@@ -159,7 +159,7 @@ std::string failures_of(const std::vector<AccuracyRow>& rows) {
   std::string text;
   for (const AccuracyRow& row : rows) {
     if (row.outcome == RunOutcome::right || row.outcome == RunOutcome::too_slow) continue;
-    // a net rung where there is no net is no failure
+    // a row of the model net where there is no net is no failure
     if (row.edges_per_segment == 0 && row.outcome == RunOutcome::refused) continue;
     text += fmt::format("{}{} at {} ({})", text.empty() ? "" : "; ", row.method,
                         row.edges_per_segment, word_of(row.outcome));

@@ -266,7 +266,7 @@ TEST_CASE("list has a line a preset, and every one of them is sound", "[standard
   CHECK(presets == int(files_under(fs::path(GRIDSHELL_SOURCE_DIR) / "presets", ".toml").size()));
 }
 
-TEST_CASE("compare tells the same from the different by its exit code") {
+TEST_CASE("compare reports equal or different by its exit code") {
   const TemporaryFolder folder;
   gridshell::render::Image plain(64, 64), rod = plain;
   for (std::size_t k = 3; k < plain.rgba.size(); k += 4) plain.rgba[k] = rod.rgba[k] = 255;
@@ -291,7 +291,7 @@ TEST_CASE("usage errors exit with 2, help with 0") {
     INFO(wrong);
     CHECK(gridshell_program(wrong, folder).code == 2);
   }
-  check_refused({"run", "s1_actuation", "-o", ""}, folder, Contains("must name a folder"));
+  check_refused({"run", "s1_actuation", "-o", ""}, folder, Contains("expected a folder"));
   good("--help", folder);
   good("movie --help", folder);
   CHECK(folder.entries().empty());
@@ -311,7 +311,7 @@ TEST_CASE("chart accuracy of sizes draws a curve a number of rods") {
   CHECK(bench.run("chart accuracy net_barrel --sizes 8").code == 2);
 }
 
-TEST_CASE("chart accuracy writes tables and pictures and says how auto stands", "[full]") {
+TEST_CASE("chart accuracy writes tables and pictures and reports how auto does", "[full]") {
   const Bench bench(small);
   const auto said = bench.good("chart accuracy small.toml --limit 0.05 --edges 4");
   CHECK_THAT(said.out, Contains("auto at 1e-06: error"));
@@ -344,7 +344,8 @@ TEST_CASE("report puts a run into one PDF, with what it carries and how it sways
   bench.good("report out/light --to light.pdf");
   check_refused("report out/small --to out/small/report.pdf", bench.at,
                 Contains("choose a folder outside it"));
-  check_refused("report out/small --to report.txt", bench.at, Contains("must end in .pdf"));
+  check_refused("report out/small --to report.txt", bench.at,
+                Contains("expected a name that ends in .pdf"));
   check_refused("report out/none", bench.at, Contains("out/none"));
 }
 

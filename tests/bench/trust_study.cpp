@@ -110,24 +110,24 @@ double off_energies(const record::Frame& a, const record::Frame& b) {
 constexpr double least_error = 1e-5;  // of forces and energies: below is what a residual leaves
 
 /// The frame of both runs whose error is largest relative to its estimate.
-void compare(const ExperimentResult& asked, const ExperimentResult& fine, TrustRow& row) {
+void compare(const ExperimentResult& requested, const ExperimentResult& fine, TrustRow& row) {
   WorstError joints(row.error, row.estimate, 1e-9);
   WorstError forces(row.force_error, row.force_estimate, least_error);
   WorstError energies(row.energy_error, row.energy_estimate, least_error);
-  const double scale_mm = asked.trajectory.layout.length_scale_mm;
+  const double scale_mm = requested.trajectory.layout.length_scale_mm;
   // flat rods store no energy: forces and energies are over the largest of the run
   double force = 0, energy = 0;
   for (const record::Frame& other : fine.trajectory.frames) {
     if (other.largest_force_N > force) force = other.largest_force_N;
     energy = std::max(energy, std::abs(other.energies[Term::bend]));
   }
-  for (const record::Frame& frame : asked.trajectory.frames)
+  for (const record::Frame& frame : requested.trajectory.frames)
     for (const record::Frame& other : fine.trajectory.frames) {
       if (std::abs(frame.progress - other.progress) > 1e-9) continue;
       // where the path ended early the frames are of other states
       if (frame.event == "locking" || other.event == "locking") continue;
       // the finer one, by which it is judged, is not exact either
-      joints.take(distance(asked, frame, other),
+      joints.take(distance(requested, frame, other),
                   (frame.error_estimate_mm + 0.5 * other.error_estimate_mm) / scale_mm);
       forces.take(off_forces(frame, other) / force,
                   (frame.force_error_N + 0.5 * other.force_error_N) / force);
@@ -136,30 +136,30 @@ void compare(const ExperimentResult& asked, const ExperimentResult& fine, TrustR
     }
 }
 
-TrustClass judge(const Trial& asked, const Trial& fine, const Trial& other, TrustRow& row) {
+TrustClass judge(const Trial& requested, const Trial& fine, const Trial& other, TrustRow& row) {
   constexpr double branch =
       0.02;  // fraction of the length scale: states further apart are different
-  if (asked.too_slow) return TrustClass::too_slow;
-  if (asked.exit == 2) return TrustClass::refused;
-  if (!asked.outcome || !asked.whole())
+  if (requested.too_slow) return TrustClass::too_slow;
+  if (requested.exit == 2) return TrustClass::refused;
+  if (!requested.outcome || !requested.whole())
     return !fine.outcome || !fine.whole() ? TrustClass::limited : TrustClass::limited_only_default;
-  for (const record::Frame& frame : asked.outcome->trajectory.frames)
+  for (const record::Frame& frame : requested.outcome->trajectory.frames)
     if (unphysical(frame)) return TrustClass::inner_unphysical;
   const bool same_end =
-      other.too_slow || (other.outcome && other.exit == asked.exit &&
-                         distance(*asked.outcome, asked.outcome->trajectory.frames.back(),
+      other.too_slow || (other.outcome && other.exit == requested.exit &&
+                         distance(*requested.outcome, requested.outcome->trajectory.frames.back(),
                                   other.outcome->trajectory.frames.back()) < 1e-9);
   if (!same_end) return TrustClass::frame_dependent;
   if (!fine.outcome) return TrustClass::right;  // nothing to judge by
-  compare(*asked.outcome, *fine.outcome, row);
+  compare(*requested.outcome, *fine.outcome, row);
   if (!(row.error > 2 * row.estimate + 1e-7)) {
-    const bool told = !(row.force_error > 2 * row.force_estimate + least_error) &&
-                      !(row.energy_error > 2 * row.energy_estimate + least_error);
-    return told ? TrustClass::right : TrustClass::estimate_small;
+    const bool reported = !(row.force_error > 2 * row.force_estimate + least_error) &&
+                          !(row.energy_error > 2 * row.energy_estimate + least_error);
+    return reported ? TrustClass::right : TrustClass::estimate_small;
   }
   if (row.error < branch && row.error < 20 * row.estimate) return TrustClass::estimate_small;
-  if (asked.snapped()) return TrustClass::after_snap;
-  return asked.doubted() ? TrustClass::doubted : TrustClass::other_branch;
+  if (requested.snapped()) return TrustClass::after_snap;
+  return requested.doubted() ? TrustClass::doubted : TrustClass::other_branch;
 }
 
 TrustScene judged(int index, const TrustOptions& options, const Watch& watch) {
@@ -172,18 +172,19 @@ TrustScene judged(int index, const TrustOptions& options, const Watch& watch) {
   scene.preset.title = fmt::format("Scene {} of the study of trust: {}", index, word_of(kind));
   scene.row.scene = index;
   scene.row.kind = word_of(kind);
-  const Trial asked = try_scene(scene.preset, frames, false, options, watch);
+  const Trial requested = try_scene(scene.preset, frames, false, options, watch);
   const Trial fine = try_scene(scene.preset, fine_frames, true, options, watch);
   const Trial other = try_scene(scene.preset, other_frames, false, options, watch);
-  scene.row.exit_default = asked.exit;
+  scene.row.exit_default = requested.exit;
   scene.row.exit_fine = fine.exit;
-  scene.row.snap_default = asked.snapped();
+  scene.row.snap_default = requested.snapped();
   scene.row.snap_fine = fine.snapped();
-  scene.row.doubt = asked.doubted();
-  scene.row.found = judge(asked, fine, other, scene.row);
+  scene.row.doubt = requested.doubted();
+  scene.row.found = judge(requested, fine, other, scene.row);
   scene.preset.movie.frames = frames;
   // why, for whoever opens the preset
-  scene.preset.description = asked.outcome ? asked.outcome->summary.limit_reason : asked.refused;
+  scene.preset.description =
+      requested.outcome ? requested.outcome->summary.limit_reason : requested.refused;
   return scene;
 }
 

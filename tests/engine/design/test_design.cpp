@@ -228,9 +228,9 @@ TEST_CASE("rods have the diameters of their table, and what is wrong with it is 
     wrong.rod_table = std::move(table);
     CHECK_THAT(refusal(scene_of(wrong)), Catch::Contains(reason));
   };
-  refused({{0, 99, 0.3}}, "no such rod");
+  refused({{0, 99, 0.3}}, "got no such rod");
   refused({{0, 0, 0.3}, {0, 0, 0.3}}, "more often than it is there");
-  refused({{1, 0, -0.3}}, "must be above 0");
+  refused({{1, 0, -0.3}}, "expected above 0");
   refused({{1, 0, 30}}, "less than [footprint] spacing_mm");
 }
 
@@ -298,7 +298,7 @@ Result<LiveDesignResult> live(const preset::Preset& preset, const Watch& watch, 
 
 }  // namespace
 
-TEST_CASE("a design that is watched hands over every step that both meshes hold", "[standard]") {
+TEST_CASE("a design that is watched hands over every step that both meshes certify", "[standard]") {
   Handed handed;
   const auto end = value_of(live(low_cap(), unwatched, handed));
   CHECK_FALSE(end.stopped);
@@ -314,7 +314,7 @@ TEST_CASE("a design that is watched hands over every step that both meshes hold"
   CHECK(*end.rounded_max_mm == Approx(whole.rounded->max_mm).epsilon(1e-3));
 }
 
-TEST_CASE("stopped, a design stands in the last step that it handed over") {
+TEST_CASE("stopped, a design is in the last step that it handed over") {
   Handed all, some;
   REQUIRE(live(low_cap(), unwatched, all).has_value());
   Watch watch;

@@ -81,7 +81,7 @@ TEST_CASE("a closed chain of rods whose ends meet is a frame where its joints ar
   net.joined = {0, 1, 2, 3};
   const auto made = value_of(network_footprint(net));
   CHECK(made.footprint.joints.size() == 4);
-  CHECK(made.footprint.held_joints.size() == 3);
+  CHECK(made.footprint.fixed_joints.size() == 3);
   for (const FootprintRod& rod : made.footprint.rods) {
     CHECK(rod.begin == RodEnd::joined);
     CHECK(rod.end == RodEnd::joined);
@@ -97,13 +97,13 @@ TEST_CASE("a ring comes back to its first joint and a polyline is as long as its
   CHECK(ring.at(3).isApprox(Eigen::Vector2d(-1, 0)));
   CHECK(ring.tangent(3).isApprox(Eigen::Vector2d(0, -1)));
   CHECK(made.footprint.joints.size() == 4);
-  CHECK(made.footprint.held_joints == std::vector<int>{1, 2, 3});
+  CHECK(made.footprint.fixed_joints == std::vector<int>{1, 2, 3});
   const RodMesh mesh = mesh_rods(made.footprint, 4);
   CHECK(mesh.rods[0].front() == mesh.rods[0].back());
   CHECK(mesh.rods[0].size() == 17);
 }
 
-TEST_CASE("a network that is a square grid is named as one, whichever way its rods run") {
+TEST_CASE("a network that is a square grid is named as one, in whichever direction its rods run") {
   // 3 x 2 lines at 10 mm about the origin, rods crosswise and backwards
   std::vector<Eigen::Vector2d> points;
   std::vector<std::vector<int>> rods;
@@ -157,7 +157,7 @@ TEST_CASE("supports on springs: of an end, of ends that meet, of a joint inside 
   CHECK(footprint.rods[0].end == RodEnd::joined);
   CHECK(footprint.rods[2].begin == RodEnd::joined);
   CHECK(footprint.rods[2].end == RodEnd::pinned);
-  CHECK(footprint.held_joints == std::vector<int>{0, 1});
+  CHECK(footprint.fixed_joints == std::vector<int>{0, 1});
   REQUIRE(footprint.springs.size() == 3);
   CHECK(footprint.springs[0].end == 0);
   CHECK(footprint.springs[0].N_per_mm == Eigen::Vector3d(1, 2, 3));
@@ -245,7 +245,7 @@ TEST_CASE("rods in space are as long as their polyline there, and laid where the
   refused(upright, "at points on one line");
 }
 
-TEST_CASE("the rim of points has those on the edges of their hull, each place once") {
+TEST_CASE("the rim of points has those on the edges of their hull, each position once") {
   Eigen::Matrix2Xd points(2, 7);
   points << 0, 1, 1, 0, 0.5, 0.5, 0.5, 0, 0, 1, 1, 0.5, 0, 0;
   CHECK(rim_of(points) == std::vector<int>{0, 5, 1, 2, 3});

@@ -142,7 +142,7 @@ TEST_CASE("translation net: bad curves, ends and folds are named") {
   CHECK(TranslationNet::make(x, twice).error().message ==
         "curve_v: points 4 and 5 of the curve are the same");
   CHECK(TranslationNet::make(x.leftCols(2), y).error().message ==
-        "curve_u: a curve needs at least 4 points, not 2");
+        "curve_u: a curve: got 2 points, expected at least 4");
 
   const TranslationNet net = TranslationNet::make(x, y).value();
   CHECK(net.at(0, 30).error().message.find("curve_v of the translation net ends at v = 2") == 0);

@@ -44,7 +44,7 @@ TriangleMesh sheet_of(const DomeMesh& mesh, const std::string& said) {
 
 }  // namespace
 
-TEST_CASE("triangles that stand by themselves, turned at random, are joined") {
+TEST_CASE("separate triangles, turned at random, are joined") {
   const DomeMesh whole = sheet();
   DomeMesh loose{Eigen::Matrix3Xd(3, 3 * Eigen::Index(whole.triangles.size())), {}};
   for (std::size_t t = 0; t < whole.triangles.size(); ++t) {

@@ -143,7 +143,7 @@ TEST_CASE("surfaces of revolution: folds and ends are named with their position"
   CHECK(
       refusal(RevolutionNet::make(spool, 0.03)) ==
       "no net exists on the spool of radius 100 mm and waist 0.5 with c = 0.03 / mm: in its middle "
-      "sin(omega/2) = c r is 1.5, it must lie between 0 and 1");
+      "sin(omega/2) = c r: got 1.5, expected between 0 and 1");
   CHECK_FALSE(RevolutionNet::make(spool, -1));
 
   const RevolutionNet cylinder = right_angled(cylinder_profile(40, 100).value());
@@ -156,8 +156,8 @@ TEST_CASE("surfaces of revolution: folds and ends are named with their position"
 }
 
 TEST_CASE("profiles: what is no surface is refused") {
-  CHECK(refusal(cylinder_profile(0, 1)) == "the cylinder's radius is 0, it must be positive");
-  CHECK(refusal(cylinder_profile(1, -2)) == "the cylinder's length is -4, it must be positive");
+  CHECK(refusal(cylinder_profile(0, 1)) == "the cylinder's radius: got 0, expected above 0");
+  CHECK(refusal(cylinder_profile(1, -2)) == "the cylinder's length: got -4, expected above 0");
   CHECK_FALSE(spool_profile(1, 0));
   CHECK_FALSE(spool_profile(std::nan(""), 1));
   CHECK_FALSE(beltrami_profile(1, 1));
@@ -166,8 +166,9 @@ TEST_CASE("profiles: what is no surface is refused") {
   CHECK(tabulated_profile(r_z));
   r_z(0, 2) = -3;
   CHECK(refusal(tabulated_profile(r_z)) ==
-        "point 3 of the profile has radius -3 mm, it must be positive");
+        "radius of point 3 of the profile: got -3 mm, expected above 0");
   r_z(0, 2) = std::nan("");
   CHECK(refusal(tabulated_profile(r_z)) == "point 3 of the curve is not finite");
-  CHECK(refusal(tabulated_profile(r_z.leftCols(3))) == "a curve needs at least 4 points, not 3");
+  CHECK(refusal(tabulated_profile(r_z.leftCols(3))) ==
+        "a curve: got 3 points, expected at least 4");
 }

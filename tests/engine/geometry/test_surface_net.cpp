@@ -97,7 +97,7 @@ TEST_CASE(
   CHECK(at_16 / 16 <= 5e-4);  // d/64 takes seconds
 }
 
-TEST_CASE("the net of the sphere by expression is the sphere's own, whatever way it is turned") {
+TEST_CASE("the net of the sphere by expression is the sphere's own, however it is turned") {
   for (const double turned : {0.0, 0.4}) {
     const auto net =
         value_of(SurfaceNet::make(surface_of(sphere), on_top({0, 0, rho}, 0, turned), d / 8));

@@ -131,5 +131,5 @@ TEST_CASE("an outline of a drawing is a boundary, about its middle") {
   const auto again = value_of(preset::read_preset_text(preset::to_toml(scaled.base), "a", "a"));
   CHECK(value_of(scene_of(again.base)).motion.end.row(0).maxCoeff() == Approx(90));
   CHECK_THAT(refusal(read("[actuation]\nboundary = \"file\"\n")),
-             Catch::Contains("must have the name of a drawing in [actuation] file"));
+             Catch::Contains("expected its name in [actuation] file"));
 }

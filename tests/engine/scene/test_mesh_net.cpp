@@ -37,7 +37,7 @@ DomeMesh bent_strip() {
 
 }  // namespace
 
-TEST_CASE("points on a mesh stand for all of its area, none far from the next") {
+TEST_CASE("points on a mesh represent all of its area, none far from the next") {
   const DomeMesh dome = ellipsoid_mesh({80, 60, 40}, 9);
   const auto mesh = value_of(TriangleMesh::make(dome.vertices, dome.triangles));
   double sum = 0;

@@ -129,12 +129,12 @@ TEST_CASE("of a net that is refused there is a picture to draw, of another there
 
 TEST_CASE("a preset names the surface once, and a point of it") {
   const auto wrong = [](const std::string& net, const char* reason) {
-    CHECK_THAT(preset::faults_of("[footprint]\nkind = \"net\"\n[net]\nkind = \"surface\"\n" + net),
+    CHECK_THAT(preset::errors_of("[footprint]\nkind = \"net\"\n[net]\nkind = \"surface\"\n" + net),
                Catch::Contains(reason));
   };
   wrong("", "needs an expression");
   wrong("implicit = \"x\"\nheight = \"x\"\napex_mm = [0, 0, 0]\n", "given twice");
-  wrong("implicit = \"z\"\n", "must be [x, y, z]");
-  wrong("height = \"1\"\napex_mm = [1.0]\n", "must be [x, y]");
+  wrong("implicit = \"z\"\n", "expected [x, y, z]");
+  wrong("height = \"1\"\napex_mm = [1.0]\n", "expected [x, y]");
   wrong("height = \"1\"\nradius_mm = 3.0\n", "does not use it");
 }

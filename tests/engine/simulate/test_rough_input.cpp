@@ -129,7 +129,7 @@ TEST_CASE("down to half the radius: certified states, each on the one before") {
   }
 }
 
-TEST_CASE("rods that reach their length end as locking, with nothing beyond") {
+TEST_CASE("rods that reach their length end as locking, with nothing after it") {
   Scene scene = *fig1(1e-3);
   scene.max_strain = 1e-7;
   const auto outcome = value_of(end_of(std::make_shared<const Scene>(scene)));
