@@ -153,7 +153,7 @@ class Reader {
   }
   static std::string shown(const Json& value) {
     constexpr std::size_t longest = 60;
-    const std::string text = line_of(value, true);
+    const std::string text = value.dump(-1, ' ', true);
     return text.size() <= longest ? text : text.substr(0, longest - 3) + "...";
   }
   tl::unexpected<Error> unlike(const Json& value, const std::string& expected) const {

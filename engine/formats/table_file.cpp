@@ -165,7 +165,7 @@ class TableReader {
   Result<void> check_count() const {
     const std::size_t rows = table_.rows() + table_.empty_rows;
     if (rows == expected_) return {};
-    return invalid("{}: got {1} points, expected {0} by its first line: is the file cut short?",
+    return invalid("{0}: got {2} points, expected {1} by its first line: is the file cut short?",
                    name_, expected_, rows);
   }
 

@@ -54,7 +54,7 @@ void add_movie(FieldList<Movie> list) {
   list.add<&M::bins>(
       "whether to plot K of the cells in bins along x next to the shell, in wide pictures");
   list.add<&M::captions>("whether to write radius, height and frame");
-  list.add<&M::context>(
+  list.add<&M::beside>(
       "whether a movie shows the cases of a preset next to each other; else each has its own "
       "movie");
   list.add<&M::view>(
