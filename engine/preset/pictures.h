@@ -37,7 +37,7 @@ struct Movie {
   bool inset = true;  ///< the small top view
   bool bins = false;  ///< the plot of K in bins
   bool captions = true;
-  bool beside = true;            ///< whether cases are shown next to one another in each frame
+  bool beside = true;             ///< whether cases are shown next to one another in each frame
   View view = View::free;         ///< a standard view, which replaces azimuth and elevation
   std::vector<double> target_mm;  ///< (x, y, z) in the middle of the panel; empty: all that moves
   bool orthographic = false;
