@@ -37,7 +37,7 @@ std::string magnitude_error(double value) {
   const double size = std::abs(value);
   if (size == 0 || (size >= least_magnitude && size <= largest_magnitude)) return "";
   return std::string(size > 1 ? "too large" : "too small") +
-         " to compute with (0, or a magnitude of 1e-9 to 1e9)";
+         " to compute with, expected 0, or a magnitude of 1e-9 to 1e9";
 }
 
 // only the magnitude of coordinates is limited: a value meant as zero is often slightly off zero

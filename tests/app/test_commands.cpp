@@ -229,7 +229,7 @@ TEST_CASE("check says what came of each file, and what may not be meant") {
   // what is refused may be so because of it
   REQUIRE(write_file(bench.at / "net.obj", rods));
   check_refused("check net.toml", bench.at,
-                Contains("is joined to no other rod") && Contains("join_mm = 0.0088 joins them"));
+                Contains("got a rod without a joint") && Contains("join_mm = 0.0088 joins them"));
 }
 
 TEST_CASE("a preset comes through a pipe") {

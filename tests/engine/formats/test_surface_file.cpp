@@ -152,7 +152,7 @@ TEST_CASE("what is no mesh is refused with its position") {
   wrong(obj + "f 1 2\n", "a.obj", "a polygon of 2 corners");
   wrong("a mesh", "a.stl", "no STL");
   wrong(stl_bytes() + "x", "a.stl", "no STL");
-  wrong("solid\nvertex 1 2 3\nendsolid\n", "a.stl", "got 1 vertices");
+  wrong("solid\nvertex 1 2 3\nendsolid\n", "a.stl", "vertices, expected three per triangle");
   wrong("solid\nvertex 1 2 inf\n", "a.stl", "a.stl:2: expected a vertex of three numbers");
   wrong("plywood\n", "a.ply", "a.ply:1: got no PLY");
   wrong("ply\nformat ascii 1.0\nelement vertex 3\n", "a.ply", "ends within its header");

@@ -159,7 +159,7 @@ TEST_CASE("what cannot be drawn is refused with its reason", "[draw]") {
   CHECK_THAT(message(wrong, {}, 9, 9), Catch::Contains("cell colours for"));
   wrong = drawing;
   wrong.nodes.conservativeResize(3, 4);
-  CHECK_THAT(message(wrong, {}, 9, 9), Catch::Contains("beyond its 4 nodes"));
+  CHECK_THAT(message(wrong, {}, 9, 9), Catch::Contains("more than its 4 nodes"));
 }
 
 namespace {
