@@ -187,8 +187,8 @@ Result<FootprintRod> rod_of(const RodNetwork& network, std::size_t r, const Role
           "law among the joints as it says",
           r, *met, *met);
     return invalid(
-        "rods[{}]: got a rod without a joint, expected a point shared with another rod, or the "
-        "only rod and have points inside",
+        "rods[{}]: got a rod without a joint, expected a point shared with another rod, or one rod "
+        "alone with points inside",
         r);
   }
   TRY(begin, hold_of(network, roles, int(2 * r)));

@@ -130,7 +130,7 @@ Eigen::VectorXd brace_forces(const Footprint& footprint, const Model& model,
 
 namespace {
 
-/// Where on a rod a point lies: "u+3, 45.00 mm from its begin, at joint [0, 1]".
+/// Where on a rod a point lies: "u+3, 45.00 mm from its start, at joint [0, 1]".
 std::string place_on_rod(const Footprint& footprint, const RodMesh& mesh, std::size_t r,
                          std::size_t point) {
   const std::vector<int>& nodes = mesh.rods[r];

@@ -16,10 +16,9 @@ Result<Eigen::Matrix3Xd> lumped_mass(const Model& model, const std::vector<doubl
                                      const Eigen::RowVectorXd& on_nodes) {
   for (double mass : mass_t_per_mm)
     if (!(mass > 0))
-      return fail(Fault::bad_input,
-                  fmt::format("{} t/mm: motion in time needs a mass of all rods, [rod] "
-                              "expected density_kg_m3 above 0",
-                              mass));
+      return fail(Fault::bad_input, fmt::format("{} t/mm: motion in time needs a mass of all rods, "
+                                                "expected [rod] density_kg_m3 above 0",
+                                                mass));
   Eigen::Matrix3Xd mass = Eigen::Matrix3Xd::Zero(3, model.columns());
   mass.leftCols(on_nodes.size()).rowwise() += on_nodes;
   for (std::size_t r = 0; r < model.rods.size(); ++r) {

@@ -107,7 +107,7 @@ class LastAlone final : public record::Sink {
 Result<void> check_masses(const Scene& scene) {
   if (std::ranges::none_of(scene.mass_t_per_mm, [](double mass) { return !(mass > 0); })) return {};
   return invalid(
-      "frequencies need a mass: [rod] expected density_kg_m3 above 0 (6450 for Nitinol, "
+      "frequencies need a mass, expected [rod] density_kg_m3 above 0 (6450 for Nitinol, "
       "7850 for steel), that of [rod_v] too where these differ");
 }
 

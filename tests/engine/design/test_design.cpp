@@ -201,8 +201,8 @@ TEST_CASE("the table of ends gives back the same scene, and says what is wrong w
     wrong.ends.table[2][column] = value;
     CHECK_THAT(refusal(scene_of(wrong)), Catch::Contains(reason));
   };
-  refused(1, 77, "no such end");
-  refused(6, -1, "longer than 0");
+  refused(1, 77, "no end of the footprint");
+  refused(6, -1, "a leg without length");
 }
 
 TEST_CASE("rods have the diameters of their table, and what is wrong with it is reported") {
@@ -229,7 +229,7 @@ TEST_CASE("rods have the diameters of their table, and what is wrong with it is 
     CHECK_THAT(refusal(scene_of(wrong)), Catch::Contains(reason));
   };
   refused({{0, 99, 0.3}}, "got no such rod");
-  refused({{0, 0, 0.3}, {0, 0, 0.3}}, "more often than it is there");
+  refused({{0, 0, 0.3}, {0, 0, 0.3}}, "more rows than the footprint has");
   refused({{1, 0, -0.3}}, "expected above 0");
   refused({{1, 0, 30}}, "less than [footprint] spacing_mm");
 }

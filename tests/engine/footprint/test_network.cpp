@@ -76,7 +76,7 @@ TEST_CASE("a closed chain of rods whose ends meet is a frame where its joints ar
   RodNetwork net = network(square, {{0, 1}, {1, 2}, {2, 3}, {3, 0}}, {0, 1, 2});
   net.springs = {{1, {0, 0, 9}}, {2, {9, 0, 9}}};
   refused(net,
-          "rods[3]: is joined to no other rod: where rods only end, as at point 3, each is held");
+          "rods[3]: is joined to no other rod: where rods only end, as at point 3, each is fixed");
   refused(net, "{\"point\": 3, \"to_mm\": \"free\"}");
   net.joined = {0, 1, 2, 3};
   const auto made = value_of(network_footprint(net));
@@ -178,7 +178,7 @@ TEST_CASE("springs along too few directions leave a network free") {
   const auto on = [&](const Eigen::Vector3d& k) {
     for (int point = 1; point < 7; ++point) net.springs[point] = k;
   };
-  const std::string free = "rods[0] and what is joined to it: held by springs along too few";
+  const std::string free = "rods[0] and what is joined to it: supported by springs along too few";
   on({0, 1, 1});
   refused(net, free);
   on({1, 1, 0});
@@ -196,14 +196,15 @@ TEST_CASE("springs along too few directions leave a network free") {
 }
 
 TEST_CASE("networks that do not make a shell are refused") {
-  refused(network(star, {{1, 0, 2}, {3, 3, 0, 4}}), "rods[1]: point 3 follows itself");
-  refused(network(star, {{1, 0, 2}, {3}}), "rods[1]: has one point");
+  refused(network(star, {{1, 0, 2}, {3, 3, 0, 4}}), "rods[1]: got point 3 twice in turn");
+  refused(network(star, {{1, 0, 2}, {3}}), "rods[1]: got one point");
   refused(network(star, {{1, 0, 2}, {1, 0, 3}}),
-          "rods[1]: runs from point 0 to 1, as rods[0] does");
-  refused(network(star, {{1, 0, 2}, {3, 0, 4, 5, 0, 6}}), "rods[1]: comes through a point twice");
+          "rods[1]: got a rod from point 0 to 1, as rods[0] is");
+  refused(network(star, {{1, 0, 2}, {3, 0, 4, 5, 0, 6}}),
+          "rods[1]: got a rod that passes a point twice");
   refused(network(star, {{1, 0, 1}}), "rods[0]");
-  refused(network(star, {{1, 2}, {3, 4}}), "rods[0]: is joined to no other rod");
-  refused(network(star, {{1, 0, 2}, {3, 0, 4}, {5, 6}}), "rods[2]: is joined to no other rod");
+  refused(network(star, {{1, 2}, {3, 4}}), "rods[0]: got a rod without a joint");
+  refused(network(star, {{1, 0, 2}, {3, 0, 4}, {5, 6}}), "rods[2]: got a rod without a joint");
   refused(network(star, {{1, 0, 2}, {3, 0, 4}}, {5}), "point 5 is a support, and no rod has it");
   refused(network(star, {{1, 0, 2}, {3, 0, 4}}, {}, {0}), "point 0 is free, and inside a rod");
   refused(network(star, {{1, 0, 2}, {3, 0, 4}}, {1}, {1}), "point 1 is a support and free");

@@ -98,10 +98,13 @@ TEST_CASE("what is no cloud is refused with its position") {
                     none = "a.xyz: got no point, expected one per line, 3 numbers: x, y, z";
   CHECK(error_of("", "a.xyz") == none);
   CHECK(error_of("x y z\n", "a.xyz") == none);
-  CHECK(error_of("1 2\n", "a.xyz") == "a.xyz:1: holds 2 values" + numbers);
-  CHECK(error_of("1 2 3\n1 nan 3\n", "a.xyz") == "a.xyz:2: 'nan' is no number" + numbers);
-  CHECK(error_of("1 2 3\n1 2 inf\n", "a.csv") == "a.csv:2: 'inf' is no number" + numbers);
-  CHECK(error_of("1 2 3\nfoo 2 3\n", "a.csv") == "a.csv:2: 'foo' is no number" + numbers);
+  CHECK(error_of("1 2\n", "a.xyz") == "a.xyz:1: got 2 values" + numbers);
+  CHECK(error_of("1 2 3\n1 nan 3\n", "a.xyz") ==
+        "a.xyz:2: got 'nan', which is no number" + numbers);
+  CHECK(error_of("1 2 3\n1 2 inf\n", "a.csv") ==
+        "a.csv:2: got 'inf', which is no number" + numbers);
+  CHECK(error_of("1 2 3\nfoo 2 3\n", "a.csv") ==
+        "a.csv:2: got 'foo', which is no number" + numbers);
   CHECK(error_of("1 2 3e10\n", "a.csv") ==
         "a.csv:1: got a coordinate that is too large, expected a number of at most 1e9");
   CHECK(error_of("u,v\n1,2\n", "a.csv") ==
@@ -111,5 +114,5 @@ TEST_CASE("what is no cloud is refused with its position") {
   CHECK(error_of("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n",
                  "a.ply") ==
         "a.ply: vertex 1: got a coordinate that is not a number, expected a number of at most 1e9");
-  CHECK(error_of("ply\nformat ascii 1.0\nend_header\n", "a.ply") == "a.ply: holds no point");
+  CHECK(error_of("ply\nformat ascii 1.0\nend_header\n", "a.ply") == "a.ply: got no point");
 }

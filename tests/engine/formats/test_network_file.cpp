@@ -123,7 +123,7 @@ TEST_CASE("files of networks that are broken say where") {
   changed("\"point\": 0,", "\"point\": 9,", "n.json:8: supports[0]: got a point");
   changed("\"point\": 0,", "", "n.json:8: supports[0]: got {");
   changed("[-8, 0, 1]", "[-8, 0]", "to_mm: got [-8,0], expected [x, y, z]");
-  changed("mm\": 3", "mm\": 0", "n.json:9: supports[1]: got a spring of 0 N/mm");
+  changed("mm\": 3", "mm\": 0", "n.json:9: supports[1]: a spring of 0 N/mm");
   changed("mm\": 3", "mm\": 1e7", "a spring of 1e+07 N/mm");
   changed("mm\": 3", "mm\": [3, 3]", "spring_N_per_mm: got [3,3], expected a number, or [kx");
   changed("mm\": 3", "mm\": \"soft\"", "spring_N_per_mm: got \"soft\", expected a number");
@@ -133,19 +133,19 @@ TEST_CASE("files of networks that are broken say where") {
   wrong("v 0 0\nl 1 2\n", "n.obj", "n.obj:1: expected a vertex");
   wrong("v 0 0 nan\n", "n.obj", "n.obj:1: expected a vertex");
   wrong("v 0 0 0\nl 1 2\n", "n.obj", "n.obj:2: got point 1, expected 0 to 0");
-  wrong("v 0 0 0\nv 1 0 0\nl 1 x\n", "n.obj", "n.obj:3: 'x' is no vertex");
-  wrong("v 0 0 0\nv 9 0 0\nv 9 0 0\nl 1 2 3\n", "n.obj", "n.obj:4: a stretch of no length");
+  wrong("v 0 0 0\nv 1 0 0\nl 1 x\n", "n.obj", "n.obj:3: got 'x', expected the number");
+  wrong("v 0 0 0\nv 9 0 0\nv 9 0 0\nl 1 2 3\n", "n.obj", "n.obj:4: got a segment of no length");
   wrong("v 0 0 0\n", "n.obj", "got no rods");
-  wrong("hello\nworld\n", "n.dxf", "n.dxf:1: is no DXF");
+  wrong("hello\nworld\n", "n.dxf", "n.dxf:1: got no DXF");
   wrong("", "n.dxf", "got no rods");
   wrong("0\nSECTION\n2\nENTITIES\n0\nLINE\n10\nnan\n", "n.dxf",
         "n.dxf:8: expected a finite number");
   wrong("0\nSECTION\n2\nENTITIES\n0\nLINE\n10\n1\n20\n1\n11\n1\n21\n1\n0\nENDSEC\n", "n.dxf",
-        "n.dxf:6: a rod of one point");
+        "n.dxf:6: got a rod of one point");
   wrong(
       "0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n10\n1\n20\n1\n10\n1\n20\n1\n10\n9\n20\n1\n0\nENDSEC"
       "\n",
-      "n.dxf", "n.dxf:6: a stretch of no length");
+      "n.dxf", "n.dxf:6: got a segment of no length");
   wrong("x", "n.txt", "ends in .json");
 }
 
@@ -166,7 +166,7 @@ TEST_CASE("a network is needed, and what names rods of a square grid is refused"
   CHECK(sprung("[0, 1, 1, 0.5]") == "none");
   CHECK(sprung("[0, 1, 1]").find("[point, kx, ky, kz]") != std::string::npos);
   CHECK(sprung("[1, 1, 1, 1]").find("expected a support") != std::string::npos);
-  CHECK(sprung("[0, 0, 0, 0]").find("holds nothing") != std::string::npos);
+  CHECK(sprung("[0, 0, 0, 0]").find("supports nothing") != std::string::npos);
   CHECK(message(file + "spacing_mm = 30.0\n").find("spacing_mm") != std::string::npos);
   CHECK_THAT(message("file = {points_mm = [[0, 0, 0]], rods = [[0, 1]]}\n"),
              Catch::Contains("rods[0] names point 1"));

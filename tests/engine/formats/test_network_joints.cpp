@@ -31,7 +31,7 @@ NetworkData read(const std::string& text) { return value_of(read_network(text, "
 
 void wrong(const std::string& joints, const std::string& reason) {
   CHECK_THAT(refusal(read_network(with("[4, 1],\n    [2, 6]", joints), "n.json")),
-             Catch::Contains("n.json:9: joints[0]: " + reason));
+             Catch::StartsWith("n.json:9: joints[0]: ") && Catch::Contains(reason));
 }
 
 }  // namespace
@@ -117,6 +117,6 @@ TEST_CASE("a network's law is that of all joints which have none of their own") 
         Points{{every_joint, 0, 2}});
   CHECK(network_error(read(lawful(R"("rigid")"))).empty());
   CHECK_THAT(refusal(read_network(lawful(R"({"law": "rigid", "point": 1})"), "n.json")),
-             Catch::Contains("law: is that of all joints"));
+             Catch::Contains("law: got the law of all joints"));
   CHECK_THAT(refusal(read_network(lawful("3"), "n.json")), Catch::Contains("expected \"law\" of"));
 }

@@ -107,7 +107,7 @@ TEST_CASE("lines of a drawing that meet end to end are one outline, in any order
   const Outline found = outline(dxf(pieces), "a.dxf");
   CHECK(found.area == Approx(stadium).epsilon(1e-3));
   CHECK_THAT(outline(dxf(pieces + line_dxf({300, 0}, {400, 0})), "a.dxf").text,
-             Contains("beside 1 open line"));
+             Contains("in addition to 1 open line"));
   const std::string open =
       line_dxf({100, 0}, {0, 0}) + line_dxf({0, 0}, {50, 100}) + line_dxf({50.5, 100}, {100, 0});
   CHECK_THAT(refused(dxf(open), "a.dxf"),

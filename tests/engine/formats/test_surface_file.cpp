@@ -115,7 +115,7 @@ TEST_CASE("every spelling of OBJ and STL gives the same square") {
   CHECK(value_of(read_surface(heights(), "h.csv", 10)).z[0][0] == 70);
   wrong("v 1,5 0 0\n", "a.obj",
         "a.obj:1: expected a vertex of three numbers, v x y z, with decimal");
-  wrong("v 0 0 0\nsurf 0 1 0 1\n", "a.obj", "a.obj:2: 'surf', a free-form surface");
+  wrong("v 0 0 0\nsurf 0 1 0 1\n", "a.obj", "a.obj:2: got 'surf', a free-form surface");
   wrong(stl_text().substr(0, stl_text().size() - 9), "a.stl", "is it cut short?");
 }
 
@@ -128,11 +128,12 @@ TEST_CASE("heights come in any order, and a position without one is reported") {
   CHECK(grid->z[3].size() == 5);
   auto hole = heights();
   hole.erase(hole.find("2,2.1,7\n"), 8);
-  wrong(hole, "h.csv", "h.csv: holds 19 points on a grid of 5 x 4 places, and none at (2, 2.1)");
-  wrong(heights() + "3,2.1,8\n", "h.csv", "h.csv:22: a second point at (3, 2.1)");
-  wrong(heights() + "3,2.1\n", "h.csv", "h.csv:22: holds 2 values");
-  wrong(heights() + "3,2.1,nan\n", "h.csv", "h.csv:22: 'nan' is no number");
-  wrong(heights() + "3,2.1,-9999\n", "h.csv", "h.csv:22: a height of -9999, which marks a place");
+  wrong(hole, "h.csv", "h.csv: got 19 points on a grid of 5 x 4, and none at (2, 2.1)");
+  wrong(heights() + "3,2.1,8\n", "h.csv", "h.csv:22: got a second point at (3, 2.1)");
+  wrong(heights() + "3,2.1\n", "h.csv", "h.csv:22: got 2 values");
+  wrong(heights() + "3,2.1,nan\n", "h.csv", "h.csv:22: got 'nan'");
+  wrong(heights() + "3,2.1,-9999\n", "h.csv",
+        "h.csv:22: got a height of -9999, which marks a hole");
   wrong("0 0 1\n1 1 1\n2 2 1\n", "h.txt", "at least 4 x 4");
   std::string scattered;
   for (int k = 0; k < 40; ++k)
@@ -147,19 +148,19 @@ TEST_CASE("what is no mesh is refused with its position") {
   wrong("v 1 2 nan\n", "a.obj", "a.obj:1: expected a vertex of three numbers");
   wrong("v 1 2 1e300\n", "a.obj", "too large");
   wrong(obj + "f 1 2 7\n", "a.obj", "a.obj:8: got a vertex that is none of the 4");
-  wrong(obj + "f 1 2 x\n", "a.obj", "a.obj:8: 'x' is no vertex");
+  wrong(obj + "f 1 2 x\n", "a.obj", "a.obj:8: got 'x', expected the number");
   wrong(obj + "f 1 2\n", "a.obj", "a polygon of 2 corners");
   wrong("a mesh", "a.stl", "no STL");
   wrong(stl_bytes() + "x", "a.stl", "no STL");
-  wrong("solid\nvertex 1 2 3\nendsolid\n", "a.stl", "ends within a triangle");
+  wrong("solid\nvertex 1 2 3\nendsolid\n", "a.stl", "got 1 vertices");
   wrong("solid\nvertex 1 2 inf\n", "a.stl", "a.stl:2: expected a vertex of three numbers");
-  wrong("plywood\n", "a.ply", "a.ply:1: no PLY");
+  wrong("plywood\n", "a.ply", "a.ply:1: got no PLY");
   wrong("ply\nformat ascii 1.0\nelement vertex 3\n", "a.ply", "ends within its header");
   wrong("ply\nformat morse 1.0\n", "a.ply", "a.ply:2: got no line of a PLY header");
   wrong("ply\nformat ascii 1.0\nelement vertex 1\nproperty quaternion x\n", "a.ply",
         "a type that PLY does not have");
   const auto cut = ply_bytes(false);
-  wrong(cut.substr(0, cut.size() - 3), "a.ply", "face 1: the file ends there");
+  wrong(cut.substr(0, cut.size() - 3), "a.ply", "face 1: got the end of the file");
   // sizes that a header claims cost nothing
   wrong("ply\nformat ascii 1.0\nelement vertex 999999999\nproperty float x\nend_header\n1\n",
         "a.ply", "not a number");
@@ -188,9 +189,9 @@ TEST_CASE("a preset contains the surface of its file, and its text reads back as
   refused("\"a.obj\"", "/nonexistent/a.obj");
   refused("\"\"", "needs an expression");
   refused("3", "an integer), expected the name of a file");
-  refused("{x_mm = [1, 2, 3, 4]}", "has no list y_mm");
+  refused("{x_mm = [1, 2, 3, 4]}", "(no list y_mm)");
   refused("{x_mm = [1, 2, 4, 3], y_mm = [1, 2, 3, 4], z_mm = []}", "expected rising numbers");
-  refused("{x_mm = [1, 2, 3, 4], y_mm = [1, 2, 3, 4], z_mm = [[1]]}", "z_mm holds 1 rows");
+  refused("{x_mm = [1, 2, 3, 4], y_mm = [1, 2, 3, 4], z_mm = [[1]]}", "z_mm: got 1 rows");
   refused("{vertices_mm = [[0, 0, 0]], triangles = [[0, 1, 2]]}", "none of the 1 before it");
   refused("{vertices_mm = [[0, 0]], triangles = [[0, 0, 0]]}", "expected points [x, y, z]");
 }

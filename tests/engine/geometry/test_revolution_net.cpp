@@ -137,20 +137,19 @@ TEST_CASE("surfaces of revolution: folds and ends are named with their position"
   CHECK_THAT(refusal(net.at(100, 100)),
              Catch::StartsWith("the net on the spool of radius 100 mm and waist 0.5 folds "
                                "(shear angle 180 degrees) where u + v = 18") &&
-                 Catch::Contains("mm along the axis; (u, v) = (100, 100) mm lies beyond"));
+                 Catch::Contains("mm along the axis; (u, v) = (100, 100) mm is past it"));
   CHECK_THAT(refusal(net.at(-100, -100)), Catch::Contains("where u + v = -18"));
 
-  CHECK(
-      refusal(RevolutionNet::make(spool, 0.03)) ==
-      "no net exists on the spool of radius 100 mm and waist 0.5 with c = 0.03 / mm: in its middle "
-      "sin(omega/2) = c r: got 1.5, expected between 0 and 1");
+  CHECK(refusal(RevolutionNet::make(spool, 0.03)) ==
+        "no net exists on the spool of radius 100 mm and waist 0.5 with c = 0.03 / mm: in its "
+        "middle sin(omega/2) = c r is 1.5, expected between 0 and 1");
   CHECK_FALSE(RevolutionNet::make(spool, -1));
 
   const RevolutionNet cylinder = right_angled(cylinder_profile(40, 100).value());
   CHECK(refusal(cylinder.at(80, 80)) ==
         "the cylinder of radius 40 mm ends where u + v = 141.4214 mm, 100 mm along the axis; (u, "
         "v) = "
-        "(80, 80) mm lies beyond");
+        "(80, 80) mm is past it");
   CHECK(cylinder.x_at_axial(100));
   CHECK_FALSE(cylinder.x_at_axial(100.1));
 }

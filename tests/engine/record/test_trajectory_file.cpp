@@ -150,7 +150,7 @@ TEST_CASE("parts that do not fit each other are neither written nor read") {
   CHECK(refused([](Trajectory& run) { run.layout.rods[3][1] = 99; }) ==
         "rod 3 names node 99 of 12");
   CHECK(refused([](Trajectory& run) { run.frames.edit()[2].nodes.conservativeResize(3, 11); }) ==
-        "frame 2 has 11 nodes, the first one 12");
+        "frame 2: got 11 nodes, expected 12 as in the first one");
   CHECK(refused([](Trajectory& run) { run.layout.cells[0].joints[3] = -1; }) ==
         "cell 0 names joint -1 of 4");
   CHECK(refused([](Trajectory& run) { run.frames.edit()[0].cell_K.resize(0); }) ==
@@ -159,8 +159,9 @@ TEST_CASE("parts that do not fit each other are neither written nor read") {
         "axial_force_N of frame 2: got 11 values, expected 12");
   CHECK(refused([](Trajectory& run) { run.layout.families.pop_back(); }) ==
         "3 families are named for 4 rods");
-  CHECK(refused([](Trajectory& run) { run.layout.actuated_boundary.resize(3, 4); }) ==
-        "the original boundary has 5 points, the actuated one 4");
+  CHECK(
+      refused([](Trajectory& run) { run.layout.actuated_boundary.resize(3, 4); }) ==
+      "boundaries: got 5 points of the original and 4 of the actuated one, expected equal numbers");
   CHECK(folder.entries().empty());
   // a file whose index another program changed
   const auto wrong_index = [](hid_t file) {

@@ -97,7 +97,8 @@ TEST_CASE("translation nets from two curves: certified, near the net") {
     const record::Summary s = run_to_end(p, true).summary;
     CHECK(s.max_deviation < near);
     std::swap(p.net.curve_u, p.net.curve_v);
-    CHECK_THAT(refused(p), Catch::Contains("curve_v of the translation net must run to the left"));
+    CHECK_THAT(refused(p),
+               Catch::Contains("curve_v of the translation net: got a curve to the right"));
   }
 }
 

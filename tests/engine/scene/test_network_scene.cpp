@@ -148,5 +148,5 @@ TEST_CASE("rods with sections of their own, springs and shearing joints work on 
   CHECK_THAT(error_of("curvature_per_mm", 0.01), Catch::Contains("shear_GPa or GJ_Nmm2 above 0"));
   CHECK(error_of("young_GPa", 70) == "none");
   file.diameters[2] = 31;
-  CHECK_THAT(refusal(scene_of(p)), Catch::Contains("rods[2]: a diameter of 31 mm"));
+  CHECK_THAT(refusal(scene_of(p)), Catch::Contains("rods[2]: got a diameter of 31 mm"));
 }

@@ -106,6 +106,6 @@ TEST_CASE(
   };
   refused("[ends]\nsecond_ring_mm = 10.0\n", "this footprint has none");
   refused("[footprint]\nkind = \"net\"\n[ends]\nkind = \"tangent\"\nsecond_ring_mm = 10.0\n",
-          "held already");
+          "prescribed already");
   refused("[footprint]\nkind = \"net\"\n[ends]\nsecond_ring_mm = -1.0\n", "out of range");
 }

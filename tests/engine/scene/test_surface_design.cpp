@@ -69,14 +69,14 @@ TEST_CASE("a surface that makes no net is refused with what is wrong") {
   refused(with([](auto& n) { n.implicit = "x^2 + y^2 - sqrt(-1)"; }), "no value");
   refused(with([](auto& n) { n.implicit = "5"; }), "no slope");
   refused(with([](auto& n) { n.apex_mm = {0, 0, 110}; }), "lies 10 mm off the surface");
-  refused(with([](auto& n) { n.apex_mm = {120, 0, 0}, n.cut_mm = -10; }), "face up");
+  refused(with([](auto& n) { n.apex_mm = {120, 0, 0}, n.cut_mm = -10; }), "it faces up");
   refused(with([](auto& n) { n.cut_mm = 130; }), "lies outside");
   refused(with([](auto& n) { n.cut_mm = -200; }), "does not cross");
   refused(with([](auto& n) { n.within = "z <"; }), "[net] within");
   // seen from the apex the boundary hides parts of itself
   refused(
       with([](auto& n) { n.within = "max(x^2 + y^2 - 100^2, 12^2 - (x - 50)^2 - (y - 50)^2)"; }),
-      "crossed more than once");
+      "two crossings of the ray");
 }
 
 TEST_CASE("heights and meshes of a cap have the sphere's own footprint and boundary",

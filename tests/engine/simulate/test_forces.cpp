@@ -200,7 +200,7 @@ TEST_CASE("forces, energies and bending strain of pinned elasticas, as exact as 
       // the estimate is of use
       CHECK(frame.force_error_N < (tolerance < 1e-3 ? 5 * tolerance : 0.03) * exact.force);
       CHECK(frame.largest_bending_strain == Approx(exact.strain).epsilon(0.02));
-      CHECK_THAT(frame.bending_strain_at, Catch::Contains("100.00 mm from its begin, at joint ["));
+      CHECK_THAT(frame.bending_strain_at, Catch::Contains("100.00 mm from its start, at joint ["));
     }
 }
 

@@ -100,7 +100,7 @@ TEST_CASE("constraints of ends that have no support of their own are refused by 
     change(file);
     CHECK_THAT(refusal(scene_of(network(file, 4))), Catch::Contains(reason));
   };
-  reported("rods[1]: its begin hangs on a spring", [](auto& file) { file.holds[2] = {1, 0, 2}; });
+  reported("rods[1]: its begin is on a spring", [](auto& file) { file.holds[2] = {1, 0, 2}; });
   reported("rods[3]: its begin is free", [](auto& file) {
     std::erase_if(file.supports, [](const auto& row) { return row[0] == 2; });
     file.free = {2};

@@ -165,10 +165,12 @@ TEST_CASE("steps on what is not there are errors with their number") {
     return refused_run(preset);
   };
   CHECK_THAT(refused(push(40, 0, 1)), Catch::Contains("[[step]] 2") &&
-                                          Catch::Contains("joint = [40, 0]: the footprint has no"));
-  CHECK_THAT(refused(of(StepKind::release)), Catch::Contains("[[step]] 2: no joint is fixed"));
+                                          Catch::Contains("joint: got [40, 0], expected a joint"));
+  CHECK_THAT(refused(of(StepKind::release)),
+             Catch::Contains("[[step]] 2: got no prescribed joint"));
   // which `check` says as well
-  CHECK_THAT(refusal(simulate::plan(preset)), Catch::StartsWith("[[step]] 2: no joint is fixed"));
+  CHECK_THAT(refusal(simulate::plan(preset)),
+             Catch::StartsWith("[[step]] 2: got no prescribed joint"));
   preset::Step edge = of(StepKind::move);
   edge.edge_points = {{400, 1, 0, 0}};
   CHECK_THAT(refused(edge), Catch::Contains("got edge point 400, expected 0 to 23"));
