@@ -274,7 +274,8 @@ std::string not_in_the_flat(const EquilibriumPath& path) {
 
 Result<Plan> plan(const preset::Preset& preset) {
   const double begun = cpu_seconds_now();
-  TRY(scene, scene_of(preset));
+  TRY(built, shared_scene_of(preset));
+  const std::shared_ptr<const Scene>& scene = *built;
   const double seconds_scene = cpu_seconds_now() - begun;
   const LevelPlan levels = initial_levels(*scene);
   TRY_DO(fits_memory(*scene, levels));
@@ -284,6 +285,7 @@ Result<Plan> plan(const preset::Preset& preset) {
   TRY_DO(check_steps(preset.step, scene->footprint));
   TRY_DO(check_motion(*scene));
   Plan plan;
+  plan.scene = scene;
   plan.model = word_of(scene->rung);
   plan.memory_GB = expected_GB(memory_GB(scene->footprint, scene->rung, levels), preset);
   plan.model_reason = preset::model_reason(preset);
