@@ -151,6 +151,25 @@ PathSample sample_of(std::size_t index, double progress, bool unload) {
   return {int(index), back ? 1u : 0u, back ? 2 * (1 - progress) : 2 * progress, progress};
 }
 
+/// Adds the load steps of the path to its samples, so that a curve through them turns where the
+/// path does. The step at a limit has a frame of its own.
+void add_load_steps(const EquilibriumPath& path, bool unload, std::vector<PathSample>& samples) {
+  constexpr double equal = 1e-9;
+  for (std::size_t s = 0; s < path.segments.size(); ++s) {
+    const PathSegment& segment = path.segments[s];
+    for (const LoadStep& step : segment.load_steps) {
+      if (&step == &segment.load_steps.back() && at_limit(segment.report.end)) continue;
+      const double t = step.point.t;
+      samples.push_back({0, s, t, !unload ? t : s == 0 ? t / 2 : 1 - t / 2});
+    }
+  }
+  std::ranges::stable_sort(samples, {}, &PathSample::progress);
+  const auto same = std::ranges::unique(
+      samples, [](double a, double b) { return b - a < equal; }, &PathSample::progress);
+  samples.erase(same.begin(), same.end());
+  for (std::size_t k = 0; k < samples.size(); ++k) samples[k].index = int(k);
+}
+
 /// Whether a push came as far as a sample.
 bool came_to(const EquilibriumPath& path, const PathSample& sample) {
   if (sample.segment >= path.segments.size()) return false;
@@ -234,8 +253,8 @@ Result<HeldShell> hold_to_push(const std::shared_ptr<const Scene>& scene,
 
 Result<EquilibriumPath> run_indentation(std::shared_ptr<const Scene> scene,
                                         const preset::Indentation& indentation,
-                                        const std::vector<double>& progress, record::Sink& sink,
-                                        Watch& watch) {
+                                        const std::vector<double>& progress, bool own_steps,
+                                        record::Sink& sink, Watch& watch) {
   auto kept = converged_path(
       *scene,
       [&](const LevelPlan& plan, const Watch& w) {
@@ -250,10 +269,11 @@ Result<EquilibriumPath> run_indentation(std::shared_ptr<const Scene> scene,
   layout->extrapolated = kept->simulation.shell().plan().extrapolate;
   TRY_DO(sink.begin(std::move(*layout)));
   const Checkpoint end = kept->simulation.save();
-  PathSampler sampler(*kept, caption_of(*kept), sink, watch, progress.size());
   std::vector<PathSample> samples;
   for (std::size_t k = 0; k < progress.size(); ++k)
     samples.push_back(sample_of(k, progress[k], indentation.unload));
+  if (own_steps) add_load_steps(*kept, indentation.unload, samples);
+  PathSampler sampler(*kept, caption_of(*kept), sink, watch, samples.size());
   for (PathSample sample : samples) {
     Result<bool> taken = false;
     if (came_to(*kept, sample)) taken = sampler.at(sample);

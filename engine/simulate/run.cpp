@@ -248,7 +248,7 @@ Result<EquilibriumPath> path_for(const preset::Preset& preset,
   // for a push all frames of a movie, or enough for its force curve
   const auto samples = evenly(stills ? 61 : std::max(2, preset.movie.frames));
   if (preset.indentation.wanted())
-    return run_indentation(scene, preset.indentation, samples, sink, watch);
+    return run_indentation(scene, preset.indentation, samples, stills, sink, watch);
   if (preset.step.empty()) return run_actuation(scene, samples_of(preset, stills), sink, watch);
   // stills show each step's end
   TRY(stepped, run_steps(scene, preset.step, stills ? 1 : preset.movie.frames, sink, watch));
