@@ -305,11 +305,12 @@ void add_surface(FieldList<Net> net) {
                                  "mesh: rods end where they would cross at less than this angle");
   of_mesh();
   net.add<&Net::apex>(
-      "\"given\": the net starts at `apex_mm`; \"best\", for a mesh: at the point and direction "
-      "from which rods reach most of the surface (a search of some seconds)");
+      "\"given\": at `apex_mm`; \"best\", of a mesh: where rods reach the largest area (a search "
+      "of "
+      "seconds); \"best_angle\": where, at 0.95 of that, they cross at the largest least angle");
   surface().refused({"file"}, "searches a mesh of triangles, must be \"given\" for other surfaces",
-                    [=](const Net& of) { return of.apex == NetApex::best && !mesh(of); });
-  const auto searched = [](const Net& of) { return of.apex == NetApex::best; };
+                    [=](const Net& of) { return of.apex != NetApex::given && !mesh(of); });
+  const auto searched = [](const Net& of) { return of.apex != NetApex::given; };
   const char* found = "apex = \"best\" finds it";
   net.add<&Net::apex_mm>(
       "[x, y, z], a point of the surface where the net's axes cross at right angles; of a height "
