@@ -282,46 +282,39 @@ Result<void> draw_all(std::vector<Run>& runs, const std::string& title, const fs
   return {};
 }
 
-Result<std::vector<std::string>> draw_net_plans(const preset::Presets& presets,
-                                                const fs::path& folder) {
+Result<std::string> draw_net_plan(const preset::Case& run, const Scene& scene,
+                                  const fs::path& folder) {
   using render::PlanPart;
-  std::vector<std::string> names;
-  for (const auto& run : runs_of(presets)) {
-    if (!run.preset.on_mesh()) continue;
-    TRY(scene, scene_of(run.preset));
-    const MeshNetReport& net = *scene->mesh_net;
-    TRY(rods, rods_on_net(*scene, run.preset.footprint.spacing_mm / 8));
-    std::vector<PlanPart> parts;
-    for (const auto& [why, fraction] : net.reasons()) {
-      PlanPart& part = parts.emplace_back(PlanPart{PlanPart::Kind::left_out, {}});
-      part.name = fmt::format("left out, {:.1f} %: {}", 100 * fraction, text_of(why));
-      for (const AreaSample& one : net.left_out) {
-        if (one.why != why) continue;
-        part.points.conservativeResize(3, part.points.cols() + 1);
-        part.points.rightCols<1>() = one.at;
-      }
-    }
-    parts.push_back({PlanPart::Kind::rods,
-                     fmt::format("the net, {:.1f} % of the area", 100 * net.start.reached),
-                     std::move(*rods)});
-    for (const auto& [kind, line, name] : {std::tuple(PlanPart::Kind::rim, LineKind::rim, ""),
-                                           {PlanPart::Kind::hole, LineKind::hole, "holes"},
-                                           {PlanPart::Kind::crease, LineKind::crease, "creases"}}) {
-      PlanPart part{kind, name};
-      for (const auto& one : net.drawn)
-        if (one.kind == line) part.lines.push_back(one.points);
-      parts.push_back(std::move(part));
-    }
-    parts.push_back({PlanPart::Kind::apex, "the apex", {}, net.start.place.apex});
-    fs::path stem = folder;
-    stem += (run.name.empty() ? "" : "_" + run.name) + "_plan";
-    if (stem.has_parent_path()) TRY_DO(make_folder(stem.parent_path()));
-    const auto style = style_of(run.preset, Pictures::stills);
-    TRY_DO(render::write_plot(stem, render::net_plan(parts, render::plain(run.preset.title)),
-                              style.print, 1.1));
-    names.push_back(stem.string() + ".png");
+  const MeshNetReport& net = *scene.mesh_net;
+  TRY(rods, rods_on_net(scene, run.preset.footprint.spacing_mm / 8));
+  std::vector<PlanPart> parts;
+  for (const auto& [why, fraction] : net.reasons()) {
+    PlanPart& part = parts.emplace_back(PlanPart{PlanPart::Kind::left_out, {}});
+    part.name = fmt::format("left out, {:.1f} %: {}", 100 * fraction, text_of(why));
+    part.points.resize(3, std::ranges::count(net.left_out, why, &AreaSample::why));
+    Eigen::Index count = 0;
+    for (const AreaSample& one : net.left_out)
+      if (one.why == why) part.points.col(count++) = one.at;
   }
-  return names;
+  parts.push_back({PlanPart::Kind::rods,
+                   fmt::format("the net, {:.1f} % of the area", 100 * net.start.reached),
+                   std::move(*rods)});
+  for (const auto& [kind, line, name] : {std::tuple(PlanPart::Kind::rim, LineKind::rim, ""),
+                                         {PlanPart::Kind::hole, LineKind::hole, "holes"},
+                                         {PlanPart::Kind::crease, LineKind::crease, "creases"}}) {
+    PlanPart part{kind, name};
+    for (const auto& one : net.drawn)
+      if (one.kind == line) part.lines.push_back(one.points);
+    parts.push_back(std::move(part));
+  }
+  parts.push_back({PlanPart::Kind::apex, "the apex", {}, net.start.place.apex});
+  fs::path stem = folder;
+  stem += (run.name.empty() ? "" : "_" + run.name) + "_plan";
+  if (stem.has_parent_path()) TRY_DO(make_folder(stem.parent_path()));
+  const auto style = style_of(run.preset, Pictures::stills);
+  TRY_DO(render::write_plot(stem, render::net_plan(parts, render::plain(run.preset.title)),
+                            style.print, 1.1));
+  return stem.string() + ".png";
 }
 
 void draw_refusals(const preset::Presets& presets, const fs::path& folder) {

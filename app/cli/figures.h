@@ -62,10 +62,10 @@ Result<void> draw_states(const Run& run, render::Renderer& renderer,
 
 // Pictures of nets on meshes.
 
-/// Draws, for every run whose net lies on a mesh, `<folder>_plan.png`, .svg and .pdf (with cases
-/// `<folder>_<case>_plan`): its rods in plan, what they do not reach and why. Returns their names.
-Result<std::vector<std::string>> draw_net_plans(const preset::Presets& presets,
-                                                const std::filesystem::path& folder);
+/// Draws, for a run whose net lies on a mesh, `<folder>_plan.png`, .svg and .pdf (of a case
+/// `<folder>_<case>_plan`): its rods in plan, what they do not reach and why. Returns the name.
+Result<std::string> draw_net_plan(const preset::Case& run, const Scene& scene,
+                                  const std::filesystem::path& folder);
 
 // Pictures of what was refused.
 

@@ -24,7 +24,8 @@ enum class Pictures { none, movie, stills };
 struct Run {
   std::string name = {};  ///< of the case, and of its folder; empty without cases
   preset::Preset preset = {};
-  Pictures pictures = Pictures::movie;  ///< that are drawn of it
+  Pictures pictures = Pictures::movie;      ///< that are drawn of it
+  std::shared_ptr<const Scene> scene = {};  ///< of its plan, until it is simulated
   record::Trajectory trajectory = {};
   record::Summary summary = {};
   record::StateTables states = {};  ///< of a search for states
