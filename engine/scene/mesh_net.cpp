@@ -116,7 +116,7 @@ std::string text_of(const NetStart& start) {
 std::vector<AreaSample> area_samples(const TriangleMesh& mesh, double apart_mm) {
   std::vector<AreaSample> samples;
   PointGrid near(apart_mm / 2);
-  // of small triangles some stand for those around them
+  // a few of many small triangles represent those around them
   const auto add = [&](const AreaSample& one) {
     const auto takes = [&](int k) {
       AreaSample& other = samples[std::size_t(k)];
@@ -229,7 +229,7 @@ Result<std::vector<NetStart>> best_starts(const Surface& surface, const Triangle
       }
     }
   }
-  // the best of them as the net itself comes out
+  // the best of them, measured on the grid of the net itself
   const Trial last = trial_on(net_chord(mesh, spacing_mm));
   const auto fine = area_samples(mesh, last.chord);
   for (NetStart& one : kinds)

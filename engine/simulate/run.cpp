@@ -97,7 +97,12 @@ std::vector<double> samples_of(const preset::Preset& preset, bool stills) {
     std::ranges::sort(progress);
     return progress;
   }
-  return preset.movie.frames == 1 ? std::vector{1.0} : evenly(preset.movie.frames);
+  if (preset.movie.frames == 1) return {1.0};
+  std::vector<double> progress = evenly(preset.movie.frames);
+  // a flat grid rises by the square root of how much it is shortened
+  if (preset.movie.pace == preset::Pace::height)
+    for (double& one : progress) one *= one;
+  return progress;
 }
 
 /// Passes frames on and stores the layout and the last frame for the summary. After a cancel the

@@ -44,7 +44,7 @@ TEST_CASE("points on a mesh represent all of its area, none far from the next") 
   for (const AreaSample& one : area_samples(mesh, 4)) sum += one.area;
   CHECK(sum == Approx(1).epsilon(1e-12));
   CHECK(area_samples(mesh, 4).size() > 2 * area_samples(mesh, 8).size());
-  // of small triangles one stands for those around it
+  // one of many small triangles represents those around it
   const auto few = area_samples(mesh, 60);
   CHECK(few.size() < mesh.triangles().size() / 8);
   sum = 0;
