@@ -32,7 +32,7 @@ std::string name_of(const preset::Preset& preset) {
   const preset::Net& net = preset.net;
   using preset::NetKind;
   if (net.kind == NetKind::sphere)
-    return to_be_designed(preset) ? "before its design"
+    return to_be_designed(preset) ? "before the design"
            : net.cut_height == 0  ? "hemisphere"
                                   : fmt::format("*z*^{{*}}/*ρ* = {:g}", net.cut_height);
   if (net.kind == NetKind::profile) return "surface of revolution";
@@ -45,9 +45,9 @@ fs::path with_suffix(fs::path stem, const char* suffix) { return stem += suffix;
 
 /// Draws one assemblage: its blocks separately, their footprints, and how they meet.
 Result<void> draw_block_pictures(const record::Trajectory& run, const render::MovieStyle& style,
-                                 render::Renderer& renderer, const fs::path& stem, Watch& watch) {
-  TRY_DO(save_panels(render::draw_blocks({{&run, ""}}, style, renderer, watch),
-                     with_suffix(stem, "_blocks.png")));
+                                 const fs::path& stem, Watch& watch) {
+  TRY_DO(save_panels(render::draw_blocks({{&run, ""}}, style, watch),
+                     with_suffix(stem, "_blocks.png"), style.print.dpi));
   TRY_DO(render::write_block_footprints(with_suffix(stem, "_footprint"), run, style.title,
                                         style.print));
   if (run.layout.seam_rods.empty()) return {};
@@ -55,8 +55,8 @@ Result<void> draw_block_pictures(const record::Trajectory& run, const render::Mo
                              "Seams of the blocks", style.print);
 }
 
-/// "hemisphere: at most 3.10 %", of the joints; with the rods where they lie further off between
-/// them, which the colours show too, in a line of their own where panels are narrow.
+/// "hemisphere: max 3.1 %", of the joints; with the rods where they lie further off between them,
+/// which the colours show too. The number is in a line of its own where panels are narrow.
 std::string caption_of(const record::Trajectory& run, const std::string& name, bool narrow) {
   constexpr double further = 1.2;
   const Eigen::VectorXd deviation = render::last_deviation(run);
@@ -64,10 +64,10 @@ std::string caption_of(const record::Trajectory& run, const std::string& name, b
   const double joints = unit.factor * deviation.head(long(run.layout.joints.size())).maxCoeff(),
                rods = unit.factor * deviation.maxCoeff();
   const char* word = run.layout.parts.empty() ? "%" : "mm";
-  // in digits that do not round a small one away
-  if (rods <= further * joints) return fmt::format("{}: at most {:.3g} {}", name, joints, word);
-  return fmt::format("{}: joints at most {:.3g},{}rods {:.3g} {}", name, joints,
-                     narrow ? "\n" : " ", rods, word);
+  const std::string first = name + (narrow ? "\n" : ": ");
+  const auto text = [](double value) { return fmt::format("{:.{}f}", value, value < 1 ? 2 : 1); };
+  if (rods <= further * joints) return fmt::format("{}max {} {}", first, text(joints), word);
+  return fmt::format("{}max {} (rods {}) {}", first, text(joints), text(rods), word);
 }
 
 /// What a picture of several calls one, marked text: by its own title, else as its case.
@@ -120,8 +120,8 @@ Result<void> draw_beside(const Runs& runs, const std::string& title, render::Ren
 }
 
 /// `<stem>_loads.png` and, each as PNG and SVG, `<stem>_force` and `<stem>_bins`.
-Result<void> draw_push_pictures(const Runs& runs, const std::string& title,
-                                render::Renderer& renderer, const fs::path& stem, Watch& watch) {
+Result<void> draw_push_pictures(const Runs& runs, const std::string& title, const fs::path& stem,
+                                Watch& watch) {
   auto style = style_of(runs.front()->preset, Pictures::stills);
   // several are the preset's, and each bears its own title
   const bool several = runs.size() > 1;
@@ -135,8 +135,8 @@ Result<void> draw_push_pictures(const Runs& runs, const std::string& title,
   }
   render::Plot force = render::force_plot(named);
   force.title = render::plain(style.title);
-  TRY_DO(save_panels(render::draw_pushes(shells, style, renderer, watch),
-                     with_suffix(stem, "_loads.png")));
+  TRY_DO(save_panels(render::draw_pushes(shells, style, watch), with_suffix(stem, "_loads.png"),
+                     style.print.dpi));
   TRY_DO(render::write_plot(with_suffix(stem, "_force"), force, style.print));
   // one by itself has its title over its own plot
   return render::write_push_bins(with_suffix(stem, "_bins"), named, several ? above : "",
@@ -158,7 +158,8 @@ Result<void> draw_cases(const Runs& runs, const std::string& title, const Shared
     const record::Frame last = shown.frames.back();
     const std::string caption =
         render::plain(title_among(*run, title)) + "\n" + render::frame_state_caption(last);
-    TRY_DO(render::add_panel(figure, stage, stage.drawing(last), {true, caption}, renderer, watch));
+    TRY_DO(
+        render::add_panel(figure, stage, stage.drawing(last), {true, caption}, &renderer, watch));
   }
   return save_panels(figure, with_suffix(stem, ".png"),
                      style.print.width_mm > 0 ? style.print.dpi : 0);
@@ -181,9 +182,9 @@ Result<void> draw_together(const std::vector<Run>& runs, const std::string& titl
   if (stills.front()->preset.page.kind != preset::PageKind::none)
     return draw_page(stills, renderer, stem, progress.next_phase());
   if (const Runs nets = those(has_net); !nets.empty())
-    TRY_DO(draw_net_pictures(nets, renderer, stem, progress.next_phase()));
+    TRY_DO(draw_net_pictures(nets, stem, progress.next_phase()));
   if (const Runs pushes = those(shows_push); !pushes.empty())
-    TRY_DO(draw_push_pictures(pushes, title, renderer, stem, progress.next_phase()));
+    TRY_DO(draw_push_pictures(pushes, title, stem, progress.next_phase()));
   // under one colour bar
   const bool alike = std::ranges::all_of(stills, [&](const Run* run) {
     return run->preset.movie.colour_by == stills.front()->preset.movie.colour_by;
@@ -201,8 +202,7 @@ Result<void> save_panels(const Result<render::PanelFigure>& figure, const fs::pa
   return render::write_panels(*figure, file, dpi);
 }
 
-Result<void> draw_net_pictures(const Runs& runs, render::Renderer& renderer, const fs::path& stem,
-                               Watch& watch) {
+Result<void> draw_net_pictures(const Runs& runs, const fs::path& stem, Watch& watch) {
   const auto style = style_of(runs.front()->preset, Pictures::stills);
   const record::Trajectory& first = runs.front()->trajectory;
   const bool alone = runs.size() == 1;
@@ -218,13 +218,13 @@ Result<void> draw_net_pictures(const Runs& runs, render::Renderer& renderer, con
     plot.title = render::plain(style.title);
     return render::write_plot(with_suffix(stem, suffix), plot, style.print);
   };
-  const double dpi = style.print.width_mm > 0 ? style.print.dpi : 0;
-  TRY_DO(save_panels(render::draw_over_nets(shells, style, renderer, watch),
-                     with_suffix(stem, "_net.png"), dpi));
-  TRY_DO(save_panels(render::draw_deviations(shades, style, renderer, watch),
+  const double dpi = style.print.dpi;
+  TRY_DO(save_panels(render::draw_over_nets(shells, style, watch), with_suffix(stem, "_net.png"),
+                     dpi));
+  TRY_DO(save_panels(render::draw_deviations(shades, style, watch),
                      with_suffix(stem, "_deviation.png"), dpi));
   if (alone && !first.layout.parts.empty())
-    TRY_DO(draw_block_pictures(first, style, renderer, stem, watch));
+    TRY_DO(draw_block_pictures(first, style, stem, watch));
   else
     TRY_DO(
         render::write_footprints(with_suffix(stem, "_footprint"), named, style.title, style.print));
@@ -282,46 +282,39 @@ Result<void> draw_all(std::vector<Run>& runs, const std::string& title, const fs
   return {};
 }
 
-Result<std::vector<std::string>> draw_net_plans(const preset::Presets& presets,
-                                                const fs::path& folder) {
+Result<std::string> draw_net_plan(const preset::Case& run, const Scene& scene,
+                                  const fs::path& folder) {
   using render::PlanPart;
-  std::vector<std::string> names;
-  for (const auto& run : runs_of(presets)) {
-    if (!run.preset.on_mesh()) continue;
-    TRY(scene, scene_of(run.preset));
-    const MeshNetReport& net = *scene->mesh_net;
-    TRY(rods, rods_on_net(*scene, run.preset.footprint.spacing_mm / 8));
-    std::vector<PlanPart> parts;
-    for (const auto& [why, fraction] : net.reasons()) {
-      PlanPart& part = parts.emplace_back(PlanPart{PlanPart::Kind::left_out, {}});
-      part.name = fmt::format("left out, {:.1f} %: {}", 100 * fraction, text_of(why));
-      for (const AreaSample& one : net.left_out) {
-        if (one.why != why) continue;
-        part.points.conservativeResize(3, part.points.cols() + 1);
-        part.points.rightCols<1>() = one.at;
-      }
-    }
-    parts.push_back({PlanPart::Kind::rods,
-                     fmt::format("the net, {:.1f} % of the area", 100 * net.start.reached),
-                     std::move(*rods)});
-    for (const auto& [kind, line, name] : {std::tuple(PlanPart::Kind::rim, LineKind::rim, ""),
-                                           {PlanPart::Kind::hole, LineKind::hole, "holes"},
-                                           {PlanPart::Kind::crease, LineKind::crease, "creases"}}) {
-      PlanPart part{kind, name};
-      for (const auto& one : net.drawn)
-        if (one.kind == line) part.lines.push_back(one.points);
-      parts.push_back(std::move(part));
-    }
-    parts.push_back({PlanPart::Kind::apex, "the apex", {}, net.start.place.apex});
-    fs::path stem = folder;
-    stem += (run.name.empty() ? "" : "_" + run.name) + "_plan";
-    if (stem.has_parent_path()) TRY_DO(make_folder(stem.parent_path()));
-    const auto style = style_of(run.preset, Pictures::stills);
-    TRY_DO(render::write_plot(stem, render::net_plan(parts, render::plain(run.preset.title)),
-                              style.print, 1.1));
-    names.push_back(stem.string() + ".png");
+  const MeshNetReport& net = *scene.mesh_net;
+  TRY(rods, rods_on_net(scene, run.preset.footprint.spacing_mm / 8));
+  std::vector<PlanPart> parts;
+  for (const auto& [why, fraction] : net.reasons()) {
+    PlanPart& part = parts.emplace_back(PlanPart{PlanPart::Kind::left_out, {}});
+    part.name = fmt::format("left out, {:.1f} %: {}", 100 * fraction, text_of(why));
+    part.points.resize(3, std::ranges::count(net.left_out, why, &AreaSample::why));
+    Eigen::Index count = 0;
+    for (const AreaSample& one : net.left_out)
+      if (one.why == why) part.points.col(count++) = one.at;
   }
-  return names;
+  parts.push_back({PlanPart::Kind::rods,
+                   fmt::format("the net, {:.1f} % of the area", 100 * net.start.reached),
+                   std::move(*rods)});
+  for (const auto& [kind, line, name] : {std::tuple(PlanPart::Kind::rim, LineKind::rim, ""),
+                                         {PlanPart::Kind::hole, LineKind::hole, "holes"},
+                                         {PlanPart::Kind::crease, LineKind::crease, "creases"}}) {
+    PlanPart part{kind, name};
+    for (const auto& one : net.drawn)
+      if (one.kind == line) part.lines.push_back(one.points);
+    parts.push_back(std::move(part));
+  }
+  parts.push_back({PlanPart::Kind::apex, "the apex", {}, net.start.place.apex});
+  fs::path stem = folder;
+  stem += (run.name.empty() ? "" : "_" + run.name) + "_plan";
+  if (stem.has_parent_path()) TRY_DO(make_folder(stem.parent_path()));
+  const auto style = style_of(run.preset, Pictures::stills);
+  TRY_DO(render::write_plot(stem, render::net_plan(parts, render::plain(run.preset.title)),
+                            style.print, 1.1));
+  return stem.string() + ".png";
 }
 
 void draw_refusals(const preset::Presets& presets, const fs::path& folder) {

@@ -24,20 +24,18 @@ Result<void> draw_all(std::vector<Run>& runs, const std::string& title,
                       const std::filesystem::path& stem, render::Renderer& renderer,
                       const std::filesystem::path& folder, Progress& progress);
 
-/// Draws panels side by side as a PNG, and where they have lines `<stem>_lines` as those. Errors:
-/// those of the figure, io.
+/// Writes panels side by side (render::write_panels). Errors: those of the figure, io.
 Result<void> save_panels(const Result<render::PanelFigure>& figure,
                          const std::filesystem::path& file, double dpi = 0);
 
 // The figures of shells that were designed on nets: over their nets, by deviation, footprints, K,
 // r against latitude.
 
-/// Writes `<stem>_net.png`, `<stem>_deviation.png` and, each as PNG and SVG, `<stem>_footprint`,
+/// Writes, each as PNG, SVG and PDF, `<stem>_net`, `<stem>_deviation`, `<stem>_footprint`,
 /// `<stem>_K`, `<stem>_quantiles`, for one cap alone `<stem>_latitude` with the joints scanned
-/// where the preset has any, and for building blocks `<stem>_blocks.png` and `<stem>_seams`.
+/// where the preset has any, and for building blocks `<stem>_blocks` and `<stem>_seams`.
 /// Errors: io, cancelled, bad_input when a picture cannot be that size.
-Result<void> draw_net_pictures(const Runs& runs, render::Renderer& renderer,
-                               const std::filesystem::path& stem, Watch& watch);
+Result<void> draw_net_pictures(const Runs& runs, const std::filesystem::path& stem, Watch& watch);
 
 // Pictures of the states of a shell [Baek 2018, Fig. 2].
 
@@ -62,10 +60,10 @@ Result<void> draw_states(const Run& run, render::Renderer& renderer,
 
 // Pictures of nets on meshes.
 
-/// Draws, for every run whose net lies on a mesh, `<folder>_plan.png`, .svg and .pdf (with cases
-/// `<folder>_<case>_plan`): its rods in plan, what they do not reach and why. Returns their names.
-Result<std::vector<std::string>> draw_net_plans(const preset::Presets& presets,
-                                                const std::filesystem::path& folder);
+/// Draws, for a run whose net lies on a mesh, `<folder>_plan.png`, .svg and .pdf (of a case
+/// `<folder>_<case>_plan`): its rods in plan, what they do not reach and why. Returns the name.
+Result<std::string> draw_net_plan(const preset::Case& run, const Scene& scene,
+                                  const std::filesystem::path& folder);
 
 // Pictures of what was refused.
 

@@ -52,7 +52,9 @@ Result<void> draw(preset::Preset preset, const FormedStudy& found, const std::st
   TRY(maker, PictureMaker::create(context, preset.style.font));
   preset.movie.colour_by = preset::ColourBy::displacement;
   preset.movie.turn_deg = 0;
-  if (!preset.title.empty()) preset.title += ": moves drawn larger than they are";
+  if (!preset.title.empty())
+    preset.title += fmt::format(": shapes, largest displacement drawn as {:.3g} mm",
+                                drawn_move_mm(found.state.layout));
   Watch& watch = progress.next_phase();
   if (!found.moves.empty())
     TRY_DO(render::write_stills({found.state.layout, found.moves},

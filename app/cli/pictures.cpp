@@ -106,12 +106,11 @@ Result<void> draw_run(const Run& run, const SharedColourBar& bar, render::Render
 
 record::Frame moved_by(const record::Trajectory& state, const Eigen::Matrix3Xd& shape, double part,
                        int index) {
-  constexpr double drawn_amplitude = 0.12;  // of the length scale
   const record::Frame& rest = state.frames.back();
   record::Frame frame;
   frame.index = index;
   frame.actuation = rest.actuation;
-  frame.depth_mm = drawn_amplitude * state.layout.length_scale_mm;
+  frame.depth_mm = drawn_move_mm(state.layout);
   frame.nodes = rest.nodes + part * frame.depth_mm * shape;
   frame.cell_K = rest.cell_K;
   frame.brace_force_N = rest.brace_force_N;

@@ -24,7 +24,8 @@ enum class Pictures { none, movie, stills };
 struct Run {
   std::string name = {};  ///< of the case, and of its folder; empty without cases
   preset::Preset preset = {};
-  Pictures pictures = Pictures::movie;  ///< that are drawn of it
+  Pictures pictures = Pictures::movie;      ///< that are drawn of it
+  std::shared_ptr<const Scene> scene = {};  ///< of its plan, until it is simulated
   record::Trajectory trajectory = {};
   record::Summary summary = {};
   record::StateTables states = {};  ///< of a search for states
@@ -76,8 +77,11 @@ Result<void> draw_run(const Run& run, const SharedColourBar& bar, render::Render
 
 // A shell that moves as a mode says, which is no state.
 
-/// The one of `state`'s last frame, moved by `part` of a shape whose largest move is 1: 0.12 of the
-/// length scale. It knows nothing but its shape.
+/// How far the node that moves furthest is drawn: a shape has no size of its own.
+inline double drawn_move_mm(const record::Layout& layout) { return 0.12 * layout.length_scale_mm; }
+
+/// The one of `state`'s last frame, moved by `part` of a shape whose largest move is 1:
+/// drawn_move_mm(). It knows nothing but its shape.
 record::Frame moved_by(const record::Trajectory& state, const Eigen::Matrix3Xd& shape, double part,
                        int index);
 

@@ -38,7 +38,10 @@ Result<std::vector<Run>> planned(const preset::Presets& presets, Pictures pictur
     const double guess = std::isnan(plan->expected_seconds) ? 0.5 + 0.01 * preset.movie.frames
                                                             : plan->expected_seconds;
     phases.push_back({"simulating" + (one.name.empty() ? "" : " " + one.name), guess});
-    runs.push_back({.name = one.name, .preset = preset, .pictures = pictures});
+    runs.push_back({.name = one.name,
+                    .preset = preset,
+                    .pictures = pictures,
+                    .scene = std::move(plan->scene)});
   }
   return runs;
 }
@@ -92,11 +95,10 @@ std::string help_for(const preset::Preset& preset, record::Limit limit, double l
 Result<record::Summary> computed(Run& run, int threads, const fs::path& segments,
                                  record::Sink& sink, Watch& watch) {
   if (!run.preset.jitter.requested()) {
-    TRY(scene, scene_of(run.preset));
+    const auto scene = std::make_shared<Scene>(*std::exchange(run.scene, nullptr));
     scene->team = std::make_shared<Team>(threads);
     if (!segments.empty()) scene->kept = std::make_shared<simulate::KeptSegments>(segments);
-    return simulate::run(run.preset, std::make_shared<const Scene>(std::move(*scene)),
-                         run.pictures == Pictures::stills, sink, watch);
+    return simulate::run(run.preset, scene, run.pictures == Pictures::stills, sink, watch);
   }
   TRY(search, study::run_states(run.preset, threads, sink, watch));
   run.states = std::move(search->tables);

@@ -317,8 +317,9 @@ Result<ComparedScan> compared(const Scanned& scanned, const std::string& file, W
 }
 
 /// Red joints over the black shell [Baek 2018, Figs. 2A, 3C, 5E].
-Result<void> draw(const ComparedScan& scan, const Candidate& one, PictureMaker& maker,
-                  const fs::path& folder, Watch& watch) {
+Result<void> draw(const ComparedScan& scan, const Candidate& one, const fs::path& folder,
+                  Watch& watch) {
+  TRY_DO(render::use_font(one.run->preset.style.font));
   const auto style = style_of(one.run->preset, Pictures::stills);
   const RegisteredScan& laid = *scan.of_best().scan;
   const record::Trajectory shown = states_alone(one.run->trajectory, {one.frame});
@@ -326,10 +327,8 @@ Result<void> draw(const ComparedScan& scan, const Candidate& one, PictureMaker& 
       fmt::format("{}{} of {} joints, {:.2f} mm rms, {:.2f} mm at most",
                   scan.of_best().shown ? "" : "not this state: ", laid.found, laid.joints.cols(),
                   laid.rms_mm, laid.max_mm);
-  const double dpi = style.print.width_mm > 0 ? style.print.dpi : 0;
-  return save_panels(
-      render::draw_over_nets({{&shown, caption, laid.measured()}}, style, maker.renderer(), watch),
-      folder / "scan.png", dpi);
+  return save_panels(render::draw_over_nets({{&shown, caption, laid.measured()}}, style, watch),
+                     folder / "scan.png", style.print.dpi);
 }
 
 /// scan.json, scan.csv (a line a joint), measured.csv (the joints found, for [figure] scan) and
@@ -352,8 +351,7 @@ Result<int> produce_scan(const ScanOptions& options) {
     TRY_DO(write_file(partial / "scan.csv", scan_csv(*scan, best.run->trajectory.layout)));
     TRY_DO(write_file(partial / "measured.csv", measured_csv(*scan->of_best().scan)));
     TRY_DO(write_file(partial / "scan.json", scan_json(*scan)));
-    TRY(maker, PictureMaker::create(common.context, best.run->preset.style.font));
-    return draw(*scan, best, *maker, partial, progress.next_phase());
+    return draw(*scan, best, partial, progress.next_phase());
   };
   TRY_DO(deliver({folder, "scan"}, phases, common.quiet, work));
   if (!common.quiet && scanned->empty_rows > 0)

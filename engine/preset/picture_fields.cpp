@@ -73,14 +73,18 @@ void add_movie(FieldList<Movie> list) {
   rises(list, &M::bins_range);
   list.add<&M::views>("more views in each frame, next to each other, degrees")
       .points({"azimuth", "elevation"});
-  list.add<&M::seconds>(at_least(0),
-                        "duration of the movie without title and final still; 0: frames / fps")
+  list.add<&M::seconds>(
+          at_least(0),
+          "duration of the movie without title and final still; 0: frames / fps, of few "
+          "frames a quarter of a second each, up to 4 s")
       .unit("s");
   list.add<&M::hold_first_s>(between(0, 60), "duration for which the first frame is shown");
   list.add<&M::hold_s>(between(0, 60), "duration for which the last frame is shown");
   list.add<&M::title_s>(between(0, 60),
                         "duration of a card with title and source at the start; 0: none");
-  list.add<&M::pace>("eased: slow at both ends");
+  list.add<&M::pace>(
+      "eased: slow at both ends; height: frames in equal steps of the square root of the progress, "
+      "as a flat grid rises");
   list.add<&M::webm>("whether movie.webm is made too");
   list.add<&M::gif>("whether movie.gif is made too");
   list.add<&M::poster>("whether the last frame is saved as poster.png");
@@ -100,7 +104,9 @@ void add_style(FieldList<Style> list) {
   list.add<&S::ring_colour>("colour of the boundary; empty: the theme's").colour();
   list.add<&S::background>("colour behind the shell; \"transparent\" leaves it out of the PNG")
       .colour();
-  list.add<&S::colour_map>("auto: sequential of sizes, diverging about zero of what has a sign");
+  list.add<&S::colour_map>(
+      "auto: sequential of sizes, diverging about zero of what has a sign; print: diverging, and "
+      "negative values darker in grey too");
   list.add<&S::range>(
       "range of the colours, in the unit of the colour bar; empty: nine tenths of the values of "
       "all cases, for stress and utilisation all values");

@@ -308,11 +308,12 @@ void add_surface(FieldList<Net> net) {
   of_mesh();
   net.add<&Net::apex>(
       "\"given\": the net starts at `apex_mm`; \"best\", for a mesh: at the point and direction "
-      "from which rods reach most of the surface (a search of some seconds)");
+      "from which rods reach the largest area (a search of some seconds); \"best_angle\": where, "
+      "at 0.95 of that area, they cross at the largest least angle");
   surface().refused({"file"},
                     "the search is for a mesh of triangles, expected \"given\" for other surfaces",
-                    [=](const Net& of) { return of.apex == NetApex::best && !mesh(of); });
-  const auto searched = [](const Net& of) { return of.apex == NetApex::best; };
+                    [=](const Net& of) { return of.apex != NetApex::given && !mesh(of); });
+  const auto searched = [](const Net& of) { return of.apex != NetApex::given; };
   const char* found = "apex = \"best\" finds it";
   net.add<&Net::apex_mm>(
       "[x, y, z], a point of the surface where the net's axes cross at right angles; of a height "

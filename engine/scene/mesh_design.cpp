@@ -68,8 +68,9 @@ Result<NetDesign> mesh_design(const preset::Net& requested, double spacing_mm) {
   const auto lines = std::make_shared<const Barriers>(*mesh);
   TRY(outside, outside_of(requested));
   const double least_angle = requested.least_angle_deg * degree;
-  if (requested.apex == preset::NetApex::best) {
-    TRY(starts, best_starts(shape.surface, *mesh, *lines, *outside, least_angle, spacing_mm));
+  if (requested.apex != preset::NetApex::given) {
+    TRY(starts, best_starts(shape.surface, *mesh, *lines, *outside, least_angle, spacing_mm,
+                            requested.apex == preset::NetApex::best_angle));
     report->start = starts->front();
     if (starts->size() > 1) report->second = starts->back();
   } else {
@@ -78,9 +79,9 @@ Result<NetDesign> mesh_design(const preset::Net& requested, double spacing_mm) {
     report->start = std::move(*start);
   }
   const NetPlace& place = report->start.place;
-  const double size = mesh->size(), chord = std::max(spacing_mm / 8, size / 240);
+  const double chord = net_chord(*mesh, spacing_mm);
   TRY(net_made, MarchedNet::make(shape.surface, place, lines, least_angle, chord,
-                                 int(std::ceil(2.5 * size / chord))));
+                                 chords_across(*mesh, chord)));
   const auto net = std::make_shared<const MarchedNet>(std::move(*net_made));
   report->fit_mm = smooth->largest_distance();
   report->fit_at = smooth->farthest_vertex();

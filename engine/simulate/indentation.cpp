@@ -124,13 +124,16 @@ Result<HeldShell> follow_push(const std::shared_ptr<const Scene>& scene,
   return pushed;
 }
 
+/// Progress of a push at path parameter t of a segment.
+double progress_at_depth(bool unload, std::size_t segment, double t) {
+  if (!unload) return t;
+  return segment == 0 ? t / 2 : 1 - t / 2;
+}
+
 Caption caption_of(const HeldShell& pushed, bool unload) {
   const Simulation& simulation = pushed.simulation;
   return {at_depth(pushed.depth_mm()),
-          [unload](std::size_t segment, double t) {
-            if (!unload) return t;
-            return segment == 0 ? t / 2 : 1 - t / 2;
-          },
+          [unload](std::size_t segment, double t) { return progress_at_depth(unload, segment, t); },
           [&](record::Frame& frame, double t, double) {
             frame.actuation = 1;
             frame.boundary_radius_mm = simulation.scene().radius_end_mm;
@@ -154,6 +157,24 @@ PathSample sample_of(std::size_t index, double progress, bool unload) {
   if (!unload) return {int(index), 0, progress, progress};
   const bool back = progress > 0.5;
   return {int(index), back ? 1u : 0u, back ? 2 * (1 - progress) : 2 * progress, progress};
+}
+
+/// Adds the load steps of the path to its samples, so that a curve through them turns where the
+/// path does. The step at a limit has a frame of its own.
+void add_load_steps(const EquilibriumPath& path, bool unload, std::vector<PathSample>& samples) {
+  constexpr double equal = 1e-9;
+  for (std::size_t s = 0; s < path.segments.size(); ++s) {
+    const PathSegment& segment = path.segments[s];
+    for (const LoadStep& step : segment.load_steps) {
+      if (&step == &segment.load_steps.back() && at_limit(segment.report.end)) continue;
+      samples.push_back({0, s, step.point.t, progress_at_depth(unload, s, step.point.t)});
+    }
+  }
+  std::ranges::stable_sort(samples, {}, &PathSample::progress);
+  const auto same = std::ranges::unique(
+      samples, [](double a, double b) { return b - a < equal; }, &PathSample::progress);
+  samples.erase(same.begin(), same.end());
+  for (std::size_t k = 0; k < samples.size(); ++k) samples[k].index = int(k);
 }
 
 }  // namespace
@@ -233,8 +254,8 @@ Result<HeldShell> hold_to_push(const std::shared_ptr<const Scene>& scene,
 
 Result<EquilibriumPath> run_indentation(std::shared_ptr<const Scene> scene,
                                         const preset::Indentation& indentation,
-                                        const std::vector<double>& progress, record::Sink& sink,
-                                        Watch& watch) {
+                                        const std::vector<double>& progress, bool own_steps,
+                                        record::Sink& sink, Watch& watch) {
   auto kept = converged_path(
       *scene,
       [&](const LevelPlan& plan, const Watch& w) {
@@ -251,7 +272,8 @@ Result<EquilibriumPath> run_indentation(std::shared_ptr<const Scene> scene,
   std::vector<PathSample> samples;
   for (std::size_t k = 0; k < progress.size(); ++k)
     samples.push_back(sample_of(k, progress[k], indentation.unload));
-  PathSampler sampler(*kept, caption_of(*kept, indentation.unload), sink, watch, progress.size());
+  if (own_steps) add_load_steps(*kept, indentation.unload, samples);
+  PathSampler sampler(*kept, caption_of(*kept, indentation.unload), sink, watch, samples.size());
   TRY_DO(sampler.all(samples));
   return EquilibriumPath(std::move(*kept));
 }

@@ -97,7 +97,12 @@ std::vector<double> samples_of(const preset::Preset& preset, bool stills) {
     std::ranges::sort(progress);
     return progress;
   }
-  return preset.movie.frames == 1 ? std::vector{1.0} : evenly(preset.movie.frames);
+  if (preset.movie.frames == 1) return {1.0};
+  std::vector<double> progress = evenly(preset.movie.frames);
+  // a flat grid rises by the square root of how much it is shortened
+  if (preset.movie.pace == preset::Pace::height)
+    for (double& one : progress) one *= one;
+  return progress;
 }
 
 /// Passes frames on and stores the layout and the last frame for the summary. After a cancel the
@@ -249,7 +254,7 @@ Result<EquilibriumPath> path_for(const preset::Preset& preset,
   // for a push all frames of a movie, or enough for its force curve
   const auto samples = evenly(stills ? 61 : std::max(2, preset.movie.frames));
   if (preset.indentation.requested())
-    return run_indentation(scene, preset.indentation, samples, sink, watch);
+    return run_indentation(scene, preset.indentation, samples, stills, sink, watch);
   if (preset.step.empty()) return run_actuation(scene, samples_of(preset, stills), sink, watch);
   // stills show each step's end
   TRY(stepped, run_steps(scene, preset.step, stills ? 1 : preset.movie.frames, sink, watch));
@@ -275,7 +280,8 @@ std::string not_in_the_flat(const EquilibriumPath& path) {
 
 Result<Plan> plan(const preset::Preset& preset) {
   const double begun = cpu_seconds_now();
-  TRY(scene, scene_of(preset));
+  TRY(built, shared_scene_of(preset));
+  const std::shared_ptr<const Scene>& scene = *built;
   const double seconds_scene = cpu_seconds_now() - begun;
   const LevelPlan levels = initial_levels(*scene);
   TRY_DO(fits_memory(*scene, levels));
@@ -285,6 +291,7 @@ Result<Plan> plan(const preset::Preset& preset) {
   TRY_DO(check_steps(preset.step, scene->footprint));
   TRY_DO(check_motion(*scene));
   Plan plan;
+  plan.scene = scene;
   plan.model = word_of(scene->rod_model);
   plan.memory_GB = expected_GB(memory_GB(scene->footprint, scene->rod_model, levels), preset);
   plan.model_reason = preset::model_reason(preset);

@@ -41,7 +41,8 @@ struct Plan {
   std::string bending;  ///< expected bending of the rods; empty: not known
   /// effects that the model neglects and that matter here: one sentence each
   std::vector<std::string> left_out;
-  std::string footprint;  ///< "12 + 12 rods, longest leg 0.80 d, corner leg -0.15 d"
+  std::string footprint;               ///< "12 + 12 rods, longest leg 0.80 d, corner leg -0.15 d"
+  std::shared_ptr<const Scene> scene;  ///< what was built for it, and a run takes
 };
 
 /// Builds the scene of a preset and describes the run. Errors: Fault::bad_input with the reason.

@@ -22,7 +22,7 @@ namespace gridshell {
 struct Certificate {
   double residual_N = 0;         ///< largest unbalanced force on an unconstrained node
   int negative_pivots = 0;       ///< of the Hessian on the unconstrained unknowns; 0: stable
-  double error_estimate_mm = 0;  ///< largest error of a joint's position; NaN on a single mesh
+  double error_estimate_mm = 0;  ///< largest error of a node's position; NaN on a single mesh
   /// axial strain of largest magnitude, with its sign; below 0 in compression
   double largest_strain = 0;
 

@@ -178,7 +178,8 @@ Image draw_picture(double width, double height, double pixels_per_unit, Colour b
 
 /// An SVG of width x height points whose text stays text, in its font or a replacement of it;
 /// `title` and all texts are in its <title> and <desc> for search and screen readers.
-std::string draw_svg(double width, double height, const std::string& title, const DrawOn& draw);
+std::string draw_svg(double width, double height, const std::string& title, const DrawOn& draw,
+                     bool paper = true);
 
 /// A PDF of pages of width x height points with its fonts in it; the same drawings give the same
 /// bytes.
@@ -189,6 +190,7 @@ std::string draw_pdf(double width, double height, const std::string& title,
 struct Print {
   double width_mm = 0;  ///< 0: the figure's own
   double dpi = 300;
+  Colour background = white;  ///< alpha 0: none
 
   /// Width in points; `usual` where it is the figure's own.
   double width_pt(double usual) const { return width_mm > 0 ? width_mm * 72 / 25.4 : usual; }

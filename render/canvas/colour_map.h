@@ -30,6 +30,8 @@ Colour readable(Colour colour);
 /// equal length and equal lightness, so that equal |t| looks equally strong. `start` greys the
 /// middle by that fraction of the distance to the ends' lightness.
 Colour diverging(double t, double start = 0);
+/// A diverging map for print without colours: blue is dark, red is light.
+Colour diverging_in_print(double t, double start = 0);
 
 /// Sand - apricot - coral - plum - indigo over t in [0, 1] (clipped): lightness falls evenly, and
 /// equal steps of t are equal distances in Oklab. Light where there is little, so that dark rods

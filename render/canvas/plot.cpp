@@ -208,6 +208,15 @@ void draw_legend(Canvas& canvas, const Box& box, const Plot& plot) {
   if (!legend.empty()) legend.draw_above(canvas, frame, box.y);
 }
 
+double legend_height(const Plot& plot, double width) {
+  double height = 0;
+  draw_picture(1, 1, 1, {}, [&](Canvas& canvas) {
+    const Legend legend(canvas, plot);
+    if (!legend.empty()) height = legend.height_above_axes(width);
+  });
+  return height;
+}
+
 Result<void> write_plot(const std::filesystem::path& stem, const Plot& plot, const Print& print,
                         double height_over_width) {
   constexpr double column_mm = 88;

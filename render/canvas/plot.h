@@ -126,6 +126,8 @@ struct Plot {
 
 /// The legend of a plot alone, in rows from the top of `box`: of several that share it.
 void draw_legend(Canvas& canvas, const Box& box, const Plot& plot);
+/// The height that it takes in a box so wide.
+double legend_height(const Plot& plot, double width);
 
 /// Draws the plot with its labels into `box`; nothing reaches outside.
 void draw_plot(Canvas& canvas, const Box& box, const Plot& plot);

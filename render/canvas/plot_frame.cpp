@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 namespace gridshell::render {
 namespace {
@@ -151,17 +152,29 @@ double PlotAxis::place(double value) const {
   return from + t * (to - from);
 }
 
+std::string title_in_lines(const Canvas& canvas, const Box& box, const Plot& plot) {
+  const TextStyle style{.size = plot.font_size, .bold = true};
+  std::string text;
+  std::istringstream lines(plot.title);
+  for (std::string line; std::getline(lines, line);) {
+    const bool fits = canvas.measure(line, style).width <= box.width;
+    for (const std::string& part :
+         fits ? std::vector{line} : canvas.wrapped(line, box.width, style))
+      text += (text.empty() ? "" : "\n") + part;
+  }
+  return text;
+}
+
 TextStyle title_style(const Canvas& canvas, const Box& box, const Plot& plot) {
-  TextStyle style{
+  const TextStyle style{
       .size = plot.font_size, .bold = true, .align_x = AlignX::centre, .align_y = AlignY::top};
-  const double width = canvas.measure(plot.title, style).width;
-  style.size *= std::min(1.0, box.width / std::max(1e-9, width));
-  return style;
+  return canvas.fitted(title_in_lines(canvas, box, plot), box.width, style);
 }
 
 double title_height(const Canvas& canvas, const Box& box, const Plot& plot) {
   if (plot.title.empty()) return 0;
-  return canvas.measure(plot.title, title_style(canvas, box, plot)).height + 0.3 * plot.font_size;
+  return canvas.measure(title_in_lines(canvas, box, plot), title_style(canvas, box, plot)).height +
+         0.3 * plot.font_size;
 }
 
 PlotFrame lay_out_plot(const Canvas& canvas, const Box& box, const Plot& plot, double head) {
@@ -216,14 +229,21 @@ void draw_axes(Canvas& canvas, const Box& box, const Plot& plot, const PlotFrame
   if (!plot.x.label.empty())
     canvas.text(plot.x.label, {in.middle().x, box.bottom() - 0.12 * size},
                 {.size = size, .align_x = AlignX::centre, .align_y = AlignY::bottom});
-  if (!plot.y.label.empty())
-    canvas.text(plot.y.label, {box.x + 0.12 * size, in.middle().y},
-                {.size = size, .align_x = AlignX::centre, .align_y = AlignY::top, .angle_deg = 90});
+  if (!plot.y.label.empty()) {
+    // one longer than the axis may continue past its ends, and is set smaller where that is short
+    TextStyle style =
+        canvas.fitted(plot.y.label, box.height,
+                      {.size = size, .align_x = AlignX::centre, .align_y = AlignY::top});
+    const double half = canvas.measure(plot.y.label, style).width / 2;
+    style.angle_deg = 90;
+    const double middle = std::clamp(in.middle().y, box.y + half, box.bottom() - half);
+    canvas.text(plot.y.label, {box.x + 0.12 * size, middle}, style);
+  }
   if (plot.title.empty()) return;
+  const std::string text = title_in_lines(canvas, box, plot);
   const TextStyle title = title_style(canvas, box, plot);
-  const double half = canvas.measure(plot.title, title).width / 2;
-  canvas.text(plot.title, {std::clamp(in.middle().x, box.x + half, box.right() - half), box.y},
-              title);
+  const double half = canvas.measure(text, title).width / 2;
+  canvas.text(text, {std::clamp(in.middle().x, box.x + half, box.right() - half), box.y}, title);
 }
 
 Legend::Legend(const Canvas& canvas, const Plot& plot)

@@ -25,6 +25,7 @@ struct PlotFrame {
 };
 
 /// The title as it fits into the box's width, and the height that it takes; 0 without a title.
+std::string title_in_lines(const Canvas& canvas, const Box& box, const Plot& plot);
 TextStyle title_style(const Canvas& canvas, const Box& box, const Plot& plot);
 double title_height(const Canvas& canvas, const Box& box, const Plot& plot);
 

@@ -63,7 +63,7 @@ int longest_straight_piece(const Ribbon& ribbon, int from, int last, float toler
 /// The two triangles from point `k` to point `l` of a ribbon with this first vertex.
 void add_strip_quad(std::vector<std::uint32_t>& indices, std::uint32_t first, int k, int l);
 
-enum class BeadShape { flat, ball };  ///< a joint, three fifths as high as wide; or a ball
+enum class BeadShape { cylinder, ball };  ///< a joint, 3 wide and 5 high; or a ball
 
 /// Adds a card of four vertices and returns its triangles: centre, the bead's unit axis, radius and
 /// a side's sign, and in the colour's alpha the other side's sign and the shape.

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <sstream>
 
@@ -11,17 +12,24 @@ namespace gridshell::render {
 
 namespace {
 
+/// How long the frames are shown: few of them longer, not a still film.
+double seconds_of(const preset::Movie& timing) {
+  constexpr double least_s = 4, longest_frame_s = 0.25;
+  if (timing.seconds > 0) return timing.seconds;
+  return std::max(double(timing.frames) / std::max(1, timing.fps),
+                  std::min(least_s, longest_frame_s * timing.frames));
+}
+
 /// When every frame is shown, and how long the first and the last are shown.
 std::string timing_filters(const preset::Movie& timing) {
   std::string filters;
   const bool eased = timing.pace == Pace::eased && timing.frames > 1;
-  const double seconds =
-      timing.seconds > 0 ? timing.seconds : double(timing.frames) / std::max(1, timing.fps);
+  const double seconds = seconds_of(timing);
   if (eased) {
     // the inverse of 3 p^2 - 2 p^3: slow at both ends
     filters += fmt::format("setpts='(0.5-sin(asin(1-2*N/{})/3))*{:.6f}/TB',fps={},",
                            timing.frames - 1, seconds, timing.fps);
-  } else if (timing.seconds > 0 && timing.frames > 0) {
+  } else if (timing.frames > 0 && std::abs(seconds * timing.fps - timing.frames) > 1e-6) {
     filters += fmt::format("setpts='N*{:.6f}/TB',fps={},", seconds / timing.frames, timing.fps);
   }
   if (timing.hold_first_s > 0 || timing.hold_s > 0)

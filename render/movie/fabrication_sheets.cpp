@@ -1,6 +1,7 @@
 #include "render/movie/fabrication_sheets.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <utility>
 
@@ -97,6 +98,41 @@ std::string marks_of(const CutRod& rod) {
   for (const double mark : rod.joint_marks_mm)
     marks += fmt::format("{}{:.1f}", marks.empty() ? "" : "  ", mark);
   return marks;
+}
+
+/// The rod as it is marked from its other end.
+CutRod turned(CutRod rod) {
+  std::ranges::reverse(rod.joint_marks_mm);
+  for (double& mark : rod.joint_marks_mm) mark = rod.length_mm - mark;
+  return rod;
+}
+
+/// Number, names, length and marks of equal rods; those that are turned are marked so.
+std::vector<TableRow> cut_list(const FabricationPlan& work) {
+  std::vector<TableRow> rows;
+  std::vector<int> numbers;
+  for (const CutRod& rod : work.rods) {
+    const std::string length = fmt::format("{:.1f}", rod.length_mm), marks = marks_of(rod),
+                      mirrored = marks_of(turned(rod));
+    const auto equal = [&](const std::string& as) {
+      return std::ranges::find_if(rows, [&](const TableRow& row) {
+        return row.cells[2] == length && row.cells[3] == as &&
+               row.stands_out == rod.hard_to_build();
+      });
+    };
+    auto same = equal(marks);
+    const bool from_other_end = same == rows.end() && equal(mirrored) != rows.end();
+    if (from_other_end) same = equal(mirrored);
+    if (same == rows.end()) {
+      rows.push_back({{"", rod.name, length, marks}, rod.hard_to_build()});
+      numbers.push_back(1);
+      continue;
+    }
+    same->cells[1] += ", " + rod.name + (from_other_end ? "*" : "");
+    ++numbers[std::size_t(same - rows.begin())];
+  }
+  for (std::size_t k = 0; k < rows.size(); ++k) rows[k].cells[0] = std::to_string(numbers[k]);
+  return rows;
 }
 
 std::string short_legs(const FabricationPlan& work) {
@@ -280,16 +316,23 @@ std::string Sheets::pdf() const {
 
 void add_cut_list(Sheets& sheets, const FabricationPlan& work) {
   sheets.text(
-      fmt::format("{} {}, {:.2f} m in all; marks in mm from the start of each. Red: a leg below "
-                  "{:g} mm.",
+      fmt::format("{} {}, {:.2f} m in all; marks in mm from the start of each, of rods with * "
+                  "from its end. Red: a leg below {:g} mm.",
                   work.rods.size(), work.section_text(), 1e-3 * work.total_length_mm(),
                   exports::shortest_leg_mm));
-  std::vector<TableRow> rows;
-  for (const CutRod& rod : work.rods)
-    rows.push_back(
-        {{rod.name, fmt::format("{:.1f}", rod.length_mm), marks_of(rod)}, rod.hard_to_build()});
-  sheets.table({{"rod", 40, AlignX::left}, {"length (mm)", 60}, {"joints (mm)", 0, AlignX::left}},
+  std::vector<TableRow> rows = cut_list(work);
+  sheets.table({{"number", 36},
+                {"rods", 110, AlignX::left},
+                {"length (mm)", 60},
+                {"joints (mm)", 0, AlignX::left}},
                rows);
+}
+
+std::string cut_list_text(const FabricationPlan& work) {
+  std::string text;
+  for (const TableRow& row : cut_list(work))
+    text += fmt::format("{}\n", fmt::join(row.cells, "  "));
+  return text;
 }
 
 std::string cut_list_pdf(const FabricationPlan& work) {

@@ -66,7 +66,9 @@ class Sheets {
   std::vector<Item> items_;
 };
 
-/// Every rod with its length and marks.
+/// Rods of one length and with the same marks, from either end, in one row with their number;
+/// `cut_list_text`: its cells.
+std::string cut_list_text(const exports::FabricationPlan& work);
 void add_cut_list(Sheets& sheets, const exports::FabricationPlan& work);
 /// Writes the sheets as a PDF.
 std::string cut_list_pdf(const exports::FabricationPlan& work);

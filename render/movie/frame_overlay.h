@@ -41,7 +41,13 @@ inline constexpr double still_margin = 0.9;
 TextStyle title_style(const MovieStyle& style, double font_size);
 
 /// A wide picture has inset and colour bar in a column on the right, a tall one in a strip below.
-FrameLayout lay_out_frame(const MovieStyle& style, const ColourBar* bar, bool loads = false);
+/// What else is written into a frame, in addition to its title and state.
+struct FrameNotes {
+  bool loads = false;      ///< a row of their sums under a still's heading
+  bool arrow_key = false;  ///< of their arrows
+  bool contacts = false;   ///< a row of these
+};
+FrameLayout lay_out_frame(const MovieStyle& style, const ColourBar* bar, FrameNotes notes = {});
 
 // The words of a frame, which speak of that frame alone.
 
@@ -53,6 +59,10 @@ std::vector<std::string> state_captions(const record::Frame& frame);
 
 /// A mark where parts of the frame touch; `thin_mm`: the least width of what is to be seen.
 void put_contacts(const record::Layout& layout, const record::Frame& frame, double thin_mm,
+                  Drawing& drawing);
+
+/// Balls at the supports, as in the holes of a plate; sleeves around the ends of clamped rods.
+void put_supports(const record::Layout& layout, const record::Frame& frame, const Appearance& look,
                   Drawing& drawing);
 
 /// The frame's braces as bars.

@@ -132,7 +132,7 @@ Appearance appearance_of(const preset::Style& style) {
   if (style.joints == preset::Visibility::off) look.joint_mm = 0;
   if (style.joints == preset::Visibility::on && look.joint_mm == 0)
     look.joint_mm = Appearance{}.joint_mm;
-  constexpr ColourMap maps[] = {nullptr, diverging, sequential, grey};
+  constexpr ColourMap maps[] = {nullptr, diverging, sequential, grey, diverging_in_print};
   look.map = maps[std::size_t(style.colour_map)];
   look.range = style.range;
   look.far_fade = style.far_fade;
@@ -153,6 +153,9 @@ MovieStyle movie_style(const preset::Preset& preset) {
   style.parameters = parameters_of(preset);
   style.font_scale = preset.style.font_size;
   style.look = appearance_of(preset.style);
+  style.look.lath_width_mm = preset.rod.width_mm;
+  style.look.lath_thickness_mm = preset.rod.thickness_mm;
+  style.look.clamped = preset.ends.kind != preset::EndKind::pinned;
   if (preset.style.rings == preset::Visibility::automatic)
     style.look.rings = style.look.rings && boundary_moves(preset);
   return style;
@@ -165,8 +168,9 @@ MovieStyle figure_style(const preset::Preset& preset) {
   style.scale_bar_mm = figure.scale_bar_mm;
   style.vector = figure.vector;
   if (!figure.title) style.title.clear();
+  style.print.background = style.look.background;
   if (figure.width_mm <= 0) return style;
-  style.print = {figure.width_mm, figure.dpi};
+  style.print = {figure.width_mm, figure.dpi, style.look.background};
   const double aspect = double(style.height()) / style.width();
   const auto pixels = [](double wished) { return std::clamp(int(std::lround(wished)), 16, 16384); };
   style.size[0] = pixels(figure.width_mm / 25.4 * figure.dpi);

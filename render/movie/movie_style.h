@@ -24,10 +24,12 @@ struct Appearance {
   ColourMap map = nullptr;     ///< null: by the values
   std::vector<double> range;   ///< (low, high) of the colours; empty: by the values
   bool cells = true, rings = true, floor = true, shadow = true, loads = true, braces = true,
-       ghost = true;
-  double sheen = 1;        ///< of rods and joints; 0: ink
-  double far_fade = 0.25;  ///< of the far side, into the background
-  bool letters = true;     ///< of the panels of a figure
+       ghost = true, supports = true;
+  bool clamped = false;                             ///< the supports prescribe directions
+  double lath_width_mm = 0, lath_thickness_mm = 0;  ///< of rods whose layout has none; 0: round
+  double sheen = 1;                                 ///< of rods and joints; 0: ink
+  double far_fade = 0.25;                           ///< of the far side, into the background
+  bool letters = true;                              ///< of the panels of a figure
 };
 
 /// White, with black rods: as in the paper's figures.

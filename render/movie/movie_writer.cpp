@@ -232,7 +232,8 @@ class SideBySideMovie {
     const record::Frame& shown = frame(k, now);
     TextStyle text{.size = em_, .bold = true, .align_x = AlignX::centre, .align_y = AlignY::middle};
     const double x = box.middle().x, width = box.width - em_;
-    canvas.text(plain(canvas.shortened(runs_[k].name, width, text)), {x, box.y - 2.9 * em_}, text);
+    const TextStyle name = canvas.fitted(plain(runs_[k].name), width, text, 0.7);
+    canvas.text(plain(canvas.shortened(runs_[k].name, width, name)), {x, box.y - 2.9 * em_}, name);
     text.bold = false;
     std::string state;
     for (const std::string& caption : state_captions(shown)) {

@@ -82,4 +82,7 @@ Plot net_plan(const std::vector<PlanPart>& parts, const std::string& title);
 Plot bins_plot(const RunSummary& run, long cells, const record::Frame& frame,
                const std::vector<double>& range, double font_size);
 
+/// By how much the means of the bins differ from those of the run's first frame; range as above.
+Plot change_plot(const RunSummary& run, const record::Frame& frame, double font_size);
+
 }  // namespace gridshell::render

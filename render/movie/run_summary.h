@@ -41,9 +41,12 @@ bool load_acts(const record::LoadedJoint& load, const record::Layout& layout,
 /// tail. As long as a quarter of the length scale.
 std::vector<LoadArrow> load_arrows(const record::Layout& layout, const record::Frame& frame);
 
-/// Arrows of Frame::loads_N, as long as they are large: the largest of a run, `largest_N`,
-/// longest_force() mm. They are outside the shell as those above; what is less than a
-/// hundredth is left out.
+/// Whether the loads are those of an area: of many nodes, all in one direction.
+bool loads_all_alike(const record::Frame& frame);
+
+/// Arrows for Frame::loads_N, as long as the loads are large: the largest of a run, `largest_N`,
+/// longest_force() mm. They are outside the shell, as the arrows above; what is less than a
+/// hundredth is left out. If all loads are equal, some are shown, all of that length.
 std::vector<LoadArrow> force_arrows(const record::Layout& layout, const record::Frame& frame,
                                     double largest_N);
 inline double longest_force(const record::Layout& layout) {
@@ -116,14 +119,17 @@ class RunSummary {
   void take(const record::Frame& frame);
 
   int frames = 0;
-  record::Frame first;         ///< what later frames are compared with
-  double depth_mm = 0;         ///< of a push, at its deepest; 0 without one
-  double lowest_z_mm = 0;      ///< of all that is drawn
-  double support_z_mm = 0;     ///< of the lowest point of both boundaries
-  double largest_load_N = 0;   ///< of Frame::loads_N
-  Interval bins_rad;           ///< mean K of the bins, with their standard deviations
-  double largest_move_mm = 0;  ///< of a joint, from where it was in the first frame
-  std::vector<Mark> marks;     ///< in order
+  record::Frame first;           ///< what later frames are compared with
+  double depth_mm = 0;           ///< of a push, at its deepest; 0 without one
+  double lowest_z_mm = 0;        ///< of all that is drawn
+  double support_z_mm = 0;       ///< of the lowest point of both boundaries
+  double largest_load_N = 0;     ///< of Frame::loads_N
+  bool arrows_to_scale = false;  ///< some frame's loads are arrows as long as they are large
+  bool any_contacts = false;     ///< some frame has interpenetrations
+  Interval bins_rad;             ///< mean K of the bins, with their standard deviations
+  Interval bins_change_rad;      ///< of these means, from the first frame
+  double largest_move_mm = 0;    ///< of a joint, from where it was in the first frame
+  std::vector<Mark> marks;       ///< in order
 
   /// The range of what is coloured (colour_by.cpp), but for displacements, whose depth the end
   /// alone knows.

@@ -74,6 +74,7 @@ class Stage {
   Stage(const record::Trajectory& run, const MovieStyle& style);
 
   int frames() const { return survey_.frames; }
+  const record::Layout& run() const { return run_; }
   const MovieStyle& style() const { return style_; }
   const FrameLayout& layout() const { return layout_; }
   const RunSummary& survey() const { return survey_; }

@@ -102,7 +102,8 @@ class PhasePlot {
     plot_.x.high = long_leg + 0.75 * leg_step_;
     plot_.y.low = few - 0.7 * rod_step_;
     plot_.y.high = many + 0.7 * rod_step_;
-    plot_.y.ticks = int(std::min(12.0, (many - few) / rod_step_ + 1));
+    // as many as rows of data, and some more, as steps are rounded up
+    plot_.y.ticks = int(std::min(12.0, (many - few) / rod_step_ + 3));
   }
 
   Plot take() && {
@@ -112,7 +113,7 @@ class PhasePlot {
       add_class(mark, false);
       add_class(mark, true);
     }
-    add_key("from symmetric forms alone", Marker::circle, true);
+    add_key("found from symmetric starts only", Marker::circle, true);
     add_others();
     add_nothing();
     return std::move(plot_);
@@ -122,7 +123,8 @@ class PhasePlot {
   /// L_d over n at one shortest leg.
   void add_line(double leg) {
     constexpr int pieces = 120;
-    Series line = line_series(leg == 1 ? "*l̄*_{d} = 1, 0, −1 (from right to left)" : "", grey_ink);
+    Series line =
+        line_series(fmt::format("*l̄*_{{d}} = {}{:g}", leg < 0 ? "−" : "", std::abs(leg)), grey_ink);
     line.dash = leg == 1   ? std::vector<double>{}
                 : leg == 0 ? std::vector<double>{5, 2.5}
                            : std::vector<double>{1.5, 2};

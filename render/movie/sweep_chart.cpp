@@ -294,32 +294,32 @@ Plot law_plot(const std::vector<record::PowerLaw>& laws, const SweepView& view) 
   Plot plot;
   plot.title = plain(view.title);
   plot.y.label = label_of(view.figure);
-  // over the key itself, or where there are several over what the law makes of them
   const bool one_key =
       std::ranges::all_of(laws, [](const auto& law) { return law.keys.size() == 1; });
-  plot.x.label =
-      one_key ? label_of(laws.front().keys.front().key) : plot.y.label + " by its power law";
+  plot.x.label = label_of(laws.front().keys.front().key);
   plot.x.logarithmic = plot.y.logarithmic = true;
   for (std::size_t k = 0; k < laws.size(); ++k) {
     const record::PowerLaw& one = laws[k];
     Series marks =
         mark_series(plain(one.keys.front().case_name), series_colour(k), series_marker(k));
-    marks.x = one_key ? one.first_key : one.law;
+    marks.x = one.first_key;
     marks.y = one.found;
     const auto [low, high] = std::ranges::minmax(marks.x);
-    const auto at = [&](double x) {
-      return one_key ? one.factor * std::pow(x, one.keys.front().exponent) : x;
-    };
     plot.add(std::move(marks));
     for (const record::LawRow& key : one.keys) {
       std::string power = record::with_error(key.exponent, key.error, "");
       if (power.starts_with('-')) power.replace(0, 1, "−");
-      // one line, a row of the legend a key
-      const double width = &key == &one.keys.front() ? 1 : 0;
+      // the law is a line over its only key, a cross at each point where it has more; a row of the
+      // legend a key
+      const bool first = &key == &one.keys.front();
       Series row = line_series(fmt::format("power {} of {}", power, label_of(key.key)),
-                               series_colour(k), width);
-      row.x = {low, high};
-      row.y = {at(low), at(high)};
+                               series_colour(k), one_key ? 1 : 0);
+      if (!one_key && first) row.marker = Marker::cross;
+      row.x = one_key ? std::vector{low, high} : one.first_key;
+      row.y = one.law;
+      if (one_key)
+        row.y = {one.factor * std::pow(low, key.exponent),
+                 one.factor * std::pow(high, key.exponent)};
       plot.add(std::move(row));
     }
   }

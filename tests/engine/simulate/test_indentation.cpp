@@ -200,6 +200,26 @@ TEST_CASE("unloading follows the path back, after a snap on another branch", "[s
   for (const record::Frame& frame : way) CHECK(frame.negative_pivots == 0);
 }
 
+TEST_CASE("a figure of a push has the load steps of its path, so that a snap is where it is",
+          "[standard]") {
+  preset::Preset fig1;
+  fig1.imperfection.size = 0;
+  fig1.indentation.at = preset::IndentationPlace::highest;
+  fig1.indentation.depth = 0.3;
+  const auto drawn = run_stills(fig1);
+  const auto& frames = drawn.trajectory.frames;
+  CHECK(frames.size() > 70);
+  int snaps = 0;
+  for (std::size_t k = 1; k < frames.size(); ++k) {
+    CHECK(frames[k].index == int(k));
+    CHECK(frames[k].progress > frames[k - 1].progress);
+    if (!frames[k].event.starts_with("snap")) continue;
+    ++snaps;
+    CHECK(frames[k].depth_mm - frames[k - 1].depth_mm < frames.back().depth_mm / 61);
+  }
+  CHECK(snaps == 1);
+}
+
 TEST_CASE("a push that ends at a limit after snaps names both", "[standard]") {
   preset::Preset p;
   p.imperfection.size = 0;  // the state with two mirrors

@@ -109,3 +109,14 @@ TEST_CASE("a diverging scale is about zero, whichever part of it is shown") {
   CHECK(more(-0.2).b == diverging(-1).b);
   CHECK(more(0.1).r == diverging(0.5).r);
 }
+
+TEST_CASE("in print without colours negative values are darker than positive ones") {
+  for (const double t : {0.4, 0.7, 1.0}) {
+    const Oklab positive = to_oklab(diverging_in_print(t)),
+                negative = to_oklab(diverging_in_print(-t));
+    CHECK(negative.L < positive.L - 0.3 * t);
+    CHECK((positive.a > 0 && negative.b < 0));
+  }
+  const ColourScale part{diverging_in_print, -0.2, 0.1};
+  CHECK(part(0).g == diverging_in_print(0).g);
+}

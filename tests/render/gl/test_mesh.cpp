@@ -38,7 +38,7 @@ TEST_CASE("a ribbon has two vertices a point, one on either side, and a strip be
 
 TEST_CASE("a bead is a card whose corners distinguish side and shape", "[mesh]") {
   Mesh mesh;
-  const auto flat = add_bead(mesh, {1, 2, 3}, {0, 0, 1}, 1.5f, BeadShape::flat, {1, 0, 0, 1});
+  const auto flat = add_bead(mesh, {1, 2, 3}, {0, 0, 1}, 1.5f, BeadShape::cylinder, {1, 0, 0, 1});
   const auto ball = add_bead(mesh, {1, 2, 3}, {0, 0, 1}, 1.5f, BeadShape::ball, {1, 0, 0, 1});
   REQUIRE(mesh.vertices.size() == 8);
   CHECK(flat.size() == 6);

@@ -24,6 +24,7 @@ preset::Movie of_size(int width, int height) {
   timing.frames = 6;
   timing.size = {width, height};
   timing.fps = 20;
+  timing.seconds = 0.3;
   timing.hold_s = timing.title_s = 0.5;
   return timing;
 }
@@ -229,4 +230,17 @@ TEST_CASE("a movie that is given up, or cancelled while ffmpeg takes nothing, le
     return movie->finish(watch);
   });
   CHECK(folder.entries().empty());
+}
+
+TEST_CASE("few frames are shown longer, up to a quarter of a second each and four in all") {
+  const auto chain_of = [](int frames, double seconds) {
+    preset::Movie timing = of_size(64, 48);
+    timing.frames = frames;
+    timing.seconds = seconds;
+    return shell_line(encode_arguments("frames", timing, "movie.mp4"));
+  };
+  CHECK(chain_of(6, 0).find("N*0.250000/TB") != std::string::npos);
+  CHECK(chain_of(40, 0).find("N*0.100000/TB") != std::string::npos);
+  CHECK(chain_of(80, 0).find("setpts") == std::string::npos);  // four seconds at 20 a second
+  CHECK(chain_of(6, 0.3).find("setpts") == std::string::npos);
 }

@@ -536,7 +536,9 @@ TEST_CASE("parts of a frame lie inside it and never overlap, at any size and asp
       style.captions = options & 1;
       style.inset = options & 2;
       style.scale_bar_mm = options & 4 ? 20 : 0;
-      const FrameLayout layout = lay_out_frame(style, options & 8 ? &bar : nullptr, options & 16);
+      const FrameLayout layout =
+          lay_out_frame(style, options & 8 ? &bar : nullptr,
+                        {(options & 16) != 0, (options & 16) != 0, (options & 16) != 0});
       INFO(width << " x " << height << " options " << options);
       const std::vector<Box> parts = layout.parts();
       for (std::size_t a = 0; a < parts.size(); ++a) {

@@ -51,7 +51,7 @@ TEST_CASE("load factors are marked where the rods reach their strength, with the
   torn.strength_factor = 1.45, torn.strength_error = 0.1;
   const Plot plot = load_plot(path, {torn, whole}, "");
   const Series& marks = plot.series.back();
-  CHECK(marks.name == "at its strength");
+  CHECK(marks.name == "strength reached");
   CHECK(marks.x == std::vector<double>{3.5});
   CHECK(marks.y == std::vector<double>{1.45});
   CHECK(marks.y_error == std::vector<double>{0.1});
@@ -60,7 +60,10 @@ TEST_CASE("load factors are marked where the rods reach their strength, with the
 
 TEST_CASE("stable parts are full, others dashed, and parts meet where something happens") {
   const Plot plot = branches_plot(points(), BranchAxis::amplitude);
-  CHECK(plot.x.label == "*R*_{a} (mm)");
+  CHECK(plot.x.label.starts_with("*R*_{a} (mm)"));
+  // a branch bears its number
+  REQUIRE(plot.notes.size() == 1);
+  CHECK(plot.notes[0].text == "1");
   std::vector<Series> path, branch;
   for (const Series& s : plot.series)
     if (s.line_width > 1.2)

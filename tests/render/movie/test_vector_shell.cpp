@@ -61,3 +61,29 @@ TEST_CASE("a shell of lines has fewer, or fainter, of them where it hides them")
   drawing.cell_colours.clear();
   CHECK(ink() > removed);
 }
+
+TEST_CASE("an arrow along the view is a ring with a cross or a dot in it") {
+  record::Layout layout;
+  layout.spacing_mm = 20;
+  Drawing drawing;
+  drawing.layout = &layout;
+  drawing.nodes.resize(3, 0);
+  Camera above;
+  above.elevation_deg = 90;
+  above.half_extent_mm = 50;
+  // the ink in the ring, between its middle and its edge
+  const auto ink_at = [&](double from_z, double to_z, double x, double y) {
+    drawing.arrows = {{{0, 0, from_z}, {0, 0, to_z}, 2, {0, 0, 0, 1}}};
+    const Image image = draw_picture(100, 100, 4, {1, 1, 1, 1}, [&](Canvas& canvas) {
+      draw_shell_lines(canvas, {0, 0, 100, 100}, drawing, above);
+    });
+    return 255 - image.pixel(int(4 * (50 + x)), int(4 * (50 + y)))[0];
+  };
+  for (const auto& [from, to] : {std::pair(20.0, 0.0), {0.0, 20.0}}) {
+    CHECK(ink_at(from, to, 0, 0) > 200);
+    CHECK(ink_at(from, to, 6.4, 0) > 200);  // the ring
+    CHECK(ink_at(from, to, 3.6, 0) < 50);
+  }
+  CHECK(ink_at(20, 0, 3, 3) > 200);  // into the picture
+  CHECK(ink_at(0, 20, 3, 3) < 50);
+}
