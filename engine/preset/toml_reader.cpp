@@ -124,7 +124,7 @@ class AxisReader {
     } else if (!affects_results(entry_.table)) {
       refuse(*entry_.value, "no number of a run depends on it, expected a key of another table");
     } else if (const auto* list = entry_.value->as_array()) {
-      if (list->empty()) refuse(*list, "(an empty list), expected values");
+      if (list->empty()) refuse(*list, "an empty list, expected values");
       for (const auto& value : *list) take(value);
     } else if (const auto* range = entry_.value->as_table()) {
       take_range(*range);

@@ -164,7 +164,7 @@ TEST_CASE("blocks that cannot be joined are refused, naming their sides") {
   // a straight row round a loop does not come back to its beginning
   std::vector<Block> ring{cylinder(rho, 102, -4, 4), cylinder(rho, 102, -4, 4)};
   ring[1].name = "other";
-  wrong("round the loop leave the sides", ring,
+  wrong("round the loop leave a gap", ring,
         {{{0, Side::east}, {1, Side::west}}, {{1, Side::east}, {0, Side::west}}});
   CHECK(refused({quarter_sphere("a", Side::east), quarter_sphere("b", Side::west)},
                 {{{0, Side::east}, {1, Side::west}}}, 1e-9) == "");

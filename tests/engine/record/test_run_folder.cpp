@@ -176,8 +176,8 @@ TEST_CASE("CSV lines contain the last frame, shortest numbers, and nothing for w
                          "0.3333333333333333,0.30000000000000004,solved,,,\n"));
   CHECK(
       frames.ends_with(",0.001,14,,,,,,,,,2e-05,,,,1.4,-1,2,-0.1,0.3333333333333333,0.5,solved,"
-                       "u0; 45.00 mm from its begin; at joint [0; 1],"
-                       "u0; 45.00 mm from its begin; at joint [0; 1],"
+                       "u0; 45.00 mm from its start; at joint [0; 1],"
+                       "u0; 45.00 mm from its start; at joint [0; 1],"
                        "\"snap; \"\"fast\"\" \xC3\xA9\"\n"));
 }
 
