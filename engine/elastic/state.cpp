@@ -334,10 +334,11 @@ Energies energies_of(const Model& model, const State& state, const ExternalLoads
           sum[Term::bend] += bend_value(bend.stiffness, e, f);
         });
   each_pair_list(model, [&]<class Law>(const std::vector<Pair<Law>>& list) {
-    for (const Pair<Law>& pair : list)
-      sum[Law::term] += pair.law.value(pair_geometry(model, state, pair, outside.opening));
+    if constexpr (!std::is_same_v<Law, JointAngle>)
+      for (const Pair<Law>& pair : list)
+        sum[Law::term] += pair.law.value(pair_geometry(model, state, pair));
   });
-  add_joint_energies(model, state, sum);
+  add_joint_energies(model, state, outside.opening, sum);
   for (const ModelSpring& spring : model.springs)
     sum[spring.law.term] += spring.law.value(gap_of(state, spring.law));
   for (const ModelBar& bar : model.bars)
