@@ -355,6 +355,8 @@ Result<NetworkData> read_network_json(std::string_view bytes, const std::string&
                                       const NetworkOptions& options) {
   if (options.unit_mm > 0 && options.unit_mm != 1)
     return invalid("{}: its points are points_mm: file_unit must be \"mm\", or left out", name);
+  if (options.linkage)
+    return invalid("{}: lists its rods, [footprint] linkage must be left out", name);
   std::string storage;
   TRY(document, parse(plain_text(bytes, storage), name));
   return Reader(*document, name, options.join_mm).read();

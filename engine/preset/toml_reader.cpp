@@ -366,6 +366,7 @@ void TomlReader::read_files(PresetBuilder& draft) {
       draft.files.contains(key_label("actuation", "file"))) {
     draft.preset.footprint.file_unit = FileUnit::file;
     draft.preset.footprint.join_mm = 0;
+    draft.preset.footprint.linkage = false;
   }
   if (draft.files.contains(key_label("net", "file"))) draft.preset.net.file_unit = FileUnit::file;
 }
