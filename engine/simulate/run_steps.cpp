@@ -56,10 +56,36 @@ void close(PathSegment& segment, const Simulation& simulation) {
   segment.from = segment.to = segment.end();
 }
 
+/// The shell before the steps. If these begin by opening the joints of a network, and that has no
+/// regular equilibrium without springs, as strips that are straight at rest close into a bundle, or
+/// if the mean angle is prescribed, the springs of the first step hold the joints as drawn; `told`
+/// says so.
+Result<EquilibriumPath> begin(const std::shared_ptr<const Scene>& scene,
+                              const std::vector<preset::Step>& steps, const LevelPlan& plan,
+                              const Watch& watch, std::string& told) {
+  const bool opens = opens_as_drawn(steps, *scene);
+  const bool mean = opens && steps.front().drive == preset::JointDrive::mean;
+  Result<EquilibriumPath> loose = fail(Fault::no_equilibrium, "");
+  if (!mean) loose = follow_whole_actuation(scene, plan, "to begin with", watch);
+  if (loose || !opens || watch.cancelled()) return loose;
+  TRY(bolts, bolts_as_drawn(steps.front(), scene->footprint));
+  auto held = std::make_shared<Scene>(*scene);
+  held->rods.bolts = std::make_shared<const Bolts>(std::move(*bolts));
+  auto begun = follow_whole_actuation(held, plan, "to begin with", watch);
+  if (mean) return begun;
+  if (!begun)
+    return fail(begun.error().fault, "{}; with the joints' springs as drawn {}",
+                loose.error().message, begun.error().message);
+  told = "; its springs held the angles as drawn from the first state on, as without them " +
+         loose.error().message;
+  return begun;
+}
+
 Result<Work> do_steps(const std::shared_ptr<const Scene>& scene,
                       const std::vector<preset::Step>& steps, const LevelPlan& plan,
                       const Watch& watch) {
-  TRY(actuated, follow_whole_actuation(scene, plan, "to begin with", watch));
+  std::string told;
+  TRY(actuated, begin(scene, steps, plan, watch, told));
   Checkpoint begin = actuated->simulation.save();
   Work work{std::move(*actuated), std::move(begin)};
   if (work.too_coarse()) return work;
@@ -80,7 +106,8 @@ Result<Work> do_steps(const std::shared_ptr<const Scene>& scene,
     static_cast<PathRecord&>(segment) = std::move(way);
     close(segment, simulation);
     work.done.push_back({std::move(way.end), simulation.save()});
-    if (kind == StepKind::open) work.done.back().told = ", " + text_of_opened(simulation);
+    if (kind == StepKind::open)
+      work.done.back().told = ", " + text_of_opened(simulation) + (k == 0 ? told : "");
     if (segment.report.end != Outcome::reached) break;
   }
   return work;
