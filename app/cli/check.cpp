@@ -22,21 +22,19 @@ std::string or_unknown(double value, const char* unit) {
 }
 
 /// The joint that [indentation] pushes, as far as it is known before the shell is formed.
-std::string joint_text(const preset::Preset& preset) {
-  const preset::Indentation& push = preset.indentation;
+std::string joint_text(const preset::Indentation& push, const Scene& scene) {
   if (push.joint.size() == 2) return fmt::format("joint [{}, {}]", push.joint[0], push.joint[1]);
-  const auto scene = scene_of(preset);
-  if (scene && scene->net) {
-    Eigen::Matrix2Xd uv(2, Eigen::Index(scene->footprint.joints.size()));
+  if (scene.net) {
+    Eigen::Matrix2Xd uv(2, Eigen::Index(scene.footprint.joints.size()));
     for (Eigen::Index k = 0; k < uv.cols(); ++k) {
-      const FootprintJoint& joint = scene->footprint.joints[std::size_t(k)];
+      const FootprintJoint& joint = scene.footprint.joints[std::size_t(k)];
       uv.col(k) << joint.u, joint.v;
     }
-    const auto points = points_on(*scene->net, uv);
-    const auto joint = points ? simulate::pushed_joint(push, scene->footprint, *points)
+    const auto points = points_on(*scene.net, uv);
+    const auto joint = points ? simulate::pushed_joint(push, scene.footprint, *points)
                               : Result<int>(tl::unexpected(points.error()));
     if (joint) {
-      const FootprintJoint& at = scene->footprint.joints[std::size_t(*joint)];
+      const FootprintJoint& at = scene.footprint.joints[std::size_t(*joint)];
       return fmt::format("joint [{}, {}]", at.i, at.j);
     }
   }
@@ -47,15 +45,15 @@ std::string joint_text(const preset::Preset& preset) {
       push.latitude_deg, push.longitude_deg);
 }
 
-/// What a run does to the shell beside forming it, a line each.
-std::vector<std::string> what_is_done(const preset::Preset& preset) {
+/// What a run does to the shell in addition to forming it, one line each.
+std::vector<std::string> what_is_done(const preset::Preset& preset, const Scene& scene) {
   std::vector<std::string> lines;
-  if (const preset::Indentation& push = preset.indentation; push.wanted())
+  if (const preset::Indentation& push = preset.indentation; push.requested())
     lines.push_back(fmt::format(
-        "push            {} {} by {}{}{}", joint_text(preset), word_of(push.direction),
+        "push            {} {} by {}{}{}", joint_text(push, scene), word_of(push.direction),
         push.depth_mm > 0 ? fmt::format("{:g} mm", push.depth_mm)
                           : fmt::format("{:g} of the length scale", push.depth),
-        push.lateral == preset::Lateral::free ? ", free to move across" : ", held across",
+        push.lateral == preset::Lateral::free ? ", free to move across" : ", prescribed across",
         push.unload ? ", and back" : ""));
   std::vector<std::string> steps;
   for (const preset::Step& step : preset.step) steps.push_back(simulate::text_of(step));
@@ -102,14 +100,14 @@ void print_plan(const preset::Preset& preset, const simulate::Plan& plan) {
   for (const auto& seam : plan.seams) fmt::print("  seam            {}\n", seam);
   for (const auto& sentence : plan.net) fmt::print("  net             {}\n", sentence);
   fmt::print("  model           {}\n", plan.model_reason);
-  fmt::print("  meshes          {} edges a segment{}\n", fmt::join(plan.levels, ", "),
+  fmt::print("  meshes          {} edges per segment{}\n", fmt::join(plan.levels, ", "),
              plan.extrapolated ? ", extrapolated" : "");
   fmt::print("  size            {} rods, {} joints, {} cells, {} unknowns\n", plan.rods,
              plan.joints, plan.cells, plan.dof);
-  if (preset.jitter.wanted())
+  if (preset.jitter.requested())
     fmt::print("  search          {} trials, mode \"{}\", and {} from symmetric forms\n",
                preset.jitter.trials, word_of(preset.jitter.mode), preset.jitter.confined);
-  for (const std::string& line : what_is_done(preset)) fmt::print("  {}\n", line);
+  for (const std::string& line : what_is_done(preset, *plan.scene)) fmt::print("  {}\n", line);
   fmt::print("  memory          about {:.1g} GB\n", plan.memory_GB);
   fmt::print("  expected error  {}\n", or_unknown(plan.expected_error_mm, "mm"));
   if (!plan.bending.empty()) fmt::print("  bending         {}\n", plan.bending);
@@ -134,6 +132,7 @@ Result<int> check(const Options& options) {
   const preset::SweepGrid grid(*presets);
   if (grid.size() > 0) TRY_DO(check_sweep(*presets));
   double seconds = 0;
+  std::vector<std::string> drawn;
   for (const auto& run : runs_of(*presets)) {
     const auto plan = plan_of(run.preset);
     if (!plan) {
@@ -144,11 +143,14 @@ Result<int> check(const Options& options) {
       return tl::unexpected(error);
     }
     print_plan(run.preset, *plan);
+    if (plan->scene->mesh_net) {
+      TRY(name, draw_net_plan(run, *plan->scene, folder));
+      drawn.push_back(std::move(*name));
+    }
     seconds += plan->expected_seconds;
   }
   if (grid.size() > 0) fmt::print("  sweep           {}\n", sweep_text(*presets, grid, seconds));
-  TRY(drawn, draw_net_plans(*presets, folder));
-  for (const std::string& plan : *drawn) fmt::print("  plan            {}\n", plan);
+  for (const std::string& plan : drawn) fmt::print("  plan            {}\n", plan);
   for (const std::string& file : presets->files) fmt::print("  file            {}\n", file);
   for (const std::string& note : presets->notes) fmt::print("  note            {}\n", note);
   return printed();

@@ -43,7 +43,7 @@ std::string name_of(const preset::Preset& preset) {
 
 fs::path with_suffix(fs::path stem, const char* suffix) { return stem += suffix; }
 
-/// Of one assemblage: its blocks apart, their footprints, and how they meet.
+/// Draws one assemblage: its blocks separately, their footprints, and how they meet.
 Result<void> draw_block_pictures(const record::Trajectory& run, const render::MovieStyle& style,
                                  render::Renderer& renderer, const fs::path& stem, Watch& watch) {
   TRY_DO(save_panels(render::draw_blocks({{&run, ""}}, style, renderer, watch),
@@ -74,28 +74,28 @@ std::string caption_of(const record::Trajectory& run, const std::string& name, b
 std::string title_among(const Run& run, const std::string& of_all) {
   return run.preset.title == of_all && !run.name.empty() ? run.name : run.preset.title;
 }
-/// The same where it stands by itself.
+/// What a picture of one run calls it, marked text.
 std::string title_alone(const Run& run, const std::string& of_all) {
   const std::string title = title_among(run, of_all);
   return of_all.empty() || title == run.preset.title ? title : of_all + ": " + title;
 }
 
 bool is_still(const Run& run) { return run.pictures == Pictures::stills; }
-/// Whether its movie shows it beside the other cases.
+/// Whether its movie shows it next to the other cases.
 bool drawn_beside(const Run& run) {
   return run.pictures == Pictures::movie && run.preset.movie.beside && !run.name.empty();
 }
-/// A shell that was designed on a net is shown beside it, a pushed one by itself.
+/// A shell that was designed on a net is shown next to it, a pushed one by itself.
 bool shows_net(const Run& run) {
   const preset::Preset& preset = run.preset;
-  return is_still(run) && preset.on_net() && !preset.indentation.wanted() &&
-         !preset.jitter.wanted() && preset.step.empty();
+  return is_still(run) && preset.on_net() && !preset.indentation.requested() &&
+         !preset.jitter.requested() && preset.step.empty();
 }
-bool shows_push(const Run& run) { return is_still(run) && run.preset.indentation.wanted(); }
-/// One of several that no other picture shows beside one another.
+bool shows_push(const Run& run) { return is_still(run) && run.preset.indentation.requested(); }
+/// One of several that no other picture shows next to one another.
 bool shows_case(const Run& run) {
   return is_still(run) && !run.name.empty() && !shows_net(run) && !shows_push(run) &&
-         !run.preset.jitter.wanted();
+         !run.preset.jitter.requested();
 }
 bool has_net(const Run& run) {
   return shows_net(run) && run.trajectory.layout.net_nodes.size() > 0;
@@ -168,10 +168,10 @@ Result<void> draw_cases(const Runs& runs, const std::string& title, const Shared
 Result<void> draw_together(const std::vector<Run>& runs, const std::string& title,
                            const SharedColourBar& bar, render::Renderer& renderer,
                            const fs::path& stem, Progress& progress) {
-  const auto those = [&](bool (*wanted)(const Run&)) {
+  const auto those = [&](bool (*requested)(const Run&)) {
     Runs found;
     for (const Run& run : runs)
-      if (wanted(run)) found.push_back(&run);
+      if (requested(run)) found.push_back(&run);
     return found;
   };
   if (const Runs beside = those(drawn_beside); !beside.empty())
@@ -243,7 +243,7 @@ std::vector<Phase> drawing_phases(const std::vector<Run>& runs) {
     if (run.pictures != Pictures::none && !drawn_beside(run))
       phases.push_back(drawing("drawing" + (run.name.empty() ? "" : " " + run.name), expected));
   }
-  const auto any = [&](auto wanted) { return std::ranges::any_of(runs, wanted); };
+  const auto any = [&](auto requested) { return std::ranges::any_of(runs, requested); };
   if (any(drawn_beside)) {
     phases.push_back(drawing("drawing", seconds));
   } else if (any(is_still) && runs.front().preset.page.kind != preset::PageKind::none) {
@@ -269,7 +269,7 @@ Result<void> draw_all(std::vector<Run>& runs, const std::string& title, const fs
     const double start = seconds_now();
     Watch& watch = progress.next_phase();
     const std::string own = std::exchange(run.preset.title, title_alone(run, title));
-    if (run.preset.jitter.wanted())
+    if (run.preset.jitter.requested())
       TRY_DO(draw_states(run, renderer, to / fs::path(run.preset.name).filename(), watch));
     else
       TRY_DO(draw_run(run, bars[k], renderer, to, watch));
@@ -282,46 +282,39 @@ Result<void> draw_all(std::vector<Run>& runs, const std::string& title, const fs
   return {};
 }
 
-Result<std::vector<std::string>> draw_net_plans(const preset::Presets& presets,
-                                                const fs::path& folder) {
+Result<std::string> draw_net_plan(const preset::Case& run, const Scene& scene,
+                                  const fs::path& folder) {
   using render::PlanPart;
-  std::vector<std::string> names;
-  for (const auto& run : runs_of(presets)) {
-    if (!run.preset.on_mesh()) continue;
-    TRY(scene, scene_of(run.preset));
-    const MeshNetReport& net = *scene->mesh_net;
-    TRY(rods, rods_on_net(*scene, run.preset.footprint.spacing_mm / 8));
-    std::vector<PlanPart> parts;
-    for (const auto& [why, fraction] : net.reasons()) {
-      PlanPart& part = parts.emplace_back(PlanPart{PlanPart::Kind::left_out, {}});
-      part.name = fmt::format("left out, {:.1f} %: {}", 100 * fraction, text_of(why));
-      for (const AreaSample& one : net.left_out) {
-        if (one.why != why) continue;
-        part.points.conservativeResize(3, part.points.cols() + 1);
-        part.points.rightCols<1>() = one.at;
-      }
-    }
-    parts.push_back({PlanPart::Kind::rods,
-                     fmt::format("the net, {:.1f} % of the area", 100 * net.start.reached),
-                     std::move(*rods)});
-    for (const auto& [kind, line, name] : {std::tuple(PlanPart::Kind::rim, LineKind::rim, ""),
-                                           {PlanPart::Kind::hole, LineKind::hole, "holes"},
-                                           {PlanPart::Kind::crease, LineKind::crease, "creases"}}) {
-      PlanPart part{kind, name};
-      for (const auto& one : net.drawn)
-        if (one.kind == line) part.lines.push_back(one.points);
-      parts.push_back(std::move(part));
-    }
-    parts.push_back({PlanPart::Kind::apex, "the apex", {}, net.start.place.apex});
-    fs::path stem = folder;
-    stem += (run.name.empty() ? "" : "_" + run.name) + "_plan";
-    if (stem.has_parent_path()) TRY_DO(make_folder(stem.parent_path()));
-    const auto style = style_of(run.preset, Pictures::stills);
-    TRY_DO(render::write_plot(stem, render::net_plan(parts, render::plain(run.preset.title)),
-                              style.print, 1.1));
-    names.push_back(stem.string() + ".png");
+  const MeshNetReport& net = *scene.mesh_net;
+  TRY(rods, rods_on_net(scene, run.preset.footprint.spacing_mm / 8));
+  std::vector<PlanPart> parts;
+  for (const auto& [why, fraction] : net.reasons()) {
+    PlanPart& part = parts.emplace_back(PlanPart{PlanPart::Kind::left_out, {}});
+    part.name = fmt::format("left out, {:.1f} %: {}", 100 * fraction, text_of(why));
+    part.points.resize(3, std::ranges::count(net.left_out, why, &AreaSample::why));
+    Eigen::Index count = 0;
+    for (const AreaSample& one : net.left_out)
+      if (one.why == why) part.points.col(count++) = one.at;
   }
-  return names;
+  parts.push_back({PlanPart::Kind::rods,
+                   fmt::format("the net, {:.1f} % of the area", 100 * net.start.reached),
+                   std::move(*rods)});
+  for (const auto& [kind, line, name] : {std::tuple(PlanPart::Kind::rim, LineKind::rim, ""),
+                                         {PlanPart::Kind::hole, LineKind::hole, "holes"},
+                                         {PlanPart::Kind::crease, LineKind::crease, "creases"}}) {
+    PlanPart part{kind, name};
+    for (const auto& one : net.drawn)
+      if (one.kind == line) part.lines.push_back(one.points);
+    parts.push_back(std::move(part));
+  }
+  parts.push_back({PlanPart::Kind::apex, "the apex", {}, net.start.place.apex});
+  fs::path stem = folder;
+  stem += (run.name.empty() ? "" : "_" + run.name) + "_plan";
+  if (stem.has_parent_path()) TRY_DO(make_folder(stem.parent_path()));
+  const auto style = style_of(run.preset, Pictures::stills);
+  TRY_DO(render::write_plot(stem, render::net_plan(parts, render::plain(run.preset.title)),
+                            style.print, 1.1));
+  return stem.string() + ".png";
 }
 
 void draw_refusals(const preset::Presets& presets, const fs::path& folder) {
@@ -331,7 +324,7 @@ void draw_refusals(const preset::Presets& presets, const fs::path& folder) {
     fs::path stem = folder;
     stem += (run.name.empty() ? "" : "_" + run.name) + "_refused";
     const auto style = style_of(run.preset, Pictures::stills);
-    std::error_code unmade;  // told by what writes
+    std::error_code unmade;  // reported by what writes
     if (stem.has_parent_path()) fs::create_directories(stem.parent_path(), unmade);
     const auto drawn = render::write_plot(
         stem,

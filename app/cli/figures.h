@@ -45,7 +45,7 @@ Result<void> draw_net_pictures(const Runs& runs, render::Renderer& renderer,
 /// otherwise, and the lowest state of each of the paper's classes.
 std::string found_text(const record::StateTables& states);
 
-/// "*C*_{4v}" of "C4v"; the place of mirrors is left to the table.
+/// "*C*_{4v}" of "C4v"; the position of mirrors is left to the table.
 std::string group_text(const std::string& group);
 
 /// Some of the states alone, each in its actuated boundary.
@@ -62,15 +62,15 @@ Result<void> draw_states(const Run& run, render::Renderer& renderer,
 
 // Pictures of nets on meshes.
 
-/// Of every run whose net lies on a mesh: `<folder>_plan.png`, .svg and .pdf (with cases
-/// `<folder>_<case>_plan`): its rods in plan, what they do not reach and why. Returns their names.
-Result<std::vector<std::string>> draw_net_plans(const preset::Presets& presets,
-                                                const std::filesystem::path& folder);
+/// Draws, for a run whose net lies on a mesh, `<folder>_plan.png`, .svg and .pdf (of a case
+/// `<folder>_<case>_plan`): its rods in plan, what they do not reach and why. Returns the name.
+Result<std::string> draw_net_plan(const preset::Case& run, const Scene& scene,
+                                  const std::filesystem::path& folder);
 
 // Pictures of what was refused.
 
-/// Of every run whose net ends before its boundary: `<folder>_refused.png`, .svg and .pdf (with
-/// cases `<folder>_<case>_refused`), told on the error output.
+/// Draws, for every run whose net ends before its boundary, `<folder>_refused.png`, .svg and .pdf
+/// (with cases `<folder>_<case>_refused`), which it reports on the error output.
 void draw_refusals(const preset::Presets& presets, const std::filesystem::path& folder);
 
 }  // namespace gridshell::app

@@ -127,7 +127,7 @@ struct LoadOptions {
 
 /// "full snow: limit point at 3.42 ± 0.02 (linear 5.1); at its strength at 1.2 ± 0.01; 20 that are
 /// not perfect: 0.84 of it (0.71 to 0.93)"
-std::string text_of(const record::LoadRow& row) {
+std::string sentence_of(const record::LoadRow& row) {
   std::string text = row.load_case + ": ";
   if (std::isfinite(row.critical_factor))
     text += fmt::format("{} at a factor of {}",
@@ -153,7 +153,7 @@ std::string json_text(const LoadStudy& found) {
   for (const record::LoadRow& row : found.cases) cases.push_back(json_of(row));
   Json json = Json::object();
   json["cases"] = std::move(cases);
-  return gridshell::text_of(json);
+  return text_of(json);
 }
 
 Result<FormedStudy> find_loads(const preset::Preset& preset, int imperfections, Watch& watch) {
@@ -168,7 +168,7 @@ Result<FormedStudy> find_loads(const preset::Preset& preset, int imperfections, 
                   {}};
   for (std::size_t k = 0; k < found->cases.size(); ++k) {
     const record::LoadRow& row = found->cases[k];
-    all.text += "  " + text_of(row) + "\n";
+    all.text += "  " + sentence_of(row) + "\n";
     if (found->modes[k].size() == 0) continue;
     record::Frame moved = moved_by(found->state, found->modes[k], 1, int(k));
     moved.loads_N = row.critical_factor * found->loads[k];

@@ -36,7 +36,7 @@ class PageMaker {
     if (records.front()->preset.style.floor == preset::Visibility::automatic)
       style_.look.floor = false;
     for (const Run* one : records) {
-      const bool push = one->preset.indentation.wanted();
+      const bool push = one->preset.indentation.requested();
       if (push && push_ == nullptr) push_ = one;
       (push ? pushes_ : shells_)
           .push_back({&one->trajectory, render::plain(one->preset.title), scan_of(one->preset)});
@@ -199,7 +199,7 @@ class PageMaker {
       // too low for more words; B has them
       plot.y.label = "mean *K*_{□} (rad)";
       if (k == 0) page.add_legend({2, 146, 174, 5}, plot);
-      plot.legend = render::LegendPlace::none;
+      plot.legend = render::LegendPosition::none;
       const double width = 174.0 / double(named_pushes_.size());
       page.add_plot(k == 0 ? "D" : "", {2 + width * double(k), 151, width - 1, 38}, plot);
     }

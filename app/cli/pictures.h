@@ -24,7 +24,8 @@ enum class Pictures { none, movie, stills };
 struct Run {
   std::string name = {};  ///< of the case, and of its folder; empty without cases
   preset::Preset preset = {};
-  Pictures pictures = Pictures::movie;  ///< that are drawn of it
+  Pictures pictures = Pictures::movie;      ///< that are drawn of it
+  std::shared_ptr<const Scene> scene = {};  ///< of its plan, until it is simulated
   record::Trajectory trajectory = {};
   record::Summary summary = {};
   record::StateTables states = {};  ///< of a search for states
@@ -38,7 +39,7 @@ using Runs = std::vector<const Run*>;
 /// A colour bar of several runs; none where each has its own.
 using SharedColourBar = std::optional<render::ColourBar>;
 
-/// One a run: the bar that it shares with all others that are coloured by the same quantity.
+/// One per run: the bar that it shares with all others that are coloured by the same quantity.
 std::vector<SharedColourBar> shared_bars(const std::vector<Run>& runs);
 
 /// How the preset wants its run shown.
@@ -47,7 +48,7 @@ render::MovieStyle style_of(const preset::Preset& preset, Pictures pictures);
 /// The joints that were measured on a real shell, 3 x n, mm.
 Eigen::Matrix3Xd scan_of(const preset::Preset& preset);
 
-/// Holds the OpenGL context, so it stays on the thread that made it.
+/// Owns the OpenGL context, so it stays on the thread that made it.
 class PictureMaker {
  public:
   /// `context` as in --context; `font` of all text, empty: the usual one. Errors: io when no

@@ -30,7 +30,7 @@ struct ReportOptions {
   fs::path to;
   std::string context = "auto";
   int modes = 6, imperfections = 0;
-  bool quiet = false, unsealed = false;
+  bool quiet = false, no_checksum = false;
 };
 
 /// Four digits, of thousands all before the point.
@@ -89,7 +89,7 @@ void add_geometry(Sheets& sheets, const Run& run, const exports::FabricationPlan
           : Eigen::Vector3d::Zero();
   sheets.values(
       {{"rods", fmt::format("{}, {:.4g} m in all", summary.rods, 1e-3 * plan.total_length_mm())},
-       {"joints", fmt::format("{}, {} mm apart", summary.joints, number(plan.spacing_mm))},
+       {"joints", fmt::format("{}, at {} mm", summary.joints, number(plan.spacing_mm))},
        {"plan of the boundary", number(span.x()) + " × " + with_unit(span.y(), "mm")},
        {"highest joint above it", with_unit(summary.height_mm, "mm")},
        {"model", fmt::format("{}, {} edges per segment", summary.model, summary.edges_per_segment)},
@@ -98,7 +98,7 @@ void add_geometry(Sheets& sheets, const Run& run, const exports::FabricationPlan
                  : summary.stable ? "in stable equilibrium"
                                   : "not stable"},
        {"force left over", with_unit(summary.residual_N, "N")}});
-  if (!summary.limit_reason.empty()) sheets.text("On its way: " + summary.limit_reason + ".");
+  if (!summary.limit_reason.empty()) sheets.text("On its path: " + summary.limit_reason + ".");
   if (!summary.doubt.empty()) sheets.text("In doubt: " + summary.doubt + ".");
   for (const std::string& step : summary.steps) sheets.text(step);
 }
@@ -179,7 +179,7 @@ Result<void> add_loads(Sheets& sheets, study::FormedShell& shell, const ReportOp
   }
   sheets.text(
       "Each case is applied to the state above, its factor growing by arc length until "
-      "stability is lost. Beside it the factor that the linearised problem would give. Red: "
+      "stability is lost. Next to it the factor that the linearised problem would give. Red: "
       "lost, or a fibre at its strength, below the whole load.");
   sheets.table({{"case", 62, AlignX::left},
                 {"sum *x* (N)", 44},
@@ -267,9 +267,9 @@ Result<int> make_report(ReportOptions options) {
     options.to = (run_folder.has_filename() ? run_folder : run_folder.parent_path()).string() +
                  "_report.pdf";
   if (options.to.extension() != ".pdf")
-    return invalid("--to {}: must end in .pdf", options.to.string());
+    return invalid("--to {}: expected a name that ends in .pdf", options.to.string());
   TRY_DO(check_beside_runs(options.to));
-  TRY(runs, read_runs(options.input, {}, options.unsealed));
+  TRY(runs, read_runs(options.input, {}, options.no_checksum));
   TRY(maker, PictureMaker::create(options.context, runs->front().preset.style.font));
   std::vector<Phase> phases;
   for (const Run& run : *runs) {
@@ -303,7 +303,7 @@ void add_report(CommandLine& program) {
       .option("--imperfections", options.imperfections,
               "more shells per case, displaced by loads.imperfection")
       .in_range(0, 1000);
-  add_unsealed(command, options.unsealed);
+  add_no_checksum(command, options.no_checksum);
 }
 
 }  // namespace gridshell::app

@@ -158,7 +158,7 @@ struct ScanOptions {
   Options common;  ///< output, quiet, context, --set; `input` is the file of points
   std::vector<std::string> runs;
   std::string unit = "mm";
-  bool unsealed = false;
+  bool no_checksum = false;
   bool centres = false;     ///< the points are joints, not tops of cylinders
   double tolerance_mm = 0;  ///< 0: by the noise
 };
@@ -207,14 +207,14 @@ Result<Scanned> read_all(const ScanOptions& options) {
   scanned.cloud = std::move(cloud->points);
   scanned.empty_rows = cloud->empty_rows;
   for (const std::string& folder : options.runs) {
-    TRY(runs, read_runs(folder, *overrides, options.unsealed));
+    TRY(runs, read_runs(folder, *overrides, options.no_checksum));
     scanned.runs.push_back(std::move(*runs));
   }
   for (std::size_t k = 0; k < options.runs.size(); ++k)
     for (Candidate& one : candidates_of(scanned.runs[k], options.runs[k]))
       scanned.candidates.push_back(std::move(one));
   if (scanned.candidates.empty())
-    return invalid("'{}' holds no state to compare with", options.runs.front());
+    return invalid("'{}' contains no state to compare with", options.runs.front());
   const preset::Joints& joints = scanned.candidates.front().run->preset.joints;
   scanned.cylinder = {joints.diameter_mm, options.centres ? 0 : joints.height_mm};
   return scanned;
@@ -357,7 +357,7 @@ Result<int> produce_scan(const ScanOptions& options) {
   };
   TRY_DO(deliver({folder, "scan"}, phases, common.quiet, work));
   if (!common.quiet && scanned->empty_rows > 0)
-    fmt::print("{}: {} rows hold no point (nan)\n", points.string(), scanned->empty_rows);
+    fmt::print("{}: {} rows have no point (nan)\n", points.string(), scanned->empty_rows);
   if (!common.quiet) fmt::print("{}: {}", folder.string(), scan_text(*scan));
   return scan->of_best().shown ? ExitCode::done : ExitCode::different;
 }
@@ -375,7 +375,7 @@ void add_scan(CommandLine& program) {
   add_changes(command, options.common);
   add_work_options(command, options.common, "folder to write, by default out/<points>_scan");
   add_picture_options(command, options.common);
-  add_unsealed(command, options.unsealed);
+  add_no_checksum(command, options.no_checksum);
   command.flag("--centres", options.centres,
                "the points are the joints themselves, not tops of cylinders");
   command

@@ -98,7 +98,7 @@ render::Plot lives_plot(const record::StateTables& states) {
   const bool circle = std::ranges::none_of(
       states.rows, [](const StateRow& row) { return std::isnan(row.lives_to_radius_mm); });
   plot.y = {.label = circle ? "largest *R*_{a} (mm)" : "least progress"};
-  plot.legend = render::LegendPlace::above;
+  plot.legend = render::LegendPosition::above;
   plot.series = by_class(states.rows, [&](const StateRow& row) {
     return circle ? row.lives_to_radius_mm : row.lives_to;
   });
@@ -320,7 +320,7 @@ std::string found_text(const record::StateTables& states) {
   const record::StateSearch& search = states.search;
   const RichnessEstimate& all = search.completeness;
   std::string text = fmt::format(
-      "  {} of {} trials came to rest, in {} states ({} once, {} twice); Chao1: {:.0f} in all, 95 "
+      "  {} of {} trials converged, to {} states ({} once, {} twice); Chao1: {:.0f} in all, 95 "
       "%: "
       "{:.0f} to {:.0f}\n",
       search.at_rest, search.trials, all.seen, all.once, all.twice, all.estimate, all.low,
@@ -378,7 +378,7 @@ Result<Page> states_page(const Runs& records, const render::MovieStyle& style,
   const Run& first = *records.front();
   if (first.states.rows.empty())
     return invalid(
-        "{}: [page] kind = \"fig2\" shows states: must have [jitter] trials or "
+        "{}: [page] kind = \"fig2\" shows states: expected [jitter] trials or "
         "confined above 0",
         first.preset.name);
   Page page{page_width, page_height};

@@ -1,5 +1,5 @@
-// Edges and bends run rod by rod, the hot loop beside the factorisation; what else stores energy is
-// added after them, list by list.
+// Edges and bends run rod by rod, the hot loop next to the factorisation; what else stores energy
+// is added after them, list by list.
 #include "engine/elastic/assembly.h"
 
 #include <cmath>
@@ -31,7 +31,7 @@ BlockSlot BlockPattern::slot(int row, int column) {
 }
 namespace {
 
-/// a nan must survive: comparisons with it are false, so the test is the other way round
+/// a nan must survive: comparisons with it are false, so the test is written so that nan passes
 inline void keep_smallest(double& smallest, double value) {
   if (!(value >= smallest)) smallest = value;
 }
@@ -137,11 +137,11 @@ void add_action_hessian(const NodeAction& action, double factor, const Eigen::Ma
                         BlockHessian& h) {
   h.diagonal[std::size_t(action.node)].matrix().diagonal() += factor * action.stiffness;
   if (action.pressure == 0) return;
-  const double share = factor * action.pressure / 6;
+  const double fraction = factor * action.pressure / 6;
   const auto [second, third] = action.beside;
   const auto add = [&](int row, int column, const Eigen::Vector3d& by) {
     h.beyond.push_back({row, column, {}});
-    h.beyond.back().block.matrix() = share * cross_matrix(by);
+    h.beyond.back().block.matrix() = fraction * cross_matrix(by);
   };
   add(action.node, second, action.apex(x));
   if (third < 0) return;
@@ -149,7 +149,7 @@ void add_action_hessian(const NodeAction& action, double factor, const Eigen::Ma
   add(second, third, x.col(action.node));
 }
 
-/// What stores energy beside edges and bends.
+/// What stores energy in addition to edges and bends.
 void add_others(const Model& model, const State& state, const ExternalLoads& outside,
                 bool with_hessian, Assembly& out) {
   each_pair_list(model, [&]<class Law>(const std::vector<Pair<Law>>& list) {
@@ -179,8 +179,8 @@ void add_others(const Model& model, const State& state, const ExternalLoads& out
     if (action.pressure != 0) {
       action.add_gradient(factor, state.x, out.gradient);
     } else {
-      // as add_gradient(), but rounded once a product, as this file is compiled: states keep their
-      // bits
+      // as add_gradient(), but rounded once per product, as this file is compiled: states keep
+      // their bits
       const Eigen::Vector3d off = state.x.col(action.node) - action.anchor;
       const Eigen::Vector3d slope = action.stiffness.cwiseProduct(off) - action.force;
       out.gradient.col(action.node) += factor * slope;
@@ -291,7 +291,7 @@ void assemble(const Model& model, const State& state, const ExternalLoads& outsi
   if (!apart)
     for (const Model::Rod& rod : model.rods) of_rod(rod, out.of_rod.front());
   for (std::size_t wave = 0; apart && wave < model.waves.size(); ++wave)
-    share(team, int(model.waves[wave].size()), [&](int k) {
+    parallel_for(team, int(model.waves[wave].size()), [&](int k) {
       const auto rod = std::size_t(model.waves[wave][std::size_t(k)]);
       of_rod(model.rods[rod], out.of_rod[rod]);
     });

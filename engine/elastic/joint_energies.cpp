@@ -135,7 +135,7 @@ void reduce(const ModelFollower& one, const Model& model, BlockHessian& h) {
   h.diagonal[std::size_t(node)] = {};
 }
 
-/// Blocks beyond the pattern on nodes that follow.
+/// Blocks outside the pattern, of nodes that follow.
 void reduce_beyond(const Model& model, BlockHessian& h) {
   const auto leading = [&](int column) {
     std::vector<std::pair<int, double>> parts{{column, 1}};

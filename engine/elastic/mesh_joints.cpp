@@ -12,8 +12,8 @@
 namespace gridshell {
 namespace {
 
-/// visit(k, m, share) for every two of the rods at a joint, which count alike: all of them together
-/// as much as one rod with each of the others
+/// visit(k, m, fraction) for every two of the rods at a joint, which count alike: all of them
+/// together as much as one rod with each of the others
 template <class Visit>
 void each_two(std::size_t rods, Visit visit) {
   for (std::size_t k = 0; k < rods; ++k)
@@ -154,7 +154,7 @@ Result<void> add_joint_laws(const RodMesh& mesh, const ShellRods& shell, const C
     if (!mesh.is_centred(joint))
       return invalid("joint {}: a law holds its rods, and the mesh has no edges centred on it",
                      joint);
-    each_two(rods.size(), [&](std::size_t k, std::size_t m, double share) {
+    each_two(rods.size(), [&](std::size_t k, std::size_t m, double fraction) {
       const Crossing at = crossing(mesh, rods, joint, springs, k, m);
       const RodMaterial &a = shell.material(std::size_t(at.rod_a)),
                         &b = shell.material(std::size_t(at.rod_b));
@@ -166,9 +166,9 @@ Result<void> add_joint_laws(const RodMesh& mesh, const ShellRods& shell, const C
         add_joint_shear(model, at, angle);
       };
       if (law.shear_Nmm > 0)
-        shear({share * std::min(law.shear_Nmm, most),
+        shear({fraction * std::min(law.shear_Nmm, most),
                angle_between(direction_at(mesh, rods[k]), direction_at(mesh, rods[m])), 0, joint});
-      if (bolted) shear(shell.bolts->law(joint, k, m, share, most));
+      if (bolted) shear(shell.bolts->law(joint, k, m, fraction, most));
       if (bolted && shell.bolts->mean) {
         const double all = std::min(shell.bolts->stiffness_Nmm, most) * shell.bolts->joints();
         model.mean_stiffness = model.mean_stiffness > 0 ? std::min(model.mean_stiffness, all) : all;
@@ -177,10 +177,11 @@ Result<void> add_joint_laws(const RodMesh& mesh, const ShellRods& shell, const C
       if (hinged)
         add_joint_hinge(model, at, law.twist_Nmm, side);
       else
-        add_joint_spin(model, at,
-                       share * std::min(law.twist_Nmm,
-                                        stiff_limit(mesh, model, at, {a.EI2 + a.GJ, b.EI2 + b.GJ})),
-                       side);
+        add_joint_spin(
+            model, at,
+            fraction *
+                std::min(law.twist_Nmm, stiff_limit(mesh, model, at, {a.EI2 + a.GJ, b.EI2 + b.GJ})),
+            side);
     });
   }
   return {};

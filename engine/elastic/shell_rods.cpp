@@ -15,7 +15,7 @@ namespace gridshell {
 namespace {
 
 /// the curvature binormal of a line as drawn at each of its nodes, about the directors m1 and m2
-/// that are carried along it from `director` at its begin; 0 at ends
+/// that are carried along it from `director` at its start; 0 at ends
 std::vector<Eigen::Vector2d> turns_of(const RodMesh& mesh, const ModelRod& rod) {
   const std::vector<int>& nodes = rod.nodes;
   const std::size_t size = nodes.size(), last = rod.closed() ? size : size - 2;
@@ -31,7 +31,7 @@ std::vector<Eigen::Vector2d> turns_of(const RodMesh& mesh, const ModelRod& rod) 
   return turns;
 }
 
-/// the rod without its ghosts, and what holds its ends
+/// the rod without its ghosts, and the constraints of its ends
 ModelRod rod_of(const RodMesh& mesh, std::size_t r, const RodMaterial& material,
                 const Eigen::Vector3d& director) {
   ModelRod rod;
@@ -49,7 +49,7 @@ ModelRod rod_of(const RodMesh& mesh, std::size_t r, const RodMaterial& material,
   // a closed rod comes back to its first node
   if (rod.nodes.front() == rod.nodes.back()) rod.nodes.pop_back();
   for (const int node : rod.nodes) rod.centred.push_back(mesh.is_centred(node));
-  // the piece beside an end is as long as one beside a centred joint: half an edge
+  // the piece next to an end is as long as one next to a centred joint: half an edge
   const auto halve_end = [&](int end, auto first, auto last, char& centred) {
     const bool tail = !mesh.far_ends.empty() && mesh.far_ends[std::size_t(end)] >= 0;
     const auto joint =
@@ -65,7 +65,7 @@ ModelRod rod_of(const RodMesh& mesh, std::size_t r, const RodMaterial& material,
                                                drawn_place(mesh, rod.nodes[k - 1]))
                                                   .norm();
   if (material.as_drawn) rod.turns = turns_of(mesh, rod);
-  // what hangs on a spring is free in itself
+  // what is on a spring is free in itself
   const auto held = [&](RodEnd end) {
     return end == RodEnd::joined || end == RodEnd::sprung ? RodEnd::free : end;
   };
@@ -74,8 +74,8 @@ ModelRod rod_of(const RodMesh& mesh, std::size_t r, const RodMaterial& material,
   return rod;
 }
 
-/// A rod's first director: the mean of its joints' normals, carried to its begin, so that it lies
-/// alike whichever way its points are listed.
+/// A rod's first director: the mean of its joints' normals, carried to its start, so that it does
+/// not depend on the order in which its points are listed.
 Eigen::Vector3d director_of(const RodMesh& mesh, std::size_t r,
                             const std::vector<Eigen::Vector3d>& normals) {
   const std::vector<int>& nodes = mesh.rods[r];
@@ -101,9 +101,9 @@ Eigen::Vector3d director_of(const RodMesh& mesh, std::size_t r,
   return (sum.x() * begin + sum.y() * first.cross(begin)).normalized();
 }
 
-/// edge points with a tail, or without a rod, joints that the boundary holds, supports of springs
+/// edge points with a tail, or without a rod, joints that the boundary fixes, supports of springs
 std::vector<int> pinned_beside_ends(const RodMesh& mesh) {
-  std::vector<int> nodes = mesh.held_joints;
+  std::vector<int> nodes = mesh.fixed_joints;
   for (const MeshSpring& spring : mesh.springs) {
     std::erase(nodes, spring.node);
     nodes.push_back(spring.support);
@@ -167,13 +167,13 @@ std::vector<NodeAction> dead_loads(const RodMesh& mesh, const ShellRods& rods) {
   return loads;
 }
 
-Result<Model> build_model(const RodMesh& mesh, const ShellRods& shell, RodModel rung) {
+Result<Model> build_model(const RodMesh& mesh, const ShellRods& shell, RodModel rod_model) {
   // a member more does not compile here: whoever adds one puts it into the model
   const auto& [materials, joints, own_joints, weight_N_per_mm, joint_weight_N, points, contact,
                bolts, braces] = shell;
   const Crossings at_joints = crossings_of(mesh);
   const std::vector<Eigen::Vector3d> normals = normals_of(mesh, at_joints);
-  const bool springs = rung == RodModel::twist && joints.spring_N_per_mm > 0;
+  const bool springs = rod_model == RodModel::twist && joints.spring_N_per_mm > 0;
   std::vector<ModelRod> rods;
   std::vector<char> taken(std::size_t(mesh.joints), 0);
   for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
@@ -189,7 +189,7 @@ Result<Model> build_model(const RodMesh& mesh, const ShellRods& shell, RodModel 
     if (springs) crossings[std::size_t(mesh.nodes() + joint)] = 1;
   }
   for (const EccentricJoint& at : mesh.eccentric) crossings[std::size_t(at.node)] = 1;
-  auto model = build_model(nodes, rods, rung, crossings);
+  auto model = build_model(nodes, rods, rod_model, crossings);
   if (!model) return model;
   TRY_DO(add_joint_laws(mesh, shell, at_joints, normals, *model));
   for (const MeshSpring& spring : mesh.springs)
@@ -198,7 +198,7 @@ Result<Model> build_model(const RodMesh& mesh, const ShellRods& shell, RodModel 
   for (const int node : pinned) model->pin(node);
   for (const Brace& brace : braces)
     model->bars.push_back({{brace.a, brace.b, brace.rest_length_mm, brace.EA, brace.cable}});
-  if (rung == RodModel::twist || !pinned.empty() || bolts || !braces.empty() ||
+  if (rod_model == RodModel::twist || !pinned.empty() || bolts || !braces.empty() ||
       !model->links.empty())
     finish(*model);
   model->loads = dead_loads(mesh, shell);

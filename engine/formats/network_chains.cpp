@@ -28,9 +28,9 @@ double turn_at(const NetworkData& network, int before, int at, int after) {
   return std::atan2(in.cross(out).norm(), in.dot(out));
 }
 
-/// The begin (2 r) or end (2 r + 1) of rod r.
+/// The start (2 r) or end (2 r + 1) of rod r.
 struct LineEnd {
-  int number, point, before;  ///< the point beside it
+  int number, point, before;  ///< the point next to it
 };
 
 std::map<int, std::vector<LineEnd>> ends_at_points(const NetworkData& network) {
@@ -44,13 +44,13 @@ std::map<int, std::vector<LineEnd>> ends_at_points(const NetworkData& network) {
   return ends;
 }
 
-/// Of each end the one that it goes on in; -1: none.
+/// The end in which each end continues; -1: none.
 Result<std::vector<int>> continuations(const NetworkData& network,
                                        const std::vector<std::string>& places) {
   std::vector<int> partner(2 * network.rods.size(), -1);
   for (const auto& [point, ends] : ends_at_points(network)) {
     if (ends.size() > most_ends)
-      return invalid("{}: ends where {} other lines do, must be at most {}",
+      return invalid("{}: got an end at that of {} other lines, expected at most {}",
                      places[std::size_t(ends.back().number / 2)], ends.size() - 1, most_ends);
     std::vector<std::tuple<double, int, int>> pairs;
     for (std::size_t a = 0; a < ends.size(); ++a)

@@ -25,7 +25,7 @@ std::string counted(std::size_t count, const std::string& what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
-/// What every drawing comes to once its lines are in the builder.
+/// What is made of every drawing once its lines are in the builder.
 Result<NetworkData> finish(NetworkBuilder& builder, const std::string& name, std::size_t lines,
                            const NetworkOptions& options, FileReport& report) {
   if (options.linkage) {
@@ -42,7 +42,7 @@ Result<NetworkData> finish(NetworkBuilder& builder, const std::string& name, std
   return builder.take(name);
 }
 
-/// Whether a circle marks a point of the lines: about it, and small beside the drawing.
+/// Whether a circle marks a point of the lines: about it, and small compared with the drawing.
 class Marks {
  public:
   explicit Marks(const std::vector<const DrawnEntity*>& drawn) : drawn_(drawn) {
@@ -68,8 +68,8 @@ class Marks {
                          const Eigen::Vector3d& b) {
     const Eigen::Vector3d way = b - a;
     const double length = way.squaredNorm();
-    const double share = length > 0 ? std::clamp((p - a).dot(way) / length, 0.0, 1.0) : 0;
-    return (a + share * way - p).norm();
+    const double fraction = length > 0 ? std::clamp((p - a).dot(way) / length, 0.0, 1.0) : 0;
+    return (a + fraction * way - p).norm();
   }
 
   const std::vector<const DrawnEntity*>& drawn_;
@@ -172,14 +172,14 @@ class MeshEdges {
 
   Result<void> add_face(const std::vector<long>& vertices, const std::string& at) {
     if (vertices.size() < 3)
-      return invalid("{}: a face of {} vertices, must have 3 or more", at, vertices.size());
+      return invalid("{}: got a face of {} vertices, expected 3 or more", at, vertices.size());
     ++faces_, quads_ += vertices.size() == 4;
     for (std::size_t k = 0; k < vertices.size(); ++k)
       TRY_DO(add_edge({vertices[k], vertices[(k + 1) % vertices.size()]}, at));
     return {};
   }
   Result<void> add_edge(const std::vector<long>& vertices, const std::string& at) {
-    if (vertices.size() != 2) return invalid("{}: must have vertex1 and vertex2", at);
+    if (vertices.size() != 2) return invalid("{}: expected vertex1 and vertex2", at);
     TRY(first, builder_.point(vertices[0], at));
     TRY(second, builder_.point(vertices[1], at));
     if (*first == *second || !known_.insert(std::minmax(*first, *second)).second) return {};
@@ -310,7 +310,7 @@ Result<NetworkData> read_network_dxf(std::string_view bytes, const std::string& 
   const double unit = unit_of(*drawing, *rods, options, report);
   report.text += left_out.text() + "; ";
   if (rods->empty())
-    return invalid("{}: holds no rods, must have one at least{}", name, left_out.text());
+    return invalid("{}: got no rods, expected at least one{}", name, left_out.text());
   NetworkBuilder builder(options.join_mm);
   for (const DrawnEntity* one : *rods) {
     const auto place = fmt::format("{}:{}", name, one->line);

@@ -108,7 +108,7 @@ class NearPoints {
     return std::ranges::any_of(of_a, [&](int rod) { return std::ranges::count(of_b, rod) > 0; });
   }
 
-  /// Whether all rods at two points run alike beside one another, as laths in a bundle do.
+  /// Whether all rods at two points are parallel neighbours, as laths in a bundle are.
   bool pass(int a, int b) const {
     // whom the file lets go is meant to be free
     if (std::ranges::count(network_.free, a) + std::ranges::count(network_.free, b) > 0)
@@ -141,7 +141,7 @@ class NearPoints {
     if (ends.size() * stretches > most) return;
     for (const auto& [end, own] : ends) {
       const std::vector<int>& rod = network_.rods[std::size_t(own)];
-      // a rod that is joined right beside the end is one that it passes
+      // a rod that is joined directly next to the end is one that it passes
       const int beside = end == rod.front() ? rod[1] : rod[rod.size() - 2];
       const Eigen::Vector3d at = place_of(network_, end);
       double least = near_;
@@ -156,8 +156,8 @@ class NearPoints {
 
   double distance(const Eigen::Vector3d& at, int from, int to) const {
     const Eigen::Vector3d a = place_of(network_, from), way = place_of(network_, to) - a;
-    const double share = std::clamp((at - a).dot(way) / way.squaredNorm(), 0.0, 1.0);
-    return (a + share * way - at).norm();
+    const double fraction = std::clamp((at - a).dot(way) / way.squaredNorm(), 0.0, 1.0);
+    return (a + fraction * way - at).norm();
   }
 
   const NetworkData& network_;
@@ -206,12 +206,12 @@ void report_network(const NetworkData& network, const NetworkOptions& options, F
                              size.y(), size.z() > 0 ? fmt::format(" x {:.6g}", size.z()) : "");
   if (together > 0)
     report.text +=
-        fmt::format("; at {} rods end together and are held", counted(together, "support"));
+        fmt::format("; at {} rods end together and are fixed", counted(together, "support"));
   if (size.y() < 1e-6 * size.x() && size.z() > 1e-3 * size.x())
-    report.notes.push_back(fmt::format(
-        "all rods stand upright in the plane y = {}: a drawing whose y is up? Its y and z must be "
-        "exchanged",
-        box.min().y()));
+    report.notes.push_back(
+        fmt::format("all rods lie upright in the plane y = {}: is y up in this drawing? Then "
+                    "exchange y and z",
+                    box.min().y()));
   const double near = 0.1 * spacing_of(network);
   if (!(near > 0) || options.linkage) return;
   const auto pairs = NearPoints(network, near).find();

@@ -28,7 +28,7 @@ struct Indentation {
   Lateral lateral = Lateral::free;
   bool unload = false;
 
-  bool wanted() const { return depth > 0 || depth_mm > 0; }
+  bool requested() const { return depth > 0 || depth_mm > 0; }
 };
 
 /// What a release takes out or lets go.

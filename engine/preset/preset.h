@@ -108,8 +108,9 @@ enum class NetKind { sphere, cylinder, spool, beltrami, profile, translation, su
 /// Direction of the first rod of a net on a surface: a principal direction or x, turned by
 /// axis_deg.
 enum class NetAxis { principal, x };
-/// Whether apex_mm gives the starting point, or the best point and direction are searched for.
-enum class NetApex { given, best };
+/// Whether apex_mm gives the starting point, or the point and direction are searched for from which
+/// a net reaches the largest area, or almost that with the largest least angle.
+enum class NetApex { given, best, best_angle };
 struct Net {
   NetKind kind = NetKind::sphere;
   double radius_mm = 120.0;  ///< rho, the scale of the deviation
@@ -235,7 +236,7 @@ struct SearchSettings {
   int transitions = 0;      ///< number of states whose transitions are followed
   bool barriers = false;    ///< whether barriers between the states in the picture are computed
 
-  bool wanted() const { return trials > 0 || confined > 0; }
+  bool requested() const { return trials > 0 || confined > 0; }
 };
 
 struct Accuracy {
@@ -259,7 +260,7 @@ struct Sweep {
   std::string x;                  ///< result on the x axis; empty: the first key
   double departure = 0;           ///< value at which a line chart is marked; 0: no mark
 
-  bool wanted() const { return !over.empty() || seeds > 1; }
+  bool requested() const { return !over.empty() || seeds > 1; }
 };
 
 struct Preset {
@@ -304,10 +305,6 @@ struct Preset {
 
   bool on_net() const {
     return footprint.kind == FootprintKind::net || footprint.kind == FootprintKind::blocks;
-  }
-  bool on_mesh() const {
-    return footprint.kind == FootprintKind::net && net.kind == NetKind::surface &&
-           net.file.is_mesh();
   }
   /// R_o of a circle, mm: from its longest leg by L_d = R_o/d - (n - 1)/2 [Baek 2018], or as given.
   double original_radius_mm() const {

@@ -36,7 +36,7 @@ struct Frame {
   /// Largest unbalanced force, N.
   double residual_N = 0;
   int negative_pivots = 0;  ///< of the Hessian; 0: stable, -1: not known
-  /// Largest error of a joint's position, by the difference of two meshes, mm.
+  /// Largest error of a node's position, by the difference of two meshes, mm.
   double error_estimate_mm = unknown;
   /// Newton iterations for this state.
   int newton_iterations = 0;

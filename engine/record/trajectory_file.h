@@ -41,8 +41,8 @@ namespace gridshell::record {
 Result<void> write_trajectory(const std::filesystem::path& path, const Trajectory& trajectory);
 
 struct TrajectoryReadOptions {
-  bool unsealed = false;  ///< take a file without size and checksum, which another program wrote
-  bool trial = true;      ///< read it in a process of its own first
+  bool no_checksum = false;  ///< take a file without size and checksum, which another program wrote
+  bool trial = true;         ///< read it in a process of its own first
 };
 
 /// Opens a file of write_trajectory; its frames are read on demand. Columns that an older version

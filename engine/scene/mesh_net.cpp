@@ -71,10 +71,18 @@ struct Trial {
   }
 };
 
-/// By the area without half of the seams, and where that is nearly the same by the angle.
-double rank_of(const NetStart& start) {
-  return start.reached - 0.5 * start.seams + 0.01 * start.least_angle_deg / 90;
-}
+/// How good a start is: the larger, the better.
+struct Ranking {
+  bool by_angle = false;
+  double enough = 0;  ///< of the area: from there on only the angle counts
+
+  static double area_of(const NetStart& start) { return start.reached - 0.5 * start.seams; }
+  double operator()(const NetStart& start) const {
+    const double area = area_of(start), angle = start.least_angle_deg / 90;
+    if (!by_angle) return area + 0.01 * angle;
+    return area < enough ? area - 1 : angle;
+  }
+};
 
 /// `count` of the points, each as far as can be from those before.
 std::vector<Eigen::Vector3d> spread(const std::vector<AreaSample>& samples, std::size_t count) {
@@ -107,12 +115,29 @@ std::string text_of(const NetStart& start) {
 
 std::vector<AreaSample> area_samples(const TriangleMesh& mesh, double apart_mm) {
   std::vector<AreaSample> samples;
+  PointGrid near(apart_mm / 2);
+  // of small triangles some stand for those around them
+  const auto add = [&](const AreaSample& one) {
+    const auto takes = [&](int k) {
+      AreaSample& other = samples[std::size_t(k)];
+      if ((other.at - one.at).norm() > apart_mm / 2) return false;
+      other.area += one.area;
+      return true;
+    };
+    if (near.any_near(one.at, takes)) return;
+    near.add(int(samples.size()), one.at);
+    samples.push_back(one);
+  };
   const double whole = mesh.area();
   for (const auto& triangle : mesh.triangles()) {
     const auto [p, e, f] = mesh.corner_and_sides(triangle);
     const double longest = std::max({e.norm(), f.norm(), (f - e).norm()});
     const int parts = std::clamp(int(std::ceil(longest / apart_mm)), 1, 200);
     const double area = 0.5 * e.cross(f).norm() / whole / (parts * parts);
+    if (parts == 1) {
+      add({p + (e + f) / 3, area});
+      continue;
+    }
     for (int i = 0; i < parts; ++i)
       for (int j = 0; i + j < parts; ++j)
         for (const double third : {1.0, 2.0}) {
@@ -121,6 +146,14 @@ std::vector<AreaSample> area_samples(const TriangleMesh& mesh, double apart_mm) 
         }
   }
   return samples;
+}
+
+double net_chord(const TriangleMesh& mesh, double spacing_mm) {
+  return std::max(spacing_mm / 8, mesh.size() / 240);
+}
+
+int chords_across(const TriangleMesh& mesh, double chord_mm) {
+  return int(std::ceil(2.5 * mesh.size() / chord_mm));
 }
 
 std::vector<AreaSample> left_out_of(const MarchedGrid& grid, const Barriers& lines,
@@ -150,19 +183,27 @@ std::vector<AreaSample> left_out_of(const MarchedGrid& grid, const Barriers& lin
 
 Result<std::vector<NetStart>> best_starts(const Surface& surface, const TriangleMesh& mesh,
                                           const Barriers& lines, const Surface::Function& outside,
-                                          double least_angle, double spacing_mm) {
+                                          double least_angle, double spacing_mm, bool by_angle) {
   constexpr std::size_t places = 40, followed = 5;
-  constexpr double turn_deg = 15;
+  constexpr double turn_deg = 15, given_up = 0.05;  // of the area, for a larger angle
   const double size = mesh.size(), chord = std::max(spacing_mm, size / 24);
-  const Trial trial{
-      surface, lines, outside, least_angle, chord, mesh.area(), int(std::ceil(2.5 * size / chord))};
+  const auto trial_on = [&](double h) {
+    return Trial{surface, lines, outside, least_angle, h, mesh.area(), chords_across(mesh, h)};
+  };
+  const Trial trial = trial_on(chord);
   const auto samples = area_samples(mesh, std::sqrt(mesh.area() / 400));
   std::vector<NetStart> found;
   for (const Eigen::Vector3d& place : spread(samples, places))
     for (double turned = 0; turned < 90; turned += turn_deg)
       if (auto start = trial.from(place, turned, samples)) found.push_back(std::move(*start));
-  if (found.empty()) return invalid("no place of the mesh faces up inside the boundary");
-  const auto better = [](const NetStart& a, const NetStart& b) { return rank_of(a) > rank_of(b); };
+  if (found.empty()) return invalid("no part of the mesh faces up inside the boundary");
+  Ranking rank{by_angle};
+  const auto measure = [&](const std::vector<NetStart>& all) {
+    const auto most = std::ranges::max_element(all, {}, Ranking::area_of);
+    rank.enough = Ranking::area_of(*most) - given_up;
+  };
+  measure(found);
+  const auto better = [&](const NetStart& a, const NetStart& b) { return rank(a) > rank(b); };
   std::ranges::stable_sort(found, better);
   // one of each kind
   std::vector<NetStart> kinds;
@@ -184,10 +225,16 @@ Result<std::vector<NetStart>> best_starts(const Surface& surface, const Triangle
         auto moved =
             trial.from(middle.place.apex + step * (along * middle.place.along_u + left * across),
                        middle.axis_deg + by * turn, samples);
-        if (moved && rank_of(*moved) > rank_of(one)) one = std::move(*moved);
+        if (moved && rank(*moved) > rank(one)) one = std::move(*moved);
       }
     }
   }
+  // the best of them as the net itself comes out
+  const Trial last = trial_on(net_chord(mesh, spacing_mm));
+  const auto fine = area_samples(mesh, last.chord);
+  for (NetStart& one : kinds)
+    if (auto measured = last.from(one.place.apex, one.axis_deg, fine)) one = std::move(*measured);
+  measure(kinds);
   std::ranges::stable_sort(kinds, better);
   while (kinds.size() > 1 && alike(kinds[0], kinds[1], size)) kinds.erase(kinds.begin() + 1);
   kinds.resize(std::min<std::size_t>(kinds.size(), 2));
@@ -215,9 +262,9 @@ std::vector<std::string> MeshNetReport::sentences() const {
                   100 * start.reached, start.least_angle_deg, text_of(start)));
   if (second)
     all.push_back(
-        fmt::format("the second best begins at {} and reaches {:.1f} % (as far as the "
-                    "search's coarse grid tells)",
-                    text_of(*second), 100 * second->reached));
+        fmt::format("the second best begins at {}, reaches {:.1f} % and rods cross there at {:.0f} "
+                    "degrees or more",
+                    text_of(*second), 100 * second->reached, second->least_angle_deg));
   for (const auto& [why, fraction] : reasons())
     if (fraction >= 0.0005)
       all.push_back(fmt::format("left out: {:.1f} % of the area, rods end before it: {}",

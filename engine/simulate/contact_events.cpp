@@ -1,10 +1,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <optional>
 
+#include "engine/elastic/model.h"
 #include "engine/simulate/equilibrium_path.h"
 #include "engine/simulate/frames.h"
 
@@ -66,6 +69,98 @@ class Bracket {
   Point before_, after_;
 };
 
+/// Writhe of a closed polygon, one column a corner: the solid angles under which its edges see one
+/// another, over 2 pi [Klenin, Langowski 2000, method 1a].
+double writhe_of(const Eigen::Matrix3Xd& corners) {
+  const Eigen::Index count = corners.cols();
+  double sum = 0;
+  for (Eigen::Index i = 0; i < count; ++i)
+    for (Eigen::Index j = i + 2; j < count; ++j) {
+      if (i == 0 && j + 1 == count) continue;  // neighbours see nothing of one another
+      const Eigen::Vector3d a = corners.col(i), b = corners.col(i + 1), c = corners.col(j),
+                            d = corners.col((j + 1) % count);
+      const std::array<Eigen::Vector3d, 4> sides{
+          (c - a).cross(d - a).stableNormalized(), (d - a).cross(d - b).stableNormalized(),
+          (d - b).cross(c - b).stableNormalized(), (c - b).cross(c - a).stableNormalized()};
+      double angle = 0;
+      for (std::size_t k = 0; k < 4; ++k)
+        angle += std::asin(std::clamp(sides[k].dot(sides[(k + 1) % 4]), -1.0, 1.0));
+      sum += std::copysign(angle, (d - c).cross(b - a).dot(c - a));
+    }
+  return sum / (2 * std::numbers::pi);
+}
+
+/// Twist over 2 pi plus writhe of a closed rod. It stays as it is unless the rod passes through
+/// itself, which changes it by 2 [Calugareanu 1961, Fuller 1971].
+double linking_of(const Model& model, const Model::Rod& rod, const State& state) {
+  double twist = 0;
+  const auto add = [&](int number) {
+    const ModelBend& bend = model.bends[std::size_t(number)];
+    twist +=
+        model.angle(state.x, bend.f) - model.angle(state.x, bend.e) + state.reference_twist[number];
+  };
+  Eigen::Matrix3Xd corners(3, Eigen::Index(rod.edges.size()));
+  for (std::size_t k = 0; k < rod.edges.size(); ++k) {
+    corners.col(Eigen::Index(k)) = state.x.col(model.edges[std::size_t(rod.edges[k])].from);
+    if (k > 0) add(rod.first_bend + int(k) - 1);
+  }
+  if (rod.closing_bend >= 0) add(rod.closing_bend);
+  return twist / (2 * std::numbers::pi) + writhe_of(corners);
+}
+
+/// A load step as it is shown, and the segment that it is of.
+struct Shown {
+  std::size_t segment;
+  const State* state;
+  double t;
+};
+
+/// Where closed rods pass through themselves: no state on the path need show it, as a snap leads
+/// from one to the next.
+std::vector<ContactEvent> self_passages(const EquilibriumPath& path, const At& at) {
+  const NestedShell& shell = path.simulation.shell();
+  const Model& model = shell.model();
+  const Scene& scene = path.simulation.scene();
+  std::vector<ContactEvent> events;
+  if (!model.has_spins()) return events;
+  const State drawn = start_state(
+      model, columns_of(shell.finest(), model, drawn_nodes(shell.finest(), scene.flat)));
+  std::vector<Shown> shown{{0, &drawn, 0}};
+  for (std::size_t s = 0; s < path.segments.size(); ++s) {
+    const auto first = std::ptrdiff_t(shown.size());
+    for (const LoadStep& step : path.segments[s].load_steps)
+      if (step.point.state.x.cols() == model.columns())
+        shown.push_back({s, &step.point.state, step.point.t});
+    if (path.segments[s].back) std::reverse(shown.begin() + first, shown.end());
+  }
+  for (std::size_t r = 0; r < model.rods.size(); ++r) {
+    if (!model.rods[r].closed) continue;
+    const auto turns = [&](std::size_t k) {
+      return linking_of(model, model.rods[r], *shown[k].state);
+    };
+    const std::function<void(std::size_t, double, std::size_t, double)> look =
+        [&](std::size_t a, double at_a, std::size_t b, double at_b) {
+          if (std::abs(at_b - at_a) < 0.5) return;
+          if (b - a > 1) {
+            const std::size_t middle = (a + b) / 2;
+            const double there = turns(middle);
+            look(a, at_a, middle, there);
+            look(middle, there, b, at_b);
+            return;
+          }
+          const bool before = a == 0;
+          const double from = before ? shown[b].t : shown[a].t;
+          events.push_back(
+              {shown[b].segment, 0.5 * (from + shown[b].t), 0.5 * std::abs(shown[b].t - from),
+               fmt::format("{} passed through itself {}{}", name_of(scene.footprint.rods[r]),
+                           before ? "before the first state, " : "",
+                           at(0.5 * (from + shown[b].t), {}))});
+        };
+    look(0, turns(0), shown.size() - 1, turns(shown.size() - 1));
+  }
+  return events;
+}
+
 }  // namespace
 
 std::string name_of(const FootprintRod& rod) {
@@ -103,7 +198,7 @@ std::string text_of(const record::Contact& contact, const Footprint& footprint) 
 std::vector<ContactEvent> contact_events(const EquilibriumPath& path, const At& at) {
   const NestedShell& shell = path.simulation.shell();
   const Scene& scene = path.simulation.scene();
-  std::vector<ContactEvent> events;
+  std::vector<ContactEvent> events = self_passages(path, at);
   std::optional<record::ContactSearch> search;
   for (std::size_t s = 0; s < path.segments.size(); ++s) {
     const PathSegment& segment = path.segments[s];

@@ -47,11 +47,12 @@ Result<HeldShell> hold_to_push(const std::shared_ptr<const Scene>& scene,
 
 /// Actuates, then pushes. Frames sample the push at `progress` in [0, 1] (fraction of the depth;
 /// with `unload` of loading and unloading); the first is the unloaded shell. The solver chooses its
-/// load steps. Every frame is certified: the residual includes all forces except the one on the
-/// joint. Errors: bad_input, no_equilibrium (no shell to push), cancelled, those of the sink.
+/// load steps; with `own_steps` they have frames too. Every frame is certified: the residual
+/// includes all forces except the one on the joint. Errors: bad_input, no_equilibrium (no shell to
+/// push), cancelled, those of the sink.
 Result<EquilibriumPath> run_indentation(std::shared_ptr<const Scene> scene,
                                         const preset::Indentation& indentation,
-                                        const std::vector<double>& progress, record::Sink& sink,
-                                        Watch& watch);
+                                        const std::vector<double>& progress, bool own_steps,
+                                        record::Sink& sink, Watch& watch);
 
 }  // namespace gridshell::simulate

@@ -18,7 +18,7 @@ Result<void> check_formed(const Simulation& simulation) {
   const BoundaryMotion& motion = simulation.scene().motion;
   const bool moves = motion.begin.cols() > 0 && !motion.begin.isApprox(motion.end, 0);
   if (moves && simulation.progress() == 0)
-    return invalid("the shell is flat yet: it must be formed before it is stiff");
+    return invalid("got a flat grid, expected a formed shell: form it before stiffening");
   return {};
 }
 
@@ -31,8 +31,8 @@ Bolts now_tightened(const Simulation& simulation, double stiffness) {
   return tightened(shell.finest(), shell.model(), shell.state().levels.back(), stiffness);
 }
 
-/// How far each joint is to open so that its bolt, of `now`, rests at the step's angle, rad; NaN of
-/// joints that are left as they are.
+/// How far each joint is to open so that its bolt, of `now`, has no torque at the step's angle,
+/// rad; NaN of joints that are left as they are.
 Result<std::vector<double>> openings(const preset::Step& step, const Footprint& footprint,
                                      const Bolts& now) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN(), rad = M_PI / 180;
@@ -43,9 +43,10 @@ Result<std::vector<double>> openings(const preset::Step& step, const Footprint& 
   for (const auto& row : step.angles) {
     const int joint = joint_at(footprint, int(row[0]), int(row[1]));
     if (joint < 0 || now.rods[std::size_t(joint)].size() != 2)
-      return invalid("angles: [{:g}, {:g}] is no joint where two rods cross", row[0], row[1]);
+      return invalid("angles: got [{:g}, {:g}], expected a joint where two rods cross", row[0],
+                     row[1]);
     if (!std::isnan(by[std::size_t(joint)]))
-      return invalid("angles: [{:g}, {:g}] stands there twice", row[0], row[1]);
+      return invalid("angles: got [{:g}, {:g}] twice, expected it once", row[0], row[1]);
     by[std::size_t(joint)] = row[2] * rad - rest(std::size_t(joint));
   }
   if (step.angles.empty()) {
@@ -60,7 +61,7 @@ Result<std::vector<double>> openings(const preset::Step& step, const Footprint& 
   for (std::size_t joint = 0; joint < by.size(); ++joint) {
     const double to = std::isnan(by[joint]) ? 1 : rest(joint) + by[joint];
     if (!(to > rad && to < M_PI - rad))
-      return invalid("joint [{}, {}] would open to {:.4g} degrees, must be between 1 and 179",
+      return invalid("joint [{}, {}]: got an angle of {:.4g} degrees, expected 1 to 179",
                      footprint.joints[joint].i, footprint.joints[joint].j, to / rad);
   }
   return by;
@@ -99,7 +100,7 @@ Result<Report> open(Simulation& simulation, const preset::Step& step, const Watc
   const bool mean = step.drive == preset::JointDrive::mean;
   if (known && (known->stiffness_Nmm != stiffness || known->mean != mean))
     return invalid(
-        "bolts of another stiffness or drive are there, which must be the same, or be released");
+        "bolts of another stiffness or drive act, expected the same, or their release before");
   // bolts that are there keep what they strive for
   Bolts bolts = now_tightened(simulation, stiffness);
   bolts.mean = mean;
@@ -122,7 +123,7 @@ Result<Report> open(Simulation& simulation, const preset::Step& step, const Watc
   if (!report || report->end != Outcome::reached) return report;
   report = simulation.open_joints(watch, way);
   if (way) way->end = simulation.save();
-  // from here on that is how the joints rest
+  // from here on that is the joints' angle without torque
   for (std::size_t joint = 0; joint < by->size(); ++joint)
     bolts.opened[joint] += report->t * std::exchange(bolts.opening[joint], 0);
   rods.bolts = std::make_shared<const Bolts>(std::move(bolts));
@@ -157,7 +158,7 @@ Result<Report> brace(Simulation& simulation, const preset::Step& step, const Wat
     }
   }
   if (rods.braces.size() == simulation.rods().braces.size())
-    return invalid("the footprint has no such cells");
+    return invalid("got cells that the footprint does not have");
   return simulation.set_rods(rods, watch);
 }
 
@@ -165,7 +166,7 @@ Result<Report> take_out(Simulation& simulation, preset::Released what, const Wat
   ShellRods rods = simulation.rods();
   const bool bolts = what == preset::Released::bolts;
   if (bolts ? !rods.bolts : rods.braces.empty())
-    return invalid("there are no {} to take out", word_of(what));
+    return invalid("got no {}, expected some to take out", word_of(what));
   if (bolts)
     rods.bolts.reset();
   else
@@ -177,7 +178,8 @@ Result<Report> bring_case(Simulation& simulation, const std::string& name, doubl
                           const Watch& watch) {
   const Scene& scene = simulation.scene();
   const auto known = std::ranges::find(scene.load_cases, name, &LoadCase::name);
-  if (known == scene.load_cases.end()) return invalid("there is no load case \"{}\"", name);
+  if (known == scene.load_cases.end())
+    return invalid("got load case \"{}\", expected the name of a [[loads.case]]", name);
   auto& cases = simulation.cases;
   auto on = std::ranges::find(cases, name, &CaseOnShell::name);
   if (on == cases.end())

@@ -89,7 +89,7 @@ void draw(Canvas& canvas, const PanelFigure& figure, const Grid& grid, bool line
     draw_scale_bar(canvas, row, figure.scale_bar_mm, figure.pixels_per_mm, em);
   }
   if (figure.colour_bar) {
-    // beside flat panels it goes on beside their captions, so long that its words fit
+    // at flat panels it extends along their captions, so long that its words fit
     const double least = std::min(grid.total_height() - 2 * grid.margin - grid.head, 13 * em);
     const double height = std::clamp(16 * em, least, std::max(least, grid.rows * grid.height));
     draw_colour_bar(canvas,
@@ -105,7 +105,7 @@ Result<void> check(const PanelFigure& figure) {
     return invalid("the picture is too small for its panels: it takes more of [movie] size");
   for (const Panel& panel : figure.panels)
     if (panel.picture.width != first.width || panel.picture.height != first.height)
-      return invalid("panels of a figure must be of one size: {} x {} and {} x {}", first.width,
+      return invalid("panels of a figure: expected one size, got {} x {} and {} x {}", first.width,
                      first.height, panel.picture.width, panel.picture.height);
   return {};
 }

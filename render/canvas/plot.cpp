@@ -166,12 +166,12 @@ Box note_box(const Canvas& canvas, const Plot& plot, const PlotFrame& frame, con
 void draw_plot(Canvas& canvas, const Box& box, const Plot& plot) {
   PlotFrame frame = lay_out_plot(canvas, box, plot);
   if (frame.inside.empty()) return;
-  // the legend stands in a free corner, else above the axes
+  // the legend is in a free corner, else above the axes
   const Legend legend(canvas, plot);
-  LegendPlace corner = plot.legend;
-  if (plot.legend == LegendPlace::automatic) corner = legend.free_corner(canvas, frame);
+  LegendPosition corner = plot.legend;
+  if (plot.legend == LegendPosition::automatic) corner = legend.free_corner(canvas, frame);
   const bool above =
-      !legend.empty() && (corner == LegendPlace::none || corner == LegendPlace::above);
+      !legend.empty() && (corner == LegendPosition::none || corner == LegendPosition::above);
   if (above) frame = lay_out_plot(canvas, box, plot, legend.height_above_axes(frame.inside.width));
 
   canvas.clipped(frame.inside, [&] {

@@ -45,7 +45,7 @@ Range data_range(const Plot& plot, bool of_x) {
   return range;
 }
 
-// the range of an axis: given ends stand, others get 5 % of room
+// the range of an axis: given ends are kept, others get 5 % of room
 PlotAxis choose_range(const Plot& plot, bool of_x) {
   const Axis& axis = of_x ? plot.x : plot.y;
   Range range = data_range(plot, of_x);
@@ -182,7 +182,7 @@ PlotFrame lay_out_plot(const Canvas& canvas, const Box& box, const Plot& plot, d
                            : std::max(1.2 * line, canvas.measure(plot.y.label, style).height +
                                                       0.35 * plot.font_size);
   const double left = box.x + label + widest(canvas, frame.y_ticks, style) + gap;
-  // half of the last label may stand out to the right of the frame
+  // half of the last label may extend to the right of the frame
   const double right = box.right() - widest(canvas, ticks_of(frame.x, plot.x.ticks), style) / 2 - 1;
   frame.x.from = left;
   frame.x.to = right;
@@ -228,7 +228,7 @@ void draw_axes(Canvas& canvas, const Box& box, const Plot& plot, const PlotFrame
 
 Legend::Legend(const Canvas& canvas, const Plot& plot)
     : plot_(plot), size_(plot.font_size), row_(1.35 * plot.font_size), key_(2.2 * plot.font_size) {
-  if (plot.legend == LegendPlace::none) return;
+  if (plot.legend == LegendPosition::none) return;
   for (const Series& s : plot.series)
     if (!s.name.empty()) entries_.push_back({&s, nullptr, s.name});
   for (const Band& b : plot.bands)
@@ -237,24 +237,24 @@ Legend::Legend(const Canvas& canvas, const Plot& plot)
     e.width = key_ + 0.5 * size_ + canvas.measure(e.name, {.size = size_}).width;
 }
 
-Box Legend::corner_box(const Box& in, LegendPlace place) const {
+Box Legend::corner_box(const Box& in, LegendPosition place) const {
   double width = 0;
   for (const Entry& e : entries_) width = std::max(width, e.width);
   width += 0.8 * size_;
   const double height = double(entries_.size()) * row_ + 0.4 * size_, margin = 0.7 * size_;
-  const bool left = place == LegendPlace::upper_left || place == LegendPlace::lower_left;
-  const bool upper = place == LegendPlace::upper_left || place == LegendPlace::upper_right;
+  const bool left = place == LegendPosition::upper_left || place == LegendPosition::lower_left;
+  const bool upper = place == LegendPosition::upper_left || place == LegendPosition::upper_right;
   return {left ? in.x + margin : in.right() - margin - width,
           upper ? in.y + margin : in.bottom() - margin - height, width, height};
 }
 
-LegendPlace Legend::free_corner(const Canvas& canvas, const PlotFrame& frame) const {
-  for (LegendPlace place : {LegendPlace::upper_right, LegendPlace::upper_left,
-                            LegendPlace::lower_right, LegendPlace::lower_left}) {
+LegendPosition Legend::free_corner(const Canvas& canvas, const PlotFrame& frame) const {
+  for (LegendPosition place : {LegendPosition::upper_right, LegendPosition::upper_left,
+                               LegendPosition::lower_right, LegendPosition::lower_left}) {
     const Box box = corner_box(frame.inside, place);
     if (frame.inside.contains(box) && !hides(canvas, plot_, frame, box)) return place;
   }
-  return LegendPlace::none;
+  return LegendPosition::none;
 }
 
 double Legend::height_above_axes(double width) const {
@@ -276,7 +276,7 @@ void Legend::draw_above(Canvas& canvas, const PlotFrame& frame, double top) cons
   }
 }
 
-void Legend::draw_in_corner(Canvas& canvas, const PlotFrame& frame, LegendPlace place) const {
+void Legend::draw_in_corner(Canvas& canvas, const PlotFrame& frame, LegendPosition place) const {
   const Box box = corner_box(frame.inside, place);
   canvas.rectangle(box, {1, 1, 1, 0.85f});
   double y = box.y + 0.2 * size_ + row_ / 2;

@@ -68,11 +68,11 @@ struct Drawing {
   /// As drawn, may be thicker than the rod; of those of other diameters in proportion.
   double rod_diameter_mm = 1;
   Colour rod_colour{0.16f, 0.17f, 0.20f};
-  /// Empty: all rods in rod_colour; else one a node, unlit as the cells' are.
+  /// Empty: all rods in rod_colour; else one per node, unlit as the cells' are.
   std::vector<Colour> node_colours;
   double joint_diameter_mm = 3;  ///< 0: none
   Colour joint_colour{0.75f, 0.12f, 0.10f};
-  /// Empty: no cells; else one a cell, alpha counts; drawn without light, as their bar has them.
+  /// Empty: no cells; else one per cell, alpha counts; drawn without light, as their bar has them.
   std::vector<Colour> cell_colours;
   std::vector<Ring> rings;
   std::vector<GhostRods> ghosts;

@@ -44,10 +44,11 @@ std::string mismatch(const Drawing& drawing) {
         if (node < 0 || std::size_t(node) >= count) return true;
     return false;
   };
-  if (outside(layout.rods, nodes)) return fmt::format("has a rod beyond its {} nodes", nodes);
+  if (outside(layout.rods, nodes))
+    return fmt::format("has a rod with more than its {} nodes", nodes);
   for (const auto& joint : layout.joints)
     if (joint.node < 0 || std::size_t(joint.node) >= nodes)
-      return fmt::format("has joint ({}, {}) beyond its {} nodes", joint.i, joint.j, nodes);
+      return fmt::format("has joint ({}, {}) outside its {} nodes", joint.i, joint.j, nodes);
   for (const auto& ghost : drawing.ghosts)
     if (!ghost.nodes.allFinite() || outside(ghost.rods, std::size_t(ghost.nodes.cols())))
       return "has ghost rods with a node that is missing or not finite";
@@ -136,7 +137,7 @@ class Weaver {
     }
   }
 
-  /// A stretch between joints comes with the nearer of the cells beside it, so that these do not
+  /// A segment between joints comes with the nearer of the cells next to it, so that these do not
   /// cover half of it, and a joint with the nearest of its stretches.
   void add_rods() {
     const Neighbours neighbours(*drawing_.layout);

@@ -41,7 +41,7 @@ constexpr EventMark marks[] = {
     {BranchEvent::lost, "followed no further", Marker::cross, false},
 };
 
-/// Where a point stands in the panel.
+/// The position of a point in the panel.
 class Place {
  public:
   Place(const std::vector<BranchPoint>& points, BranchAxis axis)
@@ -56,7 +56,7 @@ class Place {
   BranchAxis axis_;
 };
 
-/// Whether the way from a point to the next is stable. Where something happens the state may be
+/// Whether the path from a point to the next is stable. Where something happens the state may be
 /// either's, so the other end says it; a branch begins with a state of another one.
 bool stable_between(const std::vector<BranchPoint>& points, std::size_t to) {
   const BranchPoint &a = points[to - 1], &b = points[to];
@@ -120,7 +120,7 @@ Series cut(const Series& whole, double low, double high) {
     const double x = whole.x[k];
     const bool inside = x >= low && x <= high;
     if (line && k > 0) {
-      // where the way from the point before crosses an end
+      // where the path from the point before crosses an end
       const double x0 = whole.x[k - 1], y0 = whole.y[k - 1];
       for (const double end : x0 < x ? std::array{low, high} : std::array{high, low})
         if ((x0 - end) * (x - end) < 0)
@@ -209,8 +209,8 @@ Series marks_of(const std::vector<LoadPoint>& points, BranchEvent event, const c
   return marks;
 }
 
-/// Where each case's rods come to their strength: the factor with its error, the way as the path on
-/// the finest mesh passes there.
+/// Where each case's rods reach their strength: the factor with its error, the displacement as the
+/// path on the finest mesh passes there.
 Series strength_marks(const std::vector<LoadPoint>& points,
                       const std::vector<record::LoadRow>& cases) {
   Series marks = mark_series("at its strength", ink, Marker::triangle, 4);
@@ -236,7 +236,7 @@ Plot branches_plot(const std::vector<BranchPoint>& points, BranchAxis axis) {
   Plot plot;
   plot.x.label = has_radius(points) ? "*R*_{a} (mm)" : "progress";
   plot.y.label = axis == BranchAxis::height ? "height (mm)" : "amplitude of broken symmetry";
-  plot.legend = LegendPlace::none;
+  plot.legend = LegendPosition::none;
   plot.font_size = 8;
   plot.series = pieces_of(points, place);
   // the path itself on top
@@ -268,13 +268,13 @@ Result<void> write_branches(const std::filesystem::path& stem,
   });
 }
 
-// What a shell carries: the load factor over a joint's way, a curve a case.
+// What a shell carries: the load factor over a joint's displacement, a curve per case.
 
 Plot load_plot(const std::vector<LoadPoint>& points, const std::vector<record::LoadRow>& cases,
                const std::string& title) {
   Plot plot;
   plot.title = title;
-  plot.x.label = "way of the joint that goes furthest (mm)";
+  plot.x.label = "displacement of the joint that moves furthest (mm)";
   plot.y.label = "load factor";
   // cases whose factors are far apart would lie on one another
   constexpr double far_apart = 10, below = 1.0 / 30;

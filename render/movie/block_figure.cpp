@@ -15,9 +15,9 @@
 namespace gridshell::render {
 namespace {
 
-/// How far each block is moved so that they stand apart, in proportion to its place.
+/// How far each block is moved so that they are separate, in proportion to its position.
 std::vector<Eigen::Vector3d> apart(const std::vector<record::Part>& parts,
-                                   Eigen::Matrix3Xd record::Part::*where, double share) {
+                                   Eigen::Matrix3Xd record::Part::*where, double fraction) {
   std::vector<Eigen::Vector3d> moves;
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const record::Part& part : parts) {
@@ -25,7 +25,7 @@ std::vector<Eigen::Vector3d> apart(const std::vector<record::Part>& parts,
     middle += moves.back() / double(parts.size());
   }
   for (Eigen::Vector3d& move : moves) {
-    move = share * (move - middle);
+    move = fraction * (move - middle);
     move.z() = 0;
   }
   return moves;
@@ -232,7 +232,7 @@ Result<void> write_block_footprints(const std::filesystem::path& stem,
 std::vector<Plot> seam_plots(const record::Trajectory& run) {
   std::vector<Plot> plots(2);
   for (Plot& plot : plots) {
-    plot.x.label = "place along the seam (mm)";
+    plot.x.label = "position along the seam (mm)";
     plot.y.low = 0;
   }
   plots[0].y.label = "gap (mm)";

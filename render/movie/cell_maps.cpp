@@ -99,11 +99,11 @@ std::vector<MethodPanel> panels_of(const std::vector<StabilityRow>& rows) {
   return panels;
 }
 
-/// Where everything goes: panels of a map beside one another, as many as fit.
+/// Where everything goes: panels of a map next to one another, as many as fit.
 struct Place {
   const MethodPanel* panel;
   Point at;
-  bool first;  ///< of its map: the map's name stands above
+  bool first;  ///< of its map: the map's name is above
 };
 
 std::vector<Place> places_of(const std::vector<MethodPanel>& panels, double width, double* height) {
@@ -112,7 +112,7 @@ std::vector<Place> places_of(const std::vector<MethodPanel>& panels, double widt
   for (std::size_t k = 0; k < panels.size(); ++k) {
     const MethodPanel& panel = panels[k];
     const bool first = k == 0 || panels[k - 1].map != panel.map;
-    // a map of one panel may stand beside the one before
+    // a map of one panel may be next to the one before
     const bool fits = k > 0 && x + panel.width() + (first ? heading_gap : 0) <= width;
     const auto alone = [&](const std::string& map) {
       return std::ranges::count(panels, map, &MethodPanel::map) == 1;

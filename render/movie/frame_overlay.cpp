@@ -115,7 +115,7 @@ FrameLayout lay_out_frame(const MovieStyle& style, const ColourBar* bar, bool lo
   const double bar_tall = wide ? std::min(0.42 * h, 20 * em) : side;
   bool with_bar = bar && bar_tall > 5 * line && bar_wide < 0.4 * rest.width;
   if (wide && style.bins && 0.42 * w > 16 * em && rest.height > 16 * em) {
-    // a plot above, the small legends beside one another below it
+    // a plot above, the small legends next to one another below it
     Box column = cut_right(rest, 0.42 * w);
     cut_right(rest, margin);
     layout.plot = cut_top(column, 0.62 * column.height);
@@ -251,9 +251,9 @@ std::string event_caption(const record::Frame& frame) {
 void draw_timeline(Canvas& canvas, const Box& box, const std::vector<Mark>& marks,
                    const ProgressAxis& axis, int at, double font_size) {
   const int frames = int(axis.places.size());
-  // what stands beside the bar over the whole run decides its length, so that it does not move
+  // what is next to the bar over the complete run decides its length, so that it does not move
   const double size = 0.8 * font_size, gap = 0.5 * size;
-  const double apart = 6 * gap;  // of the bar and its signs from those beside it
+  const double apart = 6 * gap;  // of the bar and its signs from those next to it
   double words = apart - 2 * gap;
   for (const Sign& sign : signs)
     if (reached(marks, sign.kind, frames))

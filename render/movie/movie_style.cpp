@@ -23,17 +23,17 @@ Appearance paper_appearance() {
 
 namespace {
 
-void choose(Colour& colour, const std::string& wish) {
-  if (wish == "transparent")
+void choose(Colour& colour, const std::string& request) {
+  if (request == "transparent")
     colour.a = 0;
-  else if (!wish.empty())  // "#rrggbb", which the preset's reader has looked at
-    colour = hex_colour(std::strtol(wish.c_str() + 1, nullptr, 16));
+  else if (!request.empty())  // "#rrggbb", which the preset's reader has looked at
+    colour = hex_colour(std::strtol(request.c_str() + 1, nullptr, 16));
 }
-void choose(double& width, double wish) {
-  if (wish > 0) width = wish;
+void choose(double& width, double request) {
+  if (request > 0) width = request;
 }
-void choose(bool& flag, preset::Visibility wish) {
-  if (wish != preset::Visibility::automatic) flag = wish == preset::Visibility::on;
+void choose(bool& flag, preset::Visibility request) {
+  if (request != preset::Visibility::automatic) flag = request == preset::Visibility::on;
 }
 
 ViewDirection direction_of(const preset::Movie& movie) {
@@ -54,7 +54,7 @@ ViewDirection direction_of(const preset::Movie& movie) {
 }
 
 /// Whether the boundary goes anywhere: supports of a network may stay where they are drawn, and the
-/// line through them would tell nothing then.
+/// line through them would mean nothing then.
 bool boundary_moves(const preset::Preset& preset) {
   if (preset.footprint.kind != preset::FootprintKind::network) return true;
   const double scale = preset.actuation.scale;
@@ -97,7 +97,7 @@ std::string parameters_of(const preset::Preset& preset) {
   if (circle) add("*R*_{o}", preset.original_radius_mm(), " mm");
   const bool sphere = preset.on_net() && preset.net.kind == preset::NetKind::sphere;
   if (sphere) add("*ρ*", preset.net.radius_mm, " mm");
-  if (sphere && preset.indentation.wanted())
+  if (sphere && preset.indentation.requested())
     add("*δ*_{0}", preset.indentation.depth * preset.net.radius_mm, " mm");
   return text + "computed by gridshell " + version();
 }
@@ -117,10 +117,10 @@ Appearance appearance_of(const preset::Style& style) {
   choose(look.background, style.background);
   if (is_dark(look.background)) {
     // what was not chosen is seen on it, and on cells that are nearly white
-    for (const auto& [colour, wish] : {std::pair(&look.rod, &style.rod_colour),
-                                       {&look.joint, &style.joint_colour},
-                                       {&look.ring, &style.ring_colour}})
-      if (wish->empty()) *colour = line_on_dark({0, 0, 0, 1});
+    for (const auto& [colour, request] : {std::pair(&look.rod, &style.rod_colour),
+                                          {&look.joint, &style.joint_colour},
+                                          {&look.ring, &style.ring_colour}})
+      if (request->empty()) *colour = line_on_dark({0, 0, 0, 1});
   }
   choose(look.cells, style.cells);
   choose(look.rings, style.rings);

@@ -60,10 +60,10 @@ MovieStyle figure_style(const preset::Preset& preset);
 /// Draft: no shadow; movie: with soft shadow; figure: many passes with jittered light. A sample a
 /// pixel is enough: what is thin knows how much of it is covered.
 DrawQuality draw_quality(Quality quality);
-/// The same, as the look wants it.
+/// The same colour with the contrast that the look has.
 DrawQuality draw_quality(const MovieStyle& style);
 
-// What stands before a movie: its title and what it follows.
+// What is before a movie: its title and what it follows.
 
 /// A card of the movie's size with its title and, where there are any, its description and source
 /// below. Long titles are set in several lines, and smaller until they fit.

@@ -19,7 +19,7 @@ Worker::Worker() {
   try {
     thread_ = std::thread([this] { loop(); });
   } catch (const std::system_error&) {
-    // whoever begins a job does it
+    // the caller that begins a job runs it
   }
 }
 
@@ -162,7 +162,7 @@ class SideBySideMovie {
     for (std::size_t k = 0; k < runs.size(); ++k)
       stages_.push_back(
           std::make_unique<Stage>(runs[k].run->layout, std::move(surveys[k]), part, bar_));
-    // one bar for all that go the same way, with nothing on it that is one's own
+    // one bar for all that have the same path, with nothing on it that is one's own
     const ProgressAxis& first = stages_.front()->progress();
     one_bar_ = std::ranges::all_of(stages_, [&](const auto& stage) {
       const ProgressAxis& axis = stage->progress();

@@ -23,7 +23,7 @@ record::Frame unmarked(record::Frame frame) {
   return frame;
 }
 
-/// The last frame alone, its boundary where it is held.
+/// The last frame alone, its boundary where it is fixed.
 record::Trajectory final_state(const record::Trajectory& run) {
   record::Trajectory last;
   last.layout = run.layout;
@@ -73,7 +73,7 @@ double round_end(double largest) {
   return 10 * power;
 }
 
-/// What the colours over nets stand for.
+/// What the colours over nets mean.
 std::vector<ColourKey> over_net_keys(const std::vector<NetRun>& runs) {
   std::vector<ColourKey> keys{{shell_ink, "equilibrium"}};
   const record::Layout& layout = runs.front().run->layout;
@@ -99,7 +99,7 @@ MovieStyle panel_style(MovieStyle style) {
   return style;
 }
 
-/// Where a frame says that the shell snapped on the way to it, mm: "snap at depth 66.180 mm".
+/// Where a frame says that the shell snapped on the path to it, mm: "snap at depth 66.180 mm".
 std::optional<double> depth_of_snap(const record::Frame& frame) {
   const std::string begin = "snap at depth ";
   if (!frame.event.starts_with(begin)) return std::nullopt;
@@ -107,8 +107,8 @@ std::optional<double> depth_of_snap(const record::Frame& frame) {
   return parse_number<double>(number.substr(0, number.find(' ')));
 }
 
-/// Straight down at the depth of each snap, from where the path came to it to where it went on: on
-/// both sides as far from the next frame as force and stiffness there say.
+/// Straight down at the depth of each snap, from where the path reached it to where it continued:
+/// on both sides as far from the next frame as force and stiffness there say.
 Series snaps_of(const Series& pushed, const record::Trajectory& run) {
   Series snaps = line_series("", pushed.colour, 1, {3, 2});
   for (std::size_t k = 1; k < run.frames.size(); ++k) {
@@ -158,7 +158,7 @@ void part_at_snaps(Series& pushed, const record::Trajectory& run) {
     }
 }
 
-/// Whether an error would be seen beside the line of the forces.
+/// Whether an error would be visible compared with the line of the forces.
 bool errors_seen(const std::vector<NamedRun>& runs) {
   constexpr double line = 0.01;  // a line's width, of the axis
   double force = 0, error = 0;
@@ -247,7 +247,7 @@ Result<PanelFigure> draw_over_nets(const std::vector<NetRun>& runs, const MovieS
     show_measured_joints(one.scanned, drawing);
     const record::Layout& layout = one.run->layout;
     const double thin = drawing.rod_diameter_mm;
-    // so that a net that its shell meets is seen beside it, not through it
+    // so that a net that its shell meets is seen next to it, not through it
     drawing.rod_diameter_mm *= 2.2;
     // blocks each on a net of its own
     for (const record::Part& part : layout.parts)
@@ -276,7 +276,7 @@ Result<PanelFigure> draw_deviations(const std::vector<NetRun>& runs, const Movie
   const ColourScale scale{sequential, 0, round_end(largest), 0.2};
   const auto dress = [&](const NetRun& one, Drawing& drawing) {
     const Eigen::VectorXd deviation = last_deviation(*one.run);
-    for (double share : deviation) drawing.node_colours.push_back(scale(unit.factor * share));
+    for (double fraction : deviation) drawing.node_colours.push_back(scale(unit.factor * fraction));
     drawing.rod_diameter_mm *= 1.8;
     drawing.joint_diameter_mm = 0;
   };
@@ -367,7 +367,7 @@ Result<void> write_push_bins(const std::filesystem::path& stem, const std::vecto
 Result<void> write_plots(const std::filesystem::path& stem, std::vector<Plot> plots,
                          const std::string& title, const std::string& name, const Print& print) {
   constexpr double font = 7.5, usual = 186, least = 150, height = 172, key = 24;  // points
-  // as many beside one another as stay readable
+  // as many next to one another as stay readable
   const double width = print.width_pt(usual * double(plots.size()));
   const std::size_t columns = std::clamp<std::size_t>(std::size_t(width / least), 1, plots.size());
   const std::size_t rows = (plots.size() + columns - 1) / columns;
@@ -376,7 +376,7 @@ Result<void> write_plots(const std::filesystem::path& stem, std::vector<Plot> pl
   legend.series = plots.front().series;
   legend.font_size = font;
   for (Plot& plot : plots) {
-    plot.legend = LegendPlace::none;
+    plot.legend = LegendPosition::none;
     plot.font_size = font;
   }
   return write_figure(

@@ -1,4 +1,4 @@
-// Shells beside the nets they were designed on, in space [Baek 2018, Figs. 3 and 4A].
+// Shells next to the nets they were designed on, in space [Baek 2018, Figs. 3 and 4A].
 #pragma once
 
 #include <filesystem>
@@ -44,7 +44,7 @@ struct NetRun {
   Eigen::Matrix3Xd scanned = {};  ///< joints measured on a real shell, mm, in the net's frame
 };
 
-/// Distance of every node of the last frame from its place on the net, over rho.
+/// Distance of every node of the last frame from its position on the net, over rho.
 Eigen::VectorXd last_deviation(const record::Trajectory& run);
 
 /// What deviations over the length scale are multiplied by to be shown, and what they are then:
@@ -62,7 +62,7 @@ bool on_sphere(const record::Layout& layout);
 /// `measured` in mm, in the drawing's frame.
 void show_measured_joints(const Eigen::Matrix3Xd& measured, Drawing& drawing);
 
-/// What its red joints stand for.
+/// What its red joints mean.
 ColourKey scan_key();
 
 /// The shells, dark, over their nets, thinner and orange, with the joints scanned, red, at most
@@ -76,7 +76,7 @@ Result<PanelFigure> draw_deviations(const std::vector<NetRun>& runs, const Movie
 
 // Building blocks, apart and joined [Baek 2018, Fig. 5].
 
-/// A block's name without the number that tells it from its equals: "quarter sphere".
+/// A block's name without the number that distinguishes it from equal ones: "quarter sphere".
 std::string block_kind(const std::string& name);
 
 /// The kinds of blocks of some runs, and their colours in all pictures of these.
@@ -105,16 +105,18 @@ Result<void> write_block_footprints(const std::filesystem::path& stem,
                                     const record::Trajectory& run, const std::string& title = "",
                                     const Print& print = {});
 
-/// Gap, and kink, of every rod across a seam against its place along the seam, one marker a seam.
+/// Gap, and kink, of every rod across a seam against its position along the seam, one marker per
+/// seam.
 std::vector<Plot> seam_plots(const record::Trajectory& run);
 
-/// Plots beside one another, as many as stay readable, with the legend of the first above them all;
-/// `title` (plain text; may be empty) above, `name` of the file. Writes `<stem>.png`, `.svg` and
+/// Plots next to one another, as many as stay readable, with the legend of the first above them
+/// all; `title` (plain text; may be empty) above, `name` of the file. Writes `<stem>.png`, `.svg`
+/// and
 /// `.pdf`.
 Result<void> write_plots(const std::filesystem::path& stem, std::vector<Plot> plots,
                          const std::string& title, const std::string& name, const Print& print);
 
-// Shells under point loads, beside one another [Baek 2018, Fig. 4C-D].
+// Shells under point loads, next to one another [Baek 2018, Fig. 4C-D].
 
 /// The shells at their last frame, seen from the style's camera, rods coloured by |u|/delta_0 under
 /// one colour bar. Progress and errors as write_stills.

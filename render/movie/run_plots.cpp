@@ -64,7 +64,7 @@ double draw_boundaries(Canvas& canvas, const Box& box, const std::vector<NamedRu
   for (std::size_t k = 0; k < runs.size(); ++k)
     canvas.polyline(place.line(runs[k].run->layout.original_boundary),
                     {runs.size() == 1 ? ink : series_colour(k), 1.4}, true);
-  // of one alone, where its boundary comes to
+  // of one alone, its actuated boundary
   if (runs.size() == 1)
     canvas.polyline(place.line(runs[0].run->layout.actuated_boundary), {net_ink, 1.1, {4, 2}},
                     true);
@@ -77,7 +77,7 @@ double draw_boundaries(Canvas& canvas, const Box& box, const std::vector<NamedRu
         text, at,
         canvas.fitted(text, canvas.width() - at.x - 4, {.size = 8, .align_y = AlignY::middle}));
   }
-  // caps are named beside the planes that cut them, where these are theirs alone
+  // caps are named at the planes that cut them, where these are theirs alone
   if (runs.size() > 1 && !(all_caps(runs) && planes_differ(runs)))
     draw_names(canvas, {length.right() + 14, left.y}, runs);
   return place.scale;
@@ -100,29 +100,29 @@ void draw_planes(Canvas& canvas, const Box& box, const std::vector<NamedRun>& ru
   }
   canvas.polyline(arc, {{0.55f, 0.56f, 0.6f, 1}, 1});
   constexpr double size = 7;
-  double free = INFINITY;  // above it a name may stand
+  double free = INFINITY;  // above it a name may be
   std::vector<double> shown;
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const double z = plane_of(runs[k]);
     const double half = 1.1 * scale * rho, y = centre.y - scale * z;
     const Colour colour = runs.size() == 1 ? ink : series_colour(k);
     // to a hundredth, and no minus before a zero
-    const double share = std::round(100 * z / rho) / 100 + 0.0;
-    const bool again = std::ranges::find(shown, share) != shown.end();
-    shown.push_back(share);
+    const double fraction = std::round(100 * z / rho) / 100 + 0.0;
+    const bool again = std::ranges::find(shown, fraction) != shown.end();
+    shown.push_back(fraction);
     // of two that lie in one plane both are seen
     const std::vector<double> dash = again ? std::vector<double>{4, 4} : std::vector<double>{};
     canvas.line({centre.x - half, y}, {centre.x + half, y}, {colour, 1.4, dash});
     if (again) continue;
     // one plane has room below it
     if (runs.size() == 1) {
-      canvas.text(fmt::format("*z*^{{*}}/*ρ* = {:g}", share), {centre.x, y + 3},
+      canvas.text(fmt::format("*z*^{{*}}/*ρ* = {:g}", fraction), {centre.x, y + 3},
                   {.size = 8, .align_x = AlignX::centre, .align_y = AlignY::top});
       continue;
     }
     const Point name{centre.x + half + 8, std::min(y, free)};
     canvas.line({centre.x + half, y}, {name.x - 1.5, name.y}, {colour, 0.6});
-    canvas.text(fmt::format("{:g}", share), name,
+    canvas.text(fmt::format("{:g}", fraction), name,
                 {.size = size, .colour = readable(colour), .align_y = AlignY::middle});
     free = name.y - 1.25 * size;
   }
@@ -141,7 +141,7 @@ void add_by_latitude(const Eigen::Matrix3Xd& joints, double rho, Series& series)
     series.add(latitude_deg(joint.z() / joint.norm()), joint.norm() / rho);
 }
 
-/// A square about all lines, so that lengths are alike on both axes.
+/// A square about all lines, so that lengths are equal on both axes.
 void frame_about(const std::vector<Eigen::Matrix3Xd>& lines, Plot& plot) {
   constexpr double wider = 1.08;
   Eigen::Vector2d low = lines.front().col(0).head<2>(), high = low;
@@ -200,7 +200,7 @@ Plot curvature_plot(const std::vector<NamedRun>& runs) {
   plot.x.low = -1.05;
   plot.x.high = 1.05;
   plot.y.label = "integrated Gauss curvature, *K*_{□} (rad)";
-  if (runs.size() == 1) plot.legend = LegendPlace::none;
+  if (runs.size() == 1) plot.legend = LegendPosition::none;
   plot.references.push_back({.at = 0, .label = ""});
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const record::Trajectory& run = *runs[r].run;
@@ -266,7 +266,7 @@ Plot latitude_plot(const NamedRun& named, const Eigen::Matrix3Xd& scan) {
 void draw_footprints(Canvas& canvas, const Box& box, const std::vector<NamedRun>& runs) {
   const bool caps = all_caps(runs);
   const double half = caps ? box.width / 2 : box.width;
-  // below the boundaries stands a length to read them by
+  // below the boundaries is a length to read them by
   const Box beside{box.x + half, box.y, half, box.height - 8};
   const double most =
       caps ? scale_of_planes(beside, runs.front().run->layout.length_scale_mm) : INFINITY;
@@ -308,7 +308,7 @@ Plot refused_plot(const std::vector<Eigen::Matrix3Xd>& lines, const Eigen::Matri
   plot.title = title;
   plot.x.label = "*x* (mm)";
   plot.y.label = "*y* (mm)";
-  plot.legend = LegendPlace::above;
+  plot.legend = LegendPosition::above;
   plot.series = {net};
   plot.add(std::move(close));
   plot.add(std::move(place));
@@ -359,7 +359,7 @@ Plot net_plan(const std::vector<PlanPart>& parts, const std::string& title) {
   plot.title = title;
   plot.x.label = "*x* (mm)";
   plot.y.label = "*y* (mm)";
-  plot.legend = LegendPlace::above;
+  plot.legend = LegendPosition::above;
   if (!all.empty()) frame_about(all, plot);
   return plot;
 }
@@ -395,7 +395,7 @@ Plot bins_plot(const RunSummary& run, long cells, const record::Frame& frame,
   plot.references = {{true, run.first.total_K / double(cells), "", dashed},
                      {true, frame.total_K / double(cells), "", solid}};
   plot.title = total_K_caption(run.first.total_K, frame.total_K);
-  plot.legend = LegendPlace::above;
+  plot.legend = LegendPosition::above;
   return plot;
 }
 

@@ -53,7 +53,7 @@ std::vector<RodSample> rod_points(const record::Layout& layout) {
   return points;
 }
 
-// what stands for a frame: joints, points of the rods, and the arrows of loads
+// what represents a frame: joints, points of the rods, and the arrows of loads
 Eigen::Matrix3Xd points_of(const record::Layout& layout, const std::vector<RodSample>& rods,
                            const record::Frame& frame, double largest_N) {
   std::vector<Eigen::Vector3d> points;

@@ -87,7 +87,7 @@ class Lines {
         units_per_mm_(box.height / (2 * camera.half_extent_mm)),
         slack_(0.25 * drawing.layout->spacing_mm) {}
 
-  /// Of the two passes, hidden or visible, the parts that belong to it.
+  /// Draws the parts that belong to one of the two passes, hidden or visible.
   void draw(bool hidden) {
     const double fade = hidden ? std::max(0.55, drawing_.far_fade) : 0;
     if (hidden && drawing_.far_fade >= 1) return;

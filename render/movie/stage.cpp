@@ -43,7 +43,7 @@ void Framing::fit(const Eigen::Matrix3Xd& points, const Box& panel) {
   }
 }
 
-// what stands in the panel's middle, the target if there is one, stays there
+// what is in the panel's middle, the target if there is one, stays there
 void Framing::look_at(const MovieStyle& style, const Box& panel) {
   const double x = panel.middle().x - width_ / 2.0, y = panel.middle().y - height_ / 2.0;
   right_mm_ += x / pixels_per_mm();
@@ -151,7 +151,7 @@ double least_pixels(const MovieStyle& style) {
 // K is a frame's own
 bool by_K(ColourBy by) { return by == ColourBy::K || by == ColourBy::K_change; }
 
-// columns of equal width; a single view has the whole picture to itself, so that the ground goes on
+// columns of equal width; a single view has the whole picture to itself, so that the ground extends
 // under the captions
 std::vector<Box> panels_of(const FrameLayout& layout, const MovieStyle& style) {
   const int count = 1 + int(style.views.size());
@@ -183,7 +183,7 @@ std::vector<Framing> framings_of(const std::vector<Box>& panels, const Box& view
   return framings;
 }
 
-// everything beside the box in one colour
+// everything outside the box in one colour
 void clear_outside(Image& image, const Box& box, Colour colour) {
   const auto byte = [](float c) { return std::uint8_t(std::lround(255 * c)); };
   const std::uint8_t rgba[] = {byte(colour.r), byte(colour.g), byte(colour.b), byte(colour.a)};
@@ -193,7 +193,7 @@ void clear_outside(Image& image, const Box& box, Colour colour) {
         std::copy_n(rgba, 4, image.pixel(x, y));
 }
 
-// one line where that holds it, else two: apart where an event ends, or between words
+// one line where that has room for it, else two: parted where an event ends, or between words
 std::vector<std::string> lines_of_event(const Canvas& canvas, const std::string& said, double width,
                                         const TextStyle& style) {
   if (canvas.measure(plain(said), style).width <= width) return {said};
@@ -208,11 +208,9 @@ std::vector<std::string> lines_of_event(const Canvas& canvas, const std::string&
 
 Result<void> check_size(const MovieStyle& style) {
   if (style.width() < 16 || style.height() < 16 || style.width() > 16384 || style.height() > 16384)
-    return invalid(
-        "a picture of {} x {} pixels cannot be made: both "
-        "sides must be 16 to 16384",
-        style.width(), style.height());
-  if (!(style.zoom > 0)) return invalid("the camera's zoom must be above 0");
+    return invalid("size: got {} x {} pixels, expected 16 to 16384 for both", style.width(),
+                   style.height());
+  if (!(style.zoom > 0)) return invalid("[movie] zoom: expected above 0");
   return {};
 }
 
@@ -400,7 +398,7 @@ void Stage::draw_captions(Canvas& canvas, const ShownFrame& shown) const {
     canvas.text(plain(lines[k]),
                 {layout_.title.x, layout_.title.y + (double(k) + 0.5) * line_height}, title);
 
-  // columns of fixed width, so that the words stand still while the numbers run; what does not
+  // columns of fixed width, so that the words do not move while the numbers run; what does not
   // fit is left out
   double x = layout_.state.x;
   for (const std::string& caption : state_captions(shown.frame)) {

@@ -34,7 +34,7 @@ using record::StateCount;
 constexpr double high = 0.84;  // of the picture, over its width
 constexpr Colour grey_ink{0.42f, 0.42f, 0.45f, 1};
 
-/// How large a class is drawn, and where beside the point, in steps between points.
+/// How large a class is drawn, and where next to the point, in steps between points.
 struct ClassMark {
   StateClass kind;
   const char* name;
@@ -46,7 +46,7 @@ constexpr std::array<ClassMark, 4> marks{{
     {StateClass::iii, "*iii*", 5.6, -0.2, -0.17},
     {StateClass::iv, "*iv*", 5.2, 0.2, -0.17},
 }};
-constexpr double others_right = 0.3;  // of the number beside them
+constexpr double others_right = 0.3;  // of the number next to them
 constexpr double most_numbered = 12;  // columns, between which there is room for these numbers
 
 /// The smallest distance between different values.
@@ -93,8 +93,8 @@ class PhasePlot {
     columns_ = double(std::set(legs.begin(), legs.end()).size());
     plot_.title = plain(title);
     plot_.x = {.label = "longest leg, *L̄*_{d} = *L*/*d*"};
-    plot_.y = {.label = "rods a direction, *n*"};
-    plot_.legend = LegendPlace::above;
+    plot_.y = {.label = "rods per direction, *n*"};
+    plot_.legend = LegendPosition::above;
     if (legs.empty()) return;
     const auto [short_leg, long_leg] = std::ranges::minmax(legs);
     const auto [few, many] = std::ranges::minmax(rods);
@@ -148,7 +148,7 @@ class PhasePlot {
     plot_.series.push_back(std::move(series));
   }
 
-  /// A dot where each footprint belongs that its marks stand around.
+  /// A dot at each footprint that its marks are arranged around.
   void add_places() {
     Series dots = mark_series("", grey_ink, Marker::circle, 1.6);
     for (const PhasePoint& point : points_) dots.add(point.longest_leg, point.rods);
@@ -183,7 +183,7 @@ class PhasePlot {
 };
 
 constexpr Colour ring_ink{0.55f, 0.55f, 0.58f, 1};
-constexpr double room = 1.12;  // of the boundary, that mirrors stand out beyond it
+constexpr double room = 1.12;  // of the boundary, that mirrors extend past it
 
 /// Directions of the mirrors of a group whose name says where they are, degrees.
 std::vector<double> mirrors_of(const std::string& group) {
@@ -207,10 +207,10 @@ ClassLook look_of(StateClass kind) {
 
 Plot barrier_plot(const record::StateTables& states) {
   Plot plot;
-  plot.title = fmt::format("Barriers between states (heights found on {} edges a segment)",
+  plot.title = fmt::format("Barriers between states (heights found on {} edges per segment)",
                            states.search.judged_edges);
   plot.y = {.label = "elastic energy; heights of barriers (mJ)"};
-  plot.legend = LegendPlace::none;
+  plot.legend = LegendPosition::none;
   // of the states as everywhere else; of passes only the height above their states is known, which
   // on another mesh hardly differs, as their energies do
   std::map<int, double> energy;
@@ -256,7 +256,7 @@ Plot barrier_plot(const record::StateTables& states) {
   plot.x.low = 0.5;
   plot.x.high = double(place.size()) + 0.5;
   if (lowest <= highest) {
-    // room for what stands above passes and below states
+    // room for what is above passes and below states
     plot.y.low = lowest - 0.16 * (highest - lowest);
     plot.y.high = highest + 0.2 * (highest - lowest);
   }

@@ -43,7 +43,7 @@ Image around(const Image& picture, const Box& shell) {
   return part;
 }
 
-// lines of a whole picture, of which the part fills the panel
+// lines of a complete picture, of which the part fills the panel
 std::function<void(Canvas&, const Box&)> lines_around(
     std::function<void(Canvas&, const Box&)> lines, const MovieStyle& style, const Box& part) {
   return [=, width = style.width(), height = style.height()](Canvas& canvas, const Box& box) {
@@ -55,7 +55,7 @@ std::function<void(Canvas&, const Box&)> lines_around(
   };
 }
 
-/// A panel has no room for a legend: the marks in it are told beside its caption.
+/// A panel has no room for a legend: the marks in it are explained next to its caption.
 std::string with_marks(const std::string& caption, const record::Frame& frame,
                        const Appearance& look) {
   const std::string contacts = contact_caption(frame),
@@ -88,7 +88,7 @@ void draw_still_labels(Canvas& canvas, const Stage& stage, const ShownFrame& sho
   const TextStyle text{.size = layout.font_size, .align_y = AlignY::top};
   const TextStyle fitted = canvas.fitted(caption, room.width, text);
   const Box said = canvas.text(caption, {room.x, room.bottom() - line}, fitted);
-  // a row each, contacts as the marks that they are in the picture
+  // one row each, contacts as the marks that they are in the picture
   const double size = fitted.size;
   double y = said.bottom() + size;
   if (const auto loads = load_caption(shown.frame); !loads.empty() && stage.style().look.loads) {

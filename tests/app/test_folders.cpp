@@ -92,12 +92,12 @@ TEST_CASE("what stdout does not take is noticed") {
 TEST_CASE("inputs that are no regular files, or too large, are refused at once") {
   const Bench bench(small);
   REQUIRE(mkfifo((bench.at / "fifo").c_str(), 0600) == 0);
-  const std::string curve = "[footprint]\nkind = \"curve\"\nboundary = \"polygon\"\npoints_mm = ";
+  const std::string curve = "[footprint]\nkind = \"curve\"\nboundary = \"polygon\"\npoints_mm: ";
   REQUIRE(write_file(bench.at / "pipe.toml", curve + "\"fifo\"\n"));
   REQUIRE(write_file(bench.at / "zero.toml", curve + "\"/dev/zero\"\n"));
   REQUIRE(write_file(bench.at / "large.toml", curve + "\"large.csv\"\n"));
   REQUIRE(write_file(bench.at / "large.csv", std::string(17 << 20, '1')));
-  const char* pipe = "it is a pipe or a device, must be a regular file";
+  const char* pipe = "got a pipe or a device, expected a regular file";
   for (const auto& [arguments, sentence] :
        std::vector<std::pair<std::vector<std::string>, const char*>>{
            {{"check", "pipe.toml"}, pipe},
@@ -187,10 +187,10 @@ TEST_CASE("names of cases that would meet a run's files are refused") {
   for (const auto& [name, sentence] : std::vector<std::pair<std::string, std::string>>{
            {"frames", "is the folder of a movie's pictures"},
            {"segments", "is the folder of an unfinished run's path"},
-           {"movie.mp4", "must not end in .mp4"},
-           {"frames.journal", "must not end in .journal"},
-           {"a.json", "must not end in .json"},
-           {std::string(300, 'x'), "is 300 letters long, must be at most 100"},
+           {"movie.mp4", "another ending than .mp4"},
+           {"frames.journal", "another ending than .journal"},
+           {"a.json", "another ending than .json"},
+           {std::string(300, 'x'), "300 letters, expected at most 100"},
        }) {
     REQUIRE(write_file(bench.at / "bad.toml", small + "[[case]]\nname = \"" + name + "\"\n"));
     check_refused("check bad.toml", bench.at, Contains(sentence));

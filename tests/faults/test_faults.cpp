@@ -12,12 +12,14 @@
 #include "app/cli/console.h"
 #include "app/cli/produce.h"
 #include "app/cli/staged_folder.h"
+#include "app/window/worker_threads.h"
 #include "engine/core/file_io.h"
 #include "engine/record/journal.h"
 #include "engine/record/summary.h"
 #include "engine/record/trajectory_file.h"
 #include "render/gl/image.h"
 #include "tests/faults/faults.h"
+#include "tests/presets.h"
 #include "tests/small_preset.h"
 #include "tests/temporary_folder.h"
 
@@ -184,4 +186,34 @@ TEST_CASE("allocations of a run fail, and nothing is lost", "[full]") {
   std::mt19937 random(13);
   std::uniform_int_distribution<long> beyond(501, calls);
   for (int trial = 0; trial < 500; ++trial) bench.try_out(Call::allocation, beyond(random));
+}
+
+TEST_CASE("an allocation that fails on the window's engine thread ends no window", "[standard]") {
+  window::EngineThread engine;
+  const auto act = [&](const window::Edit& edit) {
+    engine.post({edit});
+    engine.wait();
+    REQUIRE(engine.shell());
+    return engine.shell()->error;
+  };
+  REQUIRE(act(window::Open{small_shell()}) == "");
+  const auto failing = [&](long k) {
+    fail_call(Call::allocation, k);
+    try {
+      engine.post({window::Move{0.9}});
+    } catch (const std::bad_alloc&) {
+    }
+    engine.wait();
+    const long calls = calls_counted();
+    fail_call(Call::allocation, 0);
+    return calls;
+  };
+  const long calls = failing(0);
+  CHECK(calls > 200);
+  // the last ones copy what there is to see, outside of all that the session itself catches
+  for (long back = 0; back < 60; ++back) {
+    REQUIRE(act(window::Move{1}) == "");
+    failing(back < 30 ? calls - back : calls * (60 - back) / 31);
+  }
+  CHECK(act(window::Move{0.95}) == "");
 }

@@ -152,13 +152,13 @@ def test_shapes_fit_each_other(formed):
 
 @pytest.mark.parametrize("wrong, said", [
     (lambda s: s.push((40, 0), 1), "no such joint"),
-    (lambda s: s.push((0, 0, 1), 1), r"must be \[i, j\]"),
+    (lambda s: s.push((0, 0, 1), 1), r"expected \[i, j\]"),
     (lambda s: s.push((0, 0.5), 1), "joint"),
     (lambda s: s.push((0, 0)), "to_mm"),
     (lambda s: s.push((0, 0), float("nan")), "depth_mm = nan"),
     (lambda s: s.push((0, 0), float("inf")), "depth_mm = inf"),
     (lambda s: s.push((0, 0), np.ones((2, 2))), "depth_mm"),
-    (lambda s: s.push((0, 0), to_mm=(1, 2)), r"must be \[x, y, z\]"),
+    (lambda s: s.push((0, 0), to_mm=(1, 2)), r"expected \[x, y, z\]"),
     (lambda s: s.push((0, 0), 1, along=(0, 0, 0)), "no direction"),
     (lambda s: s.push((0, 0), 1, lateral='no"\n'), "lateral"),
     (lambda s: s.actuate(float("nan")), "progress = nan"),
@@ -173,8 +173,8 @@ def test_shapes_fit_each_other(formed):
     (lambda s: gs.Session("s1_actuation", {"rod.diameter_mm": float("nan")}), "diameter_mm = nan"),
     (lambda s: gs.Session("fig3_hemisphere", {"accuracy.model": "net", "accuracy.tolerance": 0.1}),
      "geometry alone"),
-    (lambda s: gs.Session("s1_actuation", case="third"), "case must be"),
-    (lambda s: gs.Session("fig3_caps"), "case must be one of"),
+    (lambda s: gs.Session("s1_actuation", case="third"), "case: expected"),
+    (lambda s: gs.Session("fig3_caps"), "case: expected one of"),
 ])
 def test_mistakes_are_answered(formed, wrong, said):
     before = formed.nodes.copy()

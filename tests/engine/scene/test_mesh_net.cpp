@@ -37,13 +37,34 @@ DomeMesh bent_strip() {
 
 }  // namespace
 
-TEST_CASE("points on a mesh stand for all of its area, none far from the next") {
+TEST_CASE("points on a mesh represent all of its area, none far from the next") {
   const DomeMesh dome = ellipsoid_mesh({80, 60, 40}, 9);
   const auto mesh = value_of(TriangleMesh::make(dome.vertices, dome.triangles));
   double sum = 0;
   for (const AreaSample& one : area_samples(mesh, 4)) sum += one.area;
   CHECK(sum == Approx(1).epsilon(1e-12));
   CHECK(area_samples(mesh, 4).size() > 2 * area_samples(mesh, 8).size());
+  // of small triangles one stands for those around it
+  const auto few = area_samples(mesh, 60);
+  CHECK(few.size() < mesh.triangles().size() / 8);
+  sum = 0;
+  for (const AreaSample& one : few) sum += one.area;
+  CHECK(sum == Approx(1).epsilon(1e-12));
+}
+
+TEST_CASE("of the starts that reach almost the largest area one has the largest least angle",
+          "[standard]") {
+  auto p = on_mesh(bent_strip());
+  p.net.apex = preset::NetApex::best;
+  const NetStart area = value_of(scene_of(p)).mesh_net->start;
+  p.net.apex = preset::NetApex::best_angle;
+  const auto scene = value_of(scene_of(p));
+  const NetStart& angle = scene.mesh_net->start;
+  CAPTURE(area.reached, area.least_angle_deg, angle.reached, angle.least_angle_deg);
+  CHECK(angle.least_angle_deg > area.least_angle_deg + 1e-3);
+  CHECK(angle.reached > area.reached - 0.08);
+  CHECK_THAT(fmt::format("{}", fmt::join(scene.mesh_net->sentences(), "\n")),
+             Catch::Contains("rods cross there at "));
 }
 
 TEST_CASE("a net on an L goes around its corner, and says what it reaches", "[standard]") {

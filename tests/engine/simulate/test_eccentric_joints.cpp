@@ -35,7 +35,7 @@ simulate::ExperimentResult layered(double eccentricity_mm, int edges, bool hinge
 
 }  // namespace
 
-TEST_CASE("a bolt between two layers puts force times eccentricity on the rod that holds it") {
+TEST_CASE("a bolt between two layers puts force times eccentricity on its rod") {
   for (const double apart : {5.0, -2.0}) {
     // a couple in the middle of a beam turns it by M l/(12 EI); the first beam bends sideways
     const double push = 0.01, beside = 48 * EI / std::pow(length, 3);
@@ -71,7 +71,7 @@ TEST_CASE("energies of eccentric joints converge at second order, with both rod 
   }
 }
 
-TEST_CASE("rods that lie above one another touch nowhere, either way up") {
+TEST_CASE("rods that lie above one another touch nowhere, whichever is above") {
   const auto above = layered(0.3, 4), below = layered(-0.3, 4);
   CHECK(above.summary.contacts == 0);
   CHECK(above.summary.energies.total() == Approx(below.summary.energies.total()).epsilon(1e-10));

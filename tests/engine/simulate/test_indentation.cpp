@@ -34,7 +34,7 @@ double energy_of(const record::Frame& frame) {
 
 }  // namespace
 
-TEST_CASE("three point loads: certified frames, depth as asked, the force does the work") {
+TEST_CASE("three point loads: certified frames, depth as requested, the force does the work") {
   for (const Case which : {Case::pole_inward, Case::pole_outward, Case::oblique_inward}) {
     const auto outcome = run(hemisphere(which, 120, Placement::on_axis));
     const auto& frames = outcome.trajectory.frames;
@@ -56,7 +56,7 @@ TEST_CASE("three point loads: certified frames, depth as asked, the force does t
   }
 }
 
-TEST_CASE("the pushed joint goes straight down its normal, held, it does not go sideways") {
+TEST_CASE("the pushed joint goes straight down its normal and not sideways") {
   for (const auto lateral : {preset::Lateral::free, preset::Lateral::held}) {
     preset::Preset p = hemisphere(Case::oblique_inward, 120, Placement::on_axis, 0.1, 3);
     p.indentation.lateral = lateral;
@@ -164,7 +164,7 @@ TEST_CASE("deep pushes of both placements, upright and oblique, end so too", "[f
   check_deep_push(Placement::on_axis, Case::oblique_inward);
 }
 
-TEST_CASE("unloading follows the way back, after a snap on another branch", "[standard]") {
+TEST_CASE("unloading follows the path back, after a snap on another branch", "[standard]") {
   preset::Preset p = hemisphere(Case::pole_inward, 120, Placement::on_axis, 0.1, 9);
   p.indentation.unload = true;
   const auto there_and_back = run(p);
@@ -200,6 +200,26 @@ TEST_CASE("unloading follows the way back, after a snap on another branch", "[st
   for (const record::Frame& frame : way) CHECK(frame.negative_pivots == 0);
 }
 
+TEST_CASE("a figure of a push has the load steps of its path, so that a snap is where it is",
+          "[standard]") {
+  preset::Preset fig1;
+  fig1.imperfection.size = 0;
+  fig1.indentation.at = preset::IndentationPlace::highest;
+  fig1.indentation.depth = 0.3;
+  const auto drawn = run_stills(fig1);
+  const auto& frames = drawn.trajectory.frames;
+  CHECK(frames.size() > 70);
+  int snaps = 0;
+  for (std::size_t k = 1; k < frames.size(); ++k) {
+    CHECK(frames[k].index == int(k));
+    CHECK(frames[k].progress > frames[k - 1].progress);
+    if (!frames[k].event.starts_with("snap")) continue;
+    ++snaps;
+    CHECK(frames[k].depth_mm - frames[k - 1].depth_mm < frames.back().depth_mm / 61);
+  }
+  CHECK(snaps == 1);
+}
+
 TEST_CASE("a push that ends at a limit after snaps names both", "[standard]") {
   preset::Preset p;
   p.imperfection.size = 0;  // the state with two mirrors
@@ -221,7 +241,7 @@ TEST_CASE("a push that ends at a limit after snaps names both", "[standard]") {
 TEST_CASE("a joint that is not there is refused") {
   preset::Preset p = hemisphere(Case::pole_inward, 120, Placement::on_axis);
   p.indentation.joint = {40, 0};
-  CHECK_THAT(refused_run(p), Catch::Contains("no such joint"));
+  CHECK_THAT(refused_run(p), Catch::Contains("expected a joint of the footprint"));
 }
 
 TEST_CASE("pushes on the twist model are those of the bend model, to a millionth of rho") {

@@ -105,7 +105,8 @@ TEST_CASE("loads on the bend model are those of the twist model, and lower the s
   p.loads.points = {{7, 0, 0, 0, 1}};
   CHECK_THAT(
       refused_run(p),
-      Catch::StartsWith("[loads] points: the footprint has no joint [7, 0], must be one of its "));
+      Catch::StartsWith(
+          "[loads] points: got [7, 0], which is no joint, expected one of the footprint's "));
 }
 
 TEST_CASE("spring joints converge to the shared ones as they stiffen, on both rod models") {
@@ -139,7 +140,7 @@ TEST_CASE("joints that pass twist twist the rods, the more the stiffer they are"
   }
 }
 
-TEST_CASE("joints that resist shear: joints and energies at second order, beside short legs too") {
+TEST_CASE("joints that resist shear: joints and energies at second order, near short legs too") {
   const auto runs = [](double radius, double to) {
     preset::Preset p = circle(5, radius, to);
     p.rod.shear_GPa = shear_GPa;
@@ -172,7 +173,7 @@ TEST_CASE("joints that resist shear: joints and energies at second order, beside
   CHECK((energy(1) - energy(2)) / (energy(2) - energy(3)) == Approx(4).epsilon(0.07));
 }
 
-TEST_CASE("a cylinder whose ends are held along the helices is its net, to second order") {
+TEST_CASE("a cylinder whose ends are fixed along the helices is its net, to second order") {
   // with ends of prescribed twist too its rods are twisted
   for (const auto hold : {preset::EndKind::tangent, preset::EndKind::clamped}) {
     const bool clamped = hold == preset::EndKind::clamped;
@@ -193,7 +194,7 @@ TEST_CASE("a cylinder whose ends are held along the helices is its net, to secon
   }
 }
 
-TEST_CASE("a strip lies down or stands up, and an arched rod rises by itself") {
+TEST_CASE("a strip lies flat or upright, and an arched rod rises by itself") {
   preset::Preset p = four_rods();
   const double round = run(p).summary.height_mm;
   p.rod.curvature_per_mm = 0.005;
@@ -235,7 +236,7 @@ TEST_CASE("the net model says that nothing was solved for") {
   CHECK(distance(net, run(p)) < 0.05 * p.net.radius_mm);
 }
 
-TEST_CASE("a push that snaps is followed in time to the rest that ends it", "[standard]") {
+TEST_CASE("a push that snaps is followed in time to the next equilibrium", "[standard]") {
   preset::Preset p;
   p.imperfection.size = 0;  // the state with two mirrors
   p.rod.density_kg_m3 = 6450;

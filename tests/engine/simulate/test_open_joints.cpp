@@ -63,9 +63,9 @@ Energies energy_drawn(const preset::NetworkData& file, preset::EndKind ends,
   p.rod.as_drawn = as_drawn;
   p.ends.kind = ends;
   const Scene scene = value_of(scene_of(p));
-  CHECK(scene.rung == RodModel::twist);
+  CHECK(scene.rod_model == RodModel::twist);
   const RodMesh mesh = mesh_rods(scene.footprint, 3);
-  const Model model = value_of(build_model(mesh, scene.rods, scene.rung));
+  const Model model = value_of(build_model(mesh, scene.rods, scene.rod_model));
   Eigen::Matrix3Xd nodes = drawn_nodes(mesh, scene.flat);
   return energies_of(model, start_state(model, columns_of(mesh, model, nodes)));
 }
@@ -88,7 +88,7 @@ TEST_CASE("a twisted network in space has one energy however it is turned, mirro
 }
 
 TEST_CASE(
-    "rods cut as they are drawn lie there without stress, in space or a ring, ends held or not") {
+    "rods cut as they are drawn lie there without stress, in space or a ring, ends fixed or not") {
   preset::NetworkData vault = mixed_network(), ring;
   vault.joint_laws = {{6, -1, 0}};
   // a polygon of 24 corners, and a bow
@@ -108,7 +108,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("joints of three rods count alike, whichever the file lists first") {
+TEST_CASE("joints of three rods count equally, whichever the file lists first") {
   preset::NetworkData file;
   file.points = {{-50, 0, 0},  {50, 0, 0},   {-25, -43, 2}, {25, 43, 2},
                  {-25, 43, 4}, {25, -43, 4}, {0, 0, 10}};
@@ -166,11 +166,11 @@ TEST_CASE("one joint opens all rhombi, and what is wrong with a step is reported
   p.step = {step};
   CHECK_THAT(run(p).summary.steps[0], Catch::Contains("joints at 70.00 degrees on average"));
   p.step[0].angles = {{3, 0, 70}};
-  CHECK_THAT(refused_run(p), Catch::Contains("[3, 0] is no joint where two rods cross"));
+  CHECK_THAT(refused_run(p), Catch::Contains("got [3, 0], expected a joint where two rods cross"));
   p.step[0].angles = {{12, 0, 70}, {12, 0, 80}};
-  CHECK_THAT(refused_run(p), Catch::Contains("[12, 0] stands there twice"));
+  CHECK_THAT(refused_run(p), Catch::Contains("got [12, 0] twice"));
   p.step = {opened(179.5, 100)};
-  CHECK_THAT(refused_run(p), Catch::Contains("must be between 1 and 179"));
+  CHECK_THAT(refused_run(p), Catch::Contains("expected 1 to 179"));
   p.step = {opened(60, 100), opened(70, 200)};
   CHECK_THAT(refused_run(p), Catch::Contains("bolts of another stiffness"));
 }

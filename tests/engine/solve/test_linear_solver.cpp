@@ -82,7 +82,7 @@ TEST_CASE("a matrix of rank one that joins all columns is solved with, and count
   CHECK(changed > 0);
 }
 
-TEST_CASE("factorisations: what one left does not stand in the next, on long chains") {
+TEST_CASE("factorisations: what one left is not in the next, on long chains") {
   const System system(70, 6, 12);
   const auto solver = make_block_cholesky(system.model), other = make_cholmod(system.model);
   for (double shift : {0.0, 500.0, 0.3, 500.0}) {

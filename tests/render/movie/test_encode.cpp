@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Six frames at 20 a second, the last one held, after a title.
+/// Six frames at 20 a second, the last one repeated, after a title.
 preset::Movie of_size(int width, int height) {
   preset::Movie timing;
   timing.frames = 6;
@@ -78,7 +78,7 @@ class FakeFfmpeg {
 
 }  // namespace
 
-TEST_CASE("without ffmpeg the command line is told instead, ready for a shell") {
+TEST_CASE("without ffmpeg the command line is printed instead, ready for a shell") {
   const FakeFfmpeg none("");
   const TemporaryFolder folder;
   REQUIRE(encode_movie("out/my run/frames", {}, folder / "movie.mp4", {}));
@@ -130,7 +130,7 @@ TEST_CASE("a shell reads the words back as they were") {
   CHECK(read_file(out).value() == expected);
 }
 
-TEST_CASE("hold, pace, title card and the kind of file stand in the command") {
+TEST_CASE("`hold`, pace, title card and the kind of file are in the command") {
   const auto line = [](const preset::Movie& timing, const char* file) {
     return shell_line(encode_arguments("frames", timing, file));
   };
@@ -154,7 +154,7 @@ TEST_CASE("hold, pace, title card and the kind of file stand in the command") {
   CHECK(has(line({}, "m.gif"), "paletteuse"));
 }
 
-TEST_CASE("a real ffmpeg makes movies of the length asked for", "[standard]") {
+TEST_CASE("a real ffmpeg makes movies of the requested length", "[standard]") {
   if (find_program("ffmpeg").empty() || find_program("ffprobe").empty()) {
     WARN("no ffmpeg, skipped");
     return;
@@ -203,7 +203,7 @@ TEST_CASE("a movie made while its frames are drawn is that of the frames, to the
 
 TEST_CASE("without ffmpeg no movie is in the making, and one that stops reading is an error") {
   const TemporaryFolder folder;
-  const Image large(800, 600);  // more than a socket holds
+  const Image large(800, 600);  // more than a socket contains
   {
     const FakeFfmpeg none("");
     const auto movie = value_of(MovieEncoder::begin("frames", of_size(800, 600), folder / "m.mp4"));

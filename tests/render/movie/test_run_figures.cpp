@@ -98,7 +98,7 @@ TEST_CASE("seams are plotted about their middles, gap and kink") {
   REQUIRE(plots.size() == 2);
   for (const Plot& plot : plots) REQUIRE(plot.series.size() == 1);
   const Series &gap = plots[0].series[0], &kink = plots[1].series[0];
-  // rods of one joint stand at one place
+  // rods of one joint have one position
   const double place = 10 * M_SQRT2;
   CHECK(gap.x[0] == Approx(-place));
   CHECK(gap.x[1] == Approx(-place));

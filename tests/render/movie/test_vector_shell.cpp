@@ -16,7 +16,7 @@ TEST_CASE("what lies behind the shell is hidden, what lies before it is not") {
   Camera above;
   above.elevation_deg = 90;
   Eigen::Matrix3Xd points(3, 3);
-  points << 0, 0, 200, 0, 0, 0, 10, 100, 0;  // under the dome, over it, beside it
+  points << 0, 0, 200, 0, 0, 0, 10, 100, 0;  // under the dome, over it, outside it
   CHECK(hidden_points(drawing, above, points, 5) == std::vector<bool>{true, false, false});
   // seen from above no joint is hidden, from the side the far ones are
   Eigen::Matrix3Xd joints(3, run.layout.joints.size());
