@@ -152,14 +152,11 @@ void add_action_hessian(const NodeAction& action, double factor, const Eigen::Ma
 /// What stores energy in addition to edges and bends.
 void add_others(const Model& model, const State& state, const ExternalLoads& outside,
                 bool with_hessian, Assembly& out) {
-  each_pair_list(model, [&]<class Law>(const std::vector<Pair<Law>>& list) {
-    if constexpr (!std::is_same_v<Law, JointAngle>)
-      for (const Pair<Law>& pair : list) {
-        PairEnergy energy{.with_hessian = with_hessian};
-        out.energies[Law::term] += pair.law.add(pair_geometry(model, state, pair), energy);
-        add_pair_gradient(model, pair, energy, out);
-        if (with_hessian) add_pair_hessian(model, pair, energy.hessian, out.hessian);
-      }
+  each_pair(model, [&]<class Law>(const Pair<Law>& pair) {
+    PairEnergy energy{.with_hessian = with_hessian};
+    out.energies[Law::term] += pair.law.add(pair_geometry(model, state, pair), energy);
+    add_pair_gradient(model, pair, energy, out);
+    if (with_hessian) add_pair_hessian(model, pair, energy.hessian, out.hessian);
   });
   add_links(model, state, with_hessian, out);
   for (const ModelSpring& spring : model.springs) {

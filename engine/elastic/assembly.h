@@ -74,7 +74,7 @@ void add_joint_angles(const Model& model, const State& state, double opening,
 void add_links(const Model& model, const State& state, bool with_hessian, Assembly& out);
 void reduce_to_free(const Model& model, const State& state, bool with_hessian, Assembly& out);
 
-/// Angle - rest - opening of every joint with a spring, rad.
+/// Excess of the angle of every joint with a spring over its natural one, rad.
 Eigen::VectorXd spring_excess(const Model& model, const State& state, double opening);
 /// Torques, N mm, that such angles give: k angle + K weight (sum of the weights times the angles).
 Eigen::VectorXd spring_torques(const Model& model, Eigen::VectorXd angles);

@@ -240,7 +240,7 @@ struct JointAngle {
   /// angle, and one that closes continues below zero; 0: no normal is known
   int side = 0;
   /// Weight w in the mean of several joints' angles, which stores K/2 (sum of w times the excess)^2
-  /// in the place of their own energies (Model::mean_stiffness); 0: the joint is by itself.
+  /// instead of their own energies (Model::mean_stiffness); 0: the joint is by itself.
   double weight = 0;
 
   double excess(const PairGeometry& at) const;

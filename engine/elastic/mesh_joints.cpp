@@ -12,7 +12,7 @@
 namespace gridshell {
 namespace {
 
-/// visit(k, m, fraction) for every two of the rods at a joint, which count alike: all of them
+/// visit(k, m, fraction) for every two of the rods at a joint, which have equal fractions: all of them
 /// together as much as one rod with each of the others
 template <class Visit>
 void each_two(std::size_t rods, Visit visit) {
@@ -47,8 +47,8 @@ void add_links(const RodMesh& mesh, const Crossings& crossings,
   }
 }
 
-/// The largest stiffness of a law, N mm/rad: k edges a segment times 20 of what an edge of each rod
-/// has, `of` over its length. A rigid joint so gives less than what the mesh leaves out, and at
+/// The largest stiffness of a law, N mm/rad: k edges per segment times 20 of what an edge of each
+/// rod has, `of` over its length. A rigid joint so gives less than what the mesh leaves out, and at
 /// second order.
 double stiff_limit(const RodMesh& mesh, const Model& model, const Crossing& at,
                    const std::array<double, 2>& of) {
@@ -152,7 +152,7 @@ Result<void> add_joint_laws(const RodMesh& mesh, const ShellRods& shell, const C
     const bool bolted = shell.bolts && !shell.bolts->rods[std::size_t(joint)].empty();
     if (rods.size() < 2 || (law.shear_Nmm == 0 && law.twist_Nmm == 0 && !bolted)) continue;
     if (!mesh.is_centred(joint))
-      return invalid("joint {}: a law holds its rods, and the mesh has no edges centred on it",
+      return invalid("joint {}: its rods have a law, and the mesh has no edges centred on it",
                      joint);
     each_two(rods.size(), [&](std::size_t k, std::size_t m, double fraction) {
       const Crossing at = crossing(mesh, rods, joint, springs, k, m);

@@ -1,5 +1,5 @@
-// The joints of a meshed footprint: which rods meet there, how they run as drawn, and what holds
-// them together in a model.
+// The joints of a meshed footprint: which rods meet there, how they run as drawn, and what
+// their laws add to a model.
 #pragma once
 
 #include <Eigen/Core>

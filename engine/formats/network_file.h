@@ -82,6 +82,12 @@ OpeningSense opening_sense(const NetworkData& network);
 /// The mean angle between the rods of all joints of two rods, rad, as drawn; 0 without one.
 double mean_angle(const NetworkData& network);
 
+/// How often rods go through a point, and how often they end there.
+struct PointUse {
+  int passes = 0, ends = 0;
+};
+std::vector<PointUse> uses_of(const NetworkData& network);
+
 /// The median distance of neighbouring joints and ends along the rods, mm.
 double spacing_of(const NetworkData& network);
 
@@ -143,8 +149,8 @@ class NetworkBuilder {
   /// Makes a linkage of lines that are its segments, as X-shells are stored [Panetta et al. 2019]:
   /// at a point of four the opposite ones continue one another, at one of three the straightest two
   /// that make no triangle, at one of two none. Rods run so that all joints open together, from an
-  /// acute mean angle; every joint is a hinge, ends are free, and springs at three joints hold the
-  /// linkage against rigid motions. Errors (bad_input): a line of more than two points, more than
+  /// acute mean angle; every joint is a hinge, ends are free, and springs at three joints prevent
+  /// rigid motions. Errors (bad_input): a line of more than two points, more than
   /// four segments at a point.
   Result<void> join_segments(FileReport& report);
   /// Ends that nothing is joined to and that lie within the builder's join_mm of another rod are
@@ -178,7 +184,7 @@ class NetworkBuilder {
   std::vector<int> rods_at_points() const;
   Result<std::vector<int>> continued_by_direction() const;
   void chain(const std::vector<int>& partner);
-  void hold_in_space();
+  void support_on_springs();
 
   double near_mm_;
   NetworkData network_;

@@ -43,7 +43,7 @@ bool make_triangle(const SegmentEnds& ends, const SegmentEnd& a, const SegmentEn
                                [&](const SegmentEnd& one) { return beside.contains(one.to); }) > 1;
 }
 
-/// Of three segments the two that continue one another straightest and make no triangle: indices.
+/// The two of three segments that continue one another straightest and make no triangle: indices.
 std::vector<std::array<std::size_t, 2>> straightest(const SegmentEnds& all,
                                                     const std::vector<SegmentEnd>& ends) {
   std::vector<std::array<std::size_t, 2>> best;
@@ -57,7 +57,7 @@ std::vector<std::array<std::size_t, 2>> straightest(const SegmentEnds& all,
   return best;
 }
 
-/// Of four segments those that lie opposite one another about the joint's normal.
+/// The pairs of four segments that are opposite one another about the joint's normal: indices.
 std::vector<std::array<std::size_t, 2>> opposite(const std::vector<SegmentEnd>& ends) {
   Eigen::Vector3d normal(0, 0, 0);
   for (const SegmentEnd& one : ends) {
@@ -122,7 +122,7 @@ std::vector<std::vector<std::size_t>> crossings_along(const NetworkData& network
   return along;
 }
 
-/// Normals to one side: those of neighbours along a rod point alike.
+/// Turns normals to one side, so that those of neighbours along a rod have a positive product.
 void turn_to_one_side(const std::vector<std::vector<std::size_t>>& along,
                       std::vector<Eigen::Vector3d>& normals) {
   std::vector<std::vector<std::size_t>> beside(normals.size());
@@ -215,9 +215,9 @@ Result<std::vector<int>> NetworkBuilder::continued_by_direction() const {
   return partner;
 }
 
-/// Three joints on springs that hold a linkage against rigid motions alone: all directions of one,
-/// two of the farthest from it, one of the farthest from the line through both.
-void NetworkBuilder::hold_in_space() {
+/// Puts three joints on springs that prevent rigid motions alone: one in all directions, the
+/// farthest from it in two, the farthest from the line through both in one.
+void NetworkBuilder::support_on_springs() {
   const std::vector<RodCrossing> joints = crossings_of(network_);
   if (joints.size() < 3) return;
   Eigen::Vector3d middle(0, 0, 0);
@@ -235,16 +235,16 @@ void NetworkBuilder::hold_in_space() {
   const Eigen::Vector3d way = place_of(network_, b) - from;
   const int c = farthest([&](const Eigen::Vector3d& at) { return way.cross(at - from).norm(); });
   if (a == b || b == c || a == c) return;
-  const auto hold = [&](int point, const Eigen::Vector3d& k) {
+  const auto support = [&](int point, const Eigen::Vector3d& k) {
     add_support({double(point)});
     add_spring(point, {k.x(), k.y(), k.z()});
   };
   Eigen::Index along = 0, turned = 0;
   way.cwiseAbs().maxCoeff(&along);
   way.cross(place_of(network_, c) - from).cwiseAbs().maxCoeff(&turned);
-  hold(a, Eigen::Vector3d::Ones());
-  hold(b, Eigen::Vector3d::Ones() - Eigen::Vector3d::Unit(along));
-  hold(c, Eigen::Vector3d::Unit(turned));
+  support(a, Eigen::Vector3d::Ones());
+  support(b, Eigen::Vector3d::Ones() - Eigen::Vector3d::Unit(along));
+  support(c, Eigen::Vector3d::Unit(turned));
 }
 
 Result<void> NetworkBuilder::join_segments(FileReport& report) {
@@ -261,26 +261,22 @@ Result<void> NetworkBuilder::join_segments(FileReport& report) {
   // so that the angles of joints are acute
   if (mean_angle(network_) > 0.5 * M_PI)
     reverse([&](std::size_t r) { return sense.family[r] == 1; });
-  hold_in_space();
-  std::set<int> held;
-  for (const auto& row : network_.supports) held.insert(int(row[0]));
-  std::vector<int> passes(points(), 0), ends(points(), 0);
-  for (const std::vector<int>& rod : network_.rods) {
-    const bool ring = rod.front() == rod.back();
-    for (std::size_t k = ring ? 0 : 1; k + 1 < rod.size(); ++k) ++passes[std::size_t(rod[k])];
-    if (!ring) ++ends[std::size_t(rod.front())], ++ends[std::size_t(rod.back())];
-  }
+  support_on_springs();
+  std::set<int> supported;
+  for (const auto& row : network_.supports) supported.insert(int(row[0]));
+  const std::vector<PointUse> uses = uses_of(network_);
   std::size_t crossed = 0, met = 0, alone = 0;
   for (std::size_t k = 0; k < points(); ++k) {
-    crossed += passes[k] > 1;
-    met += ends[k] > 0 && passes[k] + ends[k] > 1;
-    alone += passes[k] == 0 && ends[k] == 1;
-    if (passes[k] == 0 && ends[k] > 0 && !held.contains(int(k))) add_free(int(k));
+    const auto [passes, ends] = uses[k];
+    crossed += passes > 1;
+    met += ends > 0 && passes + ends > 1;
+    alone += passes == 0 && ends == 1;
+    if (passes == 0 && ends > 0 && !supported.contains(int(k))) add_free(int(k));
   }
   add_law({every_joint, 0, -1});
   report.text += fmt::format(
       "a linkage of {} segments: rods by direction cross at {} joints and end at {} more ({} free "
-      "ends), hinges all of them; held against rigid motions by springs at three joints; the "
+      "ends), hinges all of them; springs at three joints prevent rigid motions; the "
       "sections are those of [rod]; joints open from {:.4g} degrees on average; ",
       segments, crossed, met, alone, mean_angle(network_) * 180 / M_PI);
   if (sense.family.empty())

@@ -12,13 +12,6 @@
 #include "engine/formats/network_file.h"
 
 namespace gridshell::preset {
-namespace {
-
-/// How often rods go through a point, and how often they end there.
-struct PointUse {
-  int passes = 0, ends = 0;
-};
-
 std::vector<PointUse> uses_of(const NetworkData& network) {
   std::vector<PointUse> uses(network.points.size());
   for (const std::vector<int>& rod : network.rods) {
@@ -30,6 +23,8 @@ std::vector<PointUse> uses_of(const NetworkData& network) {
   }
   return uses;
 }
+
+namespace {
 
 /// Distances of neighbouring joints and ends along the rods.
 std::vector<double> segments_of(const NetworkData& network, const std::vector<PointUse>& uses) {

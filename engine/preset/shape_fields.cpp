@@ -126,9 +126,8 @@ void add_footprint(std::vector<Field>& all) {
       .refused({"file"}, of_a_file,
                [=](const Footprint& of) { return network(of) && of.join_mm > 0; });
   list.add<&Footprint::linkage>(
-          "each line of the file is a segment of a linkage (X-shells as .obj): rods are found by "
-          "direction, every joint is a hinge, three springs hold it; false: lines in line are one "
-          "rod")
+          "each line of the file is one segment (X-shells as .obj): rods are found by direction, "
+          "every joint is a hinge; false: lines in line are one rod")
       .used_by(&Footprint::kind, {Kinds::network})
       .refused({"file"}, of_a_file, [=](const Footprint& of) { return network(of) && of.linkage; });
   list.add<&Footprint::rods>(between(1, 500), "rods per direction in a circle, n")

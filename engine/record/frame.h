@@ -81,9 +81,9 @@ struct Frame {
   /// Axial forces of braces on the finest mesh, N: for each cell the diagonal from joint (i, j),
   /// then the one from (i + 1, j); NaN where there is no brace. Empty without bracing.
   Eigen::VectorXd brace_force_N;
-  /// Of every joint with laws or springs, extrapolated as the energies: the angle between its rods,
-  /// degrees, NaN where not two rods cross, and the torque of its springs, N mm, above 0 where it
-  /// would open the joint. Empty without such joints.
+  /// Angle between the rods of each joint with laws or springs, degrees, NaN where not two rods
+  /// cross, and torque of its springs, N mm, above 0 where it would open the joint; extrapolated as
+  /// the energies. Empty without such joints.
   Eigen::VectorXd angle_deg, torque_Nmm;
   /// Statistics of cell_K by the cell centroid's x/L, L being the half-span of the actuated
   /// boundary: one row per bin of equal width from -1 to 1; columns mean (rad), standard deviation

@@ -241,7 +241,7 @@ std::vector<std::string> left_out_of(const Scene& scene) {
   return sentences;
 }
 
-/// Refuses a first step that would open joints, as drawn, beyond what they can.
+/// Refuses a first step that would open joints, as drawn, past what they can.
 Result<void> check_opening(const preset::Preset& preset, const Scene& scene) {
   if (!opens_as_drawn(preset.step, scene)) return {};
   const auto bolts = bolts_as_drawn(preset.step.front(), scene.footprint);

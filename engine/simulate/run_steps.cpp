@@ -56,10 +56,9 @@ void close(PathSegment& segment, const Simulation& simulation) {
   segment.from = segment.to = segment.end();
 }
 
-/// The shell before the steps. If these begin by opening the joints of a network, and that has no
-/// regular equilibrium without springs, as strips that are straight at rest close into a bundle, or
-/// if the mean angle is prescribed, the springs of the first step hold the joints as drawn;
-/// `reported` says so.
+/// The shell before the steps. The bolts of the first step fix the joints as drawn if it opens the
+/// joints of a network that has no regular equilibrium without them, as naturally straight strips
+/// that close into a bundle, or if it prescribes the mean angle; `reported` then says so.
 Result<EquilibriumPath> begin(const std::shared_ptr<const Scene>& scene,
                               const std::vector<preset::Step>& steps, const LevelPlan& plan,
                               const Watch& watch, std::string& reported) {
@@ -69,14 +68,14 @@ Result<EquilibriumPath> begin(const std::shared_ptr<const Scene>& scene,
   if (!mean) loose = follow_whole_actuation(scene, plan, "to begin with", watch);
   if (loose || !opens || watch.cancelled()) return loose;
   TRY(bolts, bolts_as_drawn(steps.front(), scene->footprint));
-  auto held = std::make_shared<Scene>(*scene);
-  held->rods.bolts = std::make_shared<const Bolts>(std::move(*bolts));
-  auto begun = follow_whole_actuation(held, plan, "to begin with", watch);
+  auto bolted = std::make_shared<Scene>(*scene);
+  bolted->rods.bolts = std::make_shared<const Bolts>(std::move(*bolts));
+  auto begun = follow_whole_actuation(bolted, plan, "to begin with", watch);
   if (mean) return begun;
   if (!begun)
     return fail(begun.error().fault, "{}; with the joints' springs as drawn {}",
                 loose.error().message, begun.error().message);
-  reported = "; its springs held the angles as drawn from the first state on, as without them " +
+  reported = "; its springs fixed the angles as drawn from the first state on, as without them " +
              loose.error().message;
   return begun;
 }

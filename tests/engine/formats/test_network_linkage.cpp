@@ -66,7 +66,7 @@ TEST_CASE("a linkage's segments are rods by their direction, all joints of which
                  Catch::Contains("31 segments: rods by direction cross at 6 joints and "
                                  "end at 14 more (0 free ends)"));
       CHECK(report.notes.empty());
-      // a rod the other way round closes its joints while the others open
+      // a reversed rod closes its joints while the others open
       NetworkData other = network;
       std::ranges::reverse(other.rods.back());
       CHECK(opening_sense(other).against.size() == other.rods.back().size());
@@ -79,7 +79,7 @@ TEST_CASE("drawings read the same lines otherwise: ends in line are one rod, oth
   CHECK(drawn.free.empty());
 }
 
-TEST_CASE("three springs hold a linkage against rigid motions alone, in the plane and in space") {
+TEST_CASE("three springs prevent rigid motions alone, in the plane and in space") {
   for (const bool upright : {false, true}) {
     std::string text = rhombi(2, 3, 40);
     if (upright) {

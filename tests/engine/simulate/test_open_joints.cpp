@@ -216,7 +216,7 @@ TEST_CASE("stiff springs cost a path no more steps than soft ones") {
 
 namespace {
 
-/// Strips that are straight at rest and hinged: without springs they close to a bundle.
+/// Naturally straight strips on hinges: without springs they close to a bundle.
 preset::Preset straight_strips() {
   preset::Preset p = shipped("lit_xshell_hyperboloid");
   p.movie.frames = 2;
@@ -228,12 +228,12 @@ preset::Preset straight_strips() {
 
 }  // namespace
 
-TEST_CASE("straight strips that close without springs begin as their first open holds them",
+TEST_CASE("straight strips that close without springs start from the angles as drawn",
           "[standard]") {
   preset::Preset p = straight_strips();
   const auto outcome = run(p);  // it snaps out of the plane on so coarse a mesh
   CHECK(outcome.summary.stable);
-  CHECK_THAT(outcome.summary.steps[0], Catch::Contains("held the angles as drawn") &&
+  CHECK_THAT(outcome.summary.steps[0], Catch::Contains("fixed the angles as drawn") &&
                                            Catch::Contains("joint [1, 0] and 100 others close") &&
                                            Catch::Contains("\"shear_Nmm\": 0.1"));
   CHECK(last_frame(outcome).joint_angle_deg == Approx(72.1).epsilon(2e-3));
@@ -288,7 +288,7 @@ TEST_CASE("frames have the angles and torques of joints, with errors, as steps r
   CHECK(std::isnan(last_frame(run(network_of_rods(rhombi(50 * degree), 2))).joint_angle_deg));
 }
 
-TEST_CASE("a plan refuses rods that run the other way, and says which") {
+TEST_CASE("a plan refuses rods that run in the other direction, and names them") {
   preset::Preset p = linkage();
   p.step = {opened(80, 100)};
   const auto thick = value_of(simulate::plan(p)).left_out;
