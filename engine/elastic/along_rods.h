@@ -2,6 +2,7 @@
 #pragma once
 
 #include <tuple>
+#include <type_traits>
 #include <vector>
 
 #include "engine/elastic/assembly.h"
@@ -60,6 +61,15 @@ PairGeometry pair_geometry(const Model& model, const State& state, const Pair<La
 template <class Visit>
 void each_pair_list(const Model& model, Visit visit) {
   std::apply([&](const auto&... lists) { (visit(lists), ...); }, model.pairs);
+}
+
+/// visit(pair) for every energy of two edges but the angles of joints, which may act together
+template <class Visit>
+void each_pair(const Model& model, Visit visit) {
+  each_pair_list(model, [&]<class Law>(const std::vector<Pair<Law>>& list) {
+    if constexpr (!std::is_same_v<Law, JointAngle>)
+      for (const Pair<Law>& pair : list) visit(pair);
+  });
 }
 
 /// visit(pair, index of its torque among the forces) for every joint with a spring

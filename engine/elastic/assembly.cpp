@@ -11,6 +11,24 @@
 #include "engine/elastic/model.h"
 
 namespace gridshell {
+
+BlockSlot BlockPattern::find(int row, int column) const {
+  const auto [low, high] = std::minmax(row, column);
+  const auto& known = pairs_of_[std::size_t(low)];
+  const auto at =
+      std::ranges::find_if(known, [high = high](const auto& one) { return one.first == high; });
+  if (at == known.end()) return -1;
+  return 2 * at->second + (pairs_[std::size_t(at->second)][0] != row);
+}
+
+BlockSlot BlockPattern::slot(int row, int column) {
+  const BlockSlot known = find(row, column);
+  if (known >= 0) return known;
+  const auto [low, high] = std::minmax(row, column);
+  pairs_of_[std::size_t(low)].emplace_back(high, int(pairs_.size()));
+  pairs_.push_back({row, column});
+  return 2 * int(pairs_.size() - 1);
+}
 namespace {
 
 /// a nan must survive: comparisons with it are false, so the test is written so that nan passes
@@ -134,14 +152,11 @@ void add_action_hessian(const NodeAction& action, double factor, const Eigen::Ma
 /// What stores energy in addition to edges and bends.
 void add_others(const Model& model, const State& state, const ExternalLoads& outside,
                 bool with_hessian, Assembly& out) {
-  each_pair_list(model, [&]<class Law>(const std::vector<Pair<Law>>& list) {
-    if constexpr (!std::is_same_v<Law, JointAngle>)
-      for (const Pair<Law>& pair : list) {
-        PairEnergy energy{.with_hessian = with_hessian};
-        out.energies[Law::term] += pair.law.add(pair_geometry(model, state, pair), energy);
-        add_pair_gradient(model, pair, energy, out);
-        if (with_hessian) add_pair_hessian(model, pair, energy.hessian, out.hessian);
-      }
+  each_pair(model, [&]<class Law>(const Pair<Law>& pair) {
+    PairEnergy energy{.with_hessian = with_hessian};
+    out.energies[Law::term] += pair.law.add(pair_geometry(model, state, pair), energy);
+    add_pair_gradient(model, pair, energy, out);
+    if (with_hessian) add_pair_hessian(model, pair, energy.hessian, out.hessian);
   });
   add_links(model, state, with_hessian, out);
   for (const ModelSpring& spring : model.springs) {
@@ -320,6 +335,7 @@ void multiply(const Model& model, const BlockHessian& hessian, const Eigen::Matr
   const auto& pairs = model.pattern.pairs();
   for (std::size_t k = 0; k < pairs.size(); ++k) add(pairs[k][0], pairs[k][1], hessian.pair[k]);
   for (const BlockHessian::Beyond& one : hessian.beyond) add(one.row, one.column, one.block);
+  if (hessian.rank_one.cols() > 0) y += hessian.rank_one * hessian.rank_one.cwiseProduct(x).sum();
 }
 
 void clear_held(const Model& model, Eigen::Matrix3Xd& x) {

@@ -64,8 +64,8 @@ Eigen::VectorXd bending_strain_of(const Model& model, const State& state);
 void assemble_gradient(const Model& model, const State& state, const ExternalLoads& outside,
                        Assembly& out, Team* team = nullptr);
 
-/// What bolts of eccentric joints store, and the spins of hinged rods.
-void add_joint_energies(const Model& model, const State& state, Energies& sum);
+/// What springs and bolts of joints store, and the spins of hinged rods.
+void add_joint_energies(const Model& model, const State& state, double opening, Energies& sum);
 /// Adds what springs and bolts of joints store to an assembly (`stiffness`: with its Hessian, then
 /// `before` is null; `before`: the mixed residual's tangents), and carries all over to the joints'
 /// own unknowns.
@@ -73,6 +73,11 @@ void add_joint_angles(const Model& model, const State& state, double opening,
                       const Stiffness* stiffness, const Eigen::Matrix3Xd* before, Assembly& out);
 void add_links(const Model& model, const State& state, bool with_hessian, Assembly& out);
 void reduce_to_free(const Model& model, const State& state, bool with_hessian, Assembly& out);
+
+/// Excess of the angle of every joint with a spring over its natural one, rad.
+Eigen::VectorXd spring_excess(const Model& model, const State& state, double opening);
+/// Torques, N mm, that such angles give: k angle + K weight (sum of the weights times the angles).
+Eigen::VectorXd spring_torques(const Model& model, Eigen::VectorXd angles);
 
 /// How the gradient changes with the opening of the joints, N, by an assembly's tangents.
 Eigen::Matrix3Xd opening_rate(const Model& model, const Eigen::Matrix3Xd& tangents);

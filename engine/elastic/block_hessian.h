@@ -35,7 +35,8 @@ class BlockPattern {
 
 /// Blocks on the diagonal (one per column), off the diagonal (one per pair of the pattern), and
 /// outside the pattern between edges that come near each other and between nodes of a face under
-/// pressure, some of them zero, several at the same pair. N/mm.
+/// pressure, some of them zero, several at the same pair; and a matrix of rank one that joins all
+/// columns. N/mm.
 struct BlockHessian {
   struct Beyond {
     int row = 0, column = 0;
@@ -43,6 +44,7 @@ struct BlockHessian {
   };
   std::vector<Block3> diagonal, pair;
   std::vector<Beyond> beyond;
+  Eigen::Matrix3Xd rank_one{};  ///< c over all columns, of c c^T in addition; empty: none
 
   void reset(std::size_t columns, std::size_t pairs, Team* team = nullptr) {
     diagonal.assign(columns, {});
@@ -53,6 +55,7 @@ struct BlockHessian {
       std::fill(at(k), at(k + 1), Block3{});
     });
     beyond.clear();
+    rank_one.resize(3, 0);
   }
   void add(BlockSlot slot, const Block3& block) {
     Block3& known = pair[std::size_t(slot >> 1)];

@@ -239,9 +239,11 @@ struct JointAngle {
   /// +1, -1: rods with this side of the joint's normal, the first edge's director, have a positive
   /// angle, and one that closes continues below zero; 0: no normal is known
   int side = 0;
+  /// Weight w in the mean of several joints' angles, which stores K/2 (sum of w times the excess)^2
+  /// instead of their own energies (Model::mean_stiffness); 0: the joint is by itself.
+  double weight = 0;
 
   double excess(const PairGeometry& at) const;
-  double value(const PairGeometry& at) const;
   /// The angle by edge vectors.
   PairEnergy slopes(const PairGeometry& at, bool with_hessian) const;
 

@@ -146,6 +146,7 @@ struct Model {
   std::vector<ModelBar> bars;    ///< braces
   std::vector<ModelLink> links;  ///< of eccentric joints
   PairLists pairs;
+  double mean_stiffness = 0;  ///< K of the mean of joints' angles (JointAngle::weight), N mm/rad
   std::vector<ModelFollower> followers;
   std::vector<ModelHinge> hinges;
   std::vector<NodeAction> loads;   ///< dead; they count times a load factor

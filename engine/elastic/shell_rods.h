@@ -40,10 +40,13 @@ struct Bolts {
   std::vector<double> opened{};   ///< of every joint, rad; empty: as they were tightened
   std::vector<double> opening{};  ///< angle to be added to that, rad; empty: nothing
   std::set<int> closed{};         ///< joints whose hinged rods had passed one another
+  bool mean =
+      false;  ///< they keep the mean of these angles alone, by a torque that is equal at all
 
   /// The angle between the first two rods of a joint as it was tightened, rad; of one that had
   /// closed below zero.
   double angle(int joint) const;
+  int joints() const;  ///< that have bolts
   /// The law between two of its rods, which count by `fraction`; at most as stiff as `most`.
   JointAngle law(int joint, std::size_t k, std::size_t m, double fraction, double most) const;
 };
@@ -104,8 +107,12 @@ Result<Model> build_model(const RodMesh& mesh, const ShellRods& rods,
                           RodModel rod_model = RodModel::bend);
 
 /// Torques of bolts and of joints that resist shear, on each joint's rods, that would open it: sums
-/// of k (rest - angle) over every two of its rods, N mm.
-std::vector<double> joint_torques(const RodMesh& mesh, const Model& model, const State& state);
+/// of k (rest - angle) over every two of its rods, N mm, at the opening that has come.
+std::vector<double> joint_torques(const RodMesh& mesh, const Model& model, const State& state,
+                                  double opening = 0);
+
+/// Bolts that keep the angles between rods as drawn.
+Bolts drawn_bolts(const RodMesh& mesh, double stiffness_Nmm);
 
 /// Bolts tightened in a state of that model.
 Bolts tightened(const RodMesh& mesh, const Model& model, const State& state, double stiffness_Nmm);

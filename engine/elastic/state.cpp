@@ -333,11 +333,10 @@ Energies energies_of(const Model& model, const State& state, const ExternalLoads
         [&](int, const ModelBend& bend, const EdgeGeometry& e, const EdgeGeometry& f) {
           sum[Term::bend] += bend_value(bend.stiffness, e, f);
         });
-  each_pair_list(model, [&]<class Law>(const std::vector<Pair<Law>>& list) {
-    for (const Pair<Law>& pair : list)
-      sum[Law::term] += pair.law.value(pair_geometry(model, state, pair, outside.opening));
+  each_pair(model, [&]<class Law>(const Pair<Law>& pair) {
+    sum[Law::term] += pair.law.value(pair_geometry(model, state, pair));
   });
-  add_joint_energies(model, state, sum);
+  add_joint_energies(model, state, outside.opening, sum);
   for (const ModelSpring& spring : model.springs)
     sum[spring.law.term] += spring.law.value(gap_of(state, spring.law));
   for (const ModelBar& bar : model.bars)

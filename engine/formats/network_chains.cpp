@@ -83,7 +83,12 @@ std::size_t pieces_of(const NetworkData& network, const std::vector<int>& rod, s
 Result<int> NetworkBuilder::join_in_line() {
   TRY(partner, continuations(network_, places_));
   const int met = int(std::ranges::count_if(*partner, [](int other) { return other >= 0; }) / 2);
-  if (met == 0) return 0;
+  if (met > 0) chain(*partner);
+  return met;
+}
+
+/// Lines become rods, `partner` being of each end the one that it continues in; -1: none.
+void NetworkBuilder::chain(const std::vector<int>& partner) {
   std::vector<std::vector<int>> rods;
   std::vector<std::string> places;
   std::vector<char> taken(network_.rods.size(), 0);
@@ -96,7 +101,7 @@ Result<int> NetworkBuilder::join_in_line() {
       if (reversed) std::ranges::reverse(points);
       if (!chain.empty()) seams_.insert(points.front());
       chain.insert(chain.end(), points.begin() + (chain.empty() ? 0 : 1), points.end());
-      const int next = (*partner)[2 * rod + (reversed ? 0 : 1)];
+      const int next = partner[2 * rod + (reversed ? 0 : 1)];
       if (next < 0) break;
       rod = std::size_t(next / 2);
       reversed = next % 2 == 1;
@@ -104,14 +109,13 @@ Result<int> NetworkBuilder::join_in_line() {
     rods.push_back(std::move(chain));
   };
   for (std::size_t r = 0; r < network_.rods.size(); ++r)
-    if (taken[r] == 0 && ((*partner)[2 * r] < 0 || (*partner)[2 * r + 1] < 0))
-      follow(r, (*partner)[2 * r] >= 0);
+    if (taken[r] == 0 && (partner[2 * r] < 0 || partner[2 * r + 1] < 0))
+      follow(r, partner[2 * r] >= 0);
   for (std::size_t r = 0; r < network_.rods.size(); ++r)
     if (taken[r] == 0) follow(r, false);
   network_.rods = std::move(rods);
   network_.diameters.assign(network_.rods.size(), 0);
   places_ = std::move(places);
-  return met;
 }
 
 void NetworkBuilder::thin_out() {

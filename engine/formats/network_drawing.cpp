@@ -27,7 +27,11 @@ std::string counted(std::size_t count, const std::string& what) {
 
 /// What is made of every drawing once its lines are in the builder.
 Result<NetworkData> finish(NetworkBuilder& builder, const std::string& name, std::size_t lines,
-                           FileReport& report) {
+                           const NetworkOptions& options, FileReport& report) {
+  if (options.linkage) {
+    TRY_DO(builder.join_segments(report));
+    return builder.take(name);
+  }
   TRY(met, builder.join_in_line());
   TRY_DO(builder.join_ends(name));
   TRY_DO(builder.join_crossings(name));
@@ -183,8 +187,10 @@ class MeshEdges {
   }
   std::size_t faces() const { return faces_; }
 
-  /// The network, its edges in line being one rod.
-  Result<NetworkData> take(const std::string& name, FileReport& report) {
+  /// The network, its edges in line being one rod, or as a linkage.
+  Result<NetworkData> take(const std::string& name, const NetworkOptions& options,
+                           FileReport& report) {
+    if (options.linkage) return finish(builder_, name, known_.size(), options, report);
     TRY(met, builder_.join_in_line());
     builder_.thin_out();
     if (faces_ > 0)
@@ -241,13 +247,13 @@ Result<NetworkData> read_network_obj(std::string_view bytes, const std::string& 
          [&](const auto& face, const auto& at) { return edges.add_face(face, at); }});
     if (!read) return tl::unexpected(read.error());
     report.text += unit_text(options, "OBJ") + "; ";
-    return edges.take(name, report);
+    return edges.take(name, options, report);
   }
   LeftOut left_out;
   for (const auto& [kind, count] : *others)
     for (int k = 0; k < count; ++k) left_out.add("", kind == "f" ? "face" : "point");
   report.text += unit_text(options, "OBJ") + left_out.text() + "; ";
-  return finish(builder, name, lines, report);
+  return finish(builder, name, lines, options, report);
 }
 
 Result<NetworkData> read_network_mesh(std::string_view bytes, const std::string& name,
@@ -274,7 +280,7 @@ Result<NetworkData> read_network_mesh(std::string_view bytes, const std::string&
                                          }});
   if (!read) return tl::unexpected(read.error());
   report.text += unit_text(options, ply ? "PLY" : "OFF") + "; ";
-  return edges.take(name, report);
+  return edges.take(name, options, report);
 }
 
 Result<PlanDrawing> read_outline_dxf(std::string_view bytes, const std::string& name,
@@ -319,7 +325,7 @@ Result<NetworkData> read_network_dxf(std::string_view bytes, const std::string& 
       points.push_back(points.front());
     TRY_DO(builder.add_rod(std::move(points), 0, place));
   }
-  return finish(builder, name, rods->size(), report);
+  return finish(builder, name, rods->size(), options, report);
 }
 
 }  // namespace gridshell::preset

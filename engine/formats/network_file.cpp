@@ -203,7 +203,7 @@ Result<NetworkData> read_network(std::string_view bytes, const std::string& name
   };
   auto network = read();
   if (!network || !report) return network;
-  report_network(*network, found);
+  report_network(*network, options, found);
   found.text = name + ": " + found.text;
   *report = std::move(found);
   return network;

@@ -33,6 +33,7 @@ struct NetworkOptions {
   /// 0: as one_point_mm says, ends joined only where they touch.
   double join_mm = 0;
   double rod_mm = 0;  ///< diameter of a rod, by which an impossible unit is noticed; 0: not known
+  bool linkage = false;  ///< each line of a drawing is one segment (NetworkBuilder::join_segments)
 };
 
 /// Reads a file as its name's ending says:
@@ -68,6 +69,24 @@ inline Eigen::Vector3d place_of(const NetworkData& network, int point) {
   const auto& at = network.points[std::size_t(point)];
   return {at[0], at[1], at[2]};
 }
+
+/// How the rods of a network turn where two of them cross, as joints open: those of a linkage are
+/// two families, and from a rod of the first to one of the second the angle grows on one side.
+struct OpeningSense {
+  std::vector<int> family;     ///< of every rod, 0 or 1; empty: rods are no two families
+  std::vector<char> reversed;  ///< of every rod: its points are to be reversed
+  std::vector<int> against{};  ///< points of joints whose angle grows on the other side
+};
+OpeningSense opening_sense(const NetworkData& network);
+
+/// The mean angle between the rods of all joints of two rods, rad, as drawn; 0 without one.
+double mean_angle(const NetworkData& network);
+
+/// How often rods go through a point, and how often they end there.
+struct PointUse {
+  int passes = 0, ends = 0;
+};
+std::vector<PointUse> uses_of(const NetworkData& network);
 
 /// The median distance of neighbouring joints and ends along the rods, mm.
 double spacing_of(const NetworkData& network);
@@ -127,6 +146,13 @@ class NetworkBuilder {
   /// most_turn_deg at most. Returns how many meetings that were. Errors (bad_input): more than 100
   /// ends at one point.
   Result<int> join_in_line();
+  /// Makes a linkage of lines that are its segments, as X-shells are stored [Panetta et al. 2019]:
+  /// at a point of four the opposite ones continue one another, at one of three the straightest two
+  /// that make no triangle, at one of two none. Rods run so that all joints open together, from an
+  /// acute mean angle; every joint is a hinge, ends are free, and springs at three joints prevent
+  /// rigid motions. Errors (bad_input): a line of more than two points, more than
+  /// four segments at a point.
+  Result<void> join_segments(FileReport& report);
   /// Ends that nothing is joined to and that lie within the builder's join_mm of another rod are
   /// moved onto it and joined. Errors (bad_input): too many to be looked at.
   Result<void> join_ends(const std::string& name);
@@ -156,6 +182,9 @@ class NetworkBuilder {
   void rename(const std::vector<int>& joint_of);
 
   std::vector<int> rods_at_points() const;
+  Result<std::vector<int>> continued_by_direction() const;
+  void chain(const std::vector<int>& partner);
+  void support_on_springs();
 
   double near_mm_;
   NetworkData network_;
@@ -180,6 +209,6 @@ Result<NetworkData> read_network_dxf(std::string_view bytes, const std::string& 
                                      const NetworkOptions& options, FileReport& report);
 
 /// Adds to a report's sentence what network came of a file, and notes on what is not joined.
-void report_network(const NetworkData& network, FileReport& report);
+void report_network(const NetworkData& network, const NetworkOptions& options, FileReport& report);
 
 }  // namespace gridshell::preset

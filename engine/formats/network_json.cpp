@@ -369,6 +369,9 @@ Result<NetworkData> read_network_json(std::string_view bytes, const std::string&
                                       const NetworkOptions& options) {
   if (options.unit_mm > 0 && options.unit_mm != 1)
     return invalid("{}: its points are points_mm, expected file_unit \"mm\" or none", name);
+  if (options.linkage)
+    return invalid("{}: [footprint] linkage: got true, expected none: the file lists its rods",
+                   name);
   std::string storage;
   TRY(document, parse(plain_text(bytes, storage), name));
   return Reader(*document, name, options.join_mm).read();

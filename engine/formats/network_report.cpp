@@ -12,13 +12,6 @@
 #include "engine/formats/network_file.h"
 
 namespace gridshell::preset {
-namespace {
-
-/// How often rods go through a point, and how often they end there.
-struct PointUse {
-  int passes = 0, ends = 0;
-};
-
 std::vector<PointUse> uses_of(const NetworkData& network) {
   std::vector<PointUse> uses(network.points.size());
   for (const std::vector<int>& rod : network.rods) {
@@ -30,6 +23,8 @@ std::vector<PointUse> uses_of(const NetworkData& network) {
   }
   return uses;
 }
+
+namespace {
 
 /// Distances of neighbouring joints and ends along the rods.
 std::vector<double> segments_of(const NetworkData& network, const std::vector<PointUse>& uses) {
@@ -180,9 +175,10 @@ double spacing_of(const NetworkData& network) {
   return *middle;
 }
 
-void report_network(const NetworkData& network, FileReport& report) {
+void report_network(const NetworkData& network, const NetworkOptions& options, FileReport& report) {
   const std::vector<PointUse> uses = uses_of(network);
-  std::set<int> free(network.free.begin(), network.free.end()), named, laws;
+  std::set<int> free(network.free.begin(), network.free.end()), named, laws, sprung;
+  for (const auto& row : network.springs) sprung.insert(int(row[0]));
   for (const auto& row : network.supports) named.insert(int(row[0]));
   for (const auto& row : network.joint_laws) laws.insert(int(row[0]));
   std::size_t joints = 0, supports = 0, free_ends = 0, together = 0;
@@ -191,7 +187,8 @@ void report_network(const NetworkData& network, FileReport& report) {
     const auto [passes, ends] = uses[std::size_t(point)];
     if (passes + ends == 0) continue;
     box.extend(place_of(network, point));
-    const bool hinged = free.contains(point) || (laws.contains(point) && !named.contains(point));
+    const bool hinged = free.contains(point) || sprung.contains(point) ||
+                        (laws.contains(point) && !named.contains(point));
     if (passes + ends > 1 && (passes > 0 || hinged)) ++joints;
     if (named.contains(point) || (passes == 0 && !hinged)) ++supports;
     if (passes == 0 && ends == 1 && free.contains(point)) ++free_ends;
@@ -211,7 +208,7 @@ void report_network(const NetworkData& network, FileReport& report) {
                     "exchange y and z",
                     box.min().y()));
   const double near = 0.1 * spacing_of(network);
-  if (!(near > 0)) return;
+  if (!(near > 0) || options.linkage) return;
   const auto pairs = NearPoints(network, near).find();
   if (pairs.empty()) return;
   const auto widest = std::ranges::max_element(pairs, {}, &NearPair::apart_mm);

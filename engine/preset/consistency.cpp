@@ -244,4 +244,21 @@ std::string model_reason(const Preset& preset) {
                                          : "bolts between the axes of rods at a distance");
 }
 
+std::string joints_against(const Preset& preset) {
+  const bool opens = std::ranges::any_of(preset.step, [](const Step& step) {
+    return step.kind == StepKind::open && step.angles.empty();
+  });
+  if (!opens || preset.footprint.kind != FootprintKind::network) return "";
+  const NetworkData& file = preset.footprint.file;
+  const std::vector<int> against = opening_sense(file).against;
+  if (against.empty()) return "";
+  std::vector<std::size_t> rods;
+  for (std::size_t r = 0; r < file.rods.size(); ++r)
+    if (std::ranges::count(file.rods[r], against.front()) > 0) rods.push_back(r);
+  return fmt::format(
+      "an open turns {} joints, [{}, 0] first, against the others: rods[{}] and rods[{}] there run "
+      "so that its angle grows on the other side; the points of one of them must be reversed",
+      against.size(), against.front(), rods.front(), rods.back());
+}
+
 }  // namespace gridshell::preset

@@ -35,6 +35,10 @@ std::vector<KeyError> unused_keys(const Preset& preset);
 /// exchanged.
 Rod rod_of_network(const Preset& preset, int number, bool reversed = false);
 
+/// A sentence on joints of a network whose rods run so that they close while a step opens the
+/// others by the mean of all angles; empty: there are none.
+std::string joints_against(const Preset& preset);
+
 /// What is wrong with the first such value, naming its rod; empty: nothing.
 std::string own_value_error(const NetworkData& network);
 

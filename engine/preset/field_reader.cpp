@@ -282,7 +282,8 @@ class Reader {
       const Footprint& of = preset_.footprint;
       const Rod& rod = preset_.rod;
       const NetworkOptions options{millimetres(of.file_unit), of.join_mm,
-                                   rod.rectangular() ? rod.thickness_mm : rod.diameter_mm};
+                                   rod.rectangular() ? rod.thickness_mm : rod.diameter_mm,
+                                   of.linkage};
       const bool rods = of.kind == FootprintKind::network;
       const auto read = [&](std::string_view bytes, const std::string& file) {
         return rods ? read_network(bytes, file, options, report_)

@@ -21,7 +21,7 @@ void step_rules(FieldList<Step>& list) {
       .needs_equilibrium("a net does not answer a hand", first);
 }
 
-/// Whether an `open` step finds bolts of another stiffness, which it cannot drive.
+/// Whether an `open` step finds bolts of another stiffness or drive, which it cannot drive.
 bool meets_other_bolts(const Preset& preset, const Step& of) {
   const Step* bolted = nullptr;
   for (const Step& step : preset.step) {
@@ -29,7 +29,8 @@ bool meets_other_bolts(const Preset& preset, const Step& of) {
     if (step.kind == StepKind::tighten || step.kind == StepKind::open) bolted = &step;
     if (step.kind == StepKind::release && step.what == Released::bolts) bolted = nullptr;
   }
-  return of.kind == StepKind::open && bolted && bolted->stiffness_Nmm != of.stiffness_Nmm;
+  return of.kind == StepKind::open && bolted &&
+         (bolted->stiffness_Nmm != of.stiffness_Nmm || bolted->drive != of.drive);
 }
 
 /// What makes a formed shell stiff, and takes it away again.
@@ -55,6 +56,14 @@ void add_stiffening(FieldList<Step>& list) {
   list.add<&Step::angles>("open: target angles of single joints; the others are free")
       .points({"i", "j", "angle_deg"});
   list.used_by(&Step::kind, {K::open});
+  list.add<&Step::drive>(
+      "open: \"each\": every joint has a spring; \"mean\": one torque, equal at all joints, brings "
+      "their mean angle to the target, from the network as drawn");
+  list.used_by(&Step::kind, {K::open})
+      .refused({}, "a mean angle has no angles of single joints, must be \"each\"",
+               [](const Step& of) {
+                 return of.kind == K::open && of.drive == JointDrive::mean && !of.angles.empty();
+               });
   list.add<&Step::cells>("brace: the cells; empty: all complete ones").points({"i", "j"});
   list.used_by(&Step::kind, {K::brace});
   list.add<&Step::diagonals>(

@@ -97,9 +97,11 @@ struct Footprint {
   double spacing_mm = 20.0;  ///< d
   Placement placement = Placement::half;
   NetworkData file;  ///< of kind network; of a curve whose boundary is "file": one closed rod
-  /// Unit and joining distance with which `file` is read; reset to the defaults after reading.
+  /// Unit and joining distance with which `file` is read, and whether its lines are the segments of
+  /// a linkage; reset to the defaults after reading.
   FileUnit file_unit = FileUnit::file;
   double join_mm = 0;
+  bool linkage = false;
 };
 
 enum class NetKind { sphere, cylinder, spool, beltrami, profile, translation, surface };

@@ -125,6 +125,11 @@ void add_footprint(std::vector<Field>& all) {
       .used_by(&Footprint::kind, {Kinds::network, Kinds::curve})
       .refused({"file"}, of_a_file,
                [=](const Footprint& of) { return network(of) && of.join_mm > 0; });
+  list.add<&Footprint::linkage>(
+          "each line of the file is one segment (X-shells as .obj): rods are found by direction, "
+          "every joint is a hinge; false: lines in line are one rod")
+      .used_by(&Footprint::kind, {Kinds::network})
+      .refused({"file"}, of_a_file, [=](const Footprint& of) { return network(of) && of.linkage; });
   list.add<&Footprint::rods>(between(1, 500), "rods per direction in a circle, n")
       .used_by(&Footprint::kind, {Kinds::circle});
   list.add<&Footprint::radius_mm>(above(0), "radius of a circle, R_o");

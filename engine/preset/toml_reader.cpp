@@ -364,6 +364,7 @@ void TomlReader::read_files(PresetBuilder& builder) {
       builder.files.contains(key_label("actuation", "file"))) {
     builder.preset.footprint.file_unit = FileUnit::file;
     builder.preset.footprint.join_mm = 0;
+    builder.preset.footprint.linkage = false;
   }
   if (builder.files.contains(key_label("net", "file")))
     builder.preset.net.file_unit = FileUnit::file;

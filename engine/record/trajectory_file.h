@@ -12,6 +12,7 @@
 //   /reactions_N      frames x supports x 3   on joints, edge points and far ends of tails
 //   /loads_N          frames x supports x 3   distributed to the same nodes
 //   /brace_force_N    frames x 2 x cells  axial, along both diagonals of each cell
+//   /joint_angle_deg, /joint_torque_Nmm   frames x joints, of joints with laws or springs
 //   /frames/<name>  frames              the columns of frames.csv, and `actuation`
 //   /layout         spacing_mm, rod_diameter_mm, length_scale_mm (attributes); edge_points (nodes),
 //                   original_boundary, actuated_boundary (points x 3, mm); families (of each rod,

@@ -13,6 +13,7 @@
 #include "engine/record/shape_measures.h"
 #include "engine/scene/rod_ends.h"
 #include "engine/simulate/frame_forces.h"
+#include "engine/simulate/frame_joints.h"
 
 namespace gridshell::simulate {
 namespace {
@@ -103,6 +104,7 @@ void put_forces(const Simulation& simulation, record::Frame& frame) {
   if (extrapolate && by_term.size() > 1)
     frame.energies = extrapolated(by_term.back(), by_term[by_term.size() - 2]);
   frame.energy_error_mJ = certify_vectors(energies, extrapolate, no_order).error;
+  put_joints(simulation, frame);
 }
 
 /// Adds the blocks on their own nets and the rods across their seams to a layout.

@@ -7,6 +7,7 @@
 #include "engine/core/dense.h"
 #include "engine/record/shape_measures.h"
 #include "engine/simulate/frame_forces.h"
+#include "engine/simulate/frame_joints.h"
 #include "engine/simulate/frames.h"
 #include "engine/solve/equilibrium_path.h"
 
@@ -210,6 +211,13 @@ std::optional<record::Frame> FramesBetween::between(double t, const Knots& knots
   frame.brace_force_N = sum(weights.all, &Frame::brace_force_N);
   frame.bending_mJ_per_m = sum(weights.all, &Frame::bending_mJ_per_m).cwiseMax(0);
   frame.curvature_per_mm = sum(weights.all, &Frame::curvature_per_mm).cwiseMax(0);
+  frame.angle_deg = sum(weights.all, &Frame::angle_deg);
+  frame.torque_Nmm = sum(weights.all, &Frame::torque_Nmm);
+  frame.joint_angle_error_deg = around(&Frame::joint_angle_error_deg);
+  frame.one_angle_error_deg = around(&Frame::one_angle_error_deg);
+  frame.joint_torque_error_Nmm = around(&Frame::joint_torque_error_Nmm);
+  frame.springs_error_mJ = around(&Frame::springs_error_mJ) + mJ;
+  put_joint_ranges(frame);
   frame.stiffness_N_per_mm = sum(weights.all, &Frame::stiffness_N_per_mm);
   frame.residual_N = record::unknown;
   frame.negative_pivots = 0;

@@ -246,6 +246,15 @@ std::vector<std::string> left_out_of(const Scene& scene) {
   return sentences;
 }
 
+/// Refuses a first step that would open joints, as drawn, past what they can.
+Result<void> check_opening(const preset::Preset& preset, const Scene& scene) {
+  if (!opens_as_drawn(preset.step, scene)) return {};
+  const auto bolts = bolts_as_drawn(preset.step.front(), scene.footprint);
+  if (bolts) return {};
+  const std::string against = preset::joints_against(preset);
+  return invalid("[[step]] 1: {}{}", bolts.error().message, against.empty() ? "" : "; " + against);
+}
+
 /// Follows and samples the experiment of a preset; for steps with a report of each.
 Result<EquilibriumPath> path_for(const preset::Preset& preset,
                                  const std::shared_ptr<const Scene>& scene, bool stills,
@@ -289,6 +298,7 @@ Result<Plan> plan(const preset::Preset& preset) {
   if (preset.indentation.requested() && preset.indentation.joint.size() == 2)
     TRY_DO(pushed_joint(preset.indentation, scene->footprint, {}));
   TRY_DO(check_steps(preset.step, scene->footprint));
+  TRY_DO(check_opening(preset, *scene));
   TRY_DO(check_motion(*scene));
   Plan plan;
   plan.scene = scene;
@@ -308,6 +318,8 @@ Result<Plan> plan(const preset::Preset& preset) {
   plan.expected_seconds = seconds_scene + expected_seconds(*scene, preset);
   plan.bending = expected_bending(*scene);
   plan.left_out = left_out_of(*scene);
+  if (std::string against = preset::joints_against(preset); !against.empty())
+    plan.left_out.push_back(std::move(against));
   if (scene->mesh_net) plan.net = scene->mesh_net->sentences();
   plan.footprint = fmt::format("{} rods, {} joints, {} cells", plan.rods, plan.joints, plan.cells);
   // a ring has no legs

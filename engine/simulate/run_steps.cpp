@@ -56,10 +56,35 @@ void close(PathSegment& segment, const Simulation& simulation) {
   segment.from = segment.to = segment.end();
 }
 
+/// The shell before the steps. The bolts of the first step fix the joints as drawn if it opens the
+/// joints of a network that has no regular equilibrium without them, as naturally straight strips
+/// that close into a bundle, or if it prescribes the mean angle; `reported` then says so.
+Result<EquilibriumPath> begin(const std::shared_ptr<const Scene>& scene,
+                              const std::vector<preset::Step>& steps, const LevelPlan& plan,
+                              const Watch& watch, std::string& reported) {
+  const bool opens = opens_as_drawn(steps, *scene);
+  const bool mean = opens && steps.front().drive == preset::JointDrive::mean;
+  Result<EquilibriumPath> loose = fail(Fault::no_equilibrium, "");
+  if (!mean) loose = follow_whole_actuation(scene, plan, "to begin with", watch);
+  if (loose || !opens || watch.cancelled()) return loose;
+  TRY(bolts, bolts_as_drawn(steps.front(), scene->footprint));
+  auto bolted = std::make_shared<Scene>(*scene);
+  bolted->rods.bolts = std::make_shared<const Bolts>(std::move(*bolts));
+  auto begun = follow_whole_actuation(bolted, plan, "to begin with", watch);
+  if (mean) return begun;
+  if (!begun)
+    return fail(begun.error().fault, "{}; with the joints' springs as drawn {}",
+                loose.error().message, begun.error().message);
+  reported = "; its springs fixed the angles as drawn from the first state on, as without them " +
+             loose.error().message;
+  return begun;
+}
+
 Result<Work> do_steps(const std::shared_ptr<const Scene>& scene,
                       const std::vector<preset::Step>& steps, const LevelPlan& plan,
                       const Watch& watch) {
-  TRY(actuated, follow_whole_actuation(scene, plan, "to begin with", watch));
+  std::string reported;
+  TRY(actuated, begin(scene, steps, plan, watch, reported));
   Checkpoint begin = actuated->simulation.save();
   Work work{std::move(*actuated), std::move(begin)};
   if (work.too_coarse()) return work;
@@ -80,7 +105,8 @@ Result<Work> do_steps(const std::shared_ptr<const Scene>& scene,
     static_cast<PathRecord&>(segment) = std::move(way);
     close(segment, simulation);
     work.done.push_back({std::move(way.end), simulation.save()});
-    if (kind == StepKind::open) work.done.back().reported = ", " + text_of_opened(simulation);
+    if (kind == StepKind::open)
+      work.done.back().reported = ", " + text_of_opened(simulation) + (k == 0 ? reported : "");
     if (segment.report.end != Outcome::reached) break;
   }
   return work;

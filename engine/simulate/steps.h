@@ -69,8 +69,16 @@ struct StepPath;
 /// Fixes the current angles of all joints. Errors (bad_input): a shell that is still flat.
 Result<Report> tighten(Simulation& simulation, const preset::Step& step, const Watch& watch);
 
+/// Whether the first step opens the joints of a network that stays as drawn until then.
+bool opens_as_drawn(const std::vector<preset::Step>& steps, const Scene& scene);
+
+/// Bolts that keep the angles as drawn of the joints that a step opens. Errors (bad_input) of
+/// open().
+Result<Bolts> bolts_as_drawn(const preset::Step& step, const Footprint& footprint);
+
 /// Drives the crossing angles of joints linearly along a path by bolts: each is a spring at the
 /// joint, tightened at its current angle, whose natural angle is driven to the target of the step.
+/// With the drive `mean` one torque, equal at all joints, keeps their mean angle at the target.
 /// Errors (bad_input): a flat shell, a joint where not two rods cross, an angle that no joint can
 /// have, bolts of another stiffness.
 Result<Report> open(Simulation& simulation, const preset::Step& step, const Watch& watch,

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/core/try.h"
+#include "engine/simulate/frame_joints.h"
 #include "engine/simulate/steps.h"
 
 namespace gridshell::simulate {
@@ -19,6 +20,10 @@ Result<void> check_formed(const Simulation& simulation) {
   if (moves && simulation.progress() == 0)
     return invalid("got a flat grid, expected a formed shell: form it before stiffening");
   return {};
+}
+
+double stiffness_of(const preset::Step& step) {
+  return step.stiffness_Nmm > 0 ? step.stiffness_Nmm : std::numeric_limits<double>::infinity();
 }
 
 Bolts now_tightened(const Simulation& simulation, double stiffness) {
@@ -64,26 +69,41 @@ Result<std::vector<double>> openings(const preset::Step& step, const Footprint& 
 
 }  // namespace
 
+bool opens_as_drawn(const std::vector<preset::Step>& steps, const Scene& scene) {
+  const BoundaryMotion& motion = scene.motion;
+  return !steps.empty() && steps.front().kind == preset::StepKind::open &&
+         scene.footprint.rods.front().number >= 0 && motion.begin == motion.end &&
+         motion.begin_joints == motion.end_joints;
+}
+
+Result<Bolts> bolts_as_drawn(const preset::Step& step, const Footprint& footprint) {
+  Bolts bolts = drawn_bolts(mesh_rods(footprint, 2), stiffness_of(step));
+  bolts.mean = step.drive == preset::JointDrive::mean;
+  TRY(by, openings(step, footprint, bolts));
+  for (std::size_t joint = 0; joint < by->size(); ++joint)
+    if (std::isnan((*by)[joint])) bolts.rods[joint].clear();
+  return bolts;
+}
+
 Result<Report> tighten(Simulation& simulation, const preset::Step& step, const Watch& watch) {
   TRY_DO(check_formed(simulation));
-  constexpr double rigid = std::numeric_limits<double>::infinity();
-  const double stiffness = step.stiffness_Nmm > 0 ? step.stiffness_Nmm : rigid;
   ShellRods rods = simulation.rods();
-  rods.bolts = std::make_shared<const Bolts>(now_tightened(simulation, stiffness));
+  rods.bolts = std::make_shared<const Bolts>(now_tightened(simulation, stiffness_of(step)));
   return simulation.set_rods(rods, watch);
 }
 
 Result<Report> open(Simulation& simulation, const preset::Step& step, const Watch& watch,
                     StepPath* way) {
   TRY_DO(check_formed(simulation));
-  const double stiffness =
-      step.stiffness_Nmm > 0 ? step.stiffness_Nmm : std::numeric_limits<double>::infinity();
+  const double stiffness = stiffness_of(step);
   const auto known = simulation.rods().bolts;
-  if (known && known->stiffness_Nmm != stiffness)
+  const bool mean = step.drive == preset::JointDrive::mean;
+  if (known && (known->stiffness_Nmm != stiffness || known->mean != mean))
     return invalid(
-        "bolts of another stiffness act, expected the same stiffness, or their release before");
+        "bolts of another stiffness or drive act, expected the same, or their release before");
   // bolts that are there keep what they strive for
   Bolts bolts = now_tightened(simulation, stiffness);
+  bolts.mean = mean;
   bolts.opened.assign(bolts.rods.size(), 0);
   for (std::size_t joint = 0; known && joint < bolts.rods.size(); ++joint) {
     if (known->rods[joint].empty()) continue;
@@ -115,40 +135,9 @@ Result<Report> open(Simulation& simulation, const preset::Step& step, const Watc
 }
 
 std::string text_of_opened(const Simulation& simulation) {
-  const NestedShell& shell = simulation.shell();
-  // mean, least and largest angle, deg, and largest torque, of the last meshes
-  std::array<std::vector<Eigen::Matrix3Xd>, 4> found;
-  for (int level = shell.first_of_last_three(); level < shell.levels(); ++level) {
-    const State& state = shell.state().levels[std::size_t(level)];
-    const Bolts now = tightened(shell.mesh(level), shell.model(level), state, 1);
-    double sum = 0, least = M_PI, most = 0, torque = 0;
-    int count = 0;
-    for (std::size_t joint = 0; joint < now.rods.size(); ++joint) {
-      if (now.rods[joint].size() != 2) continue;
-      const double angle = now.angle(int(joint));
-      sum += angle, ++count;
-      least = std::min(least, angle), most = std::max(most, angle);
-    }
-    for (const double one : joint_torques(shell.mesh(level), shell.model(level), state))
-      torque = std::max(torque, std::abs(one));
-    constexpr double deg = 180 / M_PI;
-    const double values[] = {deg * sum / std::max(count, 1), deg * least, deg * most, torque};
-    for (std::size_t k = 0; k < found.size(); ++k)
-      found[k].emplace_back(values[k] * Eigen::Vector3d::UnitX());
-  }
-  std::array<double, 4> value{}, error{};
-  for (std::size_t k = 0; k < found.size(); ++k) {
-    const CertifiedVectors one = certify_vectors(found[k], shell.plan().extrapolate_forces, false);
-    value[k] = one.value(0, 0), error[k] = one.error;
-  }
-  std::string text =
-      fmt::format("joints at {:.2f} degrees on average, {:.2f} to {:.2f}, torques to {:.4g} N mm",
-                  value[0], value[1], value[2], value[3]);
-  // of one mesh none is known
-  if (std::isfinite(error[0]))
-    text += fmt::format(" (errors to {:.2g} degrees on average, {:.2g} of a joint, {:.2g} N mm)",
-                        error[0], std::max(error[1], error[2]), error[3]);
-  return text;
+  record::Frame frame;
+  put_joints(simulation, frame);
+  return text_of_joints(frame);
 }
 
 Result<Report> brace(Simulation& simulation, const preset::Step& step, const Watch& watch) {

@@ -182,8 +182,10 @@ Eigen::VectorXd Linearisation::force_change(const Eigen::Matrix3Xd& dx, double o
     each_arm(model_, pair, place, [&](const ModelEdge& edge, Eigen::Index column) {
       angle += tangents_.col(column).dot(dx.col(edge.to) - dx.col(edge.from));
     });
-    change[place] = pair.law.stiffness * angle;
+    change[place] = angle;
   });
+  const Eigen::Index springs = model_.forces() - Eigen::Index(model_.edges.size());
+  change.tail(springs) = spring_torques(model_, change.tail(springs));
   return change;
 }
 
@@ -215,9 +217,10 @@ void Linearisation::restore_lengths(const Eigen::VectorXd& force, State& state) 
     pull.col(edge.from) += excess * tangents_.col(Eigen::Index(k));
     pull.col(edge.to) -= excess * tangents_.col(Eigen::Index(k));
   }
+  const Eigen::VectorXd torques =
+      spring_torques(model_, spring_excess(model_, state, outside.opening));
   each_spring(model_, [&](const auto& pair, Eigen::Index place) {
-    const double angle = pair.law.excess(pair_geometry(model_, state, pair, outside.opening)),
-                 excess = pair.law.stiffness * angle - force[place];
+    const double excess = torques[place - Eigen::Index(model_.edges.size())] - force[place];
     each_arm(model_, pair, place, [&](const ModelEdge& edge, Eigen::Index column) {
       pull.col(edge.from) += excess * tangents_.col(column);
       pull.col(edge.to) -= excess * tangents_.col(column);

@@ -143,7 +143,9 @@ TEST_CASE("CSV files have the columns that others read") {
         "newton_iterations,reach_above_tenth,reach_above_half,lowest_latitude_deg,time_s,"
         "stiffness_N_per_mm,stiffness_error_N_per_mm,push_error_N,largest_force_N,force_error_N,"
         "energies_error_mJ,largest_bending_strain,largest_stress_MPa,"
-        "utilisation,lowest_mm,contacts,rod_gap_mm,joint_gap_mm,energy_mJ,kind,"
+        "utilisation,lowest_mm,contacts,rod_gap_mm,joint_gap_mm,energy_mJ,"
+        "joint_angle_deg,joint_angle_error_deg,smallest_joint_angle_deg,largest_joint_angle_deg,"
+        "one_joint_angle_error_deg,joint_torque_Nmm,joint_torque_error_Nmm,springs_error_mJ,kind,"
         "bending_strain_at,stress_at,event");
 }
 
