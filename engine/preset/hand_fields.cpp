@@ -60,7 +60,7 @@ void add_stiffening(FieldList<Step>& list) {
       "open: \"each\": every joint has a spring; \"mean\": one torque, equal at all joints, brings "
       "their mean angle to the target, from the network as drawn");
   list.used_by(&Step::kind, {K::open})
-      .refused({}, "a mean angle has no angles of single joints, must be \"each\"",
+      .refused({}, "a mean angle has no angles of single joints, expected \"each\"",
                [](const Step& of) {
                  return of.kind == K::open && of.drive == JointDrive::mean && !of.angles.empty();
                });

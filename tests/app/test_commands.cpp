@@ -208,7 +208,7 @@ TEST_CASE("a path that ends early is written as far as it is certified, and exit
 
 TEST_CASE("a run says on the terminal what its path came past", "[shared]") {
   CHECK_THAT(text_of(shared_run("s1_imperfect") += ".txt"),
-             Contains("on its way: the path branches at progress 0.018"));
+             Contains("on its path: the path branches at progress 0.018"));
 }
 
 TEST_CASE("check says what came of each file, and what may not be meant") {
