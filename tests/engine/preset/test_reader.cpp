@@ -58,6 +58,7 @@ TEST_CASE("an error names its position, key, value, what is wrong and what is ri
        "bad.toml:1:2: [actuatoin]: unknown table; did you mean 'actuation'?"},
       {"footprint = 3",
        "bad.toml:1:1: footprint: got 3, expected a table of keys: kind, file, file_unit, join_mm, "
+       "linkage, "
        "rods, radius_mm, longest_leg, spacing_mm, placement, boundary, half_x_mm, half_y_mm, "
        "exponent, points_mm"},
       {"[footprint]\nradius_mm = nan",

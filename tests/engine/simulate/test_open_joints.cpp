@@ -299,7 +299,7 @@ TEST_CASE("a plan refuses rods that run in the other direction, and names them")
                                   Catch::Contains("rods[0] and rods[1]"));
   p.step = {opened(130, 100)};
   CHECK_THAT(refusal(simulate::plan(p)),
-             Catch::Contains("[[step]] 1: joint [6, 0] would open to") &&
+             Catch::Contains("[[step]] 1: joint [6, 0]: got an angle of") &&
                  Catch::Contains("rods[0] and rods[1]"));
 }
 
