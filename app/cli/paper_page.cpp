@@ -212,8 +212,6 @@ class PageMaker {
       render::Plot plot =
           render::bins_plot(render::summarise_run(run), long(run.layout.cells.size()),
                             run.frames.back(), {-0.01, 0.07}, page_font);
-      // too low for more words; B has them
-      plot.y.label = "mean *K*_{□} (rad)";
       if (k == 0) page.add_legend({5, 145.5, 171, 5}, plot);
       plot.legend = render::LegendPosition::none;
       const double width = 174.0 / double(named_pushes_.size());

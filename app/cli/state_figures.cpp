@@ -114,7 +114,7 @@ using render::Box;
 using render::Canvas;
 
 // positions on the page, mm
-constexpr double page_width = 178, page_height = 144, margin = 2;
+constexpr double page_width = 178, page_height = 147, margin = 2;
 constexpr Box above{margin, margin, 160, 38}, diagram{margin, 42, 97, 94}, maps{101, 42, 75, 94},
     foot{margin, 137, 97, 5};
 constexpr double points_per_mm = 72 / 25.4, caption = 12;  // points
@@ -226,7 +226,7 @@ Result<void> add_states(Page& page, const Runs& records, render::MovieStyle styl
     if (over >= 0) drawing.joint_diameter_mm = 0;
     if (over == int(k)) render::show_measured_joints(measured, drawing);
     TRY_DO(add_state(page, found, stage, std::move(drawing), "A" + std::to_string(k + 1),
-                     fmt::format("*E* = {:.2f} mJ", found.row().energy_mJ()),
+                     fmt::format("{:.2f} mJ", found.row().energy_mJ()),
                      {above.x + double(k) * width, above.y, width, above.height}, renderer));
     watch.report(double(k + 1) / double(which.size() + 1));
   }
@@ -239,8 +239,7 @@ Result<void> add_states(Page& page, const Runs& records, render::MovieStyle styl
     wide.zoom *= stage.pixels_per_mm() / staged().pixels_per_mm();
     const render::Stage beside = staged();
     TRY_DO(add_state(page, *dome, beside, beside.drawing(alone.frames.front()), "A4",
-                     fmt::format("*E* = {:.2f} mJ, at {}", dome->row().energy_mJ(),
-                                 place_of(dome->record->preset)),
+                     fmt::format("{:.2f} mJ", dome->row().energy_mJ()),
                      {above.x + 3 * width, above.y, wider * width, above.height}, renderer));
   }
   if (const auto& bar = stage.colour_bar()) page.add_colour_bar({163, 3, 14, 28}, *bar);
@@ -267,14 +266,16 @@ Result<void> add_diagram(Page& page, const std::string& named) {
 }
 
 /// What all shells of the page have in common.
-void add_foot(Page& page, const preset::Preset& preset) {
-  const double d = preset.footprint.spacing_mm;
-  const std::string shell = fmt::format(
-      "A1–A3 at {}; *d* = {:g} mm, *R*_{{a}} = {:.3g} *R*_{{o}}; *E*: elastic energy. B: markers "
-      "are "
-      "displaced from their point for legibility",
-      place_of(preset), d, preset.actuated_radius_mm() / preset.original_radius_mm());
-  if (preset.footprint.kind == preset::FootprintKind::circle) page.add_note(foot, shell);
+void add_foot(Page& page, const preset::Preset& preset, const std::string& dome) {
+  if (preset.footprint.kind != preset::FootprintKind::circle) return;
+  page.add_note(foot,
+                fmt::format("A1–A3 at {}{}; *d* = {:g} mm, *R*_{{a}} = {:.3g} *R*_{{o}}; elastic "
+                            "energies.",
+                            place_of(preset), dome.empty() ? "" : ", A4 at " + dome,
+                            preset.footprint.spacing_mm,
+                            preset.actuated_radius_mm() / preset.original_radius_mm()));
+  page.add_note({foot.x, foot.y + 4, foot.width, foot.height},
+                "B: markers are displaced from their point, grey, for legibility.");
 }
 
 /// A state of each class from above, each as large as its box.
@@ -304,8 +305,9 @@ void add_maps(Page& page, const Runs& records) {
   }
   page.add_keys({maps.x, maps.y + maps.height, maps.width, 5},
                 {{render::first_order_ink, "first-mode buckling"},
-                 {render::higher_order_ink, "higher-order buckling"},
-                 {render::mirror_ink, "symmetry element"}});
+                 {render::higher_order_ink, "higher-order buckling"}});
+  page.add_keys({maps.x, maps.y + maps.height + 4, maps.width, 5},
+                {{render::mirror_ink, "symmetry element"}});
 }
 
 }  // namespace
@@ -394,7 +396,8 @@ Result<Page> states_page(const Runs& records, const render::MovieStyle& style,
   TRY_DO(add_states(page, records, style, renderer, watch));
   TRY_DO(add_diagram(page, first.preset.page.sweep));
   add_maps(page, records);
-  add_foot(page, first.preset);
+  const auto dome = lowest_of(StateClass::i, records);
+  add_foot(page, first.preset, dome ? place_of(dome->record->preset) : "");
   return page;
 }
 

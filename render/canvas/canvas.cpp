@@ -63,12 +63,14 @@ bool Canvas::on_dark() const { return is_dark(paper_); }
 void Canvas::paint_path(Colour fill, const Stroke& stroke) {
   if (fill.a > 0) {
     // what is hollow, or hides what lies below, shows the paper
-    const bool blank = fill.r == 1 && fill.g == 1 && fill.b == 1 && on_dark();
-    set_colour(blank ? Colour{paper_.r, paper_.g, paper_.b, fill.a} : fill);
+    const bool blank = fill.r == 1 && fill.g == 1 && fill.b == 1;
+    set_colour(!on_dark() ? fill
+               : blank    ? Colour{paper_.r, paper_.g, paper_.b, fill.a}
+                          : line_on_dark(fill));
     cairo_fill_preserve(cairo_);
   }
   if (stroke.width > 0 && stroke.colour.a > 0) {
-    set_colour(on_dark() ? line_on_dark(stroke.colour) : stroke.colour);
+    set_colour(on_dark() && stroke.colour != paper_ ? line_on_dark(stroke.colour) : stroke.colour);
     cairo_set_line_width(cairo_, stroke.width);
     cairo_set_dash(cairo_, stroke.dash.data(), int(stroke.dash.size()), 0);
     cairo_stroke_preserve(cairo_);

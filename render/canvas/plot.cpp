@@ -83,7 +83,8 @@ void draw_bars(Canvas& canvas, const PlotFrame& frame, const Series& s) {
 void draw_error_bars(Canvas& canvas, const PlotFrame& frame, const Series& s) {
   const double cap = std::max(1.5, 0.4 * s.marker_size);
   // over bars of the same colour an error bar must stay visible
-  const Stroke stroke{s.kind == SeriesKind::bars ? ink : s.colour, 0.8};
+  const Stroke stroke{s.kind == SeriesKind::bars ? ink : s.colour,
+                      std::max(0.8, 0.17 * s.marker_size)};
   for (std::size_t k = 0; k < std::min(s.x.size(), s.y.size()); ++k) {
     const Point p = frame.place(s.x[k], s.y[k]);
     if (!drawable(p)) continue;

@@ -41,7 +41,7 @@ Plot bins_plot(const RunSummary& run, long cells, const record::Frame& frame,
   Plot plot;
   plot.font_size = font_size;
   plot.x = {.label = "*x*/*L*", .low = -1, .high = 1};
-  plot.y = {.label = "mean integrated *K*_{□} (rad)",
+  plot.y = {.label = "mean *K*_{□} (rad)",
             .low = !range.empty() ? range[0] : low - (low < 0 ? margin : 0),
             .high = !range.empty() ? range[1] : high + margin};
   Series before = bins_of(run.first), now = bins_of(frame);
@@ -60,7 +60,7 @@ Plot bins_plot(const RunSummary& run, long cells, const record::Frame& frame,
   now.colour = now_ink;
   now.line_width = 0;
   now.marker = Marker::circle;
-  now.marker_size = 0.6 * font_size;
+  now.marker_size = spread.marker_size = 0.6 * font_size;
   const Stroke dashed{reference_ink, 0.08 * font_size, {0.35 * font_size, 0.25 * font_size}},
       solid{mean_ink, 0.1 * font_size, {}};
   // lines across the plot have a row of the legend too

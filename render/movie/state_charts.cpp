@@ -164,6 +164,13 @@ class PhasePlot {
 
   /// How many more states than the paper's classes, where there is room for it.
   void add_others() {
+    Series only = mark_series("other states only", grey_ink, Marker::diamond, 4, true);
+    for (const PhasePoint& point : points_)
+      if (point.of(StateClass::other).states > 0 &&
+          std::ranges::none_of(
+              marks, [&](const ClassMark& mark) { return point.of(mark.kind).states > 0; }))
+        only.add(point.longest_leg, point.rods);
+    plot_.add(std::move(only));
     if (columns_ > most_numbered) return;
     add_key("+*n*: *n* other states", Marker::none, false);
     for (const PhasePoint& point : points_)
