@@ -162,7 +162,7 @@ Colour text_on_dark(Colour colour) {
 
 Colour line_on_dark(Colour colour) {
   constexpr Colour grey{0.52f, 0.54f, 0.58f, 1};
-  // a colour stands for something
+  // a colour is for something
   const auto [least, most] = std::ranges::minmax({colour.r, colour.g, colour.b});
   const bool kept = contrast_to_white(colour) < 7 || most - least > 0.12f;
   return kept ? colour : Colour{grey.r, grey.g, grey.b, colour.a};
