@@ -229,13 +229,18 @@ Result<std::vector<NetStart>> best_starts(const Surface& surface, const Triangle
       }
     }
   }
-  // the best of them, measured on the grid of the net itself
+  std::ranges::stable_sort(kinds, better);
+  // each measured on the grid of the net itself, which decides where the coarse grid was mistaken
+  constexpr double mistaken = 0.05;  // of the area
   const Trial last = trial_on(net_chord(mesh, spacing_mm));
   const auto fine = area_samples(mesh, last.chord);
+  const double promised = Ranking::area_of(kinds.front());
   for (NetStart& one : kinds)
     if (auto measured = last.from(one.place.apex, one.axis_deg, fine)) one = std::move(*measured);
-  measure(kinds);
-  std::ranges::stable_sort(kinds, better);
+  if (by_angle || Ranking::area_of(kinds.front()) < promised - mistaken) {
+    measure(kinds);
+    std::ranges::stable_sort(kinds, better);
+  }
   while (kinds.size() > 1 && alike(kinds[0], kinds[1], size)) kinds.erase(kinds.begin() + 1);
   kinds.resize(std::min<std::size_t>(kinds.size(), 2));
   return kinds;
