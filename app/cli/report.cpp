@@ -46,7 +46,7 @@ std::string with_unit(double value, const char* unit) {
   return std::isfinite(value) ? number(value) + " " + unit : "not known";
 }
 
-/// Of an error, whose second digit is not known: "0.01 mm".
+/// An error, whose second digit is not known: "0.01 mm".
 std::string error_with_unit(double value, const char* unit) {
   return std::isfinite(value) ? fmt::format("{:.1g} {}", value, unit) : "not known";
 }

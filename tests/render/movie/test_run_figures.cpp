@@ -190,7 +190,8 @@ TEST_CASE("shells over nets are lines, with the half-span where it is requested"
   MovieStyle style;
   style.size = {64, 48};
   Watch watch;
-  const auto figure = draw_over_nets({{.run = &run, .caption = "shell", .half_span = true}}, style, watch);
+  const auto figure =
+      draw_over_nets({{.run = &run, .caption = "shell", .half_span = true}}, style, watch);
   REQUIRE(figure);
   CHECK(figure->as_lines);
   REQUIRE(figure->panels.size() == 1);
