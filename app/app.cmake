@@ -30,8 +30,10 @@ target_link_libraries(gridshell_app PUBLIC gridshell_engine gridshell_render
 target_include_directories(gridshell_app SYSTEM PRIVATE ${GL_CORE_INCLUDE_DIR})
 gridshell_position_independent(gridshell_app)
 gridshell_compile_lightly(gridshell_app)
-gridshell_read_once(gridshell_app gridshell_page)
-gridshell_in_batches(gridshell_app 5)
+# its files read the whole library
+gridshell_read_once(gridshell_app ${read_by_all} ${PROJECT_SOURCE_DIR}/engine/gridshell.h
+  ${PROJECT_SOURCE_DIR}/engine/core/json.h)
+gridshell_in_batches(gridshell_app 8)
 
 add_executable(gridshell app/cli/main.cpp)
 target_link_libraries(gridshell PRIVATE gridshell_app)

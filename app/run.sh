@@ -9,6 +9,6 @@ root=$PWD
 install_packages
 build gridshell
 [ $# -gt 0 ] || set -- movie s1_actuation -o "$root/out/s1_actuation"
-# paths among the arguments are meant from where the user stands
+# paths among the arguments are meant from the folder of the user
 cd "$start"
 exec "$root/build/gridshell" "$@"

@@ -1,5 +1,5 @@
 # Sourced by app/run.sh and tests/run.sh: the packages of Debian 12 and 13 that the program takes, those
-# that its tests take besides, and how to get the missing ones. Expects to run in the folder of the
+# that its tests take in addition, and how to get the missing ones. Expects to run in the folder of the
 # sources.
 
 program_packages="
@@ -59,7 +59,7 @@ install_packages() {
 }
 
 # build TARGET: a Release in build/, with all cores; what the tools say goes to stderr. Ninja, where it
-# is, keeps them all busy; a folder that was begun with make goes on with it.
+# is, keeps them all busy; a folder that was begun with make continues with it.
 build() {
   generator=""
   [ -e build/CMakeCache.txt ] || ! command -v ninja >/dev/null || generator="-GNinja"

@@ -58,5 +58,5 @@ gridshell_read_once(gridshell_engine_light gridshell_page)
 # the two hot loops may contract a*b+c; everything else rounds each operation
 set_source_files_properties(engine/solve/block_factor.cpp engine/elastic/assembly.cpp
   PROPERTIES COMPILE_OPTIONS -ffp-contract=fast SKIP_PRECOMPILE_HEADERS ON)
-gridshell_in_batches(gridshell_engine_light 4)
+gridshell_in_batches(gridshell_engine_light 6)
 gridshell_in_batches(gridshell_engine 3)

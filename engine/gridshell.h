@@ -1,5 +1,5 @@
 // The library in one header: presets, scenes, sessions, experiments, designs, studies, run folders.
-// Programs of 30 lines stand in app/examples/; the program itself sees no other of the engine's
+// Programs of 30 lines are in app/examples/; the program itself sees no other of the engine's
 // headers but those of core/. The model of rods itself is engine/elastic/model.h.
 #pragma once
 
@@ -47,4 +47,3 @@
 #include "engine/study/scan.h"                 // IWYU pragma: export
 #include "engine/study/state_library.h"        // IWYU pragma: export
 #include "engine/study/sweep_study.h"          // IWYU pragma: export
-#include "engine/study/trust_study.h"          // IWYU pragma: export

@@ -2,23 +2,28 @@ in vec3 surface;
 in vec4 shade, half_way;
 in vec3 right, up, axis;
 in vec2 place;
-in vec2 half_axes;
-in vec2 shape;
+in vec3 shape;
 out vec4 fragment;
 
 void main() {
-  // distance to the outline in samples: how far it is over how fast it grows
-  float f = max(length(place), 1e-4);
-  float cover = clamp(0.5 + (1.0 - f) * f / length(place / half_axes), 0.0, 1.0);
-  // where the line of sight meets the spheroid, radius 1: a z^2 + 2 b z + c = 0
-  vec3 sight = cross(right, up);
-  vec2 p = place * min(1.0, 0.999 / f) * vec2(1.0, shape.y);
-  float k = shape.x, along = dot(axis, sight), over = dot(axis, up);
-  float a = 1.0 + k * along * along, b = k * along * over * p.y;
-  float c = dot(p, p) + k * over * over * p.y * p.y - 1.0;
-  float z = (-b + sqrt(max(b * b - a * c, 0.0))) / a;
-  vec3 q = p.x * right + p.y * up + z * sight;
-  vec3 n = normalize(q + k * dot(q, axis) * axis);
+  vec3 sight = cross(right, up), n;
+  float radius = shape.x, cover;
+  if (shape.y < 0.0) {
+    cover = clamp(0.5 + radius - length(place), 0.0, 1.0);
+    vec2 p = place / max(radius, length(place));
+    n = p.x * right + p.y * up + sqrt(max(0.0, 1.0 - dot(p, p))) * sight;
+  } else {
+    // a box between two ellipses, of which the one before is seen whole
+    float x = clamp(place.x, -radius, radius);
+    float ellipse = abs(shape.z) * sqrt(radius * radius - x * x);
+    cover = clamp(0.5 + radius - abs(place.x), 0.0, 1.0) *
+            clamp(0.5 + shape.y + ellipse - abs(place.y), 0.0, 1.0);
+    float before = shape.z < 0.0 ? -1.0 : 1.0;
+    vec3 towards = sight - shape.z * axis;
+    n = abs(place.y - before * shape.y) < ellipse || dot(towards, towards) < 1e-6
+            ? before * axis
+            : x / radius * right + sqrt(1.0 - x * x / (radius * radius)) * normalize(towards);
+  }
   fragment = metal(Metal(vec4(surface, 1.0), shade.w, half_way.w, shade.xyz),
                    dot(n, light_direction), dot(n, half_way.xyz), dot(n, sight), n.z) *
              cover;

@@ -1,4 +1,4 @@
-// The part of the ground that the shadow map holds.
+// The part of the ground that the shadow map contains.
 uniform mat4 view_projection;
 uniform mat4 on_ground;  // its first two columns and the third: edges and corner of the map there
 uniform float ground_z;

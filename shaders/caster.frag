@@ -1,4 +1,4 @@
-// What the light meets first: how much of it is held back, and that times the height above ground.
+// What the light meets first: how much of it is blocked, and that times the height above ground.
 in float height;
 in float cover;
 uniform float density;

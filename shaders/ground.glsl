@@ -11,4 +11,6 @@ void show(vec2 p, float light) {
   float paling = smoothstep(fade.x, fade.y, distance(p, middle));
   vec3 seen = mix(ground_colour * light, background.rgb, paling);
   fragment = vec4(seen, 1.0) * background.a;
+  // of a clear picture the shadow alone; in the open the light is 1
+  if (background.a == 0.0) fragment.a = clamp(1.0 - light, 0.0, 1.0) * (1.0 - paling);
 }

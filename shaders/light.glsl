@@ -21,13 +21,13 @@ float unit_at(vec3 at) {
 // Irradiance without the key light on a surface whose normal rises so much.
 float ambient(float up) { return sky * (0.5 + 0.5 * up) + bounce * (0.5 - 0.5 * up); }
 
-// What lies beyond the target pales a little, so that near and far rods stay apart: by this part.
+// What lies behind the target pales a little, so that near and far rods stay distinct: by this part.
 float haze_at(vec3 world) {
   float depth = clamp((dot(world, forward) - haze.x) * haze.y, 0.0, 1.0);
   return far_fade * depth * (2.0 - depth);
 }
 
-// Where a point stands on the shadow map.
+// The position of a point on the shadow map.
 vec3 on_map(vec3 world) {
   return (light_matrix * vec4(world + shadow_offset, 1.0)).xyz * 0.5 + 0.5;
 }

@@ -1,5 +1,5 @@
 // Rods as strips that face whoever looks at them.
-uniform float widest;  // radius that a fourth component of 1 stands for, mm
+uniform float widest;  // radius that a fourth component of 1 means, mm
 
 // Half the width of the ribbon that a vertex belongs to.
 float radius_of(float side) { return widest * abs(side); }

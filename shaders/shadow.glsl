@@ -5,7 +5,7 @@ uniform sampler2DShadow shadow_depth;
 uniform float shadow_blur;  // radius in the map, 0..1
 #endif
 
-// 1 where the key light reaches a place on the map, 0 in shadow.
+// 1 where the key light reaches a position on the map, 0 in shadow.
 float lit(vec3 p) {
 #if TAPS == 0
   return 1.0;

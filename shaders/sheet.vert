@@ -1,4 +1,4 @@
-// Cells: sheets in the colour of the bar beside them, without light, shadow or haze, which would make
+// Cells: sheets in the colour of the bar next to them, without light, shadow or haze, which would make
 // of it the colour of another value.
 layout(location = 0) in vec3 position;
 layout(location = 2) in vec4 colour;

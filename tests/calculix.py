@@ -3,7 +3,7 @@ calculix-ccx; left out where it is not installed, exit code 77).
 
 CalculiX forms the same shells by itself: its beams (B32R) lie straight in the flat, their ends held
 level; lifted by forces on the joints, their ends are moved in and the forces taken away. Then a load
-comes on, and about that state both find the natural frequencies: of rods with all the forces that
+is applied, and about that state both find the natural frequencies: of rods with all the forces that
 they were bent by. Joints pass forces alone, in both. Shapes, displacements and frequencies must agree
 within 1 %.
 """
@@ -17,7 +17,7 @@ import tempfile
 from pathlib import Path
 
 SPACING, DIAMETER, YOUNG, DENSITY = 20.0, 0.8, 83000.0, 6450e-12
-# a square of the rod's EI and EA, with modulus and density in the place of its area; its torsion
+# a square of the rod's EI and EA, with modulus and density instead of its area; its torsion
 SIDE, SHARE = DIAMETER * math.sqrt(3) / 2, math.pi / 3
 SHEAR = YOUNG * SHARE / 2 * 0.140577 * SIDE**4 / (math.pi * DIAMETER**4 / 32)
 SHELLS = {"two rods a direction": (2, 40.0, 0.95), "three": (3, 50.0, 0.95),

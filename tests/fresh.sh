@@ -12,6 +12,7 @@ command -v debootstrap >/dev/null || { echo "skipped: debootstrap is missing (pa
 mirror=${2:-$(cat /etc/apt/sources.list /etc/apt/sources.list.d/* 2>/dev/null |
   sed -n 's/^\(deb\|URIs:\) .*\(http[^ ]*\/debian\/*\)\( .*\)\{0,1\}$/\2/p' | head -n 1)}
 root=$(mktemp -d)
+chmod 755 "$root" # others than root read the system as well
 leave() {
   umount "$root/proc" "$root/dev" 2>/dev/null || :
   rm -rf --one-file-system "$root"

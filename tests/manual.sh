@@ -2,7 +2,7 @@
 # tests/manual.sh PROGRAM PYTHON PAGE...: runs the code blocks of pages, each page in an empty folder.
 #
 #   ```sh             commands, run in order by `sh -e`; ```sh not run: shown alone, its syntax is checked
-#   ```text           lines of what the commands before printed; … stands for what differs from run to run
+#   ```text           lines of what the commands before printed; … is for what differs from run to run
 #   ```toml, ```python, ... whose first line is `# NAME`, or ```json NAME: the file NAME
 #   ```python         without a name: a script; ```bibtex and ```math are not run
 #

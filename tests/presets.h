@@ -21,7 +21,7 @@ inline Presets good(const std::string& text, const std::vector<Override>& overri
 }
 
 /// What is wrong with bad.toml; "none" where nothing is.
-inline std::string faults_of(const std::string& text, const std::vector<Override>& overrides = {}) {
+inline std::string errors_of(const std::string& text, const std::vector<Override>& overrides = {}) {
   return refusal(read_preset_text(text, "bad.toml", "bad", overrides));
 }
 

@@ -1,6 +1,6 @@
 #!/bin/sh
 # tests/processors.sh PROGRAM: runs the program on a processor without AVX, on the first with AVX2
-# and on one with AVX-512, all emulated by qemu-user. Every run must succeed, and all must come to
+# and on one with AVX-512, all emulated by qemu-user. Every run must succeed, and all must give
 # the same states: joints to 1e-9 of the footprint's radius, energies to 1e-9 of themselves.
 # Leaves with 77 (skipped) where the emulator is missing.
 #

@@ -15,7 +15,7 @@ struct SmallPreset {
   const char* quality = "draft";
 };
 
-inline std::string small_preset(const SmallPreset& asked) {
+inline std::string small_preset(const SmallPreset& requested) {
   return fmt::format(
       R"(title = "small"
 [footprint]
@@ -30,6 +30,6 @@ frames = {}
 size = [{}, {}]
 quality = "{}"
 )",
-      asked.rods, asked.radius_mm, asked.actuated_mm, asked.edges, asked.frames, asked.width,
-      asked.height, asked.quality);
+      requested.rods, requested.radius_mm, requested.actuated_mm, requested.edges, requested.frames,
+      requested.width, requested.height, requested.quality);
 }

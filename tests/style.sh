@@ -1,12 +1,12 @@
 #!/bin/sh
-# tests/style.sh format [--fix]  every source file stands as .clang-format says; --fix makes it so
+# tests/style.sh format [--fix]  every source file is as .clang-format says; --fix makes it so
 # tests/style.sh tidy [--all]    clang-tidy with the checks of .clang-tidy, on what changed or on all
 # tests/style.sh clang [--all]   clang takes every source file without a warning, what changed or all
 # tests/style.sh warnings        every source file is built with warnings as errors, none silenced
-# tests/style.sh equal           no 50 tokens stand twice in engine/ but where equal_tokens.txt says why
+# tests/style.sh equal           no 50 tokens occur twice in engine/ unless equal_tokens.txt says why
 # tests/style.sh names           every source file that a comment or a .md file names is there
 # tests/style.sh pages           pages have short paragraphs and cells; the README and versions of CHANGELOG are short
-# tests/style.sh words           pages and comments use the words of the glossary, not those of tests/words.txt
+# tests/style.sh words           pages, comments and strings use the words of the glossary, not those of tests/words.txt
 #
 # BUILD (default build) is a folder that cmake has configured. `tidy` and `clang` take the files that differ
 # from the merge base with the main branch (BASE, default main), where that is this commit itself
@@ -159,14 +159,14 @@ equal() {
         print "equal: " $0 }
       END {
         for (k = 1; k <= lists; ++k) if (!used[k]) { print "no such pair any more:" list[k]; ++old }
-        printf "%d pairs of places look alike, of %d it is told why\n", pairs, known
+        printf "%d pairs of passages are equal, %d of them with a reason\n", pairs, known
         exit !(pairs > 0 && known == pairs && !old) }' tests/equal_tokens.txt -
 }
 
 names() {
   list=$(mktemp)
   find engine render app tests -name '*.h' -o -name '*.cpp' >"$list"
-  # of a line what stands behind its last //, or of a .md file all of it
+  # of a line what is behind its last //, or of a .md file all of it
   grep -rnE '[a-z0-9_]+\.(h|cpp)\>' --include='*.h' --include='*.cpp' --include='*.md' \
     engine render app shaders presets tests ./*.md |
     awk 'NR == FNR { sub(/.*\//, ""); there[$0] = 1; next }
@@ -212,21 +212,34 @@ lengths() {
     END { end(); printf "%d pages, %d too long\n", files, errors; exit !(files > 10 && !errors) }' $(pages)
 }
 
-# folders whose comments follow the glossary, and the files of them that do not yet
-commented="engine/core engine/design engine/formats engine/preset engine/record engine/scene engine/simulate
-  engine/solve engine/study app/cli app/python app/window tests"
-uncommented='formats/network_|scene/mesh_net|simulate/(stiffening|frames)\.cpp|nested_certificate|cli/(figure|pictures|check)|^tests/(render|images)'
+# folders whose comments follow the glossary
+commented="engine render app tests"
 
 # the text of each comment as FILE:LINE: text, without names and quotations; "1" where a comment begins
 comments() {
   # shellcheck disable=SC2086 # a list of folders
-  find $commented -name '*.h' -o -name '*.cpp' | grep -Ev "$uncommented" | sort | xargs awk '
+  find $commented -name '*.h' -o -name '*.cpp' | sort | xargs awk '
     FNR == 1 { inside = 0 }
     { line = $0; gsub(/"([^"\\]|\\.)*"/, "\"", line); at = match(line, /\/\/+<?( |$)/) }
     !at { inside = 0; next }
     { whole = line ~ /^ *\/\//; text = substr(line, RSTART + RLENGTH)
       gsub(/`[^`]*`/, "`", text); gsub(/[A-Za-z0-9_]*(::|_|\()[A-Za-z0-9_:()]*/, "`", text)
       printf "%s:%d:%d: %s\n", FILENAME, FNR, !(inside && whole), text; inside = whole }'
+}
+
+# the text of each string of the program and name of a test that has a blank, as FILE:LINE:0: text,
+# without quoted names
+strings() {
+  find engine render app tests -name '*.h' -o -name '*.cpp' | sort | xargs awk '
+    /TEST_CASE\(/ || FNR == 1 { named = FNR > 1 }
+    FILENAME ~ /^tests/ && !named { next }
+    / [{]$/ { named = 0 }
+    { line = $0; sub(/(^|[ ;])\/\/+<?( .*)?$/, "", line)
+      while (match(line, /"([^"\\]|\\.)*"/)) {
+        text = substr(line, RSTART + 1, RLENGTH - 2); line = substr(line, RSTART + RLENGTH)
+        gsub(/\\"[^"]*\\"/, "`", text); gsub(/`[^`]*`/, "`", text); gsub(/[{][^}]*([}]|$)|^[^{]*[}]/, "`", text)
+        gsub(/\\n/, " ", text); gsub(/--?[a-z-]+/, "`", text)
+        if (text ~ / /) printf "%s:%d:0: %s\n", FILENAME, FNR, text } }'
 }
 
 words() {
@@ -241,15 +254,15 @@ words() {
         printf "%s:%d: \"%s\": write %s\n", FILENAME, FNR, substr(text, RSTART + 1, RLENGTH - 2), good[k]; ++errors } }
     END { printf "%d pages, %d words to replace\n", files, errors; exit !(files > 10 && n > 20 && !errors) }' \
     tests/words.txt $(pages) || pages_status=1
-  # of code, lines may be a distance apart, exceptions are thrown, and vectors are in place
-  comments | awk 'NR == FNR { if ($0 !~ /^#|^apart|^thrown/) { split($0, part, "\t"); bad[++n] = part[1]; good[n] = part[2] } next }
+  # of comments, lines may be a distance apart, exceptions are thrown, and vectors are in place
+  { comments; strings; } | awk 'NR == FNR { if ($0 !~ /^#|^apart|^thrown/) { split($0, part, "\t"); bad[++n] = part[1]; good[n] = part[2] } next }
     { ++lines; split($0, at, ":"); where = at[1] ":" at[2]; text = $0; sub(/^[^ ]* /, "", text)
       if (at[3] == 1 && text ~ /^(Of |And |The same(\.|,|;|:| (of|for|with|without|in|by|on|to|from|as|where|when|but|along|within) ))/) {
         printf "%s: \"%s\": begin with the thing that is described\n", where, substr(text, 1, 20); ++errors }
       text = tolower(text); gsub(/in place($|[ ,.:;])/, "", text); gsub(/[^a-z]+/, " ", text); text = " " text " "
       for (k = 1; k <= n; ++k) if (match(text, " (" bad[k] ") ")) {
         printf "%s: \"%s\": write %s\n", where, substr(text, RSTART + 1, RLENGTH - 2), good[k]; ++errors } }
-    END { printf "%d lines of comments, %d words to replace\n", lines, errors; exit !(lines > 4000 && n > 20 && !errors) }' \
+    END { printf "%d lines of comments and strings, %d words to replace\n", lines, errors; exit !(lines > 12000 && n > 20 && !errors) }' \
     tests/words.txt - && [ "$pages_status" = 0 ]
 }
 

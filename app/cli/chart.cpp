@@ -26,12 +26,10 @@ using record::BranchPoint;
 /// What to chart and how much to spend on it.
 struct ChartOptions {
   Options common;
-  std::string kind;            ///< "accuracy", "stability", "branches" or "trust"
-  double limit_s = 0;          ///< of one run; 0: as the study has it
-  int edges = 32;              ///< a segment of the finest mesh that methods are given
-  int scenes = 600, seed = 1;  ///< of a study of trust
-  std::string scene_kind;      ///< and its kind of scenes; empty: in turn
-  std::string sizes;           ///< for `accuracy`: rods per direction, "12,24,48"
+  std::string kind;    ///< "accuracy", "stability" or "branches"
+  double limit_s = 0;  ///< of one run; 0: as the study has it
+  int edges = 32;      ///< a segment of the finest mesh that methods are given
+  std::string sizes;   ///< for `accuracy`: rods per direction, "12,24,48"
 };
 
 /// Lines for the terminal once everything is written, and the summary of a study.
@@ -118,7 +116,8 @@ Result<ChartReport> draw_sizes(const preset::Preset& preset, const ChartOptions&
   TRY(sizes, sizes_in(options.sizes));
   TRY(rows, study::sizes_study(preset, *sizes, how, watch));
   TRY_DO(write_file(folder / "accuracy.csv", record::csv_table(*rows)));
-  const std::string title = render::plain(preset.title) + ": error over time, by rods a direction";
+  const std::string title =
+      render::plain(preset.title) + ": error over time, by rods per direction";
   TRY_DO(render::write_plot(folder / "accuracy", render::accuracy_plot(*rows, title, true),
                             {wide_mm}, high));
   ChartReport findings;
@@ -193,7 +192,7 @@ Result<ChartReport> draw_stability(const preset::Preset& preset, const ChartOpti
   TRY(rows, study::stability_study(preset, limited<study::StabilityOptions>(options), watch));
   TRY_DO(write_file(folder / "stability.csv", record::csv_table(*rows)));
   TRY_DO(render::write_outcome_maps(folder / "stability", *rows,
-                                    render::plain(preset.title) + ": where methods hold and fail"));
+                                    render::plain(preset.title) + ": where methods work and fail"));
   ChartReport findings;
   count_silent(*rows, findings);
   return findings;
@@ -241,103 +240,25 @@ Result<int> chart_preset(const ChartOptions& options) {
   return ExitCode::done;
 }
 
-// `chart trust`: random scenes judged; those that were silently wrong are kept as presets.
-
-Result<void> write_worst(const std::vector<study::TrustScene>& scenes, const fs::path& folder) {
-  for (const auto& scene : scenes) {
-    if (!record::silently_wrong(scene.row.found)) continue;
-    TRY_DO(make_folder(folder));
-    TRY_DO(write_file(folder / (scene.preset.name + ".toml"), preset::to_toml(scene.preset)));
-  }
-  return {};
-}
-
-Json summary_of(const std::vector<record::TrustRow>& rows, int seed) {
-  std::map<std::string, int> classes;
-  int silent = 0, snap_alone = 0, doubts = 0;
-  for (const auto& row : rows) {
-    ++classes[std::string(word_of(row.found))];
-    silent += record::silently_wrong(row.found);
-    snap_alone += row.snap_alone();
-    doubts += row.doubt;
-  }
-  return {{"chart", "trust"},   {"scenes", rows.size()},    {"seed", seed},
-          {"classes", classes}, {"silently_wrong", silent}, {"snap_alone", snap_alone},
-          {"doubts", doubts}};
-}
-
-Result<int> chart_trust(const ChartOptions& options) {
-  const fs::path folder =
-      options.common.output.empty() ? fs::path("out") / "trust" : options.common.output;
-  auto how = limited<study::TrustOptions>(options);
-  how.scenes = options.scenes;
-  how.seed = options.seed;
-  how.kind = find_word<study::SceneKind>(options.scene_kind);
-  Json summary;
-  const auto work = [&](const fs::path& partial, Progress& progress) -> Result<void> {
-    TRY(scenes, study::trust_study(how, progress.next_phase()));
-    std::vector<record::TrustRow> rows;
-    for (const auto& scene : *scenes) rows.push_back(scene.row);
-    summary = summary_of(rows, how.seed);
-    TRY_DO(write_file(partial / "trust.csv", record::csv_table(rows)));
-    TRY_DO(render::write_trust_bars(partial / "trust", rows));
-    TRY_DO(render::write_plot(partial / "errors", render::trust_plot(rows)));
-    TRY_DO(write_worst(*scenes, partial / "worst"));
-    return write_file(partial / "summary.json", text_of(summary));
-  };
-  TRY_DO(deliver({folder, "chart trust"}, {{"judging scenes", 100}}, options.common.quiet, work));
-  const auto number = [&](const char* key) { return summary[key].get<int>(); };
-  const int silent = number("silently_wrong");
-  if (!options.common.quiet) {
-    fmt::print("{}: {} scenes, {} silently wrong{}\n", folder.string(), how.scenes, silent,
-               silent > 0 ? " (kept in its folder worst)" : "");
-    for (const auto& [name, count] : summary["classes"].items())
-      fmt::print("  {:22} {}\n", name, count.get<int>());
-    fmt::print("a snap that one family of meshes alone tells of: {}\n", number("snap_alone"));
-    fmt::print("runs that told of leading meshes which do not agree: {}\n", number("doubts"));
-  }
-  return silent == 0 ? ExitCode::done : ExitCode::different;
-}
-
-Result<int> chart(const ChartOptions& options) {
-  const bool trust = options.kind == "trust";
-  if (trust == options.common.input.empty())
-    return trust ? chart_trust(options) : chart_preset(options);
-  return invalid(trust ? "chart trust takes no PRESET: its scenes are random"
-                       : "chart " + options.kind + " needs a PRESET");
-}
-
 }  // namespace
 
 void add_chart(CommandLine& program) {
   auto [command, options] = program.add<ChartOptions>(
-      "chart", "speed against accuracy; where methods hold and fail; branches; trust", chart);
-  command
-      .option("KIND", options.kind,
-              "accuracy, stability, branches (the bifurcation diagram), or trust (random "
-              "scenes, no PRESET)")
+      "chart", "speed against accuracy; where methods work and fail; branches", chart_preset);
+  command.option("KIND", options.kind, "accuracy, stability, or branches (the bifurcation diagram)")
       .required()
-      .one_of({"accuracy", "stability", "branches", "trust"});
+      .one_of({"accuracy", "stability", "branches"});
   add_preset_options(command, options.common);
-  command.declared("PRESET").required(false);
-  add_work_options(command, options.common,
-                   "folder to write, by default out/<preset>_<KIND>, or out/trust");
+  add_work_options(command, options.common, "folder to write, by default out/<preset>_<KIND>");
   command
       .option("--limit", options.limit_s,
               "seconds after which a run is too slow: by default 30 for accuracy, 4 for "
-              "stability, 20 for trust")
+              "stability")
       .in_range(0.01, 1e6);
   command.option("--edges", options.edges, "edges per segment of the finest mesh of the methods")
       .in_range(4, 32);
   command.option("--sizes", options.sizes,
                  "for accuracy: compares sizes of the shell instead, rods per direction: 12,24,48");
-  command.option("--scenes", options.scenes, "of trust: how many, of ten kinds in turn")
-      .in_range(1, 100000);
-  command
-      .option("--scene-kind", options.scene_kind,
-              "of trust: scenes of one kind alone; those of kind network come in no other way")
-      .one_of(all_words<study::SceneKind>());
-  command.option("--seed", options.seed, "of trust: other scenes").in_range(0, 1 << 30);
 }
 
 }  // namespace gridshell::app

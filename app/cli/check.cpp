@@ -45,15 +45,15 @@ std::string joint_text(const preset::Indentation& push, const Scene& scene) {
       push.latitude_deg, push.longitude_deg);
 }
 
-/// What a run does to the shell beside forming it, a line each.
+/// What a run does to the shell in addition to forming it, one line each.
 std::vector<std::string> what_is_done(const preset::Preset& preset, const Scene& scene) {
   std::vector<std::string> lines;
-  if (const preset::Indentation& push = preset.indentation; push.wanted())
+  if (const preset::Indentation& push = preset.indentation; push.requested())
     lines.push_back(fmt::format(
         "push            {} {} by {}{}{}", joint_text(push, scene), word_of(push.direction),
         push.depth_mm > 0 ? fmt::format("{:g} mm", push.depth_mm)
                           : fmt::format("{:g} of the length scale", push.depth),
-        push.lateral == preset::Lateral::free ? ", free to move across" : ", held across",
+        push.lateral == preset::Lateral::free ? ", free to move across" : ", prescribed across",
         push.unload ? ", and back" : ""));
   std::vector<std::string> steps;
   for (const preset::Step& step : preset.step) steps.push_back(simulate::text_of(step));
@@ -100,11 +100,11 @@ void print_plan(const preset::Preset& preset, const simulate::Plan& plan) {
   for (const auto& seam : plan.seams) fmt::print("  seam            {}\n", seam);
   for (const auto& sentence : plan.net) fmt::print("  net             {}\n", sentence);
   fmt::print("  model           {}\n", plan.model_reason);
-  fmt::print("  meshes          {} edges a segment{}\n", fmt::join(plan.levels, ", "),
+  fmt::print("  meshes          {} edges per segment{}\n", fmt::join(plan.levels, ", "),
              plan.extrapolated ? ", extrapolated" : "");
   fmt::print("  size            {} rods, {} joints, {} cells, {} unknowns\n", plan.rods,
              plan.joints, plan.cells, plan.dof);
-  if (preset.jitter.wanted())
+  if (preset.jitter.requested())
     fmt::print("  search          {} trials, mode \"{}\", and {} from symmetric forms\n",
                preset.jitter.trials, word_of(preset.jitter.mode), preset.jitter.confined);
   for (const std::string& line : what_is_done(preset, *plan.scene)) fmt::print("  {}\n", line);

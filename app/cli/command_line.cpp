@@ -149,11 +149,11 @@ void add_preset_options(CommandArguments command, Options& options) {
   add_changes(command, options);
   command.option("--frames", options.frames, "frames of the movie");
   command.flag("--print-config", options.print_config,
-               "print what default < preset < --set came to, as a preset, and stop");
+               "print the preset with its defaults and --set, as a preset, and stop");
 }
 
 void add_work_options(CommandArguments command, Options& options, const std::string& output) {
-  command.option("-o,--output", options.output, output).not_empty("must name a folder");
+  command.option("-o,--output", options.output, output).not_empty("expected a folder");
   command.option("--threads", options.threads, "threads to work with; results do not change")
       .in_range(1, 1024)
       // the software rasteriser reads this when its context is made
@@ -166,8 +166,8 @@ void add_picture_options(CommandArguments command, Options& options) {
       .one_of(all_words<render::ContextKind>());
 }
 
-void add_unsealed(CommandArguments command, bool& unsealed) {
-  command.flag("--unsealed", unsealed,
+void add_no_checksum(CommandArguments command, bool& no_checksum) {
+  command.flag("--no-checksum,--unsealed", no_checksum,
                "take a trajectory.h5 that another program wrote or changed");
 }
 
@@ -180,7 +180,7 @@ Result<std::vector<preset::Override>> overrides_of(const Options& options) {
   if (!options.frames.empty()) overrides.push_back({"--frames", "movie.frames", options.frames});
   // one word for two keys is wrong once
   if (!options.quality.empty() && !find_word<preset::Quality>(options.quality))
-    return invalid("--quality {}: must be draft, movie or figure", options.quality);
+    return invalid("--quality {}: expected draft, movie or figure", options.quality);
   if (!options.quality.empty())
     for (const char* key : {"movie.quality", "figure.quality"})
       overrides.push_back({"--quality", key, options.quality});
@@ -188,9 +188,8 @@ Result<std::vector<preset::Override>> overrides_of(const Options& options) {
     const auto number = options.width.substr(0, options.width.rfind("mm"));
     const auto width = parse_number<double>(number, std::chars_format::fixed);
     if (number == options.width || !width || !(*width > 0 && *width < 10000))
-      return invalid(
-          "--width {}: must be in millimetres, more than 0 and less than 10000, for example 85mm",
-          options.width);
+      return invalid("--width {}: expected millimetres above 0 and below 10000, for example 85mm",
+                     options.width);
     overrides.push_back({"--width", "figure.width_mm", number});
   }
   if (!options.dpi.empty()) overrides.push_back({"--dpi", "figure.dpi", options.dpi});
@@ -216,7 +215,7 @@ std::optional<std::pair<int, int>> two_numbers(std::string_view text, std::strin
 
 Result<std::pair<int, int>> size_of(const std::string& text) {
   if (const auto size = two_numbers(text, "x")) return *size;
-  return invalid("--size {}: must be WxH, for example 1280x720", text);
+  return invalid("--size {}: expected WxH, for example 1280x720", text);
 }
 
 Result<void> write_with_folder(const std::filesystem::path& file, const std::string& text) {

@@ -145,8 +145,8 @@ void add_work_options(CommandArguments command, Options& options,
 /// --context: of commands that draw.
 void add_picture_options(CommandArguments command, Options& options);
 
-/// `--unsealed`: for commands that read a run's trajectory.
-void add_unsealed(CommandArguments command, bool& unsealed);
+/// `--no-checksum` (once `--unsealed`): for commands that read a run's trajectory.
+void add_no_checksum(CommandArguments command, bool& no_checksum);
 
 /// The options that change the preset, in the order in which they are laid over it. Errors:
 /// bad_input for a --set without key or value, a --size that is not WxH.

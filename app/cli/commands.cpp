@@ -55,7 +55,7 @@ Result<int> list(const ListOptions& options) {
 void add_list(CommandLine& program) {
   auto [command, options] =
       program.add<ListOptions>("list", "the presets that come with the program", list);
-  command.option("--keys", options.keys, "instead, the reference of all keys a preset can hold")
+  command.option("--keys", options.keys, "instead, the reference of all keys of a preset")
       .one_of({"markdown"});
   command.flag("--json", options.json,
                "instead, all commands, options, presets and keys for other programs");
@@ -100,7 +100,7 @@ void add_commands(CommandLine& program) {
   add_sweep(program);
   add_preset_command(
       program, "design",
-      "moves pins, legs, held directions or diameters until the shell meets its surface",
+      "moves pins, legs, prescribed directions or diameters until the shell meets its surface",
       produce_design, "folder to write, by default out/<preset>_design");
   add_export(program);
   add_load(program);

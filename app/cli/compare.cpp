@@ -136,7 +136,7 @@ Result<int> compare(const CompareOptions& options) {
     return invalid("'{}' is a folder and '{}' is none: compare two pictures or two folders",
                    a ? options.a : options.b, a ? options.b : options.a);
   if (options.update && (!a || options.why.empty()))
-    return invalid(a ? "--update needs --why \"...\": the reason is kept beside the pictures"
+    return invalid(a ? "--update needs --why \"...\": the reason is saved with the pictures"
                      : "--update is of folders of kept pictures");
   TRY(same, a ? compare_folders(options) : compare_pictures(options));
   return *same ? ExitCode::done : ExitCode::different;
@@ -156,7 +156,7 @@ void add_compare(CommandLine& program) {
   command.option("--difference", options.difference,
                  "PNG to write, differences in red; of folders a sheet of all that differ");
   command.flag("--selected", options.selected,
-               "of folders only the pictures that A holds: B may hold more");
+               "of folders only the pictures in A: B may have more");
   command.flag("--update", options.update, "replace A's pictures by B's");
   command.option("--why", options.why, "with --update: the reason, kept in A/WHY.md");
 }

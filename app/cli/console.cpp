@@ -76,7 +76,8 @@ void install_terminate_handler() {
       std::signal(refused, [](int) {
         end_at_once(
             "ended by a signal: memory ran out under the limit that is set (ulimit -v), or, where "
-            "the same happens without a limit, by a fault of this program; what was finished stays "
+            "if it happens without a limit, it is an error of this program; what was finished "
+            "stays "
             "under its partial name\n",
             ExitCode::failed);
       });

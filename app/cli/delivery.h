@@ -15,7 +15,7 @@
 
 namespace gridshell::app {
 
-/// A part of the work: its share of the bar is its expected time.
+/// A part of the work: its fraction of the bar is its expected time.
 struct Phase {
   std::string label;
   double expected_seconds = 1;

@@ -256,15 +256,15 @@ render::Plot convergence_plot(const DesignResult& found, const std::string& titl
 
 /// `<stem>_net.png`, `<stem>_deviation.png` and the plots of shells on nets, with the target
 /// instead of the net: the nearest point of every node; `<stem>_convergence`.
-Result<void> draw_design(Run before, Run after, const DesignResult& found,
-                         render::Renderer& renderer, const fs::path& stem, Watch& watch) {
+Result<void> draw_design(Run before, Run after, const DesignResult& found, const fs::path& stem,
+                         Watch& watch) {
   for (Run* run : {&before, &after}) {
     record::Trajectory& shell = run->trajectory;
     TRY(nearest, nearest_to(run->preset, shell.layout.flat_nodes, shell.frames.back().nodes));
     shell.layout.net_nodes = std::move(*nearest);
   }
   const auto style = style_of(before.preset, Pictures::stills);
-  TRY_DO(draw_net_pictures({&before, &after}, renderer, stem, watch));
+  TRY_DO(draw_net_pictures({&before, &after}, stem, watch));
   return render::write_plot(fs::path(stem) += "_convergence",
                             convergence_plot(found, render::plain(style.title)), style.print);
 }
@@ -301,8 +301,8 @@ FlatStartCheck from_flat(preset::Preset preset, const record::Trajectory& design
 }
 
 /// Everything between the preset and its folder.
-Result<void> work(const preset::Preset& preset, const Options& options, const fs::path& folder,
-                  Progress& progress, record::Summary& summary, std::string& text) {
+Result<void> work(const preset::Preset& preset, const fs::path& folder, Progress& progress,
+                  record::Summary& summary, std::string& text) {
   TRY(found, design(preset, progress.next_phase()));
   preset::Preset designed = preset;
   designed.ends.table = found->table;
@@ -318,11 +318,11 @@ Result<void> work(const preset::Preset& preset, const Options& options, const fs
   if (last.cancelled()) return stopped();
   text = design_text(*found, flat);
   TRY_DO(write_design(folder, designed, *found, flat));
-  TRY(maker, PictureMaker::create(options.context, preset.style.font));
+  TRY_DO(render::use_font(preset.style.font));
   return draw_design(
       {.preset = preset, .trajectory = std::move(before->trajectory), .label = "before"},
       {.preset = designed, .trajectory = std::move(*after), .label = "designed"}, *found,
-      maker->renderer(), folder / fs::path(preset.name).filename(), progress.next_phase());
+      folder / fs::path(preset.name).filename(), progress.next_phase());
 }
 
 }  // namespace
@@ -350,7 +350,7 @@ Result<int> produce_design(const Options& options) {
   std::string text;
   TRY_DO(deliver({folder, "design"}, phases, options.quiet,
                  [&](const fs::path& partial, Progress& progress) {
-                   return work(*preset, options, partial, progress, summary, text);
+                   return work(*preset, partial, progress, summary, text);
                  }));
   if (!options.quiet) fmt::print("{}: {}", folder.string(), text);
   const auto fault = failure_of(summary, preset->allow_unstable);

@@ -27,7 +27,7 @@ struct ExportOptions {
   std::string frame;      ///< its index; empty: the last
   std::string case_name;  ///< of a run of several cases
   double seconds = 6;     ///< of an animation
-  bool unsealed = false;
+  bool no_checksum = false;
 };
 
 /// A run that is exported, and the requested frame.
@@ -85,16 +85,16 @@ Result<One> chosen(std::vector<One> cases, const ExportOptions& options) {
                                   options.input, names));
 }
 
-Result<std::size_t> frame_of(const record::Trajectory& run, const std::string& asked) {
-  if (asked.empty()) return run.frames.size() - 1;
-  const auto frame = parse_number<std::size_t>(asked);
+Result<std::size_t> frame_of(const record::Trajectory& run, const std::string& requested) {
+  if (requested.empty()) return run.frames.size() - 1;
+  const auto frame = parse_number<std::size_t>(requested);
   if (!frame || *frame >= run.frames.size())
-    return invalid("--frame {}: must be a number from 0 to {}", asked, run.frames.size() - 1);
+    return invalid("--frame {}: expected a number from 0 to {}", requested, run.frames.size() - 1);
   return *frame;
 }
 
 Result<Source> source_of(const ExportOptions& options) {
-  TRY(runs, read_runs(options.input, {}, options.unsealed));
+  TRY(runs, read_runs(options.input, {}, options.no_checksum));
   TRY(run, chosen(std::move(*runs), options));
   TRY(frame, frame_of(run->trajectory, options.frame));
   const fs::path folder = folder_of(options.input, run->name);
@@ -234,7 +234,7 @@ Result<std::string> text_of(const ExportOptions& options) {
     return invalid("--to {}: a {} is written as {}", options.to.string(), what,
                    extensions_of(texts));
   }
-  return invalid("--what {}: must be one of\n{}", what, exported_formats());
+  return invalid("--what {}: expected one of\n{}", what, exported_formats());
 }
 
 /// Writes the file, whole or not at all, and says so.
@@ -270,7 +270,7 @@ void add_export(CommandLine& program) {
   command.option("--frame", options.frame, "of a shape: index of its frame, by default the last");
   command.option("--case", options.case_name, "of several cases: which");
   command.option("--seconds", options.seconds, "of an animation (.glb)").in_range(0.1, 3600.0);
-  add_unsealed(command, options.unsealed);
+  add_no_checksum(command, options.no_checksum);
   command.footer("What is exported, and how:\n" + exported_formats());
 }
 

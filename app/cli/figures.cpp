@@ -32,7 +32,7 @@ std::string name_of(const preset::Preset& preset) {
   const preset::Net& net = preset.net;
   using preset::NetKind;
   if (net.kind == NetKind::sphere)
-    return to_be_designed(preset) ? "before its design"
+    return to_be_designed(preset) ? "before the design"
            : net.cut_height == 0  ? "hemisphere"
                                   : fmt::format("*z*^{{*}}/*ρ* = {:g}", net.cut_height);
   if (net.kind == NetKind::profile) return "surface of revolution";
@@ -43,11 +43,11 @@ std::string name_of(const preset::Preset& preset) {
 
 fs::path with_suffix(fs::path stem, const char* suffix) { return stem += suffix; }
 
-/// Of one assemblage: its blocks apart, their footprints, and how they meet.
+/// Draws one assemblage: its blocks separately, their footprints, and how they meet.
 Result<void> draw_block_pictures(const record::Trajectory& run, const render::MovieStyle& style,
-                                 render::Renderer& renderer, const fs::path& stem, Watch& watch) {
-  TRY_DO(save_panels(render::draw_blocks({{&run, ""}}, style, renderer, watch),
-                     with_suffix(stem, "_blocks.png")));
+                                 const fs::path& stem, Watch& watch) {
+  TRY_DO(save_panels(render::draw_blocks({{&run, ""}}, style, watch),
+                     with_suffix(stem, "_blocks.png"), style.print.dpi));
   TRY_DO(render::write_block_footprints(with_suffix(stem, "_footprint"), run, style.title,
                                         style.print));
   if (run.layout.seam_rods.empty()) return {};
@@ -55,8 +55,8 @@ Result<void> draw_block_pictures(const record::Trajectory& run, const render::Mo
                              "Seams of the blocks", style.print);
 }
 
-/// "hemisphere: at most 3.10 %", of the joints; with the rods where they lie further off between
-/// them, which the colours show too, in a line of their own where panels are narrow.
+/// "hemisphere: max 3.1 %", of the joints; with the rods where they lie further off between them,
+/// which the colours show too. The number is in a line of its own where panels are narrow.
 std::string caption_of(const record::Trajectory& run, const std::string& name, bool narrow) {
   constexpr double further = 1.2;
   const Eigen::VectorXd deviation = render::last_deviation(run);
@@ -64,38 +64,38 @@ std::string caption_of(const record::Trajectory& run, const std::string& name, b
   const double joints = unit.factor * deviation.head(long(run.layout.joints.size())).maxCoeff(),
                rods = unit.factor * deviation.maxCoeff();
   const char* word = run.layout.parts.empty() ? "%" : "mm";
-  // in digits that do not round a small one away
-  if (rods <= further * joints) return fmt::format("{}: at most {:.3g} {}", name, joints, word);
-  return fmt::format("{}: joints at most {:.3g},{}rods {:.3g} {}", name, joints,
-                     narrow ? "\n" : " ", rods, word);
+  const std::string first = name + (narrow ? "\n" : ": ");
+  const auto text = [](double value) { return fmt::format("{:.{}f}", value, value < 1 ? 2 : 1); };
+  if (rods <= further * joints) return fmt::format("{}max {} {}", first, text(joints), word);
+  return fmt::format("{}max {} (rods {}) {}", first, text(joints), text(rods), word);
 }
 
 /// What a picture of several calls one, marked text: by its own title, else as its case.
 std::string title_among(const Run& run, const std::string& of_all) {
   return run.preset.title == of_all && !run.name.empty() ? run.name : run.preset.title;
 }
-/// The same where it stands by itself.
+/// What a picture of one run calls it, marked text.
 std::string title_alone(const Run& run, const std::string& of_all) {
   const std::string title = title_among(run, of_all);
   return of_all.empty() || title == run.preset.title ? title : of_all + ": " + title;
 }
 
 bool is_still(const Run& run) { return run.pictures == Pictures::stills; }
-/// Whether its movie shows it beside the other cases.
+/// Whether its movie shows it next to the other cases.
 bool drawn_beside(const Run& run) {
   return run.pictures == Pictures::movie && run.preset.movie.beside && !run.name.empty();
 }
-/// A shell that was designed on a net is shown beside it, a pushed one by itself.
+/// A shell that was designed on a net is shown next to it, a pushed one by itself.
 bool shows_net(const Run& run) {
   const preset::Preset& preset = run.preset;
-  return is_still(run) && preset.on_net() && !preset.indentation.wanted() &&
-         !preset.jitter.wanted() && preset.step.empty();
+  return is_still(run) && preset.on_net() && !preset.indentation.requested() &&
+         !preset.jitter.requested() && preset.step.empty();
 }
-bool shows_push(const Run& run) { return is_still(run) && run.preset.indentation.wanted(); }
-/// One of several that no other picture shows beside one another.
+bool shows_push(const Run& run) { return is_still(run) && run.preset.indentation.requested(); }
+/// One of several that no other picture shows next to one another.
 bool shows_case(const Run& run) {
   return is_still(run) && !run.name.empty() && !shows_net(run) && !shows_push(run) &&
-         !run.preset.jitter.wanted();
+         !run.preset.jitter.requested();
 }
 bool has_net(const Run& run) {
   return shows_net(run) && run.trajectory.layout.net_nodes.size() > 0;
@@ -120,8 +120,8 @@ Result<void> draw_beside(const Runs& runs, const std::string& title, render::Ren
 }
 
 /// `<stem>_loads.png` and, each as PNG and SVG, `<stem>_force` and `<stem>_bins`.
-Result<void> draw_push_pictures(const Runs& runs, const std::string& title,
-                                render::Renderer& renderer, const fs::path& stem, Watch& watch) {
+Result<void> draw_push_pictures(const Runs& runs, const std::string& title, const fs::path& stem,
+                                Watch& watch) {
   auto style = style_of(runs.front()->preset, Pictures::stills);
   // several are the preset's, and each bears its own title
   const bool several = runs.size() > 1;
@@ -135,8 +135,8 @@ Result<void> draw_push_pictures(const Runs& runs, const std::string& title,
   }
   render::Plot force = render::force_plot(named);
   force.title = render::plain(style.title);
-  TRY_DO(save_panels(render::draw_pushes(shells, style, renderer, watch),
-                     with_suffix(stem, "_loads.png")));
+  TRY_DO(save_panels(render::draw_pushes(shells, style, watch), with_suffix(stem, "_loads.png"),
+                     style.print.dpi));
   TRY_DO(render::write_plot(with_suffix(stem, "_force"), force, style.print));
   // one by itself has its title over its own plot
   return render::write_push_bins(with_suffix(stem, "_bins"), named, several ? above : "",
@@ -158,7 +158,8 @@ Result<void> draw_cases(const Runs& runs, const std::string& title, const Shared
     const record::Frame last = shown.frames.back();
     const std::string caption =
         render::plain(title_among(*run, title)) + "\n" + render::frame_state_caption(last);
-    TRY_DO(render::add_panel(figure, stage, stage.drawing(last), {true, caption}, renderer, watch));
+    TRY_DO(
+        render::add_panel(figure, stage, stage.drawing(last), {true, caption}, &renderer, watch));
   }
   return save_panels(figure, with_suffix(stem, ".png"),
                      style.print.width_mm > 0 ? style.print.dpi : 0);
@@ -168,10 +169,10 @@ Result<void> draw_cases(const Runs& runs, const std::string& title, const Shared
 Result<void> draw_together(const std::vector<Run>& runs, const std::string& title,
                            const SharedColourBar& bar, render::Renderer& renderer,
                            const fs::path& stem, Progress& progress) {
-  const auto those = [&](bool (*wanted)(const Run&)) {
+  const auto those = [&](bool (*requested)(const Run&)) {
     Runs found;
     for (const Run& run : runs)
-      if (wanted(run)) found.push_back(&run);
+      if (requested(run)) found.push_back(&run);
     return found;
   };
   if (const Runs beside = those(drawn_beside); !beside.empty())
@@ -181,9 +182,9 @@ Result<void> draw_together(const std::vector<Run>& runs, const std::string& titl
   if (stills.front()->preset.page.kind != preset::PageKind::none)
     return draw_page(stills, renderer, stem, progress.next_phase());
   if (const Runs nets = those(has_net); !nets.empty())
-    TRY_DO(draw_net_pictures(nets, renderer, stem, progress.next_phase()));
+    TRY_DO(draw_net_pictures(nets, stem, progress.next_phase()));
   if (const Runs pushes = those(shows_push); !pushes.empty())
-    TRY_DO(draw_push_pictures(pushes, title, renderer, stem, progress.next_phase()));
+    TRY_DO(draw_push_pictures(pushes, title, stem, progress.next_phase()));
   // under one colour bar
   const bool alike = std::ranges::all_of(stills, [&](const Run* run) {
     return run->preset.movie.colour_by == stills.front()->preset.movie.colour_by;
@@ -201,8 +202,7 @@ Result<void> save_panels(const Result<render::PanelFigure>& figure, const fs::pa
   return render::write_panels(*figure, file, dpi);
 }
 
-Result<void> draw_net_pictures(const Runs& runs, render::Renderer& renderer, const fs::path& stem,
-                               Watch& watch) {
+Result<void> draw_net_pictures(const Runs& runs, const fs::path& stem, Watch& watch) {
   const auto style = style_of(runs.front()->preset, Pictures::stills);
   const record::Trajectory& first = runs.front()->trajectory;
   const bool alone = runs.size() == 1;
@@ -218,13 +218,13 @@ Result<void> draw_net_pictures(const Runs& runs, render::Renderer& renderer, con
     plot.title = render::plain(style.title);
     return render::write_plot(with_suffix(stem, suffix), plot, style.print);
   };
-  const double dpi = style.print.width_mm > 0 ? style.print.dpi : 0;
-  TRY_DO(save_panels(render::draw_over_nets(shells, style, renderer, watch),
-                     with_suffix(stem, "_net.png"), dpi));
-  TRY_DO(save_panels(render::draw_deviations(shades, style, renderer, watch),
+  const double dpi = style.print.dpi;
+  TRY_DO(save_panels(render::draw_over_nets(shells, style, watch), with_suffix(stem, "_net.png"),
+                     dpi));
+  TRY_DO(save_panels(render::draw_deviations(shades, style, watch),
                      with_suffix(stem, "_deviation.png"), dpi));
   if (alone && !first.layout.parts.empty())
-    TRY_DO(draw_block_pictures(first, style, renderer, stem, watch));
+    TRY_DO(draw_block_pictures(first, style, stem, watch));
   else
     TRY_DO(
         render::write_footprints(with_suffix(stem, "_footprint"), named, style.title, style.print));
@@ -243,7 +243,7 @@ std::vector<Phase> drawing_phases(const std::vector<Run>& runs) {
     if (run.pictures != Pictures::none && !drawn_beside(run))
       phases.push_back(drawing("drawing" + (run.name.empty() ? "" : " " + run.name), expected));
   }
-  const auto any = [&](auto wanted) { return std::ranges::any_of(runs, wanted); };
+  const auto any = [&](auto requested) { return std::ranges::any_of(runs, requested); };
   if (any(drawn_beside)) {
     phases.push_back(drawing("drawing", seconds));
   } else if (any(is_still) && runs.front().preset.page.kind != preset::PageKind::none) {
@@ -269,7 +269,7 @@ Result<void> draw_all(std::vector<Run>& runs, const std::string& title, const fs
     const double start = seconds_now();
     Watch& watch = progress.next_phase();
     const std::string own = std::exchange(run.preset.title, title_alone(run, title));
-    if (run.preset.jitter.wanted())
+    if (run.preset.jitter.requested())
       TRY_DO(draw_states(run, renderer, to / fs::path(run.preset.name).filename(), watch));
     else
       TRY_DO(draw_run(run, bars[k], renderer, to, watch));
@@ -324,7 +324,7 @@ void draw_refusals(const preset::Presets& presets, const fs::path& folder) {
     fs::path stem = folder;
     stem += (run.name.empty() ? "" : "_" + run.name) + "_refused";
     const auto style = style_of(run.preset, Pictures::stills);
-    std::error_code unmade;  // told by what writes
+    std::error_code unmade;  // reported by what writes
     if (stem.has_parent_path()) fs::create_directories(stem.parent_path(), unmade);
     const auto drawn = render::write_plot(
         stem,

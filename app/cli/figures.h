@@ -24,20 +24,18 @@ Result<void> draw_all(std::vector<Run>& runs, const std::string& title,
                       const std::filesystem::path& stem, render::Renderer& renderer,
                       const std::filesystem::path& folder, Progress& progress);
 
-/// Draws panels side by side as a PNG, and where they have lines `<stem>_lines` as those. Errors:
-/// those of the figure, io.
+/// Writes panels side by side (render::write_panels). Errors: those of the figure, io.
 Result<void> save_panels(const Result<render::PanelFigure>& figure,
                          const std::filesystem::path& file, double dpi = 0);
 
 // The figures of shells that were designed on nets: over their nets, by deviation, footprints, K,
 // r against latitude.
 
-/// Writes `<stem>_net.png`, `<stem>_deviation.png` and, each as PNG and SVG, `<stem>_footprint`,
+/// Writes, each as PNG, SVG and PDF, `<stem>_net`, `<stem>_deviation`, `<stem>_footprint`,
 /// `<stem>_K`, `<stem>_quantiles`, for one cap alone `<stem>_latitude` with the joints scanned
-/// where the preset has any, and for building blocks `<stem>_blocks.png` and `<stem>_seams`.
+/// where the preset has any, and for building blocks `<stem>_blocks` and `<stem>_seams`.
 /// Errors: io, cancelled, bad_input when a picture cannot be that size.
-Result<void> draw_net_pictures(const Runs& runs, render::Renderer& renderer,
-                               const std::filesystem::path& stem, Watch& watch);
+Result<void> draw_net_pictures(const Runs& runs, const std::filesystem::path& stem, Watch& watch);
 
 // Pictures of the states of a shell [Baek 2018, Fig. 2].
 
@@ -45,7 +43,7 @@ Result<void> draw_net_pictures(const Runs& runs, render::Renderer& renderer,
 /// otherwise, and the lowest state of each of the paper's classes.
 std::string found_text(const record::StateTables& states);
 
-/// "*C*_{4v}" of "C4v"; the place of mirrors is left to the table.
+/// "*C*_{4v}" of "C4v"; the position of mirrors is left to the table.
 std::string group_text(const std::string& group);
 
 /// Some of the states alone, each in its actuated boundary.
@@ -62,15 +60,15 @@ Result<void> draw_states(const Run& run, render::Renderer& renderer,
 
 // Pictures of nets on meshes.
 
-/// Of a run whose net lies on a mesh: `<folder>_plan.png`, .svg and .pdf (of a case
+/// Draws, for a run whose net lies on a mesh, `<folder>_plan.png`, .svg and .pdf (of a case
 /// `<folder>_<case>_plan`): its rods in plan, what they do not reach and why. Returns the name.
 Result<std::string> draw_net_plan(const preset::Case& run, const Scene& scene,
                                   const std::filesystem::path& folder);
 
 // Pictures of what was refused.
 
-/// Of every run whose net ends before its boundary: `<folder>_refused.png`, .svg and .pdf (with
-/// cases `<folder>_<case>_refused`), told on the error output.
+/// Draws, for every run whose net ends before its boundary, `<folder>_refused.png`, .svg and .pdf
+/// (with cases `<folder>_<case>_refused`), which it reports on the error output.
 void draw_refusals(const preset::Presets& presets, const std::filesystem::path& folder);
 
 }  // namespace gridshell::app

@@ -63,7 +63,7 @@ Result<std::vector<std::string>> case_names(const fs::path& folder) {
     if (!one.is_object() || !one.contains("name") || !one["name"].is_string()) continue;
     const auto name = one["name"].get<std::string>();
     // it becomes the name of a folder that is written
-    if (const auto wrong = preset::case_name_fault(name); !wrong.empty())
+    if (const auto wrong = preset::case_name_error(name); !wrong.empty())
       return invalid("'{}': case {}: {}", file.string(), shown(name), wrong);
     if (std::ranges::find(names, name) != names.end())
       return invalid("'{}': case \"{}\" is listed twice", file.string(), name);
@@ -100,10 +100,10 @@ record::Summary summary_of(const record::Journal& journal, const preset::Preset&
   s.preset = journal.name.preset;
   s.kind = journal.name.kind;
   s.finished = false;
-  const auto rung = preset::rod_model_of(preset);
-  s.model = word_of(rung);
+  const auto rod_model = preset::rod_model_of(preset);
+  s.model = word_of(rod_model);
   s.model_reason = preset::model_reason(preset);
-  s.solved = rung != RodModel::net;
+  s.solved = rod_model != RodModel::net;
   s.rods = int(run.layout.rods.size());
   s.joints = int(run.layout.joints.size());
   s.cells = int(run.layout.cells.size());
@@ -121,10 +121,10 @@ Result<void> read_journal(const fs::path& folder, Run& run) {
   return {};
 }
 
-Result<void> read_files(const fs::path& folder, bool unsealed, Run& run) {
+Result<void> read_files(const fs::path& folder, bool no_checksum, Run& run) {
   TRY(summary, as_input(record::read_summary(folder / "summary.json")));
   TRY(trajectory,
-      as_input(record::read_trajectory(folder / "trajectory.h5", {.unsealed = unsealed})));
+      as_input(record::read_trajectory(folder / "trajectory.h5", {.no_checksum = no_checksum})));
   run.summary = std::move(*summary);
   run.trajectory = std::move(*trajectory);
   return {};
@@ -136,14 +136,14 @@ constexpr double bytes_to_draw_a_node = 2000;
 Result<void> check_memory(const fs::path& folder, const Run& run) {
   const record::FrameList& frames = run.trajectory.frames;
   if (frames.empty()) return no_run(folder, "its trajectory has no frame");
-  const double wanted = 1e-9 * bytes_to_draw_a_node * double(frames.front().nodes.cols());
+  const double requested = 1e-9 * bytes_to_draw_a_node * double(frames.front().nodes.cols());
   const double given =
       run.preset.accuracy.memory_GB > 0 ? run.preset.accuracy.memory_GB : default_memory_GB();
-  if (given == 0 || wanted <= given) return {};
+  if (given == 0 || requested <= given) return {};
   return invalid(
       "'{}': drawing its {} nodes takes about {:.2g} GB, more than the {:.2g} GB of "
       "[accuracy] memory_GB (by default half of the machine's)",
-      folder.string(), frames.front().nodes.cols(), wanted, given);
+      folder.string(), frames.front().nodes.cols(), requested, given);
 }
 
 Result<record::StateTables> read_states_of(const fs::path& folder, const Run& run) {
@@ -156,19 +156,19 @@ Result<record::StateTables> read_states_of(const fs::path& folder, const Run& ru
 }
 
 Result<Run> read_run(const fs::path& folder, const std::string& name,
-                     const std::vector<preset::Override>& overrides, bool unsealed) {
+                     const std::vector<preset::Override>& overrides, bool no_checksum) {
   Run run;
   run.name = name;
   TRY(presets, preset::read_preset_file(folder / "preset.toml", overrides));
   run.preset = std::move(presets->base);
   std::error_code error;
   const bool whole = fs::exists(folder / "summary.json", error);
-  TRY(read, whole ? read_files(folder, unsealed, run) : read_journal(folder, run));
+  TRY(read, whole ? read_files(folder, no_checksum, run) : read_journal(folder, run));
   TRY_DO(check_name(folder / (whole ? "summary.json" : record::journal_name), run.summary.preset));
   TRY_DO(check_memory(folder, run));
   run.preset.name = run.summary.preset;
   run.pictures = pictures_of(run, folder);
-  if (run.preset.jitter.wanted()) {
+  if (run.preset.jitter.requested()) {
     TRY(tables, read_states_of(folder, run));
     run.states = std::move(*tables);
     run.pictures = Pictures::stills;
@@ -229,9 +229,9 @@ Result<void> render_runs(std::vector<Run>& runs, const Options& options, const f
   return cases ? copy_data(from, to) : Result<void>{};
 }
 
-Result<int> render(const Options& options, bool unsealed) {
+Result<int> render(const Options& options, bool no_checksum) {
   TRY(overrides, overrides_of_run(options));
-  TRY(runs, read_runs(options.input, *overrides, unsealed));
+  TRY(runs, read_runs(options.input, *overrides, no_checksum));
   for (const Run& run : *runs)
     if (!run.summary.finished)
       fmt::print(stderr, "'{}' is not finished: {}\n", folder_of(options.input, run.name).string(),
@@ -256,13 +256,14 @@ Result<int> render(const Options& options, bool unsealed) {
 }  // namespace
 
 Result<std::vector<Run>> read_runs(const fs::path& folder,
-                                   const std::vector<preset::Override>& overrides, bool unsealed) {
+                                   const std::vector<preset::Override>& overrides,
+                                   bool no_checksum) {
   TRY(names, case_names(folder));
   std::vector<Run> runs;
   for (const auto& name : *names) {
     // the last of several interrupted cases may have no frame yet
     if (!name.empty() && !holds_run(folder / name)) continue;
-    TRY(run, read_run(folder_of(folder, name), name, overrides, unsealed));
+    TRY(run, read_run(folder_of(folder, name), name, overrides, no_checksum));
     runs.push_back(std::move(*run));
   }
   if (runs.empty()) return no_run(folder, "none of its cases is there");
@@ -280,15 +281,15 @@ std::string progress_text(const Run& run) {
 
 void add_render(CommandLine& program) {
   const auto options = std::make_shared<Options>();
-  const auto unsealed = std::make_shared<bool>(false);
+  const auto no_checksum = std::make_shared<bool>(false);
   CommandArguments command =
       program.add("render", "pictures of a finished run, without simulating again",
-                  [options, unsealed] { return render(*options, *unsealed); });
+                  [options, no_checksum] { return render(*options, *no_checksum); });
   command.option("RUN", options->input, "the folder of a finished run").required();
   add_changes(command, *options);
   add_work_options(command, *options, "folder to write, by default RUN itself");
   add_picture_options(command, *options);
-  add_unsealed(command, *unsealed);
+  add_no_checksum(command, *no_checksum);
 }
 
 }  // namespace gridshell::app

@@ -52,7 +52,9 @@ Result<void> draw(preset::Preset preset, const FormedStudy& found, const std::st
   TRY(maker, PictureMaker::create(context, preset.style.font));
   preset.movie.colour_by = preset::ColourBy::displacement;
   preset.movie.turn_deg = 0;
-  if (!preset.title.empty()) preset.title += ": moves drawn larger than they are";
+  if (!preset.title.empty())
+    preset.title += fmt::format(": shapes, largest displacement drawn as {:.3g} mm",
+                                drawn_move_mm(found.state.layout));
   Watch& watch = progress.next_phase();
   if (!found.moves.empty())
     TRY_DO(render::write_stills({found.state.layout, found.moves},
@@ -127,7 +129,7 @@ struct LoadOptions {
 
 /// "full snow: limit point at 3.42 ± 0.02 (linear 5.1); at its strength at 1.2 ± 0.01; 20 that are
 /// not perfect: 0.84 of it (0.71 to 0.93)"
-std::string text_of(const record::LoadRow& row) {
+std::string sentence_of(const record::LoadRow& row) {
   std::string text = row.load_case + ": ";
   if (std::isfinite(row.critical_factor))
     text += fmt::format("{} at a factor of {}",
@@ -153,7 +155,7 @@ std::string json_text(const LoadStudy& found) {
   for (const record::LoadRow& row : found.cases) cases.push_back(json_of(row));
   Json json = Json::object();
   json["cases"] = std::move(cases);
-  return gridshell::text_of(json);
+  return text_of(json);
 }
 
 Result<FormedStudy> find_loads(const preset::Preset& preset, int imperfections, Watch& watch) {
@@ -168,7 +170,7 @@ Result<FormedStudy> find_loads(const preset::Preset& preset, int imperfections, 
                   {}};
   for (std::size_t k = 0; k < found->cases.size(); ++k) {
     const record::LoadRow& row = found->cases[k];
-    all.text += "  " + text_of(row) + "\n";
+    all.text += "  " + sentence_of(row) + "\n";
     if (found->modes[k].size() == 0) continue;
     record::Frame moved = moved_by(found->state, found->modes[k], 1, int(k));
     moved.loads_N = row.critical_factor * found->loads[k];

@@ -156,7 +156,7 @@ void gather_foreign(const fs::path& folder, const LegacyRunFiles& run, const std
 std::string foreign_text(const std::vector<std::string>& foreign) {
   if (foreign.empty()) return "";
   const auto more = foreign.size() - 1;
-  return fmt::format("it holds what no run wrote there: '{}'{}", foreign.front(),
+  return fmt::format("it contains what no run wrote there: '{}'{}", foreign.front(),
                      more ? fmt::format(" and {} more", more) : "");
 }
 

@@ -36,12 +36,14 @@ class PageMaker {
     if (records.front()->preset.style.floor == preset::Visibility::automatic)
       style_.look.floor = false;
     for (const Run* one : records) {
-      const bool push = one->preset.indentation.wanted();
+      const bool push = one->preset.indentation.requested();
       if (push && push_ == nullptr) push_ = one;
-      (push ? pushes_ : shells_)
-          .push_back({&one->trajectory, render::plain(one->preset.title), scan_of(one->preset)});
-      (push ? named_pushes_ : named_shells_)
-          .push_back({&one->trajectory, render::plain(one->preset.title)});
+      const preset::Preset& preset = one->preset;
+      const std::string name = preset.page.kind == preset::PageKind::fig3
+                                   ? fmt::format("*z*^{{*}}/*ρ* = {:g}", preset.net.cut_height)
+                                   : render::plain(preset.title);
+      (push ? pushes_ : shells_).push_back({&one->trajectory, name, scan_of(preset)});
+      (push ? named_pushes_ : named_shells_).push_back({&one->trajectory, name});
     }
   }
 
@@ -74,6 +76,7 @@ class PageMaker {
         (box_mm.width - letter - (colour_bar ? bar : 0)) / std::max(1, columns) - between;
     render::MovieStyle style = sized(style_, width, box_mm.height - around);
     style.print = {box_mm.width - letter, 0};
+    style.scale_bar_mm = records_.front()->preset.figure.scale_bar_mm;
     return style;
   }
 
@@ -98,8 +101,8 @@ class PageMaker {
     const bool photo = has_photo();
     const int count = int(run.frames.size());
     constexpr double caption = 12 * 25.4 / 72;
-    const double width = photo ? 62 : 154.0 / count, height = photo ? 116.0 / count : 42;
-    Page page{178, photo ? 120.0 : 46.0, {}};
+    const double width = photo ? 62 : 154.0 / count, height = photo ? 116.0 / count : 34;
+    Page page{178, photo ? 120.0 : 38.0, {}};
     if (photo) TRY_DO(add_photo(page, {2, 2, 92, 116}));
     render::MovieStyle style = sized(style_, width, height - caption);
     style.captions = style.inset = style.legends = false;
@@ -118,31 +121,47 @@ class PageMaker {
       watch_.report(double(k + 1) / count);
     }
     if (const auto& bar = stage.colour_bar())
-      page.add_colour_bar({157, 3, 19, photo ? 48.0 : 31.0}, *bar);
+      page.add_colour_bar({157, 3, 19, photo ? 48.0 : 25.0}, *bar);
     const double bar_mm = records_.front()->preset.figure.scale_bar_mm;
-    page.add_scale_bar({photo ? 158.0 : 157.0, photo ? 106.0 : 36.0, 18, 8}, bar_mm, units);
+    page.add_scale_bar({photo ? 158.0 : 157.0, photo ? 106.0 : 28.0, 18, 8}, bar_mm, units);
     return page;
   }
 
-  /// Domain, shell over its net, distances from the centre with what was scanned, caps.
+  /// Domains, shell over its net, distances from the centre with what was scanned, caps; the shell
+  /// of a strainer and its flat domain. The photograph has a row of its own.
   Result<Page> fig3() {
-    Page page{178, 135, {}};
-    const bool photo = has_photo();
-    if (photo) TRY_DO(add_photo(page, {2, 2, 52, 50}));
-    const Box domains = photo ? Box{56, 2, 120, 50} : Box{2, 2, 174, 50};
-    page.add("B", "", domains, [runs = named_shells_](Canvas& canvas, const Box& box) {
-      render::draw_footprints(canvas, box, runs);
+    Page page{178, 134, {}};
+    const double top = has_photo() ? 54 : 0;
+    if (has_photo()) TRY_DO(add_photo(page, {2, 2, 52, 50}));
+    page.height_mm += top;
+    const auto strainer = std::ranges::find(records_, "strainer", &Run::name) - records_.begin();
+    const std::size_t caps = std::min(shells_.size(), std::size_t(strainer));
+    const std::vector<render::NamedRun> of_caps(named_shells_.begin(),
+                                                named_shells_.begin() + long(caps));
+    page.add("B", "", {2, 2 + top, 84, 46}, [of_caps](Canvas& canvas, const Box& box) {
+      render::draw_footprints(canvas, box, of_caps);
     });
-    const Box left{2, 54, 84, 40}, below{2, 96, 174, 33};
-    TRY(over, render::draw_over_nets({shells_.front()}, filling(left, 1), renderer_, watch_));
-    page.add_figure("C1", left, std::move(*over));
-    page.add_plot("C2", {90, 54, 86, 40},
+    const Box over_box{87, 2 + top, 44, 46}, below{2, 50 + top, 174, 32};
+    TRY(over, render::draw_over_nets({shells_.front()}, filling(over_box, 1), watch_));
+    // E has the keys in more room
+    if (caps < shells_.size()) over->keys.clear();
+    page.add_figure("C1", over_box, std::move(*over));
+    page.add_plot("C2", {132, 2 + top, 44, 46},
                   render::latitude_plot(named_shells_.front(), shells_.front().scanned));
-    const int columns = std::min(6, int(shells_.size()));
-    TRY(caps, render::draw_deviations(shells_, filling(below, columns, true), renderer_, watch_,
-                                      columns));
-    page.add_figure("D", below, std::move(*caps));
-    note_shell(page, 130);
+    const int columns = std::min(6, int(caps));
+    TRY(deviations, render::draw_deviations({shells_.begin(), shells_.begin() + long(caps)},
+                                            filling(below, columns, true), watch_, columns));
+    page.add_figure("D", below, std::move(*deviations));
+    if (caps < shells_.size()) {
+      const Box left{2, 84 + top, 70, 43}, right{74, 84 + top, 102, 43};
+      TRY(shell, render::draw_over_nets({shells_[caps]}, filling(left, 1), watch_));
+      page.add_figure("E", left, std::move(*shell));
+      page.add("F", "", right, [one = named_shells_[caps]](Canvas& canvas, const Box& box) {
+        constexpr double room = 6;
+        render::draw_footprints(canvas, {box.x + room, box.y, box.width - room, box.height}, {one});
+      });
+    }
+    note_shell(page, 129 + top);
     return page;
   }
 
@@ -154,16 +173,11 @@ class PageMaker {
     page.add_note(
         {2, y, 174, 4},
         fmt::format(
-            "Hemisphere with rods {}: {} joints, maximum deviation Δ/*ρ* = {:.2f} %.",
+            "Hemisphere: *ρ* = {:g} mm (our choice), rods {}; {} joints, maximum deviation Δ/*ρ* = "
+            "{:.1f} %.",
+            one.preset.net.radius_mm,
             axis ? "on the axes, so that one joint is the pole" : "offset by *d*/2 from the axes",
             one.trajectory.layout.joints.size(), 100 * one.summary.max_deviation));
-  }
-
-  /// K of all cells, where there is no space for more text next to it.
-  render::Plot low_curvature_plot() const {
-    render::Plot plot = render::curvature_plot(named_shells_);
-    plot.y.label = "integrated *K*_{□} (rad)";
-    return plot;
   }
 
   /// Why the totals of K change.
@@ -178,10 +192,12 @@ class PageMaker {
   Result<Page> fig4() {
     Page page{178, 199, {}};
     const Box above{2, 2, 174, 44}, middle{2, 94, 174, 50};
-    TRY(over, render::draw_over_nets(shells_, filling(above, std::min(3, int(shells_.size()))),
-                                     renderer_, watch_));
+    // the axis along which B and D are plotted
+    shells_.front().half_span = true;
+    TRY(over,
+        render::draw_over_nets(shells_, filling(above, std::min(3, int(shells_.size()))), watch_));
     page.add_figure("A", above, std::move(*over));
-    page.add_plot("B", {2, 48, 174, 44}, low_curvature_plot());
+    page.add_plot("B", {2, 48, 174, 44}, render::curvature_plot(named_shells_));
     // from where their own preset looks
     render::MovieStyle push_style = filling(middle, std::min(3, int(pushes_.size())), true);
     if (push_ != nullptr) {
@@ -189,17 +205,15 @@ class PageMaker {
       push_style.elevation_deg = push_->preset.movie.elevation_deg;
       push_style.look.ghost = false;
     }
-    TRY(pushes, render::draw_pushes(pushes_, push_style, renderer_, watch_));
+    TRY(pushes, render::draw_pushes(pushes_, push_style, watch_));
     page.add_figure("C", middle, std::move(*pushes));
     for (std::size_t k = 0; k < named_pushes_.size(); ++k) {
       const record::Trajectory& run = *named_pushes_[k].run;
       render::Plot plot =
           render::bins_plot(render::summarise_run(run), long(run.layout.cells.size()),
                             run.frames.back(), {-0.01, 0.07}, page_font);
-      // too low for more words; B has them
-      plot.y.label = "mean *K*_{□} (rad)";
-      if (k == 0) page.add_legend({2, 146, 174, 5}, plot);
-      plot.legend = render::LegendPlace::none;
+      if (k == 0) page.add_legend({5, 145.5, 171, 5}, plot);
+      plot.legend = render::LegendPosition::none;
       const double width = 174.0 / double(named_pushes_.size());
       page.add_plot(k == 0 ? "D" : "", {2 + width * double(k), 151, width - 1, 38}, plot);
     }
@@ -212,26 +226,32 @@ class PageMaker {
   /// Blocks, their footprints, and the assemblages over them; the photograph and what was measured
   /// of one, where they are there.
   Result<Page> fig5() {
-    Page page{178, 116, {}};
-    const Box left{2, 2, 86, 54}, below{2, 58, 112, 57};
+    Page page{178, 107, {}};
+    const Box left{2, 2, 86, 54}, below{2, 58, 112, 48};
     const render::BlockKinds kinds(shells_);
-    TRY(blocks, render::draw_blocks(shells_, filling(left, 1), renderer_, watch_));
+    TRY(blocks, render::draw_blocks(shells_, filling(left, 1), watch_));
     for (std::size_t k = 0; k < blocks->keys.size(); ++k)
       blocks->keys[k].name.insert(0, fmt::format("A{}: ", k + 1));
     page.add_figure("A", left, std::move(*blocks));
     const int count = int(shells_.size());
+    const auto inner = [](const Box& box) {
+      // "B1" is wider than the space next to it
+      constexpr double room = 6;
+      return Box{box.x + room, box.y, box.width - room, box.height};
+    };
     for (int k = 0; k < count; ++k)
       page.add(numbered("B", k, count), "", {92 + k * 84.0 / count, 2, 84.0 / count, 49},
-               [&run = *shells_[std::size_t(k)].run, kinds](Canvas& canvas, const Box& box) {
-                 // "B1" is wider than the space next to it
-                 constexpr double room = 6;
-                 render::draw_block_footprints(
-                     canvas, {box.x + room, box.y, box.width - room, box.height}, run, kinds);
+               [=, runs = named_shells_](Canvas& canvas, const Box& box) {
+                 // all at the scale of the largest
+                 double scale = INFINITY;
+                 for (const render::NamedRun& one : runs)
+                   scale = std::min(scale, render::block_footprint_scale(inner(box), *one.run));
+                 render::draw_block_footprints(canvas, inner(box), *runs[std::size_t(k)].run, kinds,
+                                               scale);
                });
     page.add_note({92, 52, 84, 4},
                   "B: footprints of the blocks, joined; dashed: actuated boundary");
-    TRY(over,
-        render::draw_over_nets(shells_, filling(below, std::min(2, count)), renderer_, watch_, 2));
+    TRY(over, render::draw_over_nets(shells_, filling(below, std::min(2, count)), watch_, 2));
     for (int k = 0; k < count && count > 1; ++k)
       over->panels[std::size_t(k)].letter = numbered("C", k, count);
     // the blocks' colours are above
@@ -239,7 +259,7 @@ class PageMaker {
     page.add_figure(count > 1 ? "" : "C", below, std::move(*over));
     TRY_DO(add_experiment(page));
     // the paper has none of it, and so no letter
-    page.add_plot("", {116, 58, 60, 57}, low_curvature_plot());
+    page.add_plot("", {116, 58, 60, 48}, render::curvature_plot(named_shells_));
     return page;
   }
 
@@ -296,7 +316,7 @@ class PageMaker {
   Result<void> add_experiment(Page& page) {
     const auto measured =
         std::ranges::find_if(shells_, [](const auto& one) { return one.scanned.cols() > 0; });
-    const Box left{2, 118, 86, 50}, right{90, 118, 86, 50};
+    const Box left{2, 109, 86, 50}, right{90, 109, 86, 50};
     if (has_photo()) {
       TRY(photo, as_input(render::read_png(records_.front()->preset.page.photo)));
       page.add_image("D", "", left, std::move(*photo));
@@ -308,10 +328,10 @@ class PageMaker {
       alone.layout.net_nodes.resize(3, 0);
       alone.frames = {measured->run->frames.back()};
       TRY(shell, render::draw_over_nets({{&alone, measured->caption, measured->scanned}},
-                                        filling(right, 1), renderer_, watch_));
+                                        filling(right, 1), watch_));
       page.add_figure("E", right, std::move(*shell));
     }
-    if (has_photo() || measured != shells_.end()) page.height_mm = 170;
+    if (has_photo() || measured != shells_.end()) page.height_mm = 161;
     return {};
   }
 
@@ -331,7 +351,8 @@ Result<void> draw_page(const Runs& records, render::Renderer& renderer, const fs
   const preset::Preset& preset = records.front()->preset;
   if (preset.page.kind == preset::PageKind::none) return {};
   TRY(page, PageMaker(records, renderer, watch).make(preset.page.kind));
-  const render::Print print{preset.figure.width_mm, preset.figure.dpi};
+  const render::Print print{preset.figure.width_mm, preset.figure.dpi,
+                            style_of(preset, Pictures::stills).look.background};
   return render::write_page(fs::path(stem) += "_page", preset.source, page->width_mm,
                             page->height_mm, page->panels, print, preset.page.drawn);
 }

@@ -40,7 +40,7 @@ Result<PictureMaker> PictureMaker::create(const std::string& context) {
 
 namespace {
 
-/// Of stills that each show the end of a step: which; else what the stills say by themselves.
+/// Captions of stills that each show the end of a step: which step; else those of the stills.
 std::vector<std::string> captions_of(const preset::Preset& preset, const record::Trajectory& run) {
   std::vector<std::string> captions;
   if (preset.step.empty() || run.frames.size() != preset.step.size() + 1) return captions;
@@ -48,7 +48,7 @@ std::vector<std::string> captions_of(const preset::Preset& preset, const record:
   for (std::size_t k = 0; k < preset.step.size(); ++k) {
     const preset::Step& step = preset.step[k];
     const record::Frame& frame = run.frames[k + 1];
-    // a depth belongs to the push that made it, not to what was done while it holds
+    // a depth belongs to the push that made it, not to what was done while the joint is prescribed
     const bool pushes = step.kind == preset::StepKind::push;
     captions.push_back(
         simulate::text_of(step) + ": " +
@@ -92,7 +92,7 @@ Result<void> draw_run(const Run& run, const SharedColourBar& bar, render::Render
                       const fs::path& folder, Watch& watch) {
   // the other frames of a push are for the curve of its force
   constexpr std::size_t most_steps = 8;
-  const bool ends = run.preset.indentation.wanted() || run.preset.step.size() > most_steps;
+  const bool ends = run.preset.indentation.requested() || run.preset.step.size() > most_steps;
   if (run.pictures == Pictures::movie)
     TRY_DO(draw_movie(run, bar, renderer, folder, watch));
   else if (ends)
@@ -106,12 +106,11 @@ Result<void> draw_run(const Run& run, const SharedColourBar& bar, render::Render
 
 record::Frame moved_by(const record::Trajectory& state, const Eigen::Matrix3Xd& shape, double part,
                        int index) {
-  constexpr double drawn_amplitude = 0.12;  // of the length scale
   const record::Frame& rest = state.frames.back();
   record::Frame frame;
   frame.index = index;
   frame.actuation = rest.actuation;
-  frame.depth_mm = drawn_amplitude * state.layout.length_scale_mm;
+  frame.depth_mm = drawn_move_mm(state.layout);
   frame.nodes = rest.nodes + part * frame.depth_mm * shape;
   frame.cell_K = rest.cell_K;
   frame.brace_force_N = rest.brace_force_N;
@@ -141,9 +140,9 @@ Result<void> make_movie(const fs::path& folder, const preset::Preset& preset,
                   fs::copy_options::overwrite_existing, error);
     if (error) return fail(Fault::io, "cannot write poster.png: " + error.message());
   }
-  for (const auto& [wanted, kind] :
+  for (const auto& [requested, kind] :
        {std::pair(preset.movie.webm, "movie.webm"), {preset.movie.gif, "movie.gif"}})
-    if (wanted) TRY_DO(render::encode_movie(pictures, style, folder / kind, watch));
+    if (requested) TRY_DO(render::encode_movie(pictures, style, folder / kind, watch));
   return {};
 }
 
@@ -173,10 +172,10 @@ double expected_seconds(Pictures pictures, const preset::Preset& preset) {
                                                                        : 1.4;
   double count = movie.frames;
   if (stills) {
-    // the stills, and what stands beside nets and loads
-    const bool push = preset.indentation.wanted();
+    // the stills, and what is shown next to nets and loads
+    const bool push = preset.indentation.requested();
     count = std::max(push ? 2.0 : 1.0, double(preset.figure.radii_mm.size()));
-    if (preset.jitter.wanted()) count = preset.jitter.drawn;
+    if (preset.jitter.requested()) count = preset.jitter.drawn;
     if (push)
       count += 1;
     else if (preset.on_net())

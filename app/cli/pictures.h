@@ -39,7 +39,7 @@ using Runs = std::vector<const Run*>;
 /// A colour bar of several runs; none where each has its own.
 using SharedColourBar = std::optional<render::ColourBar>;
 
-/// One a run: the bar that it shares with all others that are coloured by the same quantity.
+/// One per run: the bar that it shares with all others that are coloured by the same quantity.
 std::vector<SharedColourBar> shared_bars(const std::vector<Run>& runs);
 
 /// How the preset wants its run shown.
@@ -48,7 +48,7 @@ render::MovieStyle style_of(const preset::Preset& preset, Pictures pictures);
 /// The joints that were measured on a real shell, 3 x n, mm.
 Eigen::Matrix3Xd scan_of(const preset::Preset& preset);
 
-/// Holds the OpenGL context, so it stays on the thread that made it.
+/// Owns the OpenGL context, so it stays on the thread that made it.
 class PictureMaker {
  public:
   /// `context` as in --context; `font` of all text, empty: the usual one. Errors: io when no
@@ -77,8 +77,11 @@ Result<void> draw_run(const Run& run, const SharedColourBar& bar, render::Render
 
 // A shell that moves as a mode says, which is no state.
 
-/// The one of `state`'s last frame, moved by `part` of a shape whose largest move is 1: 0.12 of the
-/// length scale. It knows nothing but its shape.
+/// How far the node that moves furthest is drawn: a shape has no size of its own.
+inline double drawn_move_mm(const record::Layout& layout) { return 0.12 * layout.length_scale_mm; }
+
+/// The one of `state`'s last frame, moved by `part` of a shape whose largest move is 1:
+/// drawn_move_mm(). It knows nothing but its shape.
 record::Frame moved_by(const record::Trajectory& state, const Eigen::Matrix3Xd& shape, double part,
                        int index);
 

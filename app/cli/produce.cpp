@@ -27,7 +27,7 @@ Result<std::vector<Run>> planned(const preset::Presets& presets, Pictures pictur
   std::vector<Run> runs;
   for (const preset::Case& one : runs_of(presets)) {
     const preset::Preset& preset = one.preset;
-    if (preset.jitter.wanted() && pictures == Pictures::movie)
+    if (preset.jitter.requested() && pictures == Pictures::movie)
       return invalid(
           "{}: a search for states ([jitter] trials or confined above 0) has no movie; "
           "'gridshell figure' draws the states, [jitter] trials = 0 and confined = 0 make "
@@ -61,15 +61,17 @@ record::Kind kind_of(Pictures pictures) {
 // what may bring a run further that ended before its end, or ends it before; empty where nothing
 // is known
 std::string help_for(const preset::Preset& preset, record::Limit limit, double largest_strain) {
-  const std::string less =
-      preset.indentation.wanted() ? "less [indentation] depth" : "a larger actuated boundary";
+  const bool pushes = preset.indentation.requested() || !preset.step.empty();
+  const std::string less = preset.indentation.requested() ? "less [indentation] depth"
+                           : !preset.step.empty() ? "a smaller depth_mm, angle or load there"
+                                                  : "a larger actuated boundary";
   switch (limit) {
     case record::Limit::none:
     case record::Limit::snap:
       return "";
     case record::Limit::locking:
       // a push may have met its stiffness instead
-      if (preset.indentation.wanted() && std::abs(largest_strain) < 0.9 * preset.limits.max_strain)
+      if (pushes && std::abs(largest_strain) < 0.9 * preset.limits.max_strain)
         return less + " ends before that";
       return less + " ends before that, more [limits] max_strain after it";
     case record::Limit::strength:
@@ -92,7 +94,7 @@ std::string help_for(const preset::Preset& preset, record::Limit limit, double l
 // one run, a path's or a search for states
 Result<record::Summary> computed(Run& run, int threads, const fs::path& segments,
                                  record::Sink& sink, Watch& watch) {
-  if (!run.preset.jitter.wanted()) {
+  if (!run.preset.jitter.requested()) {
     const auto scene = std::make_shared<Scene>(*std::exchange(run.scene, nullptr));
     scene->team = std::make_shared<Team>(threads);
     if (!segments.empty()) scene->kept = std::make_shared<simulate::KeptSegments>(segments);
@@ -117,7 +119,7 @@ Result<void> simulate(Run& run, int threads, const fs::path& folder, const fs::p
   run.summary = *summary;
   run.summary.kind = kind;
   TRY(trajectory, sink.finish(run.summary));
-  if (run.preset.jitter.wanted()) TRY_DO(record::write_state_tables(folder, run.states));
+  if (run.preset.jitter.requested()) TRY_DO(record::write_state_tables(folder, run.states));
   run.trajectory = std::move(*trajectory);
   if (run.pictures == Pictures::none) run.trajectory.frames = {};
   return {};
@@ -240,7 +242,7 @@ void print_result(const Run& run, const fs::path& folder) {
   print_strength(at, run.preset.limits);
   // why it ended early is said as the error that it is
   if (!at.limit_reason.empty() && failure_of(at, true).empty())
-    fmt::print("\n  on its way: {}", at.limit_reason);
+    fmt::print("\n  on its path: {}", at.limit_reason);
   if (!at.contact.empty()) fmt::print("\n  contact: {}", at.contact);
   if (at.contacts > 0)
     fmt::print("\n  its last state has {} interpenetration{}: rods overlap there{}", at.contacts,
@@ -249,7 +251,7 @@ void print_result(const Run& run, const fs::path& folder) {
                    ? ""
                    : ", and contact is not modelled");
   fmt::print("\n");
-  if (run.preset.jitter.wanted()) fmt::print("{}", found_text(run.states));
+  if (run.preset.jitter.requested()) fmt::print("{}", found_text(run.states));
   fmt::print("{}", how_to_make_movie(folder_of(folder, run.name), run.preset));
 }
 

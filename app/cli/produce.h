@@ -23,7 +23,8 @@ std::string failure_of(const record::Summary& summary, bool allow_unstable);
 /// trusted. The trajectory of an interrupted run ends with the last complete frame, and its
 /// summary, which says so, describes that frame. Errors: bad_input with file and cause.
 Result<std::vector<Run>> read_runs(const std::filesystem::path& folder,
-                                   const std::vector<preset::Override>& overrides, bool unsealed);
+                                   const std::vector<preset::Override>& overrides,
+                                   bool no_checksum);
 
 /// "41 frames, up to progress 0.17" of a run that was cut short.
 std::string progress_text(const Run& run);

@@ -13,7 +13,9 @@
 #include "app/cli/staged_folder.h"
 #include "engine/core/try.h"
 #include "engine/gridshell.h"
+#include "render/canvas/panels.h"
 #include "render/movie/fabrication_sheets.h"
+#include "render/movie/run_figures.h"
 #include "render/movie/state_charts.h"
 #include "render/movie/stills.h"
 
@@ -30,7 +32,7 @@ struct ReportOptions {
   fs::path to;
   std::string context = "auto";
   int modes = 6, imperfections = 0;
-  bool quiet = false, unsealed = false;
+  bool quiet = false, no_checksum = false;
 };
 
 /// Four digits, of thousands all before the point.
@@ -42,6 +44,11 @@ std::string number(double value) {
 
 std::string with_unit(double value, const char* unit) {
   return std::isfinite(value) ? number(value) + " " + unit : "not known";
+}
+
+/// An error with its unit; its second digit is not known: "0.01 mm".
+std::string error_with_unit(double value, const char* unit) {
+  return std::isfinite(value) ? fmt::format("{:.1g} {}", value, unit) : "not known";
 }
 
 /// The components of a force; those that are round-off compared with `beside` are left out.
@@ -79,6 +86,12 @@ Result<render::Image> picture_of(const Run& run, preset::ColourBy colours,
   return std::move(*picture);
 }
 
+/// "timber_c24", or what is known of it: "*E* = 83 GPa".
+std::string material_text(const preset::Rod& rod) {
+  if (rod.material == preset::Material::none) return fmt::format("E = {:g} GPa", rod.young_GPa);
+  return render::spaced(std::string(word_of(rod.material)));
+}
+
 void add_geometry(Sheets& sheets, const Run& run, const exports::FabricationPlan& plan) {
   const record::Summary& summary = run.summary;
   const auto& boundary = plan.actuated_boundary;
@@ -89,25 +102,27 @@ void add_geometry(Sheets& sheets, const Run& run, const exports::FabricationPlan
           : Eigen::Vector3d::Zero();
   sheets.values(
       {{"rods", fmt::format("{}, {:.4g} m in all", summary.rods, 1e-3 * plan.total_length_mm())},
+       {"section and material", plan.section_text() + ", " + material_text(run.preset.rod)},
        {"joints", fmt::format("{}, {} mm apart", summary.joints, number(plan.spacing_mm))},
-       {"plan of the boundary", number(span.x()) + " × " + with_unit(span.y(), "mm")},
-       {"highest joint above it", with_unit(summary.height_mm, "mm")},
+       {"plan dimensions", number(span.x()) + " × " + with_unit(span.y(), "mm")},
+       {"rise", with_unit(summary.height_mm, "mm")},
        {"model", fmt::format("{}, {} edges per segment", summary.model, summary.edges_per_segment)},
-       {"error of positions", with_unit(summary.error_estimate_mm, "mm")},
+       {"error of positions", error_with_unit(summary.error_estimate_mm, "mm")},
        {"state", !summary.solved  ? "the net itself, no equilibrium"
                  : summary.stable ? "in stable equilibrium"
                                   : "not stable"},
-       {"force left over", with_unit(summary.residual_N, "N")}});
-  if (!summary.limit_reason.empty()) sheets.text("On its way: " + summary.limit_reason + ".");
+       {"residual force", error_with_unit(summary.residual_N, "N")}});
+  if (!summary.limit_reason.empty()) sheets.text("On its path: " + summary.limit_reason + ".");
   if (!summary.doubt.empty()) sheets.text("In doubt: " + summary.doubt + ".");
   for (const std::string& step : summary.steps) sheets.text(step);
 }
 
 void add_stresses(Sheets& sheets, const record::Summary& summary) {
   sheets.heading("Stresses");
-  sheets.values({{"largest stress of a fibre", with_unit(summary.largest_stress_MPa, "MPa")},
-                 {"over the strength of its rod", number(summary.utilisation)},
-                 {"largest strain by bending", number(summary.largest_bending_strain)}});
+  sheets.values(
+      {{"largest fibre stress", with_unit(summary.largest_stress_MPa, "MPa")},
+       {"utilisation", fmt::format("{:.2f}", summary.utilisation)},
+       {"largest bending strain", fmt::format("{:.2f} %", 100 * summary.largest_bending_strain)}});
   if (!summary.stress_at.empty()) sheets.text("It is largest in " + summary.stress_at + ".");
   if (const std::string text = summary.breaking(); !text.empty()) sheets.text(text + ".");
   if (!std::isfinite(summary.utilisation))
@@ -131,28 +146,34 @@ void add_reactions(Sheets& sheets, const record::Layout& layout, const record::F
   };
   add("sum of loads", frame.loads_N.rowwise().sum());
   add("sum", frame.reactions_N.rowwise().sum());
+  // heights are above the lowest support
+  double ground = INFINITY;
+  for (const Eigen::Index k : order)
+    ground = std::min(ground, frame.nodes(2, layout.supports[std::size_t(k)]));
   for (const Eigen::Index k : order) {
-    const Eigen::Vector3d at = frame.nodes.col(layout.supports[std::size_t(k)]);
-    add(fmt::format("{:.1f}, {:.1f}, {:.1f}", at.x(), at.y(), at.z()), frame.reactions_N.col(k));
+    const Eigen::Vector3d at =
+        frame.nodes.col(layout.supports[std::size_t(k)]) - Eigen::Vector3d(0, 0, ground);
+    add(fmt::format("{:.1f}, {:.1f}, {:.1f}", at.x() + 0.0, at.y() + 0.0, at.z() + 0.0),
+        frame.reactions_N.col(k));
   }
-  sheets.text(
-      fmt::format("Forces of the supports on the shell, at their positions in mm; each is known "
-                  "to {}.",
-                  with_unit(frame.force_error_N, "N")));
+  sheets.text(fmt::format(
+      "Forces of the supports on the shell, at their positions in mm, z above the lowest "
+      "support; each is known to ± {}.",
+      error_with_unit(frame.force_error_N, "N")));
   sheets.table({{"place", 130, AlignX::left},
                 {"*x* (N)", 60},
                 {"*y* (N)", 60},
                 {"*z* (N)", 60},
-                {"size (N)", 60},
+                {"magnitude (N)", 60},
                 {"", 0}},
                rows);
 }
 
 Result<void> add_loads(Sheets& sheets, study::FormedShell& shell, const ReportOptions& options,
                        Watch& watch) {
-  sheets.heading("What it carries");
+  sheets.heading("Load factors");
   if (shell.path.simulation.scene().load_cases.empty()) {
-    sheets.text("No load case is named: [[loads.case]] defines one.");
+    sheets.text("No load case: [[loads.case]] defines one.");
     return {};
   }
   TRY(found, study::load_study(shell, options.imperfections, watch));
@@ -178,25 +199,58 @@ Result<void> add_loads(Sheets& sheets, study::FormedShell& shell, const ReportOp
          row.critical_factor < 1 || row.strength_factor < 1});
   }
   sheets.text(
-      "Each case is applied to the state above, its factor growing by arc length until "
-      "stability is lost. Beside it the factor that the linearised problem would give. Red: "
-      "lost, or a fibre at its strength, below the whole load.");
+      "Each case is applied to the state above and its factor increased, by arc length, until "
+      "stability is lost; linear: the factor of the linearised problem. Red: the shell does not "
+      "carry this case, as stability is lost or the strength reached at a factor below 1.");
   sheets.table({{"case", 62, AlignX::left},
                 {"sum *x* (N)", 44},
                 {"sum *y* (N)", 44},
                 {"sum *z* (N)", 44},
                 {"factor", 70},
                 {"linear", 40},
-                {"breaks at", 72},
-                {"lost by", 0, AlignX::left}},
+                {"strength at", 72},
+                {"failure mode", 0, AlignX::left}},
                rows);
   sheets.plot(render::load_plot(found->points, found->cases, ""));
   return {};
 }
 
+/// The shapes of the first modes over the state in grey.
+Result<void> add_shapes(Sheets& sheets, const study::Vibrations& found, render::MovieStyle style,
+                        Watch& watch) {
+  constexpr std::size_t most = 6, columns = 3;
+  style.title.clear();
+  style = at_size(render::uncoloured(std::move(style)), 58, 34, 300);
+  style.print = {180, 200};
+  record::Trajectory states;
+  states.layout = found.state.layout;
+  states.layout.original_boundary = states.layout.actuated_boundary;
+  states.frames.push_back(found.state.frames.back());
+  for (std::size_t k = 0; k < std::min(most, found.modes.size()); ++k)
+    if (found.modes[k].frequency_Hz >= 0)
+      states.frames.push_back(moved_by(found.state, found.shapes[k], 1, int(k + 1)));
+  if (states.frames.size() < 2) return {};
+  const render::Stage stage(states, style);
+  render::PanelFigure figure = render::empty_figure(style, int(columns));
+  for (std::size_t k = 1; k < states.frames.size(); ++k) {
+    const record::Frame frame = states.frames[k];
+    const auto& mode = found.modes[std::size_t(frame.index) - 1];
+    TRY_DO(render::add_panel(
+        figure, stage, stage.drawing(frame),
+        {false, fmt::format("mode {}: {:.3g} Hz", mode.mode, mode.frequency_Hz)}, nullptr, watch));
+  }
+  TRY(picture, render::draw_panels(figure));
+  sheets.text(
+      fmt::format("Shapes over the state in grey; their largest displacement is drawn as "
+                  "{:.3g} mm.",
+                  drawn_move_mm(found.state.layout)));
+  sheets.picture(*picture);
+  return {};
+}
+
 Result<void> add_vibrations(Sheets& sheets, study::FormedShell& shell, const ReportOptions& options,
-                            Watch& watch) {
-  sheets.heading("How it sways");
+                            const render::MovieStyle& style, Watch& watch) {
+  sheets.heading("Natural frequencies and modes");
   const auto found = study::vibrations_of(shell, options.modes, watch);
   if (!found && found.error().fault == Fault::bad_input) {
     sheets.text("Not found: " + found.error().message + ".");
@@ -212,11 +266,11 @@ Result<void> add_vibrations(Sheets& sheets, study::FormedShell& shell, const Rep
           ""},
          mode.frequency_Hz < 0});
   sheets.table({{"mode", 40}, {"frequency (Hz)", 120}, {"", 0}}, rows);
-  return {};
+  return add_shapes(sheets, *found, style, watch);
 }
 
 Result<void> add_run(Sheets& sheets, const Run& run, const ReportOptions& options,
-                     render::Renderer& renderer, Progress& progress) {
+                     render::Renderer& renderer, Progress& progress, std::string& last_cut_list) {
   const preset::Preset& preset = run.preset;
   if (run.trajectory.frames.empty()) return invalid("'{}' has no frame", options.input);
   TRY(plan, simulate::fabrication_plan_of(preset));
@@ -227,7 +281,6 @@ Result<void> add_run(Sheets& sheets, const Run& run, const ReportOptions& option
   sheets.picture(*shape);
   sheets.heading("Geometry");
   add_geometry(sheets, run, *plan);
-  sheets.next_sheet();
   const record::Frame& last = run.trajectory.frames.back();
   add_stresses(sheets, run.summary);
   if (last.stress_MPa.size() > 0) {
@@ -239,18 +292,21 @@ Result<void> add_run(Sheets& sheets, const Run& run, const ReportOptions& option
   }
   drawing.report(1);
   add_reactions(sheets, run.trajectory.layout, last);
-  sheets.next_sheet();
   Watch& studies = progress.next_phase();
   if (run.summary.solved) {
     TRY(shell, study::form_shell(preset, studies));
     TRY_DO(add_loads(sheets, *shell, options, studies));
-    TRY_DO(add_vibrations(sheets, *shell, options, studies));
+    TRY_DO(add_vibrations(sheets, *shell, options, style_of(preset, Pictures::stills), studies));
   } else {
-    sheets.text("Nothing was solved: what the net carries and how it sways is not known.");
+    sheets.text("Nothing was solved: load factors and frequencies of the net are not known.");
   }
-  sheets.next_sheet();
   sheets.heading("Cut list");
-  render::add_cut_list(sheets, exports::rounded(std::move(*plan), preset.figure.cut_step_mm));
+  const auto rounded = exports::rounded(std::move(*plan), preset.figure.cut_step_mm);
+  if (render::cut_list_text(rounded) == last_cut_list)
+    sheets.text("As above.");
+  else
+    render::add_cut_list(sheets, rounded);
+  last_cut_list = render::cut_list_text(rounded);
   if (const auto& fault = run.trajectory.frames.fault()) return tl::unexpected(*fault);
   return {};
 }
@@ -267,9 +323,9 @@ Result<int> make_report(ReportOptions options) {
     options.to = (run_folder.has_filename() ? run_folder : run_folder.parent_path()).string() +
                  "_report.pdf";
   if (options.to.extension() != ".pdf")
-    return invalid("--to {}: must end in .pdf", options.to.string());
+    return invalid("--to {}: expected a name that ends in .pdf", options.to.string());
   TRY_DO(check_beside_runs(options.to));
-  TRY(runs, read_runs(options.input, {}, options.unsealed));
+  TRY(runs, read_runs(options.input, {}, options.no_checksum));
   TRY(maker, PictureMaker::create(options.context, runs->front().preset.style.font));
   std::vector<Phase> phases;
   for (const Run& run : *runs) {
@@ -280,9 +336,10 @@ Result<int> make_report(ReportOptions options) {
   Sheets sheets(preset::title_or_name(runs->front().preset));
   {
     Progress progress(phases, Progress::show_for(options.quiet), [] {});
+    std::string cut_list;
     for (std::size_t k = 0; k < runs->size(); ++k) {
       if (k > 0) sheets.next_sheet();
-      TRY_DO(add_run(sheets, (*runs)[k], options, maker->renderer(), progress));
+      TRY_DO(add_run(sheets, (*runs)[k], options, maker->renderer(), progress, cut_list));
     }
   }
   TRY_DO(write_with_folder(options.to, sheets.pdf()));
@@ -303,7 +360,7 @@ void add_report(CommandLine& program) {
       .option("--imperfections", options.imperfections,
               "more shells per case, displaced by loads.imperfection")
       .in_range(0, 1000);
-  add_unsealed(command, options.unsealed);
+  add_no_checksum(command, options.no_checksum);
 }
 
 }  // namespace gridshell::app

@@ -158,7 +158,7 @@ struct ScanOptions {
   Options common;  ///< output, quiet, context, --set; `input` is the file of points
   std::vector<std::string> runs;
   std::string unit = "mm";
-  bool unsealed = false;
+  bool no_checksum = false;
   bool centres = false;     ///< the points are joints, not tops of cylinders
   double tolerance_mm = 0;  ///< 0: by the noise
 };
@@ -207,14 +207,14 @@ Result<Scanned> read_all(const ScanOptions& options) {
   scanned.cloud = std::move(cloud->points);
   scanned.empty_rows = cloud->empty_rows;
   for (const std::string& folder : options.runs) {
-    TRY(runs, read_runs(folder, *overrides, options.unsealed));
+    TRY(runs, read_runs(folder, *overrides, options.no_checksum));
     scanned.runs.push_back(std::move(*runs));
   }
   for (std::size_t k = 0; k < options.runs.size(); ++k)
     for (Candidate& one : candidates_of(scanned.runs[k], options.runs[k]))
       scanned.candidates.push_back(std::move(one));
   if (scanned.candidates.empty())
-    return invalid("'{}' holds no state to compare with", options.runs.front());
+    return invalid("'{}' contains no state to compare with", options.runs.front());
   const preset::Joints& joints = scanned.candidates.front().run->preset.joints;
   scanned.cylinder = {joints.diameter_mm, options.centres ? 0 : joints.height_mm};
   return scanned;
@@ -317,8 +317,9 @@ Result<ComparedScan> compared(const Scanned& scanned, const std::string& file, W
 }
 
 /// Red joints over the black shell [Baek 2018, Figs. 2A, 3C, 5E].
-Result<void> draw(const ComparedScan& scan, const Candidate& one, PictureMaker& maker,
-                  const fs::path& folder, Watch& watch) {
+Result<void> draw(const ComparedScan& scan, const Candidate& one, const fs::path& folder,
+                  Watch& watch) {
+  TRY_DO(render::use_font(one.run->preset.style.font));
   const auto style = style_of(one.run->preset, Pictures::stills);
   const RegisteredScan& laid = *scan.of_best().scan;
   const record::Trajectory shown = states_alone(one.run->trajectory, {one.frame});
@@ -326,10 +327,8 @@ Result<void> draw(const ComparedScan& scan, const Candidate& one, PictureMaker& 
       fmt::format("{}{} of {} joints, {:.2f} mm rms, {:.2f} mm at most",
                   scan.of_best().shown ? "" : "not this state: ", laid.found, laid.joints.cols(),
                   laid.rms_mm, laid.max_mm);
-  const double dpi = style.print.width_mm > 0 ? style.print.dpi : 0;
-  return save_panels(
-      render::draw_over_nets({{&shown, caption, laid.measured()}}, style, maker.renderer(), watch),
-      folder / "scan.png", dpi);
+  return save_panels(render::draw_over_nets({{&shown, caption, laid.measured()}}, style, watch),
+                     folder / "scan.png", style.print.dpi);
 }
 
 /// scan.json, scan.csv (a line a joint), measured.csv (the joints found, for [figure] scan) and
@@ -352,12 +351,11 @@ Result<int> produce_scan(const ScanOptions& options) {
     TRY_DO(write_file(partial / "scan.csv", scan_csv(*scan, best.run->trajectory.layout)));
     TRY_DO(write_file(partial / "measured.csv", measured_csv(*scan->of_best().scan)));
     TRY_DO(write_file(partial / "scan.json", scan_json(*scan)));
-    TRY(maker, PictureMaker::create(common.context, best.run->preset.style.font));
-    return draw(*scan, best, *maker, partial, progress.next_phase());
+    return draw(*scan, best, partial, progress.next_phase());
   };
   TRY_DO(deliver({folder, "scan"}, phases, common.quiet, work));
   if (!common.quiet && scanned->empty_rows > 0)
-    fmt::print("{}: {} rows hold no point (nan)\n", points.string(), scanned->empty_rows);
+    fmt::print("{}: {} rows have no point (nan)\n", points.string(), scanned->empty_rows);
   if (!common.quiet) fmt::print("{}: {}", folder.string(), scan_text(*scan));
   return scan->of_best().shown ? ExitCode::done : ExitCode::different;
 }
@@ -375,7 +373,7 @@ void add_scan(CommandLine& program) {
   add_changes(command, options.common);
   add_work_options(command, options.common, "folder to write, by default out/<points>_scan");
   add_picture_options(command, options.common);
-  add_unsealed(command, options.unsealed);
+  add_no_checksum(command, options.no_checksum);
   command.flag("--centres", options.centres,
                "the points are the joints themselves, not tops of cylinders");
   command

@@ -278,7 +278,7 @@ Result<std::string> StagedFolder::remove_old(const fs::path& old) {
   fs::remove_all(old, error);
   if (!error) return std::string();
   return fmt::format(
-      "the run that stood in '{}' could not be removed ({}): what is left of it is "
+      "the earlier run in '{}' could not be removed ({}): what is left of it is "
       "in '{}'",
       final_.string(), error.message(), old.string());
 }

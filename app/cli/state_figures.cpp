@@ -38,15 +38,17 @@ std::string dome_text(const StateRow& row) {
 }
 
 std::string caption_of(const StateRow& row, const record::StateSearch& search) {
-  return fmt::format("*{}*, {}{}\n{:.2f} mJ, met {} in {}", row.name(), group_text(row.group),
-                     dome_text(row), row.energy_mJ(), row.count, search.at_rest);
+  return fmt::format("state *{}* ({}){}, *E* = {:.2f} mJ\nfound in {} of {} random trials",
+                     row.name(), group_text(row.group), dome_text(row), row.energy_mJ(), row.count,
+                     search.at_rest);
 }
 
 /// "153 states in 900 trials; about 214 in all (186 to 262)"
 std::string completeness_text(const record::StateTables& states) {
   const RichnessEstimate& all = states.search.completeness;
-  return fmt::format("{} states in {} trials; Chao1: {:.0f} in all (95 %: {:.0f} to {:.0f})",
-                     all.seen, states.search.at_rest, all.estimate, all.low, all.high);
+  return fmt::format(
+      "{} states in {} random trials; Chao1 estimates {:.0f} (95 %: {:.0f} to {:.0f})", all.seen,
+      states.search.at_rest, all.estimate, all.low, all.high);
 }
 
 /// One series a class, in the order of the paper.
@@ -72,7 +74,7 @@ render::Plot energies_plot(const record::StateTables& states) {
   render::Plot plot;
   plot.title = completeness_text(states);
   plot.x = {.label = "energy (mJ)"};
-  plot.y = {.label = "times met", .logarithmic = true, .low = 0.5};
+  plot.y = {.label = "times found", .logarithmic = true, .low = 0.5};
   std::vector<StateRow> met;
   std::set<StateClass> left_out;
   for (const StateRow& row : states.rows)
@@ -84,21 +86,24 @@ render::Plot energies_plot(const record::StateTables& states) {
   if (const std::size_t others = states.rows.size() - met.size(); others > 0) {
     std::vector<std::string_view> words;
     for (const StateClass kind : left_out) words.push_back(word_of(kind));
-    plot.title +=
-        fmt::format("\n{} met by no trial are left out ({})", others, fmt::join(words, ", "));
+    plot.title += fmt::format("\n{} more were found from symmetric starts only ({})", others,
+                              fmt::join(words, ", "));
   }
   plot.series = by_class(met, [](const StateRow& row) { return double(row.count); });
+  double most = 1;
+  for (const StateRow& row : met) most = std::max(most, double(row.count));
+  plot.y.high = std::max(3.0, 1.5 * most);
   return plot;
 }
 
 render::Plot lives_plot(const record::StateTables& states) {
   render::Plot plot;
-  plot.title = "How far back along the path the states live";
-  plot.x = {.label = "energy at the end (mJ)"};
+  plot.title = "Range in which the states exist";
+  plot.x = {.label = "energy at the end of the path (mJ)"};
   const bool circle = std::ranges::none_of(
       states.rows, [](const StateRow& row) { return std::isnan(row.lives_to_radius_mm); });
-  plot.y = {.label = circle ? "largest *R*_{a} (mm)" : "least progress"};
-  plot.legend = render::LegendPlace::above;
+  plot.y = {.label = circle ? "exists up to *R*_{a} (mm)" : "exists from progress"};
+  plot.legend = render::LegendPosition::above;
   plot.series = by_class(states.rows, [&](const StateRow& row) {
     return circle ? row.lives_to_radius_mm : row.lives_to;
   });
@@ -109,7 +114,7 @@ using render::Box;
 using render::Canvas;
 
 // positions on the page, mm
-constexpr double page_width = 178, page_height = 144, margin = 2;
+constexpr double page_width = 178, page_height = 147, margin = 2;
 constexpr Box above{margin, margin, 160, 38}, diagram{margin, 42, 97, 94}, maps{101, 42, 75, 94},
     foot{margin, 137, 97, 5};
 constexpr double points_per_mm = 72 / 25.4, caption = 12;  // points
@@ -122,6 +127,11 @@ struct Found {
   const record::StateRow& row() const { return record->states.rows[at]; }
   const record::Frame& frame() const { return record->trajectory.frames[at]; }
 };
+
+/// "state *ii* (*C*_{2v})": a page has one of each class.
+std::string page_name_of(const StateRow& row) {
+  return fmt::format("{} ({})", class_text(row.kind), group_text(row.group));
+}
 
 /// The lowest of a class.
 std::optional<Found> lowest_of(StateClass kind, const Run& record) {
@@ -174,9 +184,7 @@ Result<void> add_state(Page& page, const Found& found, const render::Stage& stag
       renderer.draw(drawing, camera, render::draw_quality(style), style.width(), style.height()));
   render::Panel panel{std::move(*picture), letter, ""};
   if (style.vector) panel.lines = render::shell_lines(std::move(drawing), camera);
-  page.add_panel(
-      fmt::format("*{}*, {}: {}", found.row().name(), group_text(found.row().group), caption), box,
-      std::move(panel));
+  page.add_panel(fmt::format("{}, {}", page_name_of(found.row()), caption), box, std::move(panel));
   return {};
 }
 
@@ -230,10 +238,9 @@ Result<void> add_states(Page& page, const Runs& records, render::MovieStyle styl
     };
     wide.zoom *= stage.pixels_per_mm() / staged().pixels_per_mm();
     const render::Stage beside = staged();
-    TRY_DO(add_state(
-        page, *dome, beside, beside.drawing(alone.frames.front()), "A4",
-        fmt::format("{:.2f} mJ, at {}", dome->row().energy_mJ(), place_of(dome->record->preset)),
-        {above.x + 3 * width, above.y, wider * width, above.height}, renderer));
+    TRY_DO(add_state(page, *dome, beside, beside.drawing(alone.frames.front()), "A4",
+                     fmt::format("{:.2f} mJ", dome->row().energy_mJ()),
+                     {above.x + 3 * width, above.y, wider * width, above.height}, renderer));
   }
   if (const auto& bar = stage.colour_bar()) page.add_colour_bar({163, 3, 14, 28}, *bar);
   if (over >= 0) page.add_keys({128, 1, 32, 4}, {render::scan_key()});
@@ -259,12 +266,16 @@ Result<void> add_diagram(Page& page, const std::string& named) {
 }
 
 /// What all shells of the page have in common.
-void add_foot(Page& page, const preset::Preset& preset) {
-  const double d = preset.footprint.spacing_mm;
-  const std::string shell =
-      fmt::format("A1–A3 at {}; all: circles, *d* = {:g} mm, *R*_{{a}} = {:.3g} *R*_{{o}}",
-                  place_of(preset), d, preset.actuated_radius_mm() / preset.original_radius_mm());
-  if (preset.footprint.kind == preset::FootprintKind::circle) page.add_note(foot, shell);
+void add_foot(Page& page, const preset::Preset& preset, const std::string& dome) {
+  if (preset.footprint.kind != preset::FootprintKind::circle) return;
+  page.add_note(foot,
+                fmt::format("A1–A3 at {}{}; *d* = {:g} mm, *R*_{{a}} = {:.3g} *R*_{{o}}; elastic "
+                            "energies.",
+                            place_of(preset), dome.empty() ? "" : ", A4 at " + dome,
+                            preset.footprint.spacing_mm,
+                            preset.actuated_radius_mm() / preset.original_radius_mm()));
+  page.add_note({foot.x, foot.y + 4, foot.width, foot.height},
+                "B: markers are displaced from their point, grey, for legibility.");
 }
 
 /// A state of each class from above, each as large as its box.
@@ -279,8 +290,7 @@ void add_maps(Page& page, const Runs& records) {
       page.add_empty(letter, box, "no state " + std::string(word_of(kind)));
       continue;
     }
-    const auto words = fmt::format("*{}*, {}", found->row().name(), group_text(found->row().group));
-    page.add(letter, words, box,
+    page.add(letter, page_name_of(found->row()), box,
              [found = *found, where = place_of(found->record->preset)](Canvas& canvas,
                                                                        const Box& inside) {
                const record::Layout& layout = found.record->trajectory.layout;
@@ -294,9 +304,10 @@ void add_maps(Page& page, const Runs& records) {
              });
   }
   page.add_keys({maps.x, maps.y + maps.height, maps.width, 5},
-                {{render::first_order_ink, "rod of the first order"},
-                 {render::higher_order_ink, "with inflections"},
-                 {render::mirror_ink, "symmetry"}});
+                {{render::first_order_ink, "first-mode buckling"},
+                 {render::higher_order_ink, "higher-order buckling"}});
+  page.add_keys({maps.x, maps.y + maps.height + 4, maps.width, 5},
+                {{render::mirror_ink, "symmetry element"}});
 }
 
 }  // namespace
@@ -320,7 +331,7 @@ std::string found_text(const record::StateTables& states) {
   const record::StateSearch& search = states.search;
   const RichnessEstimate& all = search.completeness;
   std::string text = fmt::format(
-      "  {} of {} trials came to rest, in {} states ({} once, {} twice); Chao1: {:.0f} in all, 95 "
+      "  {} of {} trials converged, to {} states ({} once, {} twice); Chao1: {:.0f} in all, 95 "
       "%: "
       "{:.0f} to {:.0f}\n",
       search.at_rest, search.trials, all.seen, all.once, all.twice, all.estimate, all.low,
@@ -378,14 +389,15 @@ Result<Page> states_page(const Runs& records, const render::MovieStyle& style,
   const Run& first = *records.front();
   if (first.states.rows.empty())
     return invalid(
-        "{}: [page] kind = \"fig2\" shows states: must have [jitter] trials or "
+        "{}: [page] kind = \"fig2\" shows states: expected [jitter] trials or "
         "confined above 0",
         first.preset.name);
   Page page{page_width, page_height};
   TRY_DO(add_states(page, records, style, renderer, watch));
   TRY_DO(add_diagram(page, first.preset.page.sweep));
   add_maps(page, records);
-  add_foot(page, first.preset);
+  const auto dome = lowest_of(StateClass::i, records);
+  add_foot(page, first.preset, dome ? place_of(dome->record->preset) : "");
   return page;
 }
 

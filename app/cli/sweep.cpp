@@ -61,7 +61,7 @@ std::vector<std::string> plots_of(const preset::SweepGrid& grid) {
 std::vector<std::string> drawable(const preset::Presets& presets, const preset::SweepGrid& grid) {
   std::set<std::string> names;
   for (const auto& run : runs_of(presets)) {
-    const bool search = run.preset.jitter.wanted();
+    const bool search = run.preset.jitter.requested();
     for (auto& name : study::figure_names(search)) names.insert(std::move(name));
     if (search && record::makes_phase_diagram(axes_of(grid))) names.insert(classes);
   }
@@ -72,13 +72,13 @@ std::vector<std::string> drawable(const preset::Presets& presets, const preset::
 Result<void> check_asked(const preset::Presets& presets, const preset::SweepGrid& grid) {
   if (grid.size() == 0)
     return invalid(
-        "{}: sweeps nothing: must have [sweep] over or seeds, for example --set "
+        "{}: sweeps nothing: expected [sweep] over or seeds, for example --set "
         "'sweep.over={{rod.diameter_mm=[0.2,0.3]}}'",
         presets.base.name);
   const auto names = drawable(presets, grid);
-  auto asked = plots_of(grid);
-  if (!grid.sweep().x.empty()) asked.push_back(grid.sweep().x);
-  for (const auto& name : asked)
+  auto requested = plots_of(grid);
+  if (!grid.sweep().x.empty()) requested.push_back(grid.sweep().x);
+  for (const auto& name : requested)
     if (std::ranges::find(names, name) == names.end())
       return invalid(
           "{}: [sweep] plot or x = \"{}\": is no figure of a run{}", presets.base.name, name,
@@ -158,7 +158,7 @@ Result<std::string> tell_laws(const SweepJob& work, const record::SweepTable& ta
 }
 
 /// "20 points: 18 done (2 ended early: locking; 1 not stable), 2 no_equilibrium"
-std::string told(const record::SweepTable& table) {
+std::string reported(const record::SweepTable& table) {
   int done = 0, limited = 0, unstable = 0, none = 0, refused = 0;
   std::set<std::string> limits;
   for (const auto& row : table.rows) {
@@ -223,7 +223,7 @@ Result<std::string> finish(const SweepJob& work, const record::SweepLog& log) {
                 table.rows.front().result.reason);
   const auto plots = plots_of(work.grid);
   const bool diagram = !work.shard && std::ranges::find(plots, classes) != plots.end();
-  return told(table) + laws + (diagram ? regions_text(work, table) : "");
+  return reported(table) + laws + (diagram ? regions_text(work, table) : "");
 }
 
 void report_damage(const SweepJob& work, const record::SweepLog& log) {
@@ -276,10 +276,10 @@ Result<std::string> carry_out(const SweepJob& work) {
   if (work.options.merge) {
     TRY_DO(gather_shards(work.folder, *log, work.presets, work.grid));
     if (!missing(work, *log).empty())
-      return fail(
-          Fault::no_equilibrium,
-          "{}; shards continue where they stopped, and without --merge the rest is computed here",
-          standing_of(work, *log));
+      return fail(Fault::no_equilibrium,
+                  "{}; shards continue where they stopped, and without --merge the remaining runs "
+                  "are computed here",
+                  standing_of(work, *log));
   } else {
     TRY_DO(compute(work, *log));
   }

@@ -60,7 +60,7 @@ Result<record::SweepLog> open_sweep(const fs::path& folder, const preset::Preset
   if (fs::exists(folder, error) && !fs::is_directory(folder, error)) return refuse("it is a file");
   if (!fs::exists(folder / record::sweep_log_name, error))
     if (const auto foreign = foreign_in(folder); !foreign.empty())
-      return refuse(fmt::format("it is no sweep, and holds '{}'", foreign));
+      return refuse(fmt::format("it is no sweep, and contains '{}'", foreign));
   if (auto made = make_folder(folder); !made)
     return tl::unexpected(Error{Fault::bad_input, made.error().message});
   return record::SweepLog::open(folder / record::sweep_log_name, name_of(presets, grid),
@@ -112,7 +112,7 @@ Result<void> gather_shards(const fs::path& folder, record::SweepLog& log,
     if (is_shard_folder(*at)) shards.push_back(*at);
   if (shards.empty())
     return invalid(
-        "'{}' holds no shard: they are written by 'gridshell sweep PRESET --shard i/N' "
+        "'{}' contains no shard: they are written by 'gridshell sweep PRESET --shard i/N' "
         "with the same -o",
         folder.string());
   std::ranges::sort(shards);

@@ -1,4 +1,5 @@
-// A shell in hand: formed, pushed at a joint, let go; the force and its certificate at each step.
+// An interactive shell: formed, pushed at a joint, released; the force and its certificate at each
+// step.
 #include <cstdio>
 
 #include "engine/gridshell.h"

@@ -42,7 +42,7 @@ py::tuple packed(const Done& of) {
   py::list events;
   for (const Event& event : of.report.events) events.append(packed(event));
   return py::make_tuple(packed(of.report.certificate), events, of.report.effort.newton_iterations,
-                        of.report.seconds, of.told);
+                        of.report.seconds, of.reported);
 }
 
 void unpack(const py::tuple& from, Done& to) {
@@ -52,7 +52,7 @@ void unpack(const py::tuple& from, Done& to) {
     unpack(event.cast<py::tuple>(), to.report.events.emplace_back());
   to.report.effort.newton_iterations = from[2].cast<int>();
   to.report.seconds = from[3].cast<double>();
-  to.told = from[4].cast<std::string>();
+  to.reported = from[4].cast<std::string>();
 }
 
 py::tuple packed(const State& of) {

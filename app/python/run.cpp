@@ -73,9 +73,9 @@ py::array_t<Value> column(const Run& run, const Find& find) {
 }
 
 Run load(const std::filesystem::path& folder, const std::optional<std::string>& name,
-         bool unfinished, bool unsealed) {
-  auto runs =
-      value_of(interruptible([&](const Watch&) { return app::read_runs(folder, {}, unsealed); }));
+         bool unfinished, bool no_checksum, bool unsealed) {
+  auto runs = value_of(interruptible(
+      [&](const Watch&) { return app::read_runs(folder, {}, no_checksum || unsealed); }));
   std::string names;
   for (app::Run& run : runs) {
     names.append(names.empty() ? "" : ", ").append(run.name);
@@ -86,7 +86,7 @@ Run load(const std::filesystem::path& folder, const std::optional<std::string>& 
                          folder.string(), app::progress_text(run))});
     return Run(std::move(run));
   }
-  raise({Fault::bad_input, fmt::format("'{}': case must be one of: {}", folder.string(),
+  raise({Fault::bad_input, fmt::format("'{}': case: expected one of: {}", folder.string(),
                                        names.empty() ? "none" : names)});
 }
 
@@ -164,9 +164,10 @@ void add_run(py::module_& module) {
   add_columns(type);
   module.def(
       "load", &load, "folder"_a, py::kw_only(), "case"_a = py::none(), "unfinished"_a = false,
-      "unsealed"_a = false,
+      "no_checksum"_a = false, "unsealed"_a = false,
       "Reads a run's folder. Raises BadInput with the reason if it is no run, is damaged, or was "
-      "cut short and unfinished is not set.\n\ncase: which of its cases. unsealed: reads a "
+      "cut short and unfinished is not set.\n\ncase: which of its cases. no_checksum (once "
+      "`unsealed`): reads a "
       "trajectory.h5 with a missing or wrong checksum, as another program wrote it.");
 }
 

@@ -18,7 +18,7 @@ preset::Preset chosen(const preset::Presets& presets, const std::optional<std::s
   }
   if (!name && presets.cases.empty()) return presets.base;
   if (names.empty()) names = "none";
-  raise({Fault::bad_input, "case must be one of the preset's cases: " + names});
+  raise({Fault::bad_input, "case: expected one of the preset's cases: " + names});
 }
 
 namespace {

@@ -10,7 +10,7 @@ namespace gridshell::python {
 Result<Shell> Shell::open(const preset::Preset& preset) {
   TRY(made, shared_scene_of(preset));
   const std::shared_ptr<const Scene>& scene = *made;
-  if (scene->rung == RodModel::net)
+  if (scene->rod_model == RodModel::net)
     return invalid(
         "[accuracy] model = \"net\": the net is geometry alone, there is no shell to move");
   Shell shell(std::make_shared<const preset::Preset>(preset), scene);
@@ -56,7 +56,7 @@ Result<Done> Shell::form(double progress, const Watch& watch) {
                               segment.report.events.end());
   done.report.certificate = session_->certificate();
   done.report.effort = session_->effort();
-  done.told = course->limit_reason;
+  done.reported = course->limit_reason;
   return done;
 }
 
@@ -85,16 +85,16 @@ Result<Done> Shell::take(const preset::Step& step, const Watch& watch) {
 
 Result<Done> Shell::refine(double tolerance_mm, const Watch& watch) {
   if (!formed_) return invalid("the shell is still flat: actuate it first");
-  const double wanted =
+  const double requested =
       std::isnan(tolerance_mm) ? scene_->tolerance * scene_->length_scale_mm : tolerance_mm;
-  if (!(wanted > 0)) return invalid("tolerance_mm must be above 0");
-  auto done = ended("refine", session_->refine(wanted, watch));
+  if (!(requested > 0)) return invalid("tolerance_mm: expected above 0");
+  auto done = ended("refine", session_->refine(requested, watch));
   const double left = session_->certificate().error_estimate_mm;
   if (watch.cancelled()) return stopped();
-  if (done && !(left <= wanted))
+  if (done && !(left <= requested))
     return fail(Fault::no_equilibrium,
                 "refine: the finest meshes leave an estimated error of {:.2g} mm, more than {:g}",
-                left, wanted);
+                left, requested);
   return done;
 }
 
@@ -132,8 +132,8 @@ Result<State> Shell::look() {
     state.directions.push_back({NAN, NAN, NAN});
     for (int c = 0; c < 3 && one; ++c)
       state.directions.back()[std::size_t(c)] = hold.directions(c, 0);
-    const auto taken = session_->grip_origins.find(hold.node);
-    if (taken == session_->grip_origins.end()) continue;
+    const auto taken = session_->constraint_origins.find(hold.node);
+    if (taken == session_->constraint_origins.end()) continue;
     const Eigen::Vector3d moved = session_->nodes().col(hold.node) - taken->second;
     if (moved.norm() > nearest_mm) state.pushed.push_back({hold.node, moved.normalized()});
   }

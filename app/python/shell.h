@@ -30,7 +30,8 @@ struct State {
 /// Result of a step.
 struct Done {
   Report report;
-  std::string told = {};  ///< of the forming: what a run would report as its limit; empty: nothing
+  std::string reported =
+      {};  ///< of the forming: what a run would report as its limit; empty: nothing
 };
 
 /// A state to go back to, of one shell.

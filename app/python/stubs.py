@@ -1,4 +1,4 @@
-"""stubs.py FOLDER: writes gridshell.pyi beside the module that stands there, from its own signatures."""
+"""stubs.py FOLDER: writes gridshell.pyi next to the module there, from its own signatures."""
 import inspect
 import os
 import re

@@ -93,7 +93,7 @@ void add_report(py::module_& module) {
       .def_property_readonly(
           "seconds", [](const Done& of) { return of.report.seconds; }, "Time of the step, s.")
       .def_readonly(
-          "told", &Done::told,
+          "told", &Done::reported,
           "For the first actuation: what a run would report as limit_reason; empty: nothing.")
       .def("__repr__", [](const Done& of) {
         return fmt::format("Report({}, {} events, {:.2f} s)",

@@ -53,7 +53,7 @@ struct MouseAction {
   bool shift = false;
 };
 
-/// The words of the panels, a sentence each.
+/// The words of the panels, one sentence each.
 std::span<const std::pair<const char*, const char*>> terms();
 
 std::span<const MouseAction> mouse_actions();

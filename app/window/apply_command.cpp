@@ -96,9 +96,10 @@ Result<void> EditSession::do_step(preset::Step step, const Watch& watch) {
   if (holds)
     if (const auto joint = simulate::joint_of(step, now_.scene->footprint))
       // as it was seen, which the coarse mesh of a drag does not change
-      session_->grip_origins.emplace(*joint, view_.frame.nodes.cols() > *joint
-                                                 ? Eigen::Vector3d(view_.frame.nodes.col(*joint))
-                                                 : Eigen::Vector3d(session_->nodes().col(*joint)));
+      session_->constraint_origins.emplace(*joint,
+                                           view_.frame.nodes.cols() > *joint
+                                               ? Eigen::Vector3d(view_.frame.nodes.col(*joint))
+                                               : Eigen::Vector3d(session_->nodes().col(*joint)));
   // a snap starts from an equilibrium on all meshes, as in a run
   const bool leaps = step.kind == preset::StepKind::jitter || step.kind == preset::StepKind::rest ||
                      step.kind == preset::StepKind::release;
@@ -117,7 +118,7 @@ Result<void> EditSession::do_step(preset::Step step, const Watch& watch) {
   const auto lost = [](const Event& e) { return e.kind == Event::Kind::stability_lost && !e.to; };
   if (!event_at.empty() && report->end == Outcome::reached && report->certificate.stable() &&
       std::ranges::all_of(report->events, lost))
-    view_.event = view_.message = "stable again; on the way " + view_.message;
+    view_.event = view_.message = "stable again; on the path " + view_.message;
   return done;
 }
 
@@ -185,7 +186,7 @@ Result<void> EditSession::act(const Push& command, const Watch& watch) {
   // a joint that is already constrained and does not move makes no step
   const Eigen::Vector3d way = command.to - session_->nodes().col(command.joint);
   const bool still = (free ? std::abs(way.dot(command.along)) : way.norm()) < nearest_mm;
-  if (still && session_->grip_origins.contains(command.joint)) return {};
+  if (still && session_->constraint_origins.contains(command.joint)) return {};
   // a long displacement that was typed shows its equilibria as a dragged one does
   const bool dragged = this_drag_ == 0 || this_drag_ == steps_drag_;
   const int parts = dragged || !looks_between()
@@ -253,7 +254,7 @@ std::string why_not_designed(const ShellView& shell) {
   if (!shell.any()) return "there is no shell yet";
   if (shell.layout->net_nodes.cols() == 0)
     return "this shell was not designed on a net, so there is no surface that it could meet";
-  if (const auto needs = key_faults(shell.preset, preset::RuleKind::needs_twist); !needs.empty())
+  if (const auto needs = key_errors(shell.preset, preset::RuleKind::needs_twist); !needs.empty())
     return "only rods that stretch and bend can be designed: " + needs.front().what;
   if (!shell.held.empty()) return "a joint is fixed: release all joints first";
   if (!shell.steps.empty() || shell.rods_changed_late)

@@ -137,7 +137,7 @@ Result<void> EditSession::note_events(const Report& report) {
 Result<void> EditSession::form(const preset::Preset& preset, const Watch& watch) {
   TRY(made, shared_scene_of(preset));
   const std::shared_ptr<const Scene>& scene = *made;
-  if (scene->rung == RodModel::net)
+  if (scene->rod_model == RodModel::net)
     return invalid("the model 'net' is geometry alone: there is nothing to push");
   // on the mesh that a run follows, so that both reach the same states
   const LevelPlan plan{{simulate::initial_levels(*scene).edges_per_segment.back()}, false};
@@ -177,7 +177,7 @@ void EditSession::set_shell(const preset::Preset& preset, std::shared_ptr<const 
 
 /// The push of the preset itself, from the current state.
 Result<void> EditSession::set_preset_push() {
-  if (!now_.preset.indentation.wanted()) return {};
+  if (!now_.preset.indentation.requested()) return {};
   TRY(push, simulate::push_of(now_.preset.indentation, *now_.scene, session_->shell()));
   now_.push = {push->joint, session_->nodes().col(push->joint), push->displacement};
   return {};
@@ -223,7 +223,7 @@ Result<void> EditSession::act(const Change& command, const Watch& watch) {
 
 /// A shell of another preset, to which nothing that was done before is done again.
 Result<void> EditSession::rebuild_shell(const preset::Preset& preset, const Watch& watch) {
-  const bool untouched = now_.steps.empty() && session_->grip_origins.empty();
+  const bool untouched = now_.steps.empty() && session_->constraint_origins.empty();
   return form(preset, watch).map([&] {
     if (untouched) return;
     if (!view_.message.empty()) view_.message += "; ";
@@ -233,7 +233,7 @@ Result<void> EditSession::rebuild_shell(const preset::Preset& preset, const Watc
 
 Result<void> EditSession::change_rods(const preset::Preset& preset, const Watch& watch) {
   TRY(scene, scene_of(preset));
-  if (scene->rung != now_.scene->rung) return rebuild_shell(preset, watch);
+  if (scene->rod_model != now_.scene->rod_model) return rebuild_shell(preset, watch);
   TRY(report, session_->set_rods(scene->rods, watch));
   TRY_DO(note_events(*report));
   take_over_keys(preset);

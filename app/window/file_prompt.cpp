@@ -21,11 +21,11 @@ struct FileText {
 constexpr FileText file_texts[] = {
     {"Open", "Open", "a preset's file (.toml), or the folder of a run"},
     {"Compare with a run or scan", "Compare", "the folder of a run, or of a scan"},
-    {"Save preset as", "Save", "a preset; tables of its ends and rods come beside it"},
+    {"Save preset as", "Save", "a preset; tables of its ends and rods are saved next to it"},
     {"Save picture as", "Save", "a PNG of the view"},
     {"Export", "Export", "a file whose ending is the format"}};
 
-bool wanted(FileUse use, const fs::path& file) {
+bool requested(FileUse use, const fs::path& file) {
   if (use == FileUse::open || use == FileUse::save_preset) return file.extension() == ".toml";
   if (use == FileUse::save_picture) return file.extension() == ".png";
   return use == FileUse::export_shell;
@@ -123,7 +123,7 @@ void FilePrompt::look(FileUse use, const std::string& folder) {
     const std::string name = entry->path().filename().string();
     std::error_code gone;
     const bool is_folder = entry->is_directory(gone);
-    if (!name.starts_with('.') && (is_folder || wanted(use, entry->path())))
+    if (!name.starts_with('.') && (is_folder || requested(use, entry->path())))
       entries_.push_back({name, is_folder, is_folder && is_read(use) && is_run(entry->path())});
   }
   std::ranges::sort(entries_, [](const Entry& a, const Entry& b) {
@@ -213,7 +213,7 @@ void PresetPicker::card(const Panel& panel, const PresetCard& card, std::size_t 
 
 void PresetPicker::opened_last(const Panel& panel) const {
   if (panel.viewer.recent.empty() || !sought_.empty()) return;
-  heading(panel, "Opened last");
+  heading(panel, "Recent");
   const auto recent = panel.viewer.recent;
   for (const std::string& name : recent) {
     const std::string label = std::filesystem::path(name).filename().string();

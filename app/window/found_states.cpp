@@ -28,7 +28,7 @@ std::string text_of_event(const Event& event) {
   switch (event.kind) {
     case Event::Kind::stability_lost:
       return !event.to    ? "stability lost"
-             : event.leap ? "stability lost: snapped to another state"
+             : event.jump ? "stability lost: snapped to another state"
                           : "the path branches";
     case Event::Kind::turned_back:
       return event.to ? "limit point: snapped to another state" : "limit point";
@@ -111,8 +111,9 @@ std::string text_of_place(const PathMark& mark, const std::function<double(doubl
 double EditSession::pushed_mm(const preset::Step& step) const {
   if (step.kind != preset::StepKind::push) return 0;
   const auto joint = simulate::joint_of(step, now_.scene->footprint);
-  const auto from = joint ? session_->grip_origins.find(*joint) : session_->grip_origins.end();
-  if (from == session_->grip_origins.end()) return 0;
+  const auto from =
+      joint ? session_->constraint_origins.find(*joint) : session_->constraint_origins.end();
+  if (from == session_->constraint_origins.end()) return 0;
   return (session_->nodes().col(*joint) - from->second).norm();
 }
 
@@ -134,7 +135,7 @@ std::string EditSession::note_way(const preset::Step& step, const simulate::Step
       return event.kind == Event::Kind::stability_lost && !event.to;
     });
   const bool leapt =
-      std::ranges::any_of(report.events, [](const Event& e) { return e.to && e.leap; });
+      std::ranges::any_of(report.events, [](const Event& e) { return e.to && e.jump; });
   const bool moves = step.kind == preset::StepKind::move,
              pushes = step.kind == preset::StepKind::push;
   // the marks of a branch do not apply to another one
@@ -155,7 +156,7 @@ std::string EditSession::note_way(const preset::Step& step, const simulate::Step
   add_marks(now_.marks, marks);
   for (const PathMark& mark : marks)
     if (mark.unstable && report.certificate.stable() && !leapt)
-      view_.message = view_.event = "stable again; not stable on the way at " + place_text(mark);
+      view_.message = view_.event = "stable again; not stable on the path at " + place_text(mark);
   const auto event = std::ranges::find(marks, false, &PathMark::unstable);
   return event == marks.end() ? "" : place_text(*event);
 }
@@ -182,9 +183,9 @@ void EditSession::note_state() {
     return;
   RestState here{now_, session_->save(), std::make_shared<const ShellView>(view_)};
   const auto is_here = [&](const RestState& one) { return one.same_as(here); };
-  // a copy for which no memory is left leaves the last one as it is
-  std::optional<RestState> before = here;
-  before.swap(at_rest_);
+  // copied before anything changes, as a copy may fail
+  RestState copy = here;
+  std::optional<RestState> before = std::exchange(at_rest_, std::move(copy));
   if (std::ranges::any_of(found_, is_here) || found_.size() >= most_states) return;
   const bool among =
       std::ranges::any_of(found_, [&](const RestState& one) { return one.beside(here); });

@@ -155,8 +155,8 @@ void ShellPicture::show(const render::Image& image) {
   fill_texture(*gl_, texture_.id(), image.width, image.height, image.rgba.data());
 }
 
-Result<render::Image> picture_of(const PictureRequest& asked, render::Renderer& renderer) {
-  PictureRequest request = asked;
+Result<render::Image> picture_of(const PictureRequest& requested, render::Renderer& renderer) {
+  PictureRequest request = requested;
   request.show.dark = false;
   const bool sized = request.kept.width > 0;
   const int width =

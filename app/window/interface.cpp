@@ -121,8 +121,8 @@ Result<Eigen::Vector2d> Interface::place_of(const InputEvent& event) const {
         in_view(viewer_, view_, viewer_.shell->layout->edge_points[std::size_t(i)]) + beside);
   std::string name = event.text;
   std::replace(name.begin(), name.end(), '_', ' ');
-  for (const std::string& asked : {event.text, name})
-    if (const auto found = controls_.find(asked); found != controls_.end()) {
+  for (const std::string& requested : {event.text, name})
+    if (const auto found = controls_.find(requested); found != controls_.end()) {
       const render::Box& box = found->second;
       return Eigen::Vector2d(box.x + event.x * box.width, box.y + event.y * box.height);
     }

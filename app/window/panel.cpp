@@ -21,11 +21,11 @@ constexpr ImWchar letters[] = {0x20,   0xff,   0x391,  0x3c9,  0x2010, 0x2044, 0
 std::string file_of_font(const char* family) {
   const auto free_pattern = [](FcPattern* pattern) { FcPatternDestroy(pattern); };
   using Pattern = std::unique_ptr<FcPattern, decltype(free_pattern)>;
-  Pattern wanted(FcNameParse(reinterpret_cast<const FcChar8*>(family)), free_pattern);
-  FcConfigSubstitute(nullptr, wanted.get(), FcMatchPattern);
-  FcDefaultSubstitute(wanted.get());
+  Pattern requested(FcNameParse(reinterpret_cast<const FcChar8*>(family)), free_pattern);
+  FcConfigSubstitute(nullptr, requested.get(), FcMatchPattern);
+  FcDefaultSubstitute(requested.get());
   FcResult result = FcResultMatch;
-  Pattern found(FcFontMatch(nullptr, wanted.get(), &result), free_pattern);
+  Pattern found(FcFontMatch(nullptr, requested.get(), &result), free_pattern);
   FcChar8* file = nullptr;
   if (!found || FcPatternGetString(found.get(), FC_FILE, 0, &file) != FcResultMatch) return "";
   return reinterpret_cast<const char*>(file);

@@ -23,7 +23,7 @@ struct Panel {
   ViewerState& viewer;
   double density = 1;                            ///< pixels a point of text
   std::map<std::string, render::Box>& controls;  ///< position of each control, by its name
-  std::vector<ImTextureID> states = {};          ///< a picture each of viewer.shell->found
+  std::vector<ImTextureID> states = {};          ///< one picture each of viewer.shell->found
 
   float px(double points) const { return float(points * density); }
   /// Notes where the last control is, and gives it a tooltip.
@@ -208,7 +208,7 @@ class PresetPicker {
 
   const render::Gl* gl_;
   std::string sought_;
-  std::vector<std::optional<render::Texture>> pictures_;  // one a card, from the first sight on
+  std::vector<std::optional<render::Texture>> pictures_;  // one per card, from the first sight on
 };
 
 }  // namespace gridshell::window

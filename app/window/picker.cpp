@@ -16,8 +16,8 @@ constexpr double bulge_spacings = 3;  // of d: through which edge points may be 
 constexpr double click_px = 3;        // a press that moves less is a click
 
 /// Fraction, 0 to 1, between two positions at which a point's nearest point is.
-double share_along(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
-                   const Eigen::Vector2d& at) {
+double fraction_along(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
+                      const Eigen::Vector2d& at) {
   const Eigen::Vector2d way = to - from;
   return std::clamp((at - from).dot(way) / std::max(way.squaredNorm(), 1e-12), 0.0, 1.0);
 }
@@ -170,13 +170,13 @@ PointOnRod Picker::rod_at(double x, double y) const {
     for (int k = 0; k + 1 < int(nodes.size()); ++k) {
       const int from = nodes[std::size_t(k)], to = nodes[std::size_t(k) + 1];
       const Eigen::Vector2d p = pixel_of(from), q = pixel_of(to);
-      const double share = share_along(p, q, at), off = (p + share * (q - p) - at).norm();
+      const double fraction = fraction_along(p, q, at), off = (p + fraction * (q - p) - at).norm();
       if (off > within) continue;
-      const double depth = forward.dot(viewer_.shell->frame.nodes.col(share < 0.5 ? from : to)),
+      const double depth = forward.dot(viewer_.shell->frame.nodes.col(fraction < 0.5 ? from : to)),
                    score = off + 0.05 * depth / mm_per_pixel(viewer_.camera, viewer_.view);
       if (score >= best) continue;
       best = score;
-      found = {r, share < 0.5 ? k : k + 1};
+      found = {r, fraction < 0.5 ? k : k + 1};
     }
   }
   return found;

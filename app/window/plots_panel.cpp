@@ -189,14 +189,14 @@ class PlotBox {
         points, {}, [&](const ImVec2& p) { return std::abs(p.x - mouse.x); });
     const auto k = std::size_t(next - points.begin());
     list_.AddCircle(*next, panel_.px(4), ImGui::GetColorU32(ImGuiCol_Text), 0, panel_.px(1.4));
-    std::string told =
+    std::string reported =
         fmt::format("{} {:.5g}\n{} {:.5g}", curve.x_label, curve.x[k], curve.y_label, curve.y[k]);
-    if (!curve.second.empty()) told += fmt::format(", {:.5g}", curve.second[k]);
-    if (std::ranges::binary_search(curve.coarse, k)) told += "\non the coarse mesh of a drag";
+    if (!curve.second.empty()) reported += fmt::format(", {:.5g}", curve.second[k]);
+    if (std::ranges::binary_search(curve.coarse, k)) reported += "\non the coarse mesh of a drag";
     const float over = curve.x[k];
     for (const CurveMark& mark : curve.marks)
-      if (mark.from <= over && over <= mark.to) told += "\n" + mark.what;
-    ImGui::SetTooltip("%s", told.c_str());
+      if (mark.from <= over && over <= mark.to) reported += "\n" + mark.what;
+    ImGui::SetTooltip("%s", reported.c_str());
   }
 
   const Panel& panel_;

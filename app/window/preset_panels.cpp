@@ -50,7 +50,7 @@ struct Control {
                           format(shown == 0, "%.6g").c_str(), ImGuiSliderFlags_AlwaysClamp))
       return false;
     if (!range.holds(double(shown))) {
-      viewer.say(fmt::format("{} must be {}", name_of(field), allowed(field)), true);
+      viewer.say(fmt::format("{}: expected {}", name_of(field), allowed(field)), true);
       return false;
     }
     // the digits that are seen, without those that a float adds
@@ -107,17 +107,17 @@ struct Variable {
   const char* moves;
 };
 constexpr Variable variables[] = {
-    {preset::Vary::pins_radial, "pins, radially", "where ends are held, along the radius"},
-    {preset::Vary::pins, "pins, in plane", "where ends are held, in the boundary's plane"},
-    {preset::Vary::pins_3d, "pins, in space", "where ends are held, in every direction"},
+    {preset::Vary::pins_radial, "pins, radially", "positions of the ends, along the radius"},
+    {preset::Vary::pins, "pins, in plane", "positions of the ends, in the boundary's plane"},
+    {preset::Vary::pins_3d, "pins, in space", "positions of the ends, in every direction"},
     {preset::Vary::legs, "legs", "their lengths"},
-    {preset::Vary::directions, "directions", "along which tangent ends are held"},
+    {preset::Vary::directions, "directions", "tangents of the ends"},
     {preset::Vary::diameters, "diameters", "of every rod, by a factor of two at most"},
 };
 
 const char* why_not(const preset::Preset& preset, preset::Vary kind) {
   if (kind == preset::Vary::directions && preset.ends.kind != preset::EndKind::tangent)
-    return "the ends hold no direction by itself: [ends] kind must be \"tangent\"";
+    return "the ends prescribe no direction by itself: expected [ends] kind \"tangent\"";
   if (kind == preset::Vary::diameters && (preset.rod.rectangular() || preset.rod_v.rectangular()))
     return "rectangular rods have no diameter";
   return nullptr;
@@ -177,7 +177,7 @@ void choices(const Panel& panel) {
   ImGui::DragInt("##most", &panel.viewer.design.most_iterations, 0.1f, 1, 100, "at most %d",
                  ImGuiSliderFlags_AlwaysClamp);
   panel.named("design_iterations",
-              "after so many it ends; started again it goes on from the shell in hand, and moves "
+              "after so many it ends; started again it continues from the present shell, and moves "
               "count from there");
 }
 
@@ -196,7 +196,7 @@ void buttons(const Panel& panel) {
 void standing(const Panel& panel, const DesignProgress& course) {
   const double percent = 100 / course.length_scale_mm;
   const DesignPoint &first = course.points.front(), &now = course.points.back();
-  const char* how = course.under_way ? "under way"
+  const char* how = course.under_way ? "running"
                     : course.kept    ? "kept"
                     : course.stopped ? "stopped: keep or put back"
                                      : "done: keep or put back";
@@ -315,7 +315,7 @@ bool NumbersPanel::is_shown(const Field& field) {
 
 void NumbersPanel::draw(const Panel& panel, const render::Box& box) {
   begin_fixed("numbers", box);
-  heading(panel, "Numbers of the preset");
+  heading(panel, "Parameters of the preset");
   if (panel.viewer.shell->any()) {
     look(panel.viewer);
     ImGui::SetNextItemWidth(panel.px(160));

@@ -99,12 +99,12 @@ Result<double> paced_frame(Interface& interface, double& due) {
 Result<void> Interface::draw_shell() {
   if (!viewer_.shell->any() || viewer_.view.width < 16) return {};
   const ShownShell shown{viewer_.camera, viewer_.view, viewer_.show};
-  const bool anew = shell_anew_ || shown != shown_;
-  if (anew) still_seconds_ = 0;
+  const bool again = shell_anew_ || shown != shown_;
+  if (again) still_seconds_ = 0;
   const bool idle = viewer_.engine.idle();
-  const bool sharp = !anew && still_seconds_ >= (idle ? sharp_after_s : sharp_while_busy_s) &&
+  const bool sharp = !again && still_seconds_ >= (idle ? sharp_after_s : sharp_while_busy_s) &&
                      (idle || picture_.took_s(Resolution::still) < longest_while_busy_s);
-  if (!anew && (!sharp || sharp_)) return {};
+  if (!again && (!sharp || sharp_)) return {};
   if (sharp && take_still(viewer_.picture_request())) return {};
   shown_ = shown;
   shell_anew_ = false;
@@ -200,16 +200,16 @@ void Interface::paint(bool upwards) {
 }
 
 Result<bool> Interface::frame(double seconds) {
-  TRY(anew, compose(seconds));
-  if (!*anew) return false;
+  TRY(again, compose(seconds));
+  if (!*again) return false;
   gl_.BindFramebuffer(GL_FRAMEBUFFER, 0);
   paint(true);
   return true;
 }
 
 Result<void> Interface::frame_aside(double seconds) {
-  TRY(anew, compose(seconds));
-  if (!*anew) return {};
+  TRY(again, compose(seconds));
+  if (!*again) return {};
   TRY_DO(target_.bind(width_, height_, GL_RGBA8));
   paint(false);
   // as a window waits for what it shows
@@ -319,10 +319,10 @@ Result<BenchFigures> bench(Interface& interface, ViewerState& viewer, double sec
   viewer.post(Move{0.01}, true);
   viewer.send_command(Move{1.0});
   std::this_thread::sleep_for(std::chrono::milliseconds(15));
-  const double asked = seconds_now();
+  const double requested = seconds_now();
   viewer.engine.cancel();
   viewer.engine.wait();
-  figures.cancel_ms = 1e3 * (seconds_now() - asked);
+  figures.cancel_ms = 1e3 * (seconds_now() - requested);
   return figures;
 }
 

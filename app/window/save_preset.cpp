@@ -50,7 +50,7 @@ const char* ending_of(FileUse use) {
 }
 
 /// Why no file of that name is written; empty: it is.
-std::string fault_of(FileUse use, const fs::path& file, const std::vector<ExportFormat>& formats) {
+std::string error_of(FileUse use, const fs::path& file, const std::vector<ExportFormat>& formats) {
   std::error_code error;
   // one new folder is made
   const fs::path folder = fs::absolute(file, error).parent_path();
@@ -66,15 +66,15 @@ std::string fault_of(FileUse use, const fs::path& file, const std::vector<Export
     if (format.ending == ending) return "";
     all += " " + format.ending;
   }
-  return fmt::format("'{}' is no format: must be one of{}", ending, all);
+  return fmt::format("format: got '{}', expected one of{}", ending, all);
 }
 
 }  // namespace
 
 Result<void> check_picture(int width, int height) {
   if (std::min(width, height) >= least_px && std::max(width, height) <= most_px) return {};
-  return invalid("a picture of {} x {}: must be {} to {} pixels each way", width, height, least_px,
-                 most_px);
+  return invalid("a picture of {} x {}: expected {} to {} pixels for each side", width, height,
+                 least_px, most_px);
 }
 
 /// The first path in the folder, numbered, of which no file has one of the endings.
@@ -122,9 +122,9 @@ preset::Preset ViewerState::preset_to_save() const {
   if (circle && moves && !shell->snapped) return preset;
   preset.step = steps_of(shell->steps);
   // the state that a perturbed shell reaches depends on round-off, except on one mesh
-  const bool shaken = std::ranges::any_of(
+  const bool perturbed = std::ranges::any_of(
       preset.step, [](const auto& step) { return step.kind == preset::StepKind::jitter; });
-  if (shaken) preset.accuracy.edges_per_segment = shell->meshes.back();
+  if (perturbed) preset.accuracy.edges_per_segment = shell->meshes.back();
   if (circle) preset.actuation.radius_mm = shell->radius_end_mm;
   return preset;
 }
@@ -187,7 +187,7 @@ void ViewerState::take_file() {
   const bool reads = is_read(request.use);
   if (!reads && (file.filename().empty() || fs::is_directory(file, error)))
     return say("'" + request.path + "' is a folder: a file's name is to follow", true);
-  if (const std::string fault = reads ? "" : fault_of(request.use, file, library.export_formats);
+  if (const std::string fault = reads ? "" : error_of(request.use, file, library.export_formats);
       !fault.empty())
     return say(fault, true);
   if (!reads && fs::exists(file, error) && request.replaced != request.path) {

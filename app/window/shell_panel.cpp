@@ -33,8 +33,8 @@ bool slider(const Panel& panel, const char* name, float& value, float low, float
 
 namespace {
 
-/// On the slider that was drawn last, where no shell stays (red) and what happened (amber);
-/// `share_of` takes a progress to a share of the slider.
+/// Marks, on the slider that was drawn last, ranges without a stable state (red) and events
+/// (amber); `share_of` takes a progress to a fraction of the slider.
 template <class ShareOf>
 void mark_slider(const Panel& panel, const ShareOf& share_of) {
   const TextColours& colours = text_colours(panel.viewer.show.dark);
@@ -52,7 +52,7 @@ void mark_slider(const Panel& panel, const ShareOf& share_of) {
   }
 }
 
-/// What the marks are, a line each.
+/// What the marks are, one line each.
 std::string text_of_marks(const ShellView& shell) {
   std::string text;
   const bool circle = shell.preset.footprint.kind == preset::FootprintKind::circle;
@@ -79,7 +79,7 @@ void speed(const Panel& panel, float gap) {
 
 void path(const Panel& panel) {
   ViewerState& viewer = panel.viewer;
-  heading(panel, "Path");
+  heading(panel, "Boundary");
   const bool push = viewer.shell->push.joint >= 0;
   const float gap = 0.5f * ImGui::GetStyle().ItemSpacing.x;
   panel.button("play", viewer.playing ? "Stop##play" : "Play##play", true);
@@ -89,10 +89,10 @@ void path(const Panel& panel) {
   }
   speed(panel, gap);
   float part = float(viewer.part());
-  // what finer meshes moved the joint by before it was pushed is no push
+  // the correction of finer meshes before the push does not count as a push
   if (std::abs(part) < 5e-4f || (push && viewer.shell->steps.empty())) part = 0;
   if (slider(panel, "path", part, 0, std::max(1.f, part), push ? "push %.3f" : "progress %.3f",
-             push ? "share of the preset's depth"
+             push ? "fraction of the preset's depth"
                   : "fraction of the boundary's displacement" + text_of_marks(*viewer.shell)))
     viewer.playing = false, viewer.go(part, true);
   const double whole = std::max(1.0, viewer.part());
@@ -130,7 +130,7 @@ bool small_button(const Panel& panel, const char* label, const std::string& name
   return pressed;
 }
 
-/// The first of the edge points off the boundary, and how many more.
+/// Names the first edge point that was moved off the boundary, and how many more there are.
 void dragged_edges(const Panel& panel) {
   constexpr std::size_t most = 3;
   const auto& dragged = panel.viewer.shell->edges_dragged;
@@ -151,7 +151,7 @@ void dragged_edges(const Panel& panel) {
 void held(const Panel& panel) {
   ViewerState& viewer = panel.viewer;
   const ShellView& shell = *viewer.shell;
-  heading(panel, "Hand");
+  heading(panel, "Push");
   panel.tick("push_freely");
   for (const HeldJoint& one : shell.held) {
     const record::Joint& joint = shell.layout->joints[std::size_t(one.joint)];
@@ -208,7 +208,7 @@ void accuracy(const Panel& panel) {
     changed.accuracy.edges_per_segment = 0;
     viewer.post(Change{changed}, false);
   }
-  panel.named("tolerance", "largest error of a joint, over R_o or ρ, when the hand rests");
+  panel.named("tolerance", "largest error of a joint, over R_o or ρ, when nothing is dragged");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-1);
   // the net alone is geometry, which no command moves
@@ -253,25 +253,25 @@ struct SizeChoice {
 };
 constexpr SizeChoice sizes[] = {{0, 0}, {1280, 720}, {1920, 1080}, {3840, 2160}};
 
-std::string text_of(const SizeChoice& size) {
+std::string size_text(const SizeChoice& size) {
   return size.width == 0 ? "twice the view" : fmt::format("{} x {}", size.width, size.height);
 }
 
 void keep(const Panel& panel) {
   ViewerState& viewer = panel.viewer;
   PictureFormat& picture = viewer.picture;
-  heading(panel, "Keep");
+  heading(panel, "Save");
   panel.button("save_picture");
   ImGui::SameLine();
   panel.button("save_movie");
   ImGui::SetNextItemWidth(panel.px(120));
-  if (ImGui::BeginCombo("##size", text_of({picture.width, picture.height}).c_str())) {
+  if (ImGui::BeginCombo("##size", size_text({picture.width, picture.height}).c_str())) {
     for (const SizeChoice& size : sizes)
-      if (ImGui::Selectable(text_of(size).c_str(), size.width == picture.width))
+      if (ImGui::Selectable(size_text(size).c_str(), size.width == picture.width))
         picture.width = size.width, picture.height = size.height;
-    int asked[2] = {picture.width, picture.height};
-    if (ImGui::InputInt2("##asked", asked, ImGuiInputTextFlags_EnterReturnsTrue))
-      viewer.size_picture(asked[0], asked[1]);
+    int requested[2] = {picture.width, picture.height};
+    if (ImGui::InputInt2("##asked", requested, ImGuiInputTextFlags_EnterReturnsTrue))
+      viewer.size_picture(requested[0], requested[1]);
     panel.named("picture_pixels", "width and height, pixels; Enter takes them");
     ImGui::EndCombo();
   }

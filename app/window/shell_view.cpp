@@ -112,7 +112,7 @@ void EditSession::update_view() {
       s.edges_dragged.push_back({int(k), session_->boundary.dragged.col(k).norm()});
   update_normals();
   s.held.clear();
-  const auto& origins = session_->grip_origins;
+  const auto& origins = session_->constraint_origins;
   for (std::size_t k = 0; k < session_->holds().size(); ++k) {
     const Constraint& hold = session_->holds()[k];
     const Eigen::Vector3d from =

@@ -119,9 +119,9 @@ struct ShellView : ViewedState {
   std::vector<HeldJoint> held;
   double radius_end_mm = 0;  ///< of a circle's boundary where its motion ends
   std::vector<DraggedEdge> edges_dragged;
-  Eigen::Matrix3Xd normals;      ///< one a joint: t_u x t_v
-  Eigen::VectorXd axial_N;       ///< one a node, the mean of its edges
-  Eigen::VectorXd bending_mJ_m;  ///< one a node: energy over length, J/m / 1000
+  Eigen::Matrix3Xd normals;      ///< one per joint: t_u x t_v
+  Eigen::VectorXd axial_N;       ///< one per node, the mean of its edges
+  Eigen::VectorXd bending_mJ_m;  ///< one per node: energy over length, J/m / 1000
   /// One a cell, mean of its joints, over rho: from the net, of a designed shell from what the
   /// design aims at; empty without a net.
   Eigen::VectorXd deviation;

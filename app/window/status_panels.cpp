@@ -71,13 +71,13 @@ void ViewerState::go_to_loss() {
   for (const PathMark& mark : shell->marks) {
     if (mark.joint >= 0 || !mark.unstable) continue;
     if (!shell->stable() && mark.from <= shell->progress && shell->progress <= mark.to)
-      return say("here: the shell stands on the part of its way that is not stable", true);
+      return say("the shell is on the part of its path that is not stable", true);
     places.push_back(0.5 * (mark.from + mark.to));
   }
   if (places.empty())
     return say(shell->way_left.empty()
-                   ? "on the boundary's way so far every state is stable"
-                   : "the way on which stability is lost was left by " + shell->way_left +
+                   ? "on the boundary's path so far every state is stable"
+                   : "the path on which stability is lost was left by " + shell->way_left +
                          ", and the one since then is stable; Undo goes back to it",
                true);
   std::ranges::sort(places);
@@ -252,8 +252,8 @@ void why_popup(const Panel& panel) {
   ImGui::PushTextWrapPos(panel.px(420));
   if (!shell.stable()) {
     ImGui::TextWrapped(
-        "This is an equilibrium that no shell stays in: along %d direction%s the energy falls "
-        "(negative pivots of the Hessian with what is held held). The soft mode shows the "
+        "This equilibrium is not stable: along %d direction%s the energy falls "
+        "(negative pivots of the Hessian with the constraints). The lowest mode shows the "
         "steepest.",
         shell.certificate.negative_pivots, shell.certificate.negative_pivots == 1 ? "" : "s");
     panel.tick("soft_mode");
@@ -262,8 +262,8 @@ void why_popup(const Panel& panel) {
     panel.button("rest_against");
   } else if (!shell.accuracy_warning.empty()) {
     ImGui::TextWrapped(
-        "Every small move raises the energy, but the state is %s. A hand-held shell is certified "
-        "on the coarsest mesh first; the finer ones did not come to the same state as closely as "
+        "Every small displacement raises the energy, but the state is %s. A shell is first "
+        "certified on the coarsest mesh; the finer ones did not reach the same state as closely as "
         "the tolerance asks for. A smaller tolerance takes finer meshes.",
         shell.accuracy_warning.c_str());
     if (ImGui::Button("Ten times finer")) {
@@ -274,9 +274,9 @@ void why_popup(const Panel& panel) {
     panel.named("finer", "a tenth of the tolerance");
   } else {
     ImGui::TextWrapped(
-        "Every small move raises the energy: the Hessian is positive definite with what is held "
-        "held. No node feels more than %.0e N that nothing holds. Where the joints are is known to "
-        "%.2g mm, from what finer meshes change.",
+        "Every small displacement raises the energy: the Hessian with the constraints is positive "
+        "definite. The residual force on a node is at most %.0e N. The positions of the joints are "
+        "known to %.2g mm, from what finer meshes change.",
         shell.certificate.residual_N, shell.certificate.error_estimate_mm);
   }
   ImGui::PopTextWrapPos();
@@ -307,11 +307,9 @@ void status_line(const Panel& panel, const render::Box& box) {
     }
     ImGui::SameLine(0, panel.px(14));
     ImGui::TextUnformatted(certificate_of(shell, viewer.timed, narrow).c_str());
-    panel.named(
-        "certificate",
-        certificate_of(shell, viewer.timed, false) +
-            ": estimated error of the joints, from the meshes named; largest force that nothing "
-            "holds; time of the last equilibrium");
+    panel.named("certificate", certificate_of(shell, viewer.timed, false) +
+                                   ": estimated error of the joints, from the meshes named; "
+                                   "largest residual force; time of the last equilibrium");
     ImGui::SameLine(0, panel.px(18));
   }
   const double busy = viewer.engine.busy_seconds();

@@ -145,7 +145,7 @@ void Overlay::tell_other() {
       std::exchange(view_, render::Box{right, view_.y, view_.width, view_.height});
   label(text, {right, top});
   view_ = left;
-  label("in hand", {float(view_.x), top});
+  label("current", {float(view_.x), top});
 }
 
 /// A length along the view's lower edge with its meaning above it; returns where the next may

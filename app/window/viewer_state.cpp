@@ -209,28 +209,28 @@ void ViewerState::look(const render::ViewDirection& from) {
 // ---- frame by frame ----
 
 bool ViewerState::tick(double seconds) {
-  bool anew = false;
+  bool again = false;
   if (auto next = engine.shell(); next != shell) {
     take(std::move(next));
-    anew = true;
+    again = true;
   }
   if (playing && shell->any()) {
     play_head = std::min(1.0, play_head + play_speed * seconds);
     go(play_head, true);
     if (play_head >= 1) play(false);
-    anew = true;
+    again = true;
   }
   if (animate_mode && !shell->stable() && shell->soft_mode.cols() > 0) {
     mode_phase += seconds;
     show.mode_mm = 0.06 * shell->layout->length_scale_mm * std::sin(3 * mode_phase);
-    anew = true;
+    again = true;
   } else if (show.mode_mm != 0) {
     show.mode_mm = mode_phase = 0;
-    anew = true;
+    again = true;
   }
   report_finished_tasks();
   watch_file(seconds);
-  return anew;
+  return again;
 }
 
 void ViewerState::take(std::shared_ptr<const ShellView> next) {

@@ -216,7 +216,7 @@ class ViewerState {
   void send_command(Edit edit);
   /// The drag is over: the shell goes onto finer meshes.
   void end_drag();
-  /// The boundary to a progress; of a preset with a push, the push to a share of its depth.
+  /// The boundary to a progress; of a preset with a push, the push to a fraction of its depth.
   void go(double part, bool passing);
   void play(bool on);
   /// Goes back or forward to a number of steps to undo; if it is the current one and has an event,

@@ -27,7 +27,7 @@ inline constexpr std::array energy_terms{
     TermName{Term::twist, "twist", "torsion of the rods"},
     TermName{Term::joint, "joint", "springs of the joints, and the twist that they pass"},
     TermName{Term::shear, "shear", "resistance of the joints to shear"},
-    TermName{Term::load, "load", "minus the work of loads, and what the shell stands on"},
+    TermName{Term::load, "load", "minus the work of loads, and the energy of the ground"},
     TermName{Term::support, "support", "springs of the supports"},
     TermName{Term::contact, "contact", "barriers between rods that are near each other"},
 };

@@ -87,7 +87,7 @@ Result<ReadableFile> ReadableFile::open(const std::filesystem::path& path) {
   if (opened.file_ < 0 || ::fstat(opened.file_, &about) != 0) return fail_io("read", path, errno);
   if (S_ISDIR(about.st_mode)) return fail_io("read", path, EISDIR);
   if (!S_ISREG(about.st_mode))
-    return fail(Fault::io, "cannot read '{}': it is a pipe or a device, must be a regular file",
+    return fail(Fault::io, "cannot read '{}': got a pipe or a device, expected a regular file",
                 path.string());
   opened.size_ = std::uint64_t(about.st_size);
   return opened;

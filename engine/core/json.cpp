@@ -29,7 +29,7 @@ std::string line_of(const Json& json, bool ascii) { return dumped(json, -1, asci
 std::string take(const Json& json, int& value) {
   const auto number = whole_number(json);
   value = number.value_or(value);
-  return number ? "" : "a whole number";
+  return number ? "" : "an integer";
 }
 
 std::string take(const Json& json, bool& value) {

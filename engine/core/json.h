@@ -67,7 +67,7 @@ std::string take_fields(const Json& json, Record& record, const MayLack& may_lac
     if (!json.contains(key)) {
       if (!may_lack(key)) fault = "has no \"" + key + "\"";
     } else if (const std::string expected = take(json[key], value); !expected.empty()) {
-      fault = "\"" + key + "\" must be " + expected + "; it is " + line_of(json[key]);
+      fault = "\"" + key + "\": got " + line_of(json[key]) + ", expected " + expected;
     }
   });
   return fault;

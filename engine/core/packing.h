@@ -67,10 +67,10 @@ class ByteReader {
   void matrix(Matrix& values) {
     const auto rows = number<std::int64_t>(), cols = number<std::int64_t>();
     const auto most = std::int64_t(left_.size() / sizeof(typename Matrix::Scalar));
-    const auto fits = [&](std::int64_t extent, int wanted) {
+    const auto fits = [&](std::int64_t extent, int requested) {
       // an empty one may have rows or columns still
-      return wanted >= 0 ? extent == wanted
-                         : extent >= 0 && extent <= std::max<std::int64_t>(most, 3);
+      return requested >= 0 ? extent == requested
+                            : extent >= 0 && extent <= std::max<std::int64_t>(most, 3);
     };
     good_ = good_ && fits(rows, Matrix::RowsAtCompileTime) &&
             fits(cols, Matrix::ColsAtCompileTime) && (cols == 0 || rows <= most / cols);

@@ -16,8 +16,8 @@
 namespace gridshell {
 
 /// The requested number of threads; 0: as many as there are cores.
-inline int thread_count(int asked) {
-  return asked > 0 ? asked : std::max(1, int(std::thread::hardware_concurrency()));
+inline int thread_count(int requested) {
+  return requested > 0 ? requested : std::max(1, int(std::thread::hardware_concurrency()));
 }
 
 /// Calls `make()`, a Result, once per thread and on that thread, and `task(worker, k)` with its
@@ -83,7 +83,7 @@ Result<void> parallel_for(int count, int threads, Watch& watch, const Task& task
 
 /// A `done` that reports to a watch: the completed fraction, mapped to a range of its progress.
 inline auto reporting(Watch& watch, double from = 0, double to = 1) {
-  return [&watch, from, to](double share) { watch.report(from + (to - from) * share); };
+  return [&watch, from, to](double fraction) { watch.report(from + (to - from) * fraction); };
 }
 
 }  // namespace gridshell

@@ -12,9 +12,9 @@ std::uint64_t machine_memory_bytes() {
   const std::uint64_t machine =
       pages > 0 && size > 0 ? std::uint64_t(pages) * std::uint64_t(size) : 0;
   // a container's limit; the word "max" where it has none
-  std::uint64_t share = 0;
-  if (std::ifstream("/sys/fs/cgroup/memory.max") >> share && share > 0)
-    return machine ? std::min(machine, share) : share;
+  std::uint64_t fraction = 0;
+  if (std::ifstream("/sys/fs/cgroup/memory.max") >> fraction && fraction > 0)
+    return machine ? std::min(machine, fraction) : fraction;
   return machine;
 }
 

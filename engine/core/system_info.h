@@ -32,7 +32,8 @@ inline double cpu_seconds_now(clockid_t clock = CLOCK_THREAD_CPUTIME_ID) {
 
 // How much memory there is to work with.
 
-/// Bytes of the machine, or of the share that a container gives this program; 0 when nobody says.
+/// Bytes of the machine, or of the fraction that a container gives this program; 0 when nobody
+/// says.
 std::uint64_t machine_memory_bytes();
 
 /// What a command may use where a preset does not say ([accuracy] memory_GB): half of that.

@@ -46,7 +46,7 @@ class Team {
 };
 
 /// Overload for an optional team: without one the caller does all tasks.
-inline void share(Team* team, int tasks, const std::function<void(int)>& task) {
+inline void parallel_for(Team* team, int tasks, const std::function<void(int)>& task) {
   if (team) return team->run(tasks, task);
   for (int k = 0; k < tasks; ++k) task(k);
 }

@@ -52,4 +52,12 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
   return name.empty() ? "" : "; did you mean '" + name + "'?";
 }
 
+std::string got_text(const std::string& key, const std::string& value, const std::string& reason) {
+  const std::string got = key + ": got " + value;
+  if (reason.starts_with("expected ")) return got + ", " + reason;
+  const auto split = reason.find(", expected ");
+  if (split == std::string::npos) return got + ": " + reason;
+  return got + " (" + reason.substr(0, split) + ")" + reason.substr(split);
+}
+
 }  // namespace gridshell

@@ -53,6 +53,11 @@ std::string nearest(std::string_view word, const std::vector<std::string>& known
 /// "; did you mean 'x'?", or empty when nothing is near.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& known);
 
+/// The message on a value: of the reason "rods would touch, expected less than 2" it makes "KEY:
+/// got VALUE (rods would touch), expected less than 2", of "expected less than 2" "KEY: got VALUE,
+/// expected less than 2", and of a reason without an expectation "KEY: got VALUE: REASON".
+std::string got_text(const std::string& key, const std::string& value, const std::string& reason);
+
 // Text as XML takes it.
 
 /// Without the signs that XML takes for itself, and without control characters.

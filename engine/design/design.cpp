@@ -49,12 +49,12 @@ struct DesignProblem {
 Result<void> can_be_designed(const preset::Preset& preset, const Scene& scene) {
   if (preset.inverse.vary.empty())
     return invalid(
-        "nothing may change: [inverse] vary must name pins_radial, pins, pins_3d, legs, "
+        "[inverse] vary: got none, expected pins_radial, pins, pins_3d, legs, "
         "directions or diameters");
   if (!scene.net)
     return invalid(
-        "the footprint was not designed on a net, so there is no surface to meet: "
-        "[footprint] kind must be \"net\"");
+        "[footprint] kind: got a footprint that is not designed on a net, expected \"net\": a "
+        "design needs a target surface");
   if (scene.solved_model() != RodModel::bend)
     return invalid("only shells of the bend model can be designed; this one needs more: " +
                    preset::model_reason(preset));
@@ -115,7 +115,7 @@ Result<std::unique_ptr<DesignShell>> begin(const std::shared_ptr<const Scene>& s
   if (simulation.progress() != 1)
     return fail(
         Fault::no_equilibrium,
-        "the shell does not come to its end before anything is changed: " + course->limit_reason);
+        "the shell does not reach its end before anything is changed: " + course->limit_reason);
   const NestedShell& shell = simulation.shell();
   const int last = shell.levels() - 1;
   return DesignShell::make(*scene, designed_on, shell.mesh(last), shell.model(last),
@@ -256,8 +256,8 @@ Result<LiveDesignResult> design_live(const preset::Preset& preset, const DesignS
     last = work.coarse->ends();
     const Eigen::VectorXd now = work.target.distances(work.coarse->joints()).size();
     const DesignShell& coarse = *work.coarse;
-    seen({step, coarse, coarse.mesh(), coarse.model(), coarse.state(), coarse.forces(),
-          coarse.ends(), coarse.residual(), now, eigenvalue, table_of(*from.scene, last),
+    seen({step, coarse.mesh(), coarse.model(), coarse.state(), coarse.forces(), coarse.ends(),
+          coarse.residual(), now, eigenvalue, table_of(*from.scene, last),
           rod_table_of(*from.scene, last)});
   };
 

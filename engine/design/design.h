@@ -14,10 +14,9 @@
 
 namespace gridshell {
 
-class DesignShell;
 struct Assembly;
 
-/// Edges per segment: optima on 4 are saddles of the shell.
+/// Edges per segment of a design: an optimum found with 4 edges is a saddle of the shell.
 inline constexpr int designed_on = 16, certified_on = 32;
 
 /// What a design aims at, for the joints of a scene that has a net. Errors: those of the net.
@@ -33,12 +32,12 @@ struct DesignedState {
   double residual_N = 0;
 };
 
-/// Shells as a builder would make them: every pin and leg off by a normal error.
+/// Shells as built, with errors: every pin and leg is off by a normally distributed error.
 struct FabricationErrors {
   double sigma_mm = 0;
   int samples = 0, lost = 0;  ///< lost: no stable equilibrium found nearby
-  double max_mm = 0;          ///< largest distance of a joint, over the samples the mean of it
-  double worst_mm = 0;        ///< and the largest of all
+  double max_mm = 0;          ///< mean over the samples of the largest distance of a joint
+  double worst_mm = 0;        ///< the largest distance of a joint in any sample
   double mean_mm = 0;         ///< mean over joints and samples
 };
 
@@ -49,8 +48,8 @@ struct DesignResult {
   std::vector<FabricationErrors> fabricated;
   std::vector<DesignStep> steps;
   std::vector<DesignVariable> variables;
-  Eigen::VectorXd q;  ///< of the variables
-  int kept = 0;       ///< the step that was: the last that both meshes find stable enough
+  Eigen::VectorXd q;  ///< values of the variables
+  int kept = 0;       ///< the accepted step: the last that both meshes find stable enough
   int symmetries = 1, free_variables = 0;
   double largest_move_mm = 0, largest_turn_deg = 0;
   double largest_thickening = 0;            ///< change of a diameter over the one before
@@ -80,7 +79,7 @@ Result<Eigen::Matrix3Xd> nearest_to(const preset::Preset& preset, const Eigen::M
 /// least stability.
 struct CertifiedStep {
   const DesignStep& step;
-  const DesignShell& shell;  ///< on 16 edges, in the state of the step; next its parts
+  // on 16 edges per segment
   const RodMesh& mesh;
   const Model& model;
   const State& state;

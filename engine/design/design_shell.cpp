@@ -88,25 +88,25 @@ void DesignShell::find_legs() {
 void DesignShell::set_diameters(const ShellEnds& ends) {
   for (std::size_t r = 0; r < model_.rods.size(); ++r) {
     double& now = diameter_[Eigen::Index(r)];
-    const double wanted = ends.diameter[Eigen::Index(r)];
-    if (wanted == now) continue;
-    const double square = wanted * wanted / (now * now);
+    const double requested = ends.diameter[Eigen::Index(r)];
+    if (requested == now) continue;
+    const double square = requested * requested / (now * now);
     for (const int edge : model_.rods[r].edges) model_.edges[std::size_t(edge)].EA *= square;
     for (const int bend : bends_[r]) stiffness_of(model_, bend) *= square * square;
-    now = wanted;
+    now = requested;
   }
 }
 
-/// Every edge of a leg has its share of the leg's length.
+/// Every edge of a leg has its fraction of the leg's length.
 void DesignShell::set_legs(const ShellEnds& ends) {
   for (std::size_t k = 0; k < legs_.size(); ++k) {
     const Leg& leg = legs_[k];
-    const double share = ends.leg[Eigen::Index(k)] / double(leg.edges.size());
-    if (model_.edges[std::size_t(leg.edges.front())].rest_length == share) continue;
+    const double fraction = ends.leg[Eigen::Index(k)] / double(leg.edges.size());
+    if (model_.edges[std::size_t(leg.edges.front())].rest_length == fraction) continue;
     std::vector<double> before;
     for (const int bend : leg.bends)
       before.push_back(lengths_at(model_, model_.bends[std::size_t(bend)]));
-    for (const int edge : leg.edges) model_.edges[std::size_t(edge)].rest_length = share;
+    for (const int edge : leg.edges) model_.edges[std::size_t(edge)].rest_length = fraction;
     for (std::size_t b = 0; b < leg.bends.size(); ++b)
       stiffness_of(model_, leg.bends[b]) *=
           before[b] / lengths_at(model_, model_.bends[std::size_t(leg.bends[b])]);
@@ -223,8 +223,8 @@ void DesignShell::add_diameter_gradient(std::size_t rod, double change,
   for (const int k : bends_[rod]) add_bend_gradient(k, -4 * change, minus_dg);
 }
 
-/// A share of a bend's gradient, taken away from dg.
-void DesignShell::add_bend_gradient(int k, double share, Eigen::Matrix3Xd& minus_dg) const {
+/// A fraction of a bend's gradient, taken away from dg.
+void DesignShell::add_bend_gradient(int k, double fraction, Eigen::Matrix3Xd& minus_dg) const {
   const ModelBend& bend = model_.bends[std::size_t(k)];
   const ModelEdge &e = model_.edges[std::size_t(bend.e)], &f = model_.edges[std::size_t(bend.f)];
   const EdgeGeometry at_e = geometry_of(state_.x, e), at_f = geometry_of(state_.x, f);
@@ -238,9 +238,9 @@ void DesignShell::add_bend_gradient(int k, double share, Eigen::Matrix3Xd& minus
   } else {
     bend_gradient(bend.stiffness, at_e, at_f, energy);
   }
-  minus_dg.col(e.from) -= share * energy.gradient_e;
-  minus_dg.col(e.to) += share * (energy.gradient_e - energy.gradient_f);
-  minus_dg.col(f.to) += share * energy.gradient_f;
+  minus_dg.col(e.from) -= fraction * energy.gradient_e;
+  minus_dg.col(e.to) += fraction * (energy.gradient_e - energy.gradient_f);
+  minus_dg.col(f.to) += fraction * energy.gradient_f;
 }
 
 /// -dg/dl of each edge of a leg, times its fraction of the leg's change: stretch reduces the pull
@@ -248,18 +248,18 @@ void DesignShell::add_bend_gradient(int k, double share, Eigen::Matrix3Xd& minus
 /// the mean natural length there.
 void DesignShell::add_leg_gradient(int end, double change, Eigen::Matrix3Xd& minus_dg) const {
   const Leg& leg = legs_[std::size_t(end)];
-  const double share = change / double(leg.edges.size());
+  const double fraction = change / double(leg.edges.size());
   for (const int k : leg.edges) {
     const ModelEdge& edge = model_.edges[std::size_t(k)];
     const EdgeGeometry g = geometry_of(state_.x, edge);
     const Eigen::Vector3d pull =
-        share * edge.EA * g.length / (edge.rest_length * edge.rest_length) * g.tangent;
+        fraction * edge.EA * g.length / (edge.rest_length * edge.rest_length) * g.tangent;
     minus_dg.col(edge.to) += pull;
     minus_dg.col(edge.from) -= pull;
   }
   for (const int k : leg.bends) {
     const ModelBend& bend = model_.bends[std::size_t(k)];
-    const double longer = share * leg.edges_of(bend);
+    const double longer = fraction * leg.edges_of(bend);
     add_bend_gradient(k, longer / lengths_at(model_, bend), minus_dg);
   }
 }

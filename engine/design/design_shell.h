@@ -49,7 +49,7 @@ class DesignShell {
   ShellPosition stand() const { return {state_, ends_}; }
   void back_to(const ShellPosition& stand);
 
-  /// dg/dq of changes (one a column of `changes`, over variables with `rates`) times -H^-1; of a
+  /// dg/dq of changes (one per column of `changes`, over variables with `rates`) times -H^-1; of a
   /// watch that is cancelled it says nothing.
   Sensitivity sensitivity(const std::vector<DesignVariable>& variables,
                           const std::vector<DesignVariables::Rate>& rates,
@@ -76,7 +76,7 @@ class DesignShell {
   void set_legs(const ShellEnds& ends);
   void set_diameters(const ShellEnds& ends);
   void impose(const ShellEnds& ends, Eigen::Matrix3Xd& x) const;
-  /// What changes at once: columns, legs (one an end), logarithms of diameters (one a rod).
+  /// What changes at once: columns, legs (one per end), logarithms of diameters (one per rod).
   struct Change {
     Eigen::Matrix3Xd prescribed;
     Eigen::VectorXd longer, thicker;
@@ -85,7 +85,7 @@ class DesignShell {
   Result<void> settle(const ShellEnds& ends, double farthest_mm, const Watch& watch);
   void add_leg_gradient(int end, double change, Eigen::Matrix3Xd& minus_dg) const;
   void add_diameter_gradient(std::size_t rod, double change, Eigen::Matrix3Xd& minus_dg) const;
-  void add_bend_gradient(int bend, double share, Eigen::Matrix3Xd& minus_dg) const;
+  void add_bend_gradient(int bend, double fraction, Eigen::Matrix3Xd& minus_dg) const;
 
   const Scene& scene_;
   RodMesh mesh_;
@@ -104,9 +104,9 @@ class DesignShell {
       return int(std::ranges::count(edges, bend.e) + std::ranges::count(edges, bend.f));
     }
   };
-  std::vector<Leg> legs_;                ///< one an end
+  std::vector<Leg> legs_;                ///< one per end
   std::vector<std::vector<int>> bends_;  ///< of each rod
-  Eigen::VectorXd diameter_;             ///< that the model has, one a rod
+  Eigen::VectorXd diameter_;             ///< that the model has, one per rod
 };
 
 }  // namespace gridshell

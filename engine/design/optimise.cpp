@@ -138,9 +138,9 @@ class Optimiser {
                                     variables_.basis(), moved_, p, options_.weights);
     Eigen::MatrixXd damped = now.curvature;
     damped.diagonal().array() += damping_ * now.curvature.diagonal().mean();
-    const Eigen::VectorXd wanted = -definite_solution(damped, now.gradient);
+    const Eigen::VectorXd requested = -definite_solution(damped, now.gradient);
     const Eigen::VectorXd q =
-        variables_.limited(q_ + variables_.basis() * wanted, options_.move_limit_mm);
+        variables_.limited(q_ + variables_.basis() * requested, options_.move_limit_mm);
     const std::string refused = attempt(q, now.value, p);
     if (!refused.empty() && watch_.cancelled()) return false;
     DesignStep step = described(p, refused.empty() ? q : q_);

@@ -1,7 +1,8 @@
-// How a model is gone through, element by element, whatever is asked of each.
+// How the elements of a model are visited, one by one, whatever is computed of each.
 #pragma once
 
 #include <tuple>
+#include <type_traits>
 #include <vector>
 
 #include "engine/elastic/assembly.h"
@@ -29,7 +30,7 @@ inline __attribute__((always_inline)) void along_rod(const Model& model, const M
                                                      OnBend on_bend) {
   EdgeGeometry before, here;
   const std::size_t edges = rod.edges.size();
-  // a ring comes to its first edge again
+  // a ring meets its first edge again
   for (std::size_t n = 0; n < edges + (rod.closing_bend >= 0); ++n) {
     const int k = rod.edges[n < edges ? n : 0];
     const ModelEdge& edge = model.edges[std::size_t(k)];
@@ -62,7 +63,16 @@ void each_pair_list(const Model& model, Visit visit) {
   std::apply([&](const auto&... lists) { (visit(lists), ...); }, model.pairs);
 }
 
-/// visit(pair, place of its torque among the forces) for every joint with a spring
+/// visit(pair) for every energy of two edges but the angles of joints, which may act together
+template <class Visit>
+void each_pair(const Model& model, Visit visit) {
+  each_pair_list(model, [&]<class Law>(const std::vector<Pair<Law>>& list) {
+    if constexpr (!std::is_same_v<Law, JointAngle>)
+      for (const Pair<Law>& pair : list) visit(pair);
+  });
+}
+
+/// visit(pair, index of its torque among the forces) for every joint with a spring
 template <class Visit>
 void each_spring(const Model& model, Visit visit) {
   Eigen::Index place = Eigen::Index(model.edges.size());
@@ -96,7 +106,7 @@ void each_action(const Model& model, const ExternalLoads& outside, Visit visit) 
 
 // Where the Hessians of energies of two edges go.
 
-/// m stands at (a, b) and transposed at (b, a)
+/// m is added at (a, b) and transposed at (b, a)
 inline void add_block(int a, int b, BlockSlot slot, const Eigen::Matrix3d& m, BlockHessian& h) {
   if (a == b)
     h.diagonal[std::size_t(a)].matrix() += m + m.transpose();

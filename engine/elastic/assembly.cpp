@@ -1,5 +1,5 @@
-// Edges and bends run rod by rod, the hot loop beside the factorisation; what else stores energy is
-// added after them, list by list.
+// Edges and bends run rod by rod, the hot loop next to the factorisation; what else stores energy
+// is added after them, list by list.
 #include "engine/elastic/assembly.h"
 
 #include <cmath>
@@ -11,9 +11,27 @@
 #include "engine/elastic/model.h"
 
 namespace gridshell {
+
+BlockSlot BlockPattern::find(int row, int column) const {
+  const auto [low, high] = std::minmax(row, column);
+  const auto& known = pairs_of_[std::size_t(low)];
+  const auto at =
+      std::ranges::find_if(known, [high = high](const auto& one) { return one.first == high; });
+  if (at == known.end()) return -1;
+  return 2 * at->second + (pairs_[std::size_t(at->second)][0] != row);
+}
+
+BlockSlot BlockPattern::slot(int row, int column) {
+  const BlockSlot known = find(row, column);
+  if (known >= 0) return known;
+  const auto [low, high] = std::minmax(row, column);
+  pairs_of_[std::size_t(low)].emplace_back(high, int(pairs_.size()));
+  pairs_.push_back({row, column});
+  return 2 * int(pairs_.size() - 1);
+}
 namespace {
 
-/// a nan must survive: comparisons with it are false, so the test is the other way round
+/// a nan must survive: comparisons with it are false, so the test is written so that nan passes
 inline void keep_smallest(double& smallest, double value) {
   if (!(value >= smallest)) smallest = value;
 }
@@ -119,11 +137,11 @@ void add_action_hessian(const NodeAction& action, double factor, const Eigen::Ma
                         BlockHessian& h) {
   h.diagonal[std::size_t(action.node)].matrix().diagonal() += factor * action.stiffness;
   if (action.pressure == 0) return;
-  const double share = factor * action.pressure / 6;
+  const double fraction = factor * action.pressure / 6;
   const auto [second, third] = action.beside;
   const auto add = [&](int row, int column, const Eigen::Vector3d& by) {
     h.beyond.push_back({row, column, {}});
-    h.beyond.back().block.matrix() = share * cross_matrix(by);
+    h.beyond.back().block.matrix() = fraction * cross_matrix(by);
   };
   add(action.node, second, action.apex(x));
   if (third < 0) return;
@@ -131,17 +149,14 @@ void add_action_hessian(const NodeAction& action, double factor, const Eigen::Ma
   add(second, third, x.col(action.node));
 }
 
-/// What stores energy beside edges and bends.
+/// What stores energy in addition to edges and bends.
 void add_others(const Model& model, const State& state, const ExternalLoads& outside,
                 bool with_hessian, Assembly& out) {
-  each_pair_list(model, [&]<class Law>(const std::vector<Pair<Law>>& list) {
-    if constexpr (!std::is_same_v<Law, JointAngle>)
-      for (const Pair<Law>& pair : list) {
-        PairEnergy energy{.with_hessian = with_hessian};
-        out.energies[Law::term] += pair.law.add(pair_geometry(model, state, pair), energy);
-        add_pair_gradient(model, pair, energy, out);
-        if (with_hessian) add_pair_hessian(model, pair, energy.hessian, out.hessian);
-      }
+  each_pair(model, [&]<class Law>(const Pair<Law>& pair) {
+    PairEnergy energy{.with_hessian = with_hessian};
+    out.energies[Law::term] += pair.law.add(pair_geometry(model, state, pair), energy);
+    add_pair_gradient(model, pair, energy, out);
+    if (with_hessian) add_pair_hessian(model, pair, energy.hessian, out.hessian);
   });
   add_links(model, state, with_hessian, out);
   for (const ModelSpring& spring : model.springs) {
@@ -161,8 +176,8 @@ void add_others(const Model& model, const State& state, const ExternalLoads& out
     if (action.pressure != 0) {
       action.add_gradient(factor, state.x, out.gradient);
     } else {
-      // as add_gradient(), but rounded once a product, as this file is compiled: states keep their
-      // bits
+      // as add_gradient(), but rounded once per product, as this file is compiled: states keep
+      // their bits
       const Eigen::Vector3d off = state.x.col(action.node) - action.anchor;
       const Eigen::Vector3d slope = action.stiffness.cwiseProduct(off) - action.force;
       out.gradient.col(action.node) += factor * slope;
@@ -273,7 +288,7 @@ void assemble(const Model& model, const State& state, const ExternalLoads& outsi
   if (!apart)
     for (const Model::Rod& rod : model.rods) of_rod(rod, out.of_rod.front());
   for (std::size_t wave = 0; apart && wave < model.waves.size(); ++wave)
-    share(team, int(model.waves[wave].size()), [&](int k) {
+    parallel_for(team, int(model.waves[wave].size()), [&](int k) {
       const auto rod = std::size_t(model.waves[wave][std::size_t(k)]);
       of_rod(model.rods[rod], out.of_rod[rod]);
     });
@@ -320,6 +335,7 @@ void multiply(const Model& model, const BlockHessian& hessian, const Eigen::Matr
   const auto& pairs = model.pattern.pairs();
   for (std::size_t k = 0; k < pairs.size(); ++k) add(pairs[k][0], pairs[k][1], hessian.pair[k]);
   for (const BlockHessian::Beyond& one : hessian.beyond) add(one.row, one.column, one.block);
+  if (hessian.rank_one.cols() > 0) y += hessian.rank_one * hessian.rank_one.cwiseProduct(x).sum();
 }
 
 void clear_held(const Model& model, Eigen::Matrix3Xd& x) {

@@ -1,4 +1,4 @@
-// The symmetric Hessian in 3x3 blocks over pairs of columns, and where each block stands.
+// The symmetric Hessian in 3x3 blocks over pairs of columns, and the index of each block.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,7 +12,7 @@
 
 namespace gridshell {
 
-/// A block's place: its pair's index, twice, plus one where the block is the pair's transposed.
+/// A block's index: that of its pair, times two, plus one where the block is the pair's transposed.
 /// Below zero: there is no such block.
 using BlockSlot = int;
 
@@ -21,9 +21,9 @@ class BlockPattern {
  public:
   explicit BlockPattern(int columns = 0) : pairs_of_(std::size_t(columns)) {}
 
-  /// The place of block (row, column); a pair that is new becomes the last. Row and column differ.
+  /// The index of block (row, column); a pair that is new becomes the last. Row and column differ.
   BlockSlot slot(int row, int column);
-  /// The same of a pair that is known, else -1.
+  /// The index of a block whose pair is known, else -1.
   BlockSlot find(int row, int column) const;
 
   const std::vector<std::array<int, 2>>& pairs() const { return pairs_; }
@@ -33,9 +33,10 @@ class BlockPattern {
   std::vector<std::vector<std::pair<int, int>>> pairs_of_;  // per smaller column: larger, index
 };
 
-/// Blocks on the diagonal, one a column, beside it, one a pair of the pattern, and *beyond* the
-/// pattern between edges that come near each other and between nodes of a face under pressure, some
-/// of them zero, several at a place. N/mm.
+/// Blocks on the diagonal (one per column), off the diagonal (one per pair of the pattern), and
+/// outside the pattern between edges that come near each other and between nodes of a face under
+/// pressure, some of them zero, several at the same pair; and a matrix of rank one that joins all
+/// columns. N/mm.
 struct BlockHessian {
   struct Beyond {
     int row = 0, column = 0;
@@ -43,16 +44,18 @@ struct BlockHessian {
   };
   std::vector<Block3> diagonal, pair;
   std::vector<Beyond> beyond;
+  Eigen::Matrix3Xd rank_one{};  ///< c over all columns, of c c^T in addition; empty: none
 
   void reset(std::size_t columns, std::size_t pairs, Team* team = nullptr) {
     diagonal.assign(columns, {});
     pair.resize(pairs);
     const int pieces = team ? team->threads() : 1;
-    share(team, pieces, [&](int k) {
+    parallel_for(team, pieces, [&](int k) {
       const auto at = [&](int piece) { return pair.begin() + long(pairs * piece / pieces); };
       std::fill(at(k), at(k + 1), Block3{});
     });
     beyond.clear();
+    rank_one.resize(3, 0);
   }
   void add(BlockSlot slot, const Block3& block) {
     Block3& known = pair[std::size_t(slot >> 1)];

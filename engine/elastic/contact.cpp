@@ -14,8 +14,8 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double parabola_from = 0.05;   // x of the barrier
-constexpr double parallel_share = 0.05;  // of the range of d^2: how far off the distance may be
+constexpr double parabola_from = 0.05;      // x of the barrier
+constexpr double parallel_fraction = 0.05;  // of the range of d^2: how far off the distance may be
 
 /// b and its first two derivatives.
 std::array<double, 3> log_barrier(double x) {
@@ -23,7 +23,7 @@ std::array<double, 3> log_barrier(double x) {
   return {-y * y * log, -2 * y * log - y * y / x, -2 * log - 4 * y / x + y * y / (x * x)};
 }
 
-/// Of every node the first that lies at its place: of edge points, in the flat.
+/// For every node, the first node at its position (of edge points, in the flat).
 std::vector<int> places_of(const RodMesh& mesh, const std::vector<double>& radius_mm) {
   std::vector<int> place(std::size_t(mesh.nodes()));
   for (int k = 0; k < mesh.nodes(); ++k) place[std::size_t(k)] = k;
@@ -81,7 +81,7 @@ struct NearEdges {
 };
 
 /// Gradient and Hessian of d^2, by the ends of both edges: with r = p(s) - q(t) and the weights w
-/// of the ends in it, 2 w_i r, and where s and t follow, 2 w_i w_j I less what they give way.
+/// of the ends in it, 2 w_i r, and where s and t follow, 2 w_i w_j I less what they yield.
 void differentiate(const NearEdges& near, Eigen::Matrix<double, 12, 1>& gradient,
                    Eigen::Matrix<double, 12, 12>& hessian) {
   const double w[4] = {1 - near.s, near.s, near.t - 1, -near.t};
@@ -150,7 +150,7 @@ double ContactPairs::thinness(const ContactEdge& a, const ContactEdge& b) const 
   for (const ContactEdge::End& i : a.ends)
     for (const ContactEdge::End& j : b.ends) {
       if (i.node != j.node) continue;
-      // where a rod goes on through a joint its two sides are not near each other
+      // where a rod continues through a joint its two sides are not near each other
       const double between = std::abs(i.at - j.at);
       if (one_rod && (between < 1e-9 || std::abs(between - closed) < 1e-9)) continue;
       thinness = std::min(thinness, std::max(i.near, j.near) / std::max(joint_mm, 4 * range));
@@ -201,28 +201,28 @@ void each_contact(const Model& model, const Eigen::Matrix3Xd& x, bool with_deriv
     const double radii = thinness * contact.radii(one, other), gap = thinness * barrier.gap_mm,
                  range = radii + gap;
     const double le = e.rest_length, lf = f.rest_length;
-    const double mollified = 4 * parallel_share * gap * (2 * radii + gap) / (le * le + lf * lf);
+    const double mollified = 4 * parallel_fraction * gap * (2 * radii + gap) / (le * le + lf * lf);
     NearEdges near{x.col(e.to) - x.col(e.from), x.col(f.to) - x.col(f.from),
                    x.col(e.from) - x.col(f.from), mollified * le * le, mollified * lf * lf};
     near.find();
     if (!(near.distance2 < (radii + reach) * (radii + reach))) return;
-    const double share = std::min(1.0, le / range) * std::min(1.0, lf / range);
+    const double fraction = std::min(1.0, le / range) * std::min(1.0, lf / range);
     const ContactBarrier::Value law =
         barrier.at(near.distance2, contact.radii(one, other), thinness);
-    EdgeContact at{{e.from, e.to, f.from, f.to},   one.edge, other.edge, share * law.energy,
+    EdgeContact at{{e.from, e.to, f.from, f.to},   one.edge, other.edge, fraction * law.energy,
                    near.distance2 < radii * radii, {},       {}};
     if (with_derivatives) {
       differentiate(near, at.gradient, at.hessian);
       at.hessian =
-          share *
+          fraction *
           (law.slope * at.hessian + law.curvature * at.gradient * at.gradient.transpose()).eval();
-      at.gradient *= share * law.slope;
+      at.gradient *= fraction * law.slope;
     }
     visit(at);
   });
 }
 
-double clear_share(const Model& model, const Eigen::Matrix3Xd& x, const Eigen::Matrix3Xd& dx) {
+double clear_fraction(const Model& model, const Eigen::Matrix3Xd& x, const Eigen::Matrix3Xd& dx) {
   const ContactPairs& contact = model.contact;
   if (!contact.any()) return 1;
   double clear = 1;
@@ -237,21 +237,21 @@ double clear_share(const Model& model, const Eigen::Matrix3Xd& x, const Eigen::M
     for (const int i : {e.from, e.to})
       for (const int j : {f.from, f.to})
         fastest = std::max(fastest, (dx.col(i) - dx.col(j)).norm());
-    const auto distance = [&](double share) {
-      const auto at = [&](int node) { return Vector3d(x.col(node) + share * dx.col(node)); };
+    const auto distance = [&](double fraction) {
+      const auto at = [&](int node) { return Vector3d(x.col(node) + fraction * dx.col(node)); };
       return std::sqrt(nearest_points(at(e.from), at(e.to), at(f.from), at(f.to)).distance2);
     };
-    double share = 0, d = distance(0);
+    double fraction = 0, d = distance(0);
     // many steps that each halve the distance would lead through in the end
     const double radii = thinness * contact.radii(one, other), end = 0.25 * radii;
     const double least = d > end ? std::max(0.5 * std::min(d, radii), end) : 0.999 * d;
     const int most_steps = d > end ? 200 : 5000;  // those of the nearest are small
-    for (int k = 0; k < most_steps && share < clear; ++k) {
-      if (share > 0 && d - least <= 1e-3 * least) break;
-      share += (d - least) / fastest;
-      d = distance(std::min(share, 1.0));
+    for (int k = 0; k < most_steps && fraction < clear; ++k) {
+      if (fraction > 0 && d - least <= 1e-3 * least) break;
+      fraction += (d - least) / fastest;
+      d = distance(std::min(fraction, 1.0));
     }
-    clear = std::min(clear, share);
+    clear = std::min(clear, fraction);
   });
   return clear;
 }

@@ -23,7 +23,7 @@ inline StretchEnergy stretch(double EA, double rest_length, double length) {
 // Bending of a naturally straight isotropic rod at a node between two edges [Bergou 2008].
 
 /// E = EI/(2l) |kb|^2 = (2EI/l) (1 - c)/(1 + c), c = t_e . t_f, with the curvature binormal
-/// kb = 2 t_e x t_f / (1 + c) and l the mean rest length of the two edges. E grows without bound
+/// kb = 2 t_e x t_f / (1 + c) and l the mean natural length of the two edges. E grows without bound
 /// as the edges fold onto one another (c -> -1).
 /// `stiffness` is 2EI/l (mJ).
 struct BendEnergy {

@@ -27,10 +27,10 @@ void NodeAction::add_gradient(double factor, const Eigen::Matrix3Xd& x,
   gradient.col(node) += factor * (stiffness.cwiseProduct(at - anchor) - force);
   if (pressure == 0) return;
   const Eigen::Vector3d y = x.col(beside[0]), z = apex(x);
-  const double share = factor * pressure / 6;
-  gradient.col(node) -= share * y.cross(z);
-  gradient.col(beside[0]) -= share * z.cross(at);
-  if (beside[1] >= 0) gradient.col(beside[1]) -= share * at.cross(y);
+  const double fraction = factor * pressure / 6;
+  gradient.col(node) -= fraction * y.cross(z);
+  gradient.col(beside[0]) -= fraction * z.cross(at);
+  if (beside[1] >= 0) gradient.col(beside[1]) -= fraction * at.cross(y);
 }
 
 double NodeBar::value(double e) const {
@@ -76,7 +76,7 @@ namespace {
 
 HalfwayFrame frame_of(const PairGeometry& at, const MaterialBend& bend) {
   return halfway_frame(at.e.tangent, at.director_e,
-                       at.angle_e + bend.share * at.twist() + bend.axis);
+                       at.angle_e + bend.fraction * at.twist() + bend.axis);
 }
 
 /// s of EndBending, and how it grows with c.
@@ -240,7 +240,7 @@ double add_material_bend(const MaterialBend& bend, const HalfwayFrame& mu, const
   const Eigen::Vector2d w = mu.transpose() * b.kb;
   Eigen::Vector2d g = bend.stiffness.array() * (scale * w - bend.rest).array();
   PairVector phi;
-  phi << 0.5 * bend.share * b.kb, 0.5 * bend.share * b.kb, 1 - bend.share, bend.share;
+  phi << 0.5 * bend.fraction * b.kb, 0.5 * bend.fraction * b.kb, 1 - bend.fraction, bend.fraction;
   Eigen::Matrix<double, 8, 2> along = Eigen::Matrix<double, 8, 2>::Zero();  // mu.kb'
   along.topRows<3>() = b.by_p.transpose() * mu;
   along.middleRows<3>(3) = b.by_q.transpose() * mu;
@@ -268,7 +268,7 @@ double add_material_bend(const MaterialBend& bend, const HalfwayFrame& mu, const
   const PairVector across = g[0] * along.col(1) - g[1] * along.col(0);
   out.hessian += phi * across.transpose() + across * phi.transpose();
   out.hessian -= g.dot(w) * phi * phi.transpose();
-  add_twist_curvature(bend.share * (g[0] * w[1] - g[1] * w[0]), b, out.hessian);
+  add_twist_curvature(bend.fraction * (g[0] * w[1] - g[1] * w[0]), b, out.hessian);
   return material_bend_value(bend, scale * w);
 }
 
@@ -290,7 +290,7 @@ CornerLaw::CornerLaw(const Eigen::Vector2d& EI, double GJ, double length_e, doub
                vu = 0.5 * (length_e - length_f) * c * s * (1 / EI_m - 1 / GJ);
   bend.stiffness << std::pow(c, 4) * EI_n / length, c * c * uu / (vv * uu - vu * vu);
   bend.rest << turn.norm(), 0;
-  bend.share = 0.5 - vu / (uu * turn.norm());
+  bend.fraction = 0.5 - vu / (uu * turn.norm());
   torsion = c * c / uu;
 }
 

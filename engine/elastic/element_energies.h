@@ -31,10 +31,10 @@ struct NodeAction {
   }
 };
 
-// Two nodes held together by a spring: crossing rods, each with a node of its own at the joint, or
-// a support and the rod's end or joint that hangs on it.
+// Two nodes connected by a spring: crossing rods, each with a node of its own at the joint, or
+// a support and the rod's end or joint that is connected to it.
 
-/// E = 1/2 sum over x, y, z of k (x_b - x_a)^2 of nodes a and b: without length at rest.
+/// E = 1/2 sum over x, y, z of k (x_b - x_a)^2 of nodes a and b: its natural length is zero.
 struct NodeSpring {
   int a = 0, b = 0;
   Eigen::Vector3d stiffness{0, 0, 0};  ///< k along x, y, z, N/mm
@@ -45,8 +45,8 @@ struct NodeSpring {
 };
 
 /// A straight bar between nodes a and b that may be slack: E = EA l F(e), e = |x_b - x_a|/l - 1. Of
-/// a strut F' = e. A cable bears no compression; so that its stiffness has no jump it comes on over
-/// a small strain w: F' = 0 below 0, e^2/(2w) up to w, e - w/2 beyond.
+/// a strut F' = e. A cable bears no compression; so that its stiffness has no jump it is applied
+/// over a small strain w: F' = 0 below 0, e^2/(2w) up to w, e - w/2 above.
 struct NodeBar {
   int a = 0, b = 0;
   double rest_length = 0;  ///< l, mm
@@ -75,7 +75,7 @@ struct PairGeometry {
   double angle_e = 0, angle_f = 0;         ///< theta of each edge, rad
   Eigen::Vector3d director_e, director_f;  ///< of their reference frames
   double reference_twist = 0;              ///< m_ref from e to f, of edges that follow one another
-  double opening = 0;                      ///< how much joints that are opened have come
+  double opening = 0;  ///< actuation angle so far of the joint that is opened, rad
 
   /// tau = theta_f - theta_e + m_ref
   double twist() const { return angle_f - angle_e + reference_twist; }
@@ -85,7 +85,7 @@ using PairVector = Eigen::Matrix<double, 8, 1>;
 using PairMatrix = Eigen::Matrix<double, 8, 8>;
 
 /// Energy of two edges e, f by (e, f, theta_e, theta_f): edge vectors and angles. The derivatives
-/// hold the reference frames as carried along straight lines from the present edges (parallel in
+/// contain the reference frames as carried along straight lines from the present edges (parallel in
 /// time), so the Hessian is symmetric and is that of the energy itself.
 struct PairEnergy {
   PairVector gradient = PairVector::Zero();
@@ -144,45 +144,45 @@ struct Torsion {
   double add(const PairGeometry& at, PairEnergy& out) const;
 };
 
-// Bending of a rod with principal axes and a curvature at rest, at a node between two edges.
+// Bending of a rod with principal axes and a natural curvature, at a node between two edges.
 
 /// E = 1/2 (w - w_0)^T diag(EI1, EI2)/l (w - w_0), w the curvature binormal's components in the
-/// material frame half way between those of e and f: e's frame turned by half the twist,
+/// material frame in the middle between those of e and f: e's frame turned by half the twist,
 ///   w_1 + i w_2 = kb.(m1 + i m2)_e exp(-i tau/2).
-/// [Bergou 2008] averages the energies of both frames, [Bergou 2010] the frames; the frame half way
+/// [Bergou 2008] averages the energies of both frames, [Bergou 2010] the frames; the middle frame
 /// keeps a round rod's energy free of its twist, whatever that is, and lets a rod with curvature
-/// and twist at rest be a helix without energy.
-/// At an end that holds its direction w is s times as much (EndBending), in the frame of the ghost
-/// where the end holds the spin, else in that of the edge beside it.
+/// and natural twist be a helix without energy.
+/// At an end that prescribes its direction w is s times as much (EndBending), in the frame of the
+/// ghost where the end prescribes the spin, else in that of the edge next to it.
 struct MaterialBend {
   Eigen::Vector2d stiffness;  ///< EI1/l, EI2/l (mJ)
-  Eigen::Vector2d rest;       ///< w_0 = l * curvature at rest
-  double share = 0.5;         ///< of the twist, from e on, where the frame is; at an end 0 or 1
+  Eigen::Vector2d rest;       ///< w_0 = l * natural curvature
+  double fraction = 0.5;      ///< of the twist, from e on, where the frame is; at an end 0 or 1
   double axis = 0;            ///< from m1 to the first axis of w, about the rod, rad
   double corner = 1;          ///< cos of half the angle by which a rod cut with a corner turns
 
-  bool at_end() const { return share == 0 || share == 1; }
-  /// l times the change of curvature that w - w_0 stands for, about m1 and m2.
+  bool at_end() const { return fraction == 0 || fraction == 1; }
+  /// l times the change of curvature that w - w_0 represents, about m1 and m2.
   Eigen::Vector2d bent(const Eigen::Vector2d& excess) const;
 };
 
-/// A rod cut with a corner, between two edges that are straight at rest and meet at an angle 2h
-/// there. Half of each edge bends and twists about its own axes, and both halves in series are the
-/// compliance of the node. With n the corner's axis, u = (t + s)/|t + s|, v = n x u, rotations psi
-/// of f from rest change the measures by
+/// A rod cut with a corner, between two edges that are straight without load and meet at an angle
+/// 2h there. Half of each edge bends and twists about its own axes, and both halves in series are
+/// the compliance of the node. With n the corner's axis, u = (t + s)/|t + s|, v = n x u, rotations
+/// psi of f from the unloaded shape change the measures by
 ///   w_1' = psi_n/cos^2 h, w_2' = -psi_v/cos h, tau' = psi_u/cos h,
 /// as w_1 = 2 tan h; so 2 tan h with the stiffness EI/l of a straight rod would be 1/cos^4 h too
 /// stiff in the corner's plane. To first order in psi, which is one in the edge length:
 ///   psi_n: l/EI_n,
 ///   psi_v: sum over both halves of l_k/2 (cos^2 h/EI_m + sin^2 h/GJ), psi_u: cos and sin
-///   exchanged, both:  (l_e - l_f)/2 sin h cos h (1/EI_m - 1/GJ), which moves `share`.
+///   exchanged, both:  (l_e - l_f)/2 sin h cos h (1/EI_m - 1/GJ), which moves `fraction`.
 /// EI_n, EI_m: about n and across it; that a section with two stiffnesses which lies askew to the
 /// corner couples them is left out.
 struct CornerLaw {
   MaterialBend bend;
   double torsion = 0;  ///< mJ
 
-  /// `turn`: the curvature binormal at rest about m1 and m2; EI about them.
+  /// `turn`: the natural curvature binormal about m1 and m2; EI about them.
   CornerLaw(const Eigen::Vector2d& EI, double GJ, double length_e, double length_f,
             const Eigen::Vector2d& turn);
 };
@@ -190,18 +190,19 @@ struct CornerLaw {
 /// mu: columns m1, m2 of e turned by half the twist, in 3D.
 using HalfwayFrame = Eigen::Matrix<double, 3, 2>;
 
-/// The frame half way: e's reference director turned by its angle + share * tau about e's tangent.
+/// The middle frame: e's reference director turned by its angle + fraction * tau about e's tangent.
 HalfwayFrame halfway_frame(const Eigen::Vector3d& tangent, const Eigen::Vector3d& director,
                            double angle);
 
-/// Adds gradient and Hessian in increments; returns the value. With phi' = theta_e' + share tau',
+/// Adds gradient and Hessian in increments; returns the value. With phi' = theta_e' + fraction
+/// tau',
 ///   w'  = mu.kb' - i phi' w,
 ///   w'' = mu.kb'' + (mu.p)(kb.p) - 2i phi' mu.kb' - i phi'' w - phi'^2 w.
 double add_material_bend(const MaterialBend& bend, const HalfwayFrame& mu, const BinormalSlopes& b,
                          PairEnergy& out);
 
-/// Bending of a section with axes, or of a rod curved at rest, between two edges that follow one
-/// another.
+/// Bending of a section with axes, or of a rod with natural curvature, between two edges that
+/// follow one another.
 struct SectionBending {
   static constexpr Term term = Term::bend;
   MaterialBend bend;
@@ -212,10 +213,10 @@ struct SectionBending {
   double add(const PairGeometry& at, PairEnergy& out) const;
 };
 
-/// Bending of a round rod between the direction that its end holds (a ghost edge) and its first
-/// edge, half an edge long. Of the edge and its mirror image beyond the end, which turn by 2 phi,
-/// it is one half, (EI/2l) tan^2 phi, l = |e|/2: so what is left out goes with even powers of the
-/// edge length, as inside a rod. Without the pole at 90 degrees, and the same up to phi^6:
+/// Bending of a round rod between the direction that its end prescribes (a ghost edge) and its
+/// first edge, half an edge long. Of the edge and its mirror image past the end, which turn by 2
+/// phi, it is one half, (EI/2l) tan^2 phi, l = |e|/2: so what is left out goes with even powers of
+/// the edge length, as inside a rod. Without the pole at 90 degrees, and the same up to phi^6:
 ///   E = 4k (1 - c)/(1 + c)^3 = (EI/2l) |2 kb/chi|^2, k = 2EI/l, c = cos phi.
 struct EndBending {
   static constexpr Term term = Term::bend;
@@ -227,8 +228,8 @@ struct EndBending {
 
 // The resistances of a joint, to shear and to spin, on the edges that are centred on it.
 
-/// The angle between two rods at a joint, E = k/2 (angle - rest - opening)^2. The mixed form has
-/// its torque T = k (angle - rest - opening) for an unknown, as an edge its axial force.
+/// The angle between two rods at a joint, E = k/2 (angle - `rest` - `opening`)^2. The mixed form
+/// has its torque T = k (angle - `rest` - `opening`) for an unknown, as an edge its axial force.
 struct JointAngle {
   static constexpr Term term = Term::shear;
   double stiffness = 0;  ///< k, N mm/rad
@@ -236,11 +237,13 @@ struct JointAngle {
   double opening = 0;  ///< in all, rad
   int joint = 0;
   /// +1, -1: rods with this side of the joint's normal, the first edge's director, have a positive
-  /// angle, and one that closes goes on below zero; 0: no normal is known
+  /// angle, and one that closes continues below zero; 0: no normal is known
   int side = 0;
+  /// Weight w in the mean of several joints' angles, which stores K/2 (sum of w times the excess)^2
+  /// instead of their own energies (Model::mean_stiffness); 0: the joint is by itself.
+  double weight = 0;
 
   double excess(const PairGeometry& at) const;
-  double value(const PairGeometry& at) const;
   /// The angle by edge vectors.
   PairEnergy slopes(const PairGeometry& at, bool with_hessian) const;
 
@@ -248,7 +251,8 @@ struct JointAngle {
   double sign(const PairGeometry& at) const;
 };
 
-// The spin of a rod at a joint that passes twist: its director beside the joint's normal.
+// The spin of a rod at a joint that passes twist: the angle between its director and the joint's
+// normal.
 
 /// The spin phi of the first edge of a pair, E = k/2 phi^2. With the complex director d = d1 + i d2
 /// and z = d/(s.d), alpha = Im log(s.d), and d carried in time d(t') = d - (d.t')/(1 + t.t') (t +

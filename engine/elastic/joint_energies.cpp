@@ -135,7 +135,7 @@ void reduce(const ModelFollower& one, const Model& model, BlockHessian& h) {
   h.diagonal[std::size_t(node)] = {};
 }
 
-/// Blocks beyond the pattern on nodes that follow.
+/// Blocks outside the pattern, of nodes that follow.
 void reduce_beyond(const Model& model, BlockHessian& h) {
   const auto leading = [&](int column) {
     std::vector<std::pair<int, double>> parts{{column, 1}};
@@ -174,10 +174,6 @@ double JointAngle::sign(const PairGeometry& at) const {
 double JointAngle::excess(const PairGeometry& at) const {
   return sign(at) * std::acos(std::clamp(at.e.tangent.dot(at.f.tangent), -1.0, 1.0)) - rest -
          at.opening * opening;
-}
-
-double JointAngle::value(const PairGeometry& at) const {
-  return 0.5 * stiffness * excess(at) * excess(at);
 }
 
 PairEnergy JointAngle::slopes(const PairGeometry& at, bool with_hessian) const {
@@ -251,14 +247,39 @@ void Model::fold(Eigen::Matrix3Xd& force) const {
   }
 }
 
+Eigen::VectorXd spring_excess(const Model& model, const State& state, double opening) {
+  Eigen::VectorXd excess(model.forces() - Eigen::Index(model.edges.size()));
+  each_spring(model, [&](const auto& pair, Eigen::Index place) {
+    excess[place - Eigen::Index(model.edges.size())] =
+        pair.law.excess(pair_geometry(model, state, pair, opening));
+  });
+  return excess;
+}
+
+Eigen::VectorXd spring_torques(const Model& model, Eigen::VectorXd angles) {
+  const auto& springs = std::get<std::vector<Pair<JointAngle>>>(model.pairs);
+  double mean = 0;
+  for (std::size_t k = 0; k < springs.size(); ++k)
+    mean += springs[k].law.weight * angles[Eigen::Index(k)];
+  for (std::size_t k = 0; k < springs.size(); ++k)
+    angles[Eigen::Index(k)] = springs[k].law.stiffness * angles[Eigen::Index(k)] +
+                              model.mean_stiffness * springs[k].law.weight * mean;
+  return angles;
+}
+
 void add_joint_angles(const Model& model, const State& state, double opening,
                       const Stiffness* stiffness, const Eigen::Matrix3Xd* before, Assembly& out) {
+  const Eigen::VectorXd excess = spring_excess(model, state, opening),
+                        torques = spring_torques(model, excess);
+  if (excess.size() == 0) return;
+  out.energies[Term::shear] += 0.5 * excess.dot(torques);
+  out.force.tail(torques.size()) = torques;
+  const bool mean = stiffness && model.mean_stiffness > 0;
+  if (mean) out.hessian.rank_one.setZero(3, model.columns());
   each_spring(model, [&](const auto& pair, Eigen::Index place) {
-    const PairGeometry at = pair_geometry(model, state, pair, opening);
-    const PairEnergy angle = pair.law.slopes(at, stiffness != nullptr);
-    const double torque = pair.law.stiffness * pair.law.excess(at), known = state.force[place];
-    out.energies[Term::shear] += pair.law.value(at);
-    out.force[place] = torque;
+    const PairEnergy angle =
+        pair.law.slopes(pair_geometry(model, state, pair), stiffness != nullptr);
+    const double torque = out.force[place], known = state.force[place];
     Eigen::Index from = 0;
     each_arm(model, pair, place, [&](const ModelEdge& edge, Eigen::Index column) {
       const Eigen::Vector3d slope = angle.gradient.segment<3>(std::exchange(from, 3));
@@ -267,6 +288,10 @@ void add_joint_angles(const Model& model, const State& state, double opening,
       if (before) pull += (torque - known) * (before->col(column) - slope);
       out.gradient.col(edge.from) -= pull;
       out.gradient.col(edge.to) += pull;
+      if (!mean) return;
+      const Eigen::Vector3d part = std::sqrt(model.mean_stiffness) * pair.law.weight * slope;
+      out.hessian.rank_one.col(edge.from) -= part;
+      out.hessian.rank_one.col(edge.to) += part;
     });
     if (!stiffness) return;
     const PairMatrix H = pair.law.stiffness * angle.gradient * angle.gradient.transpose() +
@@ -312,10 +337,13 @@ void reduce_to_free(const Model& model, const State& state, bool with_hessian, A
   model.fold(out.gradient);
   if (!with_hessian || model.followers.empty()) return;
   for (const ModelFollower& one : model.followers) reduce(one, model, out.hessian);
+  if (out.hessian.rank_one.cols() > 0) model.fold(out.hessian.rank_one);
   reduce_beyond(model, out.hessian);
 }
 
-void add_joint_energies(const Model& model, const State& state, Energies& sum) {
+void add_joint_energies(const Model& model, const State& state, double opening, Energies& sum) {
+  const Eigen::VectorXd excess = spring_excess(model, state, opening);
+  sum[Term::shear] += 0.5 * excess.dot(spring_torques(model, excess));
   for (const ModelHinge& hinge : model.hinges) sum[Term::joint] += spin_energy(hinge, model, state);
   for (const ModelLink& link : model.links)
     sum[Term::joint] += energy_of(link, model, state.x).value;
@@ -323,9 +351,15 @@ void add_joint_energies(const Model& model, const State& state, Energies& sum) {
 
 Eigen::Matrix3Xd opening_rate(const Model& model, const Eigen::Matrix3Xd& tangents) {
   Eigen::Matrix3Xd rate = Eigen::Matrix3Xd::Zero(3, model.columns());
+  const Eigen::Index first = Eigen::Index(model.edges.size());
+  Eigen::VectorXd opened(model.forces() - first);
+  each_spring(model, [&](const auto& pair, Eigen::Index place) {
+    opened[place - first] = pair.law.opening;
+  });
+  const Eigen::VectorXd torques = spring_torques(model, std::move(opened));
   each_spring(model, [&](const auto& pair, Eigen::Index place) {
     each_arm(model, pair, place, [&](const ModelEdge& edge, Eigen::Index column) {
-      const Eigen::Vector3d pull = pair.law.stiffness * pair.law.opening * tangents.col(column);
+      const Eigen::Vector3d pull = torques[place - first] * tangents.col(column);
       rate.col(edge.from) += pull;
       rate.col(edge.to) -= pull;
     });

@@ -1,4 +1,4 @@
-// How rods that cross hold on to each other: what a joint adds to a model, and what it bears.
+// How rods that cross are connected: what a joint adds to a model, and what it bears.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <bit>
@@ -18,7 +18,7 @@ std::pair<int, int> halves_at(const Model& model, int rod, int node) {
   return {edges.front(), edges.size() > 1 ? edges.back() : -1};
 }
 
-/// A spin that cost nothing and was held does now.
+/// A spin that cost nothing and was fixed does now.
 void release_spin(Model& model, int rod) {
   int& held = model.rods[std::size_t(rod)].held_spin;
   if (held < 0) return;
@@ -113,13 +113,19 @@ double Bolts::angle(int joint) const {
   return (closed.contains(joint) ? -1 : 1) * turn_between(first, second);
 }
 
-JointAngle Bolts::law(int joint, std::size_t k, std::size_t m, double share, double most) const {
+int Bolts::joints() const {
+  return int(std::ranges::count_if(rods, [](const auto& held) { return !held.empty(); }));
+}
+
+JointAngle Bolts::law(int joint, std::size_t k, std::size_t m, double fraction, double most) const {
   const auto of = [&](const std::vector<double>& angles) {
     return angles.empty() ? 0 : angles[std::size_t(joint)];
   };
   const auto& held = rods[std::size_t(joint)];
   const double turn = held.size() == 2 ? angle(joint) : turn_between(held[k], held[m]);
-  return {share * std::min(stiffness_Nmm, most), of(opened) + turn, of(opening), joint};
+  JointAngle law{fraction * std::min(stiffness_Nmm, most), of(opened) + turn, of(opening), joint};
+  if (mean) law.stiffness = 0, law.weight = 1.0 / joints();
+  return law;
 }
 
 Footprint centred(Footprint footprint, const Bolts* bolts) {
@@ -128,11 +134,13 @@ Footprint centred(Footprint footprint, const Bolts* bolts) {
   return footprint;
 }
 
-std::vector<double> joint_torques(const RodMesh& mesh, const Model& model, const State& state) {
+std::vector<double> joint_torques(const RodMesh& mesh, const Model& model, const State& state,
+                                  double opening) {
   std::vector<double> torques(std::size_t(mesh.joints), 0);
-  for (const auto& pair : std::get<std::vector<Pair<JointAngle>>>(model.pairs))
-    torques[std::size_t(pair.law.joint)] -=
-        pair.law.stiffness * pair.law.excess(pair_geometry(model, state, pair));
+  const Eigen::VectorXd of_springs = spring_torques(model, spring_excess(model, state, opening));
+  each_spring(model, [&](const auto& pair, Eigen::Index place) {
+    torques[std::size_t(pair.law.joint)] -= of_springs[place - Eigen::Index(model.edges.size())];
+  });
   return torques;
 }
 

@@ -8,56 +8,42 @@
 
 namespace gridshell {
 
-BlockSlot BlockPattern::find(int row, int column) const {
-  const auto [low, high] = std::minmax(row, column);
-  const auto& known = pairs_of_[std::size_t(low)];
-  const auto at =
-      std::ranges::find_if(known, [high = high](const auto& one) { return one.first == high; });
-  if (at == known.end()) return -1;
-  return 2 * at->second + (pairs_[std::size_t(at->second)][0] != row);
-}
-
-BlockSlot BlockPattern::slot(int row, int column) {
-  const BlockSlot known = find(row, column);
-  if (known >= 0) return known;
-  const auto [low, high] = std::minmax(row, column);
-  pairs_of_[std::size_t(low)].emplace_back(high, int(pairs_.size()));
-  pairs_.push_back({row, column});
-  return 2 * int(pairs_.size() - 1);
-}
-
 namespace {
 
-Result<void> check(int index, int nodes, const ModelRod& rod, RodModel rung) {
+Result<void> check(int index, int nodes, const ModelRod& rod, RodModel rod_model) {
   const auto wrong = [&](const std::string& what) { return invalid("rod {}: {}", index, what); };
   const RodMaterial& m = rod.material;
   if (rod.position.size() != rod.nodes.size() && !rod.closed())
-    return wrong(fmt::format("{} nodes and {} arc lengths", rod.nodes.size(), rod.position.size()));
+    return wrong(fmt::format("got {} nodes and {} arc lengths, expected as many of each",
+                             rod.nodes.size(), rod.position.size()));
   if (rod.nodes.size() < 2) return wrong("has no edge");
   for (int node : rod.nodes)
     if (node < 0 || node >= nodes)
-      return wrong(fmt::format("node {} does not exist, there are {}", node, nodes));
+      return wrong(fmt::format("got node {}, expected a number below {}", node, nodes));
   for (std::size_t k = 1; k < rod.position.size(); ++k)
     if (!(rod.position[k] > rod.position[k - 1]))
-      return wrong(fmt::format("arc lengths must ascend, {} follows {}", rod.position[k],
-                               rod.position[k - 1]));
-  if (!(m.EA > 0)) return wrong(fmt::format("EA = {} N, must be above 0", m.EA));
+      return wrong(fmt::format("arc lengths: got {} after {}, expected ascending values",
+                               rod.position[k], rod.position[k - 1]));
+  if (!(m.EA > 0)) return wrong(fmt::format("EA: got {} N, expected above 0", m.EA));
   if (!(m.EI1 > 0 && m.EI2 > 0))
-    return wrong(fmt::format("EI = {}, {} N mm^2, must be above 0", m.EI1, m.EI2));
-  if (rung == RodModel::twist && !(m.GJ > 0))
+    return wrong(fmt::format("EI: got {} and {} N mm^2, expected above 0", m.EI1, m.EI2));
+  if (rod_model == RodModel::twist && !(m.GJ > 0))
     return wrong(fmt::format(
-        "GJ = {} N mm^2, must be above 0: the twist rung needs the torsional stiffness", m.GJ));
+        "GJ: got {} N mm^2, expected above 0: the model twist needs the torsional stiffness",
+        m.GJ));
   if (!m.curvature.allFinite() || !std::isfinite(m.twist))
-    return wrong("curvature or twist at rest is not finite");
+    return wrong("natural curvature or twist is not finite");
   if (rod.closed() && (rod.begin != RodEnd::free || rod.end != RodEnd::free))
-    return wrong("a closed rod has no ends to hold");
+    return wrong("a closed rod has no ends to prescribe");
   return {};
 }
 
 /// Rods into a model, one after the other.
 class Builder {
  public:
-  Builder(int nodes, RodModel rung) : twist_(rung == RodModel::twist) { model_.nodes = nodes; }
+  Builder(int nodes, RodModel rod_model) : twist_(rod_model == RodModel::twist) {
+    model_.nodes = nodes;
+  }
 
   void add(const ModelRod& rod) {
     Model::Rod entry;
@@ -87,12 +73,12 @@ class Builder {
           add_edge(entry, rod.nodes.back(), ghost(rod.ghost_end), s[edges] - s[edges - 1], 0);
     for (std::size_t k = 1; k < entry.edges.size(); ++k) {
       const int e = entry.edges[k - 1], f = entry.edges[k];
-      // an end that lets the spin go has the frame of the edge beside it
-      double share = 0.5;
-      if (e == entry.ghost_begin) share = rod.begin == RodEnd::clamped ? 0 : 1;
-      if (f == entry.ghost_end) share = rod.end == RodEnd::clamped ? 1 : 0;
+      // an end that leaves the spin free has the frame of the edge next to it
+      double fraction = 0.5;
+      if (e == entry.ghost_begin) fraction = rod.begin == RodEnd::clamped ? 0 : 1;
+      if (f == entry.ghost_end) fraction = rod.end == RodEnd::clamped ? 1 : 0;
       const std::size_t node = entry.ghost_begin >= 0 ? k - 1 : k;
-      add_bend(rod.material, {e, f}, share, turn_of(rod, node));
+      add_bend(rod.material, {e, f}, fraction, turn_of(rod, node));
     }
     if (entry.closed) rings_.push_back({model_.rods.size(), rod.material, turn_of(rod, 0)});
     model_.rods.push_back(std::move(entry));
@@ -134,14 +120,14 @@ class Builder {
     return entry.edges.back();
   }
 
-  /// Between two edges; `share`: MaterialBend's, `turn`: one of ModelRod::turns.
-  void add_bend(const RodMaterial& m, std::pair<int, int> edges, double share,
+  /// Between two edges; `fraction`: MaterialBend's, `turn`: one of ModelRod::turns.
+  void add_bend(const RodMaterial& m, std::pair<int, int> edges, double fraction,
                 const Eigen::Vector2d& turn) {
     const auto [e, f] = edges;
-    // at a held end only the half edge on the rod's side bends, between two halves nothing does
+    // at a fixed end only the half edge on the rod's side bends, between two halves nothing does
     const double before = bending_length(model_, e), after = bending_length(model_, f),
                  length = 0.5 * (before + after), round = 2 * std::min(m.EI1, m.EI2) / length;
-    const bool plain = !twist_ || m.round_and_straight(), at_end = share != 0.5;
+    const bool plain = !twist_ || m.round_and_straight(), at_end = fraction != 0.5;
     const int bend = int(model_.bends.size());
     const bool halves = are_halves(e, f);
     model_.bends.push_back({e, f, plain && !at_end && !halves ? round : 0});
@@ -150,7 +136,7 @@ class Builder {
       std::get<std::vector<Pair<EndBending>>>(model_.pairs).push_back({e, f, bend, {round}});
     if (!twist_) return;
     const Eigen::Vector2d EI(m.EI1, m.EI2);
-    MaterialBend law{EI / length, length * m.curvature + turn, share};
+    MaterialBend law{EI / length, length * m.curvature + turn, fraction};
     double torsion = m.GJ / length;
     if (!at_end && !turn.isZero(1e-9)) {
       const CornerLaw corner(EI, m.GJ, before, after, turn);
@@ -180,7 +166,7 @@ class Builder {
       }
   }
 
-  /// Angles three to a column, those beside a crossing together: what is eliminated inside a
+  /// Angles three to a column, those next to a crossing together: what is eliminated inside a
   /// segment then does not reach across it. Two halves of an edge have one.
   void place_spins(const std::vector<char>& crossings) {
     model_.spin.resize(model_.edges.size());
@@ -213,7 +199,7 @@ class Builder {
     }
   }
 
-  /// fixes what the ends of one rod hold, and its spin if nothing else does
+  /// fixes what the ends of one rod prescribe, and its spin if nothing else does
   void hold(const ModelRod& rod, Model::Rod& entry) {
     if (!entry.closed) {
       if (rod.begin != RodEnd::free) model_.pin(rod.nodes.front());
@@ -230,7 +216,7 @@ class Builder {
     model_.hold_spin(entry.held_spin);
   }
 
-  /// rods beside one another, for an ordering where no flat net is known
+  /// neighbouring rods, for an ordering where no flat net is known
   void lay_along_rods(const std::vector<ModelRod>& rods) {
     model_.flat = Eigen::Matrix2Xd::Zero(2, model_.columns());
     for (std::size_t r = 0; r < rods.size(); ++r)
@@ -296,7 +282,7 @@ class Builder {
 
 BlockSlot slot_of(Model& model, int a, int b) { return a == b ? -1 : model.pattern.slot(a, b); }
 
-/// where the blocks of a pair of edges stand, between their nodes and with their angles
+/// where the blocks of a pair of edges are, between their nodes and with their angles
 template <class Law>
 void place_vectors(Model& model, Pair<Law>& pair) {
   const ModelEdge &e = model.edges[std::size_t(pair.e)], &f = model.edges[std::size_t(pair.f)];
@@ -357,11 +343,11 @@ void place_followers(Model& model) {
 
 }  // namespace
 
-Result<Model> build_model(int nodes, const std::vector<ModelRod>& rods, RodModel rung,
+Result<Model> build_model(int nodes, const std::vector<ModelRod>& rods, RodModel rod_model,
                           const std::vector<char>& crossings) {
-  Builder builder(nodes, rung);
+  Builder builder(nodes, rod_model);
   for (std::size_t r = 0; r < rods.size(); ++r) {
-    TRY_DO(check(int(r), nodes, rods[r], rung));
+    TRY_DO(check(int(r), nodes, rods[r], rod_model));
     builder.add(rods[r]);
   }
   return builder.build(rods, crossings);

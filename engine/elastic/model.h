@@ -1,5 +1,5 @@
 // The mechanical model of a gridshell: its nodes, what stores energy between them, and what is
-// held. Const once built; a state changes beside it.
+// fixed. It is const once built; a state is separate and changes.
 #pragma once
 
 #include <Eigen/Core>
@@ -33,7 +33,7 @@ struct ModelEdge {
 struct ModelBend {
   int e = 0, f = 0;
   double stiffness =
-      0;  ///< 2 EI/l, l the mean rest length of the two edges (mJ); 0: one of PairLists
+      0;  ///< 2 EI/l, l the mean natural length of the two edges (mJ); 0: one of PairLists
   BlockSlot slot = 0;
 };
 
@@ -66,15 +66,15 @@ struct Pair {
   PairSlots slots = {};
 };
 
-/// All energies of two edges beside plain bending: an energy more is one list more.
+/// All energies of two edges except plain bending: another energy is another list.
 using PairLists = std::tuple<std::vector<Pair<Torsion>>, std::vector<Pair<SectionBending>>,
                              std::vector<Pair<EndBending>>, std::vector<Pair<JointAngle>>,
                              std::vector<Pair<JointSpin>>>;
 
-// A joint with a law has unknowns of its own: its place x_c, and of each rod the vector of the edge
-// that is centred on it, by one of the nodes beside it, whose edges are its halves. What else is
-// there follows from these, and so do energies, forces and the Hessian: those by all nodes and
-// angles are taken first, then they are carried over to what is free (chain rule).
+// A joint with a law has unknowns of its own: its position x_c, and for each rod the vector of the
+// edge that is centred on it, by one of the neighbouring nodes, whose edges are its halves. What
+// else is there follows from these, and so do energies, forces and the Hessian: those by all nodes
+// and angles are taken first, then they are carried over to what is free (chain rule).
 
 /// A column that follows others: where its blocks of the Hessian go. Of every column that it has a
 /// block with the slot of that, and those of the leading ones with it (-1: it is the same column).
@@ -96,11 +96,11 @@ struct ModelFollower {
 
 /// A rod at a joint that keeps its section near the joint's normal n = side t_e x t_f/|...|, t the
 /// tangents of the two rods' centred edges: n is the first reference director of edge e, whose
-/// angle then is the spin phi beside the normal, E = k/2 phi^2, or is held (k infinite).
+/// angle then is the spin phi from the normal, E = k/2 phi^2, or is fixed (k infinite).
 struct ModelHinge {
   Pair<JointSpin> pair;
   int other_half = -1;   ///< of edge e; -1: the rod ends there
-  double stiffness = 0;  ///< k, N mm/rad; 0: held
+  double stiffness = 0;  ///< k, N mm/rad; 0: fixed
   FollowerBlocks blocks = {};
 };
 
@@ -115,28 +115,28 @@ struct ModelLink {
   double stiffness = 0;        ///< k, N/mm
 };
 
-/// A rod: its nodes and their arc lengths at rest. A closed rod has one arc length more than nodes.
-/// Ends that hold a direction (`tangent`, `clamped`) hold it at the end point itself, by a ghost
-/// edge beyond it: its bend counts over half an edge, as EndBending says, so the hold is second
+/// A rod: its nodes and their natural arc lengths. A closed rod has one arc length more than nodes.
+/// Ends that prescribe a direction (`tangent`, `clamped`) do so at the end point itself, by a ghost
+/// edge past it: its bend counts over half an edge, as EndBending says, so the constraint is second
 /// order [the symmetric ghost of beam theory].
 struct ModelRod {
   std::vector<int> nodes;
   std::vector<double> position;  ///< mm, ascending
   RodMaterial material;
-  /// Curvature binormal at rest about m1 and m2 of the edge before, at every node, beside the
-  /// material's curvature; empty: 0.
+  /// Natural curvature binormal about m1 and m2 of the edge before, at every node, in addition to
+  /// the material's curvature; empty: 0.
   std::vector<Eigen::Vector2d> turns{};
   std::vector<char> centred{};  ///< of every node: an edge is centred on it; empty: none is
   RodEnd begin = RodEnd::pinned, end = RodEnd::pinned;
-  Eigen::Vector3d director{0, 0, 1};     ///< m1 at the begin, as near as the tangent allows
+  Eigen::Vector3d director{0, 0, 1};     ///< m1 at the start, as near as the tangent allows
   int ghost_begin = -1, ghost_end = -1;  ///< nodes of the ghosts; -1: numbered after the others
 
   bool closed() const { return position.size() == nodes.size() + 1; }
 };
 
-/// The unknowns stand in columns of three: one a node (mm), then, on the twist rung, the angles of
-/// edges, three a column and times `spin_length`, so that every unknown is a length, every force a
-/// force and every stiffness N/mm.
+/// The unknowns are in columns of three: one per node (mm), then, of the twist model, the angles of
+/// edges, three per column and times `spin_length`, so that every unknown is a length, every force
+/// a force and every stiffness N/mm.
 struct Model {
   int nodes = 0;           ///< ghosts too
   double spin_length = 1;  ///< mm; the mean edge
@@ -146,27 +146,28 @@ struct Model {
   std::vector<ModelBar> bars;    ///< braces
   std::vector<ModelLink> links;  ///< of eccentric joints
   PairLists pairs;
+  double mean_stiffness = 0;  ///< K of the mean of joints' angles (JointAngle::weight), N mm/rad
   std::vector<ModelFollower> followers;
   std::vector<ModelHinge> hinges;
   std::vector<NodeAction> loads;   ///< dead; they count times a load factor
-  std::vector<NodeAction> ground;  ///< what the shell stands on
+  std::vector<NodeAction> ground;  ///< the elastic ground
   ContactPairs contact;            ///< edges that may touch; none: nothing keeps them apart
-  std::vector<int> spin;  ///< per edge: its angle's place, 3 column + row; empty: bend rung
+  std::vector<int> spin;  ///< per edge: the index of its angle, 3 column + row; empty: bend model
 
-  /// An edge list a rod, for frames and for what turns a held end.
+  /// A list of edges per rod, for frames and for what turns a fixed end.
   struct Rod {
     std::vector<int> edges;                ///< in order, ghosts too
     int ghost_begin = -1, ghost_end = -1;  ///< their edges
     bool closed = false;
     int first_bend = 0;     ///< of those that follow one another along it
     int closing_bend = -1;  ///< that which closes a ring, or -1
-    int held_spin = -1;     ///< edge whose angle is held as nothing resists the spin, or -1
+    int held_spin = -1;     ///< edge whose angle is fixed as nothing resists the spin, or -1
     Eigen::Vector3d director;
     double gyration_mm2 = 0;  ///< of the section about the rod's axis, squared: (I1 + I2)/A
     FibreReach fibres;
   };
   std::vector<Rod> rods;
-  /// Rods of one wave share no node, and those at a node stand in the order of their waves: sums at
+  /// Rods of one wave share no node, and those at a node are in the order of their waves: sums at
   /// a node have one order, whoever goes along which rod.
   std::vector<std::vector<int>> waves;
 
@@ -177,7 +178,7 @@ struct Model {
 
   // worked out by finish()
   BlockPattern pattern;
-  std::vector<int> free_index;    ///< per column: index among those not wholly held, or -1
+  std::vector<int> free_index;    ///< per column: index among those not completely fixed, or -1
   std::vector<int> free_columns;  ///< its inverse
   Eigen::Matrix2Xd flat;          ///< (u, v) of every column, for seeds and orderings
   std::vector<int> segment;       ///< per column: the segment of a rod it is inside of, or -1
@@ -198,7 +199,7 @@ struct Model {
   void follow(Eigen::Matrix3Xd& x) const;
   /// Forces on nodes that follow others become forces on these.
   void fold(Eigen::Matrix3Xd& force) const;
-  /// Holds the angle of an edge.
+  /// Fixes the angle of an edge.
   void hold_spin(int edge) { hold(spin[std::size_t(edge)] / 3, spin[std::size_t(edge)] % 3); }
   /// The angle of an edge in a state, rad.
   double angle(const Eigen::Matrix3Xd& x, int edge) const {
@@ -213,12 +214,12 @@ double bending_length(const Model& model, int edge);
 double length_between(const Model& model, int e, int f);
 
 /// Puts rods together; nodes that rods share are shared joints. `crossings` marks more nodes at
-/// which rods hold on to one another (spring joints). On the twist rung the spin of a rod that
-/// nothing resists (round and straight, no end clamped) costs no energy: one of its angles is held.
-/// On the bend rung a section with axes bends as its softer one (a seed for the other rung).
-/// Errors (bad_input): stiffness that is not positive, a torsional stiffness that is missing on the
-/// twist rung, arc lengths that do not ascend, a node that does not exist.
-Result<Model> build_model(int nodes, const std::vector<ModelRod>& rods, RodModel rung,
+/// which rods are connected (spring joints). In the twist model the spin of a rod that
+/// nothing resists (round and straight, no end clamped) costs no energy: one of its angles is
+/// fixed. In the bend model a section with axes bends as its softer one (an initial guess for the
+/// twist model). Errors (bad_input): stiffness that is not positive, a torsional stiffness that is
+/// missing on the twist model, arc lengths that do not ascend, a node that does not exist.
+Result<Model> build_model(int nodes, const std::vector<ModelRod>& rods, RodModel rod_model,
                           const std::vector<char>& crossings = {});
 
 /// The law of a bend of which `bends` has no stiffness, if it is one of these; else null.
@@ -233,7 +234,7 @@ auto* law_of(AnyModel& model, int bend) {
 std::vector<int> edges_beside(const Model& model, int rod, int node);
 
 /// The tangent of a rod at a node, of one centred there that of its edge, else by the quadratic
-/// through the edges beside: t ~ t1 l2 + t2 l1.
+/// through the two edges at the node: t ~ t1 l2 + t2 l1.
 Eigen::Vector3d tangent_at(const Model& model, const Eigen::Matrix3Xd& x, int rod, int node);
 
 /// Where rods `a` and `b` of a model cross: at a node, or at two nodes that a spring joins.
@@ -242,7 +243,7 @@ struct Crossing {
 };
 
 /// Adds the resistance to shear `stiffness` (N mm/rad) where rods cross, on the angle between their
-/// centred edges: E = k/2 (angle - rest - opening)^2. finish() afterwards; so for those below.
+/// centred edges: E = k/2 (angle - `rest` - `opening`)^2. finish() afterwards; so for those below.
 void add_joint_shear(Model& model, const Crossing& at, const JointAngle& law);
 
 /// Adds the resistance to spin `stiffness` (N mm/rad) of both rods where they cross: their first
@@ -250,7 +251,8 @@ void add_joint_shear(Model& model, const Crossing& at, const JointAngle& law);
 /// `b`; infinite: on it. The joint is of these two rods alone.
 void add_joint_hinge(Model& model, const Crossing& at, double stiffness, int side = 1);
 
-/// The same as an energy of every two of more rods, whose spins are no joint's own.
+/// Adds the resistance to shear as an energy of every two of more rods, whose spins are no joint's
+/// own.
 void add_joint_spin(Model& model, const Crossing& at, double stiffness, int side = 1);
 
 /// Adds the bolt of two rods that lie apart where they cross, `eccentricity` along t_a x t_b: as
@@ -260,7 +262,7 @@ void add_joint_link(Model& model, const Crossing& at, double eccentricity);
 /// The nodes of its two edges.
 std::array<int, 4> nodes_of(const ModelLink& link, const Model& model);
 
-/// Works out pattern and numbering after elements were added or unknowns held.
+/// Works out pattern and numbering after elements were added or unknowns fixed.
 void finish(Model& model);
 
 }  // namespace gridshell

@@ -23,10 +23,10 @@ inline Eigen::Vector3d carried_director(const Eigen::Vector3d& director, const E
   return (d - d.dot(b) * b).normalized();
 }
 
-/// A unit normal of tangent t, as near to `wish` as there is; any where `wish` is along t.
-inline Eigen::Vector3d normal_near(const Eigen::Vector3d& wish, const Eigen::Vector3d& t) {
-  const Eigen::Vector3d d = wish - wish.dot(t) * t;
-  return d.norm() > 1e-6 * wish.norm() ? d.normalized() : t.unitOrthogonal();
+/// A unit normal of tangent t, as near to `request` as there is; any where `request` is along t.
+inline Eigen::Vector3d normal_near(const Eigen::Vector3d& request, const Eigen::Vector3d& t) {
+  const Eigen::Vector3d d = request - request.dot(t) * t;
+  return d.norm() > 1e-6 * request.norm() ? d.normalized() : t.unitOrthogonal();
 }
 
 /// Angle from unit vector a to b about `axis` (unit, normal to both), in (-pi, pi].

@@ -21,8 +21,8 @@ inline RodSection circular_section(double diameter_mm, double young_GPa) {
   return {young_MPa * area, young_MPa * area * diameter_mm * diameter_mm / 16};
 }
 
-// Material and cross-section of a rod on the `twist` rung: two principal axes, torsion, and a shape
-// of its own at rest.
+// Material and cross-section of a rod of the `twist` model: two principal axes, torsion, and a
+// natural shape.
 
 /// How far a section's outermost fibres lie from its axes, mm: what curvature strains most.
 struct FibreReach {
@@ -35,7 +35,7 @@ struct FibreReach {
     if (round) return about_1 * std::hypot(curvature[0], curvature[1]);
     return about_1 * std::abs(curvature[0]) + about_2 * std::abs(curvature[1]);
   }
-  /// The same of a section whose spin is free: about the axis that strains it most.
+  /// The strain of a section whose spin is free: about the axis that strains it most.
   double strain(double curvature) const {
     return curvature * (round ? about_1 : std::hypot(about_1, about_2));
   }
@@ -47,18 +47,19 @@ struct RodMaterial {
   double EA = 0;                    ///< N
   double EI1 = 0, EI2 = 0;          ///< bending about m1 and about m2, N mm^2
   double GJ = 0;                    ///< torsion, N mm^2
-  Eigen::Vector2d curvature{0, 0};  ///< at rest, about m1 and m2, 1/mm
-  double twist = 0;                 ///< at rest, rad/mm
+  Eigen::Vector2d curvature{0, 0};  ///< natural curvature about m1 and m2, 1/mm
+  double twist = 0;                 ///< natural twist, rad/mm
   FibreReach fibres = {};
-  bool as_drawn = false;  ///< at rest it turns as its line in the flat does, besides `curvature`
+  bool as_drawn = false;  ///< its natural shape is its line in the flat, in addition to `curvature`
 
-  /// Bends alike in every direction, straight at rest: the spin of its section changes nothing.
+  /// It bends equally in every direction and is naturally straight: the spin of its section changes
+  /// nothing.
   bool round_and_straight() const {
     return EI1 == EI2 && curvature[0] == 0 && curvature[1] == 0 && !as_drawn;
   }
 };
 
-/// A round rod that is straight at rest. Of its radius r: EI/EA = r^2/4.
+/// A round rod that is naturally straight. Of its radius r: EI/EA = r^2/4.
 inline RodMaterial round_material(const RodSection& section, double GJ) {
   const double radius = 2 * std::sqrt(section.EI / section.EA);
   return {section.EA, section.EI, section.EI, GJ, {0, 0}, 0, {radius, radius}};

@@ -25,7 +25,7 @@ struct PointLoad {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
 };
 
-/// How crossing rods hold on to each other.
+/// How crossing rods are connected.
 struct JointLaw {
   double spring_N_per_mm = 0;  ///< of spring joints; 0: the rods share a node
   double shear_Nmm = 0;        ///< per rad; 0: they shear freely; infinite: they keep their angle
@@ -38,14 +38,17 @@ struct Bolts {
   double stiffness_Nmm = 0;                        ///< per rad, of each joint; infinite: rigid
   std::vector<std::vector<Eigen::Vector3d>> rods;  ///< of every joint, unit tangents; or none
   std::vector<double> opened{};   ///< of every joint, rad; empty: as they were tightened
-  std::vector<double> opening{};  ///< what is to come beside that, rad; empty: nothing
+  std::vector<double> opening{};  ///< angle to be added to that, rad; empty: nothing
   std::set<int> closed{};         ///< joints whose hinged rods had passed one another
+  bool mean =
+      false;  ///< they keep the mean of these angles alone, by a torque that is equal at all
 
   /// The angle between the first two rods of a joint as it was tightened, rad; of one that had
   /// closed below zero.
   double angle(int joint) const;
-  /// Of two of its rods, which count `share`; at most as stiff as `most`.
-  JointAngle law(int joint, std::size_t k, std::size_t m, double share, double most) const;
+  int joints() const;  ///< that have bolts
+  /// The law between two of its rods, which count by `fraction`; at most as stiff as `most`.
+  JointAngle law(int joint, std::size_t k, std::size_t m, double fraction, double most) const;
 };
 
 /// A straight member between two joints.
@@ -57,10 +60,10 @@ struct Brace {
 
 /// Sections, joints and dead loads of the rods of a footprint.
 struct ShellRods {
-  std::vector<RodMaterial> materials;   ///< one a rod, or one for all
-  JointLaw joints;                      ///< on the twist rung; on the bend rung rods share nodes
+  std::vector<RodMaterial> materials;   ///< one per rod, or one for all
+  JointLaw joints;                      ///< of the twist model; in the bend model rods share nodes
   std::map<int, JointLaw> own_joints;   ///< of joints that turn by other laws
-  std::vector<double> weight_N_per_mm;  ///< one a rod, downwards; empty: none
+  std::vector<double> weight_N_per_mm;  ///< one per rod, downwards; empty: none
   double joint_weight_N = 0;            ///< of every joint, downwards
   std::vector<PointLoad> points;
   ContactLaw contact;
@@ -68,7 +71,7 @@ struct ShellRods {
   std::vector<Brace> braces;
 
   ShellRods() = default;
-  ShellRods(const RodMaterial& material);  // NOLINT: rods all alike
+  ShellRods(const RodMaterial& material);  // NOLINT: one material for all rods
   ShellRods(const RodSection& section);    // NOLINT
 
   const RodMaterial& material(std::size_t rod) const {
@@ -95,27 +98,33 @@ std::vector<NodeAction> dead_loads(const RodMesh& mesh, const ShellRods& rods);
 /// The model of a meshed footprint; edge points are pinned but for free ends and those on springs,
 /// ghosts, supports of springs and the far ends of tails too. Node
 /// numbers are the mesh's; with spring joints the v rod's own node of a joint comes after them, in
-/// the order of the joints. First directors stand up from the flat (+z), or, of rods drawn in
+/// the order of the joints. First directors point up from the flat (+z), or, of rods drawn in
 /// space, along the mean of the normals at their joints: these are all to one side, the upper one.
-/// A rod is straight at rest, or as it is drawn; without twist as drawn. Where several rods cross,
-/// each pair counts so much that all together are the joint's law. Errors as build_model().
+/// A rod is naturally straight, or as it is drawn; without twist as drawn. Where several rods
+/// cross, each pair has such a fraction that all together are the joint's law. Errors as
+/// build_model().
 Result<Model> build_model(const RodMesh& mesh, const ShellRods& rods,
-                          RodModel rung = RodModel::bend);
+                          RodModel rod_model = RodModel::bend);
 
 /// Torques of bolts and of joints that resist shear, on each joint's rods, that would open it: sums
-/// of k (rest - angle) over every two of its rods, N mm.
-std::vector<double> joint_torques(const RodMesh& mesh, const Model& model, const State& state);
+/// of k (rest - angle) over every two of its rods, N mm, at the opening that has come.
+std::vector<double> joint_torques(const RodMesh& mesh, const Model& model, const State& state,
+                                  double opening = 0);
+
+/// Bolts that keep the angles between rods as drawn.
+Bolts drawn_bolts(const RodMesh& mesh, double stiffness_Nmm);
 
 /// Bolts tightened in a state of that model.
 Bolts tightened(const RodMesh& mesh, const Model& model, const State& state, double stiffness_Nmm);
 
-/// The footprint with edges centred on the joints that bolts hold.
+/// The footprint with edges centred on the joints that bolts connect.
 Footprint centred(Footprint footprint, const Bolts* bolts);
 
 /// Columns of a model's state from positions of the mesh's nodes: twins of joints where these are,
 /// angles zero.
 Eigen::Matrix3Xd columns_of(const RodMesh& mesh, const Model& model, const Eigen::Matrix3Xd& nodes);
-/// Positions of the mesh's nodes from a state: a joint is half way between its two rods' nodes.
+/// Positions of the mesh's nodes from a state: a joint is in the middle between its two rods'
+/// nodes.
 Eigen::Matrix3Xd nodes_of(const RodMesh& mesh, const Model& model, const Eigen::Matrix3Xd& columns);
 
 }  // namespace gridshell

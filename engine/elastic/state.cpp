@@ -23,7 +23,7 @@ Eigen::Matrix3Xd tangents_of(const Model& model, const Eigen::Matrix3Xd& x) {
   return tangents;
 }
 
-/// the ghost's node `length` beyond the end
+/// the ghost's node at `length` past the end
 void put_ghost(const Model& model, int ghost, bool at_end, const Eigen::Vector3d& direction,
                Eigen::Matrix3Xd& x) {
   const ModelEdge& edge = model.edges[std::size_t(ghost)];
@@ -70,7 +70,7 @@ Eigen::Matrix3Xd start_directors(const Model& model, const Eigen::Matrix3Xd& tan
 }
 
 /// First directors of hinged edges are the joints' normals; of the two the one nearer to the
-/// director that is there, so that a joint that closes goes on with a negative angle.
+/// director that is there, so that a joint that closes continues with a negative angle.
 void put_normals(const Model& model, const Eigen::Matrix3Xd& x, Eigen::Matrix3Xd& director) {
   for (const auto& [pair, other_half, stiffness, blocks] : model.hinges) {
     const Eigen::Vector3d normal =
@@ -88,7 +88,7 @@ void centre(const Model& model, Eigen::Matrix3Xd& x) {
   model.follow(x);
 }
 
-/// Where each edge of a rod stands along it: its middle, a ghost at the end point itself.
+/// The position of each edge of a rod along it: its middle, of a ghost the end point itself.
 std::vector<double> places_along(const Model& model, const Model::Rod& rod) {
   std::vector<double> places;
   double s = 0;
@@ -103,13 +103,13 @@ std::vector<double> places_along(const Model& model, const Model::Rod& rod) {
   return places;
 }
 
-/// Linear between known values, straight on beyond the ends.
+/// Linear between known values, continued straight past the ends.
 double interpolated(const std::vector<double>& at, const std::vector<double>& value, double s) {
   if (at.size() == 1) return value.front();
   const std::size_t k = piece_at(at, s);
   if (at[k + 1] == at[k]) return value[k];
-  const double share = (s - at[k]) / (at[k + 1] - at[k]);
-  return value[k] + share * (value[k + 1] - value[k]);
+  const double fraction = (s - at[k]) / (at[k + 1] - at[k]);
+  return value[k] + fraction * (value[k + 1] - value[k]);
 }
 
 /// m1 of an edge.
@@ -139,7 +139,7 @@ std::vector<const Model::Rod*> rods_of_bends(const Model& model) {
   return rods;
 }
 
-/// tau of a bend on the twist rung: from e's material frame to f's, rad.
+/// tau of a bend in the twist model: from e's material frame to f's, rad.
 double twist_at(const Model& model, const State& state, int bend) {
   const ModelBend& b = model.bends[std::size_t(bend)];
   return model.angle(state.x, b.f) - model.angle(state.x, b.e) + state.reference_twist[bend];
@@ -333,11 +333,10 @@ Energies energies_of(const Model& model, const State& state, const ExternalLoads
         [&](int, const ModelBend& bend, const EdgeGeometry& e, const EdgeGeometry& f) {
           sum[Term::bend] += bend_value(bend.stiffness, e, f);
         });
-  each_pair_list(model, [&]<class Law>(const std::vector<Pair<Law>>& list) {
-    for (const Pair<Law>& pair : list)
-      sum[Law::term] += pair.law.value(pair_geometry(model, state, pair, outside.opening));
+  each_pair(model, [&]<class Law>(const Pair<Law>& pair) {
+    sum[Law::term] += pair.law.value(pair_geometry(model, state, pair));
   });
-  add_joint_energies(model, state, sum);
+  add_joint_energies(model, state, outside.opening, sum);
   for (const ModelSpring& spring : model.springs)
     sum[spring.law.term] += spring.law.value(gap_of(state, spring.law));
   for (const ModelBar& bar : model.bars)

@@ -13,15 +13,15 @@ struct ModelHinge;
 /// Reference frames belong to the positions: move them by move_to() alone.
 struct State {
   Eigen::Matrix3Xd x;  ///< 3 x columns of the model: positions and angles, mm
-  /// unknowns of the mixed form: axial, one an edge, N; then torques of joints with a spring, N mm
+  /// unknowns of the mixed form: axial, one per edge, N; then torques of joints with a spring, N mm
   Eigen::VectorXd force;
-  Eigen::Matrix3Xd director = {};        ///< twist rung: of the reference frames, one an edge
-  Eigen::VectorXd reference_twist = {};  ///< twist rung: m_ref, one a bend; whole turns count
+  Eigen::Matrix3Xd director = {};        ///< twist model: of the reference frames, one per edge
+  Eigen::VectorXd reference_twist = {};  ///< twist model: m_ref, one per bend; complete turns count
 };
 
 /// A state with the columns at `x` and no axial force; along each rod a frame without twist whose
 /// first director is the rod's. Ghosts that x does not have (fewer columns than nodes) go straight
-/// on beyond their ends, and angles are zero.
+/// on past their ends, and angles are zero.
 State start_state(const Model& model, const Eigen::Matrix3Xd& x);
 
 /// Whether the rods of a hinge have passed one another since they were drawn: the angle between
@@ -40,7 +40,7 @@ void set_end_direction(const Model& model, int rod, bool at_end, const Eigen::Ve
 
 /// Carries states from a model on one mesh to a model on another: positions by cubic interpolation
 /// along the rods, axial forces edge by edge, torques joint by joint, and of the spins the material
-/// frames: their twist is spread along the arc length, and what a clamped end holds is kept to
+/// frames: their twist is spread along the arc length, and what a clamped end prescribes is kept to
 /// round-off. Meshes and models must outlive it.
 class StateTransfer {
  public:

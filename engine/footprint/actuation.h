@@ -5,15 +5,16 @@
 
 namespace gridshell {
 
-/// Where the edge points are as the boundary moves, straight and evenly: column 2r is the begin, 2r
+/// Where the edge points are as the boundary moves, straight and evenly: column 2r is the start, 2r
 /// + 1 the end of rod r. The far end of a tail turns about its edge point.
 struct BoundaryMotion {
   Eigen::Matrix3Xd begin, end;  ///< 3 x edge points, mm
-  /// unit tangents there, along the rod as its positions grow; needed where a direction is held
+  /// unit tangents there, along the rod as its positions grow; needed where a direction is
+  /// prescribed
   Eigen::Matrix3Xd begin_tangent = {}, end_tangent = {};
   /// far ends of the tails there; needed where rods have tails
   Eigen::Matrix3Xd begin_far = {}, end_far = {};
-  /// joints that the boundary holds, in the footprint's order
+  /// joints that the boundary fixes, in the footprint's order
   Eigen::Matrix3Xd begin_joints = {}, end_joints = {};
 };
 
@@ -26,14 +27,14 @@ struct BuckleSeed {
 };
 
 /// What chooses where a path that loses its stability goes: the side on which the imperfection's
-/// part along the modes that went soft points. It only chooses; every certified state is one of the
-/// perfect shell.
+/// part along the modes that lost stability points. It only chooses; every certified state is one
+/// of the perfect shell.
 struct Imperfection {
   double size_mm = 2e-3;  ///< with which a leaving branch is entered; 0: the path stays on the
                           ///< symmetric branch, through states that are not stable
   int seed = 1;
-  /// false: a direction a joint, drawn from the seed; true: the softest mode itself, to one side of
-  /// it with odd seeds and to the other with even ones
+  /// false: a direction per joint, drawn from the seed; true: the lowest mode itself, to one side
+  /// of it with odd seeds and to the other with even ones
   bool soft_mode = false;
 
   bool chooses() const { return size_mm > 0; }

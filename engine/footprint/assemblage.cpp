@@ -11,7 +11,7 @@
 namespace gridshell {
 namespace {
 
-// how near two places are the same, over d
+// how near two positions are the same, over d
 constexpr double same = 1e-9;
 
 bool inside(const std::vector<Interval>& pieces, double at, double margin) {
@@ -51,7 +51,7 @@ tl::unexpected<Error> refuse(const Places& places, const Join& join, const std::
 }
 
 bool face(Side a, Side b) {
-  // east and west, north and south stand beside one another
+  // east and west, north and south are neighbours
   return a != b && int(a) / 2 == int(b) / 2;
 }
 
@@ -71,12 +71,12 @@ Result<void> check_sides(const Places& places, const std::vector<Join>& joins) {
     const Block &a = places[join.first.block].block, &b = places[join.second.block].block;
     if (a.spacing != b.spacing)
       return refuse(places, join,
-                    fmt::format("the distance between rods is d = {:g} mm and {:g} mm, it must be "
+                    fmt::format("the distance between rods is d = {:g} mm and {:g} mm, expected "
                                 "the same",
                                 a.spacing, b.spacing));
     if (a.placement != b.placement)
       return refuse(places, join,
-                    "rods lie on the axes of one block and beside those of the other");
+                    "rods lie on the axes of one block and next to those of the other");
   }
   for (int k = 0; k < int(places.size()); ++k)
     for (const Side side : all_sides)
@@ -92,8 +92,8 @@ Result<Eigen::Vector2d> shift_of(const Places& places, const Join& join) {
   const auto b = places[join.second.block].row(join.second.side);
   if (a.size() != b.size() || a.empty())
     return refuse(places, join,
-                  fmt::format("{} rods cross {} and {} cross {}; the same number must, at least "
-                              "2: change a radius, a crossing angle or a row",
+                  fmt::format("got {} rods across {} and {} across {}, expected equal numbers, at "
+                              "least 2: change a radius, a crossing angle or a row",
                               2 * a.size(), name_of(places, join.first), 2 * b.size(),
                               name_of(places, join.second)));
   const Eigen::Vector2d shift = a.front() - b.front();
@@ -121,7 +121,7 @@ Result<std::vector<std::array<NetPoint, 2>>> pairs_at(const Places& places, cons
   return pairs;
 }
 
-/// Puts `second` beside the first, or the other way round where `second` lies already.
+/// Puts `second` next to the first, or the first next to `second` where `second` is placed already.
 Result<void> place_beside(Places& places, const Join& join, bool second) {
   TRY(shift, shift_of(places, join));
   PlacedBlock& moved = places[second ? join.second.block : join.first.block];
@@ -135,7 +135,7 @@ Result<void> place_beside(Places& places, const Join& join, bool second) {
   return {};
 }
 
-/// Places all blocks from the first on, along the joins.
+/// Arranges all blocks from the first on, along the joins.
 Result<void> place_all(Places& places, const std::vector<Join>& joins) {
   std::vector<char> placed(places.size(), 0);
   placed.front() = 1;
@@ -150,7 +150,7 @@ Result<void> place_all(Places& places, const std::vector<Join>& joins) {
   }
   for (std::size_t k = 0; k < places.size(); ++k)
     if (!placed[k])
-      return invalid("no join holds block \"{}\" to block \"{}\"", places[k].block.name,
+      return invalid("no join connects block \"{}\" to block \"{}\"", places[k].block.name,
                      places.front().block.name);
   return {};
 }
@@ -162,8 +162,9 @@ Result<Seam> seam_of(const Places& places, const Join& join, double max_gap) {
   if (shift->norm() > 1e-9 * d)
     return refuse(
         places, join,
-        fmt::format("the joins round the loop leave the sides ({:.4g}, {:.4g}) cells apart",
-                    shift->x() / d, shift->y() / d));
+        fmt::format(
+            "the joins round the loop leave a gap of ({:.4g}, {:.4g}) cells between the sides",
+            shift->x() / d, shift->y() / d));
   TRY(pairs, pairs_at(places, join));
   const auto joints = places[join.first.block].row(join.first.side);
   Seam seam{join.first, join.second, name_of(places, join), {}};
@@ -176,11 +177,12 @@ Result<Seam> seam_of(const Places& places, const Join& join, double max_gap) {
   for (std::size_t k = 0; k + 1 < seam.rods.size(); k += 2) {
     const SeamRod &u = seam.rods[k], &v = seam.rods[k + 1];
     if (seam.max_gap_mm() <= max_gap || u.gap_mm < seam.max_gap_mm()) continue;
-    return refuse(places, join,
-                  fmt::format("at the joint (u, v) = ({:g}, {:g}) mm the nets are {:.3g} mm apart "
-                              "and the rods' tangents {:.3g} and {:.3g} degrees, the gap must be "
-                              "at most {:g} mm",
-                              v.line_mm, u.line_mm, u.gap_mm, u.kink_deg, v.kink_deg, max_gap));
+    return refuse(
+        places, join,
+        fmt::format(
+            "at the joint (u, v) = ({:g}, {:g}) mm the nets have a gap of {:.3g} mm and the rods' "
+            "tangents {:.3g} and {:.3g} degrees, expected a gap of at most {:g} mm",
+            v.line_mm, u.line_mm, u.gap_mm, u.kink_deg, v.kink_deg, max_gap));
   }
   return seam;
 }
@@ -321,7 +323,7 @@ double Seam::max_kink_deg() const {
 
 Result<Assemblage> Assemblage::make(std::vector<Block> blocks, const std::vector<Join>& joins,
                                     double max_gap) {
-  if (blocks.empty()) return invalid("there is no block to assemble");
+  if (blocks.empty()) return invalid("got no block, expected at least one");
   auto places = std::make_shared<Places>();
   for (Block& block : blocks) places->push_back({std::move(block)});
   TRY_DO(check_sides(*places, joins));

@@ -20,7 +20,7 @@ namespace gridshell {
 /// south along v - u.
 enum class Side { east, west, north, south };
 
-/// A net, the part of its (u, v) plane that is wanted, and the rows of joints at which it is cut.
+/// A net, the part of its (u, v) plane that is used, and the rows of joints at which it is cut.
 /// Cut at row m on its east side it is kept where u + v <= m d, on its west side where
 /// u + v >= m d; on its north and south side likewise with v - u.
 struct Block {
@@ -62,7 +62,7 @@ struct Seam {
   double max_kink_deg() const;
 };
 
-/// A rod of one block alone, on its net, as it stands in the assemblage.
+/// A rod of one block alone, on its net, at its position in the assemblage.
 struct BlockRod {
   Eigen::Matrix3Xd net;   ///< points along it, mm
   Eigen::Matrix2Xd flat;  ///< and where they lie in the whole footprint
@@ -77,7 +77,7 @@ class Assemblage {
   /// Errors (bad_input), naming the sides: blocks of unequal d or placement; sides that do not face
   /// one another, are not cut, or are cut and not joined; another number or order of rods across a
   /// seam (with both counts); a rod whose gap is above `max_gap_mm` (with the gap and the kink); a
-  /// block that no seam holds; joins round a loop that do not close; blocks that overlap.
+  /// block without a seam; joins round a loop that do not close; blocks that overlap.
   static Result<Assemblage> make(std::vector<Block> blocks, const std::vector<Join>& joins,
                                  double max_gap_mm);
 
@@ -85,7 +85,7 @@ class Assemblage {
   std::shared_ptr<const ChebyshevNet> net() const;
   /// The inside of the joined footprints; rods run on across seams.
   std::unique_ptr<Domain> domain() const;
-  /// A place near the net at every column of `uv` without its gaps: each block moved towards the
+  /// A position near the net at every column of `uv` without its gaps: each block moved towards the
   /// other by half the gap at the seam, fading out over `fade_mm` away from it. Errors: as net().
   Result<Eigen::Matrix3Xd> closed(const Eigen::Matrix2Xd& uv, double fade_mm) const;
 

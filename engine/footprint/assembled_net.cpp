@@ -11,7 +11,7 @@ namespace {
 
 using Places = Assemblage::Places;
 
-/// The blocks that hold a point: one, or on a seam those that meet there.
+/// The blocks that contain a point: one, or on a seam those that meet there.
 std::vector<const Assemblage::PlacedBlock*> holders(const Places& places,
                                                     const Eigen::Vector2d& uv) {
   std::vector<const Assemblage::PlacedBlock*> held, nearest;
@@ -30,17 +30,17 @@ class AssembledNet final : public ChebyshevNet {
   Result<NetPoint> at(double u, double v) const override {
     const Eigen::Vector2d uv(u, v);
     const auto held = holders(*places_, uv);
-    if (held.empty()) return invalid("no block holds (u, v) = ({:g}, {:g}) mm", u, v);
+    if (held.empty()) return invalid("no block contains (u, v) = ({:g}, {:g}) mm", u, v);
     NetPoint middle{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
     for (const auto* place : held) {
       const auto point = place->at(uv);
       if (!point) return point;
       if (held.size() == 1) return point;
-      const double share = 1.0 / double(held.size());
-      middle.position += share * point->position;
+      const double fraction = 1.0 / double(held.size());
+      middle.position += fraction * point->position;
       middle.tangent_u += point->tangent_u;
       middle.tangent_v += point->tangent_v;
-      middle.K += share * point->K;
+      middle.K += fraction * point->K;
     }
     middle.tangent_u.normalize();
     middle.tangent_v.normalize();
@@ -94,7 +94,7 @@ class AssembledDomain final : public Domain {
       for (const Interval& piece : place.intervals(family, c)) pieces.push_back(piece);
     std::ranges::sort(pieces,
                       [](const Interval& a, const Interval& b) { return a.begin < b.begin; });
-    // a rod that ends on a seam goes on in the next block
+    // a rod that ends on a seam continues in the next block
     std::vector<Interval> rods;
     const double near = 1e-9 * places_->front().block.spacing;
     for (const Interval& piece : pieces) {
@@ -145,13 +145,13 @@ Result<Eigen::Matrix3Xd> Assemblage::closed(const Eigen::Matrix2Xd& uv, double f
       if (!first && held.front() != &(*places_)[join.second.block]) continue;
       const BlockSide own = first ? join.first : join.second;
       const PlacedBlock& other = (*places_)[first ? join.second.block : join.first.block];
-      // straight across to the seam, where both nets are asked
+      // straight across to the seam, where both nets are evaluated
       const double t = held.front()->depth(own.side, uv.col(k)) / fade;
       const bool sum = own.side == Side::east || own.side == Side::west;
       const Eigen::Vector2d across = 0.5 * Eigen::Vector2d(sum ? 1 : -1, 1) * outward(own.side);
       const Eigen::Vector2d on_seam = uv.col(k) + t * fade * across;
       const auto a = held.front()->at(on_seam), b = other.at(on_seam);
-      // beyond a seam's end one of the nets may fold: nothing is to be closed there
+      // past a seam's end one of the nets may fold: nothing is to be closed there
       if (!(t < 1) || !a || !b) continue;
       points->col(k) += 0.5 * (1 - t) * (1 - t) * (1 + 2 * t) * (b->position - a->position);
     }

@@ -40,13 +40,13 @@ Eigen::Matrix2Xd CurveDomain::boundary(int points) const {
       ring.col(k) = curve_.at(curve_.at_arc_length(curve_.length() * k / points)).position;
     return ring;
   }
-  // each piece has its share of the points, from its first corner on
+  // each piece has its fraction of the points, from its first corner on
   int first = 0;
   for (int k = 0; k < pieces; ++k) {
     const double from = curve_.arc_length(breaks[k]), to = curve_.arc_length(breaks[k + 1]);
-    const auto share = static_cast<int>(points * to / curve_.length() + 0.5);
+    const auto fraction = static_cast<int>(points * to / curve_.length() + 0.5);
     const int end =
-        k + 1 == pieces ? points : std::clamp(share, first + 1, points - (pieces - k - 1));
+        k + 1 == pieces ? points : std::clamp(fraction, first + 1, points - (pieces - k - 1));
     for (int n = first; n < end; ++n)
       ring.col(n) =
           curve_.at(curve_.at_arc_length(from + (to - from) * (n - first) / (end - first)))
@@ -67,7 +67,7 @@ class Cap final : public Domain {
         reach_(net.radius() * std::acos(cut_height)) {}
 
   std::vector<Interval> intervals(Family, double c) const override {
-    // both families alike: the net is symmetric in u and v
+    // both families in the same manner: the net is symmetric in u and v
     if (std::abs(c) >= reach_) return {};
     const double guess = std::sqrt((reach_ - c) * (reach_ + c));
     const double half = crossing(Eigen::Vector2d(0, std::abs(c)), Eigen::Vector2d(1, 0), guess);
@@ -86,7 +86,7 @@ class Cap final : public Domain {
   /// distance from `start`, which is above the plane, along `direction` to the plane
   double crossing(const Eigen::Vector2d& start, const Eigen::Vector2d& direction,
                   double guess) const {
-    // depth below the plane and its slope; beyond a fold counts as below
+    // depth below the plane and its slope; past a fold counts as below
     const auto look = [&](double at) -> Eigen::Vector2d {
       const Eigen::Vector2d uv = start + at * direction;
       const auto point = net_.at(uv[0], uv[1]);
@@ -247,7 +247,7 @@ class Part final : public Domain {
     return std::isnan(value) ? 1 : value;
   }
 
-  /// Whether a point is inside, beside a node that is.
+  /// Whether a point is inside: next to a node that is.
   bool holds(const Eigen::Vector2d& uv) const {
     const int i = int(std::lround(uv.x() / step())), j = int(std::lround(uv.y() / step()));
     bool beside = false;
@@ -276,12 +276,13 @@ class Part final : public Domain {
 
 Result<std::unique_ptr<Domain>> cap_of(const SphereNet& net, double cut_height) {
   if (!(cut_height >= 0 && cut_height < 1))
-    return invalid("the cap's cut height is {:g} of the radius, it must lie in [0, 1)", cut_height);
+    return invalid("the cap's cut height: got {:g} of the radius, expected 0 to below 1",
+                   cut_height);
   return std::make_unique<Cap>(net, cut_height);
 }
 
 Result<std::unique_ptr<Domain>> half_of(const RevolutionNet& net, double length) {
-  if (!(length > 0)) return invalid("the length is {:g} mm, it must be positive", length);
+  if (!(length > 0)) return invalid("length: got {:g} mm, expected above 0", length);
   const auto first = net.x_at_axial(-length / 2), last = net.x_at_axial(length / 2);
   for (const auto* end : {&first, &last})
     if (!*end) return tl::unexpected(end->error());
@@ -305,8 +306,8 @@ Result<std::unique_ptr<Domain>> part_of(std::shared_ptr<const SurfaceNet> net,
   for (int k = 0; k < rays; ++k)
     if (part->exits(2 * M_PI * k / rays) != 1)
       return invalid(
-          "the boundary is crossed more than once on the way from the apex outwards, at {} "
-          "degrees from the first rod: it must be seen from there as a whole",
+          "the boundary: got two crossings of the ray from the apex at {} degrees from the first "
+          "rod, expected one: all of the boundary is visible from the apex",
           k);
   return part;
 }

@@ -27,7 +27,7 @@ class CurveDomain final : public Domain {
   double reach_ = 0;
 };
 
-// Original boundaries b that a net maps to a wanted boundary a, C(b) = a [Baek 2018, eq. 3].
+// Original boundaries b that a net maps to a given boundary a, C(b) = a [Baek 2018, eq. 3].
 
 /// The part of Chebyshev's net above the plane z = cut_height rho. Crossings of grid lines with the
 /// plane are solved to round-off (bracketed Newton iteration); boundary() takes even polar angles.
@@ -40,7 +40,7 @@ Result<std::unique_ptr<Domain>> cap_of(const SphereNet& net, double cut_height);
 /// (bad_input): length not positive; the net folds or ends before (says where).
 Result<std::unique_ptr<Domain>> half_of(const RevolutionNet& net, double length_mm);
 
-/// The same between the two ends of the net, where its profile ends or it folds.
+/// Half of the net between the two ends of the net, where its profile ends or it folds.
 std::unique_ptr<Domain> half_of_all(const RevolutionNet& net);
 
 /// All of a translation net: a rectangle along u and v.

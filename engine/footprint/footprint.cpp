@@ -180,8 +180,8 @@ Result<Footprint> cut_footprint(const Domain& domain, double spacing, Placement 
   net.lone_lines = int(std::erase_if(net.rods, crosses_none));
   if (net.rods.empty())
     return invalid(
-        "no two rods of spacing {:g} mm cross within the boundary: it must be larger, or "
-        "the spacing smaller",
+        "got no two rods that cross within the boundary, expected a boundary larger than {:g} mm, "
+        "or the spacing smaller",
         spacing);
   find_cells(net);
   return net;
@@ -191,19 +191,19 @@ Result<Footprint> cut_footprint(const Domain& domain, double spacing, Placement 
 constexpr double short_leg = 1e-3;
 
 Result<Footprint> circular_footprint(double radius, int rods, double spacing, Placement placement) {
-  if (rods < 2) return invalid("{} rod a direction makes no cell: take at least 2", rods);
-  if (rods > 1000) return invalid("{} rods a direction: at most 1000", rods);
+  if (rods < 2) return invalid("rods: got {} per direction, expected at least 2", rods);
+  if (rods > 1000) return invalid("rods: got {} per direction, expected at most 1000", rods);
   const bool even = rods % 2 == 0;
   if (even != (placement == Placement::half))
     return invalid(
-        "{} rods a direction do not fit placement \"{}\": rods at (i + 1/2) d (\"half\") "
+        "{} rods per direction do not fit placement \"{}\": rods at (i + 1/2) d (\"half\") "
         "are an even number, rods at i d (\"on_axis\") an odd one",
         rods, placement == Placement::half ? "half" : "on_axis");
   const double longest = radius / spacing - (rods - 1) / 2.0;
   if (!(longest > on_boundary))
     return invalid(
-        "{} rods a direction at d = {:g} mm reach {:g} mm, beyond the boundary: the longest leg "
-        "R_o/d - (n-1)/2 = {:.4g} must be above 0; take R_o >= {:.7g} mm or n <= {}",
+        "{} rods per direction at d = {:g} mm reach {:g} mm, outside the boundary: the longest leg "
+        "R_o/d - (n-1)/2: got {:.4g}, expected above 0; take R_o >= {:.7g} mm or n <= {}",
         rods, spacing, (rods - 1) / 2.0 * spacing, longest,
         ((rods - 1) / 2.0 + short_leg) * spacing, rods - 2 * std::max(1, int(std::ceil(-longest))));
   Footprint net{spacing, placement, {}, {}, {}};
@@ -215,8 +215,8 @@ Result<Footprint> circular_footprint(double radius, int rods, double spacing, Pl
   const auto alone = std::ranges::find_if(net.rods, crosses_none);
   if (alone != net.rods.end())
     return invalid(
-        "the {}-rod at {} = {:g} mm crosses no other rod: it would hang on its two ends "
-        "alone; move the boundary or the spacing",
+        "the {}-rod at {} = {:g} mm crosses no other rod: it would be fixed only at its two "
+        "ends; move the boundary or the spacing",
         name_of(alone->family), alone->family == Family::u ? "v" : "u", alone->line());
   find_cells(net);
   return net;

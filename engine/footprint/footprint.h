@@ -40,7 +40,7 @@ class Domain {
   virtual std::vector<Interval> intervals(Family family, double c) const = 0;
   /// The boundary as a closed polyline of `points` points (the last joins the first), 2 x points.
   virtual Eigen::Matrix2Xd boundary(int points) const = 0;
-  /// Largest |u| or |v| reached, mm: grid lines beyond it need not be asked.
+  /// Largest |u| or |v| reached, mm: grid lines outside it need not be computed.
   virtual double reach() const = 0;
 };
 
@@ -81,7 +81,7 @@ struct FootprintJoint {
   /// How far the axis of its second rod lies above that of the first along the normal, mm; 0: they
   /// meet. Of joints of two rods alone.
   double eccentricity = 0;
-  bool centred = false;  ///< a law holds its rods: each of them has an edge centred on it
+  bool centred = false;  ///< a law connects its rods: each of them has an edge centred on it
 };
 
 /// A complete cell: joints (i,j), (i+1,j), (i+1,j+1), (i,j+1), all four rods between them present.
@@ -90,13 +90,13 @@ struct FootprintCell {
   std::array<int, 4> joints{};
 };
 
-/// What holds a rod's end: nothing, its position, its position and direction, or its spin too; or
-/// it is `joined`: it ends at a joint, of another rod or of its own other end; or `sprung`: a
-/// spring pulls it to its support.
+/// The constraint of a rod's end: nothing, its position, its position and direction, or its spin
+/// too; or it is `joined`: it ends at a joint, of another rod or of its own other end; or `sprung`:
+/// a spring pulls it to its support.
 enum class RodEnd { free, pinned, tangent, clamped, joined, sprung };
 
 inline bool holds_direction(RodEnd end) { return end == RodEnd::tangent || end == RodEnd::clamped; }
-/// Whether the boundary holds it.
+/// Whether the boundary fixes it.
 inline bool is_held(RodEnd end) { return end != RodEnd::free && end != RodEnd::joined; }
 
 /// One rod from edge point to edge point, straight in the flat or along a polyline. Positions run
@@ -114,8 +114,8 @@ struct FootprintRod {
   int number = -1;              ///< of a network's rod in its file
   bool reversed = false;        ///< of that rod: it runs against its order in the file
   RodEnd begin = RodEnd::pinned, end = RodEnd::pinned;
-  double tail_begin = 0, tail_end = 0;  ///< beyond the edge point to a second pin, mm; 0: none
-  /// of a designed shell: what its legs are longer than those that end on the net's boundary, mm
+  double tail_begin = 0, tail_end = 0;  ///< past the edge point to a second pin, mm; 0: none
+  /// by how much the legs of a designed shell are longer than to the net's boundary, mm
   double longer_begin = 0, longer_end = 0;
 
   /// On the grid line v = `line` (u-rod) or u = `line`.
@@ -136,11 +136,11 @@ struct FootprintRod {
   bool closed() const { return joints.size() > 1 && joints.front() == joints.back(); }
 };
 
-/// A support on a spring: of a rod's end, which is `sprung`, or of one of the held joints.
+/// A support on a spring: of a rod's end, which is `sprung`, or of one of the fixed joints.
 struct SupportSpring {
   int end = -1;                       ///< begin of rod r at 2 r; -1: of a joint
   int joint = -1;                     ///< -1: of an end
-  Eigen::Vector3d N_per_mm{0, 0, 0};  ///< along x, y, z; 0: it slides that way
+  Eigen::Vector3d N_per_mm{0, 0, 0};  ///< along x, y, z; 0: it slides in that direction
 };
 
 /// All rods, joints and complete cells inside an original boundary. Lengths in mm.
@@ -150,11 +150,11 @@ struct Footprint {
   std::vector<FootprintJoint> joints;
   std::vector<FootprintRod> rods;
   std::vector<FootprintCell> cells;      ///< none where rods are not of a square grid
-  std::vector<int> held_joints{};        ///< those that the boundary holds, as it does edge points
-  std::vector<SupportSpring> springs{};  ///< of what is held by springs; of the rest none
+  std::vector<int> fixed_joints{};       ///< those that the boundary fixes, as it does edge points
+  std::vector<SupportSpring> springs{};  ///< of the supports on springs; none of the remaining ones
   int lone_lines = 0;  ///< pieces of grid lines within the boundary that no other crosses
 
-  bool is_sprung(int joint) const;  ///< whether a held joint is on a spring
+  bool is_sprung(int joint) const;  ///< whether a fixed joint is on a spring
   bool in_space() const;            ///< whether a joint or a rod leaves the plane
 
   /// shortest and longest leg: from an edge point to the joint next to it
@@ -173,10 +173,11 @@ void find_cells(Footprint& footprint);
 /// Errors (bad_input): no rods at all; too many joints (above 1e6).
 Result<Footprint> cut_footprint(const Domain& domain, double spacing, Placement placement);
 
-/// The paper's circle: n rods a direction in a disk of radius R_o. Errors (bad_input), with
+/// The paper's circle: n rods per direction in a disk of radius R_o. Errors (bad_input), with
 /// numbers: n < 2, placement that cannot give n rods (half needs n even, on_axis n odd), longest
-/// leg L_d = R_o/d - (n-1)/2 <= 0, a boundary that would hold more than n rods (L_d > 1 is allowed:
-/// the legs are then longer than a cell and the rods beyond are left out), a rod without a joint.
+/// leg L_d = R_o/d - (n-1)/2 <= 0, a boundary that would contain more than n rods (L_d > 1 is
+/// allowed: the legs are then longer than a cell and the rods outside are left out), a rod without
+/// a joint.
 Result<Footprint> circular_footprint(double radius, int rods, double spacing, Placement placement);
 
 }  // namespace gridshell

@@ -87,7 +87,7 @@ std::vector<double> cuts_of(const std::vector<Stop>& stops, std::size_t k,
   const Stop &from = stops[k - 1], &to = stops[k];
   const int edges = pieces(k);
   std::vector<double> cuts;
-  const auto at = [&](double share) { return from.at + (to.at - from.at) * share / edges; };
+  const auto at = [&](double fraction) { return from.at + (to.at - from.at) * fraction / edges; };
   if (from.centred || to.centred)
     for (int e = 0; e < edges; ++e) cuts.push_back(at(e + 0.5));
   else
@@ -137,7 +137,7 @@ void add_supports(const Footprint& footprint, int& next, RodMesh& mesh) {
   }
 }
 
-/// Of a network in space.
+/// The curve of a rod of a network in space.
 void lay_heights(const Footprint& footprint, RodMesh& mesh) {
   mesh.height = Eigen::RowVectorXd::Zero(mesh.nodes());
   for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
@@ -161,7 +161,7 @@ RodMesh mesh_rods(const Footprint& footprint, int edges_per_segment) {
   mesh.edges_per_segment = edges_per_segment;
   mesh.joints = int(footprint.joints.size());
   mesh.edge_points = 2 * int(footprint.rods.size());
-  mesh.held_joints = footprint.held_joints;
+  mesh.fixed_joints = footprint.fixed_joints;
   for (const FootprintJoint& joint : footprint.joints) mesh.centred.push_back(joint.centred);
   int next = mesh.joints + mesh.edge_points;
   std::vector<int> first_rod(footprint.joints.size(), -1);
@@ -190,7 +190,7 @@ RodMesh mesh_rods(const Footprint& footprint, int edges_per_segment) {
   for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
     const FootprintRod& rod = footprint.rods[r];
     for (std::size_t k = 0; k < mesh.rods[r].size(); ++k) {
-      // where rods meet in a joint the place is the joint's own
+      // where rods meet in a joint the position is the joint's own
       const int node = mesh.rods[r][k];
       if (node >= mesh.joints) mesh.flat.col(node) = rod.at(mesh.position[r][k]);
     }
@@ -238,24 +238,26 @@ MeshTransfer::Stencil MeshTransfer::stencil(const std::vector<int>& node,
   const bool has_before = k > 0, has_after = k + 1 < last;
   // slope at a node = sum of chords weighted by the other side's length; a chord is (x1 -
   // x0)/length
-  const auto chord_before = [&](double share) {
+  const auto chord_before = [&](double fraction) {
     const double length = s[k] - s[k - 1];
-    w.weight[0] -= share / length, w.weight[1] += share / length;
+    w.weight[0] -= fraction / length, w.weight[1] += fraction / length;
   };
-  const auto chord_here = [&](double share) { w.weight[1] -= share / h, w.weight[2] += share / h; };
-  const auto chord_after = [&](double share) {
+  const auto chord_here = [&](double fraction) {
+    w.weight[1] -= fraction / h, w.weight[2] += fraction / h;
+  };
+  const auto chord_after = [&](double fraction) {
     const double length = s[k + 2] - s[k + 1];
-    w.weight[2] -= share / length, w.weight[3] += share / length;
+    w.weight[2] -= fraction / length, w.weight[3] += fraction / length;
   };
   const double before = has_before ? s[k] - s[k - 1] : 0,
                after = has_after ? s[k + 2] - s[k + 1] : 0;
-  const auto add_slope0 = [&](double share) {
-    chord_before(share * h / (before + h));
-    chord_here(share * before / (before + h));
+  const auto add_slope0 = [&](double fraction) {
+    chord_before(fraction * h / (before + h));
+    chord_here(fraction * before / (before + h));
   };
-  const auto add_slope1 = [&](double share) {
-    chord_here(share * after / (after + h));
-    chord_after(share * h / (after + h));
+  const auto add_slope1 = [&](double fraction) {
+    chord_here(fraction * after / (after + h));
+    chord_after(fraction * h / (after + h));
   };
   if (has_before) add_slope0(slope0);
   if (has_after) add_slope1(slope1);

@@ -18,7 +18,7 @@ struct FlatFrame {
   Eigen::Matrix3Xd all(const Eigen::Matrix2Xd& uv) const;
 };
 
-// The footprint's rods cut into edges: nodes, their flat positions and rest lengths.
+// The footprint's rods cut into edges: nodes, their flat positions and natural lengths.
 
 /// A support on a spring: the node of the support, which is pinned and of no rod, and the rods'
 /// node that it pulls.
@@ -33,23 +33,22 @@ struct EccentricJoint {
   double eccentricity = 0;  ///< mm
 };
 
-/// Nodes of all rods. An end whose direction is held has one node more, a *ghost* beyond its edge
-/// point, pinned where the direction asks for it: ghosts come after the nodes of the rods and are
-/// the first or last of their rod, `ghost_length` from the edge point on every mesh. The last nodes
-/// of the mesh are the supports of springs, in their order.
-/// Joints come first (node = index of the joint, shared by its rods), then
-/// edge points (rod r has node joints + 2r at its begin, joints + 2r + 1 at its end), then the
-/// nodes inside segments, legs and tails, rod by rod. A rod with a tail begins or ends at the
-/// tail's *far end*, its edge point being one of its inner nodes. A rod whose end is joined begins
-/// or ends at that joint; the edge point of that number belongs to no rod and rests on the joint's
-/// place. A closed rod names its joint twice, first and last.
+/// Nodes of all rods. An end whose direction is prescribed has one node more, a *ghost* past its
+/// edge point, pinned where the direction asks for it: ghosts come after the nodes of the rods and
+/// are the first or last of their rod, `ghost_length` from the edge point on every mesh. The last
+/// nodes of the mesh are the supports of springs, in their order. Joints come first (node = index
+/// of the joint, shared by its rods), then edge points (rod r has node joints + 2r at its start,
+/// joints + 2r + 1 at its end), then the nodes inside segments, legs and tails, rod by rod. A rod
+/// with a tail begins or ends at the tail's *far end*, its edge point being one of its inner nodes.
+/// A rod whose end is joined begins or ends at that joint; the edge point of that number belongs to
+/// no rod and has the joint's position. A closed rod names its joint twice, first and last.
 struct RodMesh {
   int edges_per_segment = 0;
   int joints = 0;
   int edge_points = 0;
-  std::vector<RodEnd> ends;      ///< of every edge point; empty: all pinned
-  std::vector<int> far_ends;     ///< of every edge point, -1: no tail; empty: none has one
-  std::vector<int> held_joints;  ///< that the boundary holds, some by springs
+  std::vector<RodEnd> ends;       ///< of every edge point; empty: all pinned
+  std::vector<int> far_ends;      ///< of every edge point, -1: no tail; empty: none has one
+  std::vector<int> fixed_joints;  ///< that the boundary fixes, some by springs
   std::vector<MeshSpring> springs;
   std::vector<EccentricJoint> eccentric;  ///< in the order of their second nodes
   std::vector<char> centred;              ///< of every joint: edges are centred on it
@@ -66,7 +65,7 @@ struct RodMesh {
   /// The joint at a node, of an eccentric one at either; else -1.
   int joint_of(int node) const;
   bool is_ghost(int node) const { return node >= rod_nodes(); }
-  /// Whether the edges of a rod beside a node are the halves of one that is centred there.
+  /// Whether the two edges of a rod at a node are the halves of one that is centred there.
   bool is_centred(int node) const {
     const int joint = joint_of(node);
     return joint >= 0 && std::size_t(joint) < centred.size() && centred[std::size_t(joint)];
@@ -80,7 +79,7 @@ struct RodMesh {
 /// d/4 is cut into k/4 edges (rounded, at least one). So the meshes of 4, 8, 16 ... edges nest:
 /// halving every edge of one gives the next.
 /// Where a joint is centred, stretches of length h, h' a piece on its sides have their nodes half
-/// an edge further on: h/2, 3h/2, ... from it, but for the two beside the joint, which lie
+/// an edge further on: h/2, 3h/2, ... from it, but for the two next to the joint, which lie
 /// h h'/(h + h') off it on either side: the edge between them, the joint in its middle, is two
 /// halves in the lists here. So lengths halve from mesh to mesh, too.
 RodMesh mesh_rods(const Footprint& footprint, int edges_per_segment);

@@ -16,14 +16,14 @@ namespace gridshell {
 namespace {
 
 constexpr double straight = 1e-9;   // of its length: how far a straight rod's points are off a line
-constexpr double on_a_line = 1e-6;  // of their extent: three points that do not hold a piece
+constexpr double on_a_line = 1e-6;  // of their extent: three points that do not support a piece
 
 /// How often rods go through a point, and how often they end there.
 struct Visits {
   int passes = 0, ends = 0;
 };
 
-/// The area that two ways span.
+/// The area that two vectors span.
 double area(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a.cross(b).norm(); }
 
 bool is_ring(const std::vector<int>& rod) { return rod.front() == rod.back(); }
@@ -44,19 +44,20 @@ Result<void> check_rod(const RodNetwork& network, std::size_t r,
   const std::vector<int>& rod = network.rods[r];
   const auto wrong = [&](const std::string& what) { return invalid("rods[{}]: {}", r, what); };
   const std::set<int> points(rod.begin(), rod.end());
-  if (points.size() < 2) return wrong("has one point, must have at least two, apart");
-  if (is_ring(rod) && points.size() < 3) return wrong("a ring must have at least three points");
+  if (points.size() < 2) return wrong("got one point, expected at least two, at a distance");
+  if (is_ring(rod) && points.size() < 3)
+    return wrong("a ring: got two points, expected at least three");
   for (std::size_t k = 1; k < rod.size(); ++k) {
     const auto ends = std::minmax(rod[k - 1], rod[k]);
     if (ends.first == ends.second)
-      return wrong(fmt::format("point {} follows itself, must be another one", rod[k]));
+      return wrong(fmt::format("got point {} twice in turn, expected another point", rod[k]));
     if (const auto [other, is_new] = stretches.try_emplace(ends, r); !is_new)
-      return wrong(fmt::format("runs from point {} to {}, as rods[{}] does, must be one rod",
+      return wrong(fmt::format("got a rod from point {} to {}, as rods[{}] is, expected one rod",
                                ends.first, ends.second, other->second));
   }
   if (points.size() + (is_ring(rod) ? 1 : 0) < rod.size())
     return wrong(
-        "comes through a point twice, must be several rods, or a ring that ends where it "
+        "got a rod that passes a point twice, expected several rods, or a ring that ends where it "
         "begins");
   return {};
 }
@@ -96,13 +97,13 @@ class Roles {
   }
   bool is_supported(int point) const { return network_.supported[point] != 0; }
   bool is_sprung(int point) const { return network_.springs.contains(point); }
-  /// Of a point where rods only end.
+  /// A point where rods only end.
   RodEnd end_at(int point) const {
     if (is_joint(point)) return RodEnd::joined;
     if (is_sprung(point)) return RodEnd::sprung;
     return network_.free[point] != 0 ? RodEnd::free : RodEnd::pinned;
   }
-  /// Whether the boundary holds what is there.
+  /// Whether the boundary fixes what is there.
   bool is_held(int point) const {
     return is_joint(point) ? is_supported(point) : gridshell::is_held(end_at(point));
   }
@@ -121,9 +122,7 @@ Result<void> check_points(const RodNetwork& network, const Roles& roles) {
     if ((free || roles.is_supported(point)) && passes + ends == 0)
       return invalid("point {} is {}, and no rod has it", point, free ? "free" : "a support");
     if (free && passes > 0)
-      return invalid(
-          "point {} is free, and inside a rod: only ends of rods are held unless they are free",
-          point);
+      return invalid("point {} is free, and inside a rod: only ends of rods can be free", point);
     if (free && roles.is_supported(point)) return invalid("point {} is a support and free", point);
   }
   return {};
@@ -145,17 +144,17 @@ void lay(const Eigen::Matrix3Xd& points, const std::vector<int>& numbers, Footpr
   }
 }
 
-/// How the begin (of rod r at 2 r) or end of a rod is held.
+/// The constraint of a rod's start (of rod r at 2 r) or end.
 Result<RodEnd> hold_of(const RodNetwork& network, const Roles& roles, int end) {
   const std::vector<int>& rod = network.rods[std::size_t(end / 2)];
   const RodEnd there = roles.end_at(end % 2 == 0 ? rod.front() : rod.back());
   const auto own = network.holds.find(end);
   if (own == network.holds.end()) return there == RodEnd::pinned ? network.hold : there;
   if (there == RodEnd::pinned) return own->second;
-  return invalid("rods[{}]: its {} {}, how it is held can be said of an end at a support alone",
-                 end / 2, end % 2 == 0 ? "begin" : "end",
+  return invalid("rods[{}]: its {} {}, a constraint is given only of an end at a support", end / 2,
+                 end % 2 == 0 ? "begin" : "end",
                  there == RodEnd::joined   ? "is joined there"
-                 : there == RodEnd::sprung ? "hangs on a spring"
+                 : there == RodEnd::sprung ? "is on a spring"
                                            : "is free");
 }
 
@@ -181,15 +180,15 @@ Result<FootprintRod> rod_of(const RodNetwork& network, std::size_t r, const Role
         std::ranges::find_if(numbers, [&](int point) { return roles.at(point).ends > 1; });
     if (met != numbers.end())
       return invalid(
-          "rods[{}]: is joined to no other rod: where rods only end, as at point {}, each is held "
+          "rods[{}]: is joined to no other rod: where rods only end, as at point {}, each is fixed "
           "by "
           "itself; {{\"point\": {}, \"to_mm\": \"free\"}} among the supports joins them by a "
           "hinge, a "
           "law among the joints as it says",
           r, *met, *met);
     return invalid(
-        "rods[{}]: is joined to no other rod, must share a point with one, or be the only "
-        "rod and have points inside",
+        "rods[{}]: got a rod without a joint, expected a point shared with another rod, or one rod "
+        "alone with points inside",
         r);
   }
   TRY(begin, hold_of(network, roles, int(2 * r)));
@@ -199,20 +198,20 @@ Result<FootprintRod> rod_of(const RodNetwork& network, std::size_t r, const Role
   return rod;
 }
 
-/// What holds a piece: a place, and the directions in which it is held there.
+/// A support of a piece: a position, and the directions in which it is fixed.
 struct HeldPlace {
   Eigen::Vector3d at;
   Eigen::Vector3d along;  ///< 1 or 0 of x, y, z
 };
 
-/// The directions in which a support holds: all, or those that its spring has.
+/// The directions in which a support fixes: all, or those that its spring has.
 Eigen::Vector3d held_along(const RodNetwork& network, int point) {
   const auto spring = network.springs.find(point);
   if (spring == network.springs.end()) return Eigen::Vector3d::Ones();
   return (spring->second.array() > 0).cast<double>();
 }
 
-/// Whether places are off a line.
+/// Whether positions are off a line.
 bool off_a_line(const std::vector<HeldPlace>& places) {
   if (places.empty()) return false;
   const Eigen::Vector3d first = places.front().at;
@@ -225,8 +224,8 @@ bool off_a_line(const std::vector<HeldPlace>& places) {
   });
 }
 
-/// Whether places hold a piece against every small move and turn: the six columns of
-/// (e, p x e/L) over all places p and held directions e are independent.
+/// Whether supports fix a piece against every small displacement and rotation: the six columns of
+/// (e, p x e/L) over all positions p and fixed directions e are independent.
 bool hold_all(const std::vector<HeldPlace>& places) {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const HeldPlace& place : places) middle += place.at / double(places.size());
@@ -243,8 +242,8 @@ bool hold_all(const std::vector<HeldPlace>& places) {
   return rank_of(moves, on_a_line) == 6;
 }
 
-/// What the directions that a rod's ends hold are as held places: one further out along it, and
-/// where its spin is held one beside it.
+/// The directions that a rod's ends prescribe, as fixed positions: one further out along it, and
+/// where its spin is prescribed one at its side.
 void add_directions(const RodNetwork& network, std::size_t r, const FootprintRod& rod,
                     std::vector<HeldPlace>& places) {
   const std::vector<int>& points = network.rods[r];
@@ -260,7 +259,7 @@ void add_directions(const RodNetwork& network, std::size_t r, const FootprintRod
   }
 }
 
-/// Every piece that hangs together is held where it cannot turn.
+/// Every connected piece has supports against rotation.
 Result<void> check_held(const RodNetwork& network, const Roles& roles, const Footprint& footprint) {
   UnionFind pieces(footprint.joints.size());
   for (const FootprintRod& rod : footprint.rods)
@@ -278,13 +277,13 @@ Result<void> check_held(const RodNetwork& network, const Roles& roles, const Foo
   for (const auto& [at, rod] : first_rod) {
     if (!off_a_line(held[at]))
       return invalid(
-          "rods[{}] and what is joined to it: held at fewer than three points, or at "
-          "points on one line, and would turn freely about it",
+          "rods[{}] and what is joined to it: fixed at fewer than three points, or at points on "
+          "one line, and would turn freely about it",
           rod);
     if (!hold_all(held[at]))
       return invalid(
-          "rods[{}] and what is joined to it: held by springs along too few directions, "
-          "and would move or turn freely",
+          "rods[{}] and what is joined to it: supported by springs along too few directions, and "
+          "would move or turn freely",
           rod);
   }
   return {};
@@ -303,7 +302,7 @@ double spacing_of(const Footprint& footprint) {
   return *middle;
 }
 
-/// The springs of the network's supports, of its ends and held joints as they are named.
+/// The springs of the network's supports, of its ends and fixed joints as they are named.
 void put_springs(const RodNetwork& network, NetworkFootprint& made) {
   Footprint& footprint = made.footprint;
   for (std::size_t end = 0; end < made.ends.size(); ++end) {
@@ -313,7 +312,7 @@ void put_springs(const RodNetwork& network, NetworkFootprint& made) {
   }
   for (std::size_t k = 0; k < made.joints.size(); ++k)
     if (const auto spring = network.springs.find(made.joints[k]); spring != network.springs.end())
-      footprint.springs.push_back({-1, footprint.held_joints[k], spring->second});
+      footprint.springs.push_back({-1, footprint.fixed_joints[k], spring->second});
 }
 
 }  // namespace
@@ -331,7 +330,7 @@ Result<NetworkFootprint> network_footprint(const RodNetwork& network) {
     if (!roles.is_joint(point)) continue;
     joint_at[point] = int(footprint.joints.size());
     if (roles.is_supported(point)) {
-      footprint.held_joints.push_back(joint_at[point]);
+      footprint.fixed_joints.push_back(joint_at[point]);
       made.joints.push_back(point);
     }
     const Eigen::Vector3d at = network.points.col(point);

@@ -11,7 +11,7 @@ namespace gridshell {
 namespace {
 
 constexpr double straight = 1e-9;   // of its length: how far a rod is off its axis
-constexpr double of_a_grid = 1e-6;  // of d: how far a line of a square grid is off its place
+constexpr double of_a_grid = 1e-6;  // of d: how far a line of a square grid is off its position
 
 /// k of a line of the grid; none: it is none of its lines.
 std::optional<int> line_number(Placement placement, double line, double spacing) {

@@ -24,10 +24,10 @@ class ReachedPart final : public Domain {
     };
     const double step = net_->chord() / 2;
     std::vector<Interval> pieces;
-    // places along the line that one rod joins
+    // positions along the line that one rod joins
     std::vector<std::pair<double, Eigen::Vector3d>> run;
     const auto end_run = [&] {
-      // beside an edge where the net is rough the rod would not be as long as its way
+      // next to an edge where the net is rough the rod would not be as long as its path
       const auto rough = [&](std::size_t a, std::size_t b) {
         return !net_->joined(run[a].second, run[b].second, step, exact);
       };
@@ -58,7 +58,7 @@ class ReachedPart final : public Domain {
   }
 
   Eigen::Matrix2Xd boundary(int points) const override {
-    // those of the traced ring that lie next to even places along it
+    // those of the traced ring that lie next to even positions along it
     Eigen::Matrix2Xd ring(2, points);
     for (int k = 0; k < points; ++k) {
       const double at = ring_length_.back() * k / points;
@@ -71,7 +71,7 @@ class ReachedPart final : public Domain {
   double reach() const override { return (reach_ + 1) * net_->chord(); }
 
  private:
-  // how far the straight way may be from as long as the rod, over that
+  // how far the straight distance may be from as long as the rod, over that
   static constexpr double usual = 0.02, exact = 0.003;
   static constexpr std::size_t most_trimmed = 6;  // half chords
   static constexpr double shortest = 4;           // of a rod, chords: half the rods' spacing
@@ -81,15 +81,15 @@ class ReachedPart final : public Domain {
     return point ? std::optional(point->position) : std::nullopt;
   }
 
-  /// A rod that ends at a node of the grid, as there is none beyond, ends a little before: joints
-  /// lie on nodes, and a leg would be all but nothing.
+  /// A rod that ends at a node of the grid, as there is none further out, ends a little before:
+  /// joints lie on nodes, and a leg would be all but nothing.
   double off_node(double s, int inward) const {
     constexpr double at_node = 0.02, before = 0.4;
     const double nodes = s / net_->chord();
     return std::abs(nodes - std::round(nodes)) < at_node ? s + inward * before * net_->chord() : s;
   }
 
-  /// How far a line goes on from its place s, which is at p.
+  /// How far a line continues from its position s, which is at p.
   template <class Line>
   double end_from(const Line& on_line, double s, const Eigen::Vector3d& p, int side) const {
     const auto goes_on = [&](double way) {

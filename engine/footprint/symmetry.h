@@ -17,19 +17,19 @@ double mirror_defect(const Eigen::Matrix3Xd& joints, const Eigen::Vector2d& norm
 // The symmetries that a shell's footprint and boundary have in common, as maps of its mesh onto
 // itself: those of the square, up and down among them.
 
-/// Nodes that the boundary holds: joints, edge points, ghosts.
+/// Nodes that the boundary fixes: joints, edge points, ghosts.
 std::vector<int> held_nodes(const RodMesh& mesh);
 
 /// The sixteen maps of space that leave the square lattice about the z-axis what it is: signed
 /// permutations of x and y, then the same with z turned over. The identity is the first.
 const std::vector<Eigen::Matrix3d>& square_symmetries();
 
-/// Which of some points each of them goes to under a map of the plane; nothing where one comes to
-/// lie further than `within_mm` from all. For a few hundred points: each looks at all.
+/// Which of some points each of them goes to under a map of the plane; nothing where one is
+/// further than `within_mm` from all. For a few hundred points: each looks at all.
 std::optional<std::vector<int>> images_of(const Eigen::Matrix2Xd& points,
                                           const Eigen::Matrix2d& map, double within_mm);
 
-/// A map of a mesh onto itself: p goes to M (p - c) + c, node k to the place of node image[k].
+/// A map of a mesh onto itself: p goes to M (p - c) + c, node k to the position of node image[k].
 struct MeshSymmetry {
   int index = 0;  ///< of square_symmetries()
   Eigen::Matrix3d map = Eigen::Matrix3d::Identity();
@@ -43,7 +43,7 @@ struct MeshSymmetry {
 };
 
 /// Those of the sixteen that map the flat mesh onto itself and the ends of its rods, where `ends`
-/// (3 x nodes or more columns, mm; what is free is ignored) holds them, onto one another. The
+/// (3 x nodes or more columns, mm; what is free is ignored) fixes them, onto one another. The
 /// identity is the first.
 std::vector<MeshSymmetry> symmetries_of(const RodMesh& mesh, const Eigen::Matrix3Xd& ends);
 

@@ -13,7 +13,7 @@ namespace {
 
 // ----------------------------------------------------------------------------------------- DXF --
 
-/// Pairs of a group code and its value, a line each.
+/// Pairs of a group code and its value, one line each.
 class Dxf {
  public:
   void text(int code, const std::string& value) {

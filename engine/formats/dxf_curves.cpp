@@ -46,8 +46,8 @@ Eigen::Vector3d b_spline_at(const SplineData& spline, std::size_t span, double t
   for (std::size_t r = 1; r <= p; ++r)
     for (std::size_t j = p; j >= r; --j) {
       const double low = spline.knots[j + span - p], high = spline.knots[j + 1 + span - r];
-      const double share = high > low ? (t - low) / (high - low) : 0;
-      d[j] = (1 - share) * d[j - 1] + share * d[j];
+      const double fraction = high > low ? (t - low) / (high - low) : 0;
+      d[j] = (1 - fraction) * d[j - 1] + fraction * d[j];
     }
   return d[p].head<3>() / d[p][3];
 }
@@ -95,9 +95,9 @@ std::vector<Eigen::Vector3d> curvatures(const SplineData& spline, const std::vec
     m[n - 1] = 6 * (spline.tangents[1] - slope(n - 2));
   }
   for (std::size_t k = 1; k < n; ++k) {
-    const double share = below[k] / on[k - 1];
-    on[k] -= share * above[k - 1];
-    m[k] -= share * m[k - 1];
+    const double fraction = below[k] / on[k - 1];
+    on[k] -= fraction * above[k - 1];
+    m[k] -= fraction * m[k - 1];
   }
   for (std::size_t k = n; k-- > 0;)
     m[k] = (m[k] - (k + 1 < n ? Eigen::Vector3d(above[k] * m[k + 1]) : Eigen::Vector3d::Zero())) /

@@ -75,12 +75,12 @@ class Gathering {
         continue;
       }
       if (entities_.size() == most_entities)
-        return invalid("{}:{}: more than {} entities, must be fewer", name_, raw.line,
+        return invalid("{}:{}: got more than {} entities, expected fewer", name_, raw.line,
                        most_entities);
       if (is_mark(raw.kind))
         entity.use = EntityUse::mark;
       else if (!is_curve(raw.kind))
-        refuse(entity, "must be exploded to lines and polylines");
+        refuse(entity, "is not read, expected lines and polylines: explode it");
       else
         draw(raw, entity);
       for (Vector3d& point : entity.points) point = to * point;
@@ -97,11 +97,11 @@ class Gathering {
       return invalid("{}:{}: INSERT of block '{}', {}", name_, raw.line, raw.text(2), what);
     };
     if (found == raw_.blocks.end()) return wrong("which is not in the file");
-    if (depth == deepest) return wrong("which holds itself");
+    if (depth == deepest) return wrong("which contains itself");
     if (++insertions_ > most_insertions) return wrong("of too many");
     if (found->second.outside) {
       DrawnEntity missing = as;
-      refuse(missing, "is of another drawing (XREF), must be bound into this one");
+      refuse(missing, "is of another drawing (XREF), expected a block of this one: bind it");
       entities_.push_back(std::move(missing));
       return {};
     }
@@ -182,7 +182,7 @@ class Gathering {
 
   static void draw_heavy(const RawEntity& raw, const Eigen::Matrix3d& axes, DrawnEntity& entity) {
     const int flags = raw.flags(70);
-    if (flags & (16 | 64)) return refuse(entity, "is a mesh of faces, must be lines");
+    if (flags & (16 | 64)) return refuse(entity, "is a mesh of faces, expected lines");
     const bool in_space = flags & 8;
     std::vector<Vector3d> corners;
     std::vector<double> bulges;

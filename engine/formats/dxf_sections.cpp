@@ -15,14 +15,14 @@ namespace {
 
 Result<std::vector<DxfGroup>> groups_of(std::string_view bytes, const std::string& name) {
   if (bytes.starts_with("AutoCAD Binary DXF"))
-    return invalid("{}: a binary DXF, must be saved as text (ASCII)", name);
+    return invalid("{}: got a binary DXF, expected text: save it as ASCII DXF", name);
   if (bytes.starts_with("AC10") && bytes.substr(0, 64).find('\n') == bytes.npos)
-    return invalid("{}: a DWG, must be saved as DXF", name);
+    return invalid("{}: got a DWG, expected a DXF: save it as one", name);
   std::vector<DxfGroup> groups;
   for (int line = 1; !trimmed(bytes.substr(0, 64)).empty() || bytes.size() > 64; line += 2) {
     const auto code = number_of(trimmed(next_line(bytes)));
     if (!code || !(std::abs(*code) <= 2000) || bytes.empty())
-      return invalid("{}:{}: is no DXF text, must be a code and a value in turn{}", name, line,
+      return invalid("{}:{}: got no DXF text, expected a code and a value in turn{}", name, line,
                      groups.empty() ? "" : ": is it cut short?");
     groups.push_back({int(*code), trimmed(next_line(bytes)), line + 1});
   }
@@ -56,7 +56,7 @@ class Sections {
         begin(group);
       } else if (open_) {
         if (is_number(group.code) && is_curve(open_->kind) && !number_of(group.value))
-          return invalid("{}:{}: must be a finite number", name_, group.line);
+          return invalid("{}:{}: expected a finite number", name_, group.line);
         open_->groups.push_back(group);
       }
     }

@@ -26,29 +26,29 @@ bool stored_plainly(hid_t set) {
 }
 
 // numbers for numbers, lists for lists; of a struct every member by name
-bool fits(hid_t found, hid_t wanted) {
+bool fits(hid_t found, hid_t requested) {
   const auto kind = H5Tget_class(found);
-  if (kind != H5Tget_class(wanted)) return false;
+  if (kind != H5Tget_class(requested)) return false;
   if (kind == H5T_STRING) return H5Tis_variable_str(found) > 0;
   if (kind == H5T_VLEN || kind == H5T_ARRAY) {
-    const Handle a(H5Tget_super(found), H5Tclose), b(H5Tget_super(wanted), H5Tclose);
+    const Handle a(H5Tget_super(found), H5Tclose), b(H5Tget_super(requested), H5Tclose);
     hsize_t one = 0, other = 0;
     if (kind == H5T_ARRAY &&
-        (H5Tget_array_ndims(found) != 1 || H5Tget_array_ndims(wanted) != 1 ||
-         H5Tget_array_dims2(found, &one) < 0 || H5Tget_array_dims2(wanted, &other) < 0))
+        (H5Tget_array_ndims(found) != 1 || H5Tget_array_ndims(requested) != 1 ||
+         H5Tget_array_dims2(found, &one) < 0 || H5Tget_array_dims2(requested, &other) < 0))
       return false;
     return one == other && fits(a, b);
   }
   if (kind != H5T_COMPOUND) return H5Tget_size(found) <= 16;
-  const int members = H5Tget_nmembers(wanted);
+  const int members = H5Tget_nmembers(requested);
   if (H5Tget_nmembers(found) != members) return false;
   for (int k = 0; k < members; ++k) {
-    char* name = H5Tget_member_name(wanted, unsigned(k));
+    char* name = H5Tget_member_name(requested, unsigned(k));
     const int at = H5Tget_member_index(found, name);
     H5free_memory(name);
     if (at < 0) return false;
     const Handle a(H5Tget_member_type(found, unsigned(at)), H5Tclose),
-        b(H5Tget_member_type(wanted, unsigned(k)), H5Tclose);
+        b(H5Tget_member_type(requested, unsigned(k)), H5Tclose);
     if (!fits(a, b)) return false;
   }
   return true;
@@ -109,7 +109,7 @@ Handle Reader::dataset(const std::string& name, hid_t type) {
   const std::uintmax_t each = referred ? 16 : H5Tget_size(found);
   if (count < 0 || each == 0 || std::uintmax_t(count) > file_bytes_ / each ||
       H5Dget_storage_size(set) != std::uintmax_t(count) * each)
-    return refuse("claims to hold more than the file does");
+    return refuse("claims to contain more than the file does");
   return set;
 }
 
@@ -126,7 +126,7 @@ Dims Reader::dims(const std::string& name, std::size_t rank, hid_t type) {
   H5Sget_simple_extent_dims(space, extents.data(), nullptr);
   // an empty dataset may have any extent
   for (const hsize_t extent : extents)
-    if (extent > file_bytes_) fail_because(name + " claims to hold more than the file does");
+    if (extent > file_bytes_) fail_because(name + " claims to contain more than the file does");
   return good() ? extents : Dims(rank);
 }
 
@@ -184,7 +184,7 @@ bool Reader::lists_fit(const std::string& name, hid_t set, hid_t type, hid_t spa
   hsize_t bytes = 0;
   if (!check(H5Dvlen_get_buf_size(set, type, space, &bytes), name)) return false;
   if (bytes <= file_bytes_) return true;
-  fail_because(name + " claims to hold more than the file does");
+  fail_because(name + " claims to contain more than the file does");
   return false;
 }
 

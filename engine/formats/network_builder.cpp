@@ -12,7 +12,7 @@
 namespace gridshell::preset {
 namespace {
 
-constexpr double farthest = 0.25;  // of the shortest stretch of rod beside a joint
+constexpr double farthest = 0.25;  // of the shortest segment of rod at a joint
 
 using Coordinates = std::vector<double>;
 
@@ -28,7 +28,7 @@ Coordinates mean_of(const std::vector<int>& points, const Points& places) {
   return mean;
 }
 
-/// Of every joint the shortest stretch of rod that begins or ends at one of its points.
+/// The shortest segment of rod, for every joint, that begins or ends at one of its points.
 std::vector<double> shortest_beside(const NetworkData& network, const std::vector<int>& joint_of,
                                     std::size_t joints) {
   std::vector<double> shortest(joints, std::numeric_limits<double>::infinity());
@@ -45,7 +45,7 @@ std::vector<double> shortest_beside(const NetworkData& network, const std::vecto
   return shortest;
 }
 
-/// Points at which rods end and none goes on.
+/// Points at which rods end and none continues.
 std::set<int> ends_alone(const std::vector<std::vector<int>>& rods) {
   std::set<int> ends, passed;
   for (const std::vector<int>& rod : rods) {
@@ -60,20 +60,20 @@ std::set<int> ends_alone(const std::vector<std::vector<int>>& rods) {
 }  // namespace
 
 Result<void> NetworkBuilder::add_joint(std::vector<int> points, const std::string& at) {
-  // those at one place are one already
+  // those at one position are one already
   std::set<int> once;
   std::erase_if(points, [&](int point) { return !once.insert(point).second; });
   for (const int point : points)
     if (!listed_.insert(point).second)
       return invalid(
-          "{}: point {} is of another joint too, must be of one: list all points of a "
-          "joint together",
+          "{}: point {} is of another joint too, expected one joint: list all points of a joint "
+          "together",
           at, point);
   joints_.push_back({std::move(points), at});
   return {};
 }
 
-/// Every point is of a rod, and no rod comes to a joint twice but to close a ring.
+/// Every point is of a rod, and no rod meets a joint twice but to close a ring.
 Result<void> NetworkBuilder::check_rods(const std::vector<int>& joint_of) const {
   std::set<int> on_rods;
   for (std::size_t r = 0; r < network_.rods.size(); ++r) {
@@ -87,19 +87,20 @@ Result<void> NetworkBuilder::check_rods(const std::vector<int>& joint_of) const 
       const bool closes = there->second == 0 && k + 1 == rod.size() && k > 2;
       if (!is_new && !closes && rod[there->second] != rod[k])
         return invalid(
-            "{}: rods[{}] has both point {} and point {}, the points of a joint must be of "
-            "different rods, or the two ends of a ring",
+            "{}: rods[{}] has both point {} and point {}, expected points of a joint of different "
+            "rods, or the two ends of a ring",
             joints_[std::size_t(joint)].at, r, rod[there->second], rod[k]);
     }
   }
   for (const Joint& joint : joints_)
     for (const int point : joint.points)
       if (!on_rods.contains(point))
-        return invalid("{}: no rod has point {}, must be a point of a rod", joint.at, point);
+        return invalid("{}: got point {}, which no rod has, expected a point of a rod", joint.at,
+                       point);
   return {};
 }
 
-/// No point goes further to its joint than a part of the rods beside it.
+/// No point moves further to its joint than a part of the rods there.
 Result<void> NetworkBuilder::check_reach(const std::vector<int>& joint_of) const {
   const auto shortest = shortest_beside(network_, joint_of, joints_.size());
   for (std::size_t j = 0; j < joints_.size(); ++j) {
@@ -108,15 +109,15 @@ Result<void> NetworkBuilder::check_reach(const std::vector<int>& joint_of) const
       const double way = distance(network_.points[std::size_t(point)], mean);
       if (!(way <= farthest * shortest[j]))
         return invalid(
-            "{}: point {} lies {:.4g} mm from the middle of the joint's points, must be at "
-            "most {:.4g} mm, a quarter of the shortest stretch of rod beside them",
+            "{}: got point {} at {:.4g} mm from the middle of the joint's points, expected at most "
+            "{:.4g} mm, a quarter of the shortest segment of rod next to them",
             joints_[j].at, point, way, farthest * shortest[j]);
     }
   }
   return {};
 }
 
-/// The first point of a joint in the place of the others.
+/// The first point of a joint replaces the others.
 void NetworkBuilder::rename(const std::vector<int>& joint_of) {
   const auto name = [&](int point) {
     const int joint = joint_of[std::size_t(point)];
@@ -129,7 +130,7 @@ void NetworkBuilder::rename(const std::vector<int>& joint_of) {
   std::set<int> free, supported;
   for (const std::vector<double>& row : network_.supports) supported.insert(int(row[0]));
   for (const int point : network_.free) free.insert(name(point));
-  // rods that only end at a joint hang on one another
+  // rods that only end at a joint support one another
   const std::set<int> ends = ends_alone(network_.rods);
   for (const Joint& joint : joints_) {
     const int point = joint.points.front();

@@ -28,9 +28,9 @@ double turn_at(const NetworkData& network, int before, int at, int after) {
   return std::atan2(in.cross(out).norm(), in.dot(out));
 }
 
-/// The begin (2 r) or end (2 r + 1) of rod r.
+/// The start (2 r) or end (2 r + 1) of rod r.
 struct LineEnd {
-  int number, point, before;  ///< the point beside it
+  int number, point, before;  ///< the point next to it
 };
 
 std::map<int, std::vector<LineEnd>> ends_at_points(const NetworkData& network) {
@@ -44,13 +44,13 @@ std::map<int, std::vector<LineEnd>> ends_at_points(const NetworkData& network) {
   return ends;
 }
 
-/// Of each end the one that it goes on in; -1: none.
+/// The end in which each end continues; -1: none.
 Result<std::vector<int>> continuations(const NetworkData& network,
                                        const std::vector<std::string>& places) {
   std::vector<int> partner(2 * network.rods.size(), -1);
   for (const auto& [point, ends] : ends_at_points(network)) {
     if (ends.size() > most_ends)
-      return invalid("{}: ends where {} other lines do, must be at most {}",
+      return invalid("{}: got an end at that of {} other lines, expected at most {}",
                      places[std::size_t(ends.back().number / 2)], ends.size() - 1, most_ends);
     std::vector<std::tuple<double, int, int>> pairs;
     for (std::size_t a = 0; a < ends.size(); ++a)
@@ -83,7 +83,12 @@ std::size_t pieces_of(const NetworkData& network, const std::vector<int>& rod, s
 Result<int> NetworkBuilder::join_in_line() {
   TRY(partner, continuations(network_, places_));
   const int met = int(std::ranges::count_if(*partner, [](int other) { return other >= 0; }) / 2);
-  if (met == 0) return 0;
+  if (met > 0) chain(*partner);
+  return met;
+}
+
+/// Lines become rods, `partner` being of each end the one that it continues in; -1: none.
+void NetworkBuilder::chain(const std::vector<int>& partner) {
   std::vector<std::vector<int>> rods;
   std::vector<std::string> places;
   std::vector<char> taken(network_.rods.size(), 0);
@@ -96,7 +101,7 @@ Result<int> NetworkBuilder::join_in_line() {
       if (reversed) std::ranges::reverse(points);
       if (!chain.empty()) seams_.insert(points.front());
       chain.insert(chain.end(), points.begin() + (chain.empty() ? 0 : 1), points.end());
-      const int next = (*partner)[2 * rod + (reversed ? 0 : 1)];
+      const int next = partner[2 * rod + (reversed ? 0 : 1)];
       if (next < 0) break;
       rod = std::size_t(next / 2);
       reversed = next % 2 == 1;
@@ -104,14 +109,13 @@ Result<int> NetworkBuilder::join_in_line() {
     rods.push_back(std::move(chain));
   };
   for (std::size_t r = 0; r < network_.rods.size(); ++r)
-    if (taken[r] == 0 && ((*partner)[2 * r] < 0 || (*partner)[2 * r + 1] < 0))
-      follow(r, (*partner)[2 * r] >= 0);
+    if (taken[r] == 0 && (partner[2 * r] < 0 || partner[2 * r + 1] < 0))
+      follow(r, partner[2 * r] >= 0);
   for (std::size_t r = 0; r < network_.rods.size(); ++r)
     if (taken[r] == 0) follow(r, false);
   network_.rods = std::move(rods);
   network_.diameters.assign(network_.rods.size(), 0);
   places_ = std::move(places);
-  return met;
 }
 
 void NetworkBuilder::thin_out() {

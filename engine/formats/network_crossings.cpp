@@ -15,7 +15,7 @@
 namespace gridshell::preset {
 namespace {
 
-constexpr std::size_t most_stretches = 40000;  // each is held against each
+constexpr std::size_t most_stretches = 40000;  // each is compared with each
 
 Eigen::Vector3d place_of(const std::vector<double>& point) {
   return {point[0], point[1], point[2]};
@@ -28,7 +28,7 @@ struct Stretch {
   Eigen::Vector3d begin, end;
 
   Eigen::Vector3d way() const { return end - begin; }
-  Eigen::Vector3d at(double share) const { return begin + share * way(); }
+  Eigen::Vector3d at(double fraction) const { return begin + fraction * way(); }
   double length() const { return way().norm(); }
   double low() const { return std::min(begin.x(), end.x()) - one_point_mm; }
   /// Whether they reach over one another along an axis.
@@ -39,14 +39,14 @@ struct Stretch {
   double high() const { return std::max(begin.x(), end.x()) + one_point_mm; }
 };
 
-/// A point to come into a stretch, at a share of its length.
+/// A point to come into a stretch, at a fraction of its length.
 struct Cut {
   std::size_t rod, first;
   double at;
   int point;
 };
 
-/// Where two stretches meet, as shares of their lengths; none: nowhere, or they run alike.
+/// Where two segments meet, as fractions of their lengths; none: nowhere, or they are parallel.
 std::optional<std::pair<double, double>> meeting(const Stretch& a, const Stretch& b, double near) {
   const Eigen::Vector3d way_a = a.way(), way_b = b.way(), apart = b.begin - a.begin;
   const Eigen::Vector3d normal = way_a.cross(way_b);
@@ -92,7 +92,7 @@ void put(std::vector<Cut> cuts, std::vector<std::vector<int>>& rods) {
   }
 }
 
-/// How far two stretches that run alike lie on one another; 0: they do not.
+/// How far two parallel segments lie on one another; 0: they do not.
 double overlap(const Stretch& a, const Stretch& b) {
   constexpr double alike = 1e-6;
   const Eigen::Vector3d along = a.way().normalized();
@@ -103,8 +103,8 @@ double overlap(const Stretch& a, const Stretch& b) {
   return std::min(a.length(), std::max(from, to)) - std::max(0.0, std::min(from, to));
 }
 
-/// The point of a stretch nearest to a place, as a share of its length.
-double nearest_share(const Stretch& stretch, const Eigen::Vector3d& place) {
+/// The point of a segment nearest to a position, as a fraction of its length.
+double nearest_fraction(const Stretch& stretch, const Eigen::Vector3d& place) {
   const Eigen::Vector3d way = stretch.way();
   return std::clamp((place - stretch.begin).dot(way) / way.squaredNorm(), 0.0, 1.0);
 }
@@ -126,7 +126,7 @@ Result<void> NetworkBuilder::join_ends(const std::string& name) {
   const std::vector<int> rods = rods_at_points();
   const std::vector<Stretch> all = stretches_of(network_);
   if (2 * network_.rods.size() * all.size() > most_looked_at)
-    return invalid("{}: holds too many rods for their ends to be joined, join_mm must be 0", name);
+    return invalid("{}: got too many rods for their ends to be joined, expected join_mm = 0", name);
   std::vector<Cut> cuts;
   for (std::size_t r = 0; r < network_.rods.size(); ++r)
     for (const int end : {network_.rods[r].front(), network_.rods[r].back()}) {
@@ -137,14 +137,14 @@ Result<void> NetworkBuilder::join_ends(const std::string& name) {
       double least = near_mm_;
       for (const Stretch& one : all) {
         if (one.low() - near_mm_ > at.x()) break;
-        const double away = (one.at(nearest_share(one, at)) - at).norm();
+        const double away = (one.at(nearest_fraction(one, at)) - at).norm();
         if (one.rod != r && away < least) least = away, nearest = &one;
       }
       if (!nearest) continue;
-      const double share = nearest_share(*nearest, at);
-      const Eigen::Vector3d foot = nearest->at(share);
+      const double fraction = nearest_fraction(*nearest, at);
+      const Eigen::Vector3d foot = nearest->at(fraction);
       place = {foot.x(), foot.y(), foot.z()};
-      cuts.push_back({nearest->rod, nearest->first, share, end});
+      cuts.push_back({nearest->rod, nearest->first, fraction, end});
     }
   put(std::move(cuts), network_.rods);
   return {};
@@ -154,7 +154,7 @@ Result<void> NetworkBuilder::join_crossings(const std::string& name) {
   const std::vector<Stretch> all = stretches_of(network_);
   if (all.size() > most_stretches)
     return invalid(
-        "{}: holds {} stretches of rods, must be at most {} for their crossings to be found", name,
+        "{}: got {} segments of rods, expected at most {} for their crossings to be found", name,
         all.size(), most_stretches);
   std::vector<Cut> cuts;
   for (std::size_t k = 0; k < all.size(); ++k)
@@ -162,9 +162,8 @@ Result<void> NetworkBuilder::join_crossings(const std::string& name) {
       const Stretch &a = all[k], &b = all[m];
       if (!a.near(b, 1, near_mm_) || !a.near(b, 2, near_mm_)) continue;
       if (const double length = overlap(a, b); length > near_mm_)
-        return invalid(
-            "{}: lies on what is drawn at {} over {:.4g} mm, one of them must be left out",
-            places_[std::max(a.rod, b.rod)], places_[std::min(a.rod, b.rod)], length);
+        return invalid("{}: lies on what is drawn at {} over {:.4g} mm, expected one of them",
+                       places_[std::max(a.rod, b.rod)], places_[std::min(a.rod, b.rod)], length);
       if (a.from == b.from || a.from == b.to || a.to == b.from || a.to == b.to) continue;
       const auto met = meeting(a, b, near_mm_);
       if (!met) continue;

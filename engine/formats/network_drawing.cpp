@@ -25,9 +25,13 @@ std::string counted(std::size_t count, const std::string& what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
-/// What every drawing comes to once its lines are in the builder.
+/// What is made of every drawing once its lines are in the builder.
 Result<NetworkData> finish(NetworkBuilder& builder, const std::string& name, std::size_t lines,
-                           FileReport& report) {
+                           const NetworkOptions& options, FileReport& report) {
+  if (options.linkage) {
+    TRY_DO(builder.join_segments(report));
+    return builder.take(name);
+  }
   TRY(met, builder.join_in_line());
   TRY_DO(builder.join_ends(name));
   TRY_DO(builder.join_crossings(name));
@@ -38,7 +42,7 @@ Result<NetworkData> finish(NetworkBuilder& builder, const std::string& name, std
   return builder.take(name);
 }
 
-/// Whether a circle marks a point of the lines: about it, and small beside the drawing.
+/// Whether a circle marks a point of the lines: about it, and small compared with the drawing.
 class Marks {
  public:
   explicit Marks(const std::vector<const DrawnEntity*>& drawn) : drawn_(drawn) {
@@ -64,8 +68,8 @@ class Marks {
                          const Eigen::Vector3d& b) {
     const Eigen::Vector3d way = b - a;
     const double length = way.squaredNorm();
-    const double share = length > 0 ? std::clamp((p - a).dot(way) / length, 0.0, 1.0) : 0;
-    return (a + share * way - p).norm();
+    const double fraction = length > 0 ? std::clamp((p - a).dot(way) / length, 0.0, 1.0) : 0;
+    return (a + fraction * way - p).norm();
   }
 
   const std::vector<const DrawnEntity*>& drawn_;
@@ -168,14 +172,14 @@ class MeshEdges {
 
   Result<void> add_face(const std::vector<long>& vertices, const std::string& at) {
     if (vertices.size() < 3)
-      return invalid("{}: a face of {} vertices, must have 3 or more", at, vertices.size());
+      return invalid("{}: got a face of {} vertices, expected 3 or more", at, vertices.size());
     ++faces_, quads_ += vertices.size() == 4;
     for (std::size_t k = 0; k < vertices.size(); ++k)
       TRY_DO(add_edge({vertices[k], vertices[(k + 1) % vertices.size()]}, at));
     return {};
   }
   Result<void> add_edge(const std::vector<long>& vertices, const std::string& at) {
-    if (vertices.size() != 2) return invalid("{}: must have vertex1 and vertex2", at);
+    if (vertices.size() != 2) return invalid("{}: expected vertex1 and vertex2", at);
     TRY(first, builder_.point(vertices[0], at));
     TRY(second, builder_.point(vertices[1], at));
     if (*first == *second || !known_.insert(std::minmax(*first, *second)).second) return {};
@@ -183,8 +187,10 @@ class MeshEdges {
   }
   std::size_t faces() const { return faces_; }
 
-  /// The network, its edges in line being one rod.
-  Result<NetworkData> take(const std::string& name, FileReport& report) {
+  /// The network, its edges in line being one rod, or as a linkage.
+  Result<NetworkData> take(const std::string& name, const NetworkOptions& options,
+                           FileReport& report) {
+    if (options.linkage) return finish(builder_, name, known_.size(), options, report);
     TRY(met, builder_.join_in_line());
     builder_.thin_out();
     if (faces_ > 0)
@@ -241,13 +247,13 @@ Result<NetworkData> read_network_obj(std::string_view bytes, const std::string& 
          [&](const auto& face, const auto& at) { return edges.add_face(face, at); }});
     if (!read) return tl::unexpected(read.error());
     report.text += unit_text(options, "OBJ") + "; ";
-    return edges.take(name, report);
+    return edges.take(name, options, report);
   }
   LeftOut left_out;
   for (const auto& [kind, count] : *others)
     for (int k = 0; k < count; ++k) left_out.add("", kind == "f" ? "face" : "point");
   report.text += unit_text(options, "OBJ") + left_out.text() + "; ";
-  return finish(builder, name, lines, report);
+  return finish(builder, name, lines, options, report);
 }
 
 Result<NetworkData> read_network_mesh(std::string_view bytes, const std::string& name,
@@ -274,7 +280,7 @@ Result<NetworkData> read_network_mesh(std::string_view bytes, const std::string&
                                          }});
   if (!read) return tl::unexpected(read.error());
   report.text += unit_text(options, ply ? "PLY" : "OFF") + "; ";
-  return edges.take(name, report);
+  return edges.take(name, options, report);
 }
 
 Result<PlanDrawing> read_outline_dxf(std::string_view bytes, const std::string& name,
@@ -304,7 +310,7 @@ Result<NetworkData> read_network_dxf(std::string_view bytes, const std::string& 
   const double unit = unit_of(*drawing, *rods, options, report);
   report.text += left_out.text() + "; ";
   if (rods->empty())
-    return invalid("{}: holds no rods, must have one at least{}", name, left_out.text());
+    return invalid("{}: got no rods, expected at least one{}", name, left_out.text());
   NetworkBuilder builder(options.join_mm);
   for (const DrawnEntity* one : *rods) {
     const auto place = fmt::format("{}:{}", name, one->line);
@@ -319,7 +325,7 @@ Result<NetworkData> read_network_dxf(std::string_view bytes, const std::string& 
       points.push_back(points.front());
     TRY_DO(builder.add_rod(std::move(points), 0, place));
   }
-  return finish(builder, name, rods->size(), report);
+  return finish(builder, name, rods->size(), options, report);
 }
 
 }  // namespace gridshell::preset

@@ -13,12 +13,12 @@ namespace {
 constexpr std::size_t most = 100000, most_entries = 1000000;
 constexpr double largest_mm = 1e9;
 
-std::string coordinates_fault(const std::vector<double>& xyz) {
+std::string coordinates_error(const std::vector<double>& xyz) {
   if (xyz.size() < 2 || xyz.size() > 3)
-    return fmt::format("a point of {} coordinates, must be [x, y] or [x, y, z]", xyz.size());
+    return fmt::format("got a point of {} coordinates, expected [x, y] or [x, y, z]", xyz.size());
   for (const double value : xyz)
     if (!(std::abs(value) <= largest_mm))
-      return "a coordinate that is no number of at most 1e9, must be mm";
+      return "got a coordinate that is no number of at most 1e9, expected mm";
   return "";
 }
 
@@ -43,8 +43,8 @@ int NetworkBuilder::known(const std::vector<double>& xyz) const {
 }
 
 Result<void> NetworkBuilder::add_point(const std::vector<double>& xyz, const std::string& at) {
-  if (const auto wrong = coordinates_fault(xyz); !wrong.empty()) return invalid(at + ": " + wrong);
-  if (points() == most) return invalid("{}: must be at most {} points", at, most);
+  if (const auto wrong = coordinates_error(xyz); !wrong.empty()) return invalid(at + ": " + wrong);
+  if (points() == most) return invalid("{}: expected at most {} points", at, most);
   const std::vector<double> place{xyz[0], xyz[1], xyz.size() == 3 ? xyz[2] : 0};
   const int number = int(points()), same = known(place);
   same_as_.push_back(same >= 0 ? same : number);
@@ -57,7 +57,7 @@ Result<void> NetworkBuilder::add_point(const std::vector<double>& xyz, const std
 }
 
 Result<int> NetworkBuilder::place(const std::vector<double>& xyz, const std::string& at) {
-  if (const auto wrong = coordinates_fault(xyz); !wrong.empty()) return invalid(at + ": " + wrong);
+  if (const auto wrong = coordinates_error(xyz); !wrong.empty()) return invalid(at + ": " + wrong);
   const int same = known({xyz[0], xyz[1], xyz.size() == 3 ? xyz[2] : 0});
   if (same >= 0) return same;
   TRY_DO(add_point(xyz, at));
@@ -67,7 +67,7 @@ Result<int> NetworkBuilder::place(const std::vector<double>& xyz, const std::str
 Result<int> NetworkBuilder::point(long number, const std::string& at) const {
   if (number < 0 || number >= long(points()))
     return invalid(points() == 0 ? fmt::format("{}: point {}, and there are none", at, number)
-                                 : fmt::format("{}: point {}, must be from 0 to {}", at, number,
+                                 : fmt::format("{}: got point {}, expected 0 to {}", at, number,
                                                points() - 1));
   return same_as_[std::size_t(number)];
 }
@@ -76,15 +76,15 @@ Result<void> NetworkBuilder::add_rod(std::vector<int> points, double diameter_mm
                                      const std::string& at) {
   if (joins_near()) points.erase(std::unique(points.begin(), points.end()), points.end());
   if (std::ranges::count(points, points.empty() ? 0 : points.front()) == long(points.size()))
-    return invalid(at + ": a rod of one point, must have at least two, apart");
+    return invalid(at + ": got a rod of one point, expected at least two, at a distance");
   if (const auto same = std::ranges::adjacent_find(points); same != points.end())
     return invalid(
-        "{}: a stretch of no length: the points of a rod must lie apart, and point {} "
-        "follows itself, or another point at its place",
+        "{}: got a segment of no length, expected points at a distance, and point {} follows "
+        "itself, or another point at its position",
         at, *same);
   entries_ += points.size();
   if (network_.rods.size() == most || entries_ > most_entries)
-    return invalid("{}: must be at most {} rods through {} points", at, most, most_entries);
+    return invalid("{}: expected at most {} rods through {} points", at, most, most_entries);
   diameters_ = diameters_ || diameter_mm > 0;
   network_.rods.push_back(std::move(points));
   network_.diameters.push_back(diameter_mm);
@@ -93,94 +93,95 @@ Result<void> NetworkBuilder::add_rod(std::vector<int> points, double diameter_mm
 }
 
 Result<NetworkData> NetworkBuilder::take(const std::string& name) {
-  if (network_.rods.empty()) return invalid(name + ": holds no rods, must have one at least");
+  if (network_.rods.empty()) return invalid(name + ": got no rods, expected at least one");
   if (!diameters_) network_.diameters.clear();
-  if (const auto wrong = network_fault(network_); !wrong.empty())
+  if (const auto wrong = network_error(network_); !wrong.empty())
     return invalid(name + ": " + wrong);
   return std::move(network_);
 }
 
-std::string spring_fault(const std::vector<double>& k) {
+std::string spring_error(const std::vector<double>& k) {
   bool any = false;
   for (const double one : k) {
     if (!(one == 0 || (one >= softest_spring && one <= stiffest_spring)))
-      return fmt::format("a spring of {:g} N/mm, must be 0 or from {:g} to {:g}", one,
+      return fmt::format("got a spring of {:g} N/mm, expected 0 or from {:g} to {:g}", one,
                          softest_spring, stiffest_spring);
     any = any || one > 0;
   }
-  return any ? "" : "a spring of 0 N/mm holds nothing, an end that is free has \"to_mm\": \"free\"";
+  return any ? "" : "a spring of 0 N/mm supports nothing, a free end has \"to_mm\": \"free\"";
 }
 
-std::string network_fault(const NetworkData& network) {
+std::string network_error(const NetworkData& network) {
   const std::size_t points = network.points.size(), rods = network.rods.size();
   if (rods == 0 || rods > most || points > most)
-    return fmt::format("holds {} points and {} rods, must be from 1 to {}", points, rods, most);
+    return fmt::format("got {} points and {} rods, expected 1 to {}", points, rods, most);
   for (const auto& point : network.points)
-    if (point.size() != 3 || !coordinates_fault(point).empty())
-      return "points_mm must be points [x, y, z], mm";
+    if (point.size() != 3 || !coordinates_error(point).empty())
+      return "points_mm: expected points [x, y, z], mm";
   const auto there = [&](double number) {
     return number >= 0 && number < double(points) && number == std::floor(number);
   };
   for (std::size_t r = 0; r < rods; ++r) {
-    if (network.rods[r].size() < 2) return fmt::format("rods[{}] must have at least two points", r);
+    if (network.rods[r].size() < 2)
+      return fmt::format("rods[{}]: got one point, expected at least two", r);
     for (const int point : network.rods[r])
       if (!there(point)) return fmt::format("rods[{}] names point {} of {}", r, point, points);
   }
   if (!network.diameters.empty() && network.diameters.size() != rods)
-    return fmt::format("holds {} diameters_mm, must be one for each of {} rods",
+    return fmt::format("got {} diameters_mm, expected one for each of {} rods",
                        network.diameters.size(), rods);
   for (std::size_t r = 0; r < network.diameters.size(); ++r)
     if (const double diameter = network.diameters[r];
         diameter != 0 && !(diameter >= 1e-6 && diameter <= 1e6))
-      return fmt::format("rods[{}]: a diameter of {:g} mm, must be from 1e-6 to 1e6", r, diameter);
+      return fmt::format("rods[{}]: got a diameter of {:g} mm, expected 1e-6 to 1e6", r, diameter);
   const auto of_rod = [](const RodValue& value) { return value.rod; };
   if (!std::ranges::is_sorted(network.own, {}, of_rod) ||
       (rods > 0 && !network.own.empty() && network.own.back().rod >= int(rods)))
-    return "own must be rows [rod, key, value], in the order of the rods";
+    return "own: expected rows [rod, key, value], in the order of the rods";
   std::set<double> named;
   for (const auto& row : network.supports) {
     if (row.size() != 1 && row.size() != 4)
-      return "supports_mm must be rows [point] or [point, x, y, z]";
+      return "supports_mm: expected rows [point] or [point, x, y, z]";
     if (!there(row[0])) return fmt::format("a support at point {} of {}", row[0], points);
     if (!named.insert(row[0]).second)
-      return fmt::format("point {} is named as a support twice, must be once", row[0]);
+      return fmt::format("got point {} as a support twice, expected once", row[0]);
   }
   std::set<double> sprung;
   for (const auto& row : network.springs) {
-    if (row.size() != 4) return "springs_N_per_mm must be rows [point, kx, ky, kz]";
+    if (row.size() != 4) return "springs_N_per_mm: expected rows [point, kx, ky, kz]";
     if (!named.contains(row[0]) || !sprung.insert(row[0]).second)
-      return fmt::format("a spring at point {}, must be one of a support", row[0]);
-    if (const auto wrong = spring_fault({row[1], row[2], row[3]}); !wrong.empty()) return wrong;
+      return fmt::format("got a spring at point {}, expected a support", row[0]);
+    if (const auto wrong = spring_error({row[1], row[2], row[3]}); !wrong.empty()) return wrong;
   }
   std::set<double> ruled;
   for (const auto& row : network.joint_laws) {
     if ((row.size() != 3 && row.size() != 4) || !(row[0] == every_joint || there(row[0])) ||
         !(row[1] <= 1e9 && row[2] <= 1e9 && std::abs(row.back()) <= 1e9))
-      return "joint_laws must be rows [point (-1: all others), shear_Nmm, twist_Nmm], below 0: "
+      return "joint_laws: expected rows [point (-1: all others), shear_Nmm, twist_Nmm], below 0: "
              "rigid, and may end "
              "with "
              "an eccentricity_mm";
     if (!ruled.insert(row[0]).second)
       return row[0] == every_joint
-                 ? std::string("all joints have two laws, must have one")
-                 : fmt::format("the joint at point {} has two laws, must have one", row[0]);
+                 ? std::string("got two laws for all joints, expected one")
+                 : fmt::format("got two laws for the joint at point {}, expected one", row[0]);
   }
   std::set<std::pair<double, double>> held;
   for (const auto& row : network.holds) {
     if (row.size() != 3 || !(row[1] == 0 || row[1] == 1) ||
         !(row[2] == 0 || row[2] == 1 || row[2] == 2))
-      return "holds must be rows [rod, 0 (begin) or 1 (end), 0 (pinned), 1 (tangent) or 2 "
+      return "`holds`: expected rows [rod, 0 (begin) or 1 (end), 0 (pinned), 1 (tangent) or 2 "
              "(clamped)]";
     if (!(row[0] >= 0 && row[0] < double(rods) && row[0] == std::floor(row[0])))
-      return fmt::format("a hold of rod {:g} of {}", row[0], rods);
+      return fmt::format("a constraint of rod {:g} of {}", row[0], rods);
     if (!held.insert({row[0], row[1]}).second)
-      return fmt::format("rods[{}] has two holds at one end", row[0]);
+      return fmt::format("rods[{}] has two constraints at one end", row[0]);
   }
   std::set<int> freed;
   for (const int point : network.free) {
     if (!there(point)) return fmt::format("free names point {} of {}", point, points);
     if (!freed.insert(point).second)
-      return fmt::format("point {} is named as free twice, must be once", point);
+      return fmt::format("got point {} as free twice, expected once", point);
   }
   return "";
 }
@@ -195,13 +196,14 @@ Result<NetworkData> read_network(std::string_view bytes, const std::string& name
     if (ending == ".dxf") return read_network_dxf(bytes, name, options, found);
     if (ending == ".ply" || ending == ".off") return read_network_mesh(bytes, name, options, found);
     return invalid(
-        "{}: its name must end in .json (points, rods and supports), .obj or .dxf (rods), .ply or "
+        "{}: expected a name that ends in .json (points, rods and supports), .obj or .dxf (rods), "
+        ".ply or "
         ".off (a mesh whose edges are rods)",
         name);
   };
   auto network = read();
   if (!network || !report) return network;
-  report_network(*network, found);
+  report_network(*network, options, found);
   found.text = name + ": " + found.text;
   *report = std::move(found);
   return network;

@@ -74,8 +74,8 @@ Result<Document> parse(std::string_view bytes, const std::string& name) {
       const auto here = value.get<std::string>();
       if (depth == 1) key = here;
       if (twice.empty() && !keys[depth].insert(here).second)
-        twice = fmt::format("{}:{}: key '{}' stands twice in one object, must stand once", name,
-                            line, here.substr(0, longest_key));
+        twice = fmt::format("{}:{}: got key '{}' twice in one object, expected it once", name, line,
+                            here.substr(0, longest_key));
     }
     const bool begins =
         event == Event::array_start || event == Event::object_start || event == Event::value;
@@ -86,12 +86,13 @@ Result<Document> parse(std::string_view bytes, const std::string& name) {
     document.json = Json::parse(CountingIterator(bytes.data(), &line),
                                 CountingIterator(bytes.data() + bytes.size(), &line), seen);
   } catch (const Json::exception& error) {
-    return invalid("{}:{}: {}", name, line,
-                   bytes.empty() ? "is empty, must be JSON" : "is no JSON here");
+    return invalid(
+        "{}:{}: {}", name, line,
+        bytes.empty() ? "got an empty file, expected JSON" : "got no JSON at this position");
   }
   if (!twice.empty()) return invalid(twice);
   if (!document.json.is_object())
-    return invalid(name + ":1: must be an object {\"points_mm\": ..., \"rods\": ...}");
+    return invalid(name + ":1: expected an object {\"points_mm\": ..., \"rods\": ...}");
   return document;
 }
 
@@ -109,27 +110,28 @@ std::optional<std::vector<double>> numbers_in(const Json& value) {
 class Reader {
  public:
   Reader(const Document& document, const std::string& name, double join_mm)
-      : document_(document), name_(name), draft_(join_mm) {}
+      : document_(document), name_(name), builder_(join_mm) {}
 
   Result<NetworkData> read() {
     const std::vector<std::string> known{"points_mm", "rods", "joints", "supports", "law"};
     for (const auto& [key, value] : document_.json.items()) {
       if (std::ranges::find(known, key) == known.end())
-        return invalid("{}: unknown key '{}', must be points_mm, rods, joints, supports or law{}",
-                       name_, key.substr(0, 40),
-                       std::ranges::count(known, key + "_mm") > 0
-                           ? fmt::format("; did you mean '{}_mm'?", key)
-                           : did_you_mean(key, known));
-      if (key != "law" && !value.is_array()) return invalid("{}: '{}' must be a list", name_, key);
+        return invalid(
+            "{}: got an unknown key '{}', expected points_mm, rods, joints, supports or law{}",
+            name_, key.substr(0, 40),
+            std::ranges::count(known, key + "_mm") > 0 ? fmt::format("; did you mean '{}_mm'?", key)
+                                                       : did_you_mean(key, known));
+      if (key != "law" && !value.is_array())
+        return invalid("{}: '{}': expected a list", name_, key);
     }
     return each("points_mm", &Reader::point)
         .and_then([&] { return each("rods", &Reader::rod); })
         .and_then([&] { return each("joints", &Reader::joint); })
         .and_then([&] { return each("supports", &Reader::support); })
-        .and_then([&] { return draft_.join_listed(); })
-        .and_then([&] { return draft_.join_ends(name_); })
+        .and_then([&] { return builder_.join_listed(); })
+        .and_then([&] { return builder_.join_ends(name_); })
         .and_then([&] { return network_law(); })
-        .and_then([&] { return draft_.take(name_); });
+        .and_then([&] { return builder_.take(name_); });
   }
 
  private:
@@ -149,30 +151,42 @@ class Reader {
   tl::unexpected<Error> wrong(const std::string& what) const {
     return invalid("{}: {}", at_, what);
   }
+  static std::string shown(const Json& value) {
+    constexpr std::size_t longest = 60;
+    const std::string text = value.dump(-1, ' ', true);
+    return text.size() <= longest ? text : text.substr(0, longest - 3) + "...";
+  }
+  tl::unexpected<Error> unlike(const Json& value, const std::string& expected) const {
+    return wrong("got " + shown(value) + ", expected " + expected);
+  }
+  tl::unexpected<Error> unlike(const std::string& key, const Json& value,
+                               const std::string& expected) const {
+    return wrong(key + ": got " + shown(value) + ", expected " + expected);
+  }
 
   Result<void> point(const Json& value) {
     const auto xyz = numbers_in(value);
-    if (!xyz) return wrong("must be a point [x, y] or [x, y, z], mm");
-    return draft_.add_point(*xyz, at_);
+    if (!xyz) return unlike(value, "a point [x, y] or [x, y, z], mm");
+    return builder_.add_point(*xyz, at_);
   }
 
-  /// The number of a point, or its place. Who names one that lies where another does may not know
-  /// that it is the same, but in a list of joints.
+  /// The number of a point, or that of a point at a position. Who names one that lies where another
+  /// does may not know that it is the same, but in a list of joints.
   Result<int> point_of(const Json& value, bool in_joint = false) {
     if (value.is_number_integer()) {
-      if (value.is_number_unsigned() && value.get<std::uint64_t>() > draft_.points())
-        return wrong("names a point that is not there");
+      if (value.is_number_unsigned() && value.get<std::uint64_t>() > builder_.points())
+        return wrong("got a point that is not in points_mm");
       const long number = value.get<long>();
-      TRY(point, draft_.point(number, at_));
-      if (*point != number && !in_joint && !is_listed(value) && !draft_.joins_near())
+      TRY(point, builder_.point(number, at_));
+      if (*point != number && !in_joint && !is_listed(value) && !builder_.joins_near())
         return wrong(fmt::format(
-            "point {} lies where point {} does, must be named by that number, or moved away",
+            "got point {} at the position of point {}, expected that number, or another position",
             number, *point));
       return *point;
     }
     const auto xyz = numbers_in(value);
-    if (!xyz) return wrong("a point must be its number, or its place [x, y] or [x, y, z]");
-    return draft_.place(*xyz, at_);
+    if (!xyz) return unlike(value, "the number of a point, or its position [x, y] or [x, y, z]");
+    return builder_.place(*xyz, at_);
   }
 
   /// Whether "joints" lists a point by its number.
@@ -198,8 +212,8 @@ class Reader {
           const auto kind =
               inner.is_string() ? find_word<EndKind>(inner.get<std::string>()) : std::nullopt;
           if (!kind)
-            return wrong(fmt::format("\"{}\" must be \"{}\", how the rod is held there", key,
-                                     fmt::join(all_words<EndKind>(), "\", \"")));
+            return unlike(key, inner,
+                          fmt::format("\"{}\"", fmt::join(all_words<EndKind>(), "\", \"")));
           holds.emplace_back(key == "end", *kind);
         } else if (key == "diameter_mm" && inner.is_number() && inner.get<double>() > 0) {
           diameter = inner.get<double>();
@@ -209,22 +223,22 @@ class Reader {
           own.emplace_back(key.substr(0, longest_key),
                            inner.is_boolean() ? double(inner.get<bool>()) : inner.get<double>());
         } else {
-          return wrong(
-              "must be {\"points\": list, \"diameter_mm\": number above 0} and may have "
-              "other keys of [rod], each a number (as_drawn: true or false), and \"begin\" and "
-              "\"end\"");
+          return unlike(key, inner,
+                        "{\"points\": list, \"diameter_mm\": number above 0}, in addition "
+                        "\"begin\", \"end\" and keys of [rod], each a number (as_drawn: true or "
+                        "false)");
         }
       }
     }
-    if (!list->is_array()) return wrong("must be a list of points");
+    if (!list->is_array()) return unlike(*list, "a list of points");
     std::vector<int> points;
     for (const Json& item : *list) {
       TRY(point, point_of(item));
       points.push_back(*point);
     }
-    TRY_DO(draft_.add_rod(std::move(points), diameter, at_));
-    for (const auto& [key, number] : own) draft_.add_own(key, number);
-    for (const auto& [end, kind] : holds) draft_.add_hold(end, kind);
+    TRY_DO(builder_.add_rod(std::move(points), diameter, at_));
+    for (const auto& [key, number] : own) builder_.add_own(key, number);
+    for (const auto& [end, kind] : holds) builder_.add_hold(end, kind);
     return {};
   }
 
@@ -237,17 +251,17 @@ class Reader {
   /// Points that are to be one: the first of them.
   Result<int> merged(const Json& value) {
     if (!value.is_array() || value.size() < 2 || value.size() > most_at_a_joint)
-      return wrong("must be a list of 2 to 100 points, by number or place");
+      return unlike(value, "a list of 2 to 100 points, by number or position");
     std::vector<int> points;
     for (std::size_t k = 0; k < value.size(); ++k) {
       TRY(point, point_of(value[k], true));
       if (std::find(value.begin(), value.begin() + std::ptrdiff_t(k), value[k]) !=
           value.begin() + std::ptrdiff_t(k))
-        return wrong("lists a point twice, must list each once");
+        return wrong("got a point twice, expected each point once");
       points.push_back(*point);
     }
     const int first = points.front();
-    TRY_DO(draft_.add_joint(std::move(points), at_));
+    TRY_DO(builder_.add_joint(std::move(points), at_));
     return first;
   }
 
@@ -259,9 +273,9 @@ class Reader {
     const Json value = law->is_object() ? *law : Json{{"law", *law}};
     if (value.contains("point") || value.contains("points") || value.contains("eccentricity_mm"))
       return wrong(
-          "is that of all joints, must have \"law\", \"shear_Nmm\" and \"twist_Nmm\" alone");
+          "got the law of all joints, expected \"law\", \"shear_Nmm\" and \"twist_Nmm\" alone");
     TRY(row, law_of(value, every_joint));
-    draft_.add_law(std::move(*row));
+    builder_.add_law(std::move(*row));
     return {};
   }
 
@@ -274,22 +288,22 @@ class Reader {
     const auto law =
         text != value.end() && text->is_string() ? laws.find(text->get<std::string>()) : laws.end();
     if (law == laws.end())
-      return wrong("\"law\" must be \"free\", \"hinge\", \"rigid\" or \"spring\"");
+      return unlike(value, "\"law\" of \"free\", \"hinge\", \"rigid\" or \"spring\"");
     auto [shear, twist] = law->second;
     for (const auto& [key, inner] : value.items()) {
       if (key == "law" || key == "point" || key == "points") continue;
       if (key == "eccentricity_mm") {
         if (!inner.is_number() || !(std::abs(inner.get<double>()) <= 1000))
-          return wrong("eccentricity_mm must be a number from -1000 to 1000");
+          return unlike(key, inner, "a number from -1000 to 1000");
         continue;
       }
       const bool stiffness = key == "shear_Nmm" || key == "twist_Nmm";
       if (!stiffness || law->first != "spring")
-        return wrong(
-            "must be {\"point\" or \"points\", \"law\"}, of a \"spring\" with "
-            "\"shear_Nmm\" and \"twist_Nmm\", and may have \"eccentricity_mm\"");
+        return unlike(value,
+                      "{\"point\" or \"points\", \"law\"}, of a \"spring\" with "
+                      "\"shear_Nmm\" and \"twist_Nmm\", and may have \"eccentricity_mm\"");
       if (!inner.is_number() || !(inner.get<double>() >= 0 && inner.get<double>() <= 1e9))
-        return wrong("shear_Nmm and twist_Nmm must be numbers from 0 to 1e9");
+        return unlike(key, inner, "a number from 0 to 1e9");
       (key == "shear_Nmm" ? shear : twist) = inner.get<double>();
     }
     std::vector<double> row{point, shear, twist};
@@ -300,53 +314,53 @@ class Reader {
   Result<void> joint_with_law(const Json& value) {
     TRY(row, law_of(value, 0));
     if (value.contains("point") == value.contains("points"))
-      return wrong("a law must be of a \"point\", or of \"points\" that are one joint");
+      return wrong("got a law of no joint, expected a \"point\", or \"points\" that are one joint");
     TRY(point, value.contains("point") ? point_of(value["point"]) : merged(value["points"]));
     row->front() = double(*point);
-    draft_.add_law(std::move(*row));
+    builder_.add_law(std::move(*row));
     return {};
   }
 
   Result<void> support(const Json& value) {
     if (!value.is_object() || !value.contains("point"))
-      return wrong("must be {\"point\": number, \"to_mm\": [x, y, z] or \"free\"}");
+      return unlike(value, "{\"point\": number, \"to_mm\": [x, y, z] or \"free\"}");
     TRY(point, point_of(value["point"]));
     for (const auto& [key, inner] : value.items())
       if (key != "point" && key != "to_mm" && key != "spring_N_per_mm")
-        return wrong(
-            "must be {\"point\": number, \"to_mm\": [x, y, z], \"spring_N_per_mm\": number}");
+        return unlike(value,
+                      "{\"point\": number, \"to_mm\": [x, y, z], \"spring_N_per_mm\": number}");
     if (value.contains("to_mm") && value["to_mm"] == "free") {
       if (value.contains("spring_N_per_mm"))
         return wrong("an end that is free has no spring_N_per_mm");
-      draft_.add_free(*point);
+      builder_.add_free(*point);
       return {};
     }
     std::vector<double> row{double(*point)};
     if (value.contains("to_mm")) {
       const auto to = numbers_in(value["to_mm"]);
-      if (!to || to->size() != 3) return wrong("to_mm must be [x, y, z], or \"free\"");
+      if (!to || to->size() != 3) return unlike("to_mm", value["to_mm"], "[x, y, z], or \"free\"");
       for (const double one : *to)
-        if (!(std::abs(one) <= 1e9)) return wrong("to_mm must be at most 1e9");
+        if (!(std::abs(one) <= 1e9)) return unlike("to_mm", value["to_mm"], "at most 1e9");
       row.insert(row.end(), to->begin(), to->end());
     }
-    draft_.add_support(std::move(row));
+    builder_.add_support(std::move(row));
     return value.contains("spring_N_per_mm") ? spring(*point, value["spring_N_per_mm"])
                                              : Result<void>();
   }
 
-  /// The same along x, y and z, or one along each.
+  /// The stiffness: one for x, y and z, or one along each.
   Result<void> spring(int point, const Json& value) {
     const auto k = value.is_number() ? std::vector<double>(3, value.get<double>())
                                      : numbers_in(value).value_or(std::vector<double>());
-    if (k.size() != 3) return wrong("spring_N_per_mm must be a number, or [kx, ky, kz]");
-    if (const auto fault = spring_fault(k); !fault.empty()) return wrong(fault);
-    draft_.add_spring(point, k);
+    if (k.size() != 3) return unlike("spring_N_per_mm", value, "a number, or [kx, ky, kz]");
+    if (const auto fault = spring_error(k); !fault.empty()) return wrong(fault);
+    builder_.add_spring(point, k);
     return {};
   }
 
   const Document& document_;
   std::string name_, at_;
-  NetworkBuilder draft_;
+  NetworkBuilder builder_;
 };
 
 }  // namespace
@@ -354,7 +368,10 @@ class Reader {
 Result<NetworkData> read_network_json(std::string_view bytes, const std::string& name,
                                       const NetworkOptions& options) {
   if (options.unit_mm > 0 && options.unit_mm != 1)
-    return invalid("{}: its points are points_mm: file_unit must be \"mm\", or left out", name);
+    return invalid("{}: its points are points_mm, expected file_unit \"mm\" or none", name);
+  if (options.linkage)
+    return invalid("{}: [footprint] linkage: got true, expected none: the file lists its rods",
+                   name);
   std::string storage;
   TRY(document, parse(plain_text(bytes, storage), name));
   return Reader(*document, name, options.join_mm).read();

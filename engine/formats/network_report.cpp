@@ -12,13 +12,6 @@
 #include "engine/formats/network_file.h"
 
 namespace gridshell::preset {
-namespace {
-
-/// How often rods go through a point, and how often they end there.
-struct PointUse {
-  int passes = 0, ends = 0;
-};
-
 std::vector<PointUse> uses_of(const NetworkData& network) {
   std::vector<PointUse> uses(network.points.size());
   for (const std::vector<int>& rod : network.rods) {
@@ -30,6 +23,8 @@ std::vector<PointUse> uses_of(const NetworkData& network) {
   }
   return uses;
 }
+
+namespace {
 
 /// Distances of neighbouring joints and ends along the rods.
 std::vector<double> segments_of(const NetworkData& network, const std::vector<PointUse>& uses) {
@@ -108,7 +103,7 @@ class NearPoints {
     return std::ranges::any_of(of_a, [&](int rod) { return std::ranges::count(of_b, rod) > 0; });
   }
 
-  /// Whether all rods at two points run alike beside one another, as laths in a bundle do.
+  /// Whether all rods at two points are parallel neighbours, as laths in a bundle are.
   bool pass(int a, int b) const {
     // whom the file lets go is meant to be free
     if (std::ranges::count(network_.free, a) + std::ranges::count(network_.free, b) > 0)
@@ -141,7 +136,7 @@ class NearPoints {
     if (ends.size() * stretches > most) return;
     for (const auto& [end, own] : ends) {
       const std::vector<int>& rod = network_.rods[std::size_t(own)];
-      // a rod that is joined right beside the end is one that it passes
+      // a rod that is joined directly next to the end is one that it passes
       const int beside = end == rod.front() ? rod[1] : rod[rod.size() - 2];
       const Eigen::Vector3d at = place_of(network_, end);
       double least = near_;
@@ -156,8 +151,8 @@ class NearPoints {
 
   double distance(const Eigen::Vector3d& at, int from, int to) const {
     const Eigen::Vector3d a = place_of(network_, from), way = place_of(network_, to) - a;
-    const double share = std::clamp((at - a).dot(way) / way.squaredNorm(), 0.0, 1.0);
-    return (a + share * way - at).norm();
+    const double fraction = std::clamp((at - a).dot(way) / way.squaredNorm(), 0.0, 1.0);
+    return (a + fraction * way - at).norm();
   }
 
   const NetworkData& network_;
@@ -180,9 +175,10 @@ double spacing_of(const NetworkData& network) {
   return *middle;
 }
 
-void report_network(const NetworkData& network, FileReport& report) {
+void report_network(const NetworkData& network, const NetworkOptions& options, FileReport& report) {
   const std::vector<PointUse> uses = uses_of(network);
-  std::set<int> free(network.free.begin(), network.free.end()), named, laws;
+  std::set<int> free(network.free.begin(), network.free.end()), named, laws, sprung;
+  for (const auto& row : network.springs) sprung.insert(int(row[0]));
   for (const auto& row : network.supports) named.insert(int(row[0]));
   for (const auto& row : network.joint_laws) laws.insert(int(row[0]));
   std::size_t joints = 0, supports = 0, free_ends = 0, together = 0;
@@ -191,7 +187,8 @@ void report_network(const NetworkData& network, FileReport& report) {
     const auto [passes, ends] = uses[std::size_t(point)];
     if (passes + ends == 0) continue;
     box.extend(place_of(network, point));
-    const bool hinged = free.contains(point) || (laws.contains(point) && !named.contains(point));
+    const bool hinged = free.contains(point) || sprung.contains(point) ||
+                        (laws.contains(point) && !named.contains(point));
     if (passes + ends > 1 && (passes > 0 || hinged)) ++joints;
     if (named.contains(point) || (passes == 0 && !hinged)) ++supports;
     if (passes == 0 && ends == 1 && free.contains(point)) ++free_ends;
@@ -204,14 +201,14 @@ void report_network(const NetworkData& network, FileReport& report) {
                              size.y(), size.z() > 0 ? fmt::format(" x {:.6g}", size.z()) : "");
   if (together > 0)
     report.text +=
-        fmt::format("; at {} rods end together and are held", counted(together, "support"));
+        fmt::format("; at {} rods end together and are fixed", counted(together, "support"));
   if (size.y() < 1e-6 * size.x() && size.z() > 1e-3 * size.x())
-    report.notes.push_back(fmt::format(
-        "all rods stand upright in the plane y = {}: a drawing whose y is up? Its y and z must be "
-        "exchanged",
-        box.min().y()));
+    report.notes.push_back(
+        fmt::format("all rods lie upright in the plane y = {}: is y up in this drawing? Then "
+                    "exchange y and z",
+                    box.min().y()));
   const double near = 0.1 * spacing_of(network);
-  if (!(near > 0)) return;
+  if (!(near > 0) || options.linkage) return;
   const auto pairs = NearPoints(network, near).find();
   if (pairs.empty()) return;
   const auto widest = std::ranges::max_element(pairs, {}, &NearPair::apart_mm);

@@ -54,7 +54,7 @@ Result<std::vector<double>> obj_coordinates(const std::vector<std::string_view>&
     if (!value) break;
   }
   if (xyz.size() == 3) return xyz;
-  return invalid("{}: a vertex must have three numbers, v x y z{}", place,
+  return invalid("{}: expected a vertex of three numbers, v x y z{}", place,
                  commas ? ", with decimal points" : "");
 }
 
@@ -95,12 +95,12 @@ struct Header {
 Result<Property> property_of(const std::vector<std::string_view>& words, const std::string& place) {
   const bool list = words.size() == 5 && words[1] == "list";
   if (!list && words.size() != 3)
-    return invalid(place + ": must be \"property TYPE NAME\" or \"property list TYPE TYPE NAME\"");
+    return invalid(place + ": expected \"property TYPE NAME\" or \"property list TYPE TYPE NAME\"");
   Property property{std::string(words.back()), std::nullopt, Number::float32};
   const auto value = number_type(words[words.size() - 2]);
   if (list) property.count = number_type(words[2]);
   if (!value || (list && !property.count))
-    return invalid(place + ": names a type that PLY does not have");
+    return invalid(place + ": got a type that PLY does not have");
   property.value = *value;
   return property;
 }
@@ -114,12 +114,12 @@ Result<Header> read_header(std::string_view& bytes, const std::string& name) {
     const auto place = fmt::format("{}:{}", name, ++header.lines);
     if (header.lines == 1) {
       if (words.size() == 1 && words[0] == "ply") continue;
-      return invalid(place + ": no PLY, must begin with \"ply\"");
+      return invalid(place + ": got no PLY, expected \"ply\" as the first line");
     }
     if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
     if (words[0] == "end_header") {
       if (formed) return header;
-      return invalid(place + ": the header names no format");
+      return invalid(place + ": got a header without a format");
     }
     if (words[0] == "format" && words.size() == 3) {
       formed = true;
@@ -146,7 +146,7 @@ Result<Header> read_header(std::string_view& bytes, const std::string& name) {
       header.elements.back().properties.push_back(std::move(*property));
       continue;
     }
-    return invalid(place + ": is no line of a PLY header");
+    return invalid(place + ": got no line of a PLY header");
   }
   return invalid(name + ": ends within its header");
 }
@@ -241,7 +241,8 @@ Result<PlyItem> read_item(const Element& element, std::size_t number, Numbers& n
   for (const Property& property : element.properties) {
     const auto values = values_of(property, numbers);
     if (!values)
-      return invalid(item.place(name) + ": the file ends there, or what stands there is no number");
+      return invalid(item.place(name) +
+                     ": got the end of the file or no number, expected a number");
     if (!property.count && property.name.size() == 1 && property.name[0] >= 'x' &&
         property.name[0] <= 'z') {
       item.xyz[property.name[0] - 'x'] = values->front();
@@ -273,7 +274,7 @@ Result<std::map<std::string, int>> read_obj_lines(std::string_view bytes, const 
     if (words.empty()) continue;
     const auto place = fmt::format("{}:{}", name, first);
     if (words[0] == "curv" || words[0] == "curv2" || words[0] == "surf")
-      return invalid("{}: '{}', a free-form {}, must be {}", place, words[0],
+      return invalid("{}: got '{}', a free-form {}, expected {}", place, words[0],
                      words[0] == "surf" ? "surface" : "curve",
                      words[0] == "surf" ? "polygons (f)" : "a polyline (l)");
     if (words[0] == "v") {
@@ -289,7 +290,8 @@ Result<std::map<std::string, int>> read_obj_lines(std::string_view bytes, const 
     for (std::size_t k = 1; k < words.size(); ++k) {
       const auto corner = obj_vertex(words[k], vertices);
       if (!corner)
-        return invalid("{}: '{}' is no vertex, must be its number", place, words[k].substr(0, 40));
+        return invalid("{}: got '{}', expected the number of a vertex", place,
+                       words[k].substr(0, 40));
       corners.push_back(*corner);
     }
     if (auto taken = lines.element(corners, place); !taken) return tl::unexpected(taken.error());
@@ -320,7 +322,7 @@ Result<void> read_off_lines(std::string_view bytes, const std::string& name,
   };
   const long vertices = count(0), faces = count(1);
   if (vertices < 0 || faces < 0)
-    return invalid("{}:{}: no OFF, must begin with \"OFF\" and the numbers of vertices and faces",
+    return invalid("{}:{}: got no OFF, expected \"OFF\" and the numbers of vertices and faces",
                    name, number);
   for (long k = 0; k < vertices + faces; ++k) {
     words = next_words();
@@ -332,7 +334,7 @@ Result<void> read_off_lines(std::string_view bytes, const std::string& name,
       std::vector<double> xyz;
       for (std::size_t n = 0; n < words.size() && n < 3; ++n)
         if (const auto value = number_of(words[n])) xyz.push_back(*value);
-      if (xyz.size() != 3) return invalid("{}: a vertex must have three numbers, x y z", place);
+      if (xyz.size() != 3) return invalid("{}: expected a vertex of three numbers, x y z", place);
       if (auto taken = lines.vertex(xyz, place); !taken) return taken;
       continue;
     }
@@ -341,7 +343,7 @@ Result<void> read_off_lines(std::string_view bytes, const std::string& name,
     for (long n = 1; n <= size && n < long(words.size()); ++n)
       corners.push_back(count(std::size_t(n)));
     if (size < 0 || long(corners.size()) != size)
-      return invalid("{}: a face must have its number of vertices and these", place);
+      return invalid("{}: expected a face: its number of vertices and these", place);
     if (auto taken = lines.element(corners, place); !taken) return taken;
   }
   return {};

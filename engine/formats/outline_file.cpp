@@ -55,7 +55,7 @@ Next next_of(const Line& chain, const std::vector<Line>& open) {
 struct Loops {
   std::vector<Line> closed;
   std::size_t open = 0;   ///< chains that do not close
-  double gap = INFINITY;  ///< the smallest of theirs
+  double gap = INFINITY;  ///< the smallest gap between their ends
 };
 
 Loops loops_of(const PlanDrawing& drawing, double near) {
@@ -120,7 +120,7 @@ Result<PlanDrawing> read_obj_outline(std::string_view bytes, const std::string& 
     line.closed = faces;
     for (const long number : numbers) {
       if (number < 0 || number >= long(points.size()))
-        return invalid("{}: names vertex {}, and there are {}", place, number + 1, points.size());
+        return invalid("{}: got vertex {}, expected at most {}", place, number + 1, points.size());
       line.points.push_back(points[std::size_t(number)]);
     }
     return {};
@@ -149,7 +149,7 @@ Result<NetworkData> largest_loop(const PlanDrawing& drawing, const std::string& 
   const Loops loops = loops_of(drawing, near);
   const auto largest = std::ranges::max_element(loops.closed, {}, area_of);
   if (largest == loops.closed.end() || !(area_of(*largest) > touching * size * size))
-    return invalid("{}: holds no closed outline{}{}", name,
+    return invalid("{}: got no closed outline{}{}", name,
                    loops.open == 0
                        ? ", and no line"
                        : fmt::format(": {}{}", counted(loops.open, "open line"),
@@ -174,7 +174,7 @@ Result<NetworkData> largest_loop(const PlanDrawing& drawing, const std::string& 
   std::vector<std::string> others;
   if (loops.closed.size() > 1)
     report.text += fmt::format(", the largest of {} closed lines", loops.closed.size());
-  if (loops.open > 0) report.text += ", beside " + counted(loops.open, "open line");
+  if (loops.open > 0) report.text += ", in addition to " + counted(loops.open, "open line");
   report.text += drawing.left_out;
   return outline;
 }
@@ -187,7 +187,7 @@ Result<NetworkData> read_outline(std::string_view bytes, const std::string& name
     if (ending == ".dxf") return read_outline_dxf(bytes, name, options, found);
     if (ending == ".svg") return read_svg(bytes, name);
     if (ending == ".obj") return read_obj_outline(bytes, name);
-    return invalid("{}: its name must end in .dxf, .svg or .obj (a closed outline)", name);
+    return invalid("{}: expected a name that ends in .dxf, .svg or .obj (a closed outline)", name);
   };
   TRY(drawing, read());
   if (options.unit_mm > 0 && ending != ".dxf") {

@@ -19,16 +19,16 @@ class CloudBuilder {
   Result<void> add(const Eigen::Vector3d& p, const std::string& name, auto place_of) {
     constexpr double largest = 1e9;
     if (!(p.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= largest))
-      return invalid("{}: a coordinate is {}, must be a number of at most 1e9", place_of(),
-                     p.allFinite() ? "too large" : "not a number");
+      return invalid("{}: got a coordinate that is {}, expected a number of at most 1e9",
+                     place_of(), p.allFinite() ? "too large" : "not a number");
     if (points_.size() >= 3 * most_cloud_points)
-      return invalid("{}: holds more than {} points", name, most_cloud_points);
+      return invalid("{}: got more than {} points", name, most_cloud_points);
     points_.insert(points_.end(), p.data(), p.data() + 3);
     return {};
   }
 
   Result<Cloud> take(const std::string& name, std::size_t empty_rows) const {
-    if (points_.empty()) return invalid(name + ": holds no point");
+    if (points_.empty()) return invalid(name + ": got no point");
     return Cloud{
         Eigen::Map<const Eigen::Matrix3Xd>(points_.data(), 3, Eigen::Index(points_.size() / 3)),
         empty_rows};
@@ -41,23 +41,23 @@ class CloudBuilder {
 Result<Cloud> read_rows(std::string_view text, const std::string& name, double unit_mm) {
   TRY(table, read_table(text, name, {{"x"}, {"y"}, {"z"}},
                         {.longer_rows = true, .empty_rows = true, .unit_mm = unit_mm}));
-  CloudBuilder draft;
+  CloudBuilder builder;
   for (std::size_t row = 0; row < table->rows(); ++row)
-    TRY_DO(draft.add({table->at(row, 0), table->at(row, 1), table->at(row, 2)}, name,
-                     [&] { return fmt::format("{}:{}", name, table->lines[row]); }));
-  return draft.take(name, table->empty_rows);
+    TRY_DO(builder.add({table->at(row, 0), table->at(row, 1), table->at(row, 2)}, name,
+                       [&] { return fmt::format("{}:{}", name, table->lines[row]); }));
+  return builder.take(name, table->empty_rows);
 }
 
 Result<Cloud> read_vertices(std::string_view bytes, const std::string& name, double unit_mm) {
-  CloudBuilder draft;
+  CloudBuilder builder;
   std::size_t empty = 0;
   const auto read = each_ply_item(bytes, name, [&](const PlyItem& item) -> Result<void> {
     if (item.element != "vertex") return {};
     if (item.has_xyz && item.xyz.array().isNaN().all()) return ++empty, Result<void>();
-    return draft.add(unit_mm * item.xyz, name, [&] { return item.place(name); });
+    return builder.add(unit_mm * item.xyz, name, [&] { return item.place(name); });
   });
   if (!read) return tl::unexpected(read.error());
-  return draft.take(name, empty);
+  return builder.take(name, empty);
 }
 
 }  // namespace
@@ -104,7 +104,7 @@ Result<Cloud> read_cloud(std::string_view bytes, const std::string& name, double
   if (ending == ".ply") return read_vertices(bytes, name, unit_mm);
   for (const char* known : {".xyz", ".txt", ".asc", ".csv", ".pts"})
     if (ending == known) return read_rows(bytes, name, unit_mm);
-  return invalid("{}: its name must end in .ply, .xyz, .txt, .asc, .csv or .pts", name);
+  return invalid("{}: expected a name that ends in .ply, .xyz, .txt, .asc, .csv or .pts", name);
 }
 
 }  // namespace gridshell::preset

@@ -59,7 +59,7 @@ struct RodValue {
 struct NetworkData {
   Points points;                       ///< x, y, z, mm
   std::vector<std::vector<int>> rods;  ///< each the numbers of its points in order
-  std::vector<double> diameters;       ///< one a rod, mm, 0: that of [rod]; empty: all that
+  std::vector<double> diameters;       ///< one per rod, mm, 0: that of [rod]; empty: all that
   std::vector<RodValue> own;           ///< else of single rods, in the order of these
   Points supports;                     ///< number of a point and where it goes: x, y, z, mm
   Points springs;         ///< number of a support's point, stiffness along x, y, z, N/mm

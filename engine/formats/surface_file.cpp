@@ -19,13 +19,13 @@ Result<void> MeshBuilder::add_vertex(std::vector<double> xyz, const std::string&
   for (double& value : xyz) {
     value *= unit_mm_;
     if (!(std::abs(value) <= largest))
-      return invalid("{}: a coordinate is {}, must be a number of at most 1e9", place,
+      return invalid("{}: got a coordinate that is {}, expected a number of at most 1e9", place,
                      std::isfinite(value) ? "too large" : "not a number");
   }
   const auto [found, fresh] = at_.try_emplace(xyz, int(mesh_.vertices.size()));
   // a separate triangle adds three vertices
   if (mesh_.vertices.size() == most_vertices || number_.size() == 3 * most_triangles)
-    return invalid("{}: more than {} vertices, must be fewer", place, most_vertices);
+    return invalid("{}: got more than {} vertices, expected fewer", place, most_vertices);
   number_.push_back(found->second);
   if (fresh) mesh_.vertices.push_back(xyz);
   return {};
@@ -33,15 +33,15 @@ Result<void> MeshBuilder::add_vertex(std::vector<double> xyz, const std::string&
 
 Result<void> MeshBuilder::add_polygon(const std::vector<long>& corners, const std::string& place) {
   if (corners.size() < 3)
-    return invalid("{}: a polygon of {} corners, must have 3 or more", place, corners.size());
+    return invalid("{}: got a polygon of {} corners, expected 3 or more", place, corners.size());
   std::vector<int> ring;
   for (const long corner : corners) {
     if (corner < 0 || corner >= long(number_.size()))
-      return invalid("{}: names a vertex that is none of the {} before it", place, number_.size());
+      return invalid("{}: got a vertex that is none of the {} before it", place, number_.size());
     ring.push_back(number_[std::size_t(corner)]);
   }
   if (mesh_.triangles.size() + ring.size() - 2 > most_triangles)
-    return invalid("{}: more than {} triangles, must be fewer", place, most_triangles);
+    return invalid("{}: got more than {} triangles, expected fewer", place, most_triangles);
   for (std::size_t k = 2; k < ring.size(); ++k)
     if (ring[0] != ring[k - 1] && ring[k - 1] != ring[k] && ring[k] != ring[0])
       mesh_.triangles.push_back({ring[0], ring[k - 1], ring[k]});
@@ -50,14 +50,14 @@ Result<void> MeshBuilder::add_polygon(const std::vector<long>& corners, const st
 
 Result<SurfaceData> MeshBuilder::take(const std::string& name) {
   if (!mesh_.triangles.empty()) return std::move(mesh_);
-  return invalid(name + ": holds no triangle, must be a mesh of triangles");
+  return invalid(name + ": got no triangle, expected a mesh of triangles");
 }
 
 // STL: triangles by the coordinates of their corners, as text or as 50 bytes each.
 
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "numbers are read as they stand");
+static_assert(std::endian::native == std::endian::little, "numbers are read as they are");
 
 constexpr std::size_t header = 84, triangle = 50;
 
@@ -69,29 +69,29 @@ std::size_t count_in(std::string_view bytes) {
 }
 
 /// A corner; the third ends its triangle.
-Result<void> add_corner(MeshBuilder& draft, const std::vector<double>& xyz,
+Result<void> add_corner(MeshBuilder& builder, const std::vector<double>& xyz,
                         const std::string& place) {
-  if (auto added = draft.add_vertex(xyz, place); !added) return added;
-  const long count = long(draft.vertices());
+  if (auto added = builder.add_vertex(xyz, place); !added) return added;
+  const long count = long(builder.vertices());
   if (count % 3 != 0) return {};
-  return draft.add_polygon({count - 3, count - 2, count - 1}, place);
+  return builder.add_polygon({count - 3, count - 2, count - 1}, place);
 }
 
 Result<SurfaceData> read_binary(std::string_view bytes, const std::string& name, double unit_mm) {
-  MeshBuilder draft(unit_mm);
+  MeshBuilder builder(unit_mm);
   for (std::size_t k = 0; k < count_in(bytes); ++k)
     for (std::size_t corner = 0; corner < 3; ++corner) {
       float xyz[3];
       // the normal comes first
       std::memcpy(xyz, bytes.data() + header + k * triangle + 12 * (corner + 1), sizeof(xyz));
-      TRY_DO(
-          add_corner(draft, {xyz[0], xyz[1], xyz[2]}, fmt::format("{}: triangle {}", name, k + 1)));
+      TRY_DO(add_corner(builder, {xyz[0], xyz[1], xyz[2]},
+                        fmt::format("{}: triangle {}", name, k + 1)));
     }
-  return draft.take(name);
+  return builder.take(name);
 }
 
 Result<SurfaceData> read_text(std::string_view bytes, const std::string& name, double unit_mm) {
-  MeshBuilder draft(unit_mm);
+  MeshBuilder builder(unit_mm);
   bool ended = false;
   for (int number = 1; !bytes.empty(); ++number) {
     const auto words = words_in(next_line(bytes));
@@ -105,14 +105,13 @@ Result<SurfaceData> read_text(std::string_view bytes, const std::string& name, d
     for (std::size_t k = 1; k < words.size(); ++k)
       if (const auto value = number_of(words[k])) xyz.push_back(*value);
     if (xyz.size() != 3 || words.size() != 4)
-      return invalid(place + ": a vertex must have three numbers, vertex x y z");
-    TRY_DO(add_corner(draft, xyz, place));
+      return invalid(place + ": expected a vertex of three numbers, vertex x y z");
+    TRY_DO(add_corner(builder, xyz, place));
   }
-  if (draft.vertices() % 3 != 0)
-    return invalid("{}: ends within a triangle: {} vertices, must be three a triangle", name,
-                   draft.vertices());
+  if (builder.vertices() % 3 != 0)
+    return invalid("{}: got {} vertices, expected three per triangle", name, builder.vertices());
   if (!ended) return invalid("{}: ends without \"endsolid\": is it cut short?", name);
-  return draft.take(name);
+  return builder.take(name);
 }
 
 constexpr std::size_t most_heights = 100000, least_side = 4;
@@ -149,55 +148,57 @@ Result<SurfaceData> read_heights(std::string_view bytes, const std::string& name
   for (std::size_t k = 0; k < points->size(); ++k)
     if (const double z = (*points)[k][2] / unit_mm; marks_a_hole(z))
       return invalid(
-          "{}:{}: a height of {:g}, which marks a place without one: a hole, must be a whole "
-          "rectangle",
-          name, lines[k], z);
+          "{}:{}: got a height of {:g}, which marks a hole, expected a complete rectangle", name,
+          lines[k], z);
   if (points->size() > most_heights)
-    return invalid("{}: holds {} points, must be at most {}", name, points->size(), most_heights);
+    return invalid("{}: got {} points, expected at most {}", name, points->size(), most_heights);
   SurfaceData grid{values_of(*points, 0), values_of(*points, 1), {}, {}, {}};
   const std::size_t columns = grid.x.size(), rows = grid.y.size();
   if (columns < least_side || rows < least_side)
-    return invalid("{}: {} different x and {} different y, must be a grid of at least 4 x 4 places",
-                   name, columns, rows);
-  const auto holds =
-      fmt::format("holds {} points on a grid of {} x {} places", points->size(), columns, rows);
+    return invalid(
+        "{}: got {} different x and {} different y, expected a grid of at least 4 x 4 points", name,
+        columns, rows);
+  const auto holds = fmt::format("{} points on a grid of {} x {}", points->size(), columns, rows);
   // scattered points form a grid with as many nodes as the square of their number
   if (columns * rows > 4 * points->size())
-    return invalid("{}: {}, must be a whole rectangle", name, holds);
+    return invalid("{}: got {}, expected a complete rectangle", name, holds);
   grid.z.assign(rows, std::vector<double>(columns, std::nan("")));
   for (std::size_t k = 0; k < points->size(); ++k) {
     const auto& point = (*points)[k];
     double& z = grid.z[nearest(grid.y, point[1])][nearest(grid.x, point[0])];
     if (!std::isnan(z))
-      return invalid("{}:{}: a second point at ({:g}, {:g}), must be one", name, lines[k], point[0],
-                     point[1]);
+      return invalid("{}:{}: got a second point at ({:g}, {:g}), expected one", name, lines[k],
+                     point[0], point[1]);
     z = point[2];
   }
   for (std::size_t j = 0; j < rows; ++j)
     for (std::size_t i = 0; i < columns; ++i)
       if (std::isnan(grid.z[j][i]))
-        return invalid("{}: {}, and none at ({:g}, {:g}): a hole, must be a whole rectangle", name,
-                       holds, grid.x[i], grid.y[j]);
+        return invalid(
+            "{}: got {}, and none at ({:g}, {:g}): a hole, expected a complete rectangle", name,
+            holds, grid.x[i], grid.y[j]);
   return grid;
 }
 
-std::string rising_fault(const char* key, const std::vector<double>& values) {
+std::string rising_error(const char* key, const std::vector<double>& values) {
   if (values.size() < least_side)
-    return fmt::format("{} holds {} numbers, must be at least 4", key, values.size());
+    return fmt::format("{}: got {} numbers, expected at least 4", key, values.size());
   for (std::size_t k = 1; k < values.size(); ++k)
     if (!(values[k] > values[k - 1]))
-      return fmt::format("{} must rise, {:g} stands before {:g}", key, values[k - 1], values[k]);
+      return fmt::format("{}: got {:g} before {:g}, expected rising numbers", key, values[k - 1],
+                         values[k]);
   return "";
 }
 
-std::string mesh_fault(const SurfaceData& mesh) {
-  MeshBuilder draft(1);
+std::string mesh_error(const SurfaceData& mesh) {
+  MeshBuilder builder(1);
   for (const auto& vertex : mesh.vertices) {
-    if (vertex.size() != 3) return "vertices_mm must be points [x, y, z]";
-    if (auto added = draft.add_vertex(vertex, "vertices_mm"); !added) return added.error().message;
+    if (vertex.size() != 3) return "vertices_mm: expected points [x, y, z]";
+    if (auto added = builder.add_vertex(vertex, "vertices_mm"); !added)
+      return added.error().message;
   }
   for (const auto& [a, b, c] : mesh.triangles)
-    if (auto added = draft.add_polygon({a, b, c}, "triangles"); !added)
+    if (auto added = builder.add_polygon({a, b, c}, "triangles"); !added)
       return added.error().message;
   return "";
 }
@@ -205,26 +206,28 @@ std::string mesh_fault(const SurfaceData& mesh) {
 /// Each function reads a complete file; `name` is its name in messages. Errors (bad_input): text
 /// that is not of the format, with its line or the number of its vertex or triangle.
 Result<SurfaceData> read_obj(std::string_view bytes, const std::string& name, double unit_mm) {
-  MeshBuilder draft(unit_mm);
+  MeshBuilder builder(unit_mm);
   return read_obj_lines(
              bytes, name, "f",
-             {[&](const auto& xyz, const auto& at) { return draft.add_vertex(xyz, at); },
-              [&](const auto& corners, const auto& at) { return draft.add_polygon(corners, at); }})
-      .and_then([&](const auto&) { return draft.take(name); });
+             {[&](const auto& xyz, const auto& at) { return builder.add_vertex(xyz, at); },
+              [&](const auto& corners, const auto& at) {
+                return builder.add_polygon(corners, at);
+              }})
+      .and_then([&](const auto&) { return builder.take(name); });
 }
 
 Result<SurfaceData> read_ply(std::string_view bytes, const std::string& name, double unit_mm) {
-  MeshBuilder draft(unit_mm);
+  MeshBuilder builder(unit_mm);
   const auto read = each_ply_item(bytes, name, [&](const PlyItem& item) -> Result<void> {
     if (item.element == "vertex")
-      return draft.add_vertex({item.xyz.x(), item.xyz.y(), item.xyz.z()}, item.place(name));
-    if (item.element == "face") return draft.add_polygon(item.corners, item.place(name));
+      return builder.add_vertex({item.xyz.x(), item.xyz.y(), item.xyz.z()}, item.place(name));
+    if (item.element == "face") return builder.add_polygon(item.corners, item.place(name));
     if (item.element == "tristrips")
-      return invalid("{}: strips of triangles, must be faces", item.place(name));
+      return invalid("{}: got strips of triangles, expected faces", item.place(name));
     return {};
   });
   if (!read) return tl::unexpected(read.error());
-  return draft.take(name);
+  return builder.take(name);
 }
 
 Result<SurfaceData> read_stl(std::string_view bytes, const std::string& name, double unit_mm) {
@@ -236,25 +239,25 @@ Result<SurfaceData> read_stl(std::string_view bytes, const std::string& name, do
   const std::size_t first = std::min(text.find_first_not_of(" \t\r\n"), text.size());
   if (lower(text.substr(first, 5)) == "solid") return read_text(text, name, unit_mm);
   return invalid(
-      "{}: no STL: begins without \"solid\", and its {} bytes are not those of the {} "
+      "{}: got no STL: it begins without \"solid\", and its {} bytes are not those of the {} "
       "triangles that it says",
       name, bytes.size(), count_in(bytes));
 }
 
 }  // namespace
 
-std::string surface_fault(const SurfaceData& surface) {
-  if (surface.is_mesh()) return mesh_fault(surface);
+std::string surface_error(const SurfaceData& surface) {
+  if (surface.is_mesh()) return mesh_error(surface);
   for (const auto& [key, values] : {std::pair("x_mm", &surface.x), {"y_mm", &surface.y}})
-    if (auto wrong = rising_fault(key, *values); !wrong.empty()) return wrong;
+    if (auto wrong = rising_error(key, *values); !wrong.empty()) return wrong;
   if (surface.x.size() * surface.y.size() > most_heights)
-    return fmt::format("holds more than {} heights", most_heights);
+    return fmt::format("got more than {} heights", most_heights);
   if (surface.z.size() != surface.y.size())
-    return fmt::format("z_mm holds {} rows, must be one for each of the {} y", surface.z.size(),
+    return fmt::format("z_mm: got {} rows, expected one for each of the {} y", surface.z.size(),
                        surface.y.size());
   for (const auto& row : surface.z)
     if (row.size() != surface.x.size())
-      return fmt::format("z_mm holds a row of {} heights, must be one for each of the {} x",
+      return fmt::format("z_mm: got a row of {} heights, expected one for each of the {} x",
                          row.size(), surface.x.size());
   return "";
 }
@@ -266,7 +269,7 @@ Result<SurfaceData> read_surface(std::string_view bytes, const std::string& name
   if (ending == ".ply") return read_ply(bytes, name, unit_mm);
   if (ending == ".stl") return read_stl(bytes, name, unit_mm);
   return invalid(
-      "{}: its name must end in .csv or .txt (heights x, y, z over a grid), or .obj, .ply "
+      "{}: expected a name that ends in .csv or .txt (heights x, y, z over a grid), or .obj, .ply "
       "or .stl (triangles)",
       name);
 }

@@ -53,6 +53,6 @@ Result<SurfaceData> read_surface(std::string_view bytes, const std::string& name
                                  double unit_mm = 1);
 
 /// The error in a surface that is part of a preset; empty: none.
-std::string surface_fault(const SurfaceData& surface);
+std::string surface_error(const SurfaceData& surface);
 
 }  // namespace gridshell::preset

@@ -77,7 +77,7 @@ class PathReader {
       if (const auto next = words.command())
         command = *next;
       else if (command == 0 || command == 'Z' || command == 'z')
-        return "a number where a command must be";
+        return "got a number, expected a command";
       if (std::string wrong = follow(command, words); !wrong.empty()) return wrong;
       // further pairs of a move are lines
       if (command == 'M') command = 'L';
@@ -372,7 +372,7 @@ Result<PlanDrawing> read_svg(std::string_view text, const std::string& name) {
       drawing.lines.push_back(std::move(line));
     }
   }
-  if (!is_svg) return invalid("{}: is no SVG: has no <svg>", name);
+  if (!is_svg) return invalid("{}: got no <svg>, expected an SVG", name);
   std::vector<std::string> counts;
   for (const auto& [kind, count] : others) counts.push_back(fmt::format("{} {}", count, kind));
   if (!counts.empty()) drawing.left_out = fmt::format("; not used: {}", fmt::join(counts, ", "));

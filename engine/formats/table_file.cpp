@@ -21,7 +21,7 @@ class TableReader {
  public:
   TableReader(const std::string& name, const std::vector<TableColumn>& columns,
               const TableOptions& options)
-      : name_(name), wanted_(columns), options_(options), scale_(columns.size(), 1) {
+      : name_(name), requested_(columns), options_(options), scale_(columns.size(), 1) {
     for (std::size_t k = 0; k < columns.size(); ++k) {
       place_.push_back(k);
       if (is_length(columns[k].name)) scale_[k] = options.unit_mm;
@@ -34,11 +34,11 @@ class TableReader {
     for (int line = 1; !text.empty(); ++line) TRY_DO(take(next_line(text), line));
     if (counted_) TRY_DO(check_count());
     if (table_.rows() == 0)
-      return invalid("{}: holds no point, must hold one a line, {}", name_, columns_text());
-    if (table_.rows() > 2 && numbered_ && length_ > wanted_.size() && !table_.by_name)
+      return invalid("{}: got no point, expected one per line, {}", name_, columns_text());
+    if (table_.rows() > 2 && numbered_ && length_ > requested_.size() && !table_.by_name)
       return invalid(
-          "{}:{}: the first column counts the rows: which columns are {}? A first line must name "
-          "them",
+          "{}:{}: the first column counts the rows: which columns are {}? Expected a first line "
+          "that names them",
           name_, table_.lines.front(), names_text());
     return std::move(table_);
   }
@@ -47,13 +47,13 @@ class TableReader {
   std::string place(int line) const { return fmt::format("{}:{}", name_, line); }
   std::string names_text() const {
     std::vector<std::string> names;
-    for (const TableColumn& one : wanted_) names.push_back(one.name);
+    for (const TableColumn& one : requested_) names.push_back(one.name);
     return fmt::format("{}", fmt::join(names, ", "));
   }
   std::string columns_text() const {
     const bool words =
-        std::ranges::any_of(wanted_, [](const TableColumn& one) { return !one.words.empty(); });
-    return fmt::format("{} {}: {}", wanted_.size(), words ? "values" : "numbers", names_text());
+        std::ranges::any_of(requested_, [](const TableColumn& one) { return !one.words.empty(); });
+    return fmt::format("{} {}: {}", requested_.size(), words ? "values" : "numbers", names_text());
   }
 
   static std::string_view without_remark(std::string_view line) {
@@ -91,7 +91,7 @@ class TableReader {
     const auto decimal_commas = [&](std::string_view line) {
       split(line, ' ', cells);
       const bool names = std::ranges::all_of(cells, is_name);
-      return cells.size() >= wanted_.size() &&
+      return cells.size() >= requested_.size() &&
              (names || std::ranges::all_of(cells, [](std::string_view cell) {
                 return cell.find(',') == cell.npos || has_decimal_comma(cell);
               }));
@@ -122,7 +122,7 @@ class TableReader {
     split(row_, apart_, cells_);
     // nothing but what parts cells
     if (cells_.empty()) return {};
-    if (cells_.size() == 1 && wanted_.size() > 1 && is_whole(cells_[0]) && counts_here())
+    if (cells_.size() == 1 && requested_.size() > 1 && is_whole(cells_[0]) && counts_here())
       return take_count(number);
     if (std::exchange(first_, false)) {
       const bool names = std::ranges::all_of(
@@ -136,7 +136,7 @@ class TableReader {
   }
 
   bool is_word(std::string_view cell) const {
-    return std::ranges::any_of(wanted_, [&](const TableColumn& one) {
+    return std::ranges::any_of(requested_, [&](const TableColumn& one) {
       return std::ranges::find(one.words, cell) != one.words.end();
     });
   }
@@ -150,12 +150,12 @@ class TableReader {
   Result<void> take_count(int number) {
     if (counted_ && table_.rows() + table_.empty_rows == counted_from_)
       return invalid(
-          "{}: a second count of points: a scanner's grid (.ptx)? It must be exported as points, "
-          "one a line (.pts, .xyz, .ply)",
+          "{}: a second count of points: a scanner's grid (.ptx)? Expected points, one a line "
+          "(.pts, .xyz, .ply)",
           place(number));
     const double count = *number_of(cells_[0]);
     if (!(count >= 1 && count <= 1e9))
-      return invalid("{}: a count of {} points, must be from 1 to 1e9", place(number), cells_[0]);
+      return invalid("{}: got a count of {} points, expected 1 to 1e9", place(number), cells_[0]);
     counted_ = true;
     counted_from_ = table_.rows() + table_.empty_rows;
     expected_ = counted_from_ + std::size_t(count);
@@ -165,8 +165,8 @@ class TableReader {
   Result<void> check_count() const {
     const std::size_t rows = table_.rows() + table_.empty_rows;
     if (rows == expected_) return {};
-    return invalid("{}: says that it holds {} points, and holds {}: is it cut short?", name_,
-                   expected_, rows);
+    return invalid("{0}: got {2} points, expected {1} by its first line: is the file cut short?",
+                   name_, expected_, rows);
   }
 
   /// Uses a remark as the header if it names all columns of the first row.
@@ -184,23 +184,23 @@ class TableReader {
   Result<void> take_header(const Cells& cells, int line) {
     std::vector<std::string> missing;
     std::vector<std::size_t> found;
-    for (std::size_t k = 0; k < wanted_.size(); ++k) {
-      const ColumnName wanted = column_name(wanted_[k].name);
+    for (std::size_t k = 0; k < requested_.size(); ++k) {
+      const ColumnName requested = column_name(requested_[k].name);
       std::optional<std::size_t> at;
       for (std::size_t c = 0; c < cells.size(); ++c) {
         const ColumnName named = column_name(cells[c]);
-        if (named.base != wanted.base) continue;
-        if (at) return invalid("{}: names column {} twice", place(line), wanted_[k].name);
+        if (named.base != requested.base) continue;
+        if (at) return invalid("{}: got column {} twice", place(line), requested_[k].name);
         at = c;
-        TRY_DO(take_unit(k, named, wanted, line));
+        TRY_DO(take_unit(k, named, requested, line));
       }
       if (at)
         found.push_back(*at);
       else
-        missing.push_back(wanted_[k].name);
+        missing.push_back(requested_[k].name);
     }
     if (!missing.empty())
-      return invalid("{}: names columns '{}', of which {} {} missing (a remark begins with #)",
+      return invalid("{}: got columns '{}', of which {} {} missing (a remark begins with #)",
                      place(line), shortened(fmt::format("{}", fmt::join(cells, "', '"))),
                      fmt::join(missing, ", "), missing.size() > 1 ? "are" : "is");
     place_ = found;
@@ -216,25 +216,25 @@ class TableReader {
   }
 
   /// What a column's unit makes of its numbers.
-  Result<void> take_unit(std::size_t column, const ColumnName& named, const ColumnName& wanted,
+  Result<void> take_unit(std::size_t column, const ColumnName& named, const ColumnName& requested,
                          int line) {
     const double mm = millimetres_of(named.unit);
-    const bool length = is_length(wanted_[column].name);
+    const bool length = is_length(requested_[column].name);
     if (length && mm > 0) scale_[column] = mm;
-    const bool angle = wanted.unit == "deg" && named.unit.starts_with("deg");
-    const bool plain = named.unit.empty() || named.unit == wanted.unit || named.unit == "-" ||
+    const bool angle = requested.unit == "deg" && named.unit.starts_with("deg");
+    const bool plain = named.unit.empty() || named.unit == requested.unit || named.unit == "-" ||
                        (!length && (named.unit == "n" || named.unit == "deg"));
     if ((length && mm > 0) || angle || plain) return {};
-    return invalid("{}: column {} is in '{}', must be in {}", place(line), wanted_[column].name,
+    return invalid("{}: column {}: got '{}', expected {}", place(line), requested_[column].name,
                    named.unit,
-                   length                ? "mm, cm, m, in or ft"
-                   : wanted.unit.empty() ? "the unit of its key"
-                                         : wanted.unit);
+                   length                   ? "mm, cm, m, in or ft"
+                   : requested.unit.empty() ? "the unit of its key"
+                                            : requested.unit);
   }
 
   Result<void> take_row(int line) {
     const bool by_place = !table_.by_name;
-    const std::size_t least = wanted_.size();
+    const std::size_t least = requested_.size();
     if (options_.empty_rows && is_empty_row()) {
       ++table_.empty_rows;
       return {};
@@ -244,10 +244,10 @@ class TableReader {
     if (cells_.size() != length_ && !split_by_any()) return wrong_length(line);
     if (by_place && looks_like_commas())
       return invalid(
-          "{}: six whole numbers between commas: decimal commas, or further columns? A first line "
-          "must name the columns, or semicolons part them",
+          "{}: six whole numbers between commas: decimal commas, or further columns? Expected a "
+          "first line that names the columns, or semicolons part them",
           place(line));
-    for (std::size_t k = 0; k < wanted_.size(); ++k) {
+    for (std::size_t k = 0; k < requested_.size(); ++k) {
       TRY(value, value_in(cells_[place_[k]], k, line));
       table_.values.push_back(*value * scale_[k]);
     }
@@ -278,7 +278,7 @@ class TableReader {
 
   /// x, y, z with decimal commas, or x, y, z and a colour.
   bool looks_like_commas() const {
-    return apart_ == ',' && wanted_.size() == 3 && cells_.size() == 6 &&
+    return apart_ == ',' && requested_.size() == 3 && cells_.size() == 6 &&
            std::ranges::all_of(cells_, is_whole);
   }
 
@@ -286,19 +286,19 @@ class TableReader {
     const bool commas = apart_ == ',' && cells_.size() > length_ &&
                         std::ranges::all_of(words_in(row_, " \t\r\f\v,"), is_whole);
     const std::string expected = table_.by_name ? fmt::format("{}, as the header names", length_)
-                                 : length_ > wanted_.size()
+                                 : length_ > requested_.size()
                                      ? fmt::format("{}, as in the rows before", length_)
                                      : columns_text();
-    return invalid("{}: holds {} values, must be {}{}", place(line), cells_.size(), expected,
-                   commas ? "; with decimal commas semicolons must part the columns" : "");
+    return invalid("{}: got {} values, expected {}{}", place(line), cells_.size(), expected,
+                   commas ? "; with decimal commas, semicolons separate the columns" : "");
   }
 
   Result<double> value_in(std::string_view cell, std::size_t column, int line) {
-    const auto& words = wanted_[column].words;
+    const auto& words = requested_[column].words;
     if (!words.empty()) {
       const auto found = std::ranges::find(words, cell);
       if (found != words.end()) return double(found - words.begin());
-      return invalid("{}: '{}' is no value of its column, must be {}", place(line),
+      return invalid("{}: got '{}', which is no value of its column, expected {}", place(line),
                      shortened(std::string(cell)), columns_text());
     }
     const auto value =
@@ -306,21 +306,21 @@ class TableReader {
     if (!value) {
       const bool blank = cell.find(' ') != cell.npos;
       const auto got = fmt::format("'{}'", shortened(std::string(cell)));
-      return invalid("{}: {} is no number, must be {}{}", place(line),
+      return invalid("{}: got {}, which is no number, expected {}{}", place(line),
                      cell.empty() ? std::string("an empty cell") : got, columns_text(),
-                     blank ? "; a file must have one sign between its cells throughout" : "");
+                     blank ? "; expected one sign between all cells" : "");
     }
     const bool comma = cell.find(',') != cell.npos, point = cell.find('.') != cell.npos;
     commas_ = commas_ || comma;
     points_ = points_ || point;
     if (commas_ && points_)
-      return invalid("{}: '{}' after numbers with decimal {}, a file must have one decimal sign",
+      return invalid("{}: '{}' after numbers with decimal {}, expected one decimal sign",
                      place(line), cell, comma ? "points" : "commas");
     return *value;
   }
 
   const std::string& name_;
-  const std::vector<TableColumn>& wanted_;
+  const std::vector<TableColumn>& requested_;
   const TableOptions& options_;
   char apart_ = ' ';
   Cells cells_;

@@ -30,7 +30,7 @@ double bracketed_root(const Look& look, double low, double high, double start, d
 // the like.
 
 /// Gauss-Legendre quadrature on panels that are halved until they agree with their halves (also
-/// beside an integrable singularity at an end).
+/// near an integrable singularity at an end).
 class Antiderivative {
  public:
   /// `breaks`: where f is not smooth, ascending, with the ends of its range first and last.

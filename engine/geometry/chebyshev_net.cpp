@@ -22,7 +22,7 @@ Result<Eigen::Matrix3Xd> points_on(const ChebyshevNet& net, const Eigen::Matrix2
 
 namespace {
 
-// the series about z = 0 converges for |z| < 2.95; with steps as below the rest is under 1e-17
+// the series about z = 0 converges for |z| < 2.95; with steps as below the remainder is under 1e-17
 constexpr int order = 36;
 using Series = std::array<double, order + 1>;
 
@@ -119,7 +119,7 @@ Rod follow(double u, double v) {
 constexpr double least_sine = 1e-6;
 
 tl::unexpected<Error> beyond(const char* curve, char name, double at, double half) {
-  return invalid("curve_{} of the translation net ends at {} = {:.7g} mm; {} = {:g} mm lies beyond",
+  return invalid("curve_{} of the translation net ends at {} = {:.7g} mm; {} = {:g} mm is past it",
                  curve, name, at < 0 ? -half : half, name, at);
 }
 
@@ -150,7 +150,7 @@ Result<NetPoint> SphereNet::at(double u, double v) const {
   if (!(a * b < fold))
     return invalid(
         "the net on the sphere of radius {:g} mm folds (shear angle {}) where u v = {:.7g} "
-        "mm^2; (u, v) = ({:g}, {:g}) mm lies beyond",
+        "mm^2; (u, v) = ({:g}, {:g}) mm is past it",
         radius_, (u < 0) == (v < 0) ? "0" : "180 degrees",
         ((u < 0) == (v < 0) ? fold : -fold) * radius_ * radius_, u, v);
   const Rod rod = follow(a, b);

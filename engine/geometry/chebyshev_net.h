@@ -27,7 +27,7 @@ class ChebyshevNet {
   virtual ~ChebyshevNet() = default;
 
   /// The net at (u, v). Errors (bad_input): where the net folds (omega reaches 0 or pi) or its
-  /// surface ends, with the place where it does and the (u, v) asked for.
+  /// surface ends, with the position where it does and the given (u, v).
   virtual Result<NetPoint> at(double u, double v) const = 0;
 };
 
@@ -51,7 +51,7 @@ class SphereNet final : public ChebyshevNet {
   double radius() const { return radius_; }
   Result<NetPoint> at(double u, double v) const override;
 
-  /// f(z): shear angle at uv = z rho^2, also beyond the fold.
+  /// f(z): shear angle at uv = z rho^2, also past the fold.
   static double shear(double z);
 
  private:

@@ -29,7 +29,7 @@ Result<Eigen::Matrix2Xd> cleaned(const Eigen::Matrix2Xd& given) {
   if (points.cols() > 1 && points.col(0) == points.col(points.cols() - 1))
     points.conservativeResize(2, points.cols() - 1);
   const Eigen::Index n = points.cols();
-  if (n < 3) return invalid("a closed curve needs at least 3 points, not {}", n);
+  if (n < 3) return invalid("a closed curve: got {} points, expected at least 3", n);
   double area = 0;
   for (Eigen::Index k = 0; k < n; ++k) {
     if (!points.col(k).allFinite())
@@ -79,9 +79,9 @@ Result<void> check_star(const ClosedCurve& curve, const char* name, Corresponden
   if (how == Correspondence::arc_length && on_axis > 1)
     return invalid(
         "the positive x-axis meets the {} boundary more than once: arc lengths need one "
-        "place to start",
+        "position to start",
         name);
-  // seen from the origin a star turns one way only
+  // seen from the origin a star turns in one direction only
   constexpr int samples = 2048;
   for (int k = 0; how == Correspondence::angle && k < samples; ++k) {
     const ClosedCurve::Point p = curve.at(curve.last() * (k + 0.5) / samples);
@@ -117,9 +117,9 @@ Result<ClosedCurve> ClosedCurve::ellipse(double a, double b) { return superellip
 
 Result<ClosedCurve> ClosedCurve::superellipse(double a, double b, double exponent) {
   if (!(a > 0 && b > 0 && std::isfinite(a) && std::isfinite(b)))
-    return invalid("the half axes are {:g} and {:g} mm, they must be positive", a, b);
+    return invalid("half axes: got {:g} and {:g} mm, expected above 0", a, b);
   if (!(exponent >= 1 && exponent <= 100))
-    return invalid("the superellipse's exponent is {:g}, it must lie between 1 and 100", exponent);
+    return invalid("the superellipse's exponent: got {:g}, expected 1 to 100", exponent);
   const auto at = [a, b, n = exponent](double t) {
     const double cosine = std::cos(t), sine = std::sin(t);
     const double p = std::pow(std::abs(cosine / a), n), q = std::pow(std::abs(sine / b), n);

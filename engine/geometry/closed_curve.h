@@ -59,7 +59,7 @@ class BoundaryMap {
   /// ray from the origin meets a boundary more than once.
   static Result<BoundaryMap> make(ClosedCurve original, ClosedCurve actuated, Correspondence how);
 
-  /// the actuated place of a point on the original boundary
+  /// the actuated position of a point on the original boundary
   Eigen::Vector2d operator()(const Eigen::Vector2d& on_original) const;
 
  private:
@@ -70,7 +70,7 @@ class BoundaryMap {
 
 /// The corners of the convex hull of points, counter-clockwise.
 std::vector<int> hull_of(const Eigen::Matrix2Xd& points);
-/// The same with the points on its edges, each place once.
+/// The polygon with the points on its edges, each position once.
 std::vector<int> rim_of(const Eigen::Matrix2Xd& points);
 
 }  // namespace gridshell

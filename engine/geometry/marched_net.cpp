@@ -50,7 +50,7 @@ std::string text_of(RodStop stop) {
     case RodStop::net:
       break;
   }
-  return "another part of the net is in the way";
+  return "another part of the net is there already";
 }
 
 MarchedGrid::MarchedGrid(double chord, int most) : chord_(chord), most_(most) {
@@ -65,7 +65,7 @@ struct MarchedGrid::March {
   const Barriers* lines;    // null: of a grid that follows another
   const MarchedGrid* lead;  // that one
   double least_angle = 0;
-  int margin = 0;  // nodes beyond rims
+  int margin = 0;  // nodes outside rims
   PointGrid taken{grid.chord_};
   std::vector<std::array<int, 2>> accepted{};  // by their numbers in it
 
@@ -109,7 +109,7 @@ struct MarchedGrid::March {
     if (!grid.linked(a, b, -way_u, -way_v)) return std::nullopt;
     const Eigen::Vector3d last = (here - grid.at(a - way_u, b - way_v).p).normalized();
     Eigen::Vector3d along = last;
-    // a rod that was bent sideways goes on along its tangent, half a chord after its last one
+    // a rod that was bent sideways continues along its tangent, half a chord after its last one
     const auto by = grid.at(a, b).by;
     const bool bent = by != (way_u != 0 ? Node::straight_u : Node::straight_v);
     if (bent && grid.linked(a - way_u, b - way_v, -way_u, -way_v))
@@ -120,7 +120,7 @@ struct MarchedGrid::March {
     return geodesic_chord(surface, here, along, grid.chord_);
   }
 
-  /// Goes on from the neighbour towards the axis; why not.
+  /// Continues from the neighbour towards the axis; returns why not.
   RodStop go_straight(int i, int j, int way_u, int way_v) {
     const int a = i - way_u, b = j - way_v;
     const auto p = straight(a, b, way_u, way_v);
@@ -169,7 +169,7 @@ struct MarchedGrid::March {
       }
       try_u = from_u == RodStop::none, try_v = from_v == RodStop::none;
     }
-    // where rods have come too close together, others do not go on beside them
+    // where rods have come too close together, others do not continue next to them
     if (try_u && sv != 0 && grid.at(i, j - sv).stop == RodStop::angle) return RodStop::angle;
     if (try_v && su != 0 && grid.at(i - su, j).stop == RodStop::angle) return RodStop::angle;
     if (try_u && (stop = go_straight(i, j, su, 0)) == RodStop::none) return stop;
@@ -177,7 +177,7 @@ struct MarchedGrid::March {
     return stop;
   }
 
-  /// A node beyond a rim, from what is there towards the axes.
+  /// A node outside a rim, from what is there towards the axes.
   void go_beyond(int i, int j) {
     constexpr double least_sine = 0.12;
     const int su = sign(i), sv = sign(j);
@@ -200,7 +200,7 @@ struct MarchedGrid::March {
     }
   }
 
-  /// The same of a grid that follows one of twice the chord.
+  /// The nodes of a grid that follows one of twice the chord.
   void follow_to(int i, int j) {
     const int su = sign(i), sv = sign(j);
     // of what is straight there the half steps are straight
@@ -303,7 +303,7 @@ bool MarchedNet::joined(const Eigen::Vector3d& p, const Eigen::Vector3d& q, doub
          !lines_->crossed(p, q);
 }
 
-/// The net as it goes on from the node (i, j) to a place in a cell beside it.
+/// The net continued from the node (i, j) to a position in a neighbouring cell.
 std::optional<NetPoint> MarchedNet::from(int i, int j, double u, double v) const {
   constexpr int width = 2 * net_reach;
   const double h = chord();
@@ -331,7 +331,7 @@ std::optional<NetPoint> MarchedNet::from(int i, int j, double u, double v) const
         take(a + da, b + db);
   }
   if (count < 3) return std::nullopt;
-  // the others go on from these by polynomials of up to degree 3, the nearest first
+  // the others continue these by polynomials of up to degree 3, the nearest first
   while (count < have.size()) {
     const auto before = have;
     const std::size_t so_far = count;

@@ -23,25 +23,25 @@ std::string text_of(RodStop stop);
 /// Points p(i, j) of a surface, neighbours a chord h apart, from an apex outwards. Where both
 /// neighbours towards the axes are there, they decide [as in ChordGrid]; where only one is, as the
 /// other's rod has ended, its rod goes straight on as a geodesic: the axes are the first of these.
-/// A way that would cross a line of the mesh, leave what is wanted, or bring rods closer to
-/// parallel than the least angle is not gone; but beyond rims and holes some nodes are found where
-/// the surface goes on, for what lies between the last nodes and there.
+/// A path that would cross a line of the mesh, leave the requested part, or bring rods closer to
+/// parallel than the least angle is not gone; but outside rims and holes some nodes are found where
+/// the surface continues, for what lies between the last nodes and there.
 class MarchedGrid {
  public:
   struct Node {
     Eigen::Vector3d p = Eigen::Vector3d::Zero();
     bool known = false;
-    char beyond = 0;                  ///< of one beyond a rim or hole: how many nodes; 0: none
+    char beyond = 0;                  ///< of one outside a rim or hole: how many nodes; 0: none
     bool to_u = false, to_v = false;  ///< joined to node (i + 1, j), (i, j + 1) by a rod
-    bool on_u = false, on_v = false;  ///< the same, or as a rod would go on beyond its end
+    bool on_u = false, on_v = false;  ///< the same, or as a rod would continue past its end
     enum : char { corner, straight_u, straight_v } by = corner;
     RodStop stop = RodStop::none;  ///< why it is not known; none: no rod comes there
   };
 
-  /// No further than `most` chords from the apex, and `margin` beyond rims. `least_angle` in rad.
+  /// No further than `most` chords from the apex, and `margin` outside rims. `least_angle` in rad.
   MarchedGrid(const Surface& surface, const NetPlace& place, const Barriers& lines,
               double least_angle, double chord, int most, int margin = 0);
-  /// Of half the chord, where `lead` has nodes, its rods straight where that one's are.
+  /// The grid of half the chord, where `lead` has nodes, its rods straight where that one's are.
   MarchedGrid(const Surface& surface, const NetPlace& place, const MarchedGrid& lead);
 
   double chord() const { return chord_; }
@@ -51,13 +51,13 @@ class MarchedGrid {
     return std::abs(i) <= most_ && std::abs(j) <= most_ ? nodes_[index(i, j)] : outside;
   }
   bool known(int i, int j) const { return at(i, j).known; }
-  /// Or beyond a rim.
+  /// Or outside a rim.
   bool present(int i, int j) const { return at(i, j).known || at(i, j).beyond > 0; }
   /// Whether a rod joins neighbours; `way` a unit step along u or v.
   bool joined(int i, int j, int way_u, int way_v) const {
     return way_u != 0 ? at(std::min(i, i + way_u), j).to_u : at(i, std::min(j, j + way_v)).to_v;
   }
-  /// Or would, beyond a rim.
+  /// Or would, outside a rim.
   bool linked(int i, int j, int way_u, int way_v) const {
     return way_u != 0 ? at(std::min(i, i + way_u), j).on_u : at(i, std::min(j, j + way_v)).on_v;
   }
@@ -83,7 +83,8 @@ class MarchedGrid {
 };
 
 /// The smooth net of two such grids, of h and h/2, whose leading error is taken away, as far as
-/// they come. Between the nodes as SurfaceNet; beside its edges from nodes that go on smoothly.
+/// they reach. Between the nodes as SurfaceNet; near its edges from nodes that are continued
+/// smoothly.
 class MarchedNet final : public ChebyshevNet {
  public:
   /// `chord_mm`: h. Errors (bad_input): no rod leaves the apex.

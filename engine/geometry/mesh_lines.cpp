@@ -46,7 +46,7 @@ Result<std::vector<MeshLine>> rims_of(const Eigen::Matrix3Xd& x, const EdgeSides
   std::set<int> seen;
   for (const auto& [begin, ways] : next) {
     if (ways.size() != 2)
-      return mesh_fault("two parts of the mesh touch in one vertex", x.col(begin));
+      return mesh_error("two parts of the mesh touch in one vertex", x.col(begin));
     if (seen.contains(begin)) continue;
     rims.push_back({LineKind::hole, followed(next, begin, ways[0])});
     seen.insert(rims.back().vertices.begin(), rims.back().vertices.end());
@@ -163,7 +163,7 @@ std::optional<LineKind> Barriers::crossing(const Eigen::Vector3d& p, const Eigen
                                            bool creases_alone) const {
   if (walls_.empty()) return std::nullopt;
   const Eigen::Vector3d way = q - p;
-  // cells of two mean edges along the way
+  // cells of two mean edges along the path
   const int steps = std::max(1, int(std::ceil(2 * way.norm() / height_)));
   const std::vector<int>* before = nullptr;
   for (int k = 0; k <= steps; ++k) {

@@ -34,13 +34,13 @@ Result<std::vector<MeshLine>> lines_of(const Eigen::Matrix3Xd& vertices,
 
 class TriangleMesh;
 
-/// These lines as walls that stand on the surface, a mean edge of the mesh to each side of it.
+/// These lines as walls upright on the surface, a mean edge of the mesh to each side of it.
 class Barriers {
  public:
   Barriers() = default;
   explicit Barriers(const TriangleMesh& mesh);
 
-  /// What the straight way from p to q crosses; nothing: it is free.
+  /// What the straight path from p to q crosses; nothing: it is free.
   std::optional<LineKind> crossed(const Eigen::Vector3d& p, const Eigen::Vector3d& q) const {
     return crossing(p, q, false);
   }

@@ -21,11 +21,12 @@ namespace {
 using Triangle = std::array<int, 3>;
 using Triangles = std::vector<Triangle>;
 
-constexpr double one_place = 1e-5;   // of the size
-constexpr double no_area = 1e-9;     // over the square of the longest edge
-constexpr double folded_cos = 0.87;  // between the ways from an edge: by more than 150 degrees
-constexpr double least_up = 0.05;    // of a normal that faces up
-constexpr double farthest = 0.03;    // of the size: how far a vertex is moved
+constexpr double one_place = 1e-5;  // of the size
+constexpr double no_area = 1e-9;    // over the square of the longest edge
+constexpr double folded_cos =
+    0.87;                          // between the directions from an edge: by more than 150 degrees
+constexpr double least_up = 0.05;  // of a normal that faces up
+constexpr double farthest = 0.03;  // of the size: how far a vertex is moved
 
 double size_of(const Eigen::Matrix3Xd& x) {
   return (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff();
@@ -42,7 +43,7 @@ std::string counted(std::size_t count, const char* one, const char* more) {
   return fmt::format("{} {}", count, count == 1 ? one : more);
 }
 
-/// Vertices at one place become the first of them; returns how many were.
+/// Vertices at one position become the first of them; returns how many were.
 std::size_t join_near(const Eigen::Matrix3Xd& x, Triangles& triangles) {
   const double near = one_place * size_of(x);
   PointGrid grid(std::max(near, 1e-300));
@@ -86,7 +87,7 @@ std::size_t drop_needless(const Eigen::Matrix3Xd& x, Triangles& triangles) {
   std::map<MeshEdge, int> count;
   for (const Triangle& t : triangles)
     for (int k = 0; k < 3; ++k) ++count[edge_of(t, k)];
-  // a corner on another triangle's edge divides that one, where others lie beside the short sides
+  // a corner on another triangle's edge divides that one, where others lie at the short sides
   std::map<MeshEdge, int> divided;
   std::erase_if(triangles, [&](const Triangle& t) {
     const int side = flat_side(x, t);
@@ -228,7 +229,7 @@ std::pair<std::size_t, double> keep_largest(const Eigen::Matrix3Xd& x, Triangles
   return {areas.size(), 1 - largest->second / whole};
 }
 
-/// Of a closed piece, turned alike, what faces up.
+/// The part of a closed piece, equally oriented, that faces up.
 void keep_upper(const Eigen::Matrix3Xd& x, Triangles& triangles, const std::vector<Link>& links) {
   std::vector<std::vector<Link>> around(triangles.size());
   for (const Link& link : links)
@@ -248,7 +249,7 @@ void keep_upper(const Eigen::Matrix3Xd& x, Triangles& triangles, const std::vect
       const int there = link.first == here ? link.second : link.first;
       if (done[std::size_t(there)]) continue;
       Triangle& other = triangles[std::size_t(there)];
-      // the sides' numbers hold no longer once a triangle is turned
+      // the sides' numbers are invalid once a triangle is turned
       for (int k = 0; k < 3; ++k) {
         const MeshEdge edge = edge_of(triangles[std::size_t(here)], k);
         if (std::ranges::find(other, edge[0]) == other.end() ||
@@ -329,8 +330,8 @@ MendedMesh mended(const Eigen::Matrix3Xd& vertices, std::vector<std::array<int, 
   MendedMesh mesh{vertices, std::move(triangles), {}};
   auto& [x, all, done] = mesh;
   if (const auto joined = join_near(x, all); joined > 0)
-    done.push_back(counted(joined, "vertex at the place of another is joined to it",
-                           "vertices at the places of others are joined to these"));
+    done.push_back(counted(joined, "vertex at the position of another is joined to it",
+                           "vertices at the positions of others are joined to these"));
   if (const auto dropped = drop_needless(x, all); dropped > 0)
     done.push_back(counted(dropped, "triangle without area, or there twice, is",
                            "triangles without area, or there twice, are") +
@@ -343,7 +344,7 @@ MendedMesh mended(const Eigen::Matrix3Xd& vertices, std::vector<std::array<int, 
   const Sides sides = joined_sides(x, all);
   if (sides.of_several > 0)
     done.push_back(counted(sides.of_several, "edge has", "edges have") +
-                   " more than two triangles: the two that go on straightest stay joined");
+                   " more than two triangles: the two that continue straightest stay joined");
   const auto from = part(x, all, sides.links);
   const auto [pieces, left_out] = keep_largest(x, all, sides.links);
   draw_apart(x, all, from);

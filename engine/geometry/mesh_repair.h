@@ -1,4 +1,4 @@
-// One sheet of what a file of triangles holds.
+// One sheet of what a file of triangles contains.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,18 +8,20 @@
 
 namespace gridshell {
 
-/// A mesh that was mended, and what was done to it, a sentence each.
+/// A mesh that was mended, and what was done to it, one sentence each.
 struct MendedMesh {
   Eigen::Matrix3Xd vertices;
   std::vector<std::array<int, 3>> triangles;
   std::vector<std::string> done;
 };
 
-/// Of triangles as programs write them the largest sheet (by area) that TriangleMesh may take:
+/// Finds, among triangles as programs write them, the largest sheet (by area) that TriangleMesh may
+/// take:
 /// - vertices nearer than 1e-5 of the mesh's size are one;
-/// - triangles without area and those that are there twice are left out, what lies beside a corner
+/// - triangles without area and those that are there twice are left out, what is next to a corner
 ///   that such a triangle had on another's edge is divided there;
-/// - where more than two triangles share an edge the two that go on straightest stay joined, where
+/// - where more than two triangles share an edge the two that continue straightest stay joined,
+/// where
 ///   two are folded onto one another by more than 150 degrees they are parted, and so are parts
 ///   that touch in one vertex; vertices parted so draw back by a thousandth of their triangles;
 /// - of a closed mesh the part that faces up is taken;

@@ -11,10 +11,10 @@ namespace gridshell {
 namespace {
 
 tl::unexpected<Error> not_positive(const char* what, double value) {
-  return invalid("{} is {:g}, it must be positive", what, value);
+  return invalid("{}: got {:g}, expected above 0", what, value);
 }
 
-// how near 1 - (c r)^2 and c r come to the folds at 0: rods around the axis, or along it
+// how near 1 - (c r)^2 and c r are to the folds at 0: rods around the axis, or along it
 constexpr double least_regular = 1e-6;
 // what a sum of lengths may lose to round-off, relative to the net's extent
 constexpr double round_off = 1e-12;
@@ -89,7 +89,7 @@ Result<Profile> spool_profile(double radius, double waist) {
     const double ddz = (-2 * sine * cosine - dz * dr) / r;
     return ProfilePoint{radius * r, radius * dr, radius * ddr, radius * dz, radius * ddz};
   };
-  // at the rim itself the profile stands still
+  // at the rim itself the profile does not move
   const double rim = M_PI_2 - 1e-6;
   return Profile{
       fmt::format("spool of radius {:g} mm and waist {:g}", radius, waist), at, {-rim, rim}};
@@ -98,7 +98,7 @@ Result<Profile> spool_profile(double radius, double waist) {
 Result<Profile> beltrami_profile(double radius, double waist) {
   if (!(radius > 0)) return not_positive("the pseudosphere's radius", radius);
   if (!(waist > 0 && waist < 1))
-    return invalid("the pseudosphere's waist is {:g}, it must lie between 0 and 1", waist);
+    return invalid("the pseudosphere's waist: got {:g}, expected between 0 and 1", waist);
   const auto at = [radius](double t) {
     const double sech = 1 / std::cosh(t), tanh = std::tanh(t);
     return ProfilePoint{radius * sech, -radius * sech * tanh,
@@ -116,7 +116,7 @@ Result<Profile> tabulated_profile(const Eigen::Matrix2Xd& r_z) {
   const std::vector<double>& knots = curve->knots();
   for (std::size_t k = 0; k < knots.size(); ++k)
     if (!(r_z(0, k) > 0))
-      return invalid("point {} of the profile has radius {:g} mm, it must be positive", k + 1,
+      return invalid("radius of point {} of the profile: got {:g} mm, expected above 0", k + 1,
                      r_z(0, k));
   const auto at = [curve](double t) {
     const SplineCurve::Point p = curve->at(t);
@@ -131,11 +131,12 @@ Result<Profile> tabulated_profile(const Eigen::Matrix2Xd& r_z) {
 
 Result<RevolutionNet> RevolutionNet::make(Profile profile, double c) {
   const double cr = c * profile.at(profile.origin).r;
-  if (!(c > 0)) return invalid("a net on the {} needs c > 0, not {:g} / mm", profile.name, c);
+  if (!(c > 0))
+    return invalid("c of the net on the {}: got {:g} / mm, expected above 0", profile.name, c);
   if (!exists(profile, c, profile.origin))
     return invalid(
         "no net exists on the {} with c = {:g} / mm: in its middle sin(omega/2) = c r is "
-        "{:g}, it must lie between 0 and 1",
+        "{:g}, expected between 0 and 1",
         profile.name, c, cr);
   RevolutionNet net;
   net.profile_ = std::move(profile);
@@ -168,7 +169,7 @@ Result<NetPoint> RevolutionNet::at(double u, double v) const {
   double x = u + v;
   const double phi = c_ * (u - v);
   if (!(x >= first - slack && x <= last + slack))
-    return invalid("{}; (u, v) = ({:g}, {:g}) mm lies beyond", why_it_ends(!(x < 0)), u, v);
+    return invalid("{}; (u, v) = ({:g}, {:g}) mm is past it", why_it_ends(!(x < 0)), u, v);
   x = std::clamp(x, first, last);
   const double t = x_->inverse(x);
   const ProfilePoint p = profile_.at(t);
@@ -192,7 +193,7 @@ Result<double> RevolutionNet::x_at_axial(double z) const {
   const double first = (*z_)(z_->begin()), last = (*z_)(z_->end());
   const double slack = round_off * (last - first);
   if (!(z >= first - slack && z <= last + slack))
-    return invalid("{}; {:g} mm lies beyond", why_it_ends(!(z < 0)), profile_.axial_origin + z);
+    return invalid("{}; {:g} mm is past it", why_it_ends(!(z < 0)), profile_.axial_origin + z);
   double low = z_->begin(), high = z_->end();
   // bisection: heights along a profile may grow unevenly
   for (int halving = 0; halving < 200; ++halving) {

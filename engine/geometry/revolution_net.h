@@ -69,11 +69,11 @@ class RevolutionNet final : public ChebyshevNet {
   double last_x() const { return (*x_)(x_->end()); }
 
   /// u + v at the axial distance `z` from the net's middle. Errors (bad_input): the net folds or
-  /// the profile ends before; the profile turns back along its axis.
+  /// the profile ends before; the profile reverses along its axis.
   Result<double> x_at_axial(double z) const;
 
  private:
-  /// why there is no net beyond an end of its range, in words
+  /// why there is no net past an end of its range, as text
   std::string why_it_ends(bool last) const;
 
   Profile profile_;

@@ -44,7 +44,7 @@ Eigen::MatrixXd second_derivatives(const std::vector<double>& t, const Eigen::Ma
 
 Result<SplineCurve> SplineCurve::through(const Eigen::MatrixXd& points) {
   const Eigen::Index n = points.cols();
-  if (n < 4) return invalid("a curve needs at least 4 points, not {}", n);
+  if (n < 4) return invalid("a curve: got {} points, expected at least 4", n);
   for (Eigen::Index k = 0; k < n; ++k)
     if (!points.col(k).allFinite()) return invalid("point {} of the curve is not finite", k + 1);
   SplineCurve curve;
@@ -115,9 +115,9 @@ bool rises(const std::vector<double>& values) {
 Result<HeightGrid> HeightGrid::through(std::vector<double> x, std::vector<double> y,
                                        Eigen::MatrixXd z) {
   if (!rises(x) || !rises(y))
-    return invalid("x and y of a grid of heights must be 4 or more rising numbers");
+    return invalid("x and y of a grid of heights: expected 4 or more rising numbers");
   if (z.rows() != Eigen::Index(y.size()) || z.cols() != Eigen::Index(x.size()) || !z.allFinite())
-    return invalid("a grid of heights must have a finite one at every place");
+    return invalid("a grid of heights: got a height that is not finite");
   HeightGrid grid;
   grid.z_xx_ = second_derivatives(x, z);
   grid.z_yy_ = second_derivatives(y, z.transpose()).transpose();

@@ -10,11 +10,12 @@
 
 namespace gridshell {
 
-/// Second derivatives at the knots t of cubic splines through values (a row each, a column a knot),
-/// not-a-knot: the third derivative is continuous at the second and the last but one of 4 or more.
+/// Second derivatives at the knots t of cubic splines through values (one row each, a column a
+/// knot), not-a-knot: the third derivative is continuous at the second and the last but one of 4 or
+/// more.
 Eigen::MatrixXd second_derivatives(const std::vector<double>& t, const Eigen::MatrixXd& points);
 
-/// Cubic spline through points of the plane or of space (one a column), knots by chord length,
+/// Cubic spline through points of the plane or of space (one per column), knots by chord length,
 /// not-a-knot at its ends: twice continuously differentiable, error of fourth order in the spacing.
 class SplineCurve {
  public:
@@ -53,14 +54,14 @@ class UnitSpeedCurve {
 
 /// z = h(x, y) through its values on a grid: piecewise bicubic, twice continuously differentiable
 /// (splines in x of splines in y, not-a-knot at the edges); error of fourth order in the distance
-/// of its points. No value beyond the edges.
+/// of its points. No value outside the edges.
 class HeightGrid {
  public:
   /// `z`: rows x columns, mm. Errors (bad_input): fewer than 4 x or y, not rising, not finite.
   static Result<HeightGrid> through(std::vector<double> x, std::vector<double> y,
                                     Eigen::MatrixXd z);
 
-  double at(double x, double y) const;  ///< not a number beyond the edges
+  double at(double x, double y) const;  ///< not a number outside the edges
 
  private:
   std::vector<double> x_, y_;

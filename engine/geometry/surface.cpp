@@ -74,7 +74,7 @@ Surface::Curvature Surface::curvature(const Eigen::Vector3d& p) const {
 namespace {
 
 constexpr double finest = 0.25;     // of the detail: distance of centres at least
-constexpr double rim_reach = 1;     // of the detail: patches go on beyond the rim
+constexpr double rim_reach = 1;     // of the detail: patches continue past the rim
 constexpr double least_turn = 0.1;  // cosine between a patch's normal and those around
 constexpr double apart_over = 0.3;  // of a reach: so far off a patch another part of the mesh is
 constexpr int few = 22;             // vertices that a patch is better fitted to at least
@@ -141,7 +141,7 @@ std::vector<int> thinned(const std::vector<int>& around) {
   return some;
 }
 
-/// Whether a sign of equality stands in it that is no part of ==, <=, >= or !=.
+/// Whether it contains a sign of equality that is no part of ==, <=, >= or !=.
 bool is_equation(std::string_view text) {
   for (std::size_t k = 1; k + 1 < text.size(); ++k)
     if (text[k] == '=' && text[k + 1] != '=' &&
@@ -203,7 +203,7 @@ std::optional<MeshSurface::Patch> MeshSurface::patch_of(const TriangleMesh& mesh
     rows.row(k) = weight * powers(local.x() / radius, local.y() / radius).head(used).transpose();
     heights[k] = weight * local.z();
   }
-  // the shortest of all best coefficients: beside a rim not all of them may be told apart
+  // the shortest of all best coefficients: near a rim not all of them may be distinguishable
   patch.height.setZero();
   patch.height.head(used) = shortest_least_squares(rows, heights, 1e-7);
   patch.slope = std::hypot(1.0, patch.height[1] / radius, patch.height[2] / radius);
@@ -249,7 +249,7 @@ Result<MeshSurface> MeshSurface::fitted(const TriangleMesh& mesh, const Barriers
     if (std::ranges::any_of(around, [&](int k) { return mesh.on_rim(k); }))
       patch->reach = std::max(patch->reach, rim_reach * detail_mm);
     patch->beside_crease = std::ranges::any_of(around, [&](int k) { return mesh.on_crease(k); });
-    // another sheet beside this one
+    // another sheet next to this one
     bool alone = true;
     for (int corner = 0; corner < 8 && alone; ++corner) {
       const Eigen::Vector3d to(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
@@ -281,7 +281,7 @@ void MeshSurface::measure(const TriangleMesh& mesh) {
 
 Result<MeshSurface> MeshSurface::fit(const TriangleMesh& mesh, double detail_mm, double fit_mm) {
   const Barriers lines(mesh);
-  const double wanted = fit_mm > 0 ? fit_mm : 1e-3 * mesh.size();
+  const double requested = fit_mm > 0 ? fit_mm : 1e-3 * mesh.size();
   // vertices of a smooth surface lie on it to much less, and it is followed closely
   if (fit_mm == 0) {
     TRY(close, fitted(mesh, lines, detail_mm, usual_radii));
@@ -292,10 +292,10 @@ Result<MeshSurface> MeshSurface::fit(const TriangleMesh& mesh, double detail_mm,
     TRY(surface, fitted(mesh, lines, detail_mm, radii));
     if (best && surface->farthest_ > best->farthest_) continue;
     best = std::move(*surface);
-    if (best->farthest_ <= wanted) break;
+    if (best->farthest_ <= requested) break;
   }
   if (fit_mm > 0 && best->farthest_ > fit_mm)
-    return mesh_fault(fmt::format("the mesh is not that smooth: got fit_mm = {:g}, expected at "
+    return mesh_error(fmt::format("the mesh is not that smooth: got fit_mm = {:g}, expected at "
                                   "least {:.2g}, as a vertex lies so far off the closest surface",
                                   fit_mm, best->farthest_),
                       best->farthest_at_);
@@ -349,7 +349,7 @@ struct Expression::Parsed {
 };
 
 Result<Expression> Expression::parse(const std::string& text) {
-  if (is_equation(text)) return invalid("an equation, must be one side of it alone");
+  if (is_equation(text)) return invalid("got an equation, expected one side of it");
   auto parsed = std::make_shared<Parsed>();
   try {
     parsed->parser.DefineVar("x", &parsed->point.x());
@@ -358,9 +358,9 @@ Result<Expression> Expression::parse(const std::string& text) {
     parsed->parser.SetExpr(text);
     int values = 0;
     parsed->parser.Eval(values);
-    if (values != 1) return invalid("{} values, must be one", values);
+    if (values != 1) return invalid("got {} values, expected one", values);
   } catch (const mu::Parser::exception_type& wrong) {
-    return invalid("{} (at place {})", wrong.GetMsg(), int(wrong.GetPos()) + 1);
+    return invalid("{} (at character {})", wrong.GetMsg(), int(wrong.GetPos()) + 1);
   }
   return Expression(text, std::move(parsed));
 }

@@ -17,23 +17,24 @@ namespace gridshell {
 
 /// A point where two triangles without a common vertex meet; nothing: there is none. They are
 /// looked for among boxes of about `size`, mm. Errors (bad_input): triangles so uneven in size, or
-/// so many in one place, that it would take too long.
+/// so many at one position, that it would take too long.
 Result<std::optional<Eigen::Vector3d>> first_crossing(
     const Eigen::Matrix3Xd& vertices, const std::vector<std::array<int, 3>>& triangles,
     double size);
 
 // A mesh of triangles that is a surface.
 
-/// What is wrong with a mesh, with the place.
-tl::unexpected<Error> mesh_fault(const std::string& what, const Eigen::Vector3d& place);
+/// What is wrong with a mesh, with the position.
+tl::unexpected<Error> mesh_error(const std::string& what, const Eigen::Vector3d& place);
 
-/// One connected, two-sided sheet of triangles, all turned the same way, that does not meet itself.
+/// One connected, two-sided sheet of triangles, all with the same orientation, that does not meet
+/// itself.
 class TriangleMesh {
  public:
   using Triangles = std::vector<std::array<int, 3>>;
 
-  /// Vertices that no triangle has are left out. Errors (bad_input), with the place: a triangle of
-  /// no area, an edge of three triangles, several pieces, a mesh of one side, neighbours folded
+  /// Vertices that no triangle has are left out. Errors (bad_input), with the position: a triangle
+  /// of no area, an edge of three triangles, several pieces, a mesh of one side, neighbours folded
   /// onto one another, triangles that meet elsewhere than at their edges, a number of a vertex that
   /// is not there; those of lines_of().
   static Result<TriangleMesh> make(const Eigen::Matrix3Xd& vertices, Triangles triangles);
@@ -67,7 +68,7 @@ class TriangleMesh {
 };
 
 /// Where a function of space is zero. `length_mm`: how far apart values are taken whose differences
-/// are its slopes; small beside the radii of the surface's curvature.
+/// are its slopes; small compared with the radii of the surface's curvature.
 class Surface {
  public:
   using Function = std::function<double(const Eigen::Vector3d&)>;
@@ -80,12 +81,12 @@ class Surface {
   /// none is found near, F has no value or no slope there.
   Result<Eigen::Vector3d> nearest(const Eigen::Vector3d& p) const;
 
-  /// Of the surface at one of its points.
+  /// The curvature of the surface at one of its points.
   struct Curvature {
     Eigen::Matrix3d axes;  ///< columns: first and second principal direction, unit normal
     double first,
         second;    ///< principal curvatures, 1/mm, |first| >= |second|, signed by the normal
-    bool umbilic;  ///< both alike: the directions mean nothing
+    bool umbilic;  ///< both equal: the directions mean nothing
   };
   /// Second derivatives by differences of the slopes: relative error about 1e-5.
   Curvature curvature(const Eigen::Vector3d& p) const;
@@ -102,9 +103,9 @@ class Surface {
 /// plane of its centre, fitted to the vertices around by weighted least squares, so near the
 /// surface F is the distance from it (a partition of unity of local fits [Ohtake, Belyaev, Alexa,
 /// Turk, Seidel 2003]). Error of fifth order in the length of the edges; three times continuously
-/// differentiable. Where few vertices are around, the degree is lower. It goes on beyond the mesh's
+/// differentiable. Where few vertices are around, the degree is lower. It continues past the mesh's
 /// rim for some three quarters of `detail_mm`, further out it has no value. At creases it has two
-/// sides that know nothing of one another: what lies behind a crease is as far away as the way
+/// sides that know nothing of one another: what lies behind a crease is as far away as the path
 /// around the crease's end is long. Where the mesh turns too sharply for a polynomial, or another
 /// part of it is too near, it has no value.
 class MeshSurface {
@@ -112,12 +113,12 @@ class MeshSurface {
   /// `detail_mm`: what is a quarter as large is not followed any more, mm (the spacing of the
   /// rods). `fit_mm`: how far vertices may lie off the surface, which is as smooth as this allows;
   /// 0: a thousandth of the mesh's size, or what is needed. Errors (bad_input): vertices off the
-  /// fitted surface by more than `fit_mm`, with the place; no part of the mesh that is smooth; too
-  /// large a mesh for its details, or too uneven a one.
+  /// fitted surface by more than `fit_mm`, with the position; no part of the mesh that is smooth;
+  /// too large a mesh for its details, or too uneven a one.
   static Result<MeshSurface> fit(const TriangleMesh& mesh, double detail_mm, double fit_mm = 0);
 
   double at(const Eigen::Vector3d& p) const;  ///< not a number far from the mesh
-  /// Of the mesh's vertices, those at creases and without a value left out.
+  /// Deviations of the mesh's vertices, those at creases and without a value left out.
   double largest_distance() const { return farthest_; }
   const Eigen::Vector3d& farthest_vertex() const { return farthest_at_; }
 
@@ -128,7 +129,7 @@ class MeshSurface {
     Eigen::Matrix3d axes;                    ///< rows: two tangents, the normal
     Eigen::Matrix<double, terms, 1> height;  ///< by u^a v^b over the fit's radius
     double radius = 1;                       ///< of the fit
-    double reach = 0;                        ///< where its weight comes to zero
+    double reach = 0;                        ///< where its weight becomes zero
     double slope = 1;                        ///< |grad| of the height above it at its centre
     bool beside_crease = false;
   };
@@ -158,7 +159,7 @@ std::optional<double> highest_at(const TriangleMesh& mesh, double x, double y);
 /// muParser. Its copies share what they compute with: one thread at a time.
 class Expression {
  public:
-  /// Errors (bad_input): what does not parse, with the place counted from 1.
+  /// Errors (bad_input): what does not parse, with the position counted from 1.
   static Result<Expression> parse(const std::string& text);
 
   const std::string& text() const { return text_; }

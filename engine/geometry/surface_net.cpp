@@ -14,10 +14,11 @@ namespace gridshell {
 namespace {
 
 constexpr double exact = 1e-13;  // of a chord: corrections this small end an iteration
-constexpr double astray = 0.5;   // of a chord: so far from its guess no point is the one wanted
+constexpr double astray = 0.5;   // of a chord: so far from its guess no point is the right one
 
-/// The point of the surface near `guess` where two more conditions hold: `rest` fills the last two
-/// rows of the residual and of its slope. The surface's slope at the guess serves all iterations.
+/// The point of the surface near `guess` that satisfies two more conditions: `rest` fills the last
+/// two rows of the residual and of its slope. The surface's slope at the guess serves all
+/// iterations.
 template <class Rest>
 std::optional<Eigen::Vector3d> solved(const Surface& surface, const Eigen::Vector3d& guess,
                                       double chord, const Rest& rest) {
@@ -39,7 +40,7 @@ std::optional<Eigen::Vector3d> solved(const Surface& surface, const Eigen::Vecto
 }
 
 constexpr int reach = net_reach;
-constexpr int coarse_margin = 8;  // of the coarser grid around what is wanted
+constexpr int coarse_margin = 8;  // of the coarser grid around what is needed
 constexpr int most_nodes = 600;   // from the apex to an end of an axis
 
 /// Lagrange's weights of the nodes -2 ... 3 at t in [0, 1], of the value, its slope and its second
@@ -221,7 +222,7 @@ void ChordGrid::fill(const Surface& surface, const NetPlace& place, int margin, 
       here = margin;
       const int least = std::min(before[std::size_t(i)], out[std::size_t(i) - 1]);
       Node& state = nodes_[this->place(a, b)];
-      // beyond where the net has ended it does not begin again
+      // past where the net has ended it does not begin again
       for (const Node one : {node(a - sign_u, b), node(a, b - sign_v)})
         if (one == Node::folded || one == Node::lost) state = one;
       if (state != Node::unasked || least >= margin || node(a - sign_u, b) != Node::known ||
@@ -314,7 +315,7 @@ void SurfaceNet::tell(PartialNet& so_far) const {
   for (std::size_t k = 0; k < close.size(); ++k) so_far.narrow.col(Eigen::Index(k)) = close[k];
 }
 
-/// Around every node that is wanted there must be all that values near it take.
+/// Around every node that is used there must be all that values near it take.
 Result<void> SurfaceNet::check_whole(PartialNet* so_far) const {
   for (int j = first_v(); j <= last_v(); ++j)
     for (int i = first_u(); i <= last_u(); ++i) {
@@ -322,7 +323,7 @@ Result<void> SurfaceNet::check_whole(PartialNet* so_far) const {
       for (int b = j - reach; b <= j + reach; ++b)
         for (int a = i - reach; a <= i + reach; ++a) {
           if (grid_.node(a, b) == ChordGrid::Node::known) continue;
-          // beyond the end of an axis the reason is that end's
+          // past the end of an axis the reason is that end's
           const auto node =
               grid_.node(std::clamp(a, first_u(), last_u()), std::clamp(b, first_v(), last_v()));
           const Eigen::Vector3d& p = point(i, j);
@@ -330,12 +331,12 @@ Result<void> SurfaceNet::check_whole(PartialNet* so_far) const {
             tell(*so_far);
             so_far->end = p;
           }
-          const char* why = node == ChordGrid::Node::folded ? "the net folds, its rods become "
-                                                              "parallel,"
-                            : node == ChordGrid::Node::lost
-                                ? "the surface ends, or bends too sharply for the net,"
-                                : "the boundary turns back towards the net's axes, beyond their "
-                                  "ends,";
+          const char* why =
+              node == ChordGrid::Node::folded ? "the net folds, its rods become "
+                                                "parallel,"
+              : node == ChordGrid::Node::lost
+                  ? "the surface ends, or bends too sharply for the net,"
+                  : "the boundary comes back towards the net's axes, past their ends,";
           return invalid(
               "{} near ({:.4g}, {:.4g}, {:.4g}) mm, (u, v) = ({:.4g}, {:.4g}) mm, inside "
               "the boundary or next to it{}",

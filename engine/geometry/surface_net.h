@@ -14,7 +14,7 @@ namespace gridshell {
 /// and, at a right angle and to the left of it as `up` is seen from above, v.
 struct NetPlace {
   Eigen::Vector3d apex, along_u, up;  ///< mm; unit and orthogonal
-  /// below zero where the net is wanted; not a number counts as outside
+  /// below zero where the net is used; not a number counts as outside
   Surface::Function outside;
 };
 
@@ -36,8 +36,8 @@ using NetNodes = std::array<Eigen::Vector3d, 4 * net_reach * net_reach>;
 /// The error of who asks for a net where there is none.
 tl::unexpected<Error> ended_before(double u, double v);
 
-/// The net at a place in the middle cell, t_u and t_v of it from 0 to 1, by a polynomial of degree
-/// 5 in u and in v.
+/// The net at a position in the middle cell, t_u and t_v of it from 0 to 1, by a polynomial of
+/// degree 5 in u and in v.
 NetPoint net_point(const NetNodes& nodes, double t_u, double t_v, double chord);
 
 /// Points p(i, j) of a surface, neighbours a chord h apart. The axes i and j are geodesics, each
@@ -50,12 +50,12 @@ class ChordGrid {
     unasked,  ///< too far outside
     known,
     folded,  ///< rods close to parallel: the sine of their angle is below 0.12
-    lost     ///< no point of the surface lies there, or it lies beyond such nodes
+    lost     ///< no point of the surface lies there, or it lies past such nodes
   };
   static constexpr double least_sine = 0.12;
 
-  /// As far as the net is wanted and `margin` nodes further. Errors (bad_input): the axes do not
-  /// leave what is wanted within `most` nodes.
+  /// As far as the net is used and `margin` nodes further. Errors (bad_input): the axes do not
+  /// leave the used part within `most` nodes.
   static Result<ChordGrid> make(const Surface& surface, const NetPlace& place, double chord_mm,
                                 int margin, int most);
 
@@ -71,7 +71,7 @@ class ChordGrid {
   const Eigen::Vector3d& at(int i, int j) const { return points_[place(i, j)]; }
   /// From now on a node is not known.
   void forget(int i, int j) { nodes_[place(i, j)] = Node::lost; }
-  /// Whether the net is wanted there and joined to the apex by neighbours where it is.
+  /// Whether the net is used there and joined to the apex by neighbours where it is.
   bool inside(int i, int j) const { return has(i, j) && inside_[place(i, j)] != 0; }
 
  private:
@@ -97,7 +97,7 @@ class ChordGrid {
 
 /// What there is of a net that is refused, mm.
 struct PartialNet {
-  std::vector<Eigen::Matrix3Xd> lines;  ///< every fourth of the coarser grid, where it is wanted
+  std::vector<Eigen::Matrix3Xd> lines;  ///< every fourth of the coarser grid, where it is used
   Eigen::Matrix3Xd narrow{3, 0};  ///< its nodes where rods are less than 17 degrees from parallel
   Eigen::Vector3d end = Eigen::Vector3d::Zero();  ///< where it ends too early
 };
@@ -109,14 +109,14 @@ struct PartialNet {
 class SurfaceNet final : public ChebyshevNet {
  public:
   /// h, the chord of the coarser grid. Errors (bad_input): those of ChordGrid; where the net ends
-  /// though it is wanted, with the place and what may help; `so_far`, where given, is then filled.
+  /// though it is used, with the position and what may help; `so_far`, where given, is then filled.
   static Result<SurfaceNet> make(const Surface& surface, const NetPlace& place, double chord_mm,
                                  PartialNet* so_far = nullptr);
 
   Result<NetPoint> at(double u, double v) const override;
 
   double chord() const { return grid_.chord(); }
-  /// Whether the net is wanted at a node of the coarser grid, joined to the apex by such nodes.
+  /// Whether the net is used at a node of the coarser grid, joined to the apex by such nodes.
   bool inside(int i, int j) const { return grid_.inside(i, j); }
   int first_u() const { return grid_.first_u(); }
   int last_u() const { return grid_.last_u(); }

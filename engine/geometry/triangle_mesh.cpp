@@ -58,14 +58,14 @@ bool runs_along(const std::array<int, 3>& triangle, const Edge& edge) {
   return false;
 }
 
-/// Vertices that are used, numbered anew.
+/// Vertices that are used, numbered again.
 Result<Eigen::Matrix3Xd> used_vertices(const Eigen::Matrix3Xd& all, Triangles& triangles) {
   std::vector<int> now(std::size_t(all.cols()), -1);
   std::vector<int> used;
   for (auto& triangle : triangles)
     for (int& corner : triangle) {
       if (corner < 0 || corner >= all.cols())
-        return invalid("a triangle names vertex {} of {}", corner, all.cols());
+        return invalid("got vertex {} in a triangle, expected one of {}", corner, all.cols());
       int& number = now[std::size_t(corner)];
       if (number < 0) {
         number = int(used.size());
@@ -87,10 +87,10 @@ Result<Sides> sides_of(const Eigen::Matrix3Xd& x, const Triangles& triangles) {
       auto& on_it = sides[edge];
       on_it.push_back(int(t));
       if (on_it.size() > 2)
-        return mesh_fault("three triangles of the mesh share an edge", x.col(edge[0]));
+        return mesh_error("three triangles of the mesh share an edge", x.col(edge[0]));
     }
     if (!(area_of(x, triangles[t]).norm() > thin * longest * longest))
-      return mesh_fault("a triangle of the mesh has no area", x.col(triangles[t][0]));
+      return mesh_error("a triangle of the mesh has no area", x.col(triangles[t][0]));
   }
   return sides;
 }
@@ -113,7 +113,7 @@ Result<void> turn_alike(const Eigen::Matrix3Xd& x, const Sides& sides, Triangles
         const bool alike =
             runs_along(other, edge) != runs_along(triangles[std::size_t(here)], edge);
         if (done[std::size_t(there)] && !alike)
-          return mesh_fault("the mesh has one side only, as a Moebius strip,", x.col(edge[0]));
+          return mesh_error("the mesh has one side only, as a Moebius strip,", x.col(edge[0]));
         if (done[std::size_t(there)]) continue;
         if (!alike) std::swap(other[1], other[2]);
         done[std::size_t(there)] = 1;
@@ -123,7 +123,7 @@ Result<void> turn_alike(const Eigen::Matrix3Xd& x, const Sides& sides, Triangles
   }
   if (reached == triangles.size()) return {};
   const auto other = std::size_t(std::ranges::find(done, 0) - done.begin());
-  return mesh_fault(
+  return mesh_error(
       fmt::format("the mesh is in several pieces ({} of its {} triangles hang together): "
                   "another begins",
                   reached, triangles.size()),
@@ -138,7 +138,7 @@ Result<void> check_folds(const Eigen::Matrix3Xd& x, const Sides& sides,
     const Eigen::Vector3d a = area_of(x, triangles[std::size_t(both[0])]),
                           b = area_of(x, triangles[std::size_t(both[1])]);
     if (a.dot(b) < back * a.norm() * b.norm())
-      return mesh_fault("the mesh is folded", x.col(edge[0]));
+      return mesh_error("the mesh is folded", x.col(edge[0]));
   }
   return {};
 }
@@ -165,7 +165,7 @@ Result<std::optional<Eigen::Vector3d>> first_crossing(const Eigen::Matrix3Xd& ve
   for (const auto& [cell, inside] : grid.cells())
     for (std::size_t a = 0; a < inside.size(); ++a)
       for (std::size_t b = 0; b < a; ++b) {
-        if (++pairs > most_pairs) return too_long("too many triangles lie in one place");
+        if (++pairs > most_pairs) return too_long("too many triangles lie at one position");
         const std::size_t s = std::size_t(inside[a]), t = std::size_t(inside[b]);
         if (apart(boxes[s], boxes[t]) || share_a_vertex(triangles[s], triangles[t])) continue;
         if (const auto at = meeting(vertices, triangles[s], triangles[t]))
@@ -174,13 +174,13 @@ Result<std::optional<Eigen::Vector3d>> first_crossing(const Eigen::Matrix3Xd& ve
   return std::optional<Eigen::Vector3d>();
 }
 
-tl::unexpected<Error> mesh_fault(const std::string& what, const Eigen::Vector3d& p) {
+tl::unexpected<Error> mesh_error(const std::string& what, const Eigen::Vector3d& p) {
   return invalid("{} near ({:.4g}, {:.4g}, {:.4g}) mm", what, p.x(), p.y(), p.z());
 }
 
 Result<TriangleMesh> TriangleMesh::make(const Eigen::Matrix3Xd& vertices, Triangles triangles) {
-  if (triangles.empty()) return invalid("the mesh has no triangle");
-  if (!vertices.allFinite()) return invalid("a vertex of the mesh is not finite");
+  if (triangles.empty()) return invalid("got a mesh without a triangle");
+  if (!vertices.allFinite()) return invalid("got a vertex that is not finite");
   TRY(used, used_vertices(vertices, triangles));
   const Eigen::Matrix3Xd& x = *used;
   TRY(sides, sides_of(x, triangles));
@@ -211,7 +211,7 @@ Result<TriangleMesh> TriangleMesh::make(const Eigen::Matrix3Xd& vertices, Triang
     for (const int corner : triangle) mesh.normals_.col(corner) += area_of(x, triangle);
   for (auto normal : mesh.normals_.colwise()) normal.normalize();
   TRY(crossing, first_crossing(x, triangles, mesh.mean_edge_));
-  if (*crossing) return mesh_fault("the mesh runs through itself", **crossing);
+  if (*crossing) return mesh_error("the mesh runs through itself", **crossing);
   mesh.vertices_ = std::move(*used);
   mesh.triangles_ = std::move(triangles);
   return mesh;

@@ -25,11 +25,12 @@ std::span<const RodValue> own_of(const NetworkData& network, int number) {
 std::string put_own(const RodValue& own, Preset& preset) {
   const Field* field = own.key == "diameter_mm" ? nullptr : find_field("rod", own.key);
   if (!field || field->as<Points>(preset))
-    return fmt::format("unknown key '{}', must be points, diameter_mm or another key of [rod]{}",
-                       own.key, did_you_mean(own.key, keys_of("rod")));
+    return fmt::format(
+        "got an unknown key '{}', expected points, diameter_mm or another key of [rod]{}", own.key,
+        did_you_mean(own.key, keys_of("rod")));
   bool* flag = field->as<bool>(preset);
   const bool fits = flag ? own.value == 0 || own.value == 1 : field->range.holds(own.value);
-  if (!fits) return fmt::format("{} = {:g}, must be {}", own.key, own.value, allowed(*field));
+  if (!fits) return fmt::format("{}: got {:g}, expected {}", own.key, own.value, allowed(*field));
   if (flag)
     *flag = own.value == 1;
   else
@@ -52,7 +53,7 @@ std::vector<std::pair<int, Rod>> rods_of_their_own(const Preset& preset) {
 }
 
 /// The rules of [rod] for such rods.
-void look_at_own_rods(const Preset& preset, RuleKind kind, std::vector<KeyFault>& found) {
+void look_at_own_rods(const Preset& preset, RuleKind kind, std::vector<KeyError>& found) {
   const auto rods = rods_of_their_own(preset);
   if (rods.empty() || kind == RuleKind::unused) return;
   Preset one = preset;
@@ -72,7 +73,7 @@ void look_at_own_rods(const Preset& preset, RuleKind kind, std::vector<KeyFault>
   }
 }
 
-std::string list_of(const std::vector<KeyFault>& needs) {
+std::string list_of(const std::vector<KeyError>& needs) {
   std::vector<std::string> all;
   for (const auto& need : needs)
     if (std::ranges::find(all, need.what) == all.end()) all.push_back(need.what);
@@ -80,31 +81,31 @@ std::string list_of(const std::vector<KeyFault>& needs) {
 }
 
 /// Keys that the requested rod model does not support, and rods whose stiffness it lacks.
-std::vector<KeyFault> model_conflicts(const Preset& preset) {
-  std::vector<KeyFault> found;
-  const RodModel asked = preset.accuracy.model;
-  auto unmet = asked == RodModel::net ? key_faults(preset, RuleKind::needs_equilibrium)
-                                      : std::vector<KeyFault>();
-  if (asked == RodModel::net || asked == RodModel::bend)
-    for (auto& need : key_faults(preset, RuleKind::needs_twist)) unmet.push_back(std::move(need));
-  for (const KeyFault& need : unmet)
+std::vector<KeyError> model_conflicts(const Preset& preset) {
+  std::vector<KeyError> found;
+  const RodModel requested = preset.accuracy.model;
+  auto unmet = requested == RodModel::net ? key_errors(preset, RuleKind::needs_equilibrium)
+                                          : std::vector<KeyError>();
+  if (requested == RodModel::net || requested == RodModel::bend)
+    for (auto& need : key_errors(preset, RuleKind::needs_twist)) unmet.push_back(std::move(need));
+  for (const KeyError& need : unmet)
     found.push_back({"accuracy",
                      "model",
                      -1,
                      {need.label()},
-                     fmt::format("cannot serve {}: {}", need.label(), need.what)});
+                     fmt::format("it cannot compute {}: {}", need.label(), need.what)});
   if (rod_model_of(preset) != RodModel::twist) return found;
-  const auto needs = key_faults(preset, RuleKind::needs_twist);
-  const KeyFault cause =
-      needs.empty() ? KeyFault{"accuracy", "model", -1, {}, "it is asked for"} : needs.front();
+  const auto needs = key_errors(preset, RuleKind::needs_twist);
+  const KeyError cause =
+      needs.empty() ? KeyError{"accuracy", "model", -1, {}, "the model is given"} : needs.front();
   const auto check = [&](const Rod& rod, const std::string& table) {
     if (rod.shear_GPa == 0 && rod.GJ_Nmm2 == 0)
       found.push_back({cause.table,
                        cause.key,
                        -1,
                        {fmt::format("{} shear_GPa", table)},
-                       fmt::format("twists the rods ({}), and their torsional stiffness is not "
-                                   "known: {} shear_GPa or GJ_Nmm2 must be above 0",
+                       fmt::format("the rods twist: {}; they have no torsional stiffness, expected "
+                                   "{} shear_GPa or GJ_Nmm2 above 0",
                                    cause.what, table)});
   };
   check(preset.rod, "[rod]");
@@ -130,7 +131,7 @@ Rod rod_of_network(const Preset& preset, int number, bool reversed) {
   return one.rod;
 }
 
-std::string own_value_fault(const NetworkData& network) {
+std::string own_value_error(const NetworkData& network) {
   Preset any;
   for (const RodValue& own : network.own)
     if (const auto wrong = put_own(own, any); !wrong.empty())
@@ -138,8 +139,8 @@ std::string own_value_fault(const NetworkData& network) {
   return "";
 }
 
-std::vector<KeyFault> key_faults(const Preset& preset, RuleKind kind) {
-  std::vector<KeyFault> found;
+std::vector<KeyError> key_errors(const Preset& preset, RuleKind kind) {
+  std::vector<KeyError> found;
   const auto look = [&](const Field& field, int item) {
     for (const Rule& rule : field.rules) {
       if (rule.kind != kind) continue;
@@ -161,14 +162,14 @@ std::vector<KeyFault> key_faults(const Preset& preset, RuleKind kind) {
   return found;
 }
 
-std::vector<KeyFault> conflicts(const Preset& preset) {
-  auto found = key_faults(preset, RuleKind::refused);
+std::vector<KeyError> conflicts(const Preset& preset) {
+  auto found = key_errors(preset, RuleKind::refused);
   for (auto& fault : model_conflicts(preset)) found.push_back(std::move(fault));
   return found;
 }
 
-std::vector<KeyFault> unused_keys(const Preset& preset) {
-  return key_faults(preset, RuleKind::unused);
+std::vector<KeyError> unused_keys(const Preset& preset) {
+  return key_errors(preset, RuleKind::unused);
 }
 
 std::vector<std::string> doubtful_values(const Preset& preset) {
@@ -205,10 +206,10 @@ std::optional<NamedSide> side_named(const Preset& preset, const std::string& nam
 
 RodModel rod_model_of(const Preset& preset) {
   if (preset.accuracy.model != RodModel::automatic) return preset.accuracy.model;
-  const bool twist = !key_faults(preset, RuleKind::needs_twist).empty();
+  const bool twist = !key_errors(preset, RuleKind::needs_twist).empty();
   const bool cap = preset.footprint.kind == FootprintKind::net &&
                    preset.net.kind == NetKind::sphere && preset.ends.kind == EndKind::pinned;
-  if (!twist && cap && key_faults(preset, RuleKind::needs_equilibrium).empty())
+  if (!twist && cap && key_errors(preset, RuleKind::needs_equilibrium).empty())
     return RodModel::net;
   return twist ? RodModel::twist : RodModel::bend;
 }
@@ -217,12 +218,12 @@ std::string model_reason(const Preset& preset) {
   switch (rod_model_of(preset)) {
     case RodModel::net:
       return fmt::format(
-          "net: the tolerance of {:g} allows the smooth net itself, and nothing is asked that "
+          "net: the tolerance of {:g} allows the smooth net itself, and nothing is requested that "
           "needs "
           "an equilibrium; none is solved for, so there is no residual and no word on stability",
           preset.accuracy.tolerance);
     case RodModel::twist: {
-      const auto needs = key_faults(preset, RuleKind::needs_twist);
+      const auto needs = key_errors(preset, RuleKind::needs_twist);
       return needs.empty()
                  ? "twist, as requested: every rod's torsion is in it; `bend` would give the same "
                    "shape, "
@@ -236,10 +237,28 @@ std::string model_reason(const Preset& preset) {
   }
   return fmt::format(
       "bend: the rods are round and naturally straight, their ends spin freely and the joints pass "
-      "no twist, so the twist energy is zero at rest and leaving it out changes nothing; joints "
+      "no twist, so the twist energy is zero in equilibrium and leaving it out changes nothing; "
+      "joints "
       "are {}",
       preset.joints.eccentricity_mm == 0 ? "shared nodes, the limit of stiff springs"
-                                         : "bolts between the axes of rods that lie apart");
+                                         : "bolts between the axes of rods at a distance");
+}
+
+std::string joints_against(const Preset& preset) {
+  const bool opens = std::ranges::any_of(preset.step, [](const Step& step) {
+    return step.kind == StepKind::open && step.angles.empty();
+  });
+  if (!opens || preset.footprint.kind != FootprintKind::network) return "";
+  const NetworkData& file = preset.footprint.file;
+  const std::vector<int> against = opening_sense(file).against;
+  if (against.empty()) return "";
+  std::vector<std::size_t> rods;
+  for (std::size_t r = 0; r < file.rods.size(); ++r)
+    if (std::ranges::count(file.rods[r], against.front()) > 0) rods.push_back(r);
+  return fmt::format(
+      "an open turns {} joints, [{}, 0] first, against the others: rods[{}] and rods[{}] there run "
+      "so that its angle grows on the other side; the points of one of them must be reversed",
+      against.size(), against.front(), rods.front(), rods.back());
 }
 
 }  // namespace gridshell::preset

@@ -10,7 +10,7 @@
 namespace gridshell::preset {
 
 /// A key that other keys put in the wrong.
-struct KeyFault {
+struct KeyError {
   std::string table, key;
   int item = -1;                    ///< of a list of tables, from 0
   std::vector<std::string> others;  ///< the other keys: "[net] kind"
@@ -20,23 +20,27 @@ struct KeyFault {
 };
 
 /// What the rules of one kind find in this preset; of an unused key the first reason alone.
-std::vector<KeyFault> key_faults(const Preset& preset, RuleKind kind);
+std::vector<KeyError> key_errors(const Preset& preset, RuleKind kind);
 
 /// Keys that contradict each other. Empty if the preset is consistent (whether its footprint can be
 /// built is not known here).
-std::vector<KeyFault> conflicts(const Preset& preset);
+std::vector<KeyError> conflicts(const Preset& preset);
 
 /// Every key that this preset's kinds do not use. The reader refuses those that are set to
 /// something, the writer leaves them out.
-std::vector<KeyFault> unused_keys(const Preset& preset);
+std::vector<KeyError> unused_keys(const Preset& preset);
 
 /// `[rod]` with the values that a network file gives for one rod. Keys that are not in [rod] or out
 /// of range are ignored; own_value_fault() finds them. `reversed`: left and right of the rod are
 /// exchanged.
 Rod rod_of_network(const Preset& preset, int number, bool reversed = false);
 
+/// A sentence on joints of a network whose rods run so that they close while a step opens the
+/// others by the mean of all angles; empty: there are none.
+std::string joints_against(const Preset& preset);
+
 /// What is wrong with the first such value, naming its rod; empty: nothing.
-std::string own_value_fault(const NetworkData& network);
+std::string own_value_error(const NetworkData& network);
 
 /// A side of a block as a join names it.
 struct NamedSide {

@@ -29,14 +29,14 @@ void add_indentation(FieldList<Indentation> list) {
     return list.unused({"depth", "depth_mm"},
                        "nothing is pushed: [indentation] depth and depth_mm "
                        "are 0",
-                       [](const I& of) { return !of.wanted(); });
+                       [](const I& of) { return !of.requested(); });
   };
   const auto by_place = [&]() -> FieldList<I>& {
     return pushed().unused({"joint"}, "[indentation] joint names the joint that is pushed",
                            [](const I& of) { return !of.joint.empty(); });
   };
   list.add<&I::at>("joint that is pushed: the one nearest to the pole, or the highest");
-  by_place().unused({"latitude_deg"}, "[indentation] latitude_deg takes its place",
+  by_place().unused({"latitude_deg"}, "[indentation] latitude_deg replaces it",
                     [](const I& of) { return of.latitude_deg < 90; });
   list.add<&I::latitude_deg>(
       between(-90, 90),
@@ -57,9 +57,10 @@ void add_indentation(FieldList<Indentation> list) {
   list.add<&I::depth>(between(0, 10),
                       "depth of the push over rho of a net or R_o of a circle; 0: nothing is "
                       "pushed")
-      .unused({"depth_mm"}, "[indentation] depth_mm takes its place",
+      .unused({"depth_mm"}, "[indentation] depth_mm replaces it",
               [](const I& of) { return of.depth_mm > 0; })
-      .needs_equilibrium("a net does not answer a push", [](const I& of) { return of.wanted(); });
+      .needs_equilibrium("a net does not answer a push",
+                         [](const I& of) { return of.requested(); });
   list.add<&I::depth_mm>(at_least(0), "depth of the push in mm, instead of `depth`");
   list.add<&I::lateral>("whether the joint pushed may move across the push");
   pushed();
@@ -84,10 +85,10 @@ void add_dynamics(FieldList<Dynamics> list) {
 
 void add_contact(FieldList<Contact> list) {
   const auto acts = [](const Contact& of) { return of.model == ContactModel::barrier; };
-  const auto unless = [&](const char* key, const char* why, auto asked) {
-    list.refused({key}, fmt::format("{}, must be \"none\"", why),
+  const auto unless = [&](const char* key, const char* why, auto requested) {
+    list.refused({key}, fmt::format("{}, expected \"none\"", why),
                  [=](const Preset& preset, const Contact& of) {
-                   return of.model == ContactModel::barrier && asked(preset);
+                   return of.model == ContactModel::barrier && requested(preset);
                  });
   };
   list.add<&Contact::model>(
@@ -95,13 +96,13 @@ void add_contact(FieldList<Contact> list) {
           "other within a small gap, away from their joints")
       .needs_equilibrium("a net's rods bear no forces", acts);
   unless("[jitter] trials", "a search throws rods through one another",
-         [](const Preset& preset) { return preset.jitter.wanted(); });
+         [](const Preset& preset) { return preset.jitter.requested(); });
   unless("[dynamics] snap", "a snap in time takes no notice of contact",
          [](const Preset& preset) { return preset.dynamics.snap; });
   unless("[inverse] vary", "a design takes no notice of contact",
          [](const Preset& preset) { return !preset.inverse.vary.empty(); });
   const auto none = [=](const Contact& of) { return !acts(of); };
-  const char* why = "nothing keeps rods apart: [contact] model is \"none\"";
+  const char* why = "contact is not modelled: [contact] model is \"none\"";
   list.add<&Contact::gap_mm>(above(0),
                              "gap between the rods' surfaces at which they start to repel")
       .unused({"model"}, why, none);
@@ -122,20 +123,20 @@ void add_inverse(FieldList<Inverse> list) {
           "space (\"pins_3d\"); lengths of \"legs\"; \"directions\" of tangent ends; \"diameters\" "
           "of rods; empty: no design")
       .refused({"[ends] kind"},
-               "directions are held alone only with [ends] kind = \"tangent\", must not name "
-               "\"directions\"",
+               "directions are prescribed by themselves only with [ends] kind = \"tangent\", "
+               "expected a list without \"directions\"",
                [=](const Preset& preset, const I& of) {
                  return varies(of, Vary::directions) && preset.ends.kind != EndKind::tangent;
                })
       .refused({"[rod] width_mm", "[rod_v] width_mm"},
-               "rectangular rods have no diameters, must not name \"diameters\"",
+               "rectangular rods have no diameters, expected a list without \"diameters\"",
                [=](const Preset& preset, const I& of) {
                  return varies(of, Vary::diameters) &&
                         (preset.rod.rectangular() || preset.rod_v.rectangular());
                })
       .refused(
           {"[footprint] kind"},
-          "the footprint has no net, so there is no surface to meet, must be empty, or "
+          "the footprint has no net, so there is no surface to meet, expected an empty list, or "
           "[footprint] kind = \"net\"",
           [](const Preset& preset, const I& of) { return !of.vary.empty() && !preset.on_net(); });
   const auto designed = [&list]() {
@@ -169,14 +170,13 @@ void add_inverse(FieldList<Inverse> list) {
 
 void add_accuracy(FieldList<Accuracy> list) {
   constexpr double net_tolerance = 0.05;
-  const char* meshed = "a mesh is asked for";
+  const char* meshed = "a mesh is given";
   list.add<&Accuracy::tolerance>(
           between(1e-9, 1), "largest joint error allowed, over R_o of a circle or rho of a net")
-      .needs_equilibrium(
-          fmt::format("a net is a few hundredths of its radius off, the tolerance must be {} or "
-                      "more",
-                      net_tolerance),
-          [=](const Accuracy& of) { return of.tolerance < net_tolerance; });
+      .needs_equilibrium(fmt::format("a net deviates by a few hundredths of its radius, expected a "
+                                     "tolerance of {} or more",
+                                     net_tolerance),
+                         [=](const Accuracy& of) { return of.tolerance < net_tolerance; });
   list.add<&Accuracy::edges_per_segment>(
           between(0, 64), "edges between two joints of a rod; 0 chooses them from the tolerance")
       .needs_equilibrium(meshed, [](const Accuracy& of) { return of.edges_per_segment > 0; });
@@ -193,13 +193,13 @@ void add_accuracy(FieldList<Accuracy> list) {
 void add_jitter(FieldList<SearchSettings> list) {
   using S = SearchSettings;
   constexpr int most_trials = 1000000;
-  const auto wanted = [&list]() -> FieldList<S>& {
+  const auto requested = [&list]() -> FieldList<S>& {
     return list.unused({"trials", "confined"},
                        "no states are looked for: [jitter] trials and confined are 0",
-                       [](const S& of) { return !of.wanted(); });
+                       [](const S& of) { return !of.requested(); });
   };
   const auto of_mode = [&](SearchMode mode, const char* other, int S::*others) {
-    wanted().unused({"mode", other}, [=](const S& of) {
+    requested().unused({"mode", other}, [=](const S& of) {
       return of.mode == mode || (others && of.*others > 0)
                  ? ""
                  : fmt::format("[jitter] mode = \"{}\" does not use it, only \"{}\"",
@@ -210,23 +210,23 @@ void add_jitter(FieldList<SearchSettings> list) {
       "\"gravity\": a partly actuated shell in a random uniform force, which is then removed; "
       "\"random\": every joint is displaced by a random vector; \"poke\": random joints are pushed "
       "and released");
-  wanted();
+  requested();
   list.add<&S::trials>(
           between(0, most_trials),
           "number of random trials; above 0 the run is a search for states and makes no movie")
       .refused({"[indentation] depth", "[indentation] depth_mm", "confined"},
-               "states are looked for of a shell that nothing pushes, must be 0, or the depth of "
-               "[indentation]",
+               "states are searched of a shell that nothing pushes, expected 0, or 0 for the depth "
+               "of [indentation]",
                [](const Preset& preset) {
-                 return preset.jitter.wanted() && preset.indentation.wanted();
+                 return preset.jitter.requested() && preset.indentation.requested();
                });
   list.add<&S::seed>(between(0, 1 << 30),
                      "seed of the trials; the same seed finds the same states");
-  wanted();
+  requested();
   list.add<&S::levels>({0, 1, true},
                        "progress of the actuation at which trials start, in turn; empty: 0.02 to "
                        "0.5 for \"gravity\", the end for the others");
-  wanted();
+  requested();
   list.add<&S::field_N_per_mm>(above(0), "largest force per millimetre of rod");
   of_mode(SearchMode::gravity, "mode", nullptr);
   list.add<&S::amplitude>({0, 10, true},
@@ -239,24 +239,24 @@ void add_jitter(FieldList<SearchSettings> list) {
                          "turn; counted separately");
   list.add<&S::tolerance>({0, 1, true},
                           "states whose joints differ by less than this are one state, over d");
-  wanted();
+  requested();
   list.add<&S::drawn>(between(1, 24), "states in the picture");
-  wanted();
+  requested();
   list.add<&S::transitions>(
       between(0, 1000),
       "number of states, lowest first, for which it is found out what they become after release "
       "and contraction of the boundary, and after pushes");
-  wanted();
+  requested();
   list.add<&S::barriers>(
       "whether the barriers between the states in the picture are searched for, on 4 edges per "
       "segment");
-  wanted();
+  requested();
 }
 
 void add_sweep(FieldList<Sweep> list) {
   // a preset that sweeps nothing needs no line about it
   list.unused({"over", "seeds"}, "nothing is swept: [sweep] over is empty and seeds is 1",
-              [](const Sweep& of) { return !of.wanted(); });
+              [](const Sweep& of) { return !of.requested(); });
   list.add<&Sweep::over>(
       "keys that change from run to run, all combinations; `count` values from `from` to `to`, "
       "both among them, even steps or with `log = true` even factors");
@@ -292,8 +292,8 @@ void add_experiment_fields(std::vector<Field>& all) {
           "largest stress of a fibre (bending and axial) over the strength at which the run stops "
           "with limit \"strength\"; 0: no limit, it is reported")
       .refused({"[rod] strength_MPa", "[rod] yield_strain"},
-               "utilisation is of a strength, which the rods have none of: [rod] strength_MPa or "
-               "yield_strain must be above 0, those of [rod_v] too where these differ",
+               "the rods have no strength, expected 0, or [rod] strength_MPa or yield_strain above "
+               "0, and of [rod_v] where it differs",
                [](const Preset& preset, const Limits& of) {
                  return of.max_utilisation > 0 &&
                         (preset.rod.fibre_strength_MPa() == 0 ||

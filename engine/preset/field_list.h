@@ -26,7 +26,7 @@ template <class T>
 Member member_at(T& member) {
   if constexpr (std::is_enum_v<T>)
     return OneWord{&member, [](const void* at) { return int(*static_cast<const T*>(at)); },
-                   [](void* at, const int& place) { *static_cast<T*>(at) = T(place); }};
+                   [](void* at, const int& location) { *static_cast<T*>(at) = T(location); }};
   else
     return &member;
 }
@@ -42,7 +42,7 @@ requires std::is_enum_v<T> Member member_at(std::vector<T>& list) {
                    [](void* at, const std::vector<int>& places) {
                      auto& list = *static_cast<std::vector<T>*>(at);
                      list.clear();
-                     for (const int place : places) list.push_back(T(place));
+                     for (const int location : places) list.push_back(T(location));
                    }};
 }
 
@@ -56,7 +56,7 @@ std::vector<std::string> words_of_type(const std::vector<T>*) {
   return words_of_type(static_cast<const T*>(nullptr));
 }
 
-/// What the lists of all structs share, compiled once and not once a key.
+/// What the lists of all structs share, compiled once and not once per key.
 class AnyFieldList {
  protected:
   using StructOf = std::function<void*(Preset& preset, int item)>;
@@ -183,14 +183,14 @@ class FieldList : AnyFieldList {
 
  private:
   template <class Asked>
-  static auto ask(const Asked& asked, const Preset& preset, const void* at) {
+  static auto ask(const Asked& requested, const Preset& preset, const void* at) {
     const auto& one = *static_cast<const Struct*>(at);
     if constexpr (std::is_invocable_v<Asked, const Preset&, const Struct&>)
-      return std::invoke(asked, preset, one);
+      return std::invoke(requested, preset, one);
     else if constexpr (std::is_invocable_v<Asked, const Struct&>)
-      return std::invoke(asked, one);
+      return std::invoke(requested, one);
     else
-      return std::invoke(asked, preset);
+      return std::invoke(requested, preset);
   }
 
   template <class Kind>
@@ -206,7 +206,7 @@ template <class Struct>
 void needs_mass(FieldList<Struct>& list, const char* what, bool (*asks)(const Struct&)) {
   for (const char* table : {"rod", "rod_v"})
     list.refused({fmt::format("[{}] density_kg_m3", table)},
-                 fmt::format("{} needs a mass, [{}] density_kg_m3 must be above 0", what, table),
+                 fmt::format("{} needs a mass, expected [{}] density_kg_m3 above 0", what, table),
                  [=, v = std::string(table) == "rod_v"](const Preset& preset, const Struct& of) {
                    const bool lacks = v ? preset.rod_v.differs && !preset.rod_v.has_mass()
                                         : !preset.rod.has_mass();

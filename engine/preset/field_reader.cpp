@@ -33,27 +33,27 @@ std::optional<double> real_of(const toml::node& value) {
 constexpr double least_magnitude = 1e-9, largest_magnitude = 1e9;
 
 // why a number cannot be computed with, or empty
-std::string magnitude_fault(double value) {
+std::string magnitude_error(double value) {
   const double size = std::abs(value);
   if (size == 0 || (size >= least_magnitude && size <= largest_magnitude)) return "";
   return std::string(size > 1 ? "too large" : "too small") +
-         " to compute with (0, or a magnitude of 1e-9 to 1e9)";
+         " to compute with, expected 0, or a magnitude of 1e-9 to 1e9";
 }
 
 // only the magnitude of coordinates is limited: a value meant as zero is often slightly off zero
-std::string points_fault(const Points& points) {
+std::string points_error(const Points& points) {
   constexpr std::size_t most_places = 100000;
   if (points.size() > most_places)
-    return fmt::format("holds {} points, must be at most {}", points.size(), most_places);
+    return fmt::format("{} points, more than {}", points.size(), most_places);
   for (const auto& point : points)
     for (const double value : point)
       if (!(std::abs(value) <= largest_magnitude))
-        return "holds a number too large to compute with (at most 1e9)";
+        return "a number too large to compute with (above 1e9)";
   return "";
 }
 
 // the index of a name among the allowed ones
-std::optional<double> place_of(const toml::node& value, const std::vector<std::string>& words) {
+std::optional<double> index_of(const toml::node& value, const std::vector<std::string>& words) {
   const auto* text = value.as_string();
   if (!text) return std::nullopt;
   const auto found = std::ranges::find(words, text->get());
@@ -76,17 +76,16 @@ std::string type_text(const toml::node& value) {
 std::string read_part(const toml::node& value, double& number) {
   const auto real = real_of(value);
   number = real.value_or(0);
-  return real && std::abs(*real) <= largest_magnitude ? "" : "must hold numbers of at most 1e9";
+  return real && std::abs(*real) <= largest_magnitude ? "" : "expected numbers of at most 1e9";
 }
 std::string read_part(const toml::node& value, int& number) {
   const auto whole = value.is_integer() ? value.as_integer()->get() : -1;
   number = int(whole);
-  return whole >= 0 && whole <= 1000000000 ? "" : "must hold whole numbers from 0 to 1e9";
+  return whole >= 0 && whole <= 1000000000 ? "" : "expected whole numbers from 0 to 1e9";
 }
 std::string read_part(const toml::node& value, RodValue& of) {
   const auto* row = value.as_array();
-  if (!row || row->size() != 3 || !row->at(1).is_string())
-    return "must hold rows [rod, key, value]";
+  if (!row || row->size() != 3 || !row->at(1).is_string()) return "expected rows [rod, key, value]";
   of.key = row->at(1).as_string()->get();
   const auto wrong = read_part(row->at(0), of.rod);
   return wrong.empty() ? read_part(row->at(2), of.value) : wrong;
@@ -94,11 +93,11 @@ std::string read_part(const toml::node& value, RodValue& of) {
 template <class List>
 std::string read_part(const toml::node& value, List& list) {
   const auto* items = value.as_array();
-  if (!items) return "must hold lists";
+  if (!items) return "expected lists";
   if constexpr (requires { list.emplace_back(); })
     list.resize(items->size());
   else if (items->size() != list.size())
-    return fmt::format("must hold lists of {}", list.size());
+    return fmt::format("expected lists of {}", list.size());
   for (std::size_t k = 0; k < items->size(); ++k)
     if (auto wrong = read_part((*items)[k], list[k]); !wrong.empty()) return wrong;
   return "";
@@ -114,11 +113,11 @@ std::string read_parts(const toml::table& table, Data& data) {
     const std::string_view name(key);
     const std::string bare(name.ends_with("_mm") ? name.substr(0, name.size() - 3) : "");
     wrong = list ? read_part(*value, part)
-                 : fmt::format("has no list {}{}", key,
+                 : fmt::format("no list {}{}", key,
                                table.contains(bare)
-                                   ? fmt::format(" (it has {}, whose unit must be named)", bare)
+                                   ? fmt::format(" (it has {}: add the unit to the name)", bare)
                                    : "");
-    if (list && !wrong.empty()) wrong = fmt::format("{} {}", key, wrong);
+    if (list && !wrong.empty()) wrong = fmt::format("{}: {}", key, wrong);
   });
   return wrong;
 }
@@ -140,8 +139,8 @@ std::string surface_text(const SurfaceData& surface) {
 class Reader {
  public:
   Reader(const Field& field, const toml::node& value, const Preset& preset,
-         const FileContext& beside, FileReport* report)
-      : field_(field), value_(value), preset_(preset), beside_(beside), report_(report) {}
+         const FileContext& context, FileReport* report)
+      : field_(field), value_(value), preset_(preset), context_(context), report_(report) {}
 
   /// Whatever its type, a member is changed only where nothing is wrong.
   template <class T>
@@ -152,53 +151,53 @@ class Reader {
     return wrong;
   }
   std::string operator()(const OneWord& word) {
-    const auto place = place_of(value_, field_.words);
-    if (!place) return value_.is_string() ? "unknown word" : "is " + type_text(value_);
-    word.set(word.member, int(*place));
+    const auto index = index_of(value_, field_.words);
+    if (!index) return value_.is_string() ? "unknown name" : type_text(value_);
+    word.set(word.member, int(*index));
     return "";
   }
   std::string operator()(const SomeWords& words) {
     const auto* list = value_.as_array();
-    if (!list) return "is " + type_text(value_);
-    std::vector<int> places;
+    if (!list) return type_text(value_);
+    std::vector<int> indices;
     for (const auto& item : *list) {
-      const auto place = place_of(item, field_.words);
-      if (!place) return item.is_string() ? "unknown word" : "is a list with " + type_text(item);
-      if (std::ranges::count(places, int(*place)) > 0) return "names a word twice";
-      places.push_back(int(*place));
+      const auto index = index_of(item, field_.words);
+      if (!index) return item.is_string() ? "unknown name" : "a list with " + type_text(item);
+      if (std::ranges::count(indices, int(*index)) > 0) return "a name twice";
+      indices.push_back(int(*index));
     }
-    words.set(words.member, places);
+    words.set(words.member, indices);
     return "";
   }
-  /// Whether what is wrong was said in full, as of a file.
-  bool told_in_full() const { return told_in_full_; }
+  /// Whether the error is complete, as of a file.
+  bool reported_in_full() const { return reported_in_full_; }
 
  private:
   std::string read(const toml::node& value, double& number) const {
     const auto real = real_of(value);
-    if (!real) return is_ + type_text(value);
+    if (!real) return kind_ + type_text(value);
     if (!field_.range.holds(*real)) return "out of range";
     number = *real;
-    return magnitude_fault(*real);
+    return magnitude_error(*real);
   }
   std::string read(const toml::node& value, int& number) const {
     const auto* integer = value.as_integer();
-    if (!integer) return is_ + type_text(value);
+    if (!integer) return kind_ + type_text(value);
     if (!field_.range.holds(double(integer->get()))) return "out of range";
     number = int(integer->get());
     return "";
   }
   std::string read(const toml::node& value, bool& flag) const {
-    if (!value.is_boolean()) return is_ + type_text(value);
+    if (!value.is_boolean()) return kind_ + type_text(value);
     flag = value.as_boolean()->get();
     return "";
   }
   std::string read(const toml::node& value, std::string& text) const {
-    if (!value.is_string()) return is_ + type_text(value);
+    if (!value.is_string()) return kind_ + type_text(value);
     text = value.as_string()->get();
     const bool hex = text.size() == 7 && text[0] == '#' &&
                      text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
-    return field_.colour && !hex && !text.empty() && text != "transparent" ? "is no colour" : "";
+    return field_.colour && !hex && !text.empty() && text != "transparent" ? "no colour" : "";
   }
   template <class Number>
   std::string read(const toml::node& value, std::optional<Number>& number) const {
@@ -211,25 +210,23 @@ class Reader {
   template <class T>
   std::string read(const toml::node& value, std::vector<T>& list) {
     const auto* items = value.as_array();
-    if (!items) return is_ + type_text(value);
-    is_ = "is a list with ";
+    if (!items) return kind_ + type_text(value);
+    kind_ = "a list with ";
     for (const auto& item : *items)
       if (auto wrong = read(item, list.emplace_back()); !wrong.empty()) return wrong;
     const auto size = std::size_t(1 + std::ranges::count(field_.shape, ','));
     const bool fits = field_.shape.empty() || list.empty() || list.size() == size;
-    return fits ? "" : fmt::format("is a list of {}", list.size());
+    return fits ? "" : fmt::format("a list of {}", list.size());
   }
   std::string read(const toml::node& value, std::array<int, 2>& pair) {
     std::vector<int> numbers;
     if (auto wrong = read(value, numbers); !wrong.empty()) return wrong;
-    if (numbers.size() != 2) return fmt::format("is a list of {}", numbers.size());
+    if (numbers.size() != 2) return fmt::format("a list of {}", numbers.size());
     std::ranges::copy(numbers, pair.begin());
     return "";
   }
   // a table is read by read_axes(), where the positions of its errors are known
-  std::string read(const toml::node& value, std::vector<SweepAxis>&) {
-    return "is " + type_text(value);
-  }
+  std::string read(const toml::node& value, std::vector<SweepAxis>&) { return type_text(value); }
 
   std::string read(const toml::node& value, Points& points) {
     if (const auto* name = value.as_string(); name && !name->get().empty()) {
@@ -240,26 +237,26 @@ class Reader {
         return wrong;
       report(name->get(),
              fmt::format("{} points: {}", points.size(), fmt::join(field_.coordinates, ", ")));
-      const auto wrong = points_fault(points);
-      told_in_full_ = !wrong.empty();
-      return told_in_full_ ? (beside_.folder / name->get()).string() + ": " + wrong : wrong;
+      const auto wrong = points_error(points);
+      reported_in_full_ = !wrong.empty();
+      return reported_in_full_ ? (context_.folder / name->get()).string() + ": " + wrong : wrong;
     }
     const auto* list = value.as_array();
-    if (!list) return "is " + type_text(value);
+    if (!list) return type_text(value);
     for (const auto& item : *list) {
       const auto* point = item.as_array();
-      if (!point) return "is a list with " + type_text(item);
+      if (!point) return "a list with " + type_text(item);
       if (point->size() != field_.coordinates.size())
-        return fmt::format("holds a point of {} coordinates", point->size());
+        return fmt::format("a point of {} coordinates", point->size());
       auto& numbers = points.emplace_back();
       for (const auto& number : *point) {
         const auto words = field_.words_of(numbers.size());
-        const auto real = words.empty() ? real_of(number) : place_of(number, words);
-        if (!real) return "holds a point with " + type_text(number);
+        const auto real = words.empty() ? real_of(number) : index_of(number, words);
+        if (!real) return "a point with " + type_text(number);
         numbers.push_back(*real);
       }
     }
-    return points_fault(points);
+    return points_error(points);
   }
   std::string read(const toml::node& value, SurfaceData& surface) {
     if (const auto* name = value.as_string()) {
@@ -276,16 +273,17 @@ class Reader {
       report(name->get(), surface_text(surface) + (unit > 0 ? ", unit by file_unit" : ""));
       return wrong;
     }
-    if (!value.is_table()) return "is " + type_text(value);
+    if (!value.is_table()) return type_text(value);
     const auto wrong = read_parts(*value.as_table(), surface);
-    return wrong.empty() ? surface_fault(surface) : wrong;
+    return wrong.empty() ? surface_error(surface) : wrong;
   }
   std::string read(const toml::node& value, NetworkData& network) {
     if (const auto* name = value.as_string()) {
       const Footprint& of = preset_.footprint;
       const Rod& rod = preset_.rod;
       const NetworkOptions options{millimetres(of.file_unit), of.join_mm,
-                                   rod.rectangular() ? rod.thickness_mm : rod.diameter_mm};
+                                   rod.rectangular() ? rod.thickness_mm : rod.diameter_mm,
+                                   of.linkage};
       const bool rods = of.kind == FootprintKind::network;
       const auto read = [&](std::string_view bytes, const std::string& file) {
         return rods ? read_network(bytes, file, options, report_)
@@ -293,14 +291,14 @@ class Reader {
       };
       return read_file_of(name->get(), read, largest_network_file, network);
     }
-    if (!value.is_table()) return "is " + type_text(value);
+    if (!value.is_table()) return type_text(value);
     const auto wrong = read_parts(*value.as_table(), network);
-    return wrong.empty() ? network_fault(network) : wrong;
+    return wrong.empty() ? network_error(network) : wrong;
   }
 
   /// Reports the value read, for `check`.
   void report(const std::string& name, const std::string& text) {
-    if (report_) report_->text = fmt::format("{}: {}", (beside_.folder / name).string(), text);
+    if (report_) report_->text = fmt::format("{}: {}", (context_.folder / name).string(), text);
   }
 
   // points, a surface or a network out of a file, or none where the name is empty
@@ -308,13 +306,13 @@ class Reader {
   std::string read_file_of(const std::string& name, const auto& read_data, std::size_t largest,
                            Data& data) {
     if (name.empty()) return "";
-    const bool known = beside_.built_in && beside_.built_in->contains(name);
-    const auto file = beside_.folder / name;
-    Result<Data> found = known ? read_data(beside_.built_in->at(name), name)
+    const bool known = context_.built_in && context_.built_in->contains(name);
+    const auto file = context_.folder / name;
+    Result<Data> found = known ? read_data(context_.built_in->at(name), name)
                                : read_file(file, largest).and_then([&](const std::string& bytes) {
                                    return read_data(bytes, file.string());
                                  });
-    told_in_full_ = !found;
+    reported_in_full_ = !found;
     if (!found) return found.error().message;
     data = std::move(*found);
     return "";
@@ -323,20 +321,21 @@ class Reader {
   const Field& field_;
   const toml::node& value_;
   const Preset& preset_;
-  const FileContext& beside_;
+  const FileContext& context_;
   FileReport* report_;
-  const char* is_ = "is ";  // starts the sentence on the value found
-  bool told_in_full_ = false;
+  const char* kind_ = "";  // what comes before the type of the value found
+  bool reported_in_full_ = false;
 };
 
 }  // namespace
 
 std::string assign(const Field& field, const toml::node& value, Preset& preset,
-                   const FileContext& beside, int item, FileReport* report) {
-  Reader reader(field, value, preset, beside, report);
+                   const FileContext& context, int item, FileReport* report) {
+  Reader reader(field, value, preset, context, report);
   const auto wrong = std::visit(reader, field.in(preset, item));
-  if (wrong.empty() || reader.told_in_full()) return wrong;
-  std::string text = wrong + ", must be " + allowed(field);
+  if (wrong.empty() || reader.reported_in_full() || wrong.find("expected ") != std::string::npos)
+    return wrong;
+  std::string text = wrong + ", expected " + allowed(field);
   if (field.as_word(preset) && value.is_string())
     text += did_you_mean(value.as_string()->get(), field.words);
   return text;

@@ -49,7 +49,7 @@ using Member =
 
 /// What a key has to do with other keys.
 enum class RuleKind {
-  unused,             ///< it counts for nothing
+  unused,             ///< it has no effect
   refused,            ///< its value does not go with theirs
   needs_twist,        ///< the model `bend` is not exact
   needs_equilibrium,  ///< the smooth net itself, the model `net`, is not enough

@@ -91,8 +91,8 @@ struct Writer {
   }
   std::string operator()(const SomeWords& words) const {
     std::vector<std::string> texts;
-    for (const int place : words.get(words.member))
-      texts.push_back(field.words.at(std::size_t(place)));
+    for (const int location : words.get(words.member))
+      texts.push_back(field.words.at(std::size_t(location)));
     return text_of(texts);
   }
 };

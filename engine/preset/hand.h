@@ -28,7 +28,7 @@ struct Indentation {
   Lateral lateral = Lateral::free;
   bool unload = false;
 
-  bool wanted() const { return depth > 0 || depth_mm > 0; }
+  bool requested() const { return depth > 0 || depth_mm > 0; }
 };
 
 /// What a release takes out or lets go.
@@ -38,6 +38,8 @@ enum class BraceKind { cable, strut };
 
 /// One step of a hand, in a list that is done in order; numbers that its kind does not use count
 /// for nothing.
+/// What opens joints: a spring at each, or one torque, equal at all, that prescribes their mean.
+enum class JointDrive { each, mean };
 struct Step {
   StepKind kind = StepKind::move;
   double progress = 1;        ///< of the boundary; above 1 it moves further than in the actuation
@@ -61,6 +63,7 @@ struct Step {
   Released what = Released::joints;
   double angle_deg = 0;  ///< that joints are opened to on average
   Points angles;         ///< (i, j, degrees) of those that are opened; empty: all
+  JointDrive drive = JointDrive::each;
 };
 
 /// Where a load on the edge points: downwards; against the shell's normal there; into the shell, in

@@ -8,20 +8,20 @@ namespace {
 void step_rules(FieldList<Step>& list) {
   const auto first = [](const Preset& preset, const Step& of) { return &of == preset.step.data(); };
   list.refused({"[indentation] depth", "[indentation] depth_mm"},
-               "[indentation] pushes already, must be a step \"push\" in its place",
+               "[indentation] pushes already, expected a step \"push\" instead of it",
                [=](const Preset& preset, const Step& of) {
-                 return first(preset, of) && preset.indentation.wanted();
+                 return first(preset, of) && preset.indentation.requested();
                })
       .refused({"[jitter] trials", "[jitter] confined"},
-               "states are looked for of a shell that no hand touches, must be without [[step]], "
-               "or [jitter] trials and confined 0",
+               "states are searched of a shell without steps, expected no [[step]], or [jitter] "
+               "trials and confined 0",
                [=](const Preset& preset, const Step& of) {
-                 return first(preset, of) && preset.jitter.wanted();
+                 return first(preset, of) && preset.jitter.requested();
                })
       .needs_equilibrium("a net does not answer a hand", first);
 }
 
-/// Whether an `open` step finds bolts of another stiffness, which it cannot drive.
+/// Whether an `open` step finds bolts of another stiffness or drive, which it cannot drive.
 bool meets_other_bolts(const Preset& preset, const Step& of) {
   const Step* bolted = nullptr;
   for (const Step& step : preset.step) {
@@ -29,7 +29,8 @@ bool meets_other_bolts(const Preset& preset, const Step& of) {
     if (step.kind == StepKind::tighten || step.kind == StepKind::open) bolted = &step;
     if (step.kind == StepKind::release && step.what == Released::bolts) bolted = nullptr;
   }
-  return of.kind == StepKind::open && bolted && bolted->stiffness_Nmm != of.stiffness_Nmm;
+  return of.kind == StepKind::open && bolted &&
+         (bolted->stiffness_Nmm != of.stiffness_Nmm || bolted->drive != of.drive);
 }
 
 /// What makes a formed shell stiff, and takes it away again.
@@ -40,7 +41,7 @@ void add_stiffening(FieldList<Step>& list) {
                                  "open: to a deviation from the target angle; 0: rigid");
   list.used_by(&Step::kind, {K::tighten, K::open})
       .refused({},
-               "bolts of another stiffness are there by then, must be the same, or a release of "
+               "bolts of another stiffness act then, expected the same stiffness, or a release of "
                "\"bolts\" before it",
                meets_other_bolts);
   list.add<&Step::angle_deg>(
@@ -48,13 +49,21 @@ void add_stiffening(FieldList<Step>& list) {
       "open: target for the average angle of all crossings of two rods, each turned equally; "
       "between the directions of the rods; 0: `angles` is used");
   list.used_by(&Step::kind, {K::open})
-      .refused({}, "an open has `angle_deg` or `angles`, must be one of the two",
+      .refused({}, "both or none of angle_deg and angles, expected one of them",
                [](const Step& of) {
                  return of.kind == K::open && of.angles.empty() == (of.angle_deg == 0);
                });
   list.add<&Step::angles>("open: target angles of single joints; the others are free")
       .points({"i", "j", "angle_deg"});
   list.used_by(&Step::kind, {K::open});
+  list.add<&Step::drive>(
+      "open: \"each\": every joint has a spring; \"mean\": one torque, equal at all joints, brings "
+      "their mean angle to the target, from the network as drawn");
+  list.used_by(&Step::kind, {K::open})
+      .refused({}, "a mean angle has no angles of single joints, expected \"each\"",
+               [](const Step& of) {
+                 return of.kind == K::open && of.drive == JointDrive::mean && !of.angles.empty();
+               });
   list.add<&Step::cells>("brace: the cells; empty: all complete ones").points({"i", "j"});
   list.used_by(&Step::kind, {K::brace});
   list.add<&Step::diagonals>(
@@ -65,7 +74,7 @@ void add_stiffening(FieldList<Step>& list) {
   list.used_by(&Step::kind, {K::brace});
   list.add<&Step::EA_N>(at_least(0), "brace: axial stiffness").unit("N");
   list.used_by(&Step::kind, {K::brace})
-      .refused({}, "a brace needs a stiffness, must be above 0",
+      .refused({}, "a brace needs a stiffness, expected above 0",
                [](const Step& of) { return of.kind == K::brace && of.EA_N == 0; });
   list.add<&Step::what>("release: prescribed joints, all bolts or all braces");
   list.used_by(&Step::kind, {K::release});
@@ -84,18 +93,18 @@ void add_steps(FieldList<Step> list) {
   step_rules(list);
   list.add<&Step::progress>(
       between(0, 10), "move: 0 is the original boundary, 1 the actuated one, above 1 further");
-  only({K::move}).unused({"radius_mm"}, "radius_mm takes its place",
+  only({K::move}).unused({"radius_mm"}, "radius_mm replaces it",
                          [](const Step& of) { return of.radius_mm > 0; });
   list.add<&Step::radius_mm>(at_least(0),
                              "move: radius of a circle, instead of `progress`; 0: not given");
   only({K::move})
-      .refused({}, "only a circle's boundary has a radius, must be 0: `progress` serves all",
+      .refused({}, "only a circle's boundary has a radius, expected 0: `progress` works for all",
                [](const Preset& preset, const Step& of) {
                  return of.radius_mm > 0 && preset.footprint.kind != FootprintKind::circle;
                })
       .refused({}, [](const Preset& preset, const Step& of) {
         return of.radius_mm > preset.original_radius_mm()
-                   ? fmt::format("larger than the footprint, must be at most R_o = {}",
+                   ? fmt::format("larger than the footprint, expected at most R_o = {}",
                                  preset.original_radius_mm())
                    : "";
       });
@@ -103,8 +112,7 @@ void add_steps(FieldList<Step> list) {
           "move: displacement of single edge points, counted from 0, relative to the boundary's "
           "motion")
       .points({"edge_point", "x_mm", "y_mm", "z_mm"});
-  only({K::move}).refused({},
-                          "names an edge point that is no number, must be a whole number from 0 on",
+  only({K::move}).refused({}, "an edge point without a number, expected an integer from 0",
                           [](const Step& of) {
                             return std::ranges::any_of(of.edge_points, [](const auto& row) {
                               return row[0] < 0 || row[0] != double(int(row[0]));
@@ -115,7 +123,7 @@ void add_steps(FieldList<Step> list) {
   only({K::push, K::hold, K::release})
       .unused({"what"}, "bolts and braces are taken out all together",
               [](const Step& of) { return of.what != Released::joints; })
-      .refused({}, "must be [i, j]", [](const Step& of) {
+      .refused({}, "expected [i, j]", [](const Step& of) {
         return of.joint.empty() && (of.kind == K::push || of.kind == K::hold);
       });
   list.add<&Step::to_mm>("push: position to which the joint is moved; empty: `depth_mm` is used")
@@ -124,24 +132,23 @@ void add_steps(FieldList<Step> list) {
   list.add<&Step::depth_mm>(
       "push: displacement of the joint against the shell's normal, inward; negative: outward");
   only({K::push}).refused(
-      {}, "a push goes to `to_mm` or by `depth_mm`, must be one of the two",
+      {}, "both or none of to_mm and depth_mm, expected one of them",
       [](const Step& of) { return of.kind == K::push && of.to_mm.empty() == (of.depth_mm == 0); });
   list.add<&Step::along>(
           "direction in which the joint is prescribed; it is free across it; empty: that of the "
           "push, for \"hold\" all directions")
       .shape("[x, y, z]");
   only({K::push, K::hold})
-      .refused({}, "is no direction, must have a length",
+      .refused({}, "no direction, expected a vector with a length",
                [](const Step& of) {
                  return of.along == std::vector<double>{0, 0, 0};
                })
-      .refused(
-          {},
-          "a joint that is held across the push has no direction of its own, must be empty, or "
-          "lateral = \"free\"",
-          [](const Step& of) {
-            return of.kind == K::push && of.lateral == Lateral::held && !of.along.empty();
-          });
+      .refused({},
+               "a joint that is prescribed across the push has no direction of its own, expected "
+               "[], or lateral = \"free\"",
+               [](const Step& of) {
+                 return of.kind == K::push && of.lateral == Lateral::held && !of.along.empty();
+               });
   list.add<&Step::lateral>("whether the joint pushed may move across the push");
   only({K::push});
   list.add<&Step::factor>(between(-1000, 1000),
@@ -154,7 +161,7 @@ void add_steps(FieldList<Step> list) {
   only({K::load}).refused({"[[loads.case]] name"}, [](const Preset& preset, const Step& of) {
     const bool known = of.load_case.empty() ||
                        std::ranges::count(preset.load_case, of.load_case, &LoadCase::name) > 0;
-    return known ? "" : "there is no such case, must be the name of a [[loads.case]]";
+    return known ? "" : "no such case, expected the name of a [[loads.case]]";
   });
   add_stiffening(list);
   list.add<&Step::side>(
@@ -224,7 +231,7 @@ void add_load_cases(FieldList<LoadCase> list) {
     };
   };
   list.add<&C::name>("name of the case in steps, tables and pictures");
-  list.refused({}, "must be a name of its own", [](const Preset& preset, const C& of) {
+  list.refused({}, "expected a name that no other case has", [](const Preset& preset, const C& of) {
     return of.name.empty() || std::ranges::count(preset.load_case, of.name, &C::name) > 1;
   });
   list.needs_equilibrium("a net does not answer loads", [](const C&) { return true; });
@@ -232,23 +239,23 @@ void add_load_cases(FieldList<LoadCase> list) {
                      "multiple of gravity, field and points of [loads], in addition to those under "
                      "which the shell was formed")
       .refused(
-          {"[loads] gravity_m_s2"}, "[loads] says nothing that acts, must be 0",
+          {"[loads] gravity_m_s2"}, "[loads] has no load, expected 0",
           [](const Preset& preset, const C& of) { return of.dead != 0 && !preset.loads.any(); });
   list.add<&C::snow>(between(-1000, 1000), "multiple of snow_N_m2")
-      .refused({"[loads] snow_N_m2"}, "there is no snow: [loads] snow_N_m2 must be above 0",
+      .refused({"[loads] snow_N_m2"}, "there is no snow, expected [loads] snow_N_m2 above 0",
                lacks(&C::snow, &Loads::snow_N_m2));
   list.add<&C::snow_side>("half of the shell, seen from the middle of its joints, that has snow")
       .unused({"snow"}, "the case has no snow", [](const C& of) { return of.snow == 0; });
   list.add<&C::wind>(between(-1000, 1000), "multiple of wind_N_m2")
-      .refused({"[loads] wind_N_m2"}, "there is no wind: [loads] wind_N_m2 must be above 0",
+      .refused({"[loads] wind_N_m2"}, "there is no wind, expected [loads] wind_N_m2 above 0",
                lacks(&C::wind, &Loads::wind_N_m2));
   list.add<&C::pressure>(between(-1000, 1000), "multiple of pressure_N_m2; negative: from inside")
       .refused({"[loads] pressure_N_m2"},
-               "there is no pressure: [loads] pressure_N_m2 must be above 0",
+               "there is no pressure, expected [loads] pressure_N_m2 above 0",
                lacks(&C::pressure, &Loads::pressure_N_m2));
   list.add<&C::edge>(between(-1000, 1000), "multiple of edge_N_m")
       .refused({"[loads] edge_N_m"},
-               "there is no load on the edge: [loads] edge_N_m must be above 0",
+               "there is no load on the edge, expected [loads] edge_N_m above 0",
                lacks(&C::edge, &Loads::edge_N_m));
   list.add<&C::points>("forces in N on joints").points({"i", "j", "F_x", "F_y", "F_z"});
 }

@@ -10,12 +10,12 @@ std::vector<std::string> make_likely(SurfaceData& mesh, double spacing_mm, bool 
   std::vector<std::string> notes;
   Eigen::AlignedBox3d box;
   Eigen::Vector3d faced = Eigen::Vector3d::Zero();
-  const auto place = [&](int k) {
+  const auto location = [&](int k) {
     return Eigen::Map<Eigen::Vector3d>(mesh.vertices[std::size_t(k)].data());
   };
-  for (int k = 0; k < int(mesh.vertices.size()); ++k) box.extend(place(k));
+  for (int k = 0; k < int(mesh.vertices.size()); ++k) box.extend(location(k));
   for (const auto& [a, b, c] : mesh.triangles) {
-    const Eigen::Vector3d p = place(a), q = place(b), r = place(c);
+    const Eigen::Vector3d p = location(a), q = location(b), r = location(c);
     faced += (q - p).cross(r - p).cwiseAbs();
   }
   const double width = box.sizes().maxCoeff();

@@ -7,7 +7,7 @@ namespace {
 template <class Struct>
 void rises(FieldList<Struct>& list, std::vector<double> Struct::*range) {
   list.shape("[low, high]")
-      .refused({}, "must be [low, high] with low < high, or empty", [=](const Struct& of) {
+      .refused({}, "expected [low, high] with low < high, or empty", [=](const Struct& of) {
         const auto& pair = of.*range;
         return pair.size() == 2 && pair[0] >= pair[1];
       });
@@ -24,24 +24,23 @@ void add_movie(FieldList<Movie> list) {
   list.add<&M::colour_by>(
           "cells by K, its change since the first frame, or their deviation over rho; rods by "
           "displacement over depth, bending energy over length, axial force, stress or utilisation")
-      .refused(
-          {"[footprint] kind"},
-          "\"deviation\" is from the net that a footprint was designed on, must be another, or "
-          "[footprint] kind = \"net\" or \"blocks\"",
-          [](const Preset& preset, const M& of) {
-            return of.colour_by == ColourBy::deviation && !preset.on_net();
-          })
+      .refused({"[footprint] kind"},
+               "\"deviation\" is measured from the net of a footprint, expected another value, or "
+               "[footprint] kind = \"net\" or \"blocks\"",
+               [](const Preset& preset, const M& of) {
+                 return of.colour_by == ColourBy::deviation && !preset.on_net();
+               })
       .needs_equilibrium("a net's rods bear no forces",
                          [](const M& of) { return of.colour_by >= ColourBy::energy; })
       .refused({"[rod] strength_MPa", "[rod] yield_strain"},
-               "\"utilisation\" is of a strength, must be another, or [rod] strength_MPa or "
+               "\"utilisation\" is of a strength, expected another value, or [rod] strength_MPa or "
                "yield_strain above 0",
                [](const Preset& preset, const M& of) {
                  return of.colour_by == ColourBy::utilisation &&
                         preset.rod.fibre_strength_MPa() == 0;
                });
   const auto free_view = [&list] {
-    list.unused({"view"}, "[movie] view takes its place",
+    list.unused({"view"}, "[movie] view replaces it",
                 [](const M& of) { return of.view != View::free; });
   };
   list.add<&M::azimuth_deg>(between(-360, 360),
@@ -74,14 +73,18 @@ void add_movie(FieldList<Movie> list) {
   rises(list, &M::bins_range);
   list.add<&M::views>("more views in each frame, next to each other, degrees")
       .points({"azimuth", "elevation"});
-  list.add<&M::seconds>(at_least(0),
-                        "duration of the movie without title and final still; 0: frames / fps")
+  list.add<&M::seconds>(
+          at_least(0),
+          "duration of the movie without title and final still; 0: frames / fps, of few "
+          "frames a quarter of a second each, up to 4 s")
       .unit("s");
   list.add<&M::hold_first_s>(between(0, 60), "duration for which the first frame is shown");
   list.add<&M::hold_s>(between(0, 60), "duration for which the last frame is shown");
   list.add<&M::title_s>(between(0, 60),
                         "duration of a card with title and source at the start; 0: none");
-  list.add<&M::pace>("eased: slow at both ends");
+  list.add<&M::pace>(
+      "eased: slow at both ends; height: frames in equal steps of the square root of the progress, "
+      "as a flat grid rises");
   list.add<&M::webm>("whether movie.webm is made too");
   list.add<&M::gif>("whether movie.gif is made too");
   list.add<&M::poster>("whether the last frame is saved as poster.png");
@@ -101,7 +104,9 @@ void add_style(FieldList<Style> list) {
   list.add<&S::ring_colour>("colour of the boundary; empty: the theme's").colour();
   list.add<&S::background>("colour behind the shell; \"transparent\" leaves it out of the PNG")
       .colour();
-  list.add<&S::colour_map>("auto: sequential of sizes, diverging about zero of what has a sign");
+  list.add<&S::colour_map>(
+      "auto: sequential of sizes, diverging about zero of what has a sign; print: diverging, and "
+      "negative values darker in grey too");
   list.add<&S::range>(
       "range of the colours, in the unit of the colour bar; empty: nine tenths of the values of "
       "all cases, for stress and utilisation all values");
@@ -125,18 +130,18 @@ void add_style(FieldList<Style> list) {
 }
 
 /// Why the radii of a circle's stills do not fall from R_o to R_a; empty: they do.
-std::string radii_fault(const Preset& preset) {
+std::string radii_error(const Preset& preset) {
   if (preset.figure.radii_mm.empty()) return "";
   if (preset.footprint.kind != FootprintKind::circle)
-    return "only a circle's boundary has a radius all the way, must be empty for any other "
+    return "only a circle's boundary has a radius on all of its path, expected [] for any other "
            "[footprint] kind";
   const double from = preset.original_radius_mm(), to = preset.actuated_radius_mm();
   double last = from;
   for (const double radius : preset.figure.radii_mm) {
     if (radius > last || radius < to)
       return fmt::format(
-          "{} is not on the way, must fall from at most R_o = {} to at least R_a = "
-          "{}",
+          "{} is not on the path, expected values that fall from at most R_o = {} to at least R_a "
+          "= {}",
           radius, from, to);
     last = radius;
   }
@@ -149,7 +154,7 @@ void add_figure(FieldList<Figure> list) {
           "boundary radii of the stills, falling from R_o to R_a; empty: the final state alone")
       .refused({"[footprint] kind", "[footprint] radius_mm", "[footprint] longest_leg",
                 "[actuation] radius_mm", "[actuation] ratio"},
-               radii_fault);
+               radii_error);
   list.add<&Figure::scale_bar_mm>(at_least(0),
                                   "length of the scale bar; a round length instead if it would be "
                                   "a dot or longer than the shell; 0: none");

@@ -23,7 +23,7 @@ enum class ColourBy {
   utilisation
 };
 enum class View { free, front, side, top, corner, push };
-enum class Pace { even, eased };
+enum class Pace { even, eased, height };
 struct Movie {
   int frames = 240;
   std::array<int, 2> size{1280, 720};
@@ -53,7 +53,7 @@ struct Movie {
 };
 
 enum class Theme { screen, paper, dark };
-enum class ColourMap { automatic, diverging, sequential, grey };
+enum class ColourMap { automatic, diverging, sequential, grey, print };
 constexpr auto words(ColourMap) {
   return names_except<ColourMap>({{ColourMap::automatic, "auto"}});
 }

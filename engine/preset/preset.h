@@ -97,9 +97,11 @@ struct Footprint {
   double spacing_mm = 20.0;  ///< d
   Placement placement = Placement::half;
   NetworkData file;  ///< of kind network; of a curve whose boundary is "file": one closed rod
-  /// Unit and joining distance with which `file` is read; reset to the defaults after reading.
+  /// Unit and joining distance with which `file` is read, and whether its lines are the segments of
+  /// a linkage; reset to the defaults after reading.
   FileUnit file_unit = FileUnit::file;
   double join_mm = 0;
+  bool linkage = false;
 };
 
 enum class NetKind { sphere, cylinder, spool, beltrami, profile, translation, surface };
@@ -234,7 +236,7 @@ struct SearchSettings {
   int transitions = 0;      ///< number of states whose transitions are followed
   bool barriers = false;    ///< whether barriers between the states in the picture are computed
 
-  bool wanted() const { return trials > 0 || confined > 0; }
+  bool requested() const { return trials > 0 || confined > 0; }
 };
 
 struct Accuracy {
@@ -258,7 +260,7 @@ struct Sweep {
   std::string x;                  ///< result on the x axis; empty: the first key
   double departure = 0;           ///< value at which a line chart is marked; 0: no mark
 
-  bool wanted() const { return !over.empty() || seeds > 1; }
+  bool requested() const { return !over.empty() || seeds > 1; }
 };
 
 struct Preset {

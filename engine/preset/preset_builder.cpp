@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "engine/core/text.h"
 #include "engine/preset/consistency.h"
 #include "engine/preset/field_table.h"
 #include "engine/preset/materials.h"
@@ -14,18 +15,18 @@ std::string SourceLocation::text() const {
   return line == 0 ? source : fmt::format("{}:{}:{}", source, line, column);
 }
 
-std::string LocatedFaults::report() const {
-  auto sorted = faults_;
-  std::ranges::stable_sort(sorted, [](const LocatedFault& a, const LocatedFault& b) {
+std::string LocatedErrors::report() const {
+  auto sorted = errors_;
+  std::ranges::stable_sort(sorted, [](const LocatedError& a, const LocatedError& b) {
     const auto rank = [](const SourceLocation& p) {
       return std::tuple(p.line == 0, p.line, p.column);
     };
-    return rank(a.place) < rank(b.place);
+    return rank(a.location) < rank(b.location);
   });
   std::string text;
   std::set<std::string> seen;
   for (const auto& one : sorted) {
-    const auto line = one.place.text() + ": " + one.text;
+    const auto line = one.location.text() + ": " + one.text;
     if (seen.insert(line).second) text += (text.empty() ? "" : "\n") + line;
   }
   return text;
@@ -68,72 +69,77 @@ void PresetBuilder::take_material(const std::string& table) {
 namespace {
 
 // whether a deciding key was set in a layer above that of the key, which had an effect in its layer
-bool overridden_above(const PresetBuilder& draft, const std::vector<std::string>& deciders,
+bool overridden_above(const PresetBuilder& builder, const std::vector<std::string>& deciders,
                       ValueLayer layer) {
   return std::ranges::any_of(deciders, [&](const std::string& decider) {
-    const auto set = draft.set_at.find(decider);
-    return set != draft.set_at.end() && set->second.layer > layer;
+    const auto set = builder.set_at.find(decider);
+    return set != builder.set_at.end() && set->second.layer > layer;
   });
 }
 
-/// "[rod] diameter_mm = 20.0: neighbouring rods would touch, ..."
-std::string fault_text(const Preset& preset, const KeyFault& fault, const std::string& more = "") {
+/// "[rod] diameter_mm: got 20.0 (neighbouring rods would touch), expected ...", or of a key without
+/// effect "[net] waist = 0.4 has no effect, leave it out: ..."
+std::string error_text(const Preset& preset, const KeyError& fault, bool no_effect = false) {
   // a network or a table may be of thousands of points
   constexpr std::size_t longest = 60;
   auto value = value_text(*find_field(fault.table, fault.key), preset, fault.item);
   // a value from a file is reported with its position there
-  if (value.starts_with('{')) return fmt::format("{}: {}{}", fault.label(), more, fault.what);
+  if (value.starts_with('{'))
+    return fmt::format("{}: {}{}", fault.label(), no_effect ? "has no effect, leave it out: " : "",
+                       fault.what);
   if (value.size() > longest) value.replace(longest - 3, std::string::npos, "...");
-  return fmt::format("{} = {}: {}{}", fault.label(), value, more, fault.what);
+  if (no_effect)
+    return fmt::format("{} = {} has no effect, leave it out: {}", fault.label(), value, fault.what);
+  return got_text(fault.label(), value, fault.what);
 }
 
 // a refused value left its default behind, with which nothing that the user wrote is at odds
-bool any_refused(const PresetBuilder& draft, const std::vector<std::string>& keys) {
-  return std::ranges::any_of(keys, [&](const auto& key) { return draft.faulty.contains(key); });
+bool any_refused(const PresetBuilder& builder, const std::vector<std::string>& keys) {
+  return std::ranges::any_of(keys, [&](const auto& key) { return builder.faulty.contains(key); });
 }
 
-bool is_default(const PresetBuilder& draft, const KeyFault& fault) {
+bool is_default(const PresetBuilder& builder, const KeyError& fault) {
   static const Preset defaults = default_items();
   const Field& field = *find_field(fault.table, fault.key);
-  return value_text(field, draft.preset, fault.item) == value_text(field, defaults);
+  return value_text(field, builder.preset, fault.item) == value_text(field, defaults);
 }
 
 }  // namespace
 
-void check_conflicts(const PresetBuilder& draft, const std::string& source, LocatedFaults& faults) {
-  for (const KeyFault& fault : conflicts(draft.preset)) {
+void check_conflicts(const PresetBuilder& builder, const std::string& source,
+                     LocatedErrors& errors) {
+  for (const KeyError& fault : conflicts(builder.preset)) {
     auto keys = fault.others;
     keys.insert(keys.begin(), fault.label());
-    if (any_refused(draft, keys)) continue;
+    if (any_refused(builder, keys)) continue;
     if (fault.item >= 0) keys.push_back(key_label(fault.table, "", fault.item));
     const auto set = std::ranges::find_if(
-        keys, [&](const std::string& key) { return draft.set_at.contains(key); });
-    faults.add(set == keys.end() ? SourceLocation{source} : draft.set_at.at(*set),
-               fault_text(draft.preset, fault));
+        keys, [&](const std::string& key) { return builder.set_at.contains(key); });
+    errors.add(set == keys.end() ? SourceLocation{source} : builder.set_at.at(*set),
+               error_text(builder.preset, fault));
   }
 }
 
-void check_unused_keys(const std::vector<PresetBuilder>& runs, LocatedFaults& faults) {
+void check_unused_keys(const std::vector<PresetBuilder>& runs, LocatedErrors& errors) {
   std::map<std::string, std::size_t> unused_in;
-  std::vector<std::vector<KeyFault>> unused;
-  for (const PresetBuilder& draft : runs)
-    for (const KeyFault& one : unused.emplace_back(unused_keys(draft.preset)))
+  std::vector<std::vector<KeyError>> unused;
+  for (const PresetBuilder& builder : runs)
+    for (const KeyError& one : unused.emplace_back(unused_keys(builder.preset)))
       ++unused_in[one.label()];
   for (std::size_t run = 0; run < runs.size(); ++run)
-    for (const KeyFault& one : unused[run]) {
-      const PresetBuilder& draft = runs[run];
+    for (const KeyError& one : unused[run]) {
+      const PresetBuilder& builder = runs[run];
       const auto name = one.label();
-      const auto set = draft.set_at.find(name);
-      if (set == draft.set_at.end() || draft.faulty.contains(name)) continue;
+      const auto set = builder.set_at.find(name);
+      if (set == builder.set_at.end() || builder.faulty.contains(name)) continue;
       const ValueLayer layer = set->second.layer;
       // what the base says may be for another case
       if (layer != ValueLayer::one_case && unused_in[name] < runs.size()) continue;
       // a key that says its default asks for nothing
-      if (overridden_above(draft, one.others, layer) || any_refused(draft, one.others) ||
-          is_default(draft, one))
+      if (overridden_above(builder, one.others, layer) || any_refused(builder, one.others) ||
+          is_default(builder, one))
         continue;
-      faults.add(set->second,
-                 fault_text(draft.preset, one, "counts for nothing here, must be left out: "));
+      errors.add(set->second, error_text(builder.preset, one, true));
     }
 }
 

@@ -24,22 +24,22 @@ struct SourceLocation {
 };
 
 /// All errors of a file, with their positions.
-class LocatedFaults {
+class LocatedErrors {
  public:
-  void add(const SourceLocation& place, std::string text) {
-    faults_.push_back({place, std::move(text)});
+  void add(const SourceLocation& location, std::string text) {
+    errors_.push_back({location, std::move(text)});
   }
-  bool empty() const { return faults_.empty(); }
+  bool empty() const { return errors_.empty(); }
 
   /// A line each, in the order of the file and each once; those of the command line come last.
   std::string report() const;
 
  private:
-  struct LocatedFault {
-    SourceLocation place;
+  struct LocatedError {
+    SourceLocation location;
     std::string text;
   };
-  std::vector<LocatedFault> faults_;
+  std::vector<LocatedError> errors_;
 };
 
 /// Where the files lie that a preset names: in a folder, or with it in the program.
@@ -53,7 +53,7 @@ struct NamedFile {
   std::string table, key;
   int item = -1;  ///< of a list of tables
   std::string name;
-  FileContext beside;
+  FileContext context;
 };
 
 // A preset while its file is read, and what its keys say together once all are laid.
@@ -76,9 +76,10 @@ struct PresetBuilder {
 
 /// Adds errors for values that contradict each other; if none of them was set, the error is in
 /// `source`.
-void check_conflicts(const PresetBuilder& draft, const std::string& source, LocatedFaults& faults);
+void check_conflicts(const PresetBuilder& builder, const std::string& source,
+                     LocatedErrors& errors);
 
 /// Keys that count for nothing in any of the runs of a file, because of what others are set to.
-void check_unused_keys(const std::vector<PresetBuilder>& runs, LocatedFaults& faults);
+void check_unused_keys(const std::vector<PresetBuilder>& runs, LocatedErrors& errors);
 
 }  // namespace gridshell::preset

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "engine/core/file_io.h"
+#include "engine/core/text.h"
 #include "engine/preset/consistency.h"
 #include "engine/preset/field_table.h"
 #include "engine/preset/sweep_grid.h"
@@ -24,19 +25,19 @@ constexpr std::size_t longest_name = 100;
 std::string case_name(const toml::table& table, const std::set<std::string>& taken,
                       TomlReader& reading) {
   const auto* node = table.get("name");
-  const auto place = reading.place_of(node ? node->source() : table.source());
+  const auto location = reading.location_of(node ? node->source() : table.source());
   if (!node) {
-    reading.faults().add(place, "[[case]]: has no name, must have one: name = \"...\"");
+    reading.errors().add(location, "[[case]] name: got none, expected a name: name = \"...\"");
     return "";
   }
   const auto name = node->value<std::string>();
-  if (const auto wrong = case_name_fault(name.value_or("")); !wrong.empty()) {
-    reading.faults().add(place, fmt::format("[[case]] name = {}: {}", toml_text(*node), wrong));
+  if (const auto wrong = case_name_error(name.value_or("")); !wrong.empty()) {
+    reading.errors().add(location, got_text("[[case]] name", toml_text(*node), wrong));
     return "";
   }
   if (taken.contains(*name)) {
-    reading.faults().add(
-        place, fmt::format("[[case]] name = {}: used twice, must be unique", toml_text(*node)));
+    reading.errors().add(location, got_text("[[case]] name", toml_text(*node),
+                                            "used twice, expected a unique name"));
     return "";
   }
   return *name;
@@ -48,10 +49,10 @@ Presets read_presets(const toml::table& root, const std::string& name,
   PresetBuilder base;
   base.preset.name = name;
   reading.apply(root, "case", base);  // and with it the lists of tables
-  const auto finish = [&](PresetBuilder draft) {
-    for (const auto& change : overrides) reading.apply_override(change, draft);
-    reading.read_files(draft);
-    return draft;
+  const auto finish = [&](PresetBuilder builder) {
+    for (const auto& change : overrides) reading.apply_override(change, builder);
+    reading.read_files(builder);
+    return builder;
   };
   const auto whole = finish(base);
   Presets presets{whole.preset, {}};
@@ -61,7 +62,8 @@ Presets read_presets(const toml::table& root, const std::string& name,
   };
   const auto* node = root.get("case");
   if (node && !node->is_array_of_tables()) {
-    reading.faults().add(reading.place_of(node->source()), "case: must be tables, each [[case]]");
+    reading.errors().add(reading.location_of(node->source()),
+                         "case: got one table or value, expected tables, each [[case]]");
     return presets;
   }
   std::set<std::string> taken;
@@ -69,25 +71,25 @@ Presets read_presets(const toml::table& root, const std::string& name,
   const toml::array none;  // a copy of the list would lose its positions
   for (const auto& item : node ? *node->as_array() : none) {
     const auto& table = *item.as_table();
-    PresetBuilder draft = base;
-    reading.apply(table, "name", draft);
-    draft = finish(std::move(draft));
+    PresetBuilder builder = base;
+    reading.apply(table, "name", builder);
+    builder = finish(std::move(builder));
     const auto own = case_name(table, taken, reading);
     taken.insert(own);
-    draft.preset.name = name + "/" + own;
-    runs.push_back(draft);
-    presets.cases.push_back({own, std::move(draft.preset)});
+    builder.preset.name = name + "/" + own;
+    runs.push_back(builder);
+    presets.cases.push_back({own, std::move(builder.preset)});
   }
   if (runs.empty()) runs.push_back(whole);
-  for (const PresetBuilder& draft : runs) {
-    add_once(draft.read, presets.files);
-    add_once(draft.notes, presets.notes);
-    add_once(doubtful_values(draft.preset), presets.notes);
+  for (const PresetBuilder& builder : runs) {
+    add_once(builder.read, presets.files);
+    add_once(builder.notes, presets.notes);
+    add_once(doubtful_values(builder.preset), presets.notes);
   }
-  for (const PresetBuilder& draft : runs)
-    check_conflicts(draft, reading.source(), reading.faults());
-  check_unused_keys(runs, reading.faults());
-  check_sweep(runs, reading.faults());
+  for (const PresetBuilder& builder : runs)
+    check_conflicts(builder, reading.source(), reading.errors());
+  check_unused_keys(runs, reading.errors());
+  check_sweep(runs, reading.errors());
   return presets;
 }
 
@@ -106,7 +108,7 @@ std::string cell(std::string text) {
 class Used {
  public:
   explicit Used(const Preset& preset) {
-    for (const KeyFault& idle : unused_keys(preset))
+    for (const KeyError& idle : unused_keys(preset))
       idle_.insert({idle.table, idle.key, idle.item});
   }
   bool operator()(const Field& field, int item = -1) const {
@@ -143,27 +145,28 @@ std::string list_text(const std::string& table, const Preset& preset, const Used
 
 }  // namespace
 
-std::string case_name_fault(const std::string& name) {
+std::string case_name_error(const std::string& name) {
   const auto plain = [](unsigned char c) { return std::isalnum(c) || std::strchr("._-", c); };
   if (name.empty() || !std::isalnum((unsigned char)name.front()) ||
       !std::ranges::all_of(name, plain))
-    return "names a folder, must be letters, digits, '.', '_' or '-' and begin with a letter or "
+    return "the name of a folder, expected letters, digits, '.', '_' or '-' after a letter or "
            "digit";
   if (name.size() > longest_name)
-    return fmt::format("is {} letters long, must be at most {}", name.size(), longest_name);
+    return fmt::format("{} letters, expected at most {}", name.size(), longest_name);
   const auto kind = std::filesystem::path(name).extension().string();
   for (const char* taken : {".csv", ".gif", ".h5", ".journal", ".json", ".mp4", ".pdf", ".png",
                             ".svg", ".toml", ".webm"})
-    if (kind == taken) return fmt::format("must not end in {}, as the files of a run do", kind);
-  if (name == "frames") return "is the folder of a movie's pictures, must be another name";
-  if (name == "segments") return "is the folder of an unfinished run's path, must be another name";
+    if (kind == taken)
+      return fmt::format("a name of a file of a run, expected another ending than {}", kind);
+  if (name == "frames") return "the folder of a movie's pictures, expected another name";
+  if (name == "segments") return "the folder of an unfinished run's path, expected another name";
   return "";
 }
 
 Result<Override> parse_override(const std::string& argument) {
   const auto equals = argument.find('=');
   if (equals == std::string::npos || equals == 0)
-    return invalid("--set {}: must be table.key=value, for example --set footprint.radius_mm=126",
+    return invalid("--set {}: expected table.key=value, for example --set footprint.radius_mm=126",
                    argument);
   const auto trimmed = [](const std::string& text) {
     const auto first = text.find_first_not_of(' ');
@@ -185,7 +188,7 @@ Result<Presets> read_preset_text(const std::string& text, const std::string& sou
   }
   TomlReader reading(source, {std::filesystem::path(source).parent_path(), &files});
   auto presets = read_presets(root, name, overrides, reading);
-  if (!reading.faults().empty()) return invalid(reading.faults().report());
+  if (!reading.errors().empty()) return invalid(reading.errors().report());
   return presets;
 }
 

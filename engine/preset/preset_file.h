@@ -1,6 +1,6 @@
 // Reads a preset: default < file < override. All errors of a file are reported at once, one per
 // line:
-//   file:line:column: [table] key = value: what is wrong; did you mean 'x'?
+//   file:line:column: [table] key: got X, expected Y; did you mean 'x'?
 #pragma once
 
 #include <filesystem>
@@ -30,13 +30,14 @@ struct Case {
 struct Presets {
   Preset base;
   std::vector<Case> cases;
-  std::vector<std::string> files = {};  ///< what came of each file that it names, a sentence each
-  std::vector<std::string> notes = {};  ///< what may not be as it was meant
+  std::vector<std::string> files =
+      {};  ///< what was read of each file that it names, one sentence each
+  std::vector<std::string> notes = {};  ///< what was read and is probably a mistake
 };
 
 /// Why a case cannot have this name, which is that of a folder among a run's files; empty when it
 /// can.
-std::string case_name_fault(const std::string& name);
+std::string case_name_error(const std::string& name);
 
 /// "table.key=value" as given to --set. Errors: bad_input when there is no key or no '='.
 Result<Override> parse_override(const std::string& argument);
@@ -60,10 +61,10 @@ Result<Presets> read_preset_file(const std::filesystem::path& file,
 /// gives an equivalent preset.
 std::string to_toml(const Preset& preset);
 
-/// The base as above, then a [[case]] each with the keys in which it differs from the base.
+/// The base as above, then one [[case]] per case with the keys in which it differs from the base.
 std::string to_toml(const Presets& presets);
 
-/// A key as the reference shows it: all in words.
+/// A key as the reference shows it, all of it as text.
 struct KeyText {
   std::string table;  ///< empty at the top of the file
   std::string key, unit;
@@ -72,7 +73,7 @@ struct KeyText {
   std::string meaning;
 };
 
-/// All of them, in the order of the reference.
+/// All keys, in the order of the reference.
 std::vector<KeyText> key_texts();
 
 /// The reference of all keys: a Markdown table of key, unit, default, allowed values and meaning

@@ -18,7 +18,7 @@ void add_rods(FieldList<Rod> rods, const std::string& table) {
       const bool grid = preset.footprint.kind != FootprintKind::network;
       return grid && preset.rod.diameter_mm >= spacing
                  ? fmt::format(
-                       "neighbouring rods would touch, must be less than [footprint] "
+                       "neighbouring rods would touch, expected less than [footprint] "
                        "spacing_mm = {}",
                        spacing)
                  : "";
@@ -33,16 +33,17 @@ void add_rods(FieldList<Rod> rods, const std::string& table) {
                                "stress over it; 0: not given");
   rods.add<&Rod::yield_strain>(
           at_least(0), "largest strain that a fibre bears, instead of strength_MPa; 0: not given")
-      .refused({"strength_MPa"}, "strength_MPa says what the rods bear, one of both must be 0",
+      .refused({"strength_MPa"},
+               "the strength is in strength_MPa already, expected 0 for one of both",
                [](const Rod& rod) { return rod.yield_strain > 0 && rod.strength_MPa > 0; });
-  const std::string half = "a rectangular section has both, [{}] {} must be above 0 too";
+  const std::string half = "a rectangular section has both, expected [{}] {} above 0 too";
   const auto two_axes = [](const Rod& rod) {
     return rod.rectangular() && rod.width_mm != rod.thickness_mm;
   };
   rods.add<&Rod::width_mm>(
           at_least(0),
           "width of a rectangular section, in the plane of the grid; 0: the rods are round")
-      .needs_twist("rods that are not alike in all directions spin as they bend", two_axes)
+      .needs_twist("rods that are not equal in all directions twist as they bend", two_axes)
       .refused({}, fmt::format(fmt::runtime(half), table, "thickness_mm"),
                [](const Rod& rod) { return rod.width_mm > 0 && rod.thickness_mm == 0; });
   rods.add<&Rod::thickness_mm>(
@@ -55,11 +56,11 @@ void add_rods(FieldList<Rod> rods, const std::string& table) {
         const double across =
             rod.rectangular() ? std::min(rod.width_mm, rod.thickness_mm) : rod.diameter_mm;
         return rod.wall_mm > 0 && 2 * rod.wall_mm >= across
-                   ? fmt::format("a tube of {} mm has no hollow, must be below {}", across,
+                   ? fmt::format("a tube with such a wall is not hollow, expected below {}", across,
                                  0.5 * across)
                    : "";
       });
-  const char* round = "is of a section that is alike in all directions, width_mm must be 0";
+  const char* round = "it is of a section that is equal in all directions, expected width_mm 0";
   rods.add<&Rod::EA_N>(at_least(0), "axial stiffness; 0: from the section");
   rods.add<&Rod::EI_Nmm2>(at_least(0),
                           "bending stiffness, equal in all directions; 0: from the section")
@@ -74,7 +75,7 @@ void add_rods(FieldList<Rod> rods, const std::string& table) {
       .unit("mm³")
       .refused({"width_mm"}, round,
                [](const Rod& rod) { return rod.modulus_mm3 > 0 && rod.rectangular(); });
-  const char* curved = "rods curved at rest spin to keep their curve";
+  const char* curved = "rods with natural curvature twist to keep their curve";
   rods.add<&Rod::curvature_per_mm>("natural curvature in the vertical plane; above 0 arches up")
       .needs_twist(curved, [](const Rod& rod) { return rod.curvature_per_mm != 0; });
   rods.add<&Rod::curvature_sideways_per_mm>(
@@ -83,7 +84,7 @@ void add_rods(FieldList<Rod> rods, const std::string& table) {
   // a round straight rod whose ends spin freely untwists by itself
   rods.add<&Rod::twist_rad_per_mm>("natural twist")
       .needs_twist(
-          "rods twisted at rest turn their axes", [=](const Preset& preset, const Rod& rod) {
+          "rods with natural twist turn their axes", [=](const Preset& preset, const Rod& rod) {
             const bool curved = rod.curvature_per_mm != 0 || rod.curvature_sideways_per_mm != 0;
             return rod.twist_rad_per_mm != 0 &&
                    (two_axes(rod) || curved || preset.ends.kind == EndKind::clamped ||
@@ -117,15 +118,15 @@ void add_joints(FieldList<Joints> joints) {
           "and a spring connects them")
       .needs_twist("spring joints give each rod a node of its own",
                    [](const Joints& of) { return of.kind == JointKind::spring; })
-      .refused({"stiffness_N_per_mm"},
-               "springs without stiffness hold nothing, [joints] stiffness_N_per_mm must be above "
-               "0",
-               [](const Joints& of) {
-                 return of.kind == JointKind::spring && of.stiffness_N_per_mm == 0;
-               });
+      .refused(
+          {"stiffness_N_per_mm"},
+          "springs without stiffness connect nothing, expected [joints] stiffness_N_per_mm above 0",
+          [](const Joints& of) {
+            return of.kind == JointKind::spring && of.stiffness_N_per_mm == 0;
+          });
   joints.add<&Joints::stiffness_N_per_mm>(at_least(0), "stiffness of spring joints")
       .refused({"kind"},
-               "shared joints have no stiffness, must be 0, or [joints] kind = \"spring\"",
+               "shared joints have no stiffness, expected 0, or [joints] kind = \"spring\"",
                [](const Joints& of) {
                  return of.kind == JointKind::shared && of.stiffness_N_per_mm > 0;
                });
@@ -144,9 +145,10 @@ void add_joints(FieldList<Joints> joints) {
           between(-1000, 1000),
           "distance of the second rod's axis (v-rod; in a network the one listed later) above the "
           "first's, along the joint's normal; negative: below it")
-      .refused({"kind"},
-               "axes that lie apart are held by a bolt, must be 0, or [joints] kind = \"shared\"",
-               [=](const Joints& of) { return eccentric(of) && of.kind == JointKind::spring; })
+      .refused(
+          {"kind"},
+          "axes at a distance are connected by a bolt, expected 0, or [joints] kind = \"shared\"",
+          [=](const Joints& of) { return eccentric(of) && of.kind == JointKind::spring; })
       .needs_equilibrium("a net's rods cross in a point", eccentric);
   joints.add<&Joints::diameter_mm>(above(0),
                                    "diameter of the joint's cylinder, whose top a scan sees");
@@ -161,7 +163,7 @@ void add_ends(FieldList<Ends> ends) {
   ends.add<&Ends::kind>(
           "\"pinned\": position prescribed; \"tangent\": direction too, along the net's tangents "
           "or, in a circle, as in the flat grid; \"clamped\": rotation about the axis too")
-      .needs_twist("clamped ends hold the rods' spin",
+      .needs_twist("clamped ends prescribe the rods' twist angle",
                    [](const Ends& of) { return of.kind == EndKind::clamped; });
   const char* no_net = "a network has no net whose end rings it could be";
   ends.add<&Ends::rings>(
@@ -169,7 +171,7 @@ void add_ends(FieldList<Ends> ends) {
           "free")
       .unused({"[footprint] kind"}, no_net, is_network)
       .refused({"[footprint] kind", "[net] kind"},
-               "only a surface of revolution has end rings, must be \"pinned\"",
+               "only a surface of revolution has end rings, expected \"pinned\"",
                [](const Preset& preset, const Ends& of) {
                  return of.rings == Rings::free && !has_rings(preset);
                });
@@ -180,13 +182,13 @@ void add_ends(FieldList<Ends> ends) {
       .unused({"[footprint] kind"}, no_net, is_network)
       .refused({"[footprint] kind"},
                "the far ends are pinned along the tangents of a net, and this footprint has none, "
-               "must be 0, or [footprint] kind = \"net\"",
+               "expected 0, or [footprint] kind = \"net\"",
                [](const Preset& preset, const Ends& of) {
                  return of.second_ring_mm > 0 && !preset.on_net();
                })
       .refused({"kind"},
-               "a tail holds the direction of its end, which is held already, must be 0, or [ends] "
-               "kind = \"pinned\"",
+               "a tail prescribes the direction of its end, which is prescribed already, expected "
+               "0, or [ends] kind = \"pinned\"",
                [](const Ends& of) { return of.second_ring_mm > 0 && of.kind != EndKind::pinned; })
       .needs_equilibrium("a net has no tails",
                          [](const Ends& of) { return of.second_ring_mm > 0; });
@@ -215,7 +217,7 @@ void add_rod_fields(std::vector<Field>& all) {
       .add<&RodV::differs>(
           "whether the v-rods differ from those of [rod]; the keys below then count")
       .refused(
-          {}, "the other keys of [rod_v] would count for nothing, must be true",
+          {}, "the other keys of [rod_v] would have no effect, expected true",
           [](const RodV& rod) { return !rod.differs && static_cast<const Rod&>(rod) != Rod(); });
   FieldList<Rod> v_rods(all, "rod_v", [](Preset& preset) -> Rod& { return preset.rod_v; });
   v_rods.unused({"[footprint] kind"}, one_kind, is_network).where([](const Preset& preset) {

@@ -39,7 +39,7 @@ void add_curve(FieldList<Curve> curve, const std::string& meaning) {
       .refused({"boundary"}, [](const Curve& of) {
         const bool pointed = of.kind == CurveKind::polygon || of.kind == CurveKind::spline;
         return pointed && of.points.size() < 3
-                   ? fmt::format("{} points, must be at least 3 for a polygon or spline",
+                   ? fmt::format("{} points, expected at least 3 for a polygon or spline",
                                  of.points.size())
                    : "";
       });
@@ -50,7 +50,7 @@ template <class Struct>
 void radius_rules(FieldList<Struct>& list, Curve Struct::*boundary, double Struct::*other,
                   const std::string& label) {
   list.used_by_footprint({Kinds::circle, Kinds::curve})
-      .unused({label}, label + " takes its place",
+      .unused({label}, label + " replaces it",
               [=](const Preset& preset, const Struct& of) {
                 return is_circle(preset) && of.*other > 0;
               })
@@ -68,7 +68,7 @@ void add_footprint(std::vector<Field>& all) {
   list.add<&Footprint::kind>(
           "what cuts the flat square grid: a circle, the boundary that fits a net, a curve of your "
           "own, or joined blocks; \"network\": any rods from a file")
-      .refused({}, "there is no block, must have at least one [[block]]",
+      .refused({}, "no block, expected at least one [[block]]",
                [](const Preset& preset) {
                  return preset.footprint.kind == Kinds::blocks && preset.block.empty();
                })
@@ -85,17 +85,17 @@ void add_footprint(std::vector<Field>& all) {
       .unused({"kind"}, "only a network, and a curve whose boundary is \"file\", use it",
               [=](const Footprint& of) { return !drawn(of); })
       .refused({"boundary"},
-               "boundary = \"file\" must have the name of a drawing in [footprint] file",
+               "boundary = \"file\" needs a drawing, expected its name in [footprint] file",
                [=](const Footprint& of) { return drawn(of) && !network(of) && of.file.empty(); })
-      .refused({"kind"}, "kind = \"network\" needs rods, must be the name of a file",
+      .refused({"kind"}, "kind = \"network\" needs rods, expected the name of a file",
                [=](const Footprint& of) { return network(of) && of.file.empty(); })
       .refused({},
                [=](const Preset& preset) {
                  const Footprint& of = preset.footprint;
-                 return network(of) ? own_value_fault(of.file) : std::string();
+                 return network(of) ? own_value_error(of.file) : std::string();
                })
       .refused({"[rod] width_mm"},
-               "gives diameters, and rectangular rods have none, [rod] width_mm must be 0",
+               "it has diameters, and rectangular rods have none, expected [rod] width_mm = 0",
                [=](const Preset& preset, const Footprint& of) {
                  return network(of) && preset.rod.rectangular() && !of.file.diameters.empty();
                })
@@ -108,10 +108,10 @@ void add_footprint(std::vector<Field>& all) {
                    })
       .needs_twist("rods that are closed have no ends that could spin",
                    [=](const Footprint& of) { return network(of) && has_closed_rods(of.file); })
-      .needs_twist("clamped ends of the file hold the rods' spin",
+      .needs_twist("clamped ends of the file prescribe the rods' twist angle",
                    [=](const Footprint& of) { return network(of) && clamps(of.file); });
   const char* of_a_file =
-      "is of a file that `file` names: rods listed here are in mm and as joined";
+      "it is for a file that `file` names, expected none: rods listed here are in mm and joined";
   list.add<&Footprint::file_unit>(
           "unit of a drawing (.obj, .dxf, .svg), of [actuation] file too; \"file\": the one that "
           "it names, else mm")
@@ -125,6 +125,11 @@ void add_footprint(std::vector<Field>& all) {
       .used_by(&Footprint::kind, {Kinds::network, Kinds::curve})
       .refused({"file"}, of_a_file,
                [=](const Footprint& of) { return network(of) && of.join_mm > 0; });
+  list.add<&Footprint::linkage>(
+          "each line of the file is one segment (X-shells as .obj): rods are found by direction, "
+          "every joint is a hinge; false: lines in line are one rod")
+      .used_by(&Footprint::kind, {Kinds::network})
+      .refused({"file"}, of_a_file, [=](const Footprint& of) { return network(of) && of.linkage; });
   list.add<&Footprint::rods>(between(1, 500), "rods per direction in a circle, n")
       .used_by(&Footprint::kind, {Kinds::circle});
   list.add<&Footprint::radius_mm>(above(0), "radius of a circle, R_o");
@@ -156,7 +161,7 @@ void add_actuation(std::vector<Field>& all) {
       .unused({"scale"}, scaled, by_scale)
       .refused({"[footprint] radius_mm", "[footprint] longest_leg"}, [](const Preset& preset) {
         return is_circle(preset) && preset.actuated_radius_mm() > preset.original_radius_mm()
-                   ? "larger than the footprint, must be at most " + original_text(preset)
+                   ? "larger than the footprint, expected at most " + original_text(preset)
                    : "";
       });
   radius_rules(list, &Actuation::boundary, &Actuation::ratio, "[actuation] ratio");
@@ -170,7 +175,7 @@ void add_actuation(std::vector<Field>& all) {
         return preset.on_net() || preset.actuation.start == Start::flat
                    ? ""
                    : fmt::format(
-                         "a {} has no net to start from, must be \"flat\", or [footprint] "
+                         "a {} has no net to start from, expected \"flat\", or [footprint] "
                          "kind = \"net\"",
                          word_of(preset.footprint.kind));
       });
@@ -195,7 +200,7 @@ void add_actuation(std::vector<Field>& all) {
                 return !is_curve(preset) || of.boundary.kind != CurveKind::file || of.scale > 0;
               })
       .refused({"boundary"},
-               "boundary = \"file\" must have the name of a drawing in [actuation] file",
+               "boundary = \"file\" needs a drawing, expected its name in [actuation] file",
                [=](const Preset& preset, const Actuation& of) {
                  return is_curve(preset) && of.boundary.kind == CurveKind::file && of.scale == 0 &&
                         of.file.empty();
@@ -216,8 +221,8 @@ void add_actuation(std::vector<Field>& all) {
 void made_of(FieldList<Net>& net, NetKind kind, Points Net::*points) {
   net.used_by(&Net::kind, {kind}).refused({"kind"}, [=](const Net& of) {
     return of.kind == kind && (of.*points).size() < 4
-               ? fmt::format("{} points, must be at least 4 for kind = \"{}\"", (of.*points).size(),
-                             word_of(kind))
+               ? fmt::format("{} points, expected at least 4 for kind = \"{}\"",
+                             (of.*points).size(), word_of(kind))
                : "";
   });
 }
@@ -229,10 +234,11 @@ FieldList<Net> add_net(FieldList<Net> net, bool block) {
       "file; others: half a surface of revolution about x (\"spool\", \"beltrami\": Gauss "
       "curvature -1/rho^2)");
   if (block)
-    net.refused({},
-                "blocks are parts of spheres, translation nets and surfaces of revolution, must be "
-                "one of these",
-                [](const Net& of) { return of.kind == K::surface; });
+    net.refused(
+        {},
+        "blocks are parts of spheres, translation nets and surfaces of revolution, expected "
+        "one of these",
+        [](const Net& of) { return of.kind == K::surface; });
   net.add<&Net::radius_mm>(
          above(0),
          "radius rho of sphere or cylinder; spool and beltrami have the Gauss curvature -1/rho^2")
@@ -271,14 +277,14 @@ void add_surface(FieldList<Net> net) {
                ? 1
                : int(!of.implicit.empty()) + int(!of.height.empty()) + int(!of.file.empty());
   };
-  const char* twice = "the surface is given twice, must be empty";
+  const char* twice = "the surface is given twice, expected an empty value";
   const auto surface = [&net]() -> FieldList<Net>& {
     return net.used_by(&Net::kind, {NetKind::surface});
   };
   net.add<&Net::implicit>("F(x, y, z) of a surface F = 0, mm: \"x^2 + y^2 + z^2 - 120^2\"");
   surface().refused({"height", "file"},
-                    "kind = \"surface\" needs an expression, must be F(x, y, z), or height must "
-                    "be h(x, y), or file a surface",
+                    "kind = \"surface\" needs an expression, expected F(x, y, z), or for height "
+                    "h(x, y), or for file a surface",
                     [=](const Net& of) { return given(of) == 0; });
   net.add<&Net::height>("h(x, y) of a surface z = h, mm, instead of `implicit`");
   surface().refused({"implicit"}, twice,
@@ -290,8 +296,9 @@ void add_surface(FieldList<Net> net) {
   surface().refused({"implicit", "height"}, twice,
                     [=](const Net& of) { return given(of) > 1 && !of.file.empty(); });
   net.add<&Net::file_unit>("unit of the file's numbers; \"file\": the one that it names, else mm");
-  surface().refused({"file"}, "is of a file that `file` names: a surface listed here is in mm",
-                    [](const Net& of) { return of.file_unit != FileUnit::file; });
+  surface().refused(
+      {"file"}, "it is for a file that `file` names, expected none: a surface listed here is in mm",
+      [](const Net& of) { return of.file_unit != FileUnit::file; });
   const auto mesh = [](const Net& of) { return of.kind == NetKind::surface && of.file.is_mesh(); };
   const auto of_mesh = [&] {
     surface().unused({"file"}, "only a net on a mesh of triangles uses it",
@@ -305,10 +312,11 @@ void add_surface(FieldList<Net> net) {
                                  "mesh: rods end where they would cross at less than this angle");
   of_mesh();
   net.add<&Net::apex>(
-      "\"given\": at `apex_mm`; \"best\", of a mesh: where rods reach the largest area (a search "
-      "of "
-      "seconds); \"best_angle\": where, at 0.95 of that, they cross at the largest least angle");
-  surface().refused({"file"}, "searches a mesh of triangles, must be \"given\" for other surfaces",
+      "\"given\": the net starts at `apex_mm`; \"best\", for a mesh: at the point and direction "
+      "from which rods reach the largest area (a search of some seconds); \"best_angle\": where, "
+      "at 0.95 of that area, they cross at the largest least angle");
+  surface().refused({"file"},
+                    "the search is for a mesh of triangles, expected \"given\" for other surfaces",
                     [=](const Net& of) { return of.apex != NetApex::given && !mesh(of); });
   const auto searched = [](const Net& of) { return of.apex != NetApex::given; };
   const char* found = "apex = \"best\" finds it";
@@ -319,8 +327,8 @@ void add_surface(FieldList<Net> net) {
     const std::size_t size = of.apex_mm.size();
     const bool implicit = !of.implicit.empty();
     if (of.kind != NetKind::surface || size == 3 || (size == 2 && !implicit)) return "";
-    return implicit ? "must be [x, y, z], a point of the surface where the net begins"
-                    : "must be [x, y]";
+    return implicit ? "expected [x, y, z], a point of the surface where the net begins"
+                    : "expected [x, y]";
   });
   net.unused({"apex"}, found, searched);
   net.add<&Net::axis>(
@@ -333,7 +341,7 @@ void add_surface(FieldList<Net> net) {
   net.add<&Net::cut_mm>(
       "height of the plane that cuts the surface, whose upper part remains; \"none\": a mesh ends "
       "at its own rim, other surfaces at 0");
-  surface().unused({"within"}, "[net] within is the boundary in the plane's place",
+  surface().unused({"within"}, "[net] within is the boundary in the plane instead",
                    [](const Net& of) { return !of.within.empty(); });
   net.add<&Net::within>(
       "G(x, y, z), negative where the net is retained, instead of the plane; empty: the plane");
@@ -343,9 +351,9 @@ void add_surface(FieldList<Net> net) {
 void name_rule(FieldList<Block>& list) {
   list.refused({}, [](const Preset& preset, const Block& block) {
     if (block.name.empty() || block.name.find('.') != std::string::npos)
-      return "must be a name without a dot";
+      return "expected a name without a dot";
     for (const Block* other = preset.block.data(); other != &block; ++other)
-      if (other->name == block.name) return "used twice, must be unique";
+      if (other->name == block.name) return "used twice, expected a unique name";
     return "";
   });
 }
@@ -357,7 +365,8 @@ void side_rule(FieldList<Join>& list, std::string Join::*side) {
     std::vector<std::string> known;
     for (const Block& block : preset.block)
       for (const char* name : side_names) known.push_back(block.name + "." + name);
-    return "no side of a block, must be a block's name and east, west, north or south with a dot "
+    return "not a side of a block, expected a block's name and east, west, north or south with a "
+           "dot "
            "between" +
            did_you_mean(join.*side, known);
   });

@@ -42,28 +42,28 @@ std::string setting(const Sweep& sweep, const SweepPoint& point) {
 /// Checks the points of one run of the file.
 class SweepCheck {
  public:
-  SweepCheck(const PresetBuilder& draft, LocatedFaults& faults)
-      : draft_(draft), sweep_(draft.preset.sweep), faults_(faults) {}
+  SweepCheck(const PresetBuilder& builder, LocatedErrors& errors)
+      : builder_(builder), sweep_(builder.preset.sweep), errors_(errors) {}
 
   void keys_set_elsewhere() {
     for (const SweepAxis& axis : sweep_.over) {
-      const auto set = draft_.set_at.find(name_of(field_of(axis.key)));
-      if (set == draft_.set_at.end() || set->second.layer == ValueLayer::file) continue;
-      faults_.add(
-          set->second,
-          fmt::format(
-              "{}: is swept by [sweep] over, must not be set {} too", name_of(field_of(axis.key)),
-              set->second.layer == ValueLayer::one_case ? "by a case" : "by the command line"));
+      const auto set = builder_.set_at.find(name_of(field_of(axis.key)));
+      if (set == builder_.set_at.end() || set->second.layer == ValueLayer::file) continue;
+      errors_.add(set->second,
+                  fmt::format("{}: is set {} and swept by [sweep] over, expected one of the two",
+                              name_of(field_of(axis.key)),
+                              set->second.layer == ValueLayer::one_case ? "by a case"
+                                                                        : "by the command line"));
     }
   }
 
   void points(std::map<std::string, std::string>& idle) {
-    const SweepGrid grid({draft_.preset, {}});
+    const SweepGrid grid({builder_.preset, {}});
     for (std::size_t k = 0; k < grid.size(); ++k) {
       const SweepPoint point = grid.at(k);
-      for (const KeyFault& conflict : conflicts(point.preset)) {
+      for (const KeyError& conflict : conflicts(point.preset)) {
         const Field& field = *find_field(conflict.table, conflict.key);
-        faults_.add(place("over"),
+        errors_.add(location("over"),
                     fmt::format("[sweep] over: at {}: {} = {}: {}", setting(sweep_, point),
                                 conflict.label(), value_text(field, point.preset, conflict.item),
                                 conflict.what));
@@ -74,30 +74,30 @@ class SweepCheck {
   }
 
  private:
-  SourceLocation place(const char* key) const {
-    const auto at = draft_.set_at.find(fmt::format("[sweep] {}", key));
-    return at == draft_.set_at.end() ? SourceLocation{} : at->second;
+  SourceLocation location(const char* key) const {
+    const auto at = builder_.set_at.find(fmt::format("[sweep] {}", key));
+    return at == builder_.set_at.end() ? SourceLocation{} : at->second;
   }
 
   /// Removes those keys without effect that have an effect in this run.
   static void forget_used(const SweepPoint& point, std::map<std::string, std::string>& idle) {
     if (idle.empty()) return;
     std::map<std::string, std::string> still;
-    for (const KeyFault& key : unused_keys(point.preset))
+    for (const KeyError& key : unused_keys(point.preset))
       if (const auto name = key.label(); idle.contains(name)) still[name] = key.what;
     idle = std::move(still);
   }
 
-  const PresetBuilder& draft_;
+  const PresetBuilder& builder_;
   const Sweep& sweep_;
-  LocatedFaults& faults_;
+  LocatedErrors& errors_;
 };
 
 }  // namespace
 
 SweepGrid::SweepGrid(const Presets& presets) : cases_(presets.cases) {
   if (cases_.empty()) cases_.push_back({"", presets.base});
-  if (sweep().wanted()) size_ = cases_.size() * std::size_t(combinations(sweep()));
+  if (sweep().requested()) size_ = cases_.size() * std::size_t(combinations(sweep()));
 }
 
 SweepPoint SweepGrid::at(std::size_t point) const {
@@ -119,43 +119,41 @@ SweepPoint SweepGrid::at(std::size_t point) const {
     assign(field_of(axis.key), *value.get("x"), found.preset, {});
   }
   // searches shake otherwise from point to point, and a point by itself can be made again
-  if (found.preset.jitter.wanted() && !sweeps(sweep, "jitter.seed")) {
+  if (found.preset.jitter.requested() && !sweeps(sweep, "jitter.seed")) {
     int& seed = found.preset.jitter.seed;
     seed = int((std::size_t(seed) + point) % (std::size_t(largest_seed) + 1));
   }
   return found;
 }
 
-void check_sweep(const std::vector<PresetBuilder>& runs, LocatedFaults& faults) {
+void check_sweep(const std::vector<PresetBuilder>& runs, LocatedErrors& errors) {
   const PresetBuilder& first = runs.front();
   const Sweep& sweep = first.preset.sweep;
-  if (!sweep.wanted() || first.faulty.contains("[sweep] over")) return;
-  const auto place = [&](const char* key) {
+  if (!sweep.requested() || first.faulty.contains("[sweep] over")) return;
+  const auto location = [&](const char* key) {
     const auto at = first.set_at.find(fmt::format("[sweep] {}", key));
     return at == first.set_at.end() ? SourceLocation{} : at->second;
   };
-  const SourceLocation over = sweep.over.empty() ? place("seeds") : place("over");
+  const SourceLocation over = sweep.over.empty() ? location("seeds") : location("over");
   if (const double count = combinations(sweep) * double(runs.size()); count > most_runs)
-    return faults.add(
-        over, fmt::format("[sweep] over: comes to {:.0f} runs, must be at most {:.0f}", count,
-                          most_runs));
+    return errors.add(over, fmt::format("[sweep] over: got {:.0f} runs, expected at most {:.0f}",
+                                        count, most_runs));
   std::map<std::string, std::string> idle;  // until a point uses them
   for (const SweepAxis& axis : sweep.over) idle[name_of(field_of(axis.key))] = "";
   const char* drawn = "[imperfection] seed";
   if (sweep.seeds > 1 && idle.contains(drawn))
-    faults.add(over, fmt::format("[sweep] seeds = {}: {} is swept too, must be one of the two",
+    errors.add(over, fmt::format("[sweep] seeds = {}: {} is swept too, expected one of the two",
                                  sweep.seeds, drawn));
   if (sweep.seeds > 1) idle[drawn] = "";
   for (const PresetBuilder& run : runs) {
-    SweepCheck check(run, faults);
+    SweepCheck check(run, errors);
     check.keys_set_elsewhere();
     check.points(idle);
   }
   for (const auto& [key, why] : idle)
     if (!why.empty())
-      faults.add(
-          key == drawn ? place("seeds") : over,
-          fmt::format("[sweep] over: {} counts for nothing in any of the runs: {}", key, why));
+      errors.add(key == drawn ? location("seeds") : over,
+                 fmt::format("[sweep] over: {} has no effect in any of the runs: {}", key, why));
 }
 
 }  // namespace gridshell::preset

@@ -12,7 +12,7 @@ namespace gridshell::preset {
 /// One run of a sweep.
 struct SweepPoint {
   std::string case_name;            ///< empty where the preset has no cases
-  std::vector<std::string> values;  ///< as TOML, one an axis
+  std::vector<std::string> values;  ///< as TOML, one per axis
   int seed = 0;                     ///< that it runs with, where the sweep has several
   Preset preset;                    ///< what runs
 };
@@ -36,6 +36,6 @@ class SweepGrid {
 
 /// Adds errors for a sweep that no run can do: values that contradict other keys, keys without
 /// effect in every run, keys that a case or the command line sets too.
-void check_sweep(const std::vector<PresetBuilder>& runs, LocatedFaults& faults);
+void check_sweep(const std::vector<PresetBuilder>& runs, LocatedErrors& errors);
 
 }  // namespace gridshell::preset

@@ -53,7 +53,7 @@ std::string hint(const std::string& table, const std::string& name) {
     if (field.key == name)
       return fmt::format("; did you mean '{}{}{}'?", field.table, field.table.empty() ? "" : ".",
                          name);
-  return fmt::format(", must be one of {}", fmt::join(here, ", "));
+  return fmt::format(", expected one of {}", fmt::join(here, ", "));
 }
 
 constexpr std::int64_t most_values = 100000;
@@ -61,7 +61,7 @@ constexpr std::int64_t most_values = 100000;
 /// One swept key as it is written.
 struct Entry {
   std::string table, key;
-  toml::source_region place;
+  toml::source_region location;
   const toml::node* value;
 
   std::string name() const { return table.empty() ? key : table + "." + key; }
@@ -80,7 +80,7 @@ std::vector<Entry> entries_of(const toml::table& over) {
       entries.push_back({std::string(key.str()), std::string(name.str()), name.source(), &value});
   }
   std::ranges::sort(entries, {}, [](const Entry& entry) {
-    return std::tuple(entry.place.begin.line, entry.place.begin.column);
+    return std::tuple(entry.location.begin.line, entry.location.begin.column);
   });
   return entries;
 }
@@ -108,13 +108,13 @@ bool affects_results(const std::string& table) {
 /// Reads one entry; errors have its name.
 class AxisReader {
  public:
-  AxisReader(const Entry& entry, std::vector<AxisFault>& faults) : entry_(entry), faults_(faults) {}
+  AxisReader(const Entry& entry, std::vector<AxisError>& errors) : entry_(entry), errors_(errors) {}
 
   std::optional<SweepAxis> read() {
-    const std::size_t before = faults_.size();
+    const std::size_t before = errors_.size();
     field_ = find_field(entry_.table, entry_.key);
     if (in_list(entry_.name())) {
-      refuse(*entry_.value, "stands in each item of a list, must be a key that stands once");
+      refuse(*entry_.value, "each item of a list has this key, expected a key that exists once");
     } else if (!field_) {
       std::vector<std::string> names;
       for (const auto& field : field_table())
@@ -122,16 +122,16 @@ class AxisReader {
           names.push_back(field.table + "." + field.key);
       refuse(*entry_.value, "unknown key" + did_you_mean(entry_.name(), names));
     } else if (!affects_results(entry_.table)) {
-      refuse(*entry_.value, "changes no number of a run, must be a key of another table");
+      refuse(*entry_.value, "no number of a run depends on it, expected a key of another table");
     } else if (const auto* list = entry_.value->as_array()) {
-      if (list->empty()) refuse(*list, "is empty, must hold values");
+      if (list->empty()) refuse(*list, "an empty list, expected values");
       for (const auto& value : *list) take(value);
     } else if (const auto* range = entry_.value->as_table()) {
       take_range(*range);
     } else {
-      refuse(*entry_.value, "must be a list of values or { from, to, count }");
+      refuse(*entry_.value, "expected a list of values or { from, to, count }");
     }
-    if (faults_.size() > before) return std::nullopt;
+    if (errors_.size() > before) return std::nullopt;
     return SweepAxis{entry_.name(), std::move(values_)};
   }
 
@@ -139,9 +139,8 @@ class AxisReader {
   void refuse(const toml::node& value, const std::string& why) {
     const auto& region = value.source();
     // a computed value has no position in the file
-    faults_.push_back(
-        {region.begin.line > 0 ? region : entry_.place,
-         fmt::format("[sweep.over] {} = {}: {}", entry_.name(), toml_text(value), why)});
+    errors_.push_back({region.begin.line > 0 ? region : entry_.location,
+                       got_text("[sweep.over] " + entry_.name(), toml_text(value), why)});
   }
 
   void take(const toml::node& value) {
@@ -150,7 +149,7 @@ class AxisReader {
       return refuse(value, wrong);
     auto text = value_text(*field_, preset);
     if (!taken_.insert(text).second)
-      return refuse(value, "stands there twice, must be another value");
+      return refuse(value, "in the list twice, expected another value");
     values_.push_back(std::move(text));
   }
 
@@ -158,17 +157,17 @@ class AxisReader {
     static const std::vector<std::string> known{"from", "to", "count", "log"};
     for (const auto& [key, value] : range)
       if (const std::string name(key.str()); std::ranges::find(known, name) == known.end())
-        return refuse(range, fmt::format("has no '{}'{}, must be {{ from, to, count }}", name,
+        return refuse(range, fmt::format("unknown '{}'{}, expected {{ from, to, count }}", name,
                                          did_you_mean(name, known)));
     const auto from = range["from"].value<double>(), to = range["to"].value<double>();
     const auto count = range["count"].as_integer();
     const bool log = range["log"].value_or(false);
     if (!from || !to || !count || !std::isfinite(*from) || !std::isfinite(*to))
-      return refuse(range, "must be { from = a number, to = a number, count = an integer }");
+      return refuse(range, "expected { from = a number, to = a number, count = an integer }");
     if (count->get() < 2 || count->get() > most_values)
-      return refuse(range, fmt::format("count must be from 2 to {}", most_values));
+      return refuse(range, fmt::format("count: expected 2 to {}", most_values));
     if (range.contains("log") && !range["log"].is_boolean())
-      return refuse(range, "log must be true or false");
+      return refuse(range, "log: expected true or false");
     if (log && !(*from > 0 && *to > 0)) return refuse(range, "even factors need numbers > 0");
     for (std::int64_t k = 0; k < count->get(); ++k) {
       const double part = double(k) / double(count->get() - 1);
@@ -183,53 +182,53 @@ class AxisReader {
     Preset any = default_items();
     if (!field_->as<int>(any)) return take(toml::value<double>(value));
     if (value != std::round(value) || std::abs(value) > 1e9)
-      return refuse(range, fmt::format("comes to {}, must be {}", value, allowed(*field_)));
+      return refuse(range, fmt::format("gives {}, expected {}", value, allowed(*field_)));
     take(toml::value<std::int64_t>(std::int64_t(value)));
   }
 
   const Entry& entry_;
-  std::vector<AxisFault>& faults_;
+  std::vector<AxisError>& errors_;
   const Field* field_ = nullptr;
   std::vector<std::string> values_;
   std::set<std::string> taken_;
 };
 
-/// The axes in the order of the file. Errors are added to `faults`, and an axis with an error is
+/// The axes in the order of the file. Errors are added to `errors`, and an axis with an error is
 /// left out. Each value was assigned to its key once and is in range.
-std::vector<SweepAxis> read_axes(const toml::table& over, std::vector<AxisFault>& faults) {
+std::vector<SweepAxis> read_axes(const toml::table& over, std::vector<AxisError>& errors) {
   std::vector<SweepAxis> axes;
   for (const Entry& entry : entries_of(over))
-    if (auto axis = AxisReader(entry, faults).read()) axes.push_back(std::move(*axis));
+    if (auto axis = AxisReader(entry, errors).read()) axes.push_back(std::move(*axis));
   return axes;
 }
 
 }  // namespace
 
-SourceLocation TomlReader::place_of(const toml::source_region& region) const {
+SourceLocation TomlReader::location_of(const toml::source_region& region) const {
   // values of an override have no position in the file
   if (!override_.empty()) return {override_, 0, 0, ValueLayer::command_line};
   return {source_, unsigned(region.begin.line), unsigned(region.begin.column), layer_};
 }
 
-void TomlReader::apply(const toml::table& root, const std::string& apart, PresetBuilder& draft) {
+void TomlReader::apply(const toml::table& root, const std::string& apart, PresetBuilder& builder) {
   layer_ = apart == "case" ? ValueLayer::file : ValueLayer::one_case;
   for (const auto& [key, value] : root) {
     const std::string name(key.str());
     if (name == apart) continue;
     if (is_list_name(name))
-      read_items(name, key, value, draft);
+      read_items(name, key, value, builder);
     else if (!is_table_name(name) && !value.is_table())
-      assign_key("", key, value, draft);
+      assign_key("", key, value, builder);
     else
-      read_table(key, value, draft);
+      read_table(key, value, builder);
   }
 }
 
-void TomlReader::apply_override(const Override& change, PresetBuilder& draft) {
+void TomlReader::apply_override(const Override& change, PresetBuilder& builder) {
   override_ = change.source;
   for (const Table& list : tables())
     if (list.list && change.key.starts_with(list.name + ".")) {
-      override_item(list.name, change, draft);
+      override_item(list.name, change, builder);
       return override_.clear();
     }
   const auto dot = change.key.find('.');
@@ -238,136 +237,137 @@ void TomlReader::apply_override(const Override& change, PresetBuilder& draft) {
   const auto name = top ? change.key : change.key.substr(dot + 1);
   const auto value = override_value(change.value);
   if (!top && !is_table_name(table))
-    faults_.add({override_},
-                fmt::format("[{}] {} = {}: unknown table{}", table, name,
-                            toml_text(*value.get("x")), did_you_mean(table, table_names())));
+    errors_.add({override_}, fmt::format("[{}] {}: unknown table{}", table, name,
+                                         did_you_mean(table, table_names())));
   else
-    assign_key(table, toml::key(name), *value.get("x"), draft);
+    assign_key(table, toml::key(name), *value.get("x"), builder);
   override_.clear();
 }
 
 /// Sets a key of an item of a list of tables by its number, as in messages: step.2.depth_mm.
 void TomlReader::override_item(const std::string& list, const Override& change,
-                               PresetBuilder& draft) {
+                               PresetBuilder& builder) {
   const std::string rest = change.key.substr(list.size() + 1);
   const auto dot = std::min(rest.find('.'), rest.size());
-  const int items = items_of(draft.preset, list).value_or(0);
+  const int items = items_of(builder.preset, list).value_or(0);
   int item = 0;
   const auto [end, wrong] = std::from_chars(rest.data(), rest.data() + dot, item);
   if (wrong != std::errc() || end != rest.data() + dot || item < 1 || item > items)
-    return faults_.add({override_},
-                       fmt::format("{}: of {} [[{}]] must name one by its number, as "
-                                   "{}.1.{}",
+    return errors_.add({override_},
+                       fmt::format("{}: got {} [[{}]], expected the number of one, as {}.1.{}",
                                    change.key, items, list, list, keys_of(list).front()));
   const auto value = override_value(change.value);
-  assign_key(list, toml::key(dot < rest.size() ? rest.substr(dot + 1) : ""), *value.get("x"), draft,
-             item - 1);
+  assign_key(list, toml::key(dot < rest.size() ? rest.substr(dot + 1) : ""), *value.get("x"),
+             builder, item - 1);
 }
 
 // the items of a list of tables, each with its own defaults; those of a case replace the file's
 void TomlReader::read_items(const std::string& name, const toml::key& key, const toml::node& value,
-                            PresetBuilder& draft) {
+                            PresetBuilder& builder) {
   if (!value.is_array_of_tables()) {
-    faults_.add(place_of(key.source()),
-                fmt::format("{}: must be tables, each [[{}{}]]", name,
+    errors_.add(location_of(key.source()),
+                fmt::format("{}: expected tables, each [[{}{}]]", name,
                             layer_ == ValueLayer::one_case ? "case." : "", name));
     return;
   }
-  draft.forget_items(name);
+  builder.forget_items(name);
   int item = 0;
   for (const auto& table : *value.as_array()) {
-    add_item(draft.preset, name);
-    draft.set_at[key_label(name, "", item)] = place_of(table.source());
-    for (const auto& [inner, one] : *table.as_table()) assign_key(name, inner, one, draft, item);
+    add_item(builder.preset, name);
+    builder.set_at[key_label(name, "", item)] = location_of(table.source());
+    for (const auto& [inner, one] : *table.as_table()) assign_key(name, inner, one, builder, item);
     ++item;
   }
 }
 
-void TomlReader::read_table(const toml::key& key, const toml::node& value, PresetBuilder& draft) {
+void TomlReader::read_table(const toml::key& key, const toml::node& value, PresetBuilder& builder) {
   const std::string name(key.str());
-  const auto place = place_of(key.source());
+  const auto location = location_of(key.source());
   if (!is_table_name(name)) {
-    faults_.add(place,
+    errors_.add(location,
                 fmt::format("[{}]: unknown table{}", name, did_you_mean(name, table_names())));
   } else if (const auto* table = value.as_table()) {
     for (const auto& [inner, item] : *table)
       if (const auto list = fmt::format("{}.{}", name, inner.str()); is_list_name(list))
-        read_items(list, inner, item, draft);
+        read_items(list, inner, item, builder);
       else
-        assign_key(name, inner, item, draft);
+        assign_key(name, inner, item, builder);
   } else {
-    faults_.add(place, fmt::format("{} = {}: is a table, must hold keys: {}", name,
-                                   toml_text(value), fmt::join(keys_of(name), ", ")));
+    errors_.add(location, fmt::format("{}: got {}, expected a table of keys: {}", name,
+                                      toml_text(value), fmt::join(keys_of(name), ", ")));
   }
 }
 
-void TomlReader::read_sweep_axes(const toml::table& over, PresetBuilder& draft) {
-  std::vector<AxisFault> wrong;
-  draft.preset.sweep.over = read_axes(over, wrong);
-  for (auto& fault : wrong) faults_.add(place_of(fault.place), std::move(fault.text));
-  if (!wrong.empty()) draft.faulty.insert("[sweep] over");
+void TomlReader::read_sweep_axes(const toml::table& over, PresetBuilder& builder) {
+  std::vector<AxisError> wrong;
+  builder.preset.sweep.over = read_axes(over, wrong);
+  for (auto& fault : wrong) errors_.add(location_of(fault.location), std::move(fault.text));
+  if (!wrong.empty()) builder.faulty.insert("[sweep] over");
 }
 
 void TomlReader::assign_key(const std::string& table, const toml::key& key, const toml::node& value,
-                            PresetBuilder& draft, int item) {
+                            PresetBuilder& builder, int item) {
   const std::string name(key.str());
   const auto* field = find_field(table, name);
   const auto full = key_label(table, name, item);
   if (!field) {
-    faults_.add(place_of(key.source()),
-                fmt::format("{} = {}: unknown key{}", full, toml_text(value), hint(table, name)));
+    errors_.add(location_of(key.source()),
+                fmt::format("{}: unknown key{}", full, hint(table, name)));
     return;
   }
-  const auto place = place_of(value.source());
-  if (table == "sweep" && place.layer == ValueLayer::one_case) {
-    faults_.add(place, fmt::format("{} = {}: stands outside of cases: a sweep runs all of them",
-                                   full, toml_text(value)));
+  const auto location = location_of(value.source());
+  if (table == "sweep" && location.layer == ValueLayer::one_case) {
+    errors_.add(
+        location,
+        full + ": got a key of a case, expected one outside of cases: a sweep runs all of them");
     return;
   }
-  if (value.is_table() && field->as<std::vector<SweepAxis>>(draft.preset)) {
-    draft.set_at[full] = place_of(key.source());
-    read_sweep_axes(*value.as_table(), draft);
+  if (value.is_table() && field->as<std::vector<SweepAxis>>(builder.preset)) {
+    builder.set_at[full] = location_of(key.source());
+    read_sweep_axes(*value.as_table(), builder);
     return;
   }
-  draft.set_at[full] = place;
-  const FileContext beside = override_.empty() ? beside_ : FileContext{};
-  draft.files.erase(full);
+  builder.set_at[full] = location;
+  const FileContext context = override_.empty() ? context_ : FileContext{};
+  builder.files.erase(full);
   if (const auto* file = value.as_string(); file && !file->get().empty() && takes_file(*field)) {
-    draft.faulty.erase(full);
-    draft.files[full] = {table, name, item, file->get(), beside};
+    builder.faulty.erase(full);
+    builder.files[full] = {table, name, item, file->get(), context};
     return;
   }
-  const auto wrong = assign(*field, value, draft.preset, beside, item);
+  const auto wrong = assign(*field, value, builder.preset, context, item);
   if (wrong.empty()) {
-    draft.faulty.erase(full);
+    builder.faulty.erase(full);
     // the strength by yield_strain may come after that of the material
     if (table.starts_with("rod") && (name == "material" || name == "yield_strain"))
-      draft.take_material(table);
+      builder.take_material(table);
   } else {
-    draft.faulty.insert(full);
-    faults_.add(place, fmt::format("{} = {}: {}", full, toml_text(value), wrong));
+    builder.faulty.insert(full);
+    errors_.add(location, got_text(full, toml_text(value), wrong));
   }
 }
 
-void TomlReader::read_files(PresetBuilder& draft) {
-  for (const auto& [full, file] : draft.files) {
+void TomlReader::read_files(PresetBuilder& builder) {
+  for (const auto& [full, file] : builder.files) {
     const auto* field = find_field(file.table, file.key);
     const toml::value<std::string> value(file.name);
     FileReport report;
-    const auto wrong = assign(*field, value, draft.preset, file.beside, file.item, &report);
-    if (!report.text.empty()) draft.read.push_back(full + " = " + report.text);
-    for (const std::string& note : report.notes) draft.notes.push_back(full + ": " + note);
+    const auto wrong = assign(*field, value, builder.preset, file.context, file.item, &report);
+    if (!report.text.empty()) builder.read.push_back(full + " = " + report.text);
+    for (const std::string& note : report.notes) builder.notes.push_back(full + ": " + note);
     if (wrong.empty()) continue;
-    draft.faulty.insert(full);
-    faults_.add(draft.set_at.at(full), fmt::format("{} = {}: {}", full, toml_text(value), wrong));
+    builder.faulty.insert(full);
+    errors_.add(builder.set_at.at(full), full + ": " + wrong);  // names the file
   }
   // values that were read are stored in the preset in mm
-  if (draft.files.contains(key_label("footprint", "file")) ||
-      draft.files.contains(key_label("actuation", "file"))) {
-    draft.preset.footprint.file_unit = FileUnit::file;
-    draft.preset.footprint.join_mm = 0;
+  if (builder.files.contains(key_label("footprint", "file")) ||
+      builder.files.contains(key_label("actuation", "file"))) {
+    builder.preset.footprint.file_unit = FileUnit::file;
+    builder.preset.footprint.join_mm = 0;
+    builder.preset.footprint.linkage = false;
   }
-  if (draft.files.contains(key_label("net", "file"))) draft.preset.net.file_unit = FileUnit::file;
+  if (builder.files.contains(key_label("net", "file")))
+    builder.preset.net.file_unit = FileUnit::file;
 }
 
 }  // namespace gridshell::preset

@@ -18,7 +18,7 @@ namespace gridshell::preset {
 /// last). Returns an empty text, or the error and the allowed values, with `preset` unchanged.
 /// Files are searched for in the folder of the preset; `report` receives the contents of one.
 std::string assign(const Field& field, const toml::node& value, Preset& preset,
-                   const FileContext& beside, int item = -1, FileReport* report = nullptr);
+                   const FileContext& context, int item = -1, FileReport* report = nullptr);
 
 /// The value as a message shows it: TOML on one line, shortened if long.
 std::string toml_text(const toml::node& value);
@@ -31,9 +31,9 @@ bool is_list_name(const std::string& name);
 //   actuation.radius_mm = { from = 90, to = 110, count = 5 }
 
 /// What is wrong with a part of a table, and where.
-struct AxisFault {
-  toml::source_region place;
-  std::string text;  ///< "[sweep.over] rod.diameter_mm = "x": is a string, must be a number > 0"
+struct AxisError {
+  toml::source_region location;
+  std::string text;  ///< "[sweep.over] rod.diameter_mm: got "x" (a string), expected a number > 0"
 };
 
 // Applies TOML to presets and collects the errors.
@@ -41,35 +41,35 @@ struct AxisFault {
 class TomlReader {
  public:
   /// `source` names the text in messages.
-  TomlReader(std::string source, FileContext beside)
-      : source_(std::move(source)), beside_(std::move(beside)) {}
+  TomlReader(std::string source, FileContext context)
+      : source_(std::move(source)), context_(std::move(context)) {}
 
   /// The keys of a file, or of one of its cases, over a draft; `apart` is read by someone else.
-  void apply(const toml::table& root, const std::string& apart, PresetBuilder& draft);
+  void apply(const toml::table& root, const std::string& apart, PresetBuilder& builder);
   /// One value of the command line over a draft.
-  void apply_override(const Override& change, PresetBuilder& draft);
+  void apply_override(const Override& change, PresetBuilder& builder);
   /// Reads the files that a draft names, once all that says how is laid over it.
-  void read_files(PresetBuilder& draft);
+  void read_files(PresetBuilder& builder);
 
   const std::string& source() const { return source_; }
-  SourceLocation place_of(const toml::source_region& region) const;
-  LocatedFaults& faults() { return faults_; }
+  SourceLocation location_of(const toml::source_region& region) const;
+  LocatedErrors& errors() { return errors_; }
 
  private:
   void read_items(const std::string& name, const toml::key& key, const toml::node& value,
-                  PresetBuilder& draft);
-  void override_item(const std::string& list, const Override& change, PresetBuilder& draft);
-  void read_table(const toml::key& key, const toml::node& value, PresetBuilder& draft);
+                  PresetBuilder& builder);
+  void override_item(const std::string& list, const Override& change, PresetBuilder& builder);
+  void read_table(const toml::key& key, const toml::node& value, PresetBuilder& builder);
   void assign_key(const std::string& table, const toml::key& key, const toml::node& value,
-                  PresetBuilder& draft, int item = -1);
+                  PresetBuilder& builder, int item = -1);
 
-  void read_sweep_axes(const toml::table& over, PresetBuilder& draft);
+  void read_sweep_axes(const toml::table& over, PresetBuilder& builder);
 
   std::string source_;
-  FileContext beside_;                   // the file
+  FileContext context_;                  // the file
   std::string override_;                 // while an override is laid: its option
   ValueLayer layer_ = ValueLayer::file;  // of what is laid of the file
-  LocatedFaults faults_;
+  LocatedErrors errors_;
 };
 
 }  // namespace gridshell::preset

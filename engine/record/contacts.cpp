@@ -161,7 +161,7 @@ void ShapeContacts::look_at_edges(Search& search, int edge_a, int edge_b) const 
   if (!(gap < search.gap)) return;
   const double at_a = along_[a] + near.s * (along_[a + 1] - along_[a]);
   const double at_b = along_[b] + near.t * (along_[b + 1] - along_[b]);
-  if (!search.told(at_a, at_b)) return;
+  if (!search.reported(at_a, at_b)) return;
   search.any = true;
   search.gap = gap;
   search.found = {

@@ -131,8 +131,8 @@ Result<Drawing> plate_drawing(const FabricationPlan& work) {
   if (ring == 0) return invalid("nothing is pinned, so there is no plate");
   if (!work.has_plate())
     return invalid(
-        "the edge points lie between z = {:.3f} and {:.3f} mm, so no flat plate holds "
-        "them; '--what plate --to pins.csv' lists them",
+        "the edge points lie between z = {:.3f} and {:.3f} mm, so no flat plate carries them; "
+        "'--what plate --to pins.csv' lists them",
         low, high);
   middle /= ring;
   Layer boundary{"boundary", 1}, holes{"holes", 7}, labels{"labels", 5};

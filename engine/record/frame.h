@@ -36,7 +36,7 @@ struct Frame {
   /// Largest unbalanced force, N.
   double residual_N = 0;
   int negative_pivots = 0;  ///< of the Hessian; 0: stable, -1: not known
-  /// Largest error of a joint's position, by the difference of two meshes, mm.
+  /// Largest error of a node's position, by the difference of two meshes, mm.
   double error_estimate_mm = unknown;
   /// Newton iterations for this state.
   int newton_iterations = 0;
@@ -47,6 +47,14 @@ struct Frame {
   double largest_force_N = unknown;  ///< largest column norm of reactions_N
   double force_error_N = unknown;    ///< largest error of reactions_N and force_N
   double energy_error_mJ = unknown;  ///< largest error of an energy term or of their sum
+  /// Angles between the rods of joints with laws or springs, degrees: their mean and its error, the
+  /// smallest and the largest; their largest torque and its error; the error of the energy of all
+  /// springs of joints.
+  double joint_angle_deg = unknown, joint_angle_error_deg = unknown;
+  double smallest_joint_angle_deg = unknown, largest_joint_angle_deg = unknown;
+  double one_angle_error_deg = unknown;  ///< of a single joint
+  double joint_torque_Nmm = unknown, joint_torque_error_Nmm = unknown;
+  double springs_error_mJ = unknown;
   /// Largest strain of a fibre by bending, (curvature - natural curvature) times the distance of
   /// the fibre from the axis; on the finest mesh.
   double largest_bending_strain = unknown;
@@ -73,6 +81,10 @@ struct Frame {
   /// Axial forces of braces on the finest mesh, N: for each cell the diagonal from joint (i, j),
   /// then the one from (i + 1, j); NaN where there is no brace. Empty without bracing.
   Eigen::VectorXd brace_force_N;
+  /// Angle between the rods of each joint with laws or springs, degrees, NaN where not two rods
+  /// cross, and torque of its springs, N mm, above 0 where it would open the joint; extrapolated as
+  /// the energies. Empty without such joints.
+  Eigen::VectorXd angle_deg, torque_Nmm;
   /// Statistics of cell_K by the cell centroid's x/L, L being the half-span of the actuated
   /// boundary: one row per bin of equal width from -1 to 1; columns mean (rad), standard deviation
   /// (rad), number of cells.
@@ -103,6 +115,8 @@ void visit_matrices(FrameType& frame, const Visit& visit) {
   visit(frame.stress_MPa);
   visit(frame.loads_N);
   visit(frame.brace_force_N);
+  visit(frame.angle_deg);
+  visit(frame.torque_Nmm);
 }
 
 /// A copy of the frame without its arrays of nodes, cells and rods, except for K_bins: small enough

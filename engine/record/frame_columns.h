@@ -72,6 +72,14 @@ inline const std::vector<FrameColumn> frame_columns = [] {
       {"rod_gap_mm", "mm", &Frame::rod_gap_mm},
       {"joint_gap_mm", "mm", &Frame::joint_gap_mm},
       {"energy_mJ", "mJ", [](const Frame& frame) { return frame.energies.total(); }},
+      {"joint_angle_deg", "deg", &Frame::joint_angle_deg},
+      {"joint_angle_error_deg", "deg", &Frame::joint_angle_error_deg},
+      {"smallest_joint_angle_deg", "deg", &Frame::smallest_joint_angle_deg},
+      {"largest_joint_angle_deg", "deg", &Frame::largest_joint_angle_deg},
+      {"one_joint_angle_error_deg", "deg", &Frame::one_angle_error_deg},
+      {"joint_torque_Nmm", "N mm", &Frame::joint_torque_Nmm},
+      {"joint_torque_error_Nmm", "N mm", &Frame::joint_torque_error_Nmm},
+      {"springs_error_mJ", "mJ", &Frame::springs_error_mJ},
       {"kind", "", &Frame::kind},
       {"bending_strain_at", "", &Frame::bending_strain_at},
       {"stress_at", "", &Frame::stress_at},
@@ -109,6 +117,10 @@ void each_rod_field(const Visit& visit) {
   visit("/brace_force_N", "N", diagonals,
         "along both diagonals of each cell, from joint (i, j) and from (i + 1, j)",
         &Frame::brace_force_N);
+  const SizeOf joints = [](const Layout& layout) { return Eigen::Index(layout.joints.size()); };
+  visit("/joint_angle_deg", "deg", joints, "between the two rods of each joint", &Frame::angle_deg);
+  visit("/joint_torque_Nmm", "N mm", joints,
+        "of the springs of each joint, above 0 where it would open", &Frame::torque_Nmm);
 }
 
 }  // namespace gridshell::record

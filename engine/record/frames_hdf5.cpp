@@ -88,9 +88,9 @@ class StoredFrames : public FrameSource {
     each_rod_field([&]<class Values>(const char* name, const char*, SizeOf size, const char*,
                                      Values Frame::*) {
       if (!file_->has(name)) return;
-      const Dims wanted = dims_of<Values>(heads_.size(), size(layout));
-      const Dims dims = file_->dims(name, wanted.size());
-      if (file_->good() && dims != wanted)
+      const Dims requested = dims_of<Values>(heads_.size(), size(layout));
+      const Dims dims = file_->dims(name, requested.size());
+      if (file_->good() && dims != requested)
         file_->fail_because(std::string(name) + " does not fit the rods and the frames");
     });
   }
@@ -212,7 +212,7 @@ FrameList read_frames(const std::shared_ptr<hdf5::Reader>& shared, const Layout&
   if (nodes[2] != 3 || cells[0] != nodes[0])
     file.fail_because(fmt::format("/nodes is {} x {} x {} and /cell_K {} x {}", nodes[0], nodes[1],
                                   nodes[2], cells[0], cells[1]));
-  if (nodes[1] == 0 && nodes[0] > 0) file.fail_because("/nodes holds frames without nodes");
+  if (nodes[1] == 0 && nodes[0] > 0) file.fail_because("/nodes has frames without nodes");
   if (!file.good()) return {};
   // the layout gives the size of a frame's arrays
   if (nodes[0] > 0)

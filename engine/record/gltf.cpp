@@ -151,9 +151,9 @@ Result<ModelDetail> model_detail(const record::Trajectory& run) {
     const std::size_t a_shape = 24 * vertices, once = 24 * points * std::size_t(sides) + 100'000 +
                                                       800 * run.layout.joints.size();
     if (once + a_shape > most_model_bytes) continue;
-    const std::size_t wanted = std::min(most_shapes, run.frames.size()),
-                      shapes = std::min((most_model_bytes - once) / a_shape, wanted);
-    if (shapes == wanted || sides == 4) return ModelDetail{sides, shapes};
+    const std::size_t requested = std::min(most_shapes, run.frames.size()),
+                      shapes = std::min((most_model_bytes - once) / a_shape, requested);
+    if (shapes == requested || sides == 4) return ModelDetail{sides, shapes};
   }
   return invalid("one shape of {} points takes more than {} MB as .glb", points,
                  most_model_bytes / 1'000'000);

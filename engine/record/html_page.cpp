@@ -12,10 +12,10 @@ namespace gridshell::exports {
 
 std::array<double, 3> ColourRange::colour(double K) const {
   if (!std::isfinite(K)) return unknown;
-  const double share = std::min(std::abs(K) / end, 1.0);
+  const double fraction = std::min(std::abs(K) / end, 1.0);
   const Colour& full = K < 0 ? below : above;
   Colour mixed{};
-  for (std::size_t k = 0; k < 3; ++k) mixed[k] = zero[k] + share * (full[k] - zero[k]);
+  for (std::size_t k = 0; k < 3; ++k) mixed[k] = zero[k] + fraction * (full[k] - zero[k]);
   return mixed;
 }
 

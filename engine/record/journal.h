@@ -3,9 +3,9 @@
 //
 // A line that names the file, then records: kind (4 bytes), length (8), payload, checksum (8) of
 // all of these. The first record is the head (preset, names of the columns, layout), every other
-// one a frame, in the order in which they were found; of two with one index the later counts. A run
-// that is killed leaves a journal that reads up to its last whole record. Numbers are those of the
-// machine.
+// one per frame, in the order in which they were found; of two with one index the later counts. A
+// run that is killed leaves a journal that reads up to its last whole record. Numbers are those of
+// the machine.
 #pragma once
 
 #include <cstdint>

@@ -25,8 +25,8 @@ void ShapeContacts::lay_sections(const Segment& s) {
   if (first.dot(last) < 0) last *= -1;
   for (int k = s.begin; k < s.end; ++k) {
     const std::size_t p = std::size_t(k);
-    const double share = (along_[p] - along_[std::size_t(s.begin)]) / length(s);
-    normal_[p] = ((1 - share) * first + share * last).stableNormalized();
+    const double fraction = (along_[p] - along_[std::size_t(s.begin)]) / length(s);
+    normal_[p] = ((1 - fraction) * first + fraction * last).stableNormalized();
     side_[p] = (x_[p + 1] - x_[p]).cross(normal_[p]).stableNormalized();
   }
 }

@@ -47,7 +47,7 @@ class ShapeContacts {
     Contact found;
     bool any = false;
 
-    bool told(double at_a, double at_b) const {
+    bool reported(double at_a, double at_b) const {
       const double way = std::abs(at_b - at_a);
       if (std::min(way, round - way) < apart) return false;
       for (int k = 0; k < joints; ++k)

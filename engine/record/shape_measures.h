@@ -68,8 +68,8 @@ class NetDeviation {
 
 /// The reach of a displacement field |u|/depth over the joints [Baek 2018, Fig. 4C].
 struct PushReach {
-  double above_tenth = 0;  ///< share of the joints with |u|/depth > 0.1
-  double above_half = 0;   ///< share of the joints with |u|/depth > 0.5
+  double above_tenth = 0;  ///< fraction of the joints with |u|/depth > 0.1
+  double above_half = 0;   ///< fraction of the joints with |u|/depth > 0.5
   /// lowest latitude of a joint with reach above 0.1, by its position before the push as seen from
   /// the origin: asin(z/|x|), degrees
   double lowest_latitude_deg = 0;

@@ -87,7 +87,7 @@ bool parse(const std::string& text, Number& value) {
 
 /// What is wrong with the names of the columns, or empty. Earlier versions had fewer numbers.
 template <class Row>
-std::string heading_fault(const std::vector<std::string>& names) {
+std::string heading_error(const std::vector<std::string>& names) {
   std::size_t found = 0;
   std::string missing;
   const Row any;
@@ -105,7 +105,7 @@ Result<std::vector<Row>> read_csv(const std::filesystem::path& file) {
   TRY(text, read_file(file, largest_text));
   const auto lines = csv_cells(*text);
   const auto names = lines.empty() ? std::vector<std::string>() : lines.front();
-  if (const std::string fault = heading_fault<Row>(names); !fault.empty())
+  if (const std::string fault = heading_error<Row>(names); !fault.empty())
     return invalid("'{}': {}", file.string(), fault);
   std::vector<Row> rows;
   for (std::size_t k = 1; k < lines.size(); ++k) {

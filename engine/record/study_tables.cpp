@@ -35,9 +35,4 @@ std::vector<std::size_t> pareto_front(const std::vector<AccuracyRow>& rows) {
   return front;
 }
 
-bool silently_wrong(TrustClass found) {
-  return found == TrustClass::estimate_small || found == TrustClass::other_branch ||
-         found == TrustClass::inner_unphysical || found == TrustClass::frame_dependent;
-}
-
 }  // namespace gridshell::record

@@ -82,56 +82,6 @@ double exponent(const std::vector<double>& x, const std::vector<double>& y);
 /// methods on one mesh differ by their convergence.
 std::vector<std::size_t> pareto_front(const std::vector<AccuracyRow>& rows);
 
-// Results of a study of trust: one row of trust.csv per random scene, solved with defaults and on
-// meshes of another family with finer steps.
-
-/// Comparison of the default's result with the finer one.
-enum class TrustClass {
-  right,                 ///< the same states, within twice the estimate
-  estimate_small,        ///< the same states, their distance more than twice the estimate
-  other_branch,          ///< another state without a reported event: silently wrong
-  after_snap,            ///< another state after a reported snap
-  doubted,               ///< another state, with a report that its coarsest meshes disagree
-  limited,               ///< both ended before their end, and said so
-  limited_only_default,  ///< only the default did
-  inner_unphysical,      ///< a frame that is no shell, and does not say so
-  frame_dependent,       ///< another number of frames ended elsewhere
-  refused,               ///< the scene was refused with a reason
-  too_slow,              ///< stopped at the time limit
-};
-
-/// Whether a user would have received a wrong result without a message.
-bool silently_wrong(TrustClass found);
-
-/// One scene.
-struct TrustRow {
-  int scene = 0;
-  std::string kind;  ///< "circle", "push", ...
-  TrustClass found = TrustClass::right;
-  double error =
-      unknown;  ///< largest distance of a joint in a frame of both, over the length scale
-  double estimate = unknown;  ///< what that frame said of it
-  /// likewise of the reactions, over the largest, and of the energies, over their sum
-  double force_error = unknown, force_estimate = unknown;
-  double energy_error = unknown, energy_estimate = unknown;
-  int exit_default = 0, exit_fine = 0;
-  bool snap_default = false, snap_fine = false;  ///< whether a snap was reported
-  bool doubt = false;  ///< whether the default reported that its coarsest meshes disagree
-
-  /// Whether only one family of meshes reports a snap.
-  bool snap_alone() const {
-    return exit_default == 0 && exit_fine == 0 && snap_default != snap_fine;
-  }
-};
-template <RecordOf<TrustRow> Row, class Visit>
-void fields(Row& row, const Visit& visit) {
-  visit_each(visit, "scene", row.scene, "kind", row.kind, "class", row.found, "error", row.error,
-             "estimate", row.estimate, "force_error", row.force_error, "force_estimate",
-             row.force_estimate, "energy_error", row.energy_error, "energy_estimate",
-             row.energy_estimate, "exit_default", row.exit_default, "exit_fine", row.exit_fine,
-             "snap_default", row.snap_default, "snap_fine", row.snap_fine, "doubt", row.doubt);
-}
-
 // How a shell vibrates: a line of modes.csv a mode.
 
 /// A natural vibration about an equilibrium, extrapolated over the last two meshes.

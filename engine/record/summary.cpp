@@ -95,7 +95,7 @@ Result<Summary> read_summary(const std::filesystem::path& path) {
     return invalid("'{}' is no summary of a run: {}", path.string(), fault);
   };
   Json json = parsed(*text);
-  if (!json.is_object()) return refuse("not a JSON object");
+  if (!json.is_object()) return refuse("got no JSON object");
   Summary summary;
   // what an older version did not say
   summary.program.clear();

@@ -80,7 +80,7 @@ std::string sealed(const Json& json) {
 }
 
 /// The object of a line, or nothing where its checksum is wrong.
-std::optional<Json> unsealed(std::string_view line) {
+std::optional<Json> without_checksum(std::string_view line) {
   if (line.size() <= sum_length) return std::nullopt;
   const auto text = line.substr(0, line.size() - sum_length);
   if (line.substr(text.size()) != ending_of(text)) return std::nullopt;
@@ -106,7 +106,7 @@ std::string first_line(const SweepIdentity& name) {
 }
 
 std::optional<SweepIdentity> name_of(std::string_view line) {
-  const auto json = unsealed(line);
+  const auto json = without_checksum(line);
   if (!json || !has(*json, "sweep", &Json::is_string) || !has(*json, "config", &Json::is_string) ||
       !has(*json, "points", &Json::is_number_unsigned))
     return std::nullopt;
@@ -138,7 +138,7 @@ std::string point_line(const std::vector<std::string>& axes, const PointKeys& ke
 }
 
 std::optional<PointResult> point_of(std::string_view line, std::size_t points) {
-  const auto json = unsealed(line);
+  const auto json = without_checksum(line);
   if (!json || !has(*json, "point", &Json::is_number_unsigned) ||
       !has(*json, "outcome", &Json::is_string) || !has(*json, "figures", &Json::is_object))
     return std::nullopt;

@@ -47,7 +47,7 @@ struct PointResult {
 /// What a point was set to, as the files say it.
 struct PointKeys {
   std::string case_name;            ///< empty where the preset has no cases
-  std::vector<std::string> values;  ///< as TOML, one an axis
+  std::vector<std::string> values;  ///< as TOML, one per axis
   int seed = 0;                     ///< 0 where the sweep has one alone
 };
 

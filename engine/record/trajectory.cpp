@@ -59,7 +59,7 @@ bool computable(const Eigen::Matrix3Xd& points) {
 
 Result<void> check_numbers(const Layout& layout) {
   const auto refuse = [](const char* what) {
-    return invalid("{} holds a number that is no length in mm", what);
+    return invalid("{}: got a number that is no length in mm", what);
   };
   for (const double length : {layout.spacing_mm, layout.rod_diameter_mm, layout.length_scale_mm})
     if (!(length >= 0 && length <= largest_mm)) return refuse("/layout");
@@ -102,7 +102,7 @@ Result<void> check_sizes(const Layout& layout, Eigen::Index nodes) {
   TRY_DO(fits(layout.above.size(), "second nodes are named", layout.joints, "joints"));
   for (const auto* net : {&layout.net_nodes, &layout.flat_nodes})
     if (net->cols() > 0 && net->cols() < most)
-      return invalid("the net has {} nodes, the shell {}", net->cols(), most);
+      return invalid("the net: got {} nodes, expected {} as in the shell", net->cols(), most);
   return {};
 }
 
@@ -178,8 +178,10 @@ std::vector<Frame>& FrameList::edit() {
 
 Result<void> check_layout(const Layout& layout, Eigen::Index nodes) {
   if (layout.original_boundary.cols() != layout.actuated_boundary.cols())
-    return invalid("the original boundary has {} points, the actuated one {}",
-                   layout.original_boundary.cols(), layout.actuated_boundary.cols());
+    return invalid(
+        "boundaries: got {} points of the original and {} of the actuated one, expected equal "
+        "numbers",
+        layout.original_boundary.cols(), layout.actuated_boundary.cols());
   TRY_DO(check_indices(layout, nodes));
   TRY_DO(check_sizes(layout, nodes));
   return check_numbers(layout);
@@ -189,16 +191,18 @@ Result<void> check_frame(const Layout& layout, const Frame& frame, std::size_t k
                          Eigen::Index nodes) {
   const auto cells = static_cast<Eigen::Index>(layout.cells.size());
   if (frame.nodes.cols() != nodes)
-    return invalid("frame {} has {} nodes, the first one {}", k, frame.nodes.cols(), nodes);
+    return invalid("frame {}: got {} nodes, expected {} as in the first one", k, frame.nodes.cols(),
+                   nodes);
   if (frame.cell_K.size() != cells)
-    return invalid("frame {} has {} values of cell_K for {} cells", k, frame.cell_K.size(), cells);
+    return invalid("frame {}: got {} values of cell_K, expected {}", k, frame.cell_K.size(), cells);
   Result<void> fits;
   each_rod_field([&]<class Values>(const char* name, const char*, SizeOf size_of, const char*,
                                    Values Frame::*field) {
     const Eigen::Index values =
         Values::RowsAtCompileTime == 3 ? (frame.*field).cols() : (frame.*field).size();
-    if (const Eigen::Index wanted = size_of(layout); fits && values != 0 && values != wanted)
-      fits = invalid("frame {} has {} values of {}, must be {}", k, values, name + 1, wanted);
+    if (const Eigen::Index requested = size_of(layout); fits && values != 0 && values != requested)
+      fits =
+          invalid("{2} of frame {0}: got {1} values, expected {3}", k, values, name + 1, requested);
   });
   return fits;
 }

@@ -43,21 +43,23 @@ std::optional<std::string> expected_header(const ReadableFile& file,
 }
 
 /// Why a file is not trusted, or empty. A file without a header was written by another program: it
-/// is trusted if `unsealed` is set.
-std::string header_fault(const ReadableFile& file, bool unsealed) {
+/// is trusted if `no_checksum` is set.
+std::string header_error(const ReadableFile& file, bool no_checksum) {
   const auto start = file.read(0, std::min<std::uint64_t>(header_size, file.size()));
   if (start && start->starts_with("\x89HDF\r\n\x1a\n"))
-    return unsealed ? ""
-                    : "it has no checksum, so another program wrote it (--unsealed, in Python "
-                      "unsealed=True, reads it all the same)";
+    return no_checksum
+               ? ""
+               : "it has no checksum, so another program wrote it (--no-checksum, in Python "
+                 "no_checksum=True, reads it all the same)";
   if (!start || !start->starts_with(trajectory_format)) return "it is not an HDF5 file";
   if (start->size() < header_size) return "it is cut short";
   const bool older = start->find("FNV-1a") != start->npos;
-  if (unsealed || start == expected_header(file, older ? ChecksumKind::fnv1a : ChecksumKind::crc32))
+  if (no_checksum ||
+      start == expected_header(file, older ? ChecksumKind::fnv1a : ChecksumKind::crc32))
     return "";
   return "it is cut short, damaged or was changed: its checksum does not match (of one that "
          "another "
-         "program changed, --unsealed, in Python unsealed=True, reads what there is)";
+         "program changed, --no-checksum, in Python no_checksum=True, reads what there is)";
 }
 
 constexpr std::size_t longest_word = 60000;  // what an attribute takes
@@ -75,7 +77,7 @@ Origin read_origin(hdf5::Reader& file) {
 }
 
 /// The HDF5 part onto a descriptor, then the header before it; why that failed, or empty.
-std::string write_fault(int descriptor, const AtomicFile& target, const Trajectory& trajectory) {
+std::string write_error(int descriptor, const AtomicFile& target, const Trajectory& trajectory) {
   hdf5::Stream stream{descriptor, header_size, 0};
   hdf5::Writer file(stream);
   file.attribute("/", "format", trajectory_format);
@@ -114,7 +116,7 @@ Result<Trajectory> read_checked(const std::filesystem::path& path) {
   const bool open = times_open(path) > 1;  // once by who asks
   const auto file = std::make_shared<hdf5::Reader>(path);
   if (!file->good())
-    return refuse(open ? "it is open in this process (by h5py?), and must be closed there first"
+    return refuse(open ? "it is open in this process (by h5py?): close it there first"
                        : "it is cut short or damaged");
   if (file->text_attribute("/", "format") != trajectory_format)
     return refuse(fmt::format("it does not say \"{}\"", trajectory_format));
@@ -137,7 +139,7 @@ Result<void> write_trajectory(const std::filesystem::path& path, const Trajector
   AtomicFile target(path);
   Descriptor file(::open(target.temporary().c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
   if (file < 0) return fail_io("write", path, errno);
-  if (const std::string fault = write_fault(file, target, trajectory); !fault.empty())
+  if (const std::string fault = write_error(file, target, trajectory); !fault.empty())
     return fail(Fault::io, "cannot write '{}': {}", path.string(), fault);
   if (const int code = file.close()) return fail_io("write", path, code);
   return target.commit();
@@ -149,7 +151,8 @@ Result<Trajectory> read_trajectory(const std::filesystem::path& path,
     return invalid("'{}' is no trajectory of a run: {}", path.string(), reason);
   };
   TRY(file, ReadableFile::open(path));
-  if (const auto reason = header_fault(*file, how.unsealed); !reason.empty()) return refuse(reason);
+  if (const auto reason = header_error(*file, how.no_checksum); !reason.empty())
+    return refuse(reason);
   try {
     if (how.trial)
       if (auto survived = read_in_subprocess([&] { (void)read_checked(path); }); !survived)

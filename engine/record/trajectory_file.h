@@ -12,6 +12,7 @@
 //   /reactions_N      frames x supports x 3   on joints, edge points and far ends of tails
 //   /loads_N          frames x supports x 3   distributed to the same nodes
 //   /brace_force_N    frames x 2 x cells  axial, along both diagonals of each cell
+//   /joint_angle_deg, /joint_torque_Nmm   frames x joints, of joints with laws or springs
 //   /frames/<name>  frames              the columns of frames.csv, and `actuation`
 //   /layout         spacing_mm, rod_diameter_mm, length_scale_mm (attributes); edge_points (nodes),
 //                   original_boundary, actuated_boundary (points x 3, mm); families (of each rod,
@@ -40,8 +41,8 @@ namespace gridshell::record {
 Result<void> write_trajectory(const std::filesystem::path& path, const Trajectory& trajectory);
 
 struct TrajectoryReadOptions {
-  bool unsealed = false;  ///< take a file without size and checksum, which another program wrote
-  bool trial = true;      ///< read it in a process of its own first
+  bool no_checksum = false;  ///< take a file without size and checksum, which another program wrote
+  bool trial = true;         ///< read it in a process of its own first
 };
 
 /// Opens a file of write_trajectory; its frames are read on demand. Columns that an older version

@@ -39,24 +39,24 @@ Eigen::Vector2d middle_of(const Eigen::Matrix2Xd& line) {
   return inside || twice == 0 ? middle : Eigen::Vector2d(middle + moment / twice);
 }
 
-Result<ClosedCurve> curve_of(const preset::Curve& wanted, double radius, double scale,
+Result<ClosedCurve> curve_of(const preset::Curve& requested, double radius, double scale,
                              const Eigen::Matrix2Xd& drawn) {
-  const double x = scale * wanted.half_x_mm, y = scale * wanted.half_y_mm;
-  switch (wanted.kind) {
+  const double x = scale * requested.half_x_mm, y = scale * requested.half_y_mm;
+  switch (requested.kind) {
     case preset::CurveKind::circle:
       return ClosedCurve::ellipse(scale * radius, scale * radius);
     case preset::CurveKind::ellipse:
       return ClosedCurve::ellipse(x, y);
     case preset::CurveKind::superellipse:
-      return ClosedCurve::superellipse(x, y, wanted.exponent);
+      return ClosedCurve::superellipse(x, y, requested.exponent);
     case preset::CurveKind::polygon:
-      return ClosedCurve::polygon(scale * preset::matrix_of<2>(wanted.points));
+      return ClosedCurve::polygon(scale * preset::matrix_of<2>(requested.points));
     case preset::CurveKind::file:
       return ClosedCurve::polygon(scale * drawn);
     case preset::CurveKind::spline:
       break;
   }
-  return ClosedCurve::spline(scale * preset::matrix_of<2>(wanted.points));
+  return ClosedCurve::spline(scale * preset::matrix_of<2>(requested.points));
 }
 
 tl::unexpected<Error> refuse(const char* which, const Error& error) {
@@ -195,7 +195,7 @@ Result<void> check_diameters(const preset::Preset& preset, const Footprint& foot
     const double across = rod.rectangular() ? rod.width_mm : rod.diameter_mm;
     if (!(across < footprint.spacing))
       return invalid(
-          "rods[{}]: a {} of {:g} mm, must be less than the usual distance of {:g} mm "
+          "rods[{}]: got a {} of {:g} mm, expected less than the usual distance of {:g} mm "
           "between joints{}",
           drawn.number, rod.rectangular() ? "width" : "diameter", across, footprint.spacing,
           across < 500 * footprint.spacing

@@ -110,7 +110,7 @@ void add_pressure(const Face& face, double pressure, std::vector<NodeAction>& ac
 Result<void> check_pressure(const LoadCase& load, const std::string& key,
                             const Footprint& footprint) {
   if (load.pressure_N_mm2 == 0) return {};
-  std::set<int> held(footprint.held_joints.begin(), footprint.held_joints.end());
+  std::set<int> held(footprint.fixed_joints.begin(), footprint.fixed_joints.end());
   const int joints = int(footprint.joints.size());
   for (std::size_t r = 0; r < footprint.rods.size(); ++r) {
     if (is_held(footprint.rods[r].begin)) held.insert(joints + 2 * int(r));
@@ -124,7 +124,7 @@ Result<void> check_pressure(const LoadCase& load, const std::string& key,
                                       footprint.joints[std::size_t(node)].j)
                         : fmt::format("an end of rod {}", (node - joints) / 2);
       return invalid(
-          "{} pressure: the edge of the faces must be held, and {} there is free: such a "
+          "{} pressure: got a free {} at the edge of the faces, expected a fixed edge: such a "
           "load has no energy; one on the edge has, edge_direction = \"pressure\"",
           key, place);
     }
@@ -246,11 +246,12 @@ Result<std::vector<PointLoad>> points_of(const preset::Points& rows, const std::
     const int i = int(std::lround(row[0])), j = int(std::lround(row[1]));
     const int joint = row[0] == i && row[1] == j ? joint_at(footprint, i, j) : -1;
     if (joint < 0)
-      return invalid("{} points: the footprint has no joint [{:g}, {:g}], must be one of its {}{}",
-                     key, row[0], row[1], footprint.joints.size(),
-                     footprint.joints.empty() ? ""
-                                              : fmt::format(", as [{}, {}]", footprint.joints[0].i,
-                                                            footprint.joints[0].j));
+      return invalid(
+          "{} points: got [{:g}, {:g}], which is no joint, expected one of the footprint's {}{}",
+          key, row[0], row[1], footprint.joints.size(),
+          footprint.joints.empty()
+              ? ""
+              : fmt::format(", as [{}, {}]", footprint.joints[0].i, footprint.joints[0].j));
     points.push_back({joint, {row[2], row[3], row[4]}});
   }
   return points;

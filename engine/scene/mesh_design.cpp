@@ -36,9 +36,9 @@ Result<TriangleMesh> sheet_of(const preset::SurfaceData& file, std::vector<std::
 }
 
 /// Where the preset says that the net begins.
-Result<NetStart> given_start(const preset::Net& wanted, const ShapedSurface& shape,
+Result<NetStart> given_start(const preset::Net& requested, const ShapedSurface& shape,
                              const Surface::Function& outside, double allowed_mm) {
-  TRY(place, given_place(wanted, shape, outside, allowed_mm));
+  TRY(place, given_place(requested, shape, outside, allowed_mm));
   NetStart start;
   start.place = std::move(*place);
   const Eigen::Vector3d& up = start.place.up;
@@ -50,31 +50,31 @@ Result<NetStart> given_start(const preset::Net& wanted, const ShapedSurface& sha
 
 }  // namespace
 
-Result<NetDesign> mesh_design(const preset::Net& wanted, double spacing_mm) {
+Result<NetDesign> mesh_design(const preset::Net& requested, double spacing_mm) {
   constexpr double apex_off = 0.01;  // of the spacing
   const auto about_file = [](const Error& error) {
     return Error{error.fault, "[net] file: " + error.message};
   };
   auto report = std::make_shared<MeshNetReport>();
-  auto made = sheet_of(wanted.file, report->mended).map_error(about_file);
+  auto made = sheet_of(requested.file, report->mended).map_error(about_file);
   if (!made) return tl::unexpected(made.error());
   const auto mesh = std::make_shared<const TriangleMesh>(std::move(*made));
-  auto fitted = MeshSurface::fit(*mesh, spacing_mm, wanted.fit_mm).map_error(about_file);
+  auto fitted = MeshSurface::fit(*mesh, spacing_mm, requested.fit_mm).map_error(about_file);
   if (!fitted) return tl::unexpected(fitted.error());
   const auto smooth = std::make_shared<const MeshSurface>(std::move(*fitted));
   const ShapedSurface shape{
       Surface([smooth](const Eigen::Vector3d& p) { return smooth->at(p); }, spacing_mm),
       [mesh](double x, double y) { return highest_at(*mesh, x, y); }};
   const auto lines = std::make_shared<const Barriers>(*mesh);
-  TRY(outside, outside_of(wanted));
-  const double least_angle = wanted.least_angle_deg * degree;
-  if (wanted.apex != preset::NetApex::given) {
+  TRY(outside, outside_of(requested));
+  const double least_angle = requested.least_angle_deg * degree;
+  if (requested.apex != preset::NetApex::given) {
     TRY(starts, best_starts(shape.surface, *mesh, *lines, *outside, least_angle, spacing_mm,
-                            wanted.apex == preset::NetApex::best_angle));
+                            requested.apex == preset::NetApex::best_angle));
     report->start = starts->front();
     if (starts->size() > 1) report->second = starts->back();
   } else {
-    TRY(start, given_start(wanted, shape, *outside,
+    TRY(start, given_start(requested, shape, *outside,
                            std::max(apex_off * spacing_mm, 2 * smooth->largest_distance())));
     report->start = std::move(*start);
   }
@@ -95,7 +95,7 @@ Result<NetDesign> mesh_design(const preset::Net& wanted, double spacing_mm) {
   NetDesign design;
   design.domain = reached_part(net);
   design.net = net;
-  TRY_DO(lay_flat(wanted, place, design));
+  TRY_DO(lay_flat(requested, place, design));
   design.report = std::move(report);
   return design;
 }

@@ -116,7 +116,7 @@ std::string text_of(const NetStart& start) {
 std::vector<AreaSample> area_samples(const TriangleMesh& mesh, double apart_mm) {
   std::vector<AreaSample> samples;
   PointGrid near(apart_mm / 2);
-  // of small triangles some stand for those around them
+  // a few of many small triangles represent those around them
   const auto add = [&](const AreaSample& one) {
     const auto takes = [&](int k) {
       AreaSample& other = samples[std::size_t(k)];
@@ -196,7 +196,7 @@ Result<std::vector<NetStart>> best_starts(const Surface& surface, const Triangle
   for (const Eigen::Vector3d& place : spread(samples, places))
     for (double turned = 0; turned < 90; turned += turn_deg)
       if (auto start = trial.from(place, turned, samples)) found.push_back(std::move(*start));
-  if (found.empty()) return invalid("no place of the mesh faces up inside the boundary");
+  if (found.empty()) return invalid("no part of the mesh faces up inside the boundary");
   Ranking rank{by_angle};
   const auto measure = [&](const std::vector<NetStart>& all) {
     const auto most = std::ranges::max_element(all, {}, Ranking::area_of);

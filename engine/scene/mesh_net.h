@@ -11,7 +11,7 @@
 
 namespace gridshell {
 
-/// A point of the mesh that stands for its share of the area.
+/// A point of the mesh that represents its part of the area.
 struct AreaSample {
   Eigen::Vector3d at;
   double area = 0;              ///< of the mesh's, 0 to 1
@@ -22,16 +22,16 @@ struct AreaSample {
 std::vector<AreaSample> area_samples(const TriangleMesh& mesh, double apart_mm);
 
 /// Chord of the grid that a net is found on: an eighth of the rods' spacing, if the mesh is not too
-/// large for it, mm; and how many of them are enough to come from any place to any other.
+/// large for it, mm; and the number of chords that lead from any point to any other.
 double net_chord(const TriangleMesh& mesh, double spacing_mm);
 int chords_across(const TriangleMesh& mesh, double chord_mm);
 
-/// Splits them into what a grid's rods come to, within a chord and on their side of every line, and
-/// the rest, each with what ends the rods nearest to it; returns the rest.
+/// Splits them into what a grid's rods reach, within a chord and on their side of every line, and
+/// the remaining ones, each with what ends the rods nearest to it; returns these.
 std::vector<AreaSample> left_out_of(const MarchedGrid& grid, const Barriers& lines,
                                     const std::vector<AreaSample>& samples);
 
-/// A place and a direction from which a net is marched, and how far it comes.
+/// A position and a direction from which a net is marched, and how far it comes.
 struct NetStart {
   NetPlace place;
   double axis_deg = 0;         ///< of the u-axis from x, as seen from above
@@ -41,18 +41,18 @@ struct NetStart {
 };
 
 /// The best start and the best of those a tenth of the mesh's size away or 20 degrees turned:
-/// nets on a coarse grid from places spread over the mesh, each in six directions, the best of
+/// nets on a coarse grid from positions spread over the mesh, each in six directions, the best of
 /// them moved and turned as long as more is reached, then measured on the net's own grid. Seams,
 /// where two parts of the net meet, count half against the area; of those that reach as much the
 /// one with the largest least angle is best. `by_angle`: that of all which reach 0.95 of the most.
-/// Errors (bad_input): no place of the mesh faces up inside the boundary.
+/// Errors (bad_input): no position of the mesh faces up inside the boundary.
 Result<std::vector<NetStart>> best_starts(const Surface& surface, const TriangleMesh& mesh,
                                           const Barriers& lines, const Surface::Function& outside,
                                           double least_angle, double spacing_mm, bool by_angle);
 
 /// Where a net begins on a mesh, what it reaches and what not.
 struct MeshNetReport {
-  std::vector<std::string> mended;  ///< what was done to make it one sheet, a sentence each
+  std::vector<std::string> mended;  ///< what was done to make it one sheet, one sentence each
   double fit_mm = 0;  ///< largest distance of a vertex from the smooth surface, and where
   Eigen::Vector3d fit_at = Eigen::Vector3d::Zero();
   NetStart start;
@@ -65,7 +65,7 @@ struct MeshNetReport {
   };
   std::vector<Line> drawn;  ///< rim, holes, creases
 
-  /// Of the area, by reason, the largest first.
+  /// The parts of the area, by reason, the largest first.
   std::vector<std::pair<RodStop, double>> reasons() const;
   /// A sentence each: what was mended, the fit, where it begins, what is reached, what is left out
   /// and why.

@@ -19,47 +19,47 @@ namespace {
 /// Where the axis of a surface of revolution, or the row of blocks, runs along u + v and x.
 Eigen::Matrix<double, 3, 2> axes_along_x() { return axes_about(Eigen::Vector2d::UnitX()); }
 
-Result<NetDesign> cap(const preset::Net& wanted) {
+Result<NetDesign> cap(const preset::Net& requested) {
   NetDesign design;
-  auto net = std::make_shared<SphereNet>(wanted.radius_mm);
-  TRY(domain, cap_of(*net, wanted.cut_height));
+  auto net = std::make_shared<SphereNet>(requested.radius_mm);
+  TRY(domain, cap_of(*net, requested.cut_height));
   design.net = net;
   design.domain = std::move(*domain);
-  design.flat.origin.z() = wanted.cut_height * wanted.radius_mm;
-  design.scale_mm = wanted.radius_mm;
+  design.flat.origin.z() = requested.cut_height * requested.radius_mm;
+  design.scale_mm = requested.radius_mm;
   return design;
 }
 
-Result<NetDesign> half_revolution(const preset::Net& wanted, Result<Profile> profile) {
+Result<NetDesign> half_revolution(const preset::Net& requested, Result<Profile> profile) {
   if (!profile) return tl::unexpected(profile.error());
   // sin(omega/2) = c r; rods at right angles have c = 1/(sqrt(2) r)
   const double middle_r = profile->at(profile->origin).r;
-  const double c = std::sin(wanted.crossing_deg / 2 * std::numbers::pi / 180) / middle_r;
+  const double c = std::sin(requested.crossing_deg / 2 * std::numbers::pi / 180) / middle_r;
   TRY(made, RevolutionNet::make(std::move(*profile), c));
   NetDesign design;
   auto net = std::make_shared<RevolutionNet>(std::move(*made));
-  const bool whole = wanted.kind == preset::NetKind::profile && wanted.length_mm == 0;
-  TRY(domain, whole ? half_of_all(*net) : half_of(*net, wanted.length_mm));
+  const bool whole = requested.kind == preset::NetKind::profile && requested.length_mm == 0;
+  TRY(domain, whole ? half_of_all(*net) : half_of(*net, requested.length_mm));
   design.net = net;
   design.domain = std::move(*domain);
   // the axis runs along u + v, and C_y, y = u - v, towards -y of the world
   design.flat.axes = axes_along_x();
-  design.scale_mm = wanted.kind == preset::NetKind::profile ? middle_r : wanted.radius_mm;
+  design.scale_mm = requested.kind == preset::NetKind::profile ? middle_r : requested.radius_mm;
   return design;
 }
 
 /// Where a rectangle of the plane meets the net, the boundary need not be plane: the flat footprint
 /// lies at its mean height, its diagonal along that of the two curves.
-Result<NetDesign> translation(const preset::Net& wanted) {
-  const Eigen::Matrix3Xd x = preset::matrix_of<3>(wanted.curve_u),
-                         y = preset::matrix_of<3>(wanted.curve_v);
+Result<NetDesign> translation(const preset::Net& requested) {
+  const Eigen::Matrix3Xd x = preset::matrix_of<3>(requested.curve_u),
+                         y = preset::matrix_of<3>(requested.curve_v);
   TRY(made, TranslationNet::make(x, y));
   const Eigen::Vector3d along = (x.rightCols<1>() - x.leftCols<1>()).normalized();
   const Eigen::Vector3d across = (y.rightCols<1>() - y.leftCols<1>()).normalized();
   if (!(along.cross(across).z() > 0))
     return invalid(
-        "curve_v of the translation net must run to the left of curve_u as seen from "
-        "above: swap them, or turn one round");
+        "curve_v of the translation net: got a curve to the right, expected one to the left of "
+        "curve_u as seen from above: swap them, or turn one round");
   NetDesign design;
   auto net = std::make_shared<TranslationNet>(std::move(*made));
   design.domain = all_of(*net);
@@ -72,12 +72,12 @@ Result<NetDesign> translation(const preset::Net& wanted) {
   return design;
 }
 
-Result<Block> block_of(const preset::Block& wanted, const preset::Footprint& footprint) {
-  auto design = net_design(wanted.net, footprint.spacing_mm);
+Result<Block> block_of(const preset::Block& requested, const preset::Footprint& footprint) {
+  auto design = net_design(requested.net, footprint.spacing_mm);
   if (!design)
-    return fail(design.error().fault, "block \"{}\": {}", wanted.name, design.error().message);
+    return fail(design.error().fault, "block \"{}\": {}", requested.name, design.error().message);
   Block block;
-  block.name = wanted.name;
+  block.name = requested.name;
   block.net = design->net;
   block.domain = std::move(design->domain);
   const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
@@ -85,14 +85,14 @@ Result<Block> block_of(const preset::Block& wanted, const preset::Footprint& foo
   block.pose.translation().z() = -design->flat.origin.z();
   block.spacing = footprint.spacing_mm;
   block.placement = footprint.placement;
-  block.cut = {wanted.east, wanted.west, wanted.north, wanted.south};
+  block.cut = {requested.east, requested.west, requested.north, requested.south};
   return block;
 }
 
 Result<BlockSide> block_side(const preset::Preset& preset, const std::string& name) {
   const auto side = preset::side_named(preset, name);
   const auto facing = side ? find_word<Side>(side->side) : std::nullopt;
-  if (!facing) return invalid("\"{}\" is no side of a block", name);
+  if (!facing) return invalid("got \"{}\", expected a side of a block", name);
   return BlockSide{side->block, *facing};
 }
 
@@ -116,13 +116,14 @@ Result<ShapedSurface> from_grid(const preset::SurfaceData& file, double spacing_
                    spacing_mm);
 }
 
-Result<ShapedSurface> surface_of(const preset::Net& wanted, double spacing_mm) {
-  if (!wanted.file.empty())
-    return from_grid(wanted.file, spacing_mm).map_error([](const Error& error) {
+Result<ShapedSurface> surface_of(const preset::Net& requested, double spacing_mm) {
+  if (!requested.file.empty())
+    return from_grid(requested.file, spacing_mm).map_error([](const Error& error) {
       return Error{error.fault, "[net] file: " + error.message};
     });
-  const bool implicit = !wanted.implicit.empty();
-  TRY(function, implicit ? parsed("implicit", wanted.implicit) : parsed("height", wanted.height));
+  const bool implicit = !requested.implicit.empty();
+  TRY(function,
+      implicit ? parsed("implicit", requested.implicit) : parsed("height", requested.height));
   if (!implicit) return by_height(*function, spacing_mm);
   return ShapedSurface{Surface(*function, spacing_mm), {}};
 }
@@ -132,7 +133,8 @@ std::string likely_cause(const preset::SurfaceData& file, double spacing_mm) {
   const double width = file.empty() || file.is_mesh() ? NAN : file.x.back() - file.x.front();
   if (!(width < 2 * spacing_mm)) return "";
   return fmt::format(
-      "; the whole surface is {:.3g} mm wide and the rods {:.3g} mm apart: is the file in metres? "
+      "; the whole surface is {:.3g} mm wide and the distance of the rods {:.3g} mm: is the file "
+      "in metres? "
       "[net] file_unit = \"m\" reads it so",
       width, spacing_mm);
 }
@@ -141,19 +143,19 @@ std::string likely_cause(const preset::SurfaceData& file, double spacing_mm) {
 /// far as the boundary; the net's grid is an eighth of the rods' spacing. Errors (bad_input): an
 /// expression that does not parse, an apex off the surface or outside the boundary, and those of
 /// the net and its part. `so_far`, where given, is filled where the net ends too early.
-Result<NetDesign> surface_design(const preset::Net& wanted, double spacing_mm,
+Result<NetDesign> surface_design(const preset::Net& requested, double spacing_mm,
                                  PartialNet* so_far = nullptr) {
-  TRY(shape, surface_of(wanted, spacing_mm));
+  TRY(shape, surface_of(requested, spacing_mm));
   const Surface& surface = shape->surface;
-  TRY(outside, outside_of(wanted));
-  TRY(place, given_place(wanted, *shape, *outside, 0.01 * spacing_mm));
+  TRY(outside, outside_of(requested));
+  TRY(place, given_place(requested, *shape, *outside, 0.01 * spacing_mm));
   TRY(made, SurfaceNet::make(surface, *place, spacing_mm / 8, so_far));
   NetDesign design;
   const auto net = std::make_shared<const SurfaceNet>(std::move(*made));
   TRY(part, part_of(net, *outside));
   design.domain = std::move(*part);
   design.net = net;
-  TRY_DO(lay_flat(wanted, *place, design));
+  TRY_DO(lay_flat(requested, *place, design));
   return design;
 }
 
@@ -186,13 +188,13 @@ Result<NetDesign> net_design(const preset::Net& net, double spacing_mm) {
 
 Result<NetDesign> block_design(const preset::Preset& preset) {
   std::vector<Block> blocks;
-  for (const preset::Block& wanted : preset.block) {
-    TRY(block, block_of(wanted, preset.footprint));
+  for (const preset::Block& requested : preset.block) {
+    TRY(block, block_of(requested, preset.footprint));
     blocks.push_back(std::move(*block));
   }
   std::vector<Join> joins;
-  for (const preset::Join& wanted : preset.join) {
-    TRY(first, block_side(preset, wanted.first), second = block_side(preset, wanted.second));
+  for (const preset::Join& requested : preset.join) {
+    TRY(first, block_side(preset, requested.first), second = block_side(preset, requested.second));
     if (!second) return tl::unexpected(second.error());
     joins.push_back({*first, *second});
   }

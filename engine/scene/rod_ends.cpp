@@ -120,15 +120,17 @@ Result<void> apply_ends_table(const preset::Points& table, Scene& scene) {
     };
     const auto found = named.find(name);
     if (found == named.end() || double(int(row[1])) != row[1])
-      return wrong("the footprint has no such end that is held");
-    if (seen[name] == found->second.size()) return wrong("named more often than it is there");
+      return wrong("got no end of the footprint that is fixed");
+    if (seen[name] == found->second.size())
+      return wrong("got more rows than the footprint has of it");
     const Eigen::Index k = found->second[seen[name]++];
-    if (!(row[6] > 0)) return wrong("the leg must be longer than 0 mm");
+    if (!(row[6] > 0)) return wrong("got a leg without length, expected above 0 mm");
     ends.at.col(k) << row[3], row[4], row[5];
     ends.leg[k] = row[6];
     if (!holds_direction(hold_of(scene, k))) continue;
     const Eigen::Vector3d along(row[7], row[8], row[9]);
-    if (!(along.norm() > 1e-6)) return wrong("tx, ty, tz must be a direction, as it is held");
+    if (!(along.norm() > 1e-6))
+      return wrong("tx, ty, tz: got no direction, expected that of the prescribed end");
     ends.direction.col(k) = along.normalized();
   }
   apply_ends(ends, scene);
@@ -198,11 +200,11 @@ void place_tails(const Scene& scene, const RodMesh& mesh, Eigen::Matrix3Xd& plac
       const double at = mesh.position[r][k];
       const bool before = at < rod.span.begin;
       if (!before && at <= rod.span.end) continue;
-      const double share =
+      const double fraction =
           before ? (rod.span.begin - at) / rod.tail_begin : (at - rod.span.end) / rod.tail_end;
       const Eigen::Index end = 2 * Eigen::Index(r) + (before ? 0 : 1);
       places.col(mesh.rods[r][k]) =
-          (1 - share) * scene.motion.end.col(end) + share * scene.motion.end_far.col(end);
+          (1 - fraction) * scene.motion.end.col(end) + fraction * scene.motion.end_far.col(end);
     }
   }
 }

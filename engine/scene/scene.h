@@ -26,7 +26,7 @@ namespace gridshell {
 
 /// Whether a snap is computed in time, and with which settings.
 struct SnapDynamics {
-  bool wanted = false;
+  bool requested = false;
   double step_s = 0, damping_per_s = 0;
 };
 
@@ -34,7 +34,7 @@ struct SnapDynamics {
 struct Scene {
   Footprint footprint;
   ShellRods rods;
-  RodModel rung = RodModel::bend;          ///< rod model chosen: net, bend or twist
+  RodModel rod_model = RodModel::bend;     ///< rod model chosen: net, bend or twist
   std::vector<double> mass_t_per_mm;       ///< one per rod; 0: not known
   std::vector<double> strength_MPa;        ///< one per rod; empty: not known
   double joint_mass_t = 0;                 ///< of each joint, in addition to its rods
@@ -77,7 +77,7 @@ struct Scene {
 
   /// The rod model of the mechanics, if there is one.
   RodModel solved_model() const {
-    return rung == RodModel::twist ? RodModel::twist : RodModel::bend;
+    return rod_model == RodModel::twist ? RodModel::twist : RodModel::bend;
   }
   /// Whether rods have a limit of bending strain or utilisation.
   bool limits_strength() const { return max_bending_strain > 0 || max_utilisation > 0; }

@@ -22,20 +22,20 @@ Result<Surface::Function> parsed(const char* key, const std::string& text) {
   return [E = *expression](const Eigen::Vector3d& p) { return E.at(p); };
 }
 
-Result<Surface::Function> outside_of(const preset::Net& wanted) {
-  if (!wanted.within.empty()) return parsed("within", wanted.within);
-  if (!wanted.cut_mm && wanted.file.is_mesh())
+Result<Surface::Function> outside_of(const preset::Net& requested) {
+  if (!requested.within.empty()) return parsed("within", requested.within);
+  if (!requested.cut_mm && requested.file.is_mesh())
     return Surface::Function([](const Eigen::Vector3d&) { return -1.0; });
-  return [cut = wanted.cut_mm.value_or(0)](const Eigen::Vector3d& p) { return cut - p.z(); };
+  return [cut = requested.cut_mm.value_or(0)](const Eigen::Vector3d& p) { return cut - p.z(); };
 }
 
 namespace {
 
 /// The apex on the surface. Where its z is left out it is the surface's own.
-Result<Eigen::Vector3d> apex_of(const preset::Net& wanted, const ShapedSurface& shape,
+Result<Eigen::Vector3d> apex_of(const preset::Net& requested, const ShapedSurface& shape,
                                 double allowed_mm) {
   const Surface& surface = shape.surface;
-  const auto& given = wanted.apex_mm;
+  const auto& given = requested.apex_mm;
   Eigen::Vector3d apex(given[0], given[1], given.size() > 2 ? given[2] : 0);
   if (given.size() == 2) {
     const auto height = shape.height(apex.x(), apex.y());
@@ -61,7 +61,7 @@ Result<Eigen::Vector3d> apex_of(const preset::Net& wanted, const ShapedSurface& 
 }
 
 /// Where the axes leave to, on the surface at its apex.
-Result<NetPlace> place_of(const preset::Net& wanted, const Surface& surface,
+Result<NetPlace> place_of(const preset::Net& requested, const Surface& surface,
                           const Eigen::Vector3d& apex) {
   constexpr double steepest = 0.1;
   const Surface::Curvature bent = surface.curvature(apex);
@@ -69,22 +69,22 @@ Result<NetPlace> place_of(const preset::Net& wanted, const Surface& surface,
   if (up.z() < 0) up = -up;
   if (!(up.z() > steepest))
     return invalid(
-        "[net] apex_mm: the surface is upright there, it must face up where the net begins");
+        "[net] apex_mm: got a point where the surface is upright, expected one where it faces up");
   Eigen::Vector3d along = bent.axes.col(0);
-  if (wanted.axis == preset::NetAxis::x || bent.umbilic)
+  if (requested.axis == preset::NetAxis::x || bent.umbilic)
     along = (Eigen::Vector3d::UnitX() - up.x() * up).normalized();
   // of two opposite directions the one towards +x
   if (along.x() < 0) along = -along;
-  const double turned = wanted.axis_deg * std::numbers::pi / 180;
+  const double turned = requested.axis_deg * std::numbers::pi / 180;
   return NetPlace{apex, Eigen::AngleAxisd(turned, up) * along, up, {}};
 }
 
-FlatFrame flat_frame(const preset::Net& wanted, const NetPlace& place,
+FlatFrame flat_frame(const preset::Net& requested, const NetPlace& place,
                      const Eigen::Matrix3Xd& ring) {
   FlatFrame frame;
   frame.origin = place.apex;
-  frame.origin.z() = wanted.within.empty() && (wanted.cut_mm || !wanted.file.is_mesh())
-                         ? wanted.cut_mm.value_or(0)
+  frame.origin.z() = requested.within.empty() && (requested.cut_mm || !requested.file.is_mesh())
+                         ? requested.cut_mm.value_or(0)
                          : ring.row(2).mean();
   const Eigen::Vector2d diagonal =
       (place.along_u + place.up.cross(place.along_u)).head<2>().normalized();
@@ -94,20 +94,20 @@ FlatFrame flat_frame(const preset::Net& wanted, const NetPlace& place,
 
 }  // namespace
 
-Result<NetPlace> given_place(const preset::Net& wanted, const ShapedSurface& shape,
+Result<NetPlace> given_place(const preset::Net& requested, const ShapedSurface& shape,
                              const Surface::Function& outside, double allowed_mm) {
-  TRY(apex, apex_of(wanted, shape, allowed_mm));
+  TRY(apex, apex_of(requested, shape, allowed_mm));
   if (!(outside(*apex) < 0))
     return invalid("[net] {}: the apex ({:.4g}, {:.4g}, {:.4g}) mm lies outside",
-                   wanted.within.empty() ? "cut_mm" : "within", apex->x(), apex->y(), apex->z());
-  TRY(place, place_of(wanted, shape.surface, *apex));
+                   requested.within.empty() ? "cut_mm" : "within", apex->x(), apex->y(), apex->z());
+  TRY(place, place_of(requested, shape.surface, *apex));
   place->outside = outside;
   return place;
 }
 
-Result<void> lay_flat(const preset::Net& wanted, const NetPlace& place, NetDesign& design) {
+Result<void> lay_flat(const preset::Net& requested, const NetPlace& place, NetDesign& design) {
   TRY(ring, points_on(*design.net, design.domain->boundary(256)));
-  design.flat = flat_frame(wanted, place, *ring);
+  design.flat = flat_frame(requested, place, *ring);
   const Eigen::Vector2d middle = ring->topRows<2>().rowwise().mean();
   design.scale_mm = (ring->topRows<2>().colwise() - middle).colwise().norm().maxCoeff();
   return {};

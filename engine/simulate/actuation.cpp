@@ -45,7 +45,7 @@ Result<Checkpoint> begin_from_flat(EquilibriumPath& path, const Watch& watch) {
     if (first->end != Outcome::reached) continue;
     std::vector<PathSegment> before = std::exchange(path.segments, {});
     Checkpoint start = path.simulation.save();
-    const bool connected = follow_back(path, {.wanted = false, .through_unstable = true}, watch);
+    const bool connected = follow_back(path, {.requested = false, .through_unstable = true}, watch);
     if (connected || !found)
       found = std::move(start);
     else
@@ -122,7 +122,7 @@ void follow_from_flat(EquilibriumPath& path, const Checkpoint& first, double to,
 }
 
 /// The segment on which a path parameter lies, if there is one.
-std::optional<std::size_t> leg_at(const EquilibriumPath& path, double t) {
+std::optional<std::size_t> segment_at(const EquilibriumPath& path, double t) {
   for (std::size_t k = path.segments.size(); k-- > 0;) {
     const PathSegment& segment = path.segments[k];
     double end = segment.end();
@@ -142,7 +142,7 @@ bool rests_flat(const Scene& scene) {
 }
 
 Caption caption_of(const Scene& scene) {
-  return {at_progress,
+  return {at_progress, [](std::size_t, double t) { return progress_at(t); },
           [&scene](record::Frame& frame, double, double progress) {
             frame.actuation = progress;
             frame.boundary_radius_mm = scene.radius_at(progress);
@@ -225,35 +225,23 @@ Result<EquilibriumPath> run_actuation(std::shared_ptr<const Scene> scene,
   layout->extrapolated = path->simulation.shell().plan().extrapolate;
   TRY_DO(sink.begin(std::move(*layout)));
   PathSampler sampler(*path, caption_of(*scene), sink, watch, progress.size());
-  const Checkpoint end = path->simulation.save();
-  std::optional<PathSample> last_taken;
+  std::vector<PathSample> samples;
   for (std::size_t k = 0; k < progress.size(); ++k) {
     PathSample sample{int(k), 0, parameter_at(progress[k]), progress[k]};
     if (progress[k] == 0 && rests_flat(*scene)) {
       TRY_DO(sampler.take(flat_frame(path->simulation), sample));
       continue;
     }
-    if (path->segments.empty())
-      break;  // only the flat state was requested, and the path has no state there
-    const auto segment = leg_at(*path, sample.t);
-    const PathSegment& last = path->segments.back();
-    const bool tells = at_limit(last.report.end) && last.report.end != Outcome::locked;
-    if (!segment && tells && !last.back && sample.t > end.state.t) {
-      path->simulation.restore(end);
-      sample.segment = path->segments.size() - 1;
-      sample.progress = progress_at(sample.t = end.state.t);
-      TRY_DO(
-          sampler.take_current(sample, limit_event(path->simulation, last.report.end), sample.t));
-      break;
-    }
-    if (!segment) continue;  // the path's limit says why
-    sample.segment = *segment;
-    TRY(taken, sampler.at(sample));
-    if (*taken) last_taken = sample;
+    const auto segment = segment_at(*path, sample.t);
+    // what only a path past its last segment would have reached shows its end
+    const bool past = !path->segments.empty() && sample.t > path->segments.back().end();
+    if (!segment && !past) continue;
+    sample.segment = segment.value_or(path->segments.size() - 1);
+    samples.push_back(sample);
   }
-  path->simulation.restore(end);
+  TRY_DO(sampler.all(samples));
   // a path that ends on its segment back to the flat started at a larger progress
-  if (last_taken && path->segments.back().back) certify_sample(*path, *last_taken, watch);
+  if (!samples.empty() && path->segments.back().back) certify_sample(*path, samples.back(), watch);
   return path;
 }
 

@@ -23,7 +23,7 @@ constexpr double still_mm = 0.01;  // perturbation of an unstable equilibrium be
 void add_waves(const Footprint& footprint, const RodMesh& mesh, std::mt19937& random,
                Eigen::Matrix3Xd& direction) {
   constexpr int waves = 3;
-  const std::set<int> held(footprint.held_joints.begin(), footprint.held_joints.end());
+  const std::set<int> held(footprint.fixed_joints.begin(), footprint.fixed_joints.end());
   const auto turning = turning_rods(footprint);
   for (std::size_t r = 0; r < footprint.rods.size(); ++r) {
     const bool turns = std::ranges::find(turning, r) != turning.end();
@@ -91,9 +91,9 @@ State extrapolated_state(Linearisation& system, const PinnedMotion& motion, cons
       motion.velocity(system, last.t, last.state, velocity);
       if (std::abs(way) * max_column_norm(velocity.x) <= farthest_mm) {
         const Eigen::Matrix3Xd move = way * velocity.x;
-        const double share = system.clear_share(last.state, move);
-        move_to(system.model(), last.state.x + share * move, state);
-        state.force += share * way * velocity.force;
+        const double fraction = system.clear_fraction(last.state, move);
+        move_to(system.model(), last.state.x + fraction * move, state);
+        state.force += fraction * way * velocity.force;
         break;
       }
     }
@@ -134,11 +134,11 @@ Result<State> rest_after_bifurcation(NestedShell& shell, const Scene& scene, con
   const Eigen::Matrix3Xd mode = softest_mode(system, departure.start, watch);
   State state =
       extrapolated_state(system, motion, last, there, 0.2 * scene.footprint.spacing, watch);
-  if (system.clear_share(last.state, state.x - last.state.x) < 1)
+  if (system.clear_fraction(last.state, state.x - last.state.x) < 1)
     return fail(Fault::no_equilibrium, "rods would go through one another");
   if (kind == Event::Kind::stability_lost)
     state = unstable_branch(system, state, 0.1 * scene.footprint.spacing, watch).value_or(state);
-  if (!scene.snap.wanted) return leave_saddle(system, state, mode, departure, watch);
+  if (!scene.snap.requested) return leave_saddle(system, state, mode, departure, watch);
   auto moved = rest_in_time(
       shell, scene, perturbed_along_mode(system, state, mode, departure.side),
       {.still_N = 1e-4, .still_mJ = 1e-7},
@@ -154,9 +154,9 @@ Result<State> rest_after_bifurcation(NestedShell& shell, const Scene& scene, con
 
 bool on_branch_from(NestedShell& shell, const Scene& scene, const PathPoint& last, double there,
                     const State& rest, const Watch& watch) {
-  constexpr double share =
+  constexpr double fraction =
       1.0 / 16;  // of the path parameter, where a quarter of the distance is expected to remain
-  const double near = last.t + share * (there - last.t);
+  const double near = last.t + fraction * (there - last.t);
   PathOptions options;
   options.spacing_mm = scene.footprint.spacing;
   options.allow_unstable =
@@ -171,7 +171,7 @@ bool on_branch_from(NestedShell& shell, const Scene& scene, const PathPoint& las
     if (last.velocity.x.size() > 0) path += (t - last.t) * last.velocity.x;
     return max_column_norm((state.x - path).leftCols(shell.model().nodes));
   };
-  return off(back.point().state, back.point().t) < 2 * std::sqrt(share) * off(rest, there);
+  return off(back.point().state, back.point().t) < 2 * std::sqrt(fraction) * off(rest, there);
 }
 
 Result<State> rest_in_time(NestedShell& shell, const Scene& scene, const State& from,

@@ -137,7 +137,7 @@ record::Limit limit_of(Outcome end) {
 }
 
 /// How a segment ended before its end.
-std::string how_it_ended(const PathSegment& segment, const At& at) {
+std::string how_it_ended(const PathSegment& segment, double max_strain, const At& at) {
   const Report& report = segment.report;
   const auto place = [&] {
     return at(report.t, report.events.empty() ? std::nullopt : report.events.back().error);
@@ -154,14 +154,16 @@ std::string how_it_ended(const PathSegment& segment, const At& at) {
         "max_strain allows",
         place());
   const double strain = report.certificate.largest_strain;
-  if (report.end == Outcome::locked && strain < 0)
+  const bool strained = std::abs(strain) > 0.9 * max_strain;
+  if (report.end == Outcome::locked && strained && strain < 0)
     return fmt::format(
         "{} a rod too short to buckle is compressed as far as [limits] max_strain allows: its "
         "strain is {:.3g}",
         at(report.t, {}), strain);
   if (report.end == Outcome::locked)
-    return fmt::format("{} the rods are at their length: the largest strain is {:.3g}",
-                       at(report.t, {}), strain);
+    return fmt::format("{} the rods are at their length: {}", at(report.t, {}),
+                       strained ? fmt::format("the largest strain is {:.3g}", strain)
+                                : "the push meets 100 times its first stiffness");
   if (report.end == Outcome::contact) {
     const std::string& what = report.events.back().what;
     const bool touched = !segment.load_steps.back().contacts.places.empty();
@@ -171,7 +173,7 @@ std::string how_it_ended(const PathSegment& segment, const At& at) {
   }
   if (segment.back)
     return fmt::format(
-        "{} on the way back to the flat {}, and no equilibrium was found past it: the states from "
+        "{} on the path back to the flat {}, and no equilibrium was found past it: the states from "
         "there on "
         "are certified; how the flat state leads to them is not known",
         words_of(report.end).what, at(report.t, {}));
@@ -189,11 +191,11 @@ std::string limit_event(const Simulation& simulation, Outcome end) {
                                               : "in contact from the start";
 }
 
-std::string branch_loss_places(std::span<const PathSegment> segments, const At& at, bool leap) {
+std::string branch_loss_places(std::span<const PathSegment> segments, const At& at, bool jump) {
   std::string places;
   for (const PathSegment& segment : segments)
     for (const Event& event : segment.report.events)
-      if (event.to && event.leap == leap)
+      if (event.to && event.jump == jump)
         places += (places.empty() ? "" : " and ") + at(event.t, event.error);
   return places;
 }
@@ -201,29 +203,29 @@ std::string branch_loss_places(std::span<const PathSegment> segments, const At& 
 void set_limit(EquilibriumPath& path, const At& at) {
   path.limit = record::Limit::none;
   path.limit_reason.clear();
-  std::string told;
+  std::string reported;
   for (const PathSegment& segment : path.segments) {
     const auto ended = limit_of(segment.report.end);
     if (ended != record::Limit::none) {
       const bool on_its_way = segment.back && !at_limit(segment.report.end);
       path.limit = on_its_way ? record::Limit::no_equilibrium : ended;
-      path.limit_reason = how_it_ended(segment, at);
+      path.limit_reason = how_it_ended(segment, path.simulation.scene().max_strain, at);
       break;
     }
-    const char* way = segment.back ? "on the way back to the flat " : "";
+    const char* way = segment.back ? "on the path back to the flat " : "";
     const auto branches = branch_loss_places({&segment, 1}, at, false);
     if (!branches.empty())
-      told += fmt::format(
+      reported += fmt::format(
           "{}{}the path branches {} and continues without a snap to the side that the imperfection "
           "chose",
-          told.empty() ? "" : "; ", way, branches);
+          reported.empty() ? "" : "; ", way, branches);
     const auto places = branch_loss_places({&segment, 1}, at);
     if (places.empty() || path.limit != record::Limit::none) continue;
     path.limit = record::Limit::snap;
-    told += fmt::format("{}{}the path lost its stability {} and reached another equilibrium",
-                        told.empty() ? "" : "; ", way, places);
+    reported += fmt::format("{}{}the path lost its stability {} and reached another equilibrium",
+                            reported.empty() ? "" : "; ", way, places);
   }
-  if (path.limit_reason.empty()) path.limit_reason = told;
+  if (path.limit_reason.empty()) path.limit_reason = reported;
   if (path.mesh_disagreement.empty()) return;
   path.limit_reason += (path.limit_reason.empty() ? "" : "; ") + path.mesh_disagreement;
 }

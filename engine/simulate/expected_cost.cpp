@@ -31,39 +31,41 @@ constexpr double bytes_an_unknown = 1000, bytes_a_twist_unknown = 2000;
 constexpr double bytes_a_doubling = 6500, joints_of_a_small_net = 1800;
 
 /// Unknowns of a mesh with `edges_per_segment`, to within a few per cent.
-double unknowns_of(const Footprint& footprint, RodModel rung, int edges_per_segment) {
+double unknowns_of(const Footprint& footprint, RodModel rod_model, int edges_per_segment) {
   double segments = 0;
   for (const FootprintRod& rod : footprint.rods) segments += double(rod.joints.size()) + 1;
   const double edges = segments * edges_per_segment;
-  if (rung == RodModel::net) return 0;
+  if (rod_model == RodModel::net) return 0;
   // an edge brings a node, and joints, which two rods share, are counted twice
   const double nodes = edges - double(footprint.joints.size());
-  return 3 * nodes + (rung == RodModel::twist ? edges : 0);
+  return 3 * nodes + (rod_model == RodModel::twist ? edges : 0);
 }
 
 }  // namespace
 
-double memory_GB(const Footprint& footprint, RodModel rung, const LevelPlan& plan) {
+double memory_GB(const Footprint& footprint, RodModel rod_model, const LevelPlan& plan) {
   double unknowns = 0;
-  for (const int edges : plan.edges_per_segment) unknowns += unknowns_of(footprint, rung, edges);
+  for (const int edges : plan.edges_per_segment)
+    unknowns += unknowns_of(footprint, rod_model, edges);
   const double joints = double(footprint.joints.size());
   const double doublings = std::max(0.0, std::log2(joints / joints_of_a_small_net));
   const double meshes = double(plan.edges_per_segment.size());
-  return 1e-9 * (unknowns * (rung == RodModel::twist ? bytes_a_twist_unknown : bytes_an_unknown) +
-                 meshes * joints * doublings * bytes_a_doubling);
+  return 1e-9 *
+         (unknowns * (rod_model == RodModel::twist ? bytes_a_twist_unknown : bytes_an_unknown) +
+          meshes * joints * doublings * bytes_a_doubling);
 }
 
 Result<void> fits_memory(const Scene& scene, const LevelPlan& plan) {
-  const double asked = scene.memory_GB;
-  const double given = asked > 0 ? asked : default_memory_GB();
-  const double wanted = memory_GB(scene.footprint, scene.rung, plan);
-  if (given == 0 || wanted <= given) return {};
+  const double limit = scene.memory_GB;
+  const double given = limit > 0 ? limit : default_memory_GB();
+  const double needed = memory_GB(scene.footprint, scene.rod_model, plan);
+  if (given == 0 || needed <= given) return {};
   const int edges = plan.edges_per_segment.back();
   return invalid(
       "{} edges per segment, {:.3g} unknowns, take about {:.2g} GB, more than the {:.2g} "
       "GB of {}; {} needs less",
-      edges, unknowns_of(scene.footprint, scene.rung, edges), wanted, given,
-      asked > 0 ? "[accuracy] memory_GB"
+      edges, unknowns_of(scene.footprint, scene.rod_model, edges), needed, given,
+      limit > 0 ? "[accuracy] memory_GB"
                 : "half of the machine's memory ([accuracy] "
                   "memory_GB changes that)",
       scene.edges_per_segment > 0 ? "a smaller [accuracy] edges_per_segment"
@@ -85,7 +87,7 @@ UnitCost unit_cost(const Scene& scene, int edges) {
   constexpr int trials = 3;
   // too large to try: as 96 and 192 rods take, measured on version 0.2
   constexpr double large = 1e5, of_large = 4e-9, power = 1.45, an_unknown = 4e-8;
-  const double unknowns = unknowns_of(scene.footprint, scene.rung, edges);
+  const double unknowns = unknowns_of(scene.footprint, scene.rod_model, edges);
   if (unknowns > large) return {an_unknown * unknowns, of_large * std::pow(unknowns, power)};
   MeshLevel level;
   if (!level.build(scene.footprint, scene.rods, scene.solved_model(), scene.motion, edges))
@@ -120,17 +122,17 @@ double factorisations_of(const Scene& scene, const preset::Footprint& footprint)
 }  // namespace
 
 int dof_of(const Scene& scene, int edges_per_segment) {
-  if (scene.rung == RodModel::net) return 0;
+  if (scene.rod_model == RodModel::net) return 0;
   const auto model =
       build_model(mesh_rods(scene.footprint, edges_per_segment), scene.rods, scene.solved_model());
   return model ? model->dof() : 0;
 }
 
 double expected_seconds(const Scene& scene, const preset::Preset& preset) {
-  if (scene.rung == RodModel::net) return 0.01;
+  if (scene.rod_model == RodModel::net) return 0.01;
   // all on a mesh of 4 edges per segment; measured with 8 to 20 rods
   constexpr double a_trial = 2.6e-5, a_barrier = 3.4e-4, ways_of_a_state = 7e-4;
-  if (const preset::SearchSettings& jitter = preset.jitter; jitter.wanted()) {
+  if (const preset::SearchSettings& jitter = preset.jitter; jitter.requested()) {
     const int barriers = jitter.barriers ? jitter.drawn * (jitter.drawn - 1) / 2 : 0;
     return dof_of(scene, 4) * (a_trial * (jitter.trials + jitter.confined) + a_barrier * barriers +
                                ways_of_a_state * jitter.transitions);
@@ -172,7 +174,7 @@ double expected_seconds(const Scene& scene, const preset::Preset& preset) {
 
 double expected_GB(double meshes_GB, const preset::Preset& preset) {
   constexpr double program = 0.03, a_frame = 1.7e-4;
-  return program + meshes_GB + (preset.jitter.wanted() ? 0 : a_frame * preset.movie.frames);
+  return program + meshes_GB + (preset.jitter.requested() ? 0 : a_frame * preset.movie.frames);
 }
 
 namespace {

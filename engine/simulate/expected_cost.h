@@ -13,7 +13,7 @@
 namespace gridshell {
 
 /// Gigabytes that a run on these meshes takes at most, all of them and their factors at a time.
-double memory_GB(const Footprint& footprint, RodModel rung, const LevelPlan& plan);
+double memory_GB(const Footprint& footprint, RodModel rod_model, const LevelPlan& plan);
 
 /// Checks the memory against [accuracy] memory_GB, by default half of the machine's. Errors:
 /// bad_input with the requested mesh, its memory and the available memory.

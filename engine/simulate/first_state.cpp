@@ -80,8 +80,8 @@ Result<void> check_open(const NestedShell& shell, const Scene& scene, const Stat
   const int node = shell.model().edges[std::size_t(first->pair.e)].centre;
   const FootprintJoint& at = scene.footprint.joints[std::size_t(shell.finest().joint_of(node))];
   return invalid(
-      "joint [{}, {}] and {} others close: their rods come to lie along one another, where "
-      "a hinge has no plane to turn in; a weak spring beside the hinge keeps them open "
+      "joint [{}, {}] and {} others close: their rods become parallel, where a hinge has no plane "
+      "to turn in; a weak spring in addition to the hinge keeps them open "
       "(\"law\": \"spring\", \"shear_Nmm\": 0.1, \"twist_Nmm\": 1e9)",
       at.i, at.j, std::ranges::count_if(hinges, closed) / 2 - 1);
 }

@@ -92,10 +92,10 @@ Eigen::Matrix3Xd loads_on(const RodMesh& mesh, const Model& model, const Eigen::
   const auto hand_on = [&](std::size_t r, std::size_t from, std::size_t to) {
     const auto& s = mesh.position[r];
     for (std::size_t k = from + 1; k < to; ++k) {
-      const double share = (s[k] - s[from]) / (s[to] - s[from]);
+      const double fraction = (s[k] - s[from]) / (s[to] - s[from]);
       const Eigen::Vector3d force = acting.col(mesh.rods[r][k]);
-      loads.col(place[std::size_t(mesh.rods[r][from])]) += (1 - share) * force;
-      loads.col(place[std::size_t(mesh.rods[r][to])]) += share * force;
+      loads.col(place[std::size_t(mesh.rods[r][from])]) += (1 - fraction) * force;
+      loads.col(place[std::size_t(mesh.rods[r][to])]) += fraction * force;
     }
   };
   for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
@@ -130,7 +130,7 @@ Eigen::VectorXd brace_forces(const Footprint& footprint, const Model& model,
 
 namespace {
 
-/// Where on a rod a point lies: "u+3, 45.00 mm from its begin, at joint [0, 1]".
+/// Where on a rod a point lies: "u+3, 45.00 mm from its start, at joint [0, 1]".
 std::string place_on_rod(const Footprint& footprint, const RodMesh& mesh, std::size_t r,
                          std::size_t point) {
   const std::vector<int>& nodes = mesh.rods[r];
@@ -144,7 +144,7 @@ std::string place_on_rod(const Footprint& footprint, const RodMesh& mesh, std::s
       }
     return std::string("its end");
   };
-  std::string text = fmt::format("{}, {:.2f} mm from its begin, ", name_of(footprint.rods[r]),
+  std::string text = fmt::format("{}, {:.2f} mm from its start, ", name_of(footprint.rods[r]),
                                  position[k] - position[first]);
   if (mesh.joint_of(nodes[k]) >= 0) return text + "at joint " + joint_from(k, 1);
   return text + fmt::format("between {} and {}", joint_from(k, -1), joint_from(k, 1));

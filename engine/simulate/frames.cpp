@@ -13,12 +13,13 @@
 #include "engine/record/shape_measures.h"
 #include "engine/scene/rod_ends.h"
 #include "engine/simulate/frame_forces.h"
+#include "engine/simulate/frame_joints.h"
 
 namespace gridshell::simulate {
 namespace {
 
 constexpr int most_frames_in_motion = 24;
-constexpr double still_move = 0.01;  // of d: nearer to the rest nothing is seen to move
+constexpr double still_move = 0.01;  // of d: nearer to the equilibrium no motion is seen
 
 Eigen::VectorXd curvature(const Simulation& simulation, int level) {
   const NestedShell& shell = simulation.shell();
@@ -103,6 +104,7 @@ void put_forces(const Simulation& simulation, record::Frame& frame) {
   if (extrapolate && by_term.size() > 1)
     frame.energies = extrapolated(by_term.back(), by_term[by_term.size() - 2]);
   frame.energy_error_mJ = certify_vectors(energies, extrapolate, no_order).error;
+  put_joints(simulation, frame);
 }
 
 /// Adds the blocks on their own nets and the rods across their seams to a layout.
@@ -143,11 +145,11 @@ Eigen::Vector3d joint_normal(const Footprint& footprint, const NestedShell& shel
 record::Summary summary_before(const preset::Preset& preset, const Scene& scene) {
   record::Summary s;
   s.preset = preset.name;
-  s.model = word_of(scene.rung);
+  s.model = word_of(scene.rod_model);
   s.model_reason = preset::model_reason(preset);
   if (const std::string balls = ends_on_balls(scene); !balls.empty())
     s.model_reason += "; " + balls;
-  s.solved = scene.rung != RodModel::net;
+  s.solved = scene.rod_model != RodModel::net;
   s.rods = int(scene.footprint.rods.size());
   s.joints = int(scene.footprint.joints.size());
   s.cells = int(scene.footprint.cells.size());
@@ -159,7 +161,7 @@ std::string ends_on_balls(const Scene& scene) {
   const auto joints = int(scene.footprint.joints.size());
   int held = 0, ends = 0;
   for (int joint = 0; joint < joints; ++joint) held += passes(joint);
-  if (held == 0 || held == joints || scene.rung != RodModel::twist) return "";
+  if (held == 0 || held == joints || scene.rod_model != RodModel::twist) return "";
   std::set<int> balls;
   for (const FootprintRod& rod : scene.footprint.rods)
     for (const auto& [end, joint] :
@@ -170,7 +172,7 @@ std::string ends_on_balls(const Scene& scene) {
     }
   if (ends == 0) return "";
   std::string text = fmt::format(
-      "{} ends of rods lie on balls, at {} joints without a law ([{}, {}] first), though laws hold "
+      "{} ends of rods are balls, at {} joints without a law ([{}, {}] first), though laws connect "
       "{} other joints: rods turn freely there and pass no bending or twist to one another",
       ends, balls.size(), scene.footprint.joints[std::size_t(*balls.begin())].i,
       scene.footprint.joints[std::size_t(*balls.begin())].j, held);

@@ -7,15 +7,16 @@
 #include "engine/core/dense.h"
 #include "engine/record/shape_measures.h"
 #include "engine/simulate/frame_forces.h"
+#include "engine/simulate/frame_joints.h"
 #include "engine/simulate/frames.h"
 #include "engine/solve/equilibrium_path.h"
 
 namespace gridshell::simulate {
 namespace {
 
-constexpr double share_of_tolerance = 0.1;  // that a polynomial in t may leave
-constexpr double share_of_errors = 0.5;     // of those of the meshes, likewise
-constexpr double share_of_colour = 5e-3;    // of the largest curvature, likewise
+constexpr double fraction_of_tolerance = 0.1;  // that a polynomial in t may leave
+constexpr double fraction_of_errors = 0.5;     // of those of the meshes, likewise
+constexpr double share_of_colour = 5e-3;       // of the largest curvature, likewise
 constexpr std::size_t most_knots = 6;
 
 bool smooth(const PathSegment& segment, std::size_t k) {
@@ -32,8 +33,8 @@ FramesBetween::FramesBetween(EquilibriumPath& path,
       watch_(watch),
       contacts_(parts_of(path.simulation.scene(), path.simulation.shell().finest())) {
   const Simulation& simulation = path.simulation;
-  wanted_ = simulation.shell().levels() > 1 && !simulation.scene().rods.contact.barrier.acts() &&
-            strains_by_curvature(simulation.shell().model());
+  requested_ = simulation.shell().levels() > 1 && !simulation.scene().rods.contact.barrier.acts() &&
+               strains_by_curvature(simulation.shell().model());
 }
 
 Eigen::VectorXd FramesBetween::curvature(const Eigen::Matrix3Xd& nodes) const {
@@ -129,7 +130,7 @@ std::optional<Eigen::Matrix3Xd> FramesBetween::nodes_at(double t, const Knots& k
 std::optional<record::Frame> FramesBetween::at(const PathSample& sample) {
   const PathSegment& segment = path_.segments[sample.segment];
   if (std::exchange(segment_, sample.segment) != sample.segment) known_.clear();
-  const auto window = wanted_ ? window_at(segment, sample.t) : std::nullopt;
+  const auto window = requested_ ? window_at(segment, sample.t) : std::nullopt;
   if (!window) return {};
   // earlier knots are no longer needed; a segment back is shown in reverse
   std::erase_if(known_, [&](const auto& known) {
@@ -147,8 +148,8 @@ std::optional<record::Frame> FramesBetween::between(double t, const Knots& knots
   using record::Frame;
   if (knots.size() < 3) return {};
   const Scene& scene = path_.simulation.scene();
-  const double share = share_of_tolerance * scene.tolerance,
-               allowed_mm = share * scene.length_scale_mm;
+  const double fraction = fraction_of_tolerance * scene.tolerance,
+               allowed_mm = fraction * scene.length_scale_mm;
   double nodes_mm = 0;
   const auto nodes = nodes_at(t, knots, nodes_mm);
   if (!nodes || !(nodes_mm <= allowed_mm)) return {};
@@ -195,7 +196,7 @@ std::optional<record::Frame> FramesBetween::between(double t, const Knots& knots
   const double mJ = doubt(&Frame::energies, of_energies), N = doubt(&Frame::reactions_N, largest);
   // as much as the meshes leave is not seen
   const auto seen = [&](double off, double size, double Frame::*error) {
-    return !(off <= std::max(share * size, share_of_errors * around(error)));
+    return !(off <= std::max(fraction * size, fraction_of_errors * around(error)));
   };
   const double curved = largest(sum(weights.all, &Frame::curvature_per_mm));
   if (!(nodes_mm <= allowed_mm) ||
@@ -210,6 +211,13 @@ std::optional<record::Frame> FramesBetween::between(double t, const Knots& knots
   frame.brace_force_N = sum(weights.all, &Frame::brace_force_N);
   frame.bending_mJ_per_m = sum(weights.all, &Frame::bending_mJ_per_m).cwiseMax(0);
   frame.curvature_per_mm = sum(weights.all, &Frame::curvature_per_mm).cwiseMax(0);
+  frame.angle_deg = sum(weights.all, &Frame::angle_deg);
+  frame.torque_Nmm = sum(weights.all, &Frame::torque_Nmm);
+  frame.joint_angle_error_deg = around(&Frame::joint_angle_error_deg);
+  frame.one_angle_error_deg = around(&Frame::one_angle_error_deg);
+  frame.joint_torque_error_Nmm = around(&Frame::joint_torque_error_Nmm);
+  frame.springs_error_mJ = around(&Frame::springs_error_mJ) + mJ;
+  put_joint_ranges(frame);
   frame.stiffness_N_per_mm = sum(weights.all, &Frame::stiffness_N_per_mm);
   frame.residual_N = record::unknown;
   frame.negative_pivots = 0;

@@ -64,7 +64,7 @@ class FramesBetween {
   std::function<void(record::Frame&, double, bool)> measure_;
   const Watch& watch_;
   record::ContactSearch contacts_;
-  bool wanted_;
+  bool requested_;
   // by load step of the segment and quarter to the next; nothing: there is no stable state
   std::map<std::pair<std::size_t, int>, std::optional<Knot>> known_;
   std::size_t segment_ = 0;

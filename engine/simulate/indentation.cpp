@@ -71,9 +71,10 @@ std::string reason_of(HeldShell& pushed, const At& at, const Watch& watch) {
   if (pushed.limit == record::Limit::snap)
     for (const PathSegment& segment : pushed.segments)
       for (const Event& event : segment.report.events)
-        if (event.to && event.leap)
+        if (event.to && event.jump)
           return fmt::format(
-              "held at the joint, the shell lost its {} {}{} and reached another equilibrium",
+              "with the joint prescribed, the shell lost its {} {}{} and reached another "
+              "equilibrium",
               event.kind == Event::Kind::stability_lost ? "stability" : "equilibrium",
               at(event.t, event.error),
               turning_back(pushed.simulation, segment, event, pushed.depth_mm(), watch));
@@ -110,11 +111,11 @@ void set_push_limit(HeldShell& pushed, const Watch& watch) {
 }
 
 Result<HeldShell> follow_push(const std::shared_ptr<const Scene>& scene,
-                              const preset::Indentation& asked, const LevelPlan& plan,
+                              const preset::Indentation& requested, const LevelPlan& plan,
                               const Watch& watch) {
-  auto pushed = hold_to_push(scene, asked, plan, watch);
+  auto pushed = hold_to_push(scene, requested, plan, watch);
   if (pushed && pushed->too_coarse()) return pushed;
-  for (double to : asked.unload ? std::vector<double>{1, 0} : std::vector<double>{1}) {
+  for (double to : requested.unload ? std::vector<double>{1, 0} : std::vector<double>{1}) {
     if (!pushed) break;
     const PathSegment& segment = follow_segment(*pushed, to, {}, watch);
     if (watch.cancelled()) return stopped();
@@ -123,9 +124,16 @@ Result<HeldShell> follow_push(const std::shared_ptr<const Scene>& scene,
   return pushed;
 }
 
-Caption caption_of(const HeldShell& pushed) {
+/// Progress of a push at path parameter t of a segment.
+double progress_at_depth(bool unload, std::size_t segment, double t) {
+  if (!unload) return t;
+  return segment == 0 ? t / 2 : 1 - t / 2;
+}
+
+Caption caption_of(const HeldShell& pushed, bool unload) {
   const Simulation& simulation = pushed.simulation;
   return {at_depth(pushed.depth_mm()),
+          [unload](std::size_t segment, double t) { return progress_at_depth(unload, segment, t); },
           [&](record::Frame& frame, double t, double) {
             frame.actuation = 1;
             frame.boundary_radius_mm = simulation.scene().radius_end_mm;
@@ -159,8 +167,7 @@ void add_load_steps(const EquilibriumPath& path, bool unload, std::vector<PathSa
     const PathSegment& segment = path.segments[s];
     for (const LoadStep& step : segment.load_steps) {
       if (&step == &segment.load_steps.back() && at_limit(segment.report.end)) continue;
-      const double t = step.point.t;
-      samples.push_back({0, s, t, !unload ? t : s == 0 ? t / 2 : 1 - t / 2});
+      samples.push_back({0, s, step.point.t, progress_at_depth(unload, s, step.point.t)});
     }
   }
   std::ranges::stable_sort(samples, {}, &PathSample::progress);
@@ -170,23 +177,16 @@ void add_load_steps(const EquilibriumPath& path, bool unload, std::vector<PathSa
   for (std::size_t k = 0; k < samples.size(); ++k) samples[k].index = int(k);
 }
 
-/// Whether a push came as far as a sample.
-bool came_to(const EquilibriumPath& path, const PathSample& sample) {
-  if (sample.segment >= path.segments.size()) return false;
-  const PathSegment& segment = path.segments[sample.segment];
-  return segment.sign() * (segment.end() - sample.t) >= 0;
-}
-
 }  // namespace
 
 double HeldShell::depth_mm() const { return push.displacement.norm(); }
 
 Result<void> not_on_boundary(const Footprint& footprint, int joint) {
-  if (std::ranges::find(footprint.held_joints, joint) == footprint.held_joints.end() ||
+  if (std::ranges::find(footprint.fixed_joints, joint) == footprint.fixed_joints.end() ||
       footprint.is_sprung(joint))
     return {};
   const FootprintJoint& at = footprint.joints[std::size_t(joint)];
-  return invalid("joint [{}, {}] is a support: nothing can push it", at.i, at.j);
+  return invalid("joint: got [{}, {}], which is a support, expected a free joint", at.i, at.j);
 }
 
 Result<int> pushed_joint(const preset::Indentation& indentation, const Footprint& footprint,
@@ -194,7 +194,7 @@ Result<int> pushed_joint(const preset::Indentation& indentation, const Footprint
   if (indentation.joint.size() == 2) {
     const int joint = joint_at(footprint, indentation.joint[0], indentation.joint[1]);
     if (joint >= 0) return joint;
-    return invalid("[indentation] joint = [{}, {}]: the footprint has no such joint",
+    return invalid("[indentation] joint: got [{}, {}], expected a joint of the footprint",
                    indentation.joint[0], indentation.joint[1]);
   }
   const Eigen::VectorXd height = joints.row(2).transpose();
@@ -204,7 +204,7 @@ Result<int> pushed_joint(const preset::Indentation& indentation, const Footprint
                     joints.colwise().normalized().transpose() * direction_of(indentation));
 }
 
-Result<PushOf> push_of(const preset::Indentation& asked, const Scene& scene,
+Result<PushOf> push_of(const preset::Indentation& requested, const Scene& scene,
                        const NestedShell& shell) {
   const Eigen::Index joints = Eigen::Index(scene.footprint.joints.size());
   Eigen::Matrix3Xd places = shell.state().x.leftCols(joints);
@@ -212,7 +212,7 @@ Result<PushOf> push_of(const preset::Indentation& asked, const Scene& scene,
     TRY(net, points_on(*scene.net, shell.finest().flat.leftCols(joints)));
     places = std::move(*net);
   }
-  TRY(joint, pushed_joint(asked, scene.footprint, places));
+  TRY(joint, pushed_joint(requested, scene.footprint, places));
   TRY_DO(not_on_boundary(scene.footprint, *joint));
   PushOf push{*joint};
   if (scene.net) {
@@ -226,24 +226,25 @@ Result<PushOf> push_of(const preset::Indentation& asked, const Scene& scene,
           "[indentation]: no two rods cross at the joint pushed, so the "
           "shell has no normal there");
   }
-  const double depth = asked.depth_mm > 0 ? asked.depth_mm : asked.depth * scene.length_scale_mm;
-  push.displacement *= asked.direction == preset::Direction::inward ? -depth : depth;
+  const double depth =
+      requested.depth_mm > 0 ? requested.depth_mm : requested.depth * scene.length_scale_mm;
+  push.displacement *= requested.direction == preset::Direction::inward ? -depth : depth;
   return push;
 }
 
 Result<HeldShell> hold_to_push(const std::shared_ptr<const Scene>& scene,
-                               const preset::Indentation& asked, const LevelPlan& plan,
+                               const preset::Indentation& requested, const LevelPlan& plan,
                                const Watch& watch) {
   TRY(actuated, follow_whole_actuation(scene, plan, "to push", watch));
   if (actuated->too_coarse()) return HeldShell{std::move(*actuated), {}, {}};
   Simulation& simulation = actuated->simulation;
-  TRY(push, push_of(asked, *scene, simulation.shell()));
+  TRY(push, push_of(requested, *scene, simulation.shell()));
   const auto joints = Eigen::Index(scene->footprint.joints.size());
   Eigen::Matrix3Xd before = simulation.nodes().leftCols(joints);
   HeldShell held{std::move(*actuated), *push, std::move(before)};
   held.earlier = std::exchange(held.segments, {});
   Constraint hold{push->joint};
-  if (asked.lateral == preset::Lateral::free) hold.directions = push->displacement.normalized();
+  if (requested.lateral == preset::Lateral::free) hold.directions = push->displacement.normalized();
   const Report taken = held.simulation.begin_joint_push({hold}, {push->displacement}, watch);
   if (taken.end != Outcome::reached)
     return fail(Fault::no_equilibrium,
@@ -268,24 +269,12 @@ Result<EquilibriumPath> run_indentation(std::shared_ptr<const Scene> scene,
   layout->loaded_joints = {{kept->push.joint, kept->push.displacement.normalized()}};
   layout->extrapolated = kept->simulation.shell().plan().extrapolate;
   TRY_DO(sink.begin(std::move(*layout)));
-  const Checkpoint end = kept->simulation.save();
   std::vector<PathSample> samples;
   for (std::size_t k = 0; k < progress.size(); ++k)
     samples.push_back(sample_of(k, progress[k], indentation.unload));
   if (own_steps) add_load_steps(*kept, indentation.unload, samples);
-  PathSampler sampler(*kept, caption_of(*kept), sink, watch, samples.size());
-  for (PathSample sample : samples) {
-    Result<bool> taken = false;
-    if (came_to(*kept, sample)) taken = sampler.at(sample);
-    if (!taken) return tl::unexpected<Error>(taken.error());
-    const Outcome ended = kept->segments.back().report.end;
-    if (*taken || !at_limit(ended)) continue;
-    // the last state before the limit
-    kept->simulation.restore(end);
-    sample.t = end.state.t;
-    TRY_DO(sampler.take_current(sample, limit_event(kept->simulation, ended), sample.t));
-    break;
-  }
+  PathSampler sampler(*kept, caption_of(*kept, indentation.unload), sink, watch, samples.size());
+  TRY_DO(sampler.all(samples));
   return EquilibriumPath(std::move(*kept));
 }
 

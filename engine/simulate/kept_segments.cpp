@@ -94,7 +94,7 @@ void put(auto& in, Is<PathRecord::Snap> auto& s) { all(in, s.before, s.moments);
 void put(auto& in, Is<PathRecord> auto& s) { all(in, s.load_steps, s.snaps); }
 void put(auto& in, Is<Event::Location> auto& s) { all(in, s.edges, s.t, s.located); }
 void put(auto& in, Is<Event> auto& s) {
-  all(in, s.kind, s.t, s.error, s.to, s.leap, s.confirmed, s.what, s.placed);
+  all(in, s.kind, s.t, s.error, s.to, s.jump, s.confirmed, s.what, s.placed);
 }
 void put(auto& in, Is<NestedState> auto& s) {
   all(in, s.t, s.levels, s.measured, s.velocity, s.step, s.lowest_eigenvalue, s.lowest_mode, s.x,

@@ -102,16 +102,17 @@ std::optional<std::string> mesh_disagreement(const EquilibriumPath& coarse,
     return std::nullopt;  // both ended early, at states of their own
   const double apart = distance_of_joints(coarse.simulation, fine.simulation.nodes()),
                d = coarse.simulation.scene().footprint.spacing;
-  if (apart > mesh_tolerances.same_state * d) return fmt::format("ends {:.3g} mm apart", apart);
+  if (apart > mesh_tolerances.same_state * d)
+    return fmt::format("ends at a distance of {:.3g} mm", apart);
   return std::nullopt;
 }
 
 Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follow,
                                          const Watch& watch) {
   LevelPlan plan = initial_levels(scene);
-  const bool asked = scene.edges_per_segment > 0;
+  const bool requested = scene.edges_per_segment > 0;
   const double allowed =
-      asked ? std::numeric_limits<double>::infinity() : scene.tolerance * scene.length_scale_mm;
+      requested ? std::numeric_limits<double>::infinity() : scene.tolerance * scene.length_scale_mm;
   plan.allowed_mm = allowed;
   plan.events_apart = mesh_tolerances.same_event;
   TRY_DO(fits_memory(scene, plan));
@@ -127,7 +128,7 @@ Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follo
     }
     const bool too_coarse = found.too_coarse();
     auto missing = too_coarse ? std::nullopt : not_confirmed(found);
-    if (asked || (!too_coarse && !missing)) {
+    if (requested || (!too_coarse && !missing)) {
       if (missing) found.mesh_disagreement = *missing;
       return path;
     }

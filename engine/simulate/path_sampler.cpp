@@ -21,11 +21,44 @@ bool at_event(const PathSegment& segment, double t) {
   });
 }
 
+/// Whether the path was followed as far as a sample.
+bool came_to(const EquilibriumPath& path, const PathSample& sample) {
+  if (sample.segment >= path.segments.size()) return false;
+  const PathSegment& segment = path.segments[sample.segment];
+  // nearer to the flat than the segment back was followed there are no events
+  if (segment.back && segment.report.end == Outcome::reached) return true;
+  return segment.sign() * (segment.end() - sample.t) >= 0;
+}
+
 }  // namespace
 
 PathSampler::PathSampler(EquilibriumPath& path, Caption caption, record::Sink& sink, Watch& watch,
                          std::size_t count)
     : path_(path), caption_(std::move(caption)), sink_(sink), watch_(watch), count_(count) {}
+
+Result<void> PathSampler::all(const std::vector<PathSample>& samples) {
+  if (path_.segments.empty()) return {};
+  const Checkpoint end = path_.simulation.save();
+  const PathSegment& last = path_.segments.back();
+  for (const PathSample& sample : samples) {
+    if (came_to(path_, sample)) {
+      TRY(taken, at(sample));
+      if (*taken) continue;
+    }
+    if (!at_limit(last.report.end) || last.back) continue;
+    path_.simulation.restore(end);
+    // the path converges to its own tolerance, a frame to round-off
+    if (path_.simulation.sample(end.state.t, last.load_steps.back(), false, watch_).end !=
+        Outcome::reached)
+      path_.simulation.restore(end);
+    PathSample there{sample.index, path_.segments.size() - 1, end.state.t};
+    there.progress = caption_.progress(there.segment, there.t);
+    TRY_DO(take_current(there, limit_event(path_.simulation, last.report.end), there.t));
+    break;
+  }
+  path_.simulation.restore(end);
+  return {};
+}
 
 Result<bool> PathSampler::at(const PathSample& sample) {
   if (!between_) between_ = std::make_shared<FramesBetween>(path_, caption_.measure, watch_);
@@ -78,7 +111,7 @@ Result<void> PathSampler::take_at(record::Frame frame, const PathSample& sample,
 
 Result<void> PathSampler::take(record::Frame frame, const PathSample& sample) {
   // with frames of a snap in between, all are counted
-  frame.index = path_.simulation.scene().snap.wanted ? taken_ : sample.index;
+  frame.index = path_.simulation.scene().snap.requested ? taken_ : sample.index;
   frame.progress = sample.progress;
   caption_.place(frame, sample.t, sample.progress);
   ++taken_;
@@ -114,16 +147,16 @@ std::string PathSampler::events(const PathSample& sample, double past) const {
   if (last_ && last_->segment == sample.segment) before = last_reached_t_;
   std::string text;
   // snaps come first: what a frame's text begins with is what it is marked by
-  for (const bool leap : {true, false}) {
+  for (const bool jump : {true, false}) {
     std::string places;
     for (const Event& event : segment.report.events) {
-      if (!event.to || event.leap != leap) continue;
+      if (!event.to || event.jump != jump) continue;
       const double seen = segment.back ? event.t : *event.to;
       if (way * (seen - before) <= 0 || way * (past - seen) < 0) continue;
       places += (places.empty() ? "" : " and ") + caption_.at(event.t, {});
     }
     if (!places.empty())
-      text += (text.empty() ? "" : "; ") + std::string(leap ? "snap " : "branches ") + places;
+      text += (text.empty() ? "" : "; ") + std::string(jump ? "snap " : "branches ") + places;
   }
   for (const ContactEvent& event : path_.contacts) {
     if (event.segment != sample.segment) continue;

@@ -1,4 +1,4 @@
-// Frames of a path, one a sample, handed to a sink in order.
+// Frames of a path, one per sample, handed to a sink in order.
 #pragma once
 
 #include <functional>
@@ -17,6 +17,8 @@ class FramesBetween;
 /// The values of a frame that an experiment adds to the state.
 struct Caption {
   At at;
+  /// Progress of the experiment at path parameter t of a segment, from 0 to 1.
+  std::function<double(std::size_t segment, double t)> progress;
   /// Writes the position of boundary and push at path parameter t.
   std::function<void(record::Frame&, double t, double progress)> place;
   /// Measures forces and reach on the certified current state of the simulation, or, `between` load
@@ -32,6 +34,10 @@ class PathSampler {
   PathSampler(EquilibriumPath& path, Caption caption, record::Sink& sink, Watch& watch,
               std::size_t count);
 
+  /// The samples in order. Where the path ended at a limit before a sample, the state at that limit
+  /// is the last frame; what else the path did not reach has no frame. The simulation is then in
+  /// the state in which it was. Errors: cancelled, the sink's.
+  Result<void> all(const std::vector<PathSample>& samples);
   /// One sample. False: it is not certified, which becomes the path's limit; within a jump that
   /// already is the limit, the limit's reason says it. Errors: cancelled, the sink's.
   Result<bool> at(const PathSample& sample);

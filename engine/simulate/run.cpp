@@ -97,7 +97,12 @@ std::vector<double> samples_of(const preset::Preset& preset, bool stills) {
     std::ranges::sort(progress);
     return progress;
   }
-  return preset.movie.frames == 1 ? std::vector{1.0} : evenly(preset.movie.frames);
+  if (preset.movie.frames == 1) return {1.0};
+  std::vector<double> progress = evenly(preset.movie.frames);
+  // a flat grid rises by the square root of how much it is shortened
+  if (preset.movie.pace == preset::Pace::height)
+    for (double& one : progress) one *= one;
+  return progress;
 }
 
 /// Passes frames on and stores the layout and the last frame for the summary. After a cancel the
@@ -173,7 +178,7 @@ std::string late_on_branch(const EquilibriumPath& path) {
   constexpr double late = 0.05;  // in the path parameter
   for (const PathSegment& segment : path.segments)
     for (const Event& event : segment.report.events)
-      if (path.single_motion && !event.leap && event.to && std::abs(*event.to - event.t) > late)
+      if (path.single_motion && !event.jump && event.to && std::abs(*event.to - event.t) > late)
         return fmt::format(
             "of the branch that leaves the path at progress {:.4f} no state was found before "
             "progress {:.4f}: which of several it is may depend on the mesh",
@@ -213,7 +218,7 @@ record::Summary summary_of(const preset::Preset& preset, const Scene& scene,
 
 /// Whether the boundary's motion takes the rods out of the flat at all. Errors: bad_input.
 Result<void> check_motion(const Scene& scene) {
-  if (scene.from_net || scene.drawn_in_space || scene.rung == RodModel::net) return {};
+  if (scene.from_net || scene.drawn_in_space || scene.rod_model == RodModel::net) return {};
   MeshLevel flat;
   const int edges = initial_levels(scene).edges_per_segment.front();
   TRY_DO(flat.build(scene.footprint, scene.rods, RodModel::bend, scene.motion, edges));
@@ -225,14 +230,14 @@ Result<void> check_motion(const Scene& scene) {
 /// deformation of a round rod of Poisson's ratio 0.3 between joints adds a fraction 12 EI/(kappa G
 /// A L^2) = 2.2 (d/L)^2 to its bending [Timoshenko].
 std::vector<std::string> left_out_of(const Scene& scene) {
-  constexpr double slender = 20;  // diameters from joint to joint; the share is then 0.5 %
+  constexpr double slender = 20;  // diameters from joint to joint; the fraction is then 0.5 %
   std::vector<std::string> sentences;
   if (std::string balls = ends_on_balls(scene); !balls.empty())
     sentences.push_back(std::move(balls));
   const auto& diameters = scene.drawn_diameters_mm;
   const double thickest = diameters.empty() ? 0 : std::ranges::max(diameters),
                long_by = scene.footprint.spacing / thickest;
-  if (scene.rung == RodModel::net || !(long_by < slender)) return sentences;
+  if (scene.rod_model == RodModel::net || !(long_by < slender)) return sentences;
   sentences.push_back(
       fmt::format("rods of {:.3g} mm are {:.2g} diameters long from joint to joint, and lines in "
                   "this model: shear, which bends such a piece by some {:.2g} % more, and the "
@@ -241,18 +246,28 @@ std::vector<std::string> left_out_of(const Scene& scene) {
   return sentences;
 }
 
+/// Refuses a first step that would open joints, as drawn, past what they can.
+Result<void> check_opening(const preset::Preset& preset, const Scene& scene) {
+  if (!opens_as_drawn(preset.step, scene)) return {};
+  const auto bolts = bolts_as_drawn(preset.step.front(), scene.footprint);
+  if (bolts) return {};
+  const std::string against = preset::joints_against(preset);
+  return invalid("[[step]] 1: {}{}", bolts.error().message, against.empty() ? "" : "; " + against);
+}
+
 /// Follows and samples the experiment of a preset; for steps with a report of each.
 Result<EquilibriumPath> path_for(const preset::Preset& preset,
                                  const std::shared_ptr<const Scene>& scene, bool stills,
-                                 std::vector<std::string>& told, LastFrame& sink, Watch& watch) {
+                                 std::vector<std::string>& reported, LastFrame& sink,
+                                 Watch& watch) {
   // for a push all frames of a movie, or enough for its force curve
   const auto samples = evenly(stills ? 61 : std::max(2, preset.movie.frames));
-  if (preset.indentation.wanted())
+  if (preset.indentation.requested())
     return run_indentation(scene, preset.indentation, samples, stills, sink, watch);
   if (preset.step.empty()) return run_actuation(scene, samples_of(preset, stills), sink, watch);
   // stills show each step's end
   TRY(stepped, run_steps(scene, preset.step, stills ? 1 : preset.movie.frames, sink, watch));
-  told = std::move(stepped->messages);
+  reported = std::move(stepped->messages);
   return std::move(stepped->path);
 }
 
@@ -280,14 +295,15 @@ Result<Plan> plan(const preset::Preset& preset) {
   const LevelPlan levels = initial_levels(*scene);
   TRY_DO(fits_memory(*scene, levels));
   // what the run would only find out later
-  if (preset.indentation.wanted() && preset.indentation.joint.size() == 2)
+  if (preset.indentation.requested() && preset.indentation.joint.size() == 2)
     TRY_DO(pushed_joint(preset.indentation, scene->footprint, {}));
   TRY_DO(check_steps(preset.step, scene->footprint));
+  TRY_DO(check_opening(preset, *scene));
   TRY_DO(check_motion(*scene));
   Plan plan;
   plan.scene = scene;
-  plan.model = word_of(scene->rung);
-  plan.memory_GB = expected_GB(memory_GB(scene->footprint, scene->rung, levels), preset);
+  plan.model = word_of(scene->rod_model);
+  plan.memory_GB = expected_GB(memory_GB(scene->footprint, scene->rod_model, levels), preset);
   plan.model_reason = preset::model_reason(preset);
   plan.levels = levels.edges_per_segment;
   plan.edges_per_segment = plan.levels.back();
@@ -297,10 +313,13 @@ Result<Plan> plan(const preset::Preset& preset) {
   plan.cells = int(scene->footprint.cells.size());
   plan.dof = dof_of(*scene, plan.edges_per_segment);
   plan.expected_error_mm =
-      (scene->rung == RodModel::net ? net_error : expected_error(levels)) * scene->length_scale_mm;
+      (scene->rod_model == RodModel::net ? net_error : expected_error(levels)) *
+      scene->length_scale_mm;
   plan.expected_seconds = seconds_scene + expected_seconds(*scene, preset);
   plan.bending = expected_bending(*scene);
   plan.left_out = left_out_of(*scene);
+  if (std::string against = preset::joints_against(preset); !against.empty())
+    plan.left_out.push_back(std::move(against));
   if (scene->mesh_net) plan.net = scene->mesh_net->sentences();
   plan.footprint = fmt::format("{} rods, {} joints, {} cells", plan.rods, plan.joints, plan.cells);
   // a ring has no legs
@@ -314,7 +333,7 @@ Result<Plan> plan(const preset::Preset& preset) {
   if (scene->blocks)
     for (const Seam& seam : scene->blocks->seams())
       plan.seams.push_back(fmt::format(
-          "{}: {} rods across, at most {:.2f} mm apart, kinked by at most {:.1f} degrees",
+          "{}: {} rods across, gaps of at most {:.2f} mm, kinks of at most {:.1f} degrees",
           seam.name, seam.rods.size(), seam.max_gap_mm(), seam.max_kink_deg()));
   return plan;
 }
@@ -324,8 +343,8 @@ Result<EquilibriumPath> follow(const preset::Preset& preset,
                                record::Sink& frames, Watch& watch, record::Summary& summary) {
   const double begin = seconds_now();
   LastFrame sink(frames, watch);
-  std::vector<std::string> told;
-  auto path = path_for(preset, scene, stills, told, sink, watch);
+  std::vector<std::string> reported;
+  auto path = path_for(preset, scene, stills, reported, sink, watch);
   if (watch.cancelled()) return stopped();
   if (!path) return tl::unexpected<Error>(path.error());
   if (!sink.frame())
@@ -334,8 +353,8 @@ Result<EquilibriumPath> follow(const preset::Preset& preset,
                     (path->limit_reason.empty() ? not_in_the_flat(*path) : path->limit_reason));
   summary = summary_of(preset, *scene, sink);
   put_path(*path, summary);
-  summary.steps = std::move(told);
-  if (preset.indentation.wanted() && !path->simulation.holds().empty()) {
+  summary.steps = std::move(reported);
+  if (preset.indentation.requested() && !path->simulation.holds().empty()) {
     const int pushed = path->simulation.holds().front().node;
     const FootprintJoint& at = scene->footprint.joints[std::size_t(pushed)];
     summary.pushed_joint = fmt::format("[{}, {}]", at.i, at.j);
@@ -353,7 +372,7 @@ Result<record::Summary> run(const preset::Preset& preset, bool stills, record::S
 Result<record::Summary> run(const preset::Preset& preset, const std::shared_ptr<const Scene>& scene,
                             bool stills, record::Sink& sink, Watch& watch) {
   record::Summary summary;
-  if (scene->rung != RodModel::net) {
+  if (scene->rod_model != RodModel::net) {
     TRY_DO(follow(preset, scene, stills, sink, watch, summary));
     return summary;
   }

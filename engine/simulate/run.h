@@ -35,11 +35,11 @@ struct Plan {
   double expected_error_mm = record::unknown;
   double expected_seconds = record::unknown;
   double memory_GB = record::unknown;  ///< of the whole program
-  std::vector<std::string> seams;      ///< of building blocks, a sentence each
-  /// on a mesh: the parts that it reaches and those that it does not, a sentence each
+  std::vector<std::string> seams;      ///< of building blocks, one sentence each
+  /// on a mesh: the parts that it reaches and those that it does not, one sentence each
   std::vector<std::string> net;
   std::string bending;  ///< expected bending of the rods; empty: not known
-  /// effects that the model neglects and that matter here: a sentence each
+  /// effects that the model neglects and that matter here: one sentence each
   std::vector<std::string> left_out;
   std::string footprint;               ///< "12 + 12 rods, longest leg 0.80 d, corner leg -0.15 d"
   std::shared_ptr<const Scene> scene;  ///< what was built for it, and a run takes

@@ -20,8 +20,8 @@ using preset::StepKind;
 
 /// A finished step; its segment of the path has the same index.
 struct Done {
-  Checkpoint way_end, end;  ///< at the end of its path; the state of the shell after the step
-  std::string told = {};    ///< sentence about it in addition to its certificate
+  Checkpoint way_end, end;    ///< at the end of its path; the state of the shell after the step
+  std::string reported = {};  ///< sentence about it in addition to its certificate
 };
 
 /// A hand's whole work on one plan of meshes.
@@ -43,7 +43,7 @@ bool has_way(const std::vector<preset::Step>& steps, std::size_t k) {
 
 bool snapped(const PathSegment& segment) {
   return std::ranges::any_of(segment.report.events,
-                             [](const Event& one) { return one.to && one.leap; });
+                             [](const Event& one) { return one.to && one.jump; });
 }
 
 /// A step without a sampled path is a segment of its start and end alone.
@@ -56,10 +56,35 @@ void close(PathSegment& segment, const Simulation& simulation) {
   segment.from = segment.to = segment.end();
 }
 
+/// The shell before the steps. The bolts of the first step fix the joints as drawn if it opens the
+/// joints of a network that has no regular equilibrium without them, as naturally straight strips
+/// that close into a bundle, or if it prescribes the mean angle; `reported` then says so.
+Result<EquilibriumPath> begin(const std::shared_ptr<const Scene>& scene,
+                              const std::vector<preset::Step>& steps, const LevelPlan& plan,
+                              const Watch& watch, std::string& reported) {
+  const bool opens = opens_as_drawn(steps, *scene);
+  const bool mean = opens && steps.front().drive == preset::JointDrive::mean;
+  Result<EquilibriumPath> loose = fail(Fault::no_equilibrium, "");
+  if (!mean) loose = follow_whole_actuation(scene, plan, "to begin with", watch);
+  if (loose || !opens || watch.cancelled()) return loose;
+  TRY(bolts, bolts_as_drawn(steps.front(), scene->footprint));
+  auto bolted = std::make_shared<Scene>(*scene);
+  bolted->rods.bolts = std::make_shared<const Bolts>(std::move(*bolts));
+  auto begun = follow_whole_actuation(bolted, plan, "to begin with", watch);
+  if (mean) return begun;
+  if (!begun)
+    return fail(begun.error().fault, "{}; with the joints' springs as drawn {}",
+                loose.error().message, begun.error().message);
+  reported = "; its springs fixed the angles as drawn from the first state on, as without them " +
+             loose.error().message;
+  return begun;
+}
+
 Result<Work> do_steps(const std::shared_ptr<const Scene>& scene,
                       const std::vector<preset::Step>& steps, const LevelPlan& plan,
                       const Watch& watch) {
-  TRY(actuated, follow_whole_actuation(scene, plan, "to begin with", watch));
+  std::string reported;
+  TRY(actuated, begin(scene, steps, plan, watch, reported));
   Checkpoint begin = actuated->simulation.save();
   Work work{std::move(*actuated), std::move(begin)};
   if (work.too_coarse()) return work;
@@ -80,14 +105,15 @@ Result<Work> do_steps(const std::shared_ptr<const Scene>& scene,
     static_cast<PathRecord&>(segment) = std::move(way);
     close(segment, simulation);
     work.done.push_back({std::move(way.end), simulation.save()});
-    if (kind == StepKind::open) work.done.back().told = ", " + text_of_opened(simulation);
+    if (kind == StepKind::open)
+      work.done.back().reported = ", " + text_of_opened(simulation) + (k == 0 ? reported : "");
     if (segment.report.end != Outcome::reached) break;
   }
   return work;
 }
 
 std::string on_its_way(double t, std::optional<double>) {
-  return fmt::format("at {:.3f} of its way", t);
+  return fmt::format("at {:.3f} of its path", t);
 }
 
 /// Hands the frames of one work to a sink.
@@ -96,7 +122,7 @@ class Show {
   Show(Work& work, const std::vector<preset::Step>& steps, int frames, record::Sink& sink,
        Watch& watch)
       : work_(work), steps_(steps), watch_(watch), shares_(frames_of_steps(steps, frames)) {
-    for (const int share : shares_) count_ += share;
+    for (const int fraction : shares_) count_ += fraction;
     sampler_.emplace(work, caption(), sink, watch, std::size_t(count_) + 1);
   }
 
@@ -117,10 +143,10 @@ class Show {
   Result<void> one() {
     const Done& done = work_.done[step_];
     const PathSegment& segment = work_.segments[step_];
-    const int share = shares_[step_];
+    const int fraction = shares_[step_];
     boundary_ = {boundary_[1], done.end.boundary.progress};
-    for (int k = 1; k < share; ++k) {
-      const double part = double(k) / share;
+    for (int k = 1; k < fraction; ++k) {
+      const double part = double(k) / fraction;
       const bool moves = steps_[step_].kind == StepKind::move;
       const double t = moves ? parameter_at(boundary_[0] + part * (boundary_[1] - boundary_[0]))
                              : segment.from + part * (segment.end() - segment.from);
@@ -155,7 +181,9 @@ class Show {
   }
 
   Caption caption() {
-    return {on_its_way, [this](record::Frame& frame, double t, double) { put_boundary(frame, t); },
+    return {on_its_way,
+            {},
+            [this](record::Frame& frame, double t, double) { put_boundary(frame, t); },
             [this](record::Frame& frame, double, bool) { work_.simulation.put_push(frame); }};
   }
 
@@ -182,8 +210,8 @@ std::string message_of(std::size_t k, const preset::Step& step, const PathSegmen
   std::string text = fmt::format("{} {}: {}", k + 1, text_of(step), words_of(report.end).name);
   for (const Event& event : report.events)
     if (event.to)
-      text += fmt::format(", {} at {:.3f} of its way",
-                          event.leap ? "snap to another state" : "branches", event.t);
+      text += fmt::format(", {} at {:.3f} of its path",
+                          event.jump ? "snap to another state" : "branches", event.t);
   const Certificate& certificate = report.certificate;
   text += fmt::format(", residual {:.2g} N, ", certificate.residual_N);
   text += certificate.stable()
@@ -218,8 +246,8 @@ void put_loads(const Work& work, const std::vector<preset::Step>& steps, record:
     const auto joint_pushed = joint_of(steps[k], work.simulation.scene().footprint);
     // a push that failed leaves no constraint
     const auto origin =
-        joint_pushed ? end.grip_origins.find(*joint_pushed) : end.grip_origins.end();
-    if (origin == end.grip_origins.end()) continue;
+        joint_pushed ? end.constraint_origins.find(*joint_pushed) : end.constraint_origins.end();
+    if (origin == end.constraint_origins.end()) continue;
     const int joint = origin->first;
     const Eigen::Vector3d moved = end.state.x.col(joint) - origin->second;
     const bool there = std::ranges::any_of(layout.loaded_joints,
@@ -247,8 +275,8 @@ Result<void> check_steps(const std::vector<preset::Step>& steps, const Footprint
       if (std::ranges::none_of(footprint.cells, [&](const FootprintCell& one) {
             return one.i == cell[0] && one.j == cell[1];
           }))
-        return invalid("[[step]] {} cells: the footprint has no cell [{:g}, {:g}]", k + 1, cell[0],
-                       cell[1]);
+        return invalid("[[step]] {} cells: got [{:g}, {:g}], expected a cell of the footprint",
+                       k + 1, cell[0], cell[1]);
     if (step.kind == preset::StepKind::brace && footprint.cells.empty())
       return invalid("[[step]] {}: the footprint has no cells to brace", k + 1);
     if (step.kind == preset::StepKind::tighten || step.kind == preset::StepKind::open)
@@ -257,12 +285,12 @@ Result<void> check_steps(const std::vector<preset::Step>& steps, const Footprint
     if (step.kind != preset::StepKind::release) continue;
     if (step.what != preset::Released::joints) {
       if (strengthened.erase(step.what) > 0) continue;
-      return invalid("[[step]] {} what: there are no {} to take out", k + 1, word_of(step.what));
+      return invalid("[[step]] {} what: got {}, of which there are none, expected others", k + 1,
+                     word_of(step.what));
     }
     if (one ? !held.contains(step.joint) : held.empty())
       return invalid(
-          "[[step]] {}: no joint is fixed that could be released: a step before it "
-          "must push or hold it",
+          "[[step]] {}: got no prescribed joint, expected a step \"push\" or \"hold\" before it",
           k + 1);
     if (one)
       held.erase(step.joint);
@@ -308,7 +336,7 @@ Result<StepsResult> run_steps(const std::shared_ptr<const Scene>& scene,
   StepsResult stepped{EquilibriumPath(std::move(*work))};
   for (std::size_t k = 0; k < stepped.path.segments.size(); ++k)
     stepped.messages.push_back(message_of(k, steps[k], stepped.path.segments[k]) +
-                               (k < work->done.size() ? work->done[k].told : ""));
+                               (k < work->done.size() ? work->done[k].reported : ""));
   return stepped;
 }
 

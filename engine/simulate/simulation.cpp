@@ -86,8 +86,8 @@ Report Simulation::report(Outcome end, double t, const CallBegin& begin) const {
 void Simulation::put_push(record::Frame& frame) const {
   if (holds_.empty()) return;
   const Constraint& hold = holds_.back();
-  const auto origin = grip_origins.find(hold.node);
-  if (origin == grip_origins.end()) return;
+  const auto origin = constraint_origins.find(hold.node);
+  if (origin == constraint_origins.end()) return;
   const Eigen::Vector3d moved = hold.part(nodes().col(hold.node) - origin->second);
   frame.depth_mm = moved.norm();
   const bool any = frame.depth_mm > nearest_mm;
@@ -163,9 +163,9 @@ std::optional<Event> Simulation::beyond(const Limits& limits) const {
   if (locked()) return met;
   met.kind = Event::Kind::overbent;
   if (scene_->limits_strength()) {
-    auto [share, by] = strained();
+    auto [fraction, by] = strained();
     met.what = std::move(by);
-    if (share > limits.strained) return met;
+    if (fraction > limits.strained) return met;
   }
   if (!scene_->stops_at_contact) return std::nullopt;
   met.kind = Event::Kind::contact;
@@ -272,9 +272,20 @@ Result<Outcome> Simulation::replace_meshes(const LevelPlan& plan, bool nearby, c
 }
 
 Checkpoint Simulation::save() const {
-  return {shell_->state(),  shell_,    rods_,      shell_->motions(), holds_,       field_,
-          load_scale_,      progress_, actuating_, boundary,          grip_origins, cases,
-          first_stiffness_, along_};
+  return {shell_->state(),
+          shell_,
+          rods_,
+          shell_->motions(),
+          holds_,
+          field_,
+          load_scale_,
+          progress_,
+          actuating_,
+          boundary,
+          constraint_origins,
+          cases,
+          first_stiffness_,
+          along_};
 }
 
 void Simulation::restore(const Checkpoint& kept) {
@@ -288,7 +299,7 @@ void Simulation::restore(const Checkpoint& kept) {
   progress_ = kept.progress;
   actuating_ = kept.actuating;
   boundary = kept.boundary;
-  grip_origins = kept.grip_origins;
+  constraint_origins = kept.constraint_origins;
   cases = kept.cases;
   first_stiffness_ = kept.first_stiffness;
   along_ = kept.along;

@@ -22,7 +22,7 @@ namespace gridshell {
 struct Certificate {
   double residual_N = 0;         ///< largest unbalanced force on an unconstrained node
   int negative_pivots = 0;       ///< of the Hessian on the unconstrained unknowns; 0: stable
-  double error_estimate_mm = 0;  ///< largest error of a joint's position; NaN on a single mesh
+  double error_estimate_mm = 0;  ///< largest error of a node's position; NaN on a single mesh
   /// axial strain of largest magnitude, with its sign; below 0 in compression
   double largest_strain = 0;
 
@@ -37,7 +37,7 @@ struct Event {
   std::optional<double> error;  ///< of t; empty if only one mesh has the event
   std::optional<double> to;     ///< path parameter of the next equilibrium; empty if none was found
   /// whether the path continues by a snap; else along a branch that bifurcates there
-  bool leap = true;
+  bool jump = true;
   bool confirmed = true;  ///< whether the next coarser mesh, if there is one, has the event too
   /// Details: for a contact the parts and the position in space; for a strain limit the limit
   /// exceeded; for locked rods a text if they lock in the equilibrium after a snap, else empty.
@@ -110,7 +110,7 @@ struct PathRecord {
 
 /// What a path does where its branch ends or loses stability.
 struct BifurcationPolicy {
-  bool wanted = true;  ///< whether another branch is searched for; false: the path ends there
+  bool requested = true;  ///< whether another branch is searched for; false: the path ends there
   bool through_unstable = false;  ///< continue through unstable states instead
 };
 
@@ -152,7 +152,7 @@ struct Checkpoint {
   bool actuating = true;
   BoundaryPosition boundary;
   /// Position of each constrained joint when its constraint was set, mm.
-  std::map<int, Eigen::Vector3d> grip_origins;
+  std::map<int, Eigen::Vector3d> constraint_origins;
   /// Load cases that act, the last one last.
   std::vector<CaseOnShell> cases;
   double first_stiffness = 0;  ///< dF/d(depth) at the start of the push
@@ -282,7 +282,7 @@ class Simulation {
 
   BoundaryPosition boundary;
   /// Position of each constrained joint when its constraint was set, mm.
-  std::map<int, Eigen::Vector3d> grip_origins;
+  std::map<int, Eigen::Vector3d> constraint_origins;
   /// Load cases that act, the last one last.
   std::vector<CaseOnShell> cases;
 

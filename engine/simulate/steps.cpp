@@ -21,7 +21,7 @@ Result<Eigen::Matrix3Xd> dragged_of(const preset::Step& step, const Scene& scene
   for (const auto& row : step.edge_points) {
     const auto k = Eigen::Index(row[0]);
     if (k >= dragged.cols())
-      return invalid("there is no edge point {}, they go from 0 to {}", k, dragged.cols() - 1);
+      return invalid("got edge point {}, expected 0 to {}", k, dragged.cols() - 1);
     dragged.col(k) << row[1], row[2], row[3];
   }
   const BoundaryMotion& motion = scene.motion;
@@ -71,8 +71,8 @@ Result<Goal> goal_of(const Simulation& simulation, const preset::Step& step) {
         joint_normal(simulation.scene().footprint, simulation.shell(), *joint);
     if (normal.isZero(0))
       return invalid(
-          "no two rods cross at the joint, so the shell has no normal there: to_mm must "
-          "say where it goes");
+          "the shell has no normal at the joint, where no two rods cross, expected a target in "
+          "to_mm");
     way = -step.depth_mm * normal;
   }
   Goal goal{*joint, at + way, Eigen::Vector3d::UnitZ(), false};
@@ -106,7 +106,7 @@ Result<Report> release(Simulation& simulation, const preset::Step& step, const W
                             [&](const Constraint& hold) { return hold.node == *joint; }))
       joints = {*joint};
   }
-  if (joints.empty()) return invalid("no joint is fixed that could be released");
+  if (joints.empty()) return invalid("got no prescribed joint, expected one before a release");
   Report all;
   for (const int joint : joints) {
     std::vector<Event> before = std::move(all.events);
@@ -151,7 +151,7 @@ Result<Report> take_step(Simulation& simulation, const preset::Step& step, const
     case preset::StepKind::push:
     case preset::StepKind::hold: {
       TRY(goal, goal_of(simulation, step));
-      simulation.grip_origins.emplace(goal->joint, simulation.nodes().col(goal->joint));
+      simulation.constraint_origins.emplace(goal->joint, simulation.nodes().col(goal->joint));
       return push(simulation, *goal, watch, way);
     }
     case preset::StepKind::release:
@@ -188,7 +188,8 @@ std::string text_of(const preset::Step& step) {
 Result<int> joint_of(const preset::Step& step, const Footprint& footprint) {
   const int joint = step.joint.size() == 2 ? joint_at(footprint, step.joint[0], step.joint[1]) : -1;
   if (joint < 0)
-    return invalid("joint = [{}]: the footprint has no such joint", fmt::join(step.joint, ", "));
+    return invalid("joint: got [{}], expected a joint of the footprint",
+                   fmt::join(step.joint, ", "));
   return joint;
 }
 
@@ -199,7 +200,7 @@ double progress_of(const preset::Step& step, const Scene& scene) {
 Result<Report> apply_step(Simulation& simulation, const preset::Step& step, const Watch& watch,
                           StepPath* way) {
   auto report = take_step(simulation, step, watch, way);
-  std::erase_if(simulation.grip_origins, [&](const auto& origin) {
+  std::erase_if(simulation.constraint_origins, [&](const auto& origin) {
     return std::ranges::none_of(simulation.holds(),
                                 [&](const Constraint& hold) { return hold.node == origin.first; });
   });

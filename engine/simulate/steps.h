@@ -13,13 +13,13 @@
 
 namespace gridshell::simulate {
 
-/// What a step does, as people read it: "push [2, -1]".
+/// A step as text for messages: "push [2, -1]".
 std::string text_of(const preset::Step& step);
 
-/// The joint that a step names. Errors (bad_input): the footprint has none such.
+/// The joint that a step names. Errors (bad_input): the footprint has no such joint.
 Result<int> joint_of(const preset::Step& step, const Footprint& footprint);
 
-/// The progress that a move asks for.
+/// The progress to which a move step goes.
 double progress_of(const preset::Step& step, const Scene& scene);
 
 /// Path of a move or of a push: what was followed, and the simulation at its end.
@@ -47,7 +47,7 @@ Result<Report> apply_step(Simulation& simulation, const preset::Step& step, cons
 /// whole boundary and pushes.
 std::vector<int> frames_of_steps(const std::vector<preset::Step>& steps, int frames);
 
-/// What became of the steps.
+/// How the steps ended.
 struct StepsResult {
   EquilibriumPath path;
   std::vector<std::string> messages = {};  ///< a sentence a step that was begun
@@ -69,8 +69,16 @@ struct StepPath;
 /// Fixes the current angles of all joints. Errors (bad_input): a shell that is still flat.
 Result<Report> tighten(Simulation& simulation, const preset::Step& step, const Watch& watch);
 
+/// Whether the first step opens the joints of a network that stays as drawn until then.
+bool opens_as_drawn(const std::vector<preset::Step>& steps, const Scene& scene);
+
+/// Bolts that keep the angles as drawn of the joints that a step opens. Errors (bad_input) of
+/// open().
+Result<Bolts> bolts_as_drawn(const preset::Step& step, const Footprint& footprint);
+
 /// Drives the crossing angles of joints linearly along a path by bolts: each is a spring at the
 /// joint, tightened at its current angle, whose natural angle is driven to the target of the step.
+/// With the drive `mean` one torque, equal at all joints, keeps their mean angle at the target.
 /// Errors (bad_input): a flat shell, a joint where not two rods cross, an angle that no joint can
 /// have, bolts of another stiffness.
 Result<Report> open(Simulation& simulation, const preset::Step& step, const Watch& watch,
@@ -80,8 +88,8 @@ Result<Report> open(Simulation& simulation, const preset::Step& step, const Watc
 /// ...".
 std::string text_of_opened(const Simulation& simulation);
 
-/// Diagonals come into cells, as long as these are now. Errors (bad_input): a cell that is not
-/// there, a flat shell.
+/// Adds diagonals to cells, with their present lengths as natural lengths. Errors (bad_input): a
+/// cell that does not exist, a flat shell.
 Result<Report> brace(Simulation& simulation, const preset::Step& step, const Watch& watch);
 
 /// Removes all bolts or braces; the shell relaxes to the equilibrium nearby. Errors (bad_input):

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/core/try.h"
+#include "engine/simulate/frame_joints.h"
 #include "engine/simulate/steps.h"
 
 namespace gridshell::simulate {
@@ -17,8 +18,12 @@ Result<void> check_formed(const Simulation& simulation) {
   const BoundaryMotion& motion = simulation.scene().motion;
   const bool moves = motion.begin.cols() > 0 && !motion.begin.isApprox(motion.end, 0);
   if (moves && simulation.progress() == 0)
-    return invalid("the shell is flat yet: it must be formed before it is stiff");
+    return invalid("got a flat grid, expected a formed shell: form it before stiffening");
   return {};
+}
+
+double stiffness_of(const preset::Step& step) {
+  return step.stiffness_Nmm > 0 ? step.stiffness_Nmm : std::numeric_limits<double>::infinity();
 }
 
 Bolts now_tightened(const Simulation& simulation, double stiffness) {
@@ -26,8 +31,8 @@ Bolts now_tightened(const Simulation& simulation, double stiffness) {
   return tightened(shell.finest(), shell.model(), shell.state().levels.back(), stiffness);
 }
 
-/// How far each joint is to open so that its bolt, of `now`, rests at the step's angle, rad; NaN of
-/// joints that are left as they are.
+/// How far each joint is to open so that its bolt, of `now`, has no torque at the step's angle,
+/// rad; NaN of joints that are left as they are.
 Result<std::vector<double>> openings(const preset::Step& step, const Footprint& footprint,
                                      const Bolts& now) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN(), rad = M_PI / 180;
@@ -38,9 +43,10 @@ Result<std::vector<double>> openings(const preset::Step& step, const Footprint& 
   for (const auto& row : step.angles) {
     const int joint = joint_at(footprint, int(row[0]), int(row[1]));
     if (joint < 0 || now.rods[std::size_t(joint)].size() != 2)
-      return invalid("angles: [{:g}, {:g}] is no joint where two rods cross", row[0], row[1]);
+      return invalid("angles: got [{:g}, {:g}], expected a joint where two rods cross", row[0],
+                     row[1]);
     if (!std::isnan(by[std::size_t(joint)]))
-      return invalid("angles: [{:g}, {:g}] stands there twice", row[0], row[1]);
+      return invalid("angles: got [{:g}, {:g}] twice, expected it once", row[0], row[1]);
     by[std::size_t(joint)] = row[2] * rad - rest(std::size_t(joint));
   }
   if (step.angles.empty()) {
@@ -55,7 +61,7 @@ Result<std::vector<double>> openings(const preset::Step& step, const Footprint& 
   for (std::size_t joint = 0; joint < by.size(); ++joint) {
     const double to = std::isnan(by[joint]) ? 1 : rest(joint) + by[joint];
     if (!(to > rad && to < M_PI - rad))
-      return invalid("joint [{}, {}] would open to {:.4g} degrees, must be between 1 and 179",
+      return invalid("joint [{}, {}]: got an angle of {:.4g} degrees, expected 1 to 179",
                      footprint.joints[joint].i, footprint.joints[joint].j, to / rad);
   }
   return by;
@@ -63,25 +69,41 @@ Result<std::vector<double>> openings(const preset::Step& step, const Footprint& 
 
 }  // namespace
 
+bool opens_as_drawn(const std::vector<preset::Step>& steps, const Scene& scene) {
+  const BoundaryMotion& motion = scene.motion;
+  return !steps.empty() && steps.front().kind == preset::StepKind::open &&
+         scene.footprint.rods.front().number >= 0 && motion.begin == motion.end &&
+         motion.begin_joints == motion.end_joints;
+}
+
+Result<Bolts> bolts_as_drawn(const preset::Step& step, const Footprint& footprint) {
+  Bolts bolts = drawn_bolts(mesh_rods(footprint, 2), stiffness_of(step));
+  bolts.mean = step.drive == preset::JointDrive::mean;
+  TRY(by, openings(step, footprint, bolts));
+  for (std::size_t joint = 0; joint < by->size(); ++joint)
+    if (std::isnan((*by)[joint])) bolts.rods[joint].clear();
+  return bolts;
+}
+
 Result<Report> tighten(Simulation& simulation, const preset::Step& step, const Watch& watch) {
   TRY_DO(check_formed(simulation));
-  constexpr double rigid = std::numeric_limits<double>::infinity();
-  const double stiffness = step.stiffness_Nmm > 0 ? step.stiffness_Nmm : rigid;
   ShellRods rods = simulation.rods();
-  rods.bolts = std::make_shared<const Bolts>(now_tightened(simulation, stiffness));
+  rods.bolts = std::make_shared<const Bolts>(now_tightened(simulation, stiffness_of(step)));
   return simulation.set_rods(rods, watch);
 }
 
 Result<Report> open(Simulation& simulation, const preset::Step& step, const Watch& watch,
                     StepPath* way) {
   TRY_DO(check_formed(simulation));
-  const double stiffness =
-      step.stiffness_Nmm > 0 ? step.stiffness_Nmm : std::numeric_limits<double>::infinity();
+  const double stiffness = stiffness_of(step);
   const auto known = simulation.rods().bolts;
-  if (known && known->stiffness_Nmm != stiffness)
-    return invalid("bolts of another stiffness are there, which must be the same, or be released");
+  const bool mean = step.drive == preset::JointDrive::mean;
+  if (known && (known->stiffness_Nmm != stiffness || known->mean != mean))
+    return invalid(
+        "bolts of another stiffness or drive act, expected the same, or their release before");
   // bolts that are there keep what they strive for
   Bolts bolts = now_tightened(simulation, stiffness);
+  bolts.mean = mean;
   bolts.opened.assign(bolts.rods.size(), 0);
   for (std::size_t joint = 0; known && joint < bolts.rods.size(); ++joint) {
     if (known->rods[joint].empty()) continue;
@@ -101,7 +123,7 @@ Result<Report> open(Simulation& simulation, const preset::Step& step, const Watc
   if (!report || report->end != Outcome::reached) return report;
   report = simulation.open_joints(watch, way);
   if (way) way->end = simulation.save();
-  // from here on that is how the joints rest
+  // from here on that is the joints' angle without torque
   for (std::size_t joint = 0; joint < by->size(); ++joint)
     bolts.opened[joint] += report->t * std::exchange(bolts.opening[joint], 0);
   rods.bolts = std::make_shared<const Bolts>(std::move(bolts));
@@ -113,40 +135,9 @@ Result<Report> open(Simulation& simulation, const preset::Step& step, const Watc
 }
 
 std::string text_of_opened(const Simulation& simulation) {
-  const NestedShell& shell = simulation.shell();
-  // mean, least and largest angle, deg, and largest torque, of the last meshes
-  std::array<std::vector<Eigen::Matrix3Xd>, 4> found;
-  for (int level = shell.first_of_last_three(); level < shell.levels(); ++level) {
-    const State& state = shell.state().levels[std::size_t(level)];
-    const Bolts now = tightened(shell.mesh(level), shell.model(level), state, 1);
-    double sum = 0, least = M_PI, most = 0, torque = 0;
-    int count = 0;
-    for (std::size_t joint = 0; joint < now.rods.size(); ++joint) {
-      if (now.rods[joint].size() != 2) continue;
-      const double angle = now.angle(int(joint));
-      sum += angle, ++count;
-      least = std::min(least, angle), most = std::max(most, angle);
-    }
-    for (const double one : joint_torques(shell.mesh(level), shell.model(level), state))
-      torque = std::max(torque, std::abs(one));
-    constexpr double deg = 180 / M_PI;
-    const double values[] = {deg * sum / std::max(count, 1), deg * least, deg * most, torque};
-    for (std::size_t k = 0; k < found.size(); ++k)
-      found[k].emplace_back(values[k] * Eigen::Vector3d::UnitX());
-  }
-  std::array<double, 4> value{}, error{};
-  for (std::size_t k = 0; k < found.size(); ++k) {
-    const CertifiedVectors one = certify_vectors(found[k], shell.plan().extrapolate_forces, false);
-    value[k] = one.value(0, 0), error[k] = one.error;
-  }
-  std::string text =
-      fmt::format("joints at {:.2f} degrees on average, {:.2f} to {:.2f}, torques to {:.4g} N mm",
-                  value[0], value[1], value[2], value[3]);
-  // of one mesh none is known
-  if (std::isfinite(error[0]))
-    text += fmt::format(" (errors to {:.2g} degrees on average, {:.2g} of a joint, {:.2g} N mm)",
-                        error[0], std::max(error[1], error[2]), error[3]);
-  return text;
+  record::Frame frame;
+  put_joints(simulation, frame);
+  return text_of_joints(frame);
 }
 
 Result<Report> brace(Simulation& simulation, const preset::Step& step, const Watch& watch) {
@@ -167,7 +158,7 @@ Result<Report> brace(Simulation& simulation, const preset::Step& step, const Wat
     }
   }
   if (rods.braces.size() == simulation.rods().braces.size())
-    return invalid("the footprint has no such cells");
+    return invalid("got cells that the footprint does not have");
   return simulation.set_rods(rods, watch);
 }
 
@@ -175,7 +166,7 @@ Result<Report> take_out(Simulation& simulation, preset::Released what, const Wat
   ShellRods rods = simulation.rods();
   const bool bolts = what == preset::Released::bolts;
   if (bolts ? !rods.bolts : rods.braces.empty())
-    return invalid("there are no {} to take out", word_of(what));
+    return invalid("got no {}, expected some to take out", word_of(what));
   if (bolts)
     rods.bolts.reset();
   else
@@ -187,7 +178,8 @@ Result<Report> bring_case(Simulation& simulation, const std::string& name, doubl
                           const Watch& watch) {
   const Scene& scene = simulation.scene();
   const auto known = std::ranges::find(scene.load_cases, name, &LoadCase::name);
-  if (known == scene.load_cases.end()) return invalid("there is no load case \"{}\"", name);
+  if (known == scene.load_cases.end())
+    return invalid("got load case \"{}\", expected the name of a [[loads.case]]", name);
   auto& cases = simulation.cases;
   auto on = std::ranges::find(cases, name, &CaseOnShell::name);
   if (on == cases.end())

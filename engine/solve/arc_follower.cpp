@@ -82,7 +82,7 @@ Outcome ArcFollower::step(const Watch& watch) {
             next.point.state);
     int iterations = 0;
     if (!corrected(next, iterations, watch) ||
-        system_->clear_share(now_.point.state, next.point.state.x - now_.point.state.x) < 1) {
+        system_->clear_fraction(now_.point.state, next.point.state.x - now_.point.state.x) < 1) {
       if (watch.cancelled()) return Outcome::cancelled;
       continue;
     }

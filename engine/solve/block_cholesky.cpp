@@ -215,7 +215,8 @@ class BlockCholesky final : public LinearSolver {
   void fill(const BlockHessian& hessian, double shift) {
     const auto some = [&](std::size_t count, const auto& task) {
       const int pieces = team && factor_.branches() > 0 ? 4 * team->threads() : 1;
-      share(team, pieces, [&](int k) { task(count * k / pieces, count * (k + 1) / pieces); });
+      parallel_for(team, pieces,
+                   [&](int k) { task(count * k / pieces, count * (k + 1) / pieces); });
     };
     for (const auto* moves : {&straight_, &turned_})
       some(moves->size(), [&](std::size_t begin, std::size_t end) {

@@ -1,5 +1,5 @@
 // [supernodes: Ng, Peyton 1993]. A panel is finished, then subtracts its outer product from the
-// columns right of it (right-looking), each target read and written once a panel.
+// columns right of it (right-looking), each target read and written once per panel.
 #include "engine/solve/block_factor.h"
 
 #include <algorithm>

@@ -31,7 +31,7 @@ double spread(const RodMesh& mesh, const Eigen::Matrix3Xd& x) {
 double mean_shortening(const RodMesh& mesh, const PinnedMotion& motion, double t) {
   double chords = 0, lengths = 0;
   const Eigen::Matrix3Xd x = motion.at(t);
-  const std::set<int> held(mesh.held_joints.begin(), mesh.held_joints.end());
+  const std::set<int> held(mesh.fixed_joints.begin(), mesh.fixed_joints.end());
   for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
     // from one constrained node to the next
     const std::vector<int>& node = mesh.rods[r];
@@ -71,7 +71,7 @@ std::vector<std::size_t> turning_rods(const Footprint& footprint) {
   std::vector<int> hold(footprint.joints.size());
   for (const FootprintRod& rod : footprint.rods)
     for (const int joint : rod.joints) ++hold[std::size_t(joint)];
-  for (const int joint : footprint.held_joints) ++hold[std::size_t(joint)];
+  for (const int joint : footprint.fixed_joints) ++hold[std::size_t(joint)];
   std::vector<std::size_t> turning;
   for (std::size_t r = 0; r < footprint.rods.size(); ++r) {
     const FootprintRod& rod = footprint.rods[r];

@@ -16,10 +16,9 @@ Result<Eigen::Matrix3Xd> lumped_mass(const Model& model, const std::vector<doubl
                                      const Eigen::RowVectorXd& on_nodes) {
   for (double mass : mass_t_per_mm)
     if (!(mass > 0))
-      return fail(Fault::bad_input,
-                  fmt::format("{} t/mm: motion in time needs a mass of all rods, [rod] "
-                              "density_kg_m3 must be above 0",
-                              mass));
+      return fail(Fault::bad_input, fmt::format("{} t/mm: motion in time needs a mass of all rods, "
+                                                "expected [rod] density_kg_m3 above 0",
+                                                mass));
   Eigen::Matrix3Xd mass = Eigen::Matrix3Xd::Zero(3, model.columns());
   mass.leftCols(on_nodes.size()).rowwise() += on_nodes;
   for (std::size_t r = 0; r < model.rods.size(); ++r) {
@@ -47,7 +46,7 @@ double kinetic_energy(const Eigen::Matrix3Xd& mass, const MovingState& moving) {
 
 namespace {
 
-constexpr double gamma = 2 - M_SQRT2;  // share of the trapezoidal part
+constexpr double gamma = 2 - M_SQRT2;  // fraction of the trapezoidal part
 constexpr double held_mass = 1e6;      // of what is prescribed, over the shell's
 
 }  // namespace
@@ -145,22 +144,22 @@ bool DampedMotion::step(MovingState& moving, const Watch& watch) {
 Result<void> DampedMotion::settle(MovingState& moving, const RestOptions& rest,
                                   const std::function<void(const MovingState&)>& seen,
                                   const Watch& watch) {
-  const double wanted = options_.step_s, end = moving.time + rest.longest_s;
+  const double requested = options_.step_s, end = moving.time + rest.longest_s;
   struct Back {  // restores the requested step for the next motion
     double& step;
-    double wanted;
-    ~Back() { step = wanted; }
-  } back{options_.step_s, wanted};
+    double requested;
+    ~Back() { step = requested; }
+  } back{options_.step_s, requested};
   while (moving.time < end) {
     if (watch.cancelled()) return fail(Fault::cancelled, "stopped during a snap");
     if (!step(moving, watch)) {
       options_.step_s /= 2;
-      if (options_.step_s < 1e-6 * wanted)
+      if (options_.step_s < 1e-6 * requested)
         return fail(Fault::no_equilibrium,
                     fmt::format("no time step however small succeeds at {:.4g} s", moving.time));
       continue;
     }
-    options_.step_s = std::min(wanted, 2 * options_.step_s);
+    options_.step_s = std::min(requested, 2 * options_.step_s);
     if (seen) seen(moving);
     if (kinetic_energy(mass_, moving) < rest.still_mJ && residual(moving.state) < rest.still_N)
       return {};

@@ -59,13 +59,13 @@ class GradientFlow {
   // `near`
   static constexpr double longest = 2, near = 0.1;
 
-  bool go(double share, bool at_once) {
+  bool go(double fraction, bool at_once) {
     ++system_.effort().newton_iterations;
-    share = std::min(share, system_.clear_share(state_, dx_));
-    system_.apply(dx_, state_, share);
+    fraction = std::min(fraction, system_.clear_fraction(state_, dx_));
+    system_.apply(dx_, state_, fraction);
     const bool newton = shift_ == 0 && max_column_norm(dx_) < near * step_mm_;
     // less and less shift as long as that goes well
-    if (at_once && share == 1) {
+    if (at_once && fraction == 1) {
       shift_ /= down_.next();
       if (shift_ < smallest_shift) shift_ = 0;
     } else {
@@ -129,9 +129,9 @@ class Descent {
       return energy_at(trial_) <= begin + 1e-4 * step * slope + 1e-14 * std::abs(begin);
     };
     const auto clear = [&] {  // the rods recovered their lengths by other means
-      return system_.clear_share(state_, trial_.x - state_.x) == 1;
+      return system_.clear_fraction(state_, trial_.x - state_.x) == 1;
     };
-    double step = system_.clear_share(state_, dx);
+    double step = system_.clear_fraction(state_, dx);
     if (!(step > 1e-10)) return false;
     for (; step > 1e-10; step /= 2) {
       trial_ = state_;
@@ -272,7 +272,7 @@ Result<State> minimise_from(Linearisation& system, State state, const Watch& wat
   if (watch.cancelled()) return fail(Fault::cancelled, "stopped while looking for an equilibrium");
   if (down.outcome == Outcome::lost)
     return fail(Fault::no_equilibrium,
-                "rods that press on one another, or cross without a joint, leave no way to an "
+                "rods that press on one another, or cross without a joint, leave no path to an "
                 "equilibrium");
   // nothing moves any more, but a mode without stiffness keeps it from being a minimum
   if (down.outcome == Outcome::not_converged && down.last_move_mm < 1e-3) {

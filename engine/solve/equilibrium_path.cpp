@@ -106,20 +106,20 @@ State PathFollower::predict(double t) const {
 Outcome PathFollower::step(double t, bool converge, NewtonReport& report, const Watch& watch) {
   PathPoint next{t, predict(t)};
   const Eigen::Matrix3Xd way = next.state.x - now_.state.x;
-  if (system_.clear_share(now_.state, way) < 1) return Outcome::lost;
+  if (system_.clear_fraction(now_.state, way) < 1) return Outcome::lost;
   const double predicted_move = max_column_norm(way);
   const ContactPairs& contact = system_.model().contact;
-  // what begins to press stays behind
-  const double share = contact.any() ? 1 : 0.5;
+  // rods that begin to touch lag behind
+  const double fraction = contact.any() ? 1 : 0.5;
   const double allowed = std::min(options_.largest_move * options_.spacing_mm,
-                                  share * predicted_move + 1e-3 * options_.spacing_mm);
+                                  fraction * predicted_move + 1e-3 * options_.spacing_mm);
   NewtonOptions newton_options;
   newton_options.tolerance_mm =
       converge ? options_.tolerance_mm : options_.target_move * options_.spacing_mm;
   // a prediction that needs more iterations may be past a fold, next to another branch
   newton_options.most_iterations = 5;
   if (contact.any()) {
-    // what begins to press takes some more, and a tangent knows of it within the gap alone
+    // rods that begin to touch need more iterations: a tangent sees them only within the gap
     newton_options.most_iterations = 12;
     newton_options.tolerance_mm =
         std::min(newton_options.tolerance_mm, 0.1 * contact.barrier.gap_mm);
@@ -131,7 +131,8 @@ Outcome PathFollower::step(double t, bool converge, NewtonReport& report, const 
   State guess = contact.any() ? next.state : State{};
   report = newton(system_, next.state, newton_options, watch);
   if (report.outcome != Outcome::reached && contact.any() && last_.inertia.positive_definite()) {
-    // down the energy a barrier is met more surely; it leads no further than a prediction may err
+    // descending in energy is more robust near a barrier; it moves no further than a prediction may
+    // err
     const MinimiseOptions down{.tolerance_mm = newton_options.tolerance_mm, .most_iterations = 60};
     if (minimise(system_, guess, down, watch).outcome == Outcome::reached &&
         max_column_norm(guess.x - now_.state.x - way) <= allowed) {
@@ -155,7 +156,7 @@ PathReport PathFollower::advance(double t, const Watch& watch) {
   PathReport report;
   report.t = now_.t;
   const PathPoint from = now_;
-  // every point is brought to the tolerance, not the last one alone
+  // every point is iterated to the tolerance, not only the last one
   bool exact = false;
   while (now_.t != t) {
     if (watch.cancelled()) {

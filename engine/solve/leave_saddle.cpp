@@ -37,7 +37,7 @@ namespace {
 
 State pushed(const Model& model, const State& state, const Eigen::Matrix3Xd& by) {
   State moved = state;
-  move_to(model, state.x + clear_share(model, state.x, by) * by, moved);
+  move_to(model, state.x + clear_fraction(model, state.x, by) * by, moved);
   return moved;
 }
 
@@ -82,9 +82,9 @@ using WayDown = std::vector<Eigen::Matrix3Xf>;
 bool comes_upon(const WayDown& other, const Eigen::Matrix3Xd& x, double near_mm, std::size_t& at) {
   for (; at + 1 < other.size(); ++at) {
     const Eigen::Matrix3Xf along = other[at + 1] - other[at], from = x.cast<float>() - other[at];
-    const float share = from.cwiseProduct(along).sum() / along.squaredNorm();
-    if (share > 1) continue;
-    return share >= 0 && (from - share * along).colwise().norm().maxCoeff() < near_mm;
+    const float fraction = from.cwiseProduct(along).sum() / along.squaredNorm();
+    if (fraction > 1) continue;
+    return fraction >= 0 && (from - fraction * along).colwise().norm().maxCoeff() < near_mm;
   }
   return false;
 }

@@ -1,5 +1,6 @@
 #include "engine/solve/linear_solver.h"
 
+#include <cmath>
 #include <optional>
 
 #include "engine/elastic/model.h"
@@ -9,7 +10,8 @@ namespace gridshell {
 namespace {
 
 /// Solver for Hessians with blocks outside the model's pattern, between edges that are close or
-/// nodes of a face: it has a pattern with these blocks and a plan for it.
+/// nodes of a face: it has a pattern with these blocks and a plan for it. It also solves with the
+/// matrix of rank one.
 class BeyondSolver final : public LinearSolver {
  public:
   explicit BeyondSolver(const Model& model) : model_(model), apart_(make_block_cholesky(model)) {}
@@ -22,14 +24,22 @@ class BeyondSolver final : public LinearSolver {
       if (!together_ || !known(hessian)) plan(hessian);
       current_ = together_.get();
     }
-    current_->most_negative = most_negative;
+    const bool joined = hessian.rank_one.cols() > 0;
+    // the matrix of rank one may take one away
+    current_->most_negative = most_negative + (joined && most_negative < 1000000);
     current_->team = team;
     current_->numbers = numbers;
-    return current_->factor(hessian.beyond.empty() ? hessian : merged(hessian), shift);
+    Inertia inertia = current_->factor(hessian.beyond.empty() ? hessian : merged(hessian), shift);
+    rank_one_ = hessian.rank_one;
+    if (joined && inertia.usable && inertia.negative_pivots <= current_->most_negative)
+      join(inertia);
+    return inertia;
   }
   void solve(Eigen::Matrix3Xd& right_hand_side) const override {
     if (!current_) return void(right_hand_side.setZero());
     current_->solve(right_hand_side);
+    if (rank_one_.cols() > 0)
+      right_hand_side -= rank_one_.cwiseProduct(right_hand_side).sum() / schur_ * response_;
   }
   bool has_factor() const override { return current_ && current_->has_factor(); }
   void free_memory() override {
@@ -38,11 +48,21 @@ class BeyondSolver final : public LinearSolver {
     together_.reset();
     wider_.reset();
     merged_ = {};
+    rank_one_.resize(3, 0);
     if (numbers) *numbers = {};
   }
   long long blocks() const override { return current_ ? current_->blocks() : 0; }
 
  private:
+  /// K + c c^T by the factor of K [Sherman, Morrison 1950]: with w = K^-1 c and s = 1 + c.w a
+  /// solution x becomes x - w (c.x)/s, and where s < 0 an eigenvalue below zero is one above.
+  void join(Inertia& inertia) {
+    response_ = rank_one_;
+    current_->solve(response_);
+    schur_ = 1 + rank_one_.cwiseProduct(response_).sum();
+    inertia.usable = std::isfinite(schur_) && schur_ != 0;
+    inertia.negative_pivots -= schur_ < 0;
+  }
   bool known(const BlockHessian& hessian) const {
     return std::ranges::all_of(hessian.beyond, [&](const BlockHessian::Beyond& one) {
       return wider_->pattern.find(one.row, one.column) >= 0;
@@ -69,6 +89,8 @@ class BeyondSolver final : public LinearSolver {
   std::unique_ptr<LinearSolver> apart_, together_;
   LinearSolver* current_ = apart_.get();
   BlockHessian merged_;
+  Eigen::Matrix3Xd rank_one_, response_;
+  double schur_ = 1;
 };
 
 }  // namespace

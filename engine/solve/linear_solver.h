@@ -41,7 +41,8 @@ struct Inertia {
 
 struct FactorNumbers;
 
-/// Symbolic analysis once (constructor), numbers as often as needed. Not thread-safe; one a thread.
+/// Symbolic analysis once (constructor), numbers as often as needed. Not thread-safe; one per
+/// thread.
 class LinearSolver {
  public:
   virtual ~LinearSolver() = default;

@@ -11,14 +11,15 @@ namespace gridshell {
 MeshLevel::MeshLevel() : own_model(std::make_unique<Model>()), model(*own_model) {}
 MeshLevel::~MeshLevel() = default;
 
-Result<void> MeshLevel::build(const Footprint& footprint, const ShellRods& rods, RodModel rung,
+Result<void> MeshLevel::build(const Footprint& footprint, const ShellRods& rods, RodModel rod_model,
                               const BoundaryMotion& boundary, int edges_per_segment) {
   mesh = mesh_rods(centred(footprint, rods.bolts.get()), edges_per_segment);
-  TRY(built, build_model(mesh, rods, rung));
+  TRY(built, build_model(mesh, rods, rod_model));
   model = std::move(*built);
   motion = pinned_motion(mesh, boundary);
   system = std::make_unique<Linearisation>(model);
-  if (rung == RodModel::bend && !turning_rods(footprint).empty()) system->bear_neutral_directions();
+  if (rod_model == RodModel::bend && !turning_rods(footprint).empty())
+    system->bear_neutral_directions();
   return {};
 }
 

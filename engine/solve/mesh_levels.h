@@ -28,7 +28,7 @@ struct MeshLevel {
 
   /// Builds mesh, model and solver for a number of edges per segment. Errors (bad_input): rods that
   /// the rod model does not support.
-  Result<void> build(const Footprint& footprint, const ShellRods& rods, RodModel rung,
+  Result<void> build(const Footprint& footprint, const ShellRods& rods, RodModel rod_model,
                      const BoundaryMotion& boundary, int edges_per_segment);
 };
 

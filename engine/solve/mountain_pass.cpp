@@ -95,8 +95,8 @@ class ElasticString {
     for (int n = 0; n < options_.images; ++n) {
       const double place = spacing_ * n;
       while (right + 1 < at.size() && at[right] < place) ++right;
-      const double share = (place - at[right - 1]) / (at[right] - at[right - 1]);
-      even.push_back(between(images_[right - 1], images_[right], std::clamp(share, 0.0, 1.0)));
+      const double fraction = (place - at[right - 1]) / (at[right] - at[right - 1]);
+      even.push_back(between(images_[right - 1], images_[right], std::clamp(fraction, 0.0, 1.0)));
     }
     images_ = std::move(even);
   }
@@ -128,12 +128,12 @@ class ElasticString {
   }
 
   /// A state between two neighbouring images; an end is the state itself.
-  Image between(const Image& a, const Image& b, double share) const {
-    if (share == 0 || share == 1) return share == 0 ? a : b;
-    Image image = share < 0.5 ? a : b;
-    const Eigen::Matrix3Xd x = a.state.x + share * (b.state.x - a.state.x);
+  Image between(const Image& a, const Image& b, double fraction) const {
+    if (fraction == 0 || fraction == 1) return fraction == 0 ? a : b;
+    Image image = fraction < 0.5 ? a : b;
+    const Eigen::Matrix3Xd x = a.state.x + fraction * (b.state.x - a.state.x);
     move_to(system_.model(), x, image.state);
-    image.state.force = a.state.force + share * (b.state.force - a.state.force);
+    image.state.force = a.state.force + fraction * (b.state.force - a.state.force);
     return image;
   }
 

@@ -45,13 +45,13 @@ MultilevelRelaxation::MultilevelRelaxation(const FlatFrame& flat, double spacing
     : flat_(flat), spacing_mm_(spacing_mm) {}
 
 Result<MultilevelRelaxation> MultilevelRelaxation::make(const Footprint& footprint,
-                                                        const ShellRods& rods, RodModel rung,
+                                                        const ShellRods& rods, RodModel rod_model,
                                                         const BoundaryMotion& motion,
                                                         const FlatFrame& flat, int edges) {
   MultilevelRelaxation cascade(flat, footprint.spacing);
   for (int k = 1; k <= edges; k *= 2) {
     auto level = std::make_unique<Level>();
-    TRY_DO(level->build(footprint, rods, rung, motion, k));
+    TRY_DO(level->build(footprint, rods, rod_model, motion, k));
     level->symmetries = symmetries_of(level->mesh, level->motion.at(1));
     if (k > 1) {
       const Level& coarser = *cascade.levels_.back();
@@ -70,7 +70,7 @@ Eigen::Matrix3Xd MultilevelRelaxation::stretched_flat(double t) const {
     rows << flat.transpose(), Eigen::VectorXd::Ones(flat.cols());
     return rows;
   };
-  std::vector<int> on_boundary = mesh.held_joints;
+  std::vector<int> on_boundary = mesh.fixed_joints;
   for (int end = 0; end < mesh.edge_points; ++end)
     if (mesh.end_of(end) != RodEnd::joined) on_boundary.push_back(mesh.joints + end);
   const Eigen::Matrix3Xd moved = levels_.front()->motion.at(t);

@@ -22,7 +22,7 @@ class MultilevelRelaxation {
   /// Meshes of 1, 2, 4 ... edges per segment, the last `edges` (a power of two). Errors
   /// (bad_input): rods that the rod model does not support.
   static Result<MultilevelRelaxation> make(const Footprint& footprint, const ShellRods& rods,
-                                           RodModel rung, const BoundaryMotion& motion,
+                                           RodModel rod_model, const BoundaryMotion& motion,
                                            const FlatFrame& flat, int edges);
 
   /// The nodes of the coarsest mesh as the flat footprint would stretch and turn with its ends at

@@ -21,11 +21,11 @@ constexpr double margin = 1.25, margin_extrapolated = 2.2;
 // of forces and energies on two meshes, of which one sign or the other may win
 constexpr double margin_of_two = 1.4;
 
-// largest sum of the weights of an extrapolation, by size: three states one step apart, gone on by
-// one step, have 7, and so have two states gone on by three steps
+// largest sum of the weights of an extrapolation, by size: three states one step apart, continued
+// by one step, have 7, and so have two states continued by three steps
 constexpr double most_weight = 8;
 
-// of a stiffness, whose factorisation stands one correction before the state: measured up to 2e-4
+// of a stiffness, whose factorisation is one correction before the state: measured up to 2e-4
 constexpr double stale_stiffness = 1e-3;
 
 /// What extrapolation at second order leaves where three meshes show another: with steps between
@@ -96,18 +96,18 @@ State NestedShell::predicted(const Level& level, double t, const State& base) co
   return state;
 }
 
-/// Where rods may touch, as far from the companion's last state towards one that is wanted as they
+/// Where rods may touch, as far from the companion's last state towards the requested one as they
 /// do not go through one another: on longer edges that one need not be clear.
-State NestedShell::clear_of_contact(Level& level, const State& before, State wanted) const {
-  if (!level.model.contact.any() || before.x.cols() != wanted.x.cols()) return wanted;
+State NestedShell::clear_of_contact(Level& level, const State& before, State requested) const {
+  if (!level.model.contact.any() || before.x.cols() != requested.x.cols()) return requested;
   State clear = before;
   level.motion.impose(*level.system, state_.t, clear);
-  const Eigen::Matrix3Xd move = wanted.x - clear.x;
-  move_to(level.model, clear.x + level.system->clear_share(clear, move) * move, clear);
+  const Eigen::Matrix3Xd move = requested.x - clear.x;
+  move_to(level.model, clear.x + level.system->clear_fraction(clear, move) * move, clear);
   return clear;
 }
 
-/// A companion's equilibrium beside the finer state, whose restriction is `base`: Newton from where
+/// A companion's equilibrium near the finer state, whose restriction is `base`: Newton from where
 /// its difference leads, else from the restriction, else, where nothing is known yet, down the
 /// energy from there. It need not be stable where the finer one is: coarse meshes lose their
 /// stability earlier. False: it has none.
@@ -161,7 +161,7 @@ NestedReport NestedShell::certify(const PathFollower& path, const Watch& watch,
   const PathPoint& point = path.point();
   NestedState before = std::exchange(state_, {});
   const auto refused = [&](Outcome end) {
-    // what is not certified takes no certified state's place
+    // what is not certified replaces no certified state
     state_ = std::move(before);
     return NestedReport{end, state_.t};
   };
@@ -172,14 +172,14 @@ NestedReport NestedShell::certify(const PathFollower& path, const Watch& watch,
   state_.step = point.step;
   Level& finest = *levels_.back();
   State& found = state_.levels.back();
-  const bool anew = !known.usable && !vouches(path.last());
+  const bool again = !known.usable && !vouches(path.last());
   state_.inertia = known.usable ? known : inertia_of(finest, found, path.last());
   if (!state_.inertia.usable) return refused(Outcome::not_finite);
   if (!state_.inertia.positive_definite() && !options_.allow_unstable)
     return refused(Outcome::unstable);
   polish(finest, found, path.last());
   if (!known.usable && state_.velocity.x.size() > 0) {
-    if (anew)
+    if (again)
       finest.motion.velocity(*finest.system, state_.t, found, state_.velocity);
     else
       refine_velocity(finest, found);
@@ -265,8 +265,8 @@ bool NestedShell::vouches(const NewtonReport& report) const {
          report.inertia.positive_definite();
 }
 
-/// Of the last correction's factorisation, or of the energy's Hessian at the state, factorised
-/// anew.
+/// The inertia of the last correction's factorisation, or of the energy's Hessian at the state,
+/// factorised again.
 Inertia NestedShell::inertia_of(Level& level, const State& found,
                                 const NewtonReport& report) const {
   if (vouches(report)) return report.inertia;
@@ -350,7 +350,8 @@ CertifiedVectors certify_vectors(const std::vector<Eigen::Matrix3Xd>& levels, bo
   return found;
 }
 
-/// Of its last factorisation, which is one correction away from the state.
+/// The forces at prescribed joints by its last factorisation, which is one correction away from the
+/// state.
 NestedShell::HeldForces NestedShell::held_forces(Level& level, const State& state) const {
   Linearisation& system = *level.system;
   system.gradient_at(state);

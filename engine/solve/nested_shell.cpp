@@ -12,7 +12,7 @@ namespace gridshell {
 NestedShell::NestedShell(const LevelPlan& plan, const PathOptions& options)
     : plan_(plan), options_(options) {}
 Result<NestedShell> NestedShell::make(const Footprint& footprint, const ShellRods& rods,
-                                      RodModel rung, const BoundaryMotion& motion,
+                                      RodModel rod_model, const BoundaryMotion& motion,
                                       const LevelPlan& plan, const PathOptions& options) {
   NestedShell shell(plan, options);
   shell.boundary_ = motion;
@@ -21,7 +21,7 @@ Result<NestedShell> NestedShell::make(const Footprint& footprint, const ShellRod
   const auto numbers = std::make_shared<FactorNumbers>();
   for (int edges : plan.edges_per_segment) {
     auto level = std::make_unique<Level>();
-    TRY_DO(level->build(footprint, rods, rung, motion, edges));
+    TRY_DO(level->build(footprint, rods, rod_model, motion, edges));
     level->system->work_with(options.team);
     level->system->share(numbers);
     level->system->outside.steady = &level->steady;
@@ -214,9 +214,9 @@ void NestedShell::drive(const PrescribedMove& drive) {
                     drive.field,
                     drive.opening};
     if (drive.boundary) {
-      const PinnedMotion wanted = pinned_motion(level.mesh, *drive.boundary);
-      const Eigen::Matrix3Xd there = wanted.at(1);
-      for (const EndRotation& turn : wanted.turns)
+      const PinnedMotion requested = pinned_motion(level.mesh, *drive.boundary);
+      const Eigen::Matrix3Xd there = requested.at(1);
+      for (const EndRotation& turn : requested.turns)
         level.motion.turns.push_back(
             rotation_between(turn.node, turn.about, x.col(turn.node) - x.col(turn.about),
                              there.col(turn.node) - there.col(turn.about)));

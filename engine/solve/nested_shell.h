@@ -105,9 +105,9 @@ struct PrescribedMove {
 class NestedShell {
  public:
   /// Builds all levels. Errors (bad_input): rods that the rod model does not support.
-  static Result<NestedShell> make(const Footprint& footprint, const ShellRods& rods, RodModel rung,
-                                  const BoundaryMotion& motion, const LevelPlan& plan,
-                                  const PathOptions& options);
+  static Result<NestedShell> make(const Footprint& footprint, const ShellRods& rods,
+                                  RodModel rod_model, const BoundaryMotion& motion,
+                                  const LevelPlan& plan, const PathOptions& options);
 
   /// Starts from a state of the finest mesh at t, in or near equilibrium: converges, certifies and
   /// estimates the error.
@@ -206,7 +206,7 @@ class NestedShell {
   bool measure_on(std::size_t level, const State& base, const NestedState& before,
                   const Watch& watch);
   State predicted(const Level& level, double t, const State& base) const;
-  State clear_of_contact(Level& level, const State& before, State wanted) const;
+  State clear_of_contact(Level& level, const State& before, State requested) const;
   bool correct(Level& level, const State& base, State& state, NewtonReport& report,
                const Watch& watch);
   static MeshDifference difference(const Level& level, double t, const State& base,

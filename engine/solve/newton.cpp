@@ -60,7 +60,7 @@ Inertia Linearisation::shifted(double shift) {
 void Linearisation::bear_neutral_directions() {
   // fraction of the least stiff rod's stiffness in one half wave, EI (pi/L)^4 l per node: what a
   // single correction leaves along a direction without stiffness
-  constexpr double share = 5e-5;
+  constexpr double fraction = 5e-5;
   double softest = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < model_.bends.size();) {
     const ModelBend& first = model_.bends[k];
@@ -74,7 +74,7 @@ void Linearisation::bear_neutral_directions() {
     }
     if (soft > 0) softest = std::min(softest, soft * std::pow(M_PI / rod, 4));
   }
-  if (std::isfinite(softest)) neutral_shift_ = share * softest;
+  if (std::isfinite(softest)) neutral_shift_ = fraction * softest;
 }
 
 Eigen::VectorXd Linearisation::held_part(const Eigen::Matrix3Xd& x) const {
@@ -182,25 +182,27 @@ Eigen::VectorXd Linearisation::force_change(const Eigen::Matrix3Xd& dx, double o
     each_arm(model_, pair, place, [&](const ModelEdge& edge, Eigen::Index column) {
       angle += tangents_.col(column).dot(dx.col(edge.to) - dx.col(edge.from));
     });
-    change[place] = pair.law.stiffness * angle;
+    change[place] = angle;
   });
+  const Eigen::Index springs = model_.forces() - Eigen::Index(model_.edges.size());
+  change.tail(springs) = spring_torques(model_, change.tail(springs));
   return change;
 }
 
-bool Linearisation::forces_agree(const State& state, double share) const {
+bool Linearisation::forces_agree(const State& state, double fraction) const {
   double largest = 0;
   for (std::size_t k = 0; k < model_.edges.size(); ++k)
     largest = std::max(largest, std::abs(EA_scale_ * force_of_strain(model_.edges[k], state.x) -
                                          state.force[Eigen::Index(k)]));
   return largest <=
-         share * state.force.head(Eigen::Index(model_.edges.size())).cwiseAbs().maxCoeff();
+         fraction * state.force.head(Eigen::Index(model_.edges.size())).cwiseAbs().maxCoeff();
 }
 
-void Linearisation::apply(const Eigen::Matrix3Xd& dx, State& state, double share) const {
-  if (share < 1) {
+void Linearisation::apply(const Eigen::Matrix3Xd& dx, State& state, double fraction) const {
+  if (fraction < 1) {
     const Eigen::VectorXd force = state.force;
-    apply(share * dx, state);
-    state.force += (1 - share) * (force - assembly_.force);
+    apply(fraction * dx, state);
+    state.force += (1 - fraction) * (force - assembly_.force);
     return;
   }
   state.force = assembly_.force + force_change(dx);
@@ -215,9 +217,10 @@ void Linearisation::restore_lengths(const Eigen::VectorXd& force, State& state) 
     pull.col(edge.from) += excess * tangents_.col(Eigen::Index(k));
     pull.col(edge.to) -= excess * tangents_.col(Eigen::Index(k));
   }
+  const Eigen::VectorXd torques =
+      spring_torques(model_, spring_excess(model_, state, outside.opening));
   each_spring(model_, [&](const auto& pair, Eigen::Index place) {
-    const double angle = pair.law.excess(pair_geometry(model_, state, pair, outside.opening)),
-                 excess = pair.law.stiffness * angle - force[place];
+    const double excess = torques[place - Eigen::Index(model_.edges.size())] - force[place];
     each_arm(model_, pair, place, [&](const ModelEdge& edge, Eigen::Index column) {
       pull.col(edge.from) += excess * tangents_.col(column);
       pull.col(edge.to) -= excess * tangents_.col(column);
@@ -331,7 +334,7 @@ NewtonReport newton(Linearisation& system, State& state, const NewtonOptions& op
     if (report.iterations > 4 && move > 2 * before && move > 100 * options.tolerance_mm)
       return end(Outcome::lost);
     if (move > options.farthest_mm) return end(Outcome::lost);
-    system.apply(dx, state, system.clear_share(state, dx));
+    system.apply(dx, state, system.clear_fraction(state, dx));
     report.last_move_mm = move;
     report.factored_move_mm = factor ? move : report.factored_move_mm + move;
     // rods within one another are in equilibrium where their axes meet: none of the shell's

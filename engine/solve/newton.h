@@ -120,17 +120,17 @@ class Linearisation {
   /// Corrects a state after a long step so that its axial forces and torques become `force` to
   /// first order: a straight step perpendicular to a bent rod stretches it to second order.
   void restore_lengths(const Eigen::VectorXd& force, State& state) const;
-  /// Moves the state by a share of dx and updates its forces as the mixed form does: of an unknown
-  /// of its own a share of the step is that share of its change.
-  void apply(const Eigen::Matrix3Xd& dx, State& state, double share = 1) const;
+  /// Moves the state by a fraction of dx and updates its forces as the mixed form does: of an
+  /// unknown of its own a fraction of the step is that fraction of its change.
+  void apply(const Eigen::Matrix3Xd& dx, State& state, double fraction = 1) const;
   /// How much of dx keeps edges from going through one another (contact.h); 1 without contact.
-  double clear_share(const State& state, const Eigen::Matrix3Xd& dx) const {
-    return gridshell::clear_share(model_, state.x, dx);
+  double clear_fraction(const State& state, const Eigen::Matrix3Xd& dx) const {
+    return gridshell::clear_fraction(model_, state.x, dx);
   }
 
   /// Whether the axial force of every edge is that of its strain, but for so much of the largest:
   /// what Newton's step leaves at second order is a residual of about that.
-  bool forces_agree(const State& state, double share) const;
+  bool forces_agree(const State& state, double fraction) const;
 
   const Model& model() const { return model_; }
   const Assembly& assembly() const { return assembly_; }  ///< of the last assembly

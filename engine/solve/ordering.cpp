@@ -124,7 +124,7 @@ class Dissection {
     for (int k = 0; k + 1 < count; ++k) {
       separators += change[k];
       if (at[k + 1] == at[k]) continue;
-      const double share = double(k + 1) / count, uneven = std::abs(share - 0.5);
+      const double fraction = double(k + 1) / count, uneven = std::abs(fraction - 0.5);
       if (uneven > 0.3) continue;
       const double cost = separators * (1 + 4 * uneven * uneven);
       if (best.axis < 0 || cost < best.cost) best = {axis, at[k], cost};

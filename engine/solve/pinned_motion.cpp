@@ -67,10 +67,10 @@ PinnedMotion pinned_motion(const RodMesh& mesh, const BoundaryMotion& motion) {
   pinned.begin = pinned.change = Eigen::Matrix3Xd::Zero(3, mesh.nodes());
   pinned.begin.middleCols(mesh.joints, mesh.edge_points) = motion.begin;
   pinned.change.middleCols(mesh.joints, mesh.edge_points) = motion.end - motion.begin;
-  for (std::size_t k = 0; k < mesh.held_joints.size(); ++k) {
+  for (std::size_t k = 0; k < mesh.fixed_joints.size(); ++k) {
     const Eigen::Vector3d from = motion.begin_joints.col(Eigen::Index(k));
-    pinned.begin.col(mesh.held_joints[k]) = from;
-    pinned.change.col(mesh.held_joints[k]) = motion.end_joints.col(Eigen::Index(k)) - from;
+    pinned.begin.col(mesh.fixed_joints[k]) = from;
+    pinned.change.col(mesh.fixed_joints[k]) = motion.end_joints.col(Eigen::Index(k)) - from;
   }
   // a ghost lies in the prescribed direction from its edge point
   const auto place = [&](int ghost, Eigen::Index end, double side) {

@@ -18,7 +18,7 @@ using record::RunOutcome;
 
 /// A method on meshes from coarse to fine; finer meshes than one that is too slow are not run.
 struct Ladder {
-  std::vector<Method> rungs;
+  std::vector<Method> rod_models;
   double allowed = INFINITY;  // error promised if one mesh gives no estimate
 };
 
@@ -62,7 +62,7 @@ Row row_of(const Method& method, const Measured& measured) {
 template <class Make>
 Ladder ladder(Make make, int most_edges) {
   Ladder ladder;
-  for (int k = 1; k <= most_edges; k *= 2) ladder.rungs.push_back(make(k));
+  for (int k = 1; k <= most_edges; k *= 2) ladder.rod_models.push_back(make(k));
   return ladder;
 }
 
@@ -108,7 +108,7 @@ Result<std::vector<AccuracyRow>> climb(BenchmarkProblem& study, const std::vecto
   std::vector<std::vector<AccuracyRow>> rows(ladders.size());
   const auto climb_one = [&](int k) {
     const Ladder& ladder = ladders[std::size_t(k)];
-    for (const Method& method : ladder.rungs) {
+    for (const Method& method : ladder.rod_models) {
       if (watch.cancelled()) return;
       const Measured measured = measure(study, method, ladder.allowed, options, watch);
       auto& row = rows[std::size_t(k)].emplace_back(row_of<AccuracyRow>(method, measured));
@@ -136,8 +136,8 @@ double fastest(const std::vector<AccuracyRow>& rows, double error) {
   return best;
 }
 
-std::vector<AutoStanding> standings_of(const std::vector<AccuracyRow>& rows) {
-  std::vector<AutoStanding> standings;
+std::vector<AutoOutcome> standings_of(const std::vector<AccuracyRow>& rows) {
+  std::vector<AutoOutcome> standings;
   for (const AccuracyRow& row : rows)
     if (is_auto(row)) {
       const double tolerance = auto_tolerances[standings.size()];
@@ -231,17 +231,17 @@ Result<std::vector<AccuracyRow>> sizes_study(const preset::Preset& preset,
                                              const AccuracyOptions& options, Watch& watch) {
   constexpr double tolerances[] = {1e-2, 1e-3, 1e-4};
   if (preset.footprint.kind != preset::FootprintKind::circle)
-    return invalid("--sizes are of a circle: [footprint] kind is another");
+    return invalid("--sizes: got another kind of footprint, expected [footprint] kind \"circle\"");
   keep_blas_on_one_thread();
   std::vector<AccuracyRow> rows;
   for (std::size_t k = 0; k < sizes.size(); ++k) {
     preset::Preset sized = preset;
-    const double share = preset.actuated_radius_mm() / preset.original_radius_mm();
+    const double fraction = preset.actuated_radius_mm() / preset.original_radius_mm();
     sized.footprint.radius_mm = preset.original_radius_mm();
     const double d = preset.footprint.spacing_mm, leg = leg_of(sized.footprint);
     set_rods(sized.footprint, sizes[k]);
     const double radius = d * ((sizes[k] - 1) / 2.0 + leg);
-    sized.set_radii(radius, share * radius);
+    sized.set_radii(radius, fraction * radius);
     TRY(made, BenchmarkProblem::create(sized, options.finest, watch));
     for (const double tolerance : tolerances) {
       const Method method = auto_method(tolerance);

@@ -50,7 +50,7 @@ BenchmarkProblem::BenchmarkProblem(std::shared_ptr<const Scene> scene,
                                    const preset::Indentation& pushed)
     : scene_(std::move(scene)),
       pushed_(pushed),
-      task_(pushed.wanted()    ? Task::push
+      task_(pushed.requested() ? Task::push
             : scene_->from_net ? Task::beside_net
                                : Task::actuation) {}
 
@@ -59,7 +59,7 @@ Result<std::unique_ptr<BenchmarkProblem>> BenchmarkProblem::create(const preset:
                                                                    double EA_scale) {
   TRY(scene, scene_of(preset));
   const auto refused = [](std::string why) { return invalid(std::move(why)); };
-  if (scene->rung == RodModel::twist)
+  if (scene->rod_model == RodModel::twist)
     return refused("a study compares methods on rods for which the bend model is exact: " +
                    preset::model_reason(preset));
   if (scene->rods.loaded())
@@ -106,9 +106,9 @@ Result<void> BenchmarkProblem::follow(int finest, Watch& watch) {
   finest_ = reference.mesh(reference.levels() - 1);
   if (task_ == Task::push) {
     start_ = reference.state().x;
-    TRY(asked, simulate::push_of(pushed_, *scene_, reference));
-    joint_ = asked->joint;
-    displacement_ = asked->displacement;
+    TRY(requested, simulate::push_of(pushed_, *scene_, reference));
+    joint_ = requested->joint;
+    displacement_ = requested->displacement;
     push(reference);
     report = go(reference, watch);
     if (report.end != Outcome::reached)
@@ -127,7 +127,7 @@ ShellRods BenchmarkProblem::rods_on(const ModelVariant& on) const {
   constexpr double shear_over_young =
       31.0 / 83;  // of Nitinol; rods without natural twist do not twist
   ShellRods rods = scene_->rods;
-  if (on.rung == RodModel::bend) return rods;
+  if (on.rod_model == RodModel::bend) return rods;
   for (RodMaterial& material : rods.materials) material.GJ = 2 * material.EI1 * shear_over_young;
   rods.joints = {.spring_N_per_mm = on.spring_N_per_mm};
   return rods;
@@ -138,13 +138,14 @@ NestedShell BenchmarkProblem::shell(const LevelPlan& plan, double tolerance,
   PathOptions options;
   options.spacing_mm = scene_->footprint.spacing;
   options.tolerance_mm = std::clamp(1e-3 * tolerance * scale_mm(), 1e-7, 1e-4);
-  return NestedShell::make(scene_->footprint, rods_on(on), on.rung, scene_->motion, plan, options)
+  return NestedShell::make(scene_->footprint, rods_on(on), on.rod_model, scene_->motion, plan,
+                           options)
       .value();
 }
 
 Problem BenchmarkProblem::on_model(const Problem& problem, const ModelVariant& on) const {
   Problem other = problem;
-  other.model = build_model(problem.mesh, rods_on(on), on.rung).value();
+  other.model = build_model(problem.mesh, rods_on(on), on.rod_model).value();
   if (task_ == Task::push) other.model.pin(joint_);
   finish(other.model);
   const auto lifted = [&](const State& state) {
@@ -191,17 +192,18 @@ NestedReport BenchmarkProblem::go(NestedShell& shell, const Watch& watch, int st
   return report;
 }
 
-Result<State> BenchmarkProblem::rest_beside(const Problem& problem, const Eigen::Matrix3Xd& wanted,
-                                            double t, const Watch& watch) const {
+Result<State> BenchmarkProblem::rest_beside(const Problem& problem,
+                                            const Eigen::Matrix3Xd& requested, double t,
+                                            const Watch& watch) const {
   Eigen::Matrix3Xd x;
-  MeshTransfer(finest_, problem.mesh).nodes(wanted, x);
+  MeshTransfer(finest_, problem.mesh).nodes(requested, x);
   Linearisation system(problem.model);
   State state = start_state(problem.model, x);
   problem.motion.impose(system, t, state);
   const double near = 0.5 * scene_->footprint.spacing;
   const auto found = gridshell::find_equilibrium(system, state, near, watch);
   if (watch.cancelled()) return stopped();
-  if (found && max_column_norm(found->x.leftCols(joints()) - wanted.leftCols(joints())) < near)
+  if (found && max_column_norm(found->x.leftCols(joints()) - requested.leftCols(joints())) < near)
     return found;
   return fail(Fault::no_equilibrium,
               "{} edges per segment have no stable state near the reference's", problem.edges);

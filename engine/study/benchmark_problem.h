@@ -20,7 +20,7 @@ enum class Task { actuation, beside_net, push };
 
 /// Rod model and joints of a method.
 struct ModelVariant {
-  RodModel rung = RodModel::bend;
+  RodModel rod_model = RodModel::bend;
   double spring_N_per_mm = 0;  ///< of spring joints; 0: shared nodes
 };
 
@@ -52,8 +52,8 @@ class BenchmarkProblem {
   static Result<std::unique_ptr<BenchmarkProblem>> create(const preset::Preset& preset, int finest,
                                                           Watch& watch, double EA_scale = 1);
 
-  /// Made once a mesh, from any thread. Errors: no_equilibrium where the mesh has no state near the
-  /// reference's.
+  /// Made once per mesh, from any thread. Errors: no_equilibrium where the mesh has no state near
+  /// the reference's.
   Result<const Problem*> problem(int edges, const Watch& watch);
 
   /// Largest distance of a joint from the reference's end over the length scale; `x` has the joints
@@ -78,7 +78,7 @@ class BenchmarkProblem {
  private:
   BenchmarkProblem(std::shared_ptr<const Scene> scene, const preset::Indentation& pushed);
   Result<void> follow(int finest, Watch& watch);
-  Result<State> rest_beside(const Problem& problem, const Eigen::Matrix3Xd& wanted, double t,
+  Result<State> rest_beside(const Problem& problem, const Eigen::Matrix3Xd& requested, double t,
                             const Watch& watch) const;
   ShellRods rods_on(const ModelVariant& on) const;
   void push(NestedShell& shell) const;

@@ -268,14 +268,14 @@ Result<BranchDiagram> branches_study(const preset::Preset& preset, const Branche
                                      Watch& watch) {
   TRY(made, shared_scene_of(preset));
   const std::shared_ptr<const Scene>& scene = *made;
-  if (scene->rung == RodModel::net)
+  if (scene->rod_model == RodModel::net)
     return invalid(
         "a bifurcation diagram needs a model that is solved, not the net itself "
         "([accuracy] model)");
   const LevelPlan plan = simulate::initial_levels(*scene);
   TRY_DO(fits_memory(*scene, plan));
   Result<BranchStart> course = stopped();
-  if (preset.indentation.wanted())
+  if (preset.indentation.requested())
     course = simulate::hold_to_push(scene, preset.indentation, plan, watch)
                  .map([](simulate::HeldShell held) {
                    return BranchStart{std::move(held.simulation), 0, 1, true};

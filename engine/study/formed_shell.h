@@ -30,7 +30,7 @@ Result<FormedShell> form_shell(const preset::Preset& preset, Watch& watch);
 /// Frequencies and shapes, and the state that they are of.
 struct Vibrations {
   std::vector<record::ModeRow> modes;
-  /// one a mode: how every node of the layout moves, the one that moves furthest by 1
+  /// one per mode: how every node of the layout moves, the one that moves furthest by 1
   std::vector<Eigen::Matrix3Xd> shapes;
   record::Trajectory state;  ///< one frame
   record::Summary summary;
@@ -85,7 +85,7 @@ CriticalLoad critical_load(Linearisation& system, const PinnedMotion& motion, co
 struct LoadStudy {
   std::vector<record::LoadPoint> points;  ///< of the finest mesh, case by case
   std::vector<record::LoadRow> cases;
-  /// one a case: how the nodes of the layout move where stability is lost, the one that moves
+  /// one per case: how the nodes of the layout move where stability is lost, the one that moves
   /// furthest by 1; empty: it is not
   std::vector<Eigen::Matrix3Xd> modes;
   /// per case: the load at a factor of one, on the layout's supports, N

@@ -50,7 +50,7 @@ class Loading {
 
   /// The first factor at which a fibre reaches its rod's strength; NaN: none on the path.
   double strength_factor(int level, const CriticalLoad& found, const std::vector<double>& used) {
-    const auto beyond = std::ranges::find_if(used, [](double share) { return share >= 1; });
+    const auto beyond = std::ranges::find_if(used, [](double fraction) { return fraction >= 1; });
     if (beyond == used.end()) return record::unknown;
     const auto k = std::size_t(beyond - used.begin());
     if (k == 0) return found.points[0].at.t;
@@ -67,9 +67,9 @@ class Loading {
       NewtonOptions options;
       options.tolerance_mm = 1e-8 * scene_.length_scale_mm;
       if (newton(shell_.system(level), state, options, watch_).outcome != Outcome::reached) break;
-      const double share = utilisation(level, t, state) - 1;
-      (share < 0 ? low : high) = t;
-      (share < 0 ? below : above) = share;
+      const double fraction = utilisation(level, t, state) - 1;
+      (fraction < 0 ? low : high) = t;
+      (fraction < 0 ? below : above) = fraction;
     }
     return crossing();
   }
@@ -80,10 +80,10 @@ class Loading {
     const Model& model = shell_.model(level);
     Eigen::Matrix3Xd shape = Eigen::Matrix3Xd::Zero(3, model.columns()), force = shape;
     for (std::size_t k = 0; k < soft.shapes.size(); ++k) {
-      const double share = symmetric_uniform(random);
+      const double fraction = symmetric_uniform(random);
       const double lambda = soft.values[Eigen::Index(k)];
-      shape += share * soft.shapes[k];
-      force += share * lambda * soft.shapes[k];
+      shape += fraction * soft.shapes[k];
+      force += fraction * lambda * soft.shapes[k];
     }
     force *= size_mm / max_column_norm(shape.leftCols(model.nodes));
     std::vector<NodeAction> acting = steady_;
@@ -144,10 +144,10 @@ void put_points(const std::string& name, const CriticalLoad& found, const std::v
   }
 }
 
-double quantile(std::vector<double> values, double share) {
+double quantile(std::vector<double> values, double fraction) {
   if (values.empty()) return record::unknown;
   std::ranges::sort(values);
-  const double at = share * double(values.size() - 1);
+  const double at = fraction * double(values.size() - 1);
   const auto low = std::size_t(at), high = std::min(low + 1, values.size() - 1);
   return values[low] + (at - double(low)) * (values[high] - values[low]);
 }
@@ -235,7 +235,7 @@ Result<void> put_case(Simulation& simulation, const LoadCase& load, int imperfec
 
 Result<void> check_cases(std::size_t cases) {
   if (cases > 0) return {};
-  return invalid("there is nothing to carry: [[loads.case]] must name a case");
+  return invalid("got no load, expected a [[loads.case]]");
 }
 
 }  // namespace

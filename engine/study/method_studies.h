@@ -26,7 +26,7 @@ struct AccuracyOptions {
 };
 
 /// Position of `auto` relative to the front of all methods.
-struct AutoStanding {
+struct AutoOutcome {
   double tolerance = 0, error = 0, cpu_s = 0;
   double front_s = 0;  ///< the fastest of all methods that is at least as accurate as it was
   double asked_s = 0;  ///< the fastest of all methods that meets the tolerance
@@ -35,7 +35,7 @@ struct AutoStanding {
 struct AccuracyStudy {
   std::vector<record::AccuracyRow> rows;
   std::vector<record::ScalingRow> scaling;
-  std::vector<AutoStanding> standings;
+  std::vector<AutoOutcome> standings;
   double reference_error = 0;  ///< estimated, over the length scale
 };
 

@@ -107,16 +107,16 @@ class LastAlone final : public record::Sink {
 Result<void> check_masses(const Scene& scene) {
   if (std::ranges::none_of(scene.mass_t_per_mm, [](double mass) { return !(mass > 0); })) return {};
   return invalid(
-      "frequencies need a mass: [rod] density_kg_m3 must be above 0 (6450 for Nitinol, "
+      "frequencies need a mass, expected [rod] density_kg_m3 above 0 (6450 for Nitinol, "
       "7850 for steel), that of [rod_v] too where these differ");
 }
 
 Result<FormedShell> form(const preset::Preset& preset, const std::shared_ptr<const Scene>& scene,
                          Watch& watch) {
-  if (scene->rung == RodModel::net)
+  if (scene->rod_model == RodModel::net)
     return invalid(
         "a net that nothing is solved for neither vibrates nor carries: [accuracy] model "
-        "must be another, or tolerance below 0.05");
+        "expected another model, or tolerance below 0.05");
   // sampling does not change the path
   preset::Preset once = preset;
   once.movie.frames = 1;

@@ -16,7 +16,7 @@ namespace gridshell::study {
 namespace {
 
 constexpr double cells_a_diameter = 3, most_cells = 1e6;  // a side
-constexpr double speck_share = 0.25;
+constexpr double speck_fraction = 0.25;
 constexpr int disc_steps = 30;
 constexpr double pull = 1e-3;  // of the mean, where the disc's rim sees no point
 constexpr double wide_rim = 1.25, most_beyond = 0.05;  // radii; fraction of the points outside them
@@ -225,7 +225,7 @@ Result<Clusters> cluster_joint_tops(const Eigen::Matrix3Xd& cloud, double diamet
   std::vector<Eigen::Vector3d> tops;
   std::vector<double> noise;
   for (const auto& set : sets) {
-    if (double(set.size()) < speck_share * usual) {
+    if (double(set.size()) < speck_fraction * usual) {
       ++found.specks;
       continue;
     }

@@ -20,8 +20,8 @@ namespace {
 // energies of one state differ by round-off, and by what joints within the tolerance are worth
 constexpr double same_energy = 1e-3;
 
-// shares of the work, for the progress
-constexpr double shaken = 0.55, measured = 0.8, followed = 0.9;
+// fractions of the work, for the progress
+constexpr double perturbed = 0.55, measured = 0.8, followed = 0.9;
 
 /// What a trial ended in.
 struct Trial {
@@ -52,7 +52,7 @@ Result<std::vector<Trial>> shake(const std::shared_ptr<const Scene>& scene,
   return parallel_for(
              int(trials.size()), threads, watch,
              [&] { return StateSearcher::make(scene, jitter, *forms); }, try_one,
-             reporting(watch, 0, shaken))
+             reporting(watch, 0, perturbed))
       .map([&] { return std::move(trials); });
 }
 
@@ -134,7 +134,7 @@ Result<void> measure(const std::shared_ptr<const Scene>& scene,
       [&](StateMeasures& measures, int k) {
         all[std::size_t(k)] = measures.of(met[std::size_t(k)], options.lives, watch);
       },
-      reporting(watch, shaken, measured)));
+      reporting(watch, perturbed, measured)));
   keep(*scene, jitter, first->symmetries(), all, library);
   const NestedShell& shell = first->session().shell();
   TRY(layout, layout_of(*scene, shell.finest()));
@@ -171,7 +171,7 @@ std::size_t StateCatalogue::enter(const Eigen::Matrix3Xd& joints, double energy_
 Result<StateLibrary> find_states(const std::shared_ptr<const Scene>& scene,
                                  const preset::SearchSettings& jitter, const SearchOptions& options,
                                  Watch& watch) {
-  if (scene->rung == RodModel::net)
+  if (scene->rod_model == RodModel::net)
     return invalid("the net model has no states: nothing is solved on it");
   TRY_DO(fits_memory(*scene, measuring_plan(*scene)));
   StateLibrary library;

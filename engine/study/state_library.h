@@ -32,7 +32,7 @@ struct ShellState {
   Effort effort = {};    ///< of its measures
 };
 
-/// Measures states, one after another; one a thread.
+/// Measures states, one after another; one per thread.
 class StateMeasures {
  public:
   /// `tolerance_mm`: joints displaced by less under a symmetry count as fixed. Errors (bad_input):

@@ -108,12 +108,12 @@ void StateMeasures::put_life(const State& rest, record::StateRow& row, const Wat
   if (path_.begin_at(1, rest, watch).end != Outcome::reached) return;
   const auto nearly_flat = parameter_of_shortening(shell.mesh(0), shell.motion(0), flat_shortening);
   const double to = nearly_flat && !scene_->drawn_in_space ? std::min(*nearly_flat, 1.0) : 0;
-  double good = path_.go(to, watch, {.wanted = false}).t;
+  double good = path_.go(to, watch, {.requested = false}).t;
   // it ended within the load step after that
   double bad = std::max(to, good - largest_step);
   while (good > to && good - bad > located && !watch.cancelled()) {
     const double middle = 0.5 * (good + bad);
-    const bool there = path_.go(middle, watch, {.wanted = false}).t == middle;
+    const bool there = path_.go(middle, watch, {.requested = false}).t == middle;
     (there ? good : bad) = middle;
   }
   row.lives_to = good * good;

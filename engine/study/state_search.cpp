@@ -28,7 +28,7 @@ std::mt19937 generator(int seed, Purpose purpose, int k) {
   return std::mt19937(seeds);
 }
 
-double share(std::mt19937& random) { return 0.5 * (1 + symmetric_uniform(random)); }
+double random_fraction(std::mt19937& random) { return 0.5 * (1 + symmetric_uniform(random)); }
 
 /// A random direction, each equally likely.
 Eigen::Vector3d direction(std::mt19937& random) {
@@ -122,7 +122,8 @@ Eigen::Matrix3Xd StateSearcher::random_nodes(double t, std::mt19937& random) con
 
 Result<State> StateSearcher::pull_start(const StartForm& form, std::mt19937& random,
                                         const Watch& watch) {
-  const Eigen::Vector3d field = jitter_.field_N_per_mm * share(random) * direction(random);
+  const Eigen::Vector3d field =
+      jitter_.field_N_per_mm * random_fraction(random) * direction(random);
   std::vector<NodeAction> forces;
   for (int joint = 0; joint < joint_length_.size(); ++joint)
     forces.push_back({joint, joint_length_[joint] * field});
@@ -142,7 +143,7 @@ Result<State> StateSearcher::push_start(const StartForm& form, std::mt19937& ran
   const unsigned pushes = 1 + random() % most_pushes;
   for (unsigned k = 0; k < pushes; ++k) {
     const int joint = pushable_[random() % std::uint32_t(pushable_.size())];
-    const double depth = jitter_.depth * scene_->footprint.spacing * share(random);
+    const double depth = jitter_.depth * scene_->footprint.spacing * random_fraction(random);
     // how far it came is far enough: a hand stops where the rods are at their length
     (void)session_.push(joint, depth * direction(random), Across::free, watch);
     if (watch.cancelled()) return stopped();

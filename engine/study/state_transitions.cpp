@@ -21,7 +21,7 @@ constexpr int pushes = 8, paths = pushes + 1;  // of a state; on the first its b
 constexpr double beyond = 0.98;                // of the progress at which a state ends
 
 /// The shell on the mesh that states are judged on, and a library's states by what they look like
-/// there; one a thread.
+/// there; one per thread.
 struct Explorer {
   StateSearcher hand;
   StateCatalogue catalogue;

@@ -108,11 +108,11 @@ Result<PointResult> result_of(const preset::SweepGrid& grid, std::size_t point, 
 
 }  // namespace
 
-Result<record::Figures> figures_of(const preset::Preset& asked, Watch& watch) {
-  preset::Preset preset = asked;
+Result<record::Figures> figures_of(const preset::Preset& requested, Watch& watch) {
+  preset::Preset preset = requested;
   TRY(made, shared_scene_of(preset));
   const std::shared_ptr<const Scene>& scene = *made;
-  if (preset.jitter.wanted()) return figures_of_search(preset, scene, watch);
+  if (preset.jitter.requested()) return figures_of_search(preset, scene, watch);
   // the last state is what counts: the end, or where a path ends early the last sample before that
   preset.figure.radii_mm.clear();
   preset.movie.frames = samples;

@@ -13,6 +13,7 @@
 #include "engine/core/file_io.h"
 #include "engine/core/text.h"
 #include "render/canvas/colour_map.h"
+#include "render/canvas/short_svg.h"
 #include "render/canvas/text.h"
 
 namespace gridshell::render {
@@ -61,11 +62,15 @@ bool Canvas::on_dark() const { return is_dark(paper_); }
 
 void Canvas::paint_path(Colour fill, const Stroke& stroke) {
   if (fill.a > 0) {
-    set_colour(fill);
+    // what is hollow, or hides what lies below, shows the paper
+    const bool blank = fill.r == 1 && fill.g == 1 && fill.b == 1;
+    set_colour(!on_dark() ? fill
+               : blank    ? Colour{paper_.r, paper_.g, paper_.b, fill.a}
+                          : line_on_dark(fill));
     cairo_fill_preserve(cairo_);
   }
   if (stroke.width > 0 && stroke.colour.a > 0) {
-    set_colour(on_dark() ? line_on_dark(stroke.colour) : stroke.colour);
+    set_colour(on_dark() && stroke.colour != paper_ ? line_on_dark(stroke.colour) : stroke.colour);
     cairo_set_line_width(cairo_, stroke.width);
     cairo_set_dash(cairo_, stroke.dash.data(), int(stroke.dash.size()), 0);
     cairo_stroke_preserve(cairo_);
@@ -273,13 +278,14 @@ Image draw_picture(double width, double height, double pixels_per_unit, Colour b
   return image;
 }
 
-std::string draw_svg(double width, double height, const std::string& title, const DrawOn& draw) {
+std::string draw_svg(double width, double height, const std::string& title, const DrawOn& draw,
+                     bool paper) {
   std::string svg, description, elements;
   {
     Surface surface(cairo_svg_surface_create_for_stream(append, &svg, width, height));
     Cairo cairo(cairo_create(surface.get()));
     Canvas canvas(cairo.get(), width, height);
-    canvas.rectangle({0, 0, width, height}, {1, 1, 1, 1});
+    if (paper) canvas.rectangle({0, 0, width, height}, {1, 1, 1, 1});
     canvas.keep_text();
     draw(canvas);
     elements = canvas.text_elements();
@@ -293,7 +299,7 @@ std::string draw_svg(double width, double height, const std::string& title, cons
                             escape_xml(description) + "</desc>");
   if (const std::size_t close = svg.rfind("</svg>"); close != std::string::npos)
     svg.insert(close, elements);
-  return svg;
+  return short_svg(svg);
 }
 
 std::string draw_pdf(double width, double height, const std::string& title,
@@ -320,13 +326,24 @@ Result<void> write_figure(const std::filesystem::path& stem, double width_pt, do
   // text is plain in a title
   const std::string name = without_marks(title);
   const double scale = print.width_pt(width_pt) / width_pt;
-  const DrawOn enlarged = [&](Canvas& canvas) { canvas.enlarged(scale, [&] { draw(canvas); }); };
   const double width = scale * width_pt, height = scale * height_pt;
-  const Image image = draw_picture(width, height, print.dpi / 72, {1, 1, 1, 1}, enlarged);
+  const DrawOn enlarged = [&](Canvas& canvas) {
+    canvas.set_paper(print.background);
+    canvas.enlarged(scale, [&] { draw(canvas); });
+  };
+  // a page's own white is left to what it is printed on
+  const DrawOn on_paper = [&](Canvas& canvas) {
+    if (print.background != white) canvas.rectangle({0, 0, width, height}, print.background);
+    enlarged(canvas);
+  };
+  const Image image = draw_picture(width, height, print.dpi / 72, print.background, enlarged);
   return write_png(image, file(".png"), print.dpi)
-      .and_then([&] { return write_file(file(".svg"), draw_svg(width, height, name, enlarged)); })
+      .and_then([&] {
+        return write_file(file(".svg"),
+                          draw_svg(width, height, name, on_paper, print.background.a > 0));
+      })
       .and_then(
-          [&] { return write_file(file(".pdf"), draw_pdf(width, height, name, {enlarged})); });
+          [&] { return write_file(file(".pdf"), draw_pdf(width, height, name, {on_paper})); });
 }
 
 }  // namespace gridshell::render

@@ -18,7 +18,7 @@ namespace gridshell::render {
 
 inline constexpr double points_per_mm = 72 / 25.4;
 
-/// Of text and axes, and of what stands on dark.
+/// Colours of text and axes, and of what is on dark.
 inline constexpr Colour ink{0.1f, 0.1f, 0.12f, 1}, white{1, 1, 1, 1};
 
 struct Point {
@@ -38,13 +38,14 @@ struct Box {
   Box inset(double margin) const;
 };
 
-/// Places points of a plane (or of space, seen from above) on a canvas, y up.
+/// Maps points of a plane (or of space, seen from above) to a canvas, y up.
 struct PlanView {
   Point at;                ///< where `middle` goes
   Eigen::Vector2d middle;  ///< mm
   double scale = 1;        ///< units of the canvas a millimetre
 
-  /// What holds all of `points` (at least 2 rows; one a column), as large as fits into the box.
+  /// What contains all of `points` (at least 2 rows; one per column), as large as fits into the
+  /// box.
   PlanView(const Box& box, const Eigen::MatrixXd& points);
   PlanView(Point at_, const Eigen::Vector2d& middle_, double scale_)
       : at(at_), middle(middle_), scale(scale_) {}
@@ -158,7 +159,7 @@ class Canvas {
   cairo_t* cairo_;
   double width_, height_;
   bool keeps_text_ = false;
-  double scale_ = 1;  ///< of what enlarged() has in hand
+  double scale_ = 1;  ///< of what enlarged() draws
   std::string text_elements_;
   std::vector<std::string> texts_;
   std::vector<Box> text_boxes_, markers_;
@@ -175,9 +176,10 @@ void draw_over(Image& image, const DrawOn& draw);
 Image draw_picture(double width, double height, double pixels_per_unit, Colour background,
                    const DrawOn& draw);
 
-/// An SVG of width x height points whose text stays text, in its font or what stands in for it;
-/// `title` and all texts stand in its <title> and <desc> for search and screen readers.
-std::string draw_svg(double width, double height, const std::string& title, const DrawOn& draw);
+/// An SVG of width x height points whose text stays text, in its font or a replacement of it;
+/// `title` and all texts are in its <title> and <desc> for search and screen readers.
+std::string draw_svg(double width, double height, const std::string& title, const DrawOn& draw,
+                     bool paper = true);
 
 /// A PDF of pages of width x height points with its fonts in it; the same drawings give the same
 /// bytes.
@@ -188,13 +190,14 @@ std::string draw_pdf(double width, double height, const std::string& title,
 struct Print {
   double width_mm = 0;  ///< 0: the figure's own
   double dpi = 300;
+  Colour background = white;  ///< alpha 0: none
 
   /// Width in points; `usual` where it is the figure's own.
   double width_pt(double usual) const { return width_mm > 0 ? width_mm * 72 / 25.4 : usual; }
   bool operator==(const Print&) const = default;
 };
 
-/// The same drawing as `<stem>.png` with its dpi, `<stem>.svg` and `<stem>.pdf`, each whole or
+/// Writes one drawing as `<stem>.png` with its dpi, `<stem>.svg` and `<stem>.pdf`, each whole or
 /// absent, enlarged to the width of print. Errors: Fault::io naming the path.
 Result<void> write_figure(const std::filesystem::path& stem, double width_pt, double height_pt,
                           const std::string& title, const DrawOn& draw, const Print& print = {});

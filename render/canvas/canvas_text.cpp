@@ -84,7 +84,7 @@ Layout make_layout(cairo_t* cairo, const std::string& marked, const TextStyle& s
   // at 72 dpi a point of the font is a unit of the canvas
   pango_cairo_context_set_resolution(context, 72);
   cairo_font_options_t* options = cairo_font_options_create();
-  // no hinting: letters stand where they are measured, at any scale
+  // no hinting: letters are where they are measured, at any scale
   cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
   cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
   cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
@@ -130,7 +130,7 @@ std::string hex(Colour c) {
   return fmt::format("#{:02x}{:02x}{:02x}", byte(c.r), byte(c.g), byte(c.b));
 }
 
-// every piece of one look in its place, `at` being the layout's upper left corner
+// every piece of one look at its position, `at` being the layout's upper left corner
 std::string text_element(PangoLayout* layout, const std::vector<TextRun>& runs, Point anchor,
                          Point at, const TextStyle& style, double scale) {
   std::string spans;
@@ -269,7 +269,7 @@ std::string Canvas::shortened(const std::string& text, double width, const TextS
   if (measure(plain(text), style).width <= width) return text;
   std::string kept = text;
   while (!kept.empty()) {
-    // take a whole UTF-8 letter off the end, and the blanks before it
+    // take a complete UTF-8 letter off the end, and the blanks before it
     while (!kept.empty() && (static_cast<unsigned char>(kept.back()) & 0xC0) == 0x80)
       kept.pop_back();
     if (!kept.empty()) kept.pop_back();

@@ -97,6 +97,15 @@ Colour diverging(double t, double start) {
                        from_polar(end_L, end_chroma, t < 0 ? blue : red), std::abs(t)));
 }
 
+Colour diverging_in_print(double t, double start) {
+  constexpr double middle_L = 0.975, blue = 258 * 3.14159265358979 / 180,
+                   red = 40 * 3.14159265358979 / 180;
+  t = std::clamp(t, -1.0, 1.0);
+  const double end_L = t < 0 ? 0.3 : 0.7, chroma = t < 0 ? 0.13 : 0.15;
+  return to_colour(mix({middle_L + start * (end_L - middle_L), 0, 0},
+                       from_polar(end_L, chroma, t < 0 ? blue : red), std::abs(t)));
+}
+
 Colour sequential(double t, double start) {
   static const std::vector<Oklab> table = even_steps({{0.935, -0.002, 0.045},
                                                       {0.79, 0.066, 0.105},
@@ -114,7 +123,7 @@ Colour grey(double t, double start) { return to_colour({0.95 - 0.75 * begun(t, s
 Colour ColourScale::operator()(double value) const {
   if (!std::isfinite(value)) return {0.6f, 0.6f, 0.6f, 1};
   // about zero, whichever part of the map the scale shows
-  if (map == diverging) {
+  if (map == diverging || map == diverging_in_print) {
     const double end = std::max(std::abs(low), std::abs(high));
     return map(end > 0 ? std::clamp(value, low, high) / end : 0, start);
   }
@@ -153,7 +162,10 @@ Colour text_on_dark(Colour colour) {
 
 Colour line_on_dark(Colour colour) {
   constexpr Colour grey{0.52f, 0.54f, 0.58f, 1};
-  return contrast_to_white(colour) < 7 ? colour : Colour{grey.r, grey.g, grey.b, colour.a};
+  // a colour is for something
+  const auto [least, most] = std::ranges::minmax({colour.r, colour.g, colour.b});
+  const bool kept = contrast_to_white(colour) < 7 || most - least > 0.12f;
+  return kept ? colour : Colour{grey.r, grey.g, grey.b, colour.a};
 }
 
 }  // namespace gridshell::render

@@ -12,7 +12,7 @@ namespace {
 
 double bar_thickness(double font_size) { return 0.9 * font_size; }
 double tick_length(double font_size) { return 0.3 * font_size; }
-// of the column of words beside the ticks
+// of the column of words next to the ticks
 double words_column(const ColourBar& bar, double font_size) {
   return bar.words.empty() ? 0 : 1.35 * font_size;
 }
@@ -65,9 +65,9 @@ void draw_words(Canvas& canvas, const Box& box, const ColourBar& bar, double fon
   constexpr double smallest = 0.955;  // of a page's 7 points that is 6
   TextStyle style{.size = 0.9 * font_size, .align_x = AlignX::centre, .align_y = AlignY::middle};
   style.angle_deg = 90;
-  const double share = 1.1 * box.height / std::max(1.0, canvas.measure(bar.words, style).width);
-  if (share < smallest) return;
-  style.size *= std::min(1.0, share);
+  const double fraction = 1.1 * box.height / std::max(1.0, canvas.measure(bar.words, style).width);
+  if (fraction < smallest) return;
+  style.size *= std::min(1.0, fraction);
   canvas.text(bar.words, {box.right() - 0.55 * font_size, box.middle().y}, style);
 }
 

@@ -10,14 +10,14 @@
 
 namespace gridshell::render {
 
-/// A colour bar: the quantity's sign and unit above, ticks and its name beside it.
+/// A colour bar: the quantity's sign and unit above, ticks and its name at its side.
 struct ColourBar {
   std::string label;  ///< marked text with the unit: "*K*_{□} (rad)"
   ColourScale scale;
   bool beyond_low = false,
-       beyond_high = false;  ///< values beyond the scale occur: pointed ends say so
-  std::string words = {};    ///< what the sign stands for, upright along the bar; empty: it says it
-  bool ends = false;         ///< the scale's ends have ticks too, round or not
+       beyond_high = false;  ///< values outside the scale occur: pointed ends say so
+  std::string words = {};  ///< what the sign means, upright along the bar; empty: the sign says it
+  bool ends = false;       ///< the scale's ends have ticks too, round or not
 };
 
 /// The width that a vertical bar with its labels takes at this font size.
@@ -32,7 +32,7 @@ void draw_colour_bar(Canvas& canvas, const Box& box, const ColourBar& bar, doubl
 bool draw_scale_bar(Canvas& canvas, const Box& box, double length_mm, double units_per_mm,
                     double font_size);
 
-/// An arrow and what its length stands for, drawn as a scale bar is.
+/// An arrow and what its length means, drawn as a scale bar is.
 struct ArrowKey {
   double length_mm = 0;
   std::string name;  ///< "500 N"
@@ -44,7 +44,7 @@ bool draw_arrow_key(Canvas& canvas, const Box& box, const ArrowKey& key, double 
 /// An arrow in the plane: a shaft and a solid head.
 void draw_arrow(Canvas& canvas, Point from, Point to, const Stroke& shaft);
 
-/// A colour and what it stands for.
+/// A colour and what it means.
 struct ColourKey {
   Colour colour;
   std::string name;  ///< marked text
@@ -54,7 +54,7 @@ struct ColourKey {
 void draw_colour_keys(Canvas& canvas, const Box& box, const std::vector<ColourKey>& keys,
                       double font_size);
 
-/// Patches, four to a row, each with its name beside it.
+/// Patches, four to a row, each with its name next to it.
 struct Patches {
   std::vector<std::string> names = {};  ///< marked text
   std::function<void(std::size_t k, const Box&)> draw = {};

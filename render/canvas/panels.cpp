@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "engine/core/try.h"
+#include "render/canvas/text.h"
 
 namespace gridshell::render {
 namespace {
@@ -30,6 +31,19 @@ struct Grid {
   double bottom() const { return origin.y + total_height() - margin; }
 };
 
+double bar_room(const PanelFigure& figure, const Grid& grid) {
+  return std::max(8 * grid.em, figure.scale_bar_mm * figure.pixels_per_mm);
+}
+
+/// Whether the row of the keys has room for the scale bar too.
+bool keys_beside_bar(const PanelFigure& figure, const Grid& grid) {
+  if (figure.keys.empty() || figure.arrow) return false;
+  double width = bar_room(figure, grid);
+  for (const ColourKey& key : figure.keys)
+    width += grid.em * (3.7 + 0.6 * double(without_marks(key.name).size()));
+  return width < grid.columns * (grid.width + grid.gap);
+}
+
 Grid make_grid(const PanelFigure& figure) {
   const int count = int(figure.panels.size());
   Grid grid{};
@@ -48,8 +62,10 @@ Grid make_grid(const PanelFigure& figure) {
       lines = std::max(lines, 1 + std::ranges::count(panel.caption, '\n'));
   grid.caption = lines > 0 ? std::round((0.5 + 1.2 * double(lines)) * grid.em) : 0;
   grid.head = figure.title.empty() ? 0 : std::round(1.7 * grid.em);
-  grid.keys = figure.keys.empty() ? 0 : std::round(1.7 * grid.em);
+  // a scale bar is in the row of the keys, if there is one
   grid.foot = figure.scale_bar_mm > 0 || figure.arrow ? std::round(1.9 * grid.em) : 0;
+  grid.keys = figure.keys.empty() ? 0 : std::round(1.7 * grid.em);
+  if (keys_beside_bar(figure, grid)) grid.foot = 0;
   if (figure.colour_bar)
     grid.bar = grid.gap + std::ceil(colour_bar_width(*figure.colour_bar, grid.em));
   return grid;
@@ -61,26 +77,40 @@ void draw(Canvas& canvas, const PanelFigure& figure, const Grid& grid, bool line
   canvas.text(plain(figure.title), {grid.left(), grid.top() + grid.head / 2},
               canvas.fitted(plain(figure.title), room,
                             {.size = em, .bold = true, .align_y = AlignY::middle}));
+  // captions are set smaller where one is wider than its panel, all in one size
+  TextStyle caption{.size = em, .align_x = AlignX::centre, .align_y = AlignY::middle};
+  for (const Panel& panel : figure.panels)
+    caption = canvas.fitted(panel.caption, grid.width + 0.5 * grid.gap, caption);
   for (std::size_t k = 0; k < figure.panels.size(); ++k) {
     const Panel& panel = figure.panels[k];
     const Box box = grid.panel(int(k));
-    if (lines && panel.lines)
+    if ((lines || figure.as_lines) && panel.lines)
       panel.lines(canvas, box);
     else
       canvas.picture(panel.picture, box);
+    for (const PanelLabel& label : panel.labels)
+      canvas.text(label.text, {box.x + label.at.x * box.width, box.y + label.at.y * box.height},
+                  {.size = em,
+                   .bold = label.bold,
+                   .align_x = AlignX::centre,
+                   .align_y = AlignY::middle,
+                   .halo = {1, 1, 1, 0.8f}});
     if (!panel.letter.empty())
       canvas.text(
           panel.letter, {box.x + 0.4 * em, box.y + 0.2 * em},
           {.size = 1.2 * em, .bold = true, .align_y = AlignY::top, .halo = {1, 1, 1, 0.8f}});
-    // a caption wider than its panel is set smaller
-    const TextStyle caption{.size = em, .align_x = AlignX::centre, .align_y = AlignY::middle};
-    canvas.text(panel.caption, {box.middle().x, box.bottom() + grid.caption / 2},
-                canvas.fitted(panel.caption, box.width, caption));
+    canvas.text(panel.caption, {box.middle().x, box.bottom() + grid.caption / 2}, caption);
   }
   const Box last = grid.panel(grid.columns - 1);
   const double left = grid.left(), bottom = grid.bottom();
-  draw_colour_keys(canvas, {left, bottom - grid.foot - grid.keys, last.right() - left, grid.keys},
-                   figure.keys, em);
+  Box keys{left, bottom - grid.foot - grid.keys, last.right() - left, grid.keys};
+  if (figure.scale_bar_mm > 0 && keys_beside_bar(figure, grid)) {
+    const double bar = bar_room(figure, grid);
+    keys.width -= bar;
+    draw_scale_bar(canvas, {keys.right(), keys.y - 0.3 * em, bar, keys.height}, figure.scale_bar_mm,
+                   figure.pixels_per_mm, em);
+  }
+  draw_colour_keys(canvas, keys, figure.keys, em);
   if (grid.foot > 0) {
     Box row{left, bottom - grid.foot, last.right() - left, grid.foot};
     if (figure.arrow && figure.scale_bar_mm > 0) row.width /= 2;
@@ -89,7 +119,7 @@ void draw(Canvas& canvas, const PanelFigure& figure, const Grid& grid, bool line
     draw_scale_bar(canvas, row, figure.scale_bar_mm, figure.pixels_per_mm, em);
   }
   if (figure.colour_bar) {
-    // beside flat panels it goes on beside their captions, so long that its words fit
+    // at flat panels it extends along their captions, so long that its words fit
     const double least = std::min(grid.total_height() - 2 * grid.margin - grid.head, 13 * em);
     const double height = std::clamp(16 * em, least, std::max(least, grid.rows * grid.height));
     draw_colour_bar(canvas,
@@ -105,7 +135,7 @@ Result<void> check(const PanelFigure& figure) {
     return invalid("the picture is too small for its panels: it takes more of [movie] size");
   for (const Panel& panel : figure.panels)
     if (panel.picture.width != first.width || panel.picture.height != first.height)
-      return invalid("panels of a figure must be of one size: {} x {} and {} x {}", first.width,
+      return invalid("panels of a figure: expected one size, got {} x {} and {} x {}", first.width,
                      first.height, panel.picture.width, panel.picture.height);
   return {};
 }
@@ -123,15 +153,22 @@ Result<Image> draw_panels(const PanelFigure& figure) {
 
 Result<void> write_panels(const PanelFigure& figure, const std::filesystem::path& file,
                           double dpi) {
-  TRY(picture, draw_panels(figure));
-  TRY_DO(write_png(*picture, file, dpi));
-  if (!figure.panels.front().lines) return {};
-  const double width = figure.print.width_pt(0.5 * picture->width);
-  return write_figure(
-      std::filesystem::path(file).replace_extension() += "_lines", width,
-      width * picture->height / picture->width, figure.title, [&](Canvas& canvas) {
-        draw_panels_on(canvas, {0, 0, canvas.width(), canvas.height()}, figure, true);
-      });
+  TRY_DO(check(figure));
+  const Grid grid = make_grid(figure);
+  const auto draw_all = [&](Canvas& canvas) {
+    draw_panels_on(canvas, {0, 0, canvas.width(), canvas.height()}, figure, true);
+  };
+  auto stem = std::filesystem::path(file).replace_extension();
+  if (!figure.as_lines) {
+    TRY(picture, draw_panels(figure));
+    TRY_DO(write_png(*picture, file, dpi));
+    if (!figure.panels.front().lines) return {};
+    stem += "_lines";
+  }
+  const double width = figure.print.width_mm * points_per_mm;
+  return write_figure(stem, width, width * grid.total_height() / grid.total_width(), figure.title,
+                      draw_all,
+                      {figure.print.width_mm, dpi > 0 ? dpi : Print{}.dpi, figure.background});
 }
 
 void draw_panels_on(Canvas& canvas, const Box& box, const PanelFigure& figure, bool lines) {

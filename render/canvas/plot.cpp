@@ -83,7 +83,8 @@ void draw_bars(Canvas& canvas, const PlotFrame& frame, const Series& s) {
 void draw_error_bars(Canvas& canvas, const PlotFrame& frame, const Series& s) {
   const double cap = std::max(1.5, 0.4 * s.marker_size);
   // over bars of the same colour an error bar must stay visible
-  const Stroke stroke{s.kind == SeriesKind::bars ? ink : s.colour, 0.8};
+  const Stroke stroke{s.kind == SeriesKind::bars ? ink : s.colour,
+                      std::max(0.8, 0.17 * s.marker_size)};
   for (std::size_t k = 0; k < std::min(s.x.size(), s.y.size()); ++k) {
     const Point p = frame.place(s.x[k], s.y[k]);
     if (!drawable(p)) continue;
@@ -166,12 +167,12 @@ Box note_box(const Canvas& canvas, const Plot& plot, const PlotFrame& frame, con
 void draw_plot(Canvas& canvas, const Box& box, const Plot& plot) {
   PlotFrame frame = lay_out_plot(canvas, box, plot);
   if (frame.inside.empty()) return;
-  // the legend stands in a free corner, else above the axes
+  // the legend is in a free corner, else above the axes
   const Legend legend(canvas, plot);
-  LegendPlace corner = plot.legend;
-  if (plot.legend == LegendPlace::automatic) corner = legend.free_corner(canvas, frame);
+  LegendPosition corner = plot.legend;
+  if (plot.legend == LegendPosition::automatic) corner = legend.free_corner(canvas, frame);
   const bool above =
-      !legend.empty() && (corner == LegendPlace::none || corner == LegendPlace::above);
+      !legend.empty() && (corner == LegendPosition::none || corner == LegendPosition::above);
   if (above) frame = lay_out_plot(canvas, box, plot, legend.height_above_axes(frame.inside.width));
 
   canvas.clipped(frame.inside, [&] {
@@ -206,6 +207,15 @@ void draw_legend(Canvas& canvas, const Box& box, const Plot& plot) {
   PlotFrame frame;
   frame.inside = box;
   if (!legend.empty()) legend.draw_above(canvas, frame, box.y);
+}
+
+double legend_height(const Plot& plot, double width) {
+  double height = 0;
+  draw_picture(1, 1, 1, {}, [&](Canvas& canvas) {
+    const Legend legend(canvas, plot);
+    if (!legend.empty()) height = legend.height_above_axes(width);
+  });
+  return height;
 }
 
 Result<void> write_plot(const std::filesystem::path& stem, const Plot& plot, const Print& print,

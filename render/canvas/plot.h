@@ -66,13 +66,13 @@ struct Band {
   Colour colour{0.5f, 0.5f, 0.5f, 0.2f};
 };
 
-/// The values of a member in the order in which they first come, of those that are wanted.
+/// The values of a member in the order in which they first come, of those that are selected.
 template <class Row, class Value, class Wanted>
 std::vector<Value> distinct(const std::vector<Row>& rows, Value Row::*member,
-                            const Wanted& wanted) {
+                            const Wanted& requested) {
   std::vector<Value> values;
   for (const Row& row : rows)
-    if (wanted(row.*member) && std::ranges::find(values, row.*member) == values.end())
+    if (requested(row.*member) && std::ranges::find(values, row.*member) == values.end())
       values.push_back(row.*member);
   return values;
 }
@@ -98,7 +98,15 @@ struct Note {
   Colour colour = ink;
 };
 
-enum class LegendPlace { none, automatic, above, upper_left, upper_right, lower_left, lower_right };
+enum class LegendPosition {
+  none,
+  automatic,
+  above,
+  upper_left,
+  upper_right,
+  lower_left,
+  lower_right
+};
 
 struct Plot {
   std::string title;  ///< marked text; empty: none
@@ -107,7 +115,7 @@ struct Plot {
   std::vector<Series> series;
   std::vector<ReferenceLine> references;
   std::vector<Note> notes;
-  LegendPlace legend = LegendPlace::automatic;
+  LegendPosition legend = LegendPosition::automatic;
   double font_size = 8.5;
 
   /// On top of all others; left out where it has no point.
@@ -118,6 +126,8 @@ struct Plot {
 
 /// The legend of a plot alone, in rows from the top of `box`: of several that share it.
 void draw_legend(Canvas& canvas, const Box& box, const Plot& plot);
+/// The height that it takes in a box so wide.
+double legend_height(const Plot& plot, double width);
 
 /// Draws the plot with its labels into `box`; nothing reaches outside.
 void draw_plot(Canvas& canvas, const Box& box, const Plot& plot);

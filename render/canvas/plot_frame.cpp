@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 namespace gridshell::render {
 namespace {
@@ -45,7 +46,7 @@ Range data_range(const Plot& plot, bool of_x) {
   return range;
 }
 
-// the range of an axis: given ends stand, others get 5 % of room
+// the range of an axis: given ends are kept, others get 5 % of room
 PlotAxis choose_range(const Plot& plot, bool of_x) {
   const Axis& axis = of_x ? plot.x : plot.y;
   Range range = data_range(plot, of_x);
@@ -151,17 +152,29 @@ double PlotAxis::place(double value) const {
   return from + t * (to - from);
 }
 
+std::string title_in_lines(const Canvas& canvas, const Box& box, const Plot& plot) {
+  const TextStyle style{.size = plot.font_size, .bold = true};
+  std::string text;
+  std::istringstream lines(plot.title);
+  for (std::string line; std::getline(lines, line);) {
+    const bool fits = canvas.measure(line, style).width <= box.width;
+    for (const std::string& part :
+         fits ? std::vector{line} : canvas.wrapped(line, box.width, style))
+      text += (text.empty() ? "" : "\n") + part;
+  }
+  return text;
+}
+
 TextStyle title_style(const Canvas& canvas, const Box& box, const Plot& plot) {
-  TextStyle style{
+  const TextStyle style{
       .size = plot.font_size, .bold = true, .align_x = AlignX::centre, .align_y = AlignY::top};
-  const double width = canvas.measure(plot.title, style).width;
-  style.size *= std::min(1.0, box.width / std::max(1e-9, width));
-  return style;
+  return canvas.fitted(title_in_lines(canvas, box, plot), box.width, style);
 }
 
 double title_height(const Canvas& canvas, const Box& box, const Plot& plot) {
   if (plot.title.empty()) return 0;
-  return canvas.measure(plot.title, title_style(canvas, box, plot)).height + 0.3 * plot.font_size;
+  return canvas.measure(title_in_lines(canvas, box, plot), title_style(canvas, box, plot)).height +
+         0.3 * plot.font_size;
 }
 
 PlotFrame lay_out_plot(const Canvas& canvas, const Box& box, const Plot& plot, double head) {
@@ -182,7 +195,7 @@ PlotFrame lay_out_plot(const Canvas& canvas, const Box& box, const Plot& plot, d
                            : std::max(1.2 * line, canvas.measure(plot.y.label, style).height +
                                                       0.35 * plot.font_size);
   const double left = box.x + label + widest(canvas, frame.y_ticks, style) + gap;
-  // half of the last label may stand out to the right of the frame
+  // half of the last label may extend to the right of the frame
   const double right = box.right() - widest(canvas, ticks_of(frame.x, plot.x.ticks), style) / 2 - 1;
   frame.x.from = left;
   frame.x.to = right;
@@ -216,19 +229,26 @@ void draw_axes(Canvas& canvas, const Box& box, const Plot& plot, const PlotFrame
   if (!plot.x.label.empty())
     canvas.text(plot.x.label, {in.middle().x, box.bottom() - 0.12 * size},
                 {.size = size, .align_x = AlignX::centre, .align_y = AlignY::bottom});
-  if (!plot.y.label.empty())
-    canvas.text(plot.y.label, {box.x + 0.12 * size, in.middle().y},
-                {.size = size, .align_x = AlignX::centre, .align_y = AlignY::top, .angle_deg = 90});
+  if (!plot.y.label.empty()) {
+    // one longer than the axis may continue past its ends, and is set smaller where that is short
+    TextStyle style =
+        canvas.fitted(plot.y.label, box.height,
+                      {.size = size, .align_x = AlignX::centre, .align_y = AlignY::top});
+    const double half = canvas.measure(plot.y.label, style).width / 2;
+    style.angle_deg = 90;
+    const double middle = std::clamp(in.middle().y, box.y + half, box.bottom() - half);
+    canvas.text(plot.y.label, {box.x + 0.12 * size, middle}, style);
+  }
   if (plot.title.empty()) return;
+  const std::string text = title_in_lines(canvas, box, plot);
   const TextStyle title = title_style(canvas, box, plot);
-  const double half = canvas.measure(plot.title, title).width / 2;
-  canvas.text(plot.title, {std::clamp(in.middle().x, box.x + half, box.right() - half), box.y},
-              title);
+  const double half = canvas.measure(text, title).width / 2;
+  canvas.text(text, {std::clamp(in.middle().x, box.x + half, box.right() - half), box.y}, title);
 }
 
 Legend::Legend(const Canvas& canvas, const Plot& plot)
     : plot_(plot), size_(plot.font_size), row_(1.35 * plot.font_size), key_(2.2 * plot.font_size) {
-  if (plot.legend == LegendPlace::none) return;
+  if (plot.legend == LegendPosition::none) return;
   for (const Series& s : plot.series)
     if (!s.name.empty()) entries_.push_back({&s, nullptr, s.name});
   for (const Band& b : plot.bands)
@@ -237,24 +257,24 @@ Legend::Legend(const Canvas& canvas, const Plot& plot)
     e.width = key_ + 0.5 * size_ + canvas.measure(e.name, {.size = size_}).width;
 }
 
-Box Legend::corner_box(const Box& in, LegendPlace place) const {
+Box Legend::corner_box(const Box& in, LegendPosition place) const {
   double width = 0;
   for (const Entry& e : entries_) width = std::max(width, e.width);
   width += 0.8 * size_;
   const double height = double(entries_.size()) * row_ + 0.4 * size_, margin = 0.7 * size_;
-  const bool left = place == LegendPlace::upper_left || place == LegendPlace::lower_left;
-  const bool upper = place == LegendPlace::upper_left || place == LegendPlace::upper_right;
+  const bool left = place == LegendPosition::upper_left || place == LegendPosition::lower_left;
+  const bool upper = place == LegendPosition::upper_left || place == LegendPosition::upper_right;
   return {left ? in.x + margin : in.right() - margin - width,
           upper ? in.y + margin : in.bottom() - margin - height, width, height};
 }
 
-LegendPlace Legend::free_corner(const Canvas& canvas, const PlotFrame& frame) const {
-  for (LegendPlace place : {LegendPlace::upper_right, LegendPlace::upper_left,
-                            LegendPlace::lower_right, LegendPlace::lower_left}) {
+LegendPosition Legend::free_corner(const Canvas& canvas, const PlotFrame& frame) const {
+  for (LegendPosition place : {LegendPosition::upper_right, LegendPosition::upper_left,
+                               LegendPosition::lower_right, LegendPosition::lower_left}) {
     const Box box = corner_box(frame.inside, place);
     if (frame.inside.contains(box) && !hides(canvas, plot_, frame, box)) return place;
   }
-  return LegendPlace::none;
+  return LegendPosition::none;
 }
 
 double Legend::height_above_axes(double width) const {
@@ -276,7 +296,7 @@ void Legend::draw_above(Canvas& canvas, const PlotFrame& frame, double top) cons
   }
 }
 
-void Legend::draw_in_corner(Canvas& canvas, const PlotFrame& frame, LegendPlace place) const {
+void Legend::draw_in_corner(Canvas& canvas, const PlotFrame& frame, LegendPosition place) const {
   const Box box = corner_box(frame.inside, place);
   canvas.rectangle(box, {1, 1, 1, 0.85f});
   double y = box.y + 0.2 * size_ + row_ / 2;

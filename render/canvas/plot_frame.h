@@ -1,4 +1,4 @@
-// From the values of a plot's axes to places on the canvas.
+// From the values of a plot's axes to positions on the canvas.
 #pragma once
 
 #include "render/canvas/plot.h"
@@ -25,6 +25,7 @@ struct PlotFrame {
 };
 
 /// The title as it fits into the box's width, and the height that it takes; 0 without a title.
+std::string title_in_lines(const Canvas& canvas, const Box& box, const Plot& plot);
 TextStyle title_style(const Canvas& canvas, const Box& box, const Plot& plot);
 double title_height(const Canvas& canvas, const Box& box, const Plot& plot);
 
@@ -42,11 +43,11 @@ class Legend {
   Legend(const Canvas& canvas, const Plot& plot);
 
   bool empty() const { return entries_.empty(); }
-  /// the corner that hides no data; LegendPlace::none where each of them does
-  LegendPlace free_corner(const Canvas& canvas, const PlotFrame& frame) const;
+  /// the corner that hides no data; LegendPosition::none where each of them does
+  LegendPosition free_corner(const Canvas& canvas, const PlotFrame& frame) const;
   /// height of the legend as rows above axes of that width
   double height_above_axes(double width) const;
-  void draw_in_corner(Canvas& canvas, const PlotFrame& frame, LegendPlace place) const;
+  void draw_in_corner(Canvas& canvas, const PlotFrame& frame, LegendPosition place) const;
   void draw_above(Canvas& canvas, const PlotFrame& frame, double top) const;
 
  private:
@@ -56,7 +57,7 @@ class Legend {
     std::string name;
     double width = 0;  ///< key and name
   };
-  Box corner_box(const Box& inside, LegendPlace place) const;
+  Box corner_box(const Box& inside, LegendPosition place) const;
   void draw_entry(Canvas& canvas, const Entry& entry, double x, double middle, double end) const;
 
   const Plot& plot_;

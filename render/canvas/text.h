@@ -46,7 +46,7 @@ std::string scientific(double value, int digits);
 
 /// The smallest of 1, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times a power of ten that is >= value (> 0).
 double nice_ceiling(double value);
-/// The length of a scale bar beside a thing of half size `size_mm`: the wanted one, or, where that
+/// The length of a scale bar next to a thing of half size `size_mm`: the given one, or, where that
 /// would be a dot or longer than the thing, a round length; 0 stays 0.
 inline double scale_bar_beside(double wanted_mm, double size_mm) {
   const bool fits = wanted_mm >= 0.03 * size_mm && wanted_mm <= 2 * size_mm;

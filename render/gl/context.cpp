@@ -78,11 +78,11 @@ class EglContext final : public Context {
     if (!egl_.bind_api(EGL_OPENGL_API)) return false;
     if (!egl_.choose_config(display_, config_wanted, &config, 1, &count) || count < 1) return false;
     // clang-format off
-    const EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 3,
+    const EGLint requested[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 3,
                              EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
                              EGL_NONE};
     // clang-format on
-    context_ = egl_.create_context(display_, config, EGL_NO_CONTEXT, wanted);
+    context_ = egl_.create_context(display_, config, EGL_NO_CONTEXT, requested);
     return context_ != EGL_NO_CONTEXT &&
            egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_);
   }

@@ -64,7 +64,7 @@ struct WindowOptions {
 class Window : public Context {
  public:
   /// Errors: io with what is missing: GLFW, a display, OpenGL 3.3.
-  static Result<std::unique_ptr<Window>> open(const WindowOptions& wish);
+  static Result<std::unique_ptr<Window>> open(const WindowOptions& request);
 
   /// Hands on what happened, after waiting for it so many seconds at most.
   virtual void listen(const WindowListener& listener, double wait_seconds) = 0;

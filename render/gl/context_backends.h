@@ -29,7 +29,7 @@ class SharedLibrary {
 };
 
 // A struct of the functions that a list X(member, function) names, to be loaded from a library.
-// NOLINTBEGIN: names cannot stand in parentheses
+// NOLINTBEGIN: names cannot be in parentheses
 #define GRIDSHELL_MEMBER(member, function) decltype(&function) member = nullptr;
 #define GRIDSHELL_LOADED(member, function) &&library.load(member, #function)
 #define GRIDSHELL_FUNCTIONS(Name, LIST)                                             \

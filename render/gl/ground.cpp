@@ -29,7 +29,7 @@ Eigen::Matrix4f to_ground(const Eigen::Matrix4d& matrix, double z) {
   return result;
 }
 
-/// Takes (u, v, 1, 0), places on the shadow map from 0 to 1, to the plane z that the light falls
+/// Takes (u, v, 1, 0), positions on the shadow map from 0 to 1, to the plane z that the light falls
 /// on.
 Eigen::Matrix4f on_ground(const Eigen::Matrix4f& light_matrix, double z) {
   const Eigen::Matrix4d m = light_matrix.cast<double>();
@@ -41,8 +41,8 @@ Eigen::Matrix4f on_ground(const Eigen::Matrix4f& light_matrix, double z) {
   return result;
 }
 
-/// Of the map of light along a side: finer than the narrowest penumbra, and than the pixels; the
-/// same in all frames of a movie.
+/// Texels of the map of light along a side: finer than the narrowest penumbra, and than the pixels;
+/// the same in all frames of a movie.
 int texels_for(int height) { return std::clamp(64 * int(std::lround(height / 90.0)), 512, 1024); }
 
 /// Nothing is blended, hidden or left out.
@@ -50,7 +50,7 @@ void fill_only(const Gl& gl) {
   for (const GLenum state : {GL_BLEND, GL_DEPTH_TEST, GL_CULL_FACE}) gl.Disable(state);
 }
 
-/// Of level ground in the open.
+/// The light of level ground in the open.
 float open_light(const Lighting& light) {
   return float(light.key * light.direction.z() + light.sky);
 }
@@ -116,7 +116,7 @@ void Ground::draw_open(const Program& program, const RenderJob& shot, const Eige
   gl_->DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-/// The part of the ground that the shadow map holds.
+/// The part of the ground that the shadow map contains.
 void Ground::set_shadow_uniforms(const Program& program, const RenderJob& shot,
                                  const Eigen::Matrix4d& matrix, const ShadowMap& shadow) const {
   program.set("view_projection", Eigen::Matrix4f(matrix.cast<float>()));

@@ -44,7 +44,7 @@ inline float to_linear(float c) {
   return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
 }
 
-/// And back.
+/// The inverse of it.
 inline float to_srgb(float v) {
   return v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow(v, 1 / 2.4f) - 0.055f;
 }
@@ -70,7 +70,7 @@ Result<void> write_png(const Image& image, const std::filesystem::path& path, do
 /// Fault::bad_input, with `name`, when it is no PNG or is damaged.
 Result<Image> decode_png(std::string_view bytes, const std::string& name);
 
-/// The same of a file. Errors: Fault::io naming the path and why it cannot be opened;
+/// Reads a PNG from a file. Errors: Fault::io naming the path and why it cannot be opened;
 /// Fault::bad_input as above.
 Result<Image> read_png(const std::filesystem::path& path);
 
@@ -81,8 +81,8 @@ Result<Image> read_png(const std::filesystem::path& path);
 /// Between harmless differences of another CPU (up to 3.6) and a broken picture (from 9.3).
 inline constexpr double default_difference_threshold = 4;
 
-/// Blocks are `block_size` pixels wide and high and stand `block_step` apart; the last ones of a
-/// row or column are moved back inside the picture.
+/// Blocks are `block_size` pixels wide and high and `block_step` apart from start to start; the
+/// last ones of a row or column are moved back inside the picture.
 inline constexpr int block_size = 8, block_step = 4;
 
 /// The block in which two pictures differ most.

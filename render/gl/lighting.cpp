@@ -17,11 +17,11 @@ constexpr double key_azimuth = -70 * pi / 180;  // from the camera's, to its lef
 constexpr double key_elevation = 60 * pi / 180;
 constexpr double key_disc = 5 * pi / 180;  // radius of the light's disc
 constexpr double key_spread = 0.04;        // narrower than the disc's: shadows of thin rods stay
-constexpr double key_share = 0.55;         // of the light on ground that faces up
-constexpr double ground_share = 0.5;       // of the sky's light returned by the ground
+constexpr double key_fraction = 0.55;      // of the light on ground that faces up
+constexpr double ground_fraction = 0.5;    // of the sky's light returned by the ground
 
 Eigen::Vector3d key_direction(const Camera& camera) {
-  // from straight above the picture's up is +y: the light stands as for a camera in the south
+  // from straight above the picture's up is +y: the light is as for a camera in the south
   const bool straight = std::abs(camera.elevation_deg) > 90 - 1e-6;
   const double azimuth = (straight ? -pi / 2 : camera.azimuth_deg * pi / 180) + key_azimuth;
   return {std::cos(key_elevation) * std::cos(azimuth), std::cos(key_elevation) * std::sin(azimuth),
@@ -49,12 +49,12 @@ Eigen::Vector3d on_sky(const Eigen::Vector2d& p) {
   return {r * std::cos(angle), r * std::sin(angle), z};
 }
 
-/// Scales the key weights of passes [first, last) so that level ground receives `share` of the mean
-/// over all passes.
-void normalise(std::vector<Lighting>& passes, int first, int last, double share) {
+/// Scales the key weights of passes [first, last) so that level ground receives `fraction` of the
+/// mean over all passes.
+void normalise(std::vector<Lighting>& passes, int first, int last, double fraction) {
   double sum = 0;
   for (int i = first; i < last; ++i) sum += passes[i].direction.z();
-  for (int i = first; i < last; ++i) passes[i].key = share * double(passes.size()) / sum;
+  for (int i = first; i < last; ++i) passes[i].key = fraction * double(passes.size()) / sum;
 }
 
 constexpr float cell_density = 0.4f;  // thin coloured sheets let most of the light through
@@ -64,19 +64,19 @@ constexpr float margin = 1.12f;       // empty rim, so that the blur's coarse le
 
 std::vector<Lighting> lighting_passes(const Camera& camera, int passes) {
   const Eigen::Vector3d key = key_direction(camera);
-  const double sky = 1 - key_share, bounce = ground_share * sky;
-  if (passes <= 1) return {{key, key_share / key.z(), sky, bounce, key_spread}};
+  const double sky = 1 - key_fraction, bounce = ground_fraction * sky;
+  if (passes <= 1) return {{key, key_fraction / key.z(), sky, bounce, key_spread}};
   std::vector<Lighting> result(passes);
-  const int keys = std::clamp(int(std::lround(key_share * passes)), 1, passes - 1);
+  const int keys = std::clamp(int(std::lround(key_fraction * passes)), 1, passes - 1);
   for (int i = 0; i < passes; ++i) {
     const Eigen::Vector2d p = sequence(i, 0.5);
     result[i].direction = i < keys ? on_disc(key, p) : on_sky(p);
     result[i].bounce = bounce;
-    // each direction stands for its part of the sky: blurred so wide, single shadows do not show
+    // each direction represents its part of the sky: blurred so wide, single shadows do not show
     result[i].spread = i < keys ? 0.01 : std::sqrt(2 * pi / (passes - keys));
     result[i].pixel_shift = sequence(i, 0.25) - Eigen::Vector2d::Constant(0.5);
   }
-  normalise(result, 0, keys, key_share);
+  normalise(result, 0, keys, key_fraction);
   normalise(result, keys, passes, sky);
   return result;
 }

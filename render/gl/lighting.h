@@ -28,7 +28,7 @@ struct Lighting {
 std::vector<Lighting> lighting_passes(const Camera& camera, int passes);
 
 // What the light sees of a scene: the depth of the first solid, for shadows on the shell, and how
-// much light is held back at which height above the ground, for the ground's soft shadow.
+// much light is blocked at which height above the ground, for the ground's soft shadow.
 
 class ShadowMap {
  public:
@@ -39,8 +39,8 @@ class ShadowMap {
   /// Along a side, for a picture so many pixels high: the same in all frames of a movie.
   static int texels_for(int height) { return height > 800 ? 1024 : 512; }
 
-  /// Draws the scene from the direction of the unit vector `light`. `ribbons` and `sheets` hold the
-  /// scene's meshes, `ribbons` with its casters as list 1. A sheet holds back part of the light
+  /// Draws the scene from the direction of the unit vector `light`. `ribbons` and `sheets` contain
+  /// the scene's meshes, `ribbons` with its casters as list 1. A sheet blocks the part of the light
   /// that its alpha would.
   Result<void> render(const Scene& scene, const VertexStore& ribbons, const VertexStore& sheets,
                       const Eigen::Vector3d& light, double ground_z, int texels);

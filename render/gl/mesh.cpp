@@ -15,7 +15,7 @@ std::vector<Eigen::Vector3f> tangents(std::span<const Eigen::Vector3f> points, b
     result[next] += direction;
   }
   for (std::size_t i = 0; i < n; ++i) {
-    // an edge without length, or one that turns back, keeps the direction before it
+    // an edge without length, or one that reverses, keeps the direction before it
     if (result[i].norm() < 1e-6f) result[i] = i ? result[i - 1] : Eigen::Vector3f::UnitX();
     result[i].normalize();
   }
@@ -55,7 +55,7 @@ std::int16_t share_of_widest(float radius) {
 
 constexpr int most_steps = 4;  // along a cell's side
 
-/// Where a node sits: its place `at` along rod `rod`.
+/// The position of a node: `at` along rod `rod`.
 struct Place {
   int rod = -1, at = 0;
 };

@@ -23,7 +23,7 @@ struct Vertex {
   PackedColour colour;
 };
 
-/// Triangles over vertices; what a vertex tells differs from shader to shader.
+/// Triangles over vertices; what a vertex contains differs from shader to shader.
 struct Mesh {
   std::vector<Vertex> vertices;
   std::vector<std::uint32_t> indices;
@@ -43,12 +43,12 @@ std::vector<Eigen::Vector3f> tangents(std::span<const Eigen::Vector3f> points, b
 /// A polyline of some width.
 struct Ribbon {
   std::span<const Eigen::Vector3f> points;   ///< at least 2, or 3 when closed; mm
-  std::span<const Eigen::Vector4f> colours;  ///< linear, one a point
-  std::span<const float> radii;              ///< mm, one for all or one a point
+  std::span<const Eigen::Vector4f> colours;  ///< linear, one per point
+  std::span<const float> radii;              ///< mm, one for all or one per point
   bool closed = false;                       ///< the last point joins the first
 };
 
-/// The widest radius that vertices can tell; they hold theirs as a share of it.
+/// The widest radius that vertices can have; they store theirs as a fraction of it.
 inline constexpr float widest_radius_mm = 64;
 
 /// Adds two vertices a point, in order, and no triangles: position on the axis, unit tangent, and
@@ -56,14 +56,14 @@ inline constexpr float widest_radius_mm = 64;
 std::uint32_t add_ribbon(Mesh& mesh, const Ribbon& ribbon);
 
 /// How far from point `from` a straight piece may go, at most to `last`: all points between lie
-/// within `tolerance_mm` of it, their colours within a step of a screen's. (`last` may lie beyond
+/// within `tolerance_mm` of it, their colours within a step of a screen's. (`last` may be after
 /// the last point of a closed ribbon.)
 int longest_straight_piece(const Ribbon& ribbon, int from, int last, float tolerance_mm);
 
 /// The two triangles from point `k` to point `l` of a ribbon with this first vertex.
 void add_strip_quad(std::vector<std::uint32_t>& indices, std::uint32_t first, int k, int l);
 
-enum class BeadShape { flat, ball };  ///< a joint, three fifths as high as wide; or a ball
+enum class BeadShape { cylinder, ball };  ///< a joint, 3 wide and 5 high; or a ball
 
 /// Adds a card of four vertices and returns its triangles: centre, the bead's unit axis, radius and
 /// a side's sign, and in the colour's alpha the other side's sign and the shape.
@@ -82,8 +82,8 @@ struct CellPatch {
 /// One Coons patch [Coons 1967] a cell, so that its edges lie on the rods however these bend:
 /// S(u, v) = (1-v) c0(u) + v c1(u) + (1-u) d0(v) + u d1(v) - bilinear(corners).
 /// Adds their vertices to the mesh; their triangles are for whoever knows the order. `colours` are
-/// linear, one a cell; cells whose alpha is 0 are left out. A patch is as coarse as may be with all
-/// points that it leaves out within the tolerance.
+/// linear, one per cell; cells whose alpha is 0 are left out. A patch is as coarse as may be with
+/// all points that it leaves out within the tolerance.
 std::vector<CellPatch> add_cell_patches(Mesh& mesh, const record::Layout& layout,
                                         const Eigen::Matrix3Xd& nodes,
                                         std::span<const Eigen::Vector4f> colours,

@@ -69,8 +69,8 @@ class Object {
   GLuint id_ = 0;
 };
 
-/// Where the shader's input `index` stands in the vertices of the buffer that is bound, `stride`
-/// bytes each: `size` numbers of `type` from byte `at` on; `unit`: integers stand for 0 to 1.
+/// The position of the shader's input `index` in the vertices of the buffer that is bound, `stride`
+/// bytes each: `size` numbers of `type` from byte `at` on; `unit`: integers represent 0 to 1.
 inline void describe_attribute(const Gl& gl, GLuint index, GLint size, GLenum type, bool unit,
                                std::size_t stride, std::size_t at) {
   gl.VertexAttribPointer(index, size, type, unit, GLsizei(stride),
@@ -83,14 +83,14 @@ using Framebuffer = Object<&Gl::GenFramebuffers, &Gl::DeleteFramebuffers>;
 using VertexArray = Object<&Gl::GenVertexArrays, &Gl::DeleteVertexArrays>;
 using Buffer = Object<&Gl::GenBuffers, &Gl::DeleteBuffers>;
 
-// A framebuffer with a colour texture and, if wanted, a depth texture.
+// A framebuffer with a colour texture and, if requested, a depth texture.
 
-/// Allocates anew when asked for another size or format, and keeps its storage while they stay.
+/// Allocates again when another size or format is requested, and keeps its storage while they stay.
 class Target {
  public:
   enum class Depth { none, plain, compared };  ///< compared: read by a sampler2DShadow
 
-  /// Of the colour's `levels` (each half the size before) the first is drawn into; several levels
+  /// The first of the colour's `levels` (each half the size before) is drawn into; several levels
   /// are read with smooth interpolation, a single one texel by texel.
   Target(const Gl& gl, Depth depth, int levels = 1)
       : gl_(&gl), depth_kind_(depth), levels_(levels), frame_(gl), colour_(gl), depth_(gl) {}

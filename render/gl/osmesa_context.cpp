@@ -1,5 +1,5 @@
 // The only file that sees <GL/osmesa.h>: it declares the functions of libGL, which must not be
-// linked beside libOSMesa.
+// linked together with libOSMesa.
 #include <GL/osmesa.h>
 
 #include <array>
@@ -51,10 +51,10 @@ Result<std::unique_ptr<Context>> create_osmesa_context() {
   if (!osmesa.load(*library)) return fail(Fault::io, "OSMesa: the library is too old");
 
   // clang-format off
-  const int wanted[] = {OSMESA_FORMAT, OSMESA_RGBA, OSMESA_PROFILE, OSMESA_CORE_PROFILE,
+  const int requested[] = {OSMESA_FORMAT, OSMESA_RGBA, OSMESA_PROFILE, OSMESA_CORE_PROFILE,
                         OSMESA_CONTEXT_MAJOR_VERSION, 3, OSMESA_CONTEXT_MINOR_VERSION, 3, 0};
   // clang-format on
-  OSMesaContext raw = osmesa.create(wanted, nullptr);
+  OSMesaContext raw = osmesa.create(requested, nullptr);
   if (!raw) return fail(Fault::io, "OSMesa: no OpenGL 3.3 core context");
   auto context = std::make_unique<OsmesaContext>(osmesa, raw);
   if (!context->make_current()) return fail(Fault::io, "OSMesa: the context cannot be current");

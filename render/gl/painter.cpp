@@ -20,7 +20,7 @@ constexpr float shell_blur_mm = 0.8f;  // radius of the shadow's edge on the she
 
 Eigen::Vector3f linear(const Colour& c) { return to_linear(c).head<3>(); }
 
-/// Of a sample: mm at distance 1 in perspective, else anywhere.
+/// The size of a sample: mm at distance 1 in perspective, else anywhere.
 double sample_size(const RenderJob& shot) {
   const double mm = 2 * shot.camera.half_extent_mm / (shot.height * shot.quality.supersample);
   return shot.camera.field_of_view_deg <= 0 ? mm : mm / camera_distance(shot.camera);
@@ -28,7 +28,7 @@ double sample_size(const RenderJob& shot) {
 
 /// The part of a tile that the shell may cover, empty where it covers none.
 Tile shell_in(const RenderJob& shot, const Tile& tile) {
-  constexpr double room = 2;  // pixels: edges reach beyond what they are of
+  constexpr double room = 2;  // pixels: edges extend past what they are of
   constexpr int step = 64;    // pixels: a moving shell's targets are of few sizes
   const Eigen::Matrix4d matrix = view_projection(shot.camera, double(shot.width) / shot.height,
                                                  shot.scene.centre(), shot.scene.radius());
@@ -90,7 +90,7 @@ Result<Painter::Programs> Painter::create_programs(int taps) const {
   return Programs{std::move(*sheet), std::move(*ribbon), std::move(*bead)};
 }
 
-/// The programs that the quality takes, each made when it is first asked for.
+/// The programs that the quality takes, each made when it is first used.
 Result<void> Painter::prepare(const DrawQuality& quality) {
   // jittered light and several samples a pixel soften the shadow by themselves
   taps_ = !quality.shadow ? 0 : quality.jittered_passes > 1 || quality.supersample > 1 ? 1 : 4;
@@ -130,7 +130,7 @@ Result<void> Painter::paint(const RenderJob& shot, const Tile& tile, Image& imag
   return {};
 }
 
-/// The shadow of a pass, unless the map holds it from the tile before.
+/// The shadow of a pass, unless the map contains it from the tile before.
 Result<void> Painter::cast(const RenderJob& shot, int pass) {
   if (!shot.quality.shadow || shadow_of_ == pass) return {};
   const Lighting& light = passes_[std::size_t(pass)];
@@ -224,7 +224,7 @@ Result<void> Painter::paint_shell(const RenderJob& shot, const Tile& tile, const
   return {};
 }
 
-/// From the world to a tile, whose target holds the top row first.
+/// From the world to a tile, whose target has the top row first.
 Eigen::Matrix4d Painter::matrix_of(const RenderJob& shot, const Tile& tile, const Lighting& light) {
   Eigen::Matrix4d matrix =
       crop(tile, shot.width, shot.height, light.pixel_shift / shot.quality.supersample) *
@@ -234,13 +234,13 @@ Eigen::Matrix4d Painter::matrix_of(const RenderJob& shot, const Tile& tile, cons
   return matrix;
 }
 
-/// Adds a share of what another target holds to the bound one, or puts it there, its first pixel
-/// at `corner`.
-void Painter::show(GLuint texture, float share, const Eigen::Vector2i& corner) const {
+/// Adds a fraction of the contents of another target to the bound one, or puts it there, its first
+/// pixel at `corner`.
+void Painter::show(GLuint texture, float fraction, const Eigen::Vector2i& corner) const {
   mean_.use();
   mean_.set("corner", Eigen::Vector2f(corner.cast<float>()));
   mean_.set("sum", 0);
-  mean_.set("share", share);
+  mean_.set("share", fraction);
   gl_->ActiveTexture(GL_TEXTURE0);
   gl_->BindTexture(GL_TEXTURE_2D, texture);
   screen_triangle();
@@ -274,7 +274,7 @@ void Painter::set_light(const Program& program, const RenderJob& shot,
                    : Eigen::Vector3d(shot.camera.target - camera_distance(shot.camera) * forward);
   Eigen::Vector4f eye_uniform;
   eye_uniform << eye.cast<float>(), orthographic ? 0.f : 1.f;
-  // what the camera shows, not what the scene holds: a movie's frames must not differ by it
+  // what the camera shows, not what the scene contains: a movie's frames must not differ by it
   const double extent = shot.camera.half_extent_mm;
   const double middle = forward.dot(shot.camera.target);
   program.set("light_direction", Eigen::Vector3f(light.direction.cast<float>()));

@@ -11,7 +11,7 @@
 
 namespace gridshell::render {
 
-/// It fills the picture before what stands on it is painted. The light on it is found once, in the
+/// It fills the picture before what is on it is painted. The light on it is found once, in the
 /// shadow map's own plane, and looked up where the map reaches; elsewhere it is that of the open.
 class Ground {
  public:
@@ -26,8 +26,8 @@ class Ground {
   void draw(const RenderJob& shot, const Eigen::Matrix4d& matrix, const Lighting& light,
             const ShadowMap* shadow) const;
 
-  /// Of many passes the light alone is gathered, pixel by pixel, and the ground drawn once with it.
-  /// Begins with that of all in the open.
+  /// The light alone is gathered over many passes, pixel by pixel, and the ground drawn once with
+  /// it. Begins with that of all in the open.
   Result<void> begin_ground_light(const Tile& tile, const std::vector<Lighting>& passes);
   /// Takes away what a pass's shadow does, softened before.
   Result<void> gather(const RenderJob& shot, const Tile& tile, const Eigen::Matrix4d& matrix,
@@ -92,7 +92,7 @@ class Painter {
                            Target& to);
   static Eigen::Matrix4d matrix_of(const RenderJob& shot, const Tile& tile, const Lighting& light);
   void composite_shell(int per_side, const Tile& part, const Eigen::Vector2i& corner) const;
-  void show(GLuint texture, float share, const Eigen::Vector2i& corner) const;
+  void show(GLuint texture, float fraction, const Eigen::Vector2i& corner) const;
   void set_light(const Program& program, const RenderJob& shot, const Lighting& light) const;
   void set_shadow(const Program& program, const RenderJob& shot, const Lighting& light) const;
   void draw_meshes(const RenderJob& shot, const Lighting& light, const Eigen::Matrix4f& matrix);
@@ -110,7 +110,7 @@ class Painter {
   VertexArray no_vertices_;
   Target layer_, pass_, sum_, whole_, pixels_;
   std::vector<Lighting> passes_;
-  int shadow_of_ = -1;  ///< the pass whose shadow the map holds
+  int shadow_of_ = -1;  ///< the pass whose shadow the map contains
 };
 
 }  // namespace gridshell::render

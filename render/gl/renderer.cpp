@@ -23,7 +23,7 @@ constexpr int most_samples = 16, most_passes = 4096, largest_picture = 65536;
 
 Result<void> check(const DrawQuality& quality, int width, int height) {
   if (width < 1 || height < 1 || width > largest_picture || height > largest_picture)
-    return invalid("a picture of {} x {} pixels: each must be 1 to {}", width, height,
+    return invalid("size: got {} x {} pixels, expected 1 to {} each", width, height,
                    largest_picture);
   if (quality.supersample < 1 || quality.supersample > most_samples)
     return invalid("supersample = {}: 1 to {}", quality.supersample, most_samples);
@@ -32,7 +32,7 @@ Result<void> check(const DrawQuality& quality, int width, int height) {
   return {};
 }
 
-/// From colours times alpha, mixed in linear light, to colours beside alpha.
+/// From colours times alpha, mixed in linear light, to colours and alpha separately.
 void unpremultiply(Image& image) {
   for (std::size_t k = 0; k < image.rgba.size(); k += 4) {
     const float alpha = float(image.rgba[k + 3]) / 255;
@@ -90,7 +90,7 @@ CameraAxes camera_axes(const Camera& camera) {
   CameraAxes axes;
   axes.forward = -Eigen::Vector3d(std::cos(elevation) * std::cos(azimuth),
                                   std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
-  // straight from above or below there is no vertical left to stand on
+  // straight from above or below no vertical is left
   const bool straight = std::abs(axes.forward.z()) > 1 - 1e-9;
   const Eigen::Vector3d top = straight ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitZ();
   axes.right = axes.forward.cross(top).normalized();

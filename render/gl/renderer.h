@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "engine/core/result.h"
@@ -53,6 +54,13 @@ struct Arrow {
   Colour colour;
 };
 
+/// Text at a point, centred on it; in the panels of figures alone.
+struct PointLabel {
+  Eigen::Vector3d at;
+  std::string text;  ///< marked text
+  bool bold = false;
+};
+
 /// A ball around a point.
 struct PointMark {
   Eigen::Vector3d at;
@@ -67,17 +75,20 @@ struct Drawing {
   Eigen::Matrix3Xd nodes;                  ///< mm
   /// As drawn, may be thicker than the rod; of those of other diameters in proportion.
   double rod_diameter_mm = 1;
+  /// Width and thickness of each rod, one after the other, that is drawn as a box; 0: round ones.
+  std::vector<double> laths_mm;
   Colour rod_colour{0.16f, 0.17f, 0.20f};
-  /// Empty: all rods in rod_colour; else one a node, unlit as the cells' are.
+  /// Empty: all rods in rod_colour; else one per node, unlit as the cells' are.
   std::vector<Colour> node_colours;
   double joint_diameter_mm = 3;  ///< 0: none
   Colour joint_colour{0.75f, 0.12f, 0.10f};
-  /// Empty: no cells; else one a cell, alpha counts; drawn without light, as their bar has them.
+  /// Empty: no cells; else one per cell, alpha counts; drawn without light, as their bar has them.
   std::vector<Colour> cell_colours;
   std::vector<Ring> rings;
   std::vector<GhostRods> ghosts;
   std::vector<Arrow> arrows;
   std::vector<PointMark> marks;
+  std::vector<PointLabel> labels;
   double sheen = 1;        ///< of rods and joints; 0: ink
   double far_fade = 0.16;  ///< how much of the background lies over what is farthest, 0 to 1
   double ground_z_mm = 0;  ///< plane of the ground

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "render/gl/image.h"
+#include "render/gl/laths.h"
 
 namespace gridshell::render {
 namespace {
@@ -44,10 +45,11 @@ std::string mismatch(const Drawing& drawing) {
         if (node < 0 || std::size_t(node) >= count) return true;
     return false;
   };
-  if (outside(layout.rods, nodes)) return fmt::format("has a rod beyond its {} nodes", nodes);
+  if (outside(layout.rods, nodes))
+    return fmt::format("has a rod with more than its {} nodes", nodes);
   for (const auto& joint : layout.joints)
     if (joint.node < 0 || std::size_t(joint.node) >= nodes)
-      return fmt::format("has joint ({}, {}) beyond its {} nodes", joint.i, joint.j, nodes);
+      return fmt::format("has joint ({}, {}) outside its {} nodes", joint.i, joint.j, nodes);
   for (const auto& ghost : drawing.ghosts)
     if (!ghost.nodes.allFinite() || outside(ghost.rods, std::size_t(ghost.nodes.cols())))
       return "has ghost rods with a node that is missing or not finite";
@@ -91,21 +93,6 @@ class Neighbours {
   std::map<std::pair<int, int>, std::vector<int>> beside_;
 };
 
-/// For every node the cross product of its rods' tangents: the shell's normal at a joint.
-std::vector<Eigen::Vector3f> shell_normals(const Drawing& drawing) {
-  const auto count = std::size_t(drawing.nodes.cols());
-  std::vector<Eigen::Vector3f> tangent(count, Eigen::Vector3f::Zero()), normal = tangent;
-  for (const auto& rod : drawing.layout->rods)
-    for (std::size_t k = 0; k < rod.size(); ++k) {
-      const int before = rod[k ? k - 1 : 0], after = rod[std::min(k + 1, rod.size() - 1)];
-      const Eigen::Vector3f t =
-          (drawing.nodes.col(after) - drawing.nodes.col(before)).cast<float>().stableNormalized();
-      normal[rod[k]] = tangent[rod[k]].cross(t);
-      tangent[rod[k]] = t;
-    }
-  return normal;
-}
-
 /// Collects the pieces, each with its depth along the view, and puts them in order.
 class Weaver {
  public:
@@ -113,6 +100,7 @@ class Weaver {
          const DrawQuality& quality)
       : scene_(scene),
         drawing_(drawing),
+        camera_(camera),
         forward_(camera_axes(camera).forward),
         mm_per_sample_(mm_per_sample),
         quality_(quality),
@@ -136,10 +124,11 @@ class Weaver {
     }
   }
 
-  /// A stretch between joints comes with the nearer of the cells beside it, so that these do not
+  /// A segment between joints comes with the nearer of the cells next to it, so that these do not
   /// cover half of it, and a joint with the nearest of its stretches.
   void add_rods() {
     const Neighbours neighbours(*drawing_.layout);
+    Points normals;
     node_depth_.assign(std::size_t(drawing_.nodes.cols()), INFINITY);
     Colours of_node(drawing_.node_colours.size());
     std::transform(drawing_.node_colours.begin(), drawing_.node_colours.end(), of_node.begin(),
@@ -154,7 +143,11 @@ class Weaver {
       for (int node : rod) colours.push_back(of_node.empty() ? plain : of_node[node]);
       const Points points = points_of(drawing_.nodes, rod);
       const Ribbon ribbon{points, colours, {&radius, 1}};
-      const std::uint32_t first = add_ribbon(scene_.ribbons, ribbon);
+      const Eigen::Vector2f size = lath_size(drawing_, r);
+      const bool lath = size.minCoeff() > 0;
+      const std::uint32_t first = lath ? 0 : add_ribbon(scene_.ribbons, ribbon);
+      if (lath && normals.empty()) normals = shell_normals(drawing_);
+      const Points of_lath = lath ? lath_normals(drawing_, r, normals) : Points();
       for (std::size_t begin = 0; begin + 1 < rod.size();) {
         std::size_t end = begin + 1;
         while (end + 1 < rod.size() && !neighbours.joint(rod[end])) ++end;
@@ -164,10 +157,29 @@ class Weaver {
           depth = std::min(depth, cell_depth_[cell]);
         for (int node : {rod[begin], rod[end]})
           node_depth_[node] = std::min(node_depth_[node], depth);
-        add_stretch(ribbon, first, int(begin), int(end), depth, true);
+        if (lath)
+          add_box({{&points[begin], end - begin + 1},
+                   {&of_lath[begin], end - begin + 1},
+                   {&colours[begin], end - begin + 1},
+                   size.cwiseMax(float(1.1 * mm_per_sample_))},
+                  depth);
+        else
+          add_stretch(ribbon, first, int(begin), int(end), depth, true);
         begin = end;
       }
     }
+  }
+
+  /// A sheet, so that it casts a shadow and its cells do not cover it.
+  void add_box(const LathPiece& piece, double depth) {
+    const Lighting light = lighting_passes(camera_, 1).front();
+    LathView view;
+    view.orthographic = camera_.field_of_view_deg <= 0;
+    view.eye = (view.orthographic ? Eigen::Vector3d(-forward_)
+                                  : camera_.target - camera_distance(camera_) * forward_)
+                   .cast<float>();
+    view.light = drawing_.node_colours.empty() ? &light : nullptr;
+    sheets_.push_back({depth - 1e-6, add_lath(scene_.sheets, piece, view)});
   }
 
   void add_joints() {
@@ -186,7 +198,7 @@ class Weaver {
         const Eigen::Vector3f at = drawing_.nodes.col(node).cast<float>();
         const double depth = std::min(node_depth_[node], forward_.dot(drawing_.nodes.col(node)));
         beads_.push_back(
-            {depth, add_bead(scene_.beads, at, axis, radius, BeadShape::flat, colour)});
+            {depth, add_bead(scene_.beads, at, axis, radius, BeadShape::cylinder, colour)});
         if (quality_.shadow) add_bead_shadow(at, axis, radius);
       }
     }
@@ -319,7 +331,7 @@ class Weaver {
   }
   /// A bead's shadow is that of a short strip as wide as it.
   void add_bead_shadow(const Eigen::Vector3f& at, const Eigen::Vector3f& axis, float radius) {
-    const Eigen::Vector3f half = 0.8f * radius * axis.unitOrthogonal();
+    const Eigen::Vector3f half = 5.f / 3 * radius * axis;
     const Points points{at - half, at + half};
     const Colours colours(2, {0, 0, 0, 1});
     const std::uint32_t first = add_ribbon(scene_.ribbons, {points, colours, {&radius, 1}});
@@ -328,6 +340,7 @@ class Weaver {
 
   Scene& scene_;
   const Drawing& drawing_;
+  const Camera& camera_;
   Eigen::Vector3d forward_;
   double mm_per_sample_;
   const DrawQuality& quality_;

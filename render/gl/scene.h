@@ -48,7 +48,7 @@ struct RenderJob {
   int width, height;
 };
 
-// A large picture cut into tiles that a context can hold.
+// A large picture cut into tiles that a context can store.
 
 /// Pixels x .. x + width - 1 and y .. y + height - 1 of a picture, y down.
 struct Tile {

@@ -193,7 +193,7 @@ class GlfwWindow final : public Window {
 
 }  // namespace
 
-Result<std::unique_ptr<Window>> Window::open(const WindowOptions& wish) {
+Result<std::unique_ptr<Window>> Window::open(const WindowOptions& request) {
   auto library = SharedLibrary::open({"libglfw.so.3", "libglfw.so"});
   if (!library) return fail(Fault::io, "window: " + library.error().message);
   Glfw glfw;
@@ -209,15 +209,17 @@ Result<std::unique_ptr<Window>> Window::open(const WindowOptions& wish) {
   glfw.hint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfw.hint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
   glfw.hint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-  glfw.hint(GLFW_VISIBLE, wish.visible ? GLFW_TRUE : GLFW_FALSE);
-  GLFWwindow* window = glfw.create(wish.width, wish.height, wish.title.c_str(), nullptr, nullptr);
+  glfw.hint(GLFW_VISIBLE, request.visible ? GLFW_TRUE : GLFW_FALSE);
+  GLFWwindow* window =
+      glfw.create(request.width, request.height, request.title.c_str(), nullptr, nullptr);
   if (!window) {
     const std::string reason = reason_of(glfw);
     glfw.terminate();
     return fail(Fault::io, "window: no OpenGL 3.3 core context: " + reason);
   }
-  if (wish.least_width > 0)
-    glfw.size_limits(window, wish.least_width, wish.least_height, GLFW_DONT_CARE, GLFW_DONT_CARE);
+  if (request.least_width > 0)
+    glfw.size_limits(window, request.least_width, request.least_height, GLFW_DONT_CARE,
+                     GLFW_DONT_CARE);
   return std::make_unique<GlfwWindow>(glfw, window);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -37,11 +38,11 @@ constexpr EventMark marks[] = {
     {BranchEvent::bifurcation, "bifurcation", Marker::circle, true},
     {BranchEvent::turn, "limit point", Marker::square, true},
     {BranchEvent::joins, "joins another branch", Marker::diamond, true},
-    {BranchEvent::locking, "rods at their length", Marker::triangle, false},
+    {BranchEvent::locking, "strain limit reached", Marker::triangle, false},
     {BranchEvent::lost, "followed no further", Marker::cross, false},
 };
 
-/// Where a point stands in the panel.
+/// The position of a point in the panel.
 class Place {
  public:
   Place(const std::vector<BranchPoint>& points, BranchAxis axis)
@@ -56,7 +57,7 @@ class Place {
   BranchAxis axis_;
 };
 
-/// Whether the way from a point to the next is stable. Where something happens the state may be
+/// Whether the path from a point to the next is stable. Where something happens the state may be
 /// either's, so the other end says it; a branch begins with a state of another one.
 bool stable_between(const std::vector<BranchPoint>& points, std::size_t to) {
   const BranchPoint &a = points[to - 1], &b = points[to];
@@ -120,7 +121,7 @@ Series cut(const Series& whole, double low, double high) {
     const double x = whole.x[k];
     const bool inside = x >= low && x <= high;
     if (line && k > 0) {
-      // where the way from the point before crosses an end
+      // where the path from the point before crosses an end
       const double x0 = whole.x[k - 1], y0 = whole.y[k - 1];
       for (const double end : x0 < x ? std::array{low, high} : std::array{high, low})
         if ((x0 - end) * (x - end) < 0)
@@ -166,7 +167,7 @@ void draw_legend(Canvas& canvas, const std::vector<BranchPoint>& points, Point a
   entry("stable", line);
   if (std::ranges::any_of(points, [](const BranchPoint& p) { return !p.stable(); })) {
     canvas.line(at, {at.x + line, at.y}, {ink, 1.3, {dash_on, dash_off}});
-    entry("not stable", line);
+    entry("unstable", line);
   }
   for (const EventMark& mark : marks) {
     if (std::ranges::none_of(points, [&](const BranchPoint& p) { return p.event == mark.event; }))
@@ -209,11 +210,11 @@ Series marks_of(const std::vector<LoadPoint>& points, BranchEvent event, const c
   return marks;
 }
 
-/// Where each case's rods come to their strength: the factor with its error, the way as the path on
-/// the finest mesh passes there.
+/// Where each case's rods reach their strength: the factor with its error, the displacement as the
+/// path on the finest mesh passes there.
 Series strength_marks(const std::vector<LoadPoint>& points,
                       const std::vector<record::LoadRow>& cases) {
-  Series marks = mark_series("at its strength", ink, Marker::triangle, 4);
+  Series marks = mark_series("strength reached", ink, Marker::triangle, 4);
   for (const record::LoadRow& row : cases) {
     const auto beyond = std::ranges::find_if(points, [&](const LoadPoint& point) {
       return point.load_case == row.load_case && point.utilisation >= 1;
@@ -234,15 +235,22 @@ Series strength_marks(const std::vector<LoadPoint>& points,
 Plot branches_plot(const std::vector<BranchPoint>& points, BranchAxis axis) {
   const Place place(points, axis);
   Plot plot;
-  plot.x.label = has_radius(points) ? "*R*_{a} (mm)" : "progress";
-  plot.y.label = axis == BranchAxis::height ? "height (mm)" : "amplitude of broken symmetry";
-  plot.legend = LegendPlace::none;
+  plot.x.label = has_radius(points) ? "*R*_{a} (mm); actuation ←" : "progress; actuation →";
+  plot.y.label = axis == BranchAxis::height ? "height (mm)" : "asymmetry, r.m.s. over length scale";
+  plot.legend = LegendPosition::none;
   plot.font_size = 8;
   plot.series = pieces_of(points, place);
   // the path itself on top
   std::stable_partition(plot.series.begin(), plot.series.end(),
                         [](const Series& s) { return s.line_width < 1.2; });
   for (const EventMark& mark : marks) plot.add(marks_of(points, place, mark));
+  // a branch's number in its table, where it ends
+  for (std::size_t k = 0; k < points.size(); ++k)
+    if (points[k].branch > 0 &&
+        (k + 1 == points.size() || points[k + 1].branch != points[k].branch))
+      plot.notes.push_back({place.x(points[k]), place.y(points[k]),
+                            std::to_string(points[k].branch), AlignX::right, AlignY::bottom,
+                            colour_of(points[k].branch)});
   return plot;
 }
 
@@ -268,27 +276,41 @@ Result<void> write_branches(const std::filesystem::path& stem,
   });
 }
 
-// What a shell carries: the load factor over a joint's way, a curve a case.
+// What a shell carries: the load factor over a joint's displacement, a curve per case.
 
 Plot load_plot(const std::vector<LoadPoint>& points, const std::vector<record::LoadRow>& cases,
                const std::string& title) {
   Plot plot;
   plot.title = title;
-  plot.x.label = "way of the joint that goes furthest (mm)";
+  plot.x.label = "largest joint displacement (mm)";
   plot.y.label = "load factor";
-  // cases whose factors are far apart would lie on one another
-  constexpr double far_apart = 10, below = 1.0 / 30;
+  // factors that are far apart are shown over the critical one of each
+  constexpr double far_apart = 4;
+  std::map<std::string, double> critical;
   double least = INFINITY, most = 0;
   for (const record::LoadRow& row : cases)
-    if (row.critical_factor > 0)
+    if (row.critical_factor > 0) {
+      critical[row.load_case] = row.critical_factor;
       least = std::min(least, row.critical_factor), most = std::max(most, row.critical_factor);
-  if (most > far_apart * least) plot.y.logarithmic = true, plot.y.low = below * least;
+    }
+  std::vector<LoadPoint> shown = points;
+  std::vector<record::LoadRow> rows = cases;
+  if (most > far_apart * least && critical.size() == cases.size()) {
+    plot.y.label = "load factor over critical factor";
+    for (LoadPoint& point : shown) point.factor /= critical.at(point.load_case);
+    for (record::LoadRow& row : rows) {
+      row.strength_factor /= row.critical_factor;
+      row.strength_error /= row.critical_factor;
+    }
+  } else {
+    plot.references.push_back({.at = 1, .label = ""});
+  }
   std::size_t next = 0;
   for (const auto& name : distinct(points, &LoadPoint::load_case))
-    add_path(points, name, series_colour(next++), plot);
-  plot.add(marks_of(points, BranchEvent::turn, "limit point", Marker::square));
-  plot.add(marks_of(points, BranchEvent::bifurcation, "bifurcation", Marker::circle));
-  plot.add(strength_marks(points, cases));
+    add_path(shown, name, series_colour(next++), plot);
+  plot.add(marks_of(shown, BranchEvent::turn, "limit point", Marker::square));
+  plot.add(marks_of(shown, BranchEvent::bifurcation, "bifurcation", Marker::circle));
+  plot.add(strength_marks(shown, rows));
   return plot;
 }
 

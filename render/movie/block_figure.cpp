@@ -1,5 +1,7 @@
 #include "render/movie/run_figures.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <numbers>
@@ -15,9 +17,9 @@
 namespace gridshell::render {
 namespace {
 
-/// How far each block is moved so that they stand apart, in proportion to its place.
+/// How far each block is moved so that they are separate, in proportion to its position.
 std::vector<Eigen::Vector3d> apart(const std::vector<record::Part>& parts,
-                                   Eigen::Matrix3Xd record::Part::*where, double share) {
+                                   Eigen::Matrix3Xd record::Part::*where, double fraction) {
   std::vector<Eigen::Vector3d> moves;
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const record::Part& part : parts) {
@@ -25,7 +27,7 @@ std::vector<Eigen::Vector3d> apart(const std::vector<record::Part>& parts,
     middle += moves.back() / double(parts.size());
   }
   for (Eigen::Vector3d& move : moves) {
-    move = share * (move - middle);
+    move = fraction * (move - middle);
     move.z() = 0;
   }
   return moves;
@@ -47,7 +49,7 @@ std::vector<PlacedBlock> placed_blocks(const std::vector<NetRun>& runs) {
     for (std::size_t k = 0; k < parts.size(); ++k) blocks.push_back({&parts[k], moves[k]});
     return blocks;
   }
-  constexpr double gap = 0.25;  // of the blocks' mean width
+  constexpr double gap = 0.65;  // of the blocks' mean width
   std::set<std::string> seen;
   double widths = 0, end = 0;
   for (const NetRun& one : runs)
@@ -123,8 +125,15 @@ struct BlockSheet {
   double high() const { return above.size().y() + below.size().y(); }
 };
 
+/// "quarter sphere 1 east – saddle west" of "quarter sphere 1.east - saddle.west"
+std::string seam_text(std::string seam) {
+  std::ranges::replace(seam, '.', ' ');
+  if (const auto at = seam.find(" - "); at != seam.npos) seam.replace(at, 3, " – ");
+  return seam;
+}
+
 constexpr double between = 14, bar_height = 20;  // points
-constexpr const char* rim_text = "dashed: the shell's rim";
+constexpr const char* rim_text = "dashed: actuated boundary";
 
 }  // namespace
 
@@ -158,7 +167,7 @@ std::vector<ColourKey> BlockKinds::keys() const {
 }
 
 Result<PanelFigure> draw_blocks(const std::vector<NetRun>& runs, const MovieStyle& movie_style,
-                                Renderer& renderer, Watch& watch) {
+                                Watch& watch) {
   const MovieStyle style = uncoloured(movie_style);
   const BlockKinds kinds(runs);
   const auto placed = placed_blocks(runs);
@@ -172,20 +181,33 @@ Result<PanelFigure> draw_blocks(const std::vector<NetRun>& runs, const MovieStyl
   drawing.rod_diameter_mm *= 1.5;
   for (const std::size_t block : owner)
     drawing.node_colours.push_back(kinds.colour(placed[block].part->name));
+  // one of each kind: their letters are in front of them
+  for (std::size_t k = 0; k < placed.size() && runs.size() > 1; ++k) {
+    const auto& [part, move] = placed[k];
+    const Eigen::Vector3d low = part->net.rowwise().minCoeff(),
+                          high = part->net.rowwise().maxCoeff();
+    const Eigen::Vector3d before(0.5 * (low.x() + high.x()),
+                                 low.y() - 0.1 * blocks.layout.length_scale_mm, low.z());
+    drawing.labels.push_back({before + move, fmt::format("A{}", k + 1), true});
+  }
   PanelFigure figure = empty_figure(style, 1);
-  TRY_DO(add_panel(figure, stage, std::move(drawing), {}, renderer, watch));
+  TRY_DO(add_panel(figure, stage, std::move(drawing), {}, nullptr, watch));
   figure.keys = kinds.keys();
   figure.scale_bar_mm = scale_bar_beside(style.scale_bar_mm, blocks.layout.length_scale_mm);
   figure.pixels_per_mm = stage.pixels_per_mm();
   return figure;
 }
 
+double block_footprint_scale(const Box& box, const record::Trajectory& run) {
+  const BlockSheet sheet(run.layout);
+  return std::min(box.width / sheet.wide(), (box.height - between - bar_height) / sheet.high());
+}
+
 void draw_block_footprints(Canvas& canvas, const Box& box, const record::Trajectory& run,
-                           const BlockKinds& kinds) {
+                           const BlockKinds& kinds, double scale) {
   const record::Layout& layout = run.layout;
   const BlockSheet sheet(layout);
-  const double scale =
-      std::min(box.width / sheet.wide(), (box.height - between - bar_height) / sheet.high());
+  if (scale == 0) scale = block_footprint_scale(box, run);
   const auto centred = [&](const Extent& extent, double y) {
     return PlanView{{box.middle().x - scale * extent.size().x() / 2, y},
                     {extent.low.x(), extent.high.y()},
@@ -232,11 +254,11 @@ Result<void> write_block_footprints(const std::filesystem::path& stem,
 std::vector<Plot> seam_plots(const record::Trajectory& run) {
   std::vector<Plot> plots(2);
   for (Plot& plot : plots) {
-    plot.x.label = "place along the seam (mm)";
+    plot.x.label = "position along the seam (mm)";
     plot.y.low = 0;
   }
   plots[0].y.label = "gap (mm)";
-  plots[1].y.label = "kink (°)";
+  plots[1].y.label = "angle between tangents (°)";
   std::map<std::string, std::array<Series, 2>> seams;
   // a seam runs across both families: its middle has the mean of the lines of each
   std::map<std::pair<std::string, char>, std::pair<double, int>> lines;
@@ -257,7 +279,7 @@ std::vector<Plot> seam_plots(const record::Trajectory& run) {
   for (auto& [name, pair] : seams) {
     for (std::size_t k = 0; k < 2; ++k) {
       // seams may be mirror images: the later ones lie inside
-      Series marks = mark_series(plain(name), series_colour(index), series_marker(index),
+      Series marks = mark_series(plain(seam_text(name)), series_colour(index), series_marker(index),
                                  std::max(2.2, 5.4 - 2.0 * double(index)));
       marks.x = std::move(pair[k].x);
       marks.y = std::move(pair[k].y);

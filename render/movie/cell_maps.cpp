@@ -99,11 +99,11 @@ std::vector<MethodPanel> panels_of(const std::vector<StabilityRow>& rows) {
   return panels;
 }
 
-/// Where everything goes: panels of a map beside one another, as many as fit.
+/// Where everything goes: panels of a map next to one another, as many as fit.
 struct Place {
   const MethodPanel* panel;
   Point at;
-  bool first;  ///< of its map: the map's name stands above
+  bool first;  ///< of its map: the map's name is above
 };
 
 std::vector<Place> places_of(const std::vector<MethodPanel>& panels, double width, double* height) {
@@ -112,7 +112,7 @@ std::vector<Place> places_of(const std::vector<MethodPanel>& panels, double widt
   for (std::size_t k = 0; k < panels.size(); ++k) {
     const MethodPanel& panel = panels[k];
     const bool first = k == 0 || panels[k - 1].map != panel.map;
-    // a map of one panel may stand beside the one before
+    // a map of one panel may be next to the one before
     const bool fits = k > 0 && x + panel.width() + (first ? heading_gap : 0) <= width;
     const auto alone = [&](const std::string& map) {
       return std::ranges::count(panels, map, &MethodPanel::map) == 1;
@@ -133,12 +133,35 @@ std::vector<Place> places_of(const std::vector<MethodPanel>& panels, double widt
 
 void draw_outcome(Canvas& canvas, const Box& box, RunOutcome outcome) {
   canvas.rectangle(box, outcome_colour(outcome), {white, 1});
-  if (!record::silently_wrong(outcome)) return;
-  // legible without colours
+  // a sign each, legible without colours
   const Point m = box.middle();
   const double r = 0.22 * box.height;
-  canvas.line({m.x - r, m.y - r}, {m.x + r, m.y + r}, {white, 1});
-  canvas.line({m.x - r, m.y + r}, {m.x + r, m.y - r}, {white, 1});
+  const Stroke stroke{record::silently_wrong(outcome) ? white : ink, 1};
+  const auto line = [&](double x0, double y0, double x1, double y1) {
+    canvas.line({m.x + r * x0, m.y + r * y0}, {m.x + r * x1, m.y + r * y1}, stroke);
+  };
+  switch (outcome) {
+    case RunOutcome::right:
+      return;
+    case RunOutcome::refused:
+      return line(-1, 0, 1, 0);
+    case RunOutcome::not_converged:
+      return line(-1, 1, 1, -1);
+    case RunOutcome::blow_up:
+      line(-1, 0.6, 0, -0.8);
+      return line(0, -0.8, 1, 0.6);
+    case RunOutcome::too_slow:
+      return canvas.circle(m, 0.45 * r, ink);
+    case RunOutcome::planar_saddle:
+      line(-1, 0, 1, 0);
+      return line(0, -1, 0, 1);
+    case RunOutcome::silent_wrong:
+      canvas.circle(m, 1.5 * r, {0, 0, 0, 0}, stroke);
+      [[fallthrough]];
+    case RunOutcome::other_state:
+      line(-1, -1, 1, 1);
+      return line(-1, 1, 1, -1);
+  }
 }
 
 void draw_panel(Canvas& canvas, const MethodPanel& panel, Point at) {

@@ -68,7 +68,7 @@ ColourBar bar_of_sizes(const Surveys& runs, ColourBy by) {
   for (const RunSummary* run : runs)
     most.insert(most.end(), run->spread(by).most.begin(), run->spread(by).most.end());
   const Interval all = all_of(runs, by);
-  // where rods break must be told
+  // where rods break must be reported
   const bool whole = by == ColourBy::stress || by == ColourBy::utilisation;
   ColourBar bar{.label = {}, .scale = symmetric_scale(most, whole ? 1 : quantile)};
   const Quantity& quantity = quantity_of(by);
@@ -118,13 +118,13 @@ Eigen::VectorXd coloured_values(ColourBy by, const record::Layout& layout,
 }
 
 tl::unexpected<Error> missing_values_error(ColourBy by) {
-  const std::string asked = fmt::format("[movie] colour_by = \"{}\"", word_of(by));
+  const std::string requested = fmt::format("[movie] colour_by = \"{}\"", word_of(by));
   if (by == ColourBy::deviation)
-    return invalid(asked + ": the run has no net that its shell could lie off");
+    return invalid(requested + ": the run has no net that its shell could lie off");
   return invalid(
       "{}: no frame of the run knows the rods' {}, as runs of an older version "
       "and of a net do not; run it again",
-      asked,
+      requested,
       by == ColourBy::axial_force ? "axial forces"
       : by == ColourBy::energy    ? "bending energy"
       : by == ColourBy::stress    ? "stress"

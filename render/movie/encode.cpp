@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <sstream>
 
@@ -11,17 +12,24 @@ namespace gridshell::render {
 
 namespace {
 
-/// When every frame is shown, and how long the first and the last are held.
+/// How long the frames are shown: few of them longer, not a still film.
+double seconds_of(const preset::Movie& timing) {
+  constexpr double least_s = 4, longest_frame_s = 0.25;
+  if (timing.seconds > 0) return timing.seconds;
+  return std::max(double(timing.frames) / std::max(1, timing.fps),
+                  std::min(least_s, longest_frame_s * timing.frames));
+}
+
+/// When every frame is shown, and how long the first and the last are shown.
 std::string timing_filters(const preset::Movie& timing) {
   std::string filters;
   const bool eased = timing.pace == Pace::eased && timing.frames > 1;
-  const double seconds =
-      timing.seconds > 0 ? timing.seconds : double(timing.frames) / std::max(1, timing.fps);
+  const double seconds = seconds_of(timing);
   if (eased) {
     // the inverse of 3 p^2 - 2 p^3: slow at both ends
     filters += fmt::format("setpts='(0.5-sin(asin(1-2*N/{})/3))*{:.6f}/TB',fps={},",
                            timing.frames - 1, seconds, timing.fps);
-  } else if (timing.seconds > 0 && timing.frames > 0) {
+  } else if (timing.frames > 0 && std::abs(seconds * timing.fps - timing.frames) > 1e-6) {
     filters += fmt::format("setpts='N*{:.6f}/TB',fps={},", seconds / timing.frames, timing.fps);
   }
   if (timing.hold_first_s > 0 || timing.hold_s > 0)
@@ -74,8 +82,9 @@ std::vector<std::string> arguments_of(const std::vector<std::string>& input,
   return words;
 }
 
-/// Of ffmpeg, in the words of who asked for a movie.
-Error told(Error error, const std::filesystem::path& frames, const std::filesystem::path& movie) {
+/// The error of ffmpeg, in the terms of who requested a movie.
+Error reported(Error error, const std::filesystem::path& frames,
+               const std::filesystem::path& movie) {
   if (error.fault == Fault::io)
     error.message = fmt::format(
         "cannot make '{}' of the frames in '{}', which are whole: {} (ffmpeg takes pictures of "
@@ -92,7 +101,7 @@ std::vector<std::string> encode_arguments(const std::filesystem::path& frames,
   // in the pattern a percent sign of the folder's own name is doubled
   std::string pattern;
   for (char c : frames.string()) pattern += c == '%' ? std::string("%%") : std::string(1, c);
-  // ffmpeg takes what stands before a colon for a protocol, and a leading dash for an option
+  // ffmpeg takes what is before a colon for a protocol, and a leading dash for an option
   return arguments_of(
       {"-framerate", std::to_string(timing.fps), "-i", "file:" + pattern + "/frame_%05d.png"},
       frames, timing, movie);
@@ -132,7 +141,7 @@ Result<void> encode_movie(const std::filesystem::path& frames, const preset::Mov
   std::vector<std::string> arguments = encode_arguments(frames, timing, file.temporary());
   arguments[0] = program.string();
   if (auto run = run_subprocess(arguments, watch); !run)
-    return tl::unexpected(told(run.error(), frames, movie));
+    return tl::unexpected(reported(run.error(), frames, movie));
   return file.commit();
 }
 
@@ -149,7 +158,7 @@ Result<std::optional<MovieEncoder>> MovieEncoder::begin(const std::filesystem::p
                    frames, timing, file->temporary());
   arguments[0] = program.string();
   auto ffmpeg = Subprocess::start(arguments, Input::fed);
-  if (!ffmpeg) return tl::unexpected(told(ffmpeg.error(), frames, movie));
+  if (!ffmpeg) return tl::unexpected(reported(ffmpeg.error(), frames, movie));
   return MovieEncoder(frames, movie, std::move(file), std::move(*ffmpeg));
 }
 
@@ -159,10 +168,10 @@ void MovieEncoder::put(const Image& picture, const Watch& watch) {
 
 Result<void> MovieEncoder::finish(const Watch& watch) {
   if (auto ended = ffmpeg_.end(watch); !ended)
-    return tl::unexpected(told(ended.error(), frames_, movie_));
+    return tl::unexpected(reported(ended.error(), frames_, movie_));
   if (!takes_more_)
     return tl::unexpected(
-        told({Fault::io, "ffmpeg took no more pictures, and said nothing"}, frames_, movie_));
+        reported({Fault::io, "ffmpeg took no more pictures, and said nothing"}, frames_, movie_));
   return file_->commit();
 }
 

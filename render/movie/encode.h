@@ -17,7 +17,7 @@
 namespace gridshell::render {
 
 // How fast a movie of so many frames plays its preset says: fps, frames, seconds, hold_first_s,
-// hold_s, pace, and title_s of the card before all, title.png beside the folder `frames`.
+// hold_s, pace, and title_s of the card before all, title.png next to the folder `frames`.
 
 /// The arguments that turn `frames`/frame_%05d.png into `movie`, to be run in any folder. By its
 /// extension: .mp4, H.264 with 4:2:0 colours, which every player knows, and tags that say which
@@ -41,7 +41,7 @@ Result<void> encode_movie(const std::filesystem::path& frames, const preset::Mov
 /// makes of them afterwards.
 class MovieEncoder {
  public:
-  /// Starts ffmpeg for pictures of timing.size; a title card stands beside `frames` already.
+  /// Starts ffmpeg for pictures of timing.size; a title card is next to `frames` already.
   /// Nothing without ffmpeg. Errors: Fault::io when it cannot start.
   static Result<std::optional<MovieEncoder>> begin(const std::filesystem::path& frames,
                                                    const preset::Movie& timing,

@@ -1,6 +1,7 @@
 #include "render/movie/fabrication_sheets.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <utility>
 
@@ -88,7 +89,7 @@ void draw_plate(Canvas& canvas, const FabricationPlan& work, const Box& box) {
   for (const Pin& pin : work.pins)
     if (pin.in_ring) canvas.circle(fit(pin.at.head<2>()), 1.3, {1, 1, 1, 1}, {ink, 0.7});
   canvas.text(work.has_plate() ? "actuated boundary with its holes, seen from above"
-                               : "where the ends are held, seen from above; heights in pins.csv",
+                               : "positions of the ends, seen from above; heights in pins.csv",
               {box.middle().x, box.bottom()}, {7.5, ink, false, AlignX::centre, AlignY::bottom});
 }
 
@@ -97,6 +98,41 @@ std::string marks_of(const CutRod& rod) {
   for (const double mark : rod.joint_marks_mm)
     marks += fmt::format("{}{:.1f}", marks.empty() ? "" : "  ", mark);
   return marks;
+}
+
+/// The rod as it is marked from its other end.
+CutRod turned(CutRod rod) {
+  std::ranges::reverse(rod.joint_marks_mm);
+  for (double& mark : rod.joint_marks_mm) mark = rod.length_mm - mark;
+  return rod;
+}
+
+/// Number, names, length and marks of equal rods; those that are turned are marked so.
+std::vector<TableRow> cut_list(const FabricationPlan& work) {
+  std::vector<TableRow> rows;
+  std::vector<int> numbers;
+  for (const CutRod& rod : work.rods) {
+    const std::string length = fmt::format("{:.1f}", rod.length_mm), marks = marks_of(rod),
+                      mirrored = marks_of(turned(rod));
+    const auto equal = [&](const std::string& as) {
+      return std::ranges::find_if(rows, [&](const TableRow& row) {
+        return row.cells[2] == length && row.cells[3] == as &&
+               row.stands_out == rod.hard_to_build();
+      });
+    };
+    auto same = equal(marks);
+    const bool from_other_end = same == rows.end() && equal(mirrored) != rows.end();
+    if (from_other_end) same = equal(mirrored);
+    if (same == rows.end()) {
+      rows.push_back({{"", rod.name, length, marks}, rod.hard_to_build()});
+      numbers.push_back(1);
+      continue;
+    }
+    same->cells[1] += ", " + rod.name + (from_other_end ? "*" : "");
+    ++numbers[std::size_t(same - rows.begin())];
+  }
+  for (std::size_t k = 0; k < rows.size(); ++k) rows[k].cells[0] = std::to_string(numbers[k]);
+  return rows;
 }
 
 std::string short_legs(const FabricationPlan& work) {
@@ -120,7 +156,7 @@ std::vector<std::string> steps(const FabricationPlan& work) {
       fmt::format("Cut {} {}, {:.2f} m in all, to the lengths of the cut list; write its name on "
                   "each.",
                   work.rods.size(), work.section_text(), 1e-3 * work.total_length_mm()),
-      "Mark the joints on each rod at the distances of the cut list, measured from its begin: the "
+      "Mark the joints on each rod at the distances of the cut list, measured from its start: the "
       "left of a u-rod, the lower end of a v-rod.",
       fmt::format("{}, lay the u-rods on it, the v-rods over them, and {} them at all {} crossings "
                   "so that they can turn but not slide.",
@@ -132,22 +168,22 @@ std::vector<std::string> steps(const FabricationPlan& work) {
     list.push_back(fmt::format("Drill the {} holes of the actuated boundary (export --what plate).",
                                ring_pins));
     list.emplace_back(
-        "Put the ends into their holes, opposite ones in turn from the middle outwards. Hold the "
+        "Put the ends into their holes, opposite ones in turn from the middle outwards. Fix the "
         "middle up while the first ones go in: a flat grid may also buckle down.");
   } else if (ring_pins > 0) {
     const auto [low, high] = work.heights_of_pins();
-    list.push_back(
-        fmt::format("Make {} supports at the places of 'export --what plate --to pins.csv': their "
-                    "heights differ by up to {:.0f} mm, so no flat plate holds them.",
-                    ring_pins, high - low));
+    list.push_back(fmt::format(
+        "Make {} supports at the positions of 'export --what plate --to pins.csv': their "
+        "heights differ by up to {:.0f} mm, so no flat plate carries them.",
+        ring_pins, high - low));
     list.emplace_back(
         "Bring the grid up and fix its ends to the supports, opposite ones in turn from the middle "
         "outwards; prop its middle until all are fixed.");
   }
   if (far_pins > 0)
     list.push_back(
-        fmt::format("Hold the {} far ends at the places of the second ring, which do "
-                    "not lie in the plate (export --what plate --to pins.csv).",
+        fmt::format("Fix the {} far ends at the positions of the second ring, which do not lie in "
+                    "the plate (export --what plate --to pins.csv).",
                     far_pins));
   list.insert(list.end(), work.hand.begin(), work.hand.end());
   return list;
@@ -280,16 +316,23 @@ std::string Sheets::pdf() const {
 
 void add_cut_list(Sheets& sheets, const FabricationPlan& work) {
   sheets.text(
-      fmt::format("{} {}, {:.2f} m in all; marks in mm from the begin of each. Red: a leg below "
-                  "{:g} mm.",
+      fmt::format("{} {}, {:.2f} m in all; marks in mm from the start of each, of rods with * "
+                  "from its end. Red: a leg below {:g} mm.",
                   work.rods.size(), work.section_text(), 1e-3 * work.total_length_mm(),
                   exports::shortest_leg_mm));
-  std::vector<TableRow> rows;
-  for (const CutRod& rod : work.rods)
-    rows.push_back(
-        {{rod.name, fmt::format("{:.1f}", rod.length_mm), marks_of(rod)}, rod.hard_to_build()});
-  sheets.table({{"rod", 40, AlignX::left}, {"length (mm)", 60}, {"joints (mm)", 0, AlignX::left}},
+  std::vector<TableRow> rows = cut_list(work);
+  sheets.table({{"number", 36},
+                {"rods", 110, AlignX::left},
+                {"length (mm)", 60},
+                {"joints (mm)", 0, AlignX::left}},
                rows);
+}
+
+std::string cut_list_text(const FabricationPlan& work) {
+  std::string text;
+  for (const TableRow& row : cut_list(work))
+    text += fmt::format("{}\n", fmt::join(row.cells, "  "));
+  return text;
 }
 
 std::string cut_list_pdf(const FabricationPlan& work) {
@@ -305,7 +348,7 @@ std::string assembly_sheet_pdf(const FabricationPlan& work) {
     const TextStyle text{9, ink};
     draw_title(canvas, work.title + ": assembly", 14);
     canvas.text(
-        fmt::format("{}, joints {:g} mm apart along them", work.section_text(), work.spacing_mm),
+        fmt::format("{}, joints at every {:g} mm along them", work.section_text(), work.spacing_mm),
         {margin, margin + 16}, text);
     draw_footprint(canvas, work, {margin, margin + 26, half, half + 10});
     draw_plate(canvas, work, {margin + half + 16, margin + 26, half, half + 10});

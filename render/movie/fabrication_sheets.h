@@ -12,7 +12,7 @@
 namespace gridshell::render {
 
 /// One column of a table: how wide, points; 0: what is left, its text broken into lines. Numbers
-/// stand at the right.
+/// are at the right.
 struct TableColumn {
   std::string title;  ///< marked text
   double width = 0;
@@ -26,17 +26,17 @@ struct TableRow {
 };
 
 /// Sheets of A4 filled from the top, as one PDF: headings, text, tables, pictures and plots; what
-/// does not fit comes on the next sheet.
+/// does not fit is on the next sheet.
 class Sheets {
  public:
-  /// `title` stands at the foot of every sheet, with its number, and in the PDF's data.
+  /// `title` is at the foot of every sheet, with its number, and in the PDF's data.
   explicit Sheets(std::string title) : title_(std::move(title)) {}
 
-  /// Of the whole, or of what follows.
+  /// The heading of the complete text, or of what follows.
   void heading(const std::string& plain_text, double size = 11);
   /// Plain text, broken into lines.
   void text(const std::string& plain_text);
-  /// Its head comes again on each sheet that it goes on to.
+  /// Its head is repeated on each sheet on which it continues.
   void table(const std::vector<TableColumn>& columns, const std::vector<TableRow>& rows);
   /// What something is, and how much, two pairs a line.
   void values(const std::vector<std::pair<std::string, std::string>>& pairs);
@@ -49,7 +49,7 @@ class Sheets {
   std::string pdf() const;
 
  private:
-  /// What stands across the sheet and is not parted.
+  /// What extends across the sheet and is not parted.
   struct Item {
     double height = 0;
     std::function<void(Canvas& canvas, double y)> draw;
@@ -66,9 +66,11 @@ class Sheets {
   std::vector<Item> items_;
 };
 
-/// Every rod with its length and marks.
+/// Rods of one length and with the same marks, from either end, in one row with their number;
+/// `cut_list_text`: its cells.
+std::string cut_list_text(const exports::FabricationPlan& work);
 void add_cut_list(Sheets& sheets, const exports::FabricationPlan& work);
-/// The same as a PDF.
+/// Writes the sheets as a PDF.
 std::string cut_list_pdf(const exports::FabricationPlan& work);
 
 /// One page of A4: the footprint and the plate in small, what is needed, the steps, and the legs

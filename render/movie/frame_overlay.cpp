@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "engine/record/contacts.h"
 #include "render/canvas/text.h"
@@ -86,9 +87,9 @@ void draw_marks(Canvas& canvas, const Box& bar, const std::vector<Mark>& marks,
 
 constexpr Colour rod_ink{0.16f, 0.17f, 0.2f, 1}, load_ink{0.05f, 0.05f, 0.06f, 1};
 
-/// "950 N", "4.249 kN"
+/// "950 N", "4.25 kN"
 std::string force_text(double N) {
-  return N >= 1000 ? fmt::format("{:.4g} kN", 1e-3 * N) : fmt::format("{:.4g} N", N);
+  return N >= 1000 ? fmt::format("{:.3g} kN", 1e-3 * N) : fmt::format("{:.3g} N", N);
 }
 
 }  // namespace
@@ -97,7 +98,7 @@ TextStyle title_style(const MovieStyle& style, double font_size) {
   return {.size = (style.captions ? 1.15 : 1) * font_size, .bold = true};
 }
 
-FrameLayout lay_out_frame(const MovieStyle& style, const ColourBar* bar, bool loads) {
+FrameLayout lay_out_frame(const MovieStyle& style, const ColourBar* bar, FrameNotes notes) {
   FrameLayout layout;
   const double w = style.width(), h = style.height();
   // readable down to small pictures, and no wider than a tall one allows
@@ -115,7 +116,7 @@ FrameLayout lay_out_frame(const MovieStyle& style, const ColourBar* bar, bool lo
   const double bar_tall = wide ? std::min(0.42 * h, 20 * em) : side;
   bool with_bar = bar && bar_tall > 5 * line && bar_wide < 0.4 * rest.width;
   if (wide && style.bins && 0.42 * w > 16 * em && rest.height > 16 * em) {
-    // a plot above, the small legends beside one another below it
+    // a plot above, the small legends next to one another below it
     Box column = cut_right(rest, 0.42 * w);
     cut_right(rest, margin);
     layout.plot = cut_top(column, 0.62 * column.height);
@@ -157,11 +158,11 @@ FrameLayout lay_out_frame(const MovieStyle& style, const ColourBar* bar, bool lo
     const double right = layout.plot.empty() ? w : rest.right(), x = still_margin * em;
     layout.title_lines = lines_of_title(style, right - 2 * x, em);
     const double lines = std::max(1.0, double(layout.title_lines.size()));
-    cut_top(rest, (1.2 + lines) * line);
+    cut_top(rest, (1.2 + lines) * line + 1.3 * em * (notes.loads + notes.contacts));
     layout.heading = {x, x, right - 2 * x, (1 + lines) * line};
   }
   const bool scale_bar = style.scale_bar_mm > 0 && rest.height > 6 * line;
-  const bool key = loads && rest.height > 6 * line;
+  const bool key = notes.arrow_key && rest.height > 6 * line;
   Box foot = cut_bottom(rest, captions ? 1.9 * line : (scale_bar || key ? 1.7 * line : 0));
   if (scale_bar) {
     Box place = cut_right(foot, 0.4 * foot.width);
@@ -200,6 +201,36 @@ void put_contacts(const record::Layout& layout, const record::Frame& frame, doub
     drawing.marks.push_back({contact.at, std::max(4.0, 5 * thin_mm), contact_ink});
 }
 
+void put_supports(const record::Layout& layout, const record::Frame& frame, const Appearance& look,
+                  Drawing& drawing) {
+  const double size = 1.3 * drawing.joint_diameter_mm;
+  // those with a reaction, as ends may be free; in a flat grid without any all that the ring
+  // constrains
+  const std::set<int> ends(layout.edge_points.begin(), layout.edge_points.end());
+  std::set<int> held;
+  if (frame.reactions_N.cols() == Eigen::Index(layout.supports.size()))
+    for (std::size_t k = 0; k < layout.supports.size(); ++k)
+      if (ends.contains(layout.supports[k]) && !frame.reactions_N.col(Eigen::Index(k)).isZero(0))
+        held.insert(layout.supports[k]);
+  if (held.empty() && look.rings) held = ends;
+  for (const int node : held)
+    drawing.marks.push_back({frame.nodes.col(node), size, look.ring, false});
+  if (!look.clamped) return;
+  GhostRods sleeves{frame.nodes, {}, size, look.ring, -size};
+  const auto add = [&](auto at, const auto end) {
+    std::vector<int>& sleeve = sleeves.rods.emplace_back();
+    for (const int first = *at; at != end; ++at) {
+      sleeve.push_back(*at);
+      if ((frame.nodes.col(*at) - frame.nodes.col(first)).norm() > 2.5 * size) break;
+    }
+  };
+  for (const auto& rod : layout.rods) {
+    if (held.contains(rod.front())) add(rod.begin(), rod.end());
+    if (held.contains(rod.back())) add(rod.rbegin(), rod.rend());
+  }
+  drawing.ghosts.push_back(std::move(sleeves));
+}
+
 void put_braces(const record::Layout& layout, const record::Frame& frame, double thin_mm,
                 Drawing& drawing) {
   GhostRods braces{frame.nodes, {}, std::max(0.6 * layout.rod_diameter_mm, thin_mm), brace_ink};
@@ -216,7 +247,8 @@ void put_braces(const record::Layout& layout, const record::Frame& frame, double
 
 void put_loads(const record::Layout& layout, const record::Frame& frame, double largest_N,
                double thin_mm, Drawing& drawing) {
-  const double width = std::max(0.02 * longest_force(layout), 1.5 * thin_mm);
+  const double width =
+      std::max((loads_all_alike(frame) ? 0.04 : 0.02) * longest_force(layout), 1.5 * thin_mm);
   for (const LoadArrow& arrow : force_arrows(layout, frame, largest_N))
     drawing.arrows.push_back({arrow.from, arrow.to, width, force_ink});
 }
@@ -251,9 +283,9 @@ std::string event_caption(const record::Frame& frame) {
 void draw_timeline(Canvas& canvas, const Box& box, const std::vector<Mark>& marks,
                    const ProgressAxis& axis, int at, double font_size) {
   const int frames = int(axis.places.size());
-  // what stands beside the bar over the whole run decides its length, so that it does not move
+  // what is next to the bar over the complete run decides its length, so that it does not move
   const double size = 0.8 * font_size, gap = 0.5 * size;
-  const double apart = 6 * gap;  // of the bar and its signs from those beside it
+  const double apart = 6 * gap;  // of the bar and its signs from those next to it
   double words = apart - 2 * gap;
   for (const Sign& sign : signs)
     if (reached(marks, sign.kind, frames))

@@ -1,4 +1,4 @@
-// Where the parts of a frame stand: picture, captions, legends. They never overlap, at any size;
+// Where the parts of a frame are: picture, captions, legends. They never overlap, at any size;
 // what does not fit is left out.
 #pragma once
 
@@ -23,7 +23,7 @@ struct FrameLayout {
   double font_size = 17;  ///< of captions; follows the picture's height
   Box title, state;       ///< upper left; the title in the lines below
   Box heading;            ///< of a still: its title's lines and its caption
-  Box event, timeline;    ///< lower left, a line each
+  Box event, timeline;    ///< lower left, one line each
   Box colour_bar, inset, scale_bar, arrow_key, plot;
   Box view;                              ///< what is left for the shell
   std::vector<std::string> title_lines;  ///< of the title, or of a still's heading
@@ -34,18 +34,24 @@ struct FrameLayout {
   }
 };
 
-/// Of a still's heading from the picture's edge, in ems.
+/// The distance of a still's heading from the picture's edge, in ems.
 inline constexpr double still_margin = 0.9;
 
 /// The title's font, at the layout's size of font.
 TextStyle title_style(const MovieStyle& style, double font_size);
 
 /// A wide picture has inset and colour bar in a column on the right, a tall one in a strip below.
-FrameLayout lay_out_frame(const MovieStyle& style, const ColourBar* bar, bool loads = false);
+/// What else is written into a frame, in addition to its title and state.
+struct FrameNotes {
+  bool loads = false;      ///< a row of their sums under a still's heading
+  bool arrow_key = false;  ///< of their arrows
+  bool contacts = false;   ///< a row of these
+};
+FrameLayout lay_out_frame(const MovieStyle& style, const ColourBar* bar, FrameNotes notes = {});
 
 // The words of a frame, which speak of that frame alone.
 
-/// What a frame's state is, the most telling first, as marked text: of a pushed shell "*δ* = 3.20
+/// What a frame's state is, the most important first, as marked text: of a pushed shell "*δ* = 3.20
 /// mm" and "*F* = 0.214 N"; "*R*_{a} = 115.9 mm", of a pushed shell where its boundary is not where
 /// the actuation ends; then "height 42.1 mm", or "*t* = 12 ms" where it moves in time. What does
 /// not apply is not there.
@@ -53,6 +59,10 @@ std::vector<std::string> state_captions(const record::Frame& frame);
 
 /// A mark where parts of the frame touch; `thin_mm`: the least width of what is to be seen.
 void put_contacts(const record::Layout& layout, const record::Frame& frame, double thin_mm,
+                  Drawing& drawing);
+
+/// Balls at the supports, as in the holes of a plate; sleeves around the ends of clamped rods.
+void put_supports(const record::Layout& layout, const record::Frame& frame, const Appearance& look,
                   Drawing& drawing);
 
 /// The frame's braces as bars.
@@ -75,10 +85,10 @@ std::string contact_caption(const record::Frame& frame);
 /// nothing did.
 std::string event_caption(const record::Frame& frame);
 
-// A thin bar under the shell: how far the run has come, and what happened on the way.
+// A thin bar under the shell: how far the run has come, and what happened on the path.
 
 /// Draws the bar of a run at frame `at` into `box`, between the axis' ends. Of the marks those up
-/// to now are shown, unstable frames as red lengths, the others as signs; beside the bar is what
+/// to now are shown, unstable frames as red lengths, the others as signs; next to the bar is what
 /// occurred, each once.
 void draw_timeline(Canvas& canvas, const Box& box, const std::vector<Mark>& marks,
                    const ProgressAxis& axis, int at, double font_size);
@@ -91,7 +101,7 @@ struct TopExtent {
   double half_mm = 1;
 };
 
-/// `cell_colours`: one a cell, or empty. Boundaries and joints are drawn where the look has any.
+/// `cell_colours`: one per cell, or empty. Boundaries and joints are drawn where the look has any.
 void draw_top_view(Canvas& canvas, const Box& box, const record::Layout& layout,
                    const record::Frame& frame, const TopExtent& extent,
                    const std::vector<Colour>& cell_colours, const Appearance& look = {});

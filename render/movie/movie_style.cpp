@@ -23,17 +23,17 @@ Appearance paper_appearance() {
 
 namespace {
 
-void choose(Colour& colour, const std::string& wish) {
-  if (wish == "transparent")
+void choose(Colour& colour, const std::string& request) {
+  if (request == "transparent")
     colour.a = 0;
-  else if (!wish.empty())  // "#rrggbb", which the preset's reader has looked at
-    colour = hex_colour(std::strtol(wish.c_str() + 1, nullptr, 16));
+  else if (!request.empty())  // "#rrggbb", which the preset's reader has looked at
+    colour = hex_colour(std::strtol(request.c_str() + 1, nullptr, 16));
 }
-void choose(double& width, double wish) {
-  if (wish > 0) width = wish;
+void choose(double& width, double request) {
+  if (request > 0) width = request;
 }
-void choose(bool& flag, preset::Visibility wish) {
-  if (wish != preset::Visibility::automatic) flag = wish == preset::Visibility::on;
+void choose(bool& flag, preset::Visibility request) {
+  if (request != preset::Visibility::automatic) flag = request == preset::Visibility::on;
 }
 
 ViewDirection direction_of(const preset::Movie& movie) {
@@ -54,7 +54,7 @@ ViewDirection direction_of(const preset::Movie& movie) {
 }
 
 /// Whether the boundary goes anywhere: supports of a network may stay where they are drawn, and the
-/// line through them would tell nothing then.
+/// line through them would mean nothing then.
 bool boundary_moves(const preset::Preset& preset) {
   if (preset.footprint.kind != preset::FootprintKind::network) return true;
   const double scale = preset.actuation.scale;
@@ -97,7 +97,7 @@ std::string parameters_of(const preset::Preset& preset) {
   if (circle) add("*R*_{o}", preset.original_radius_mm(), " mm");
   const bool sphere = preset.on_net() && preset.net.kind == preset::NetKind::sphere;
   if (sphere) add("*ρ*", preset.net.radius_mm, " mm");
-  if (sphere && preset.indentation.wanted())
+  if (sphere && preset.indentation.requested())
     add("*δ*_{0}", preset.indentation.depth * preset.net.radius_mm, " mm");
   return text + "computed by gridshell " + version();
 }
@@ -117,10 +117,10 @@ Appearance appearance_of(const preset::Style& style) {
   choose(look.background, style.background);
   if (is_dark(look.background)) {
     // what was not chosen is seen on it, and on cells that are nearly white
-    for (const auto& [colour, wish] : {std::pair(&look.rod, &style.rod_colour),
-                                       {&look.joint, &style.joint_colour},
-                                       {&look.ring, &style.ring_colour}})
-      if (wish->empty()) *colour = line_on_dark({0, 0, 0, 1});
+    for (const auto& [colour, request] : {std::pair(&look.rod, &style.rod_colour),
+                                          {&look.joint, &style.joint_colour},
+                                          {&look.ring, &style.ring_colour}})
+      if (request->empty()) *colour = line_on_dark({0, 0, 0, 1});
   }
   choose(look.cells, style.cells);
   choose(look.rings, style.rings);
@@ -132,7 +132,7 @@ Appearance appearance_of(const preset::Style& style) {
   if (style.joints == preset::Visibility::off) look.joint_mm = 0;
   if (style.joints == preset::Visibility::on && look.joint_mm == 0)
     look.joint_mm = Appearance{}.joint_mm;
-  constexpr ColourMap maps[] = {nullptr, diverging, sequential, grey};
+  constexpr ColourMap maps[] = {nullptr, diverging, sequential, grey, diverging_in_print};
   look.map = maps[std::size_t(style.colour_map)];
   look.range = style.range;
   look.far_fade = style.far_fade;
@@ -153,6 +153,9 @@ MovieStyle movie_style(const preset::Preset& preset) {
   style.parameters = parameters_of(preset);
   style.font_scale = preset.style.font_size;
   style.look = appearance_of(preset.style);
+  style.look.lath_width_mm = preset.rod.width_mm;
+  style.look.lath_thickness_mm = preset.rod.thickness_mm;
+  style.look.clamped = preset.ends.kind != preset::EndKind::pinned;
   if (preset.style.rings == preset::Visibility::automatic)
     style.look.rings = style.look.rings && boundary_moves(preset);
   return style;
@@ -165,8 +168,9 @@ MovieStyle figure_style(const preset::Preset& preset) {
   style.scale_bar_mm = figure.scale_bar_mm;
   style.vector = figure.vector;
   if (!figure.title) style.title.clear();
+  style.print.background = style.look.background;
   if (figure.width_mm <= 0) return style;
-  style.print = {figure.width_mm, figure.dpi};
+  style.print = {figure.width_mm, figure.dpi, style.look.background};
   const double aspect = double(style.height()) / style.width();
   const auto pixels = [](double wished) { return std::clamp(int(std::lround(wished)), 16, 16384); };
   style.size[0] = pixels(figure.width_mm / 25.4 * figure.dpi);

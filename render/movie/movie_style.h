@@ -24,10 +24,12 @@ struct Appearance {
   ColourMap map = nullptr;     ///< null: by the values
   std::vector<double> range;   ///< (low, high) of the colours; empty: by the values
   bool cells = true, rings = true, floor = true, shadow = true, loads = true, braces = true,
-       ghost = true;
-  double sheen = 1;        ///< of rods and joints; 0: ink
-  double far_fade = 0.25;  ///< of the far side, into the background
-  bool letters = true;     ///< of the panels of a figure
+       ghost = true, supports = true;
+  bool clamped = false;                             ///< the supports prescribe directions
+  double lath_width_mm = 0, lath_thickness_mm = 0;  ///< of rods whose layout has none; 0: round
+  double sheen = 1;                                 ///< of rods and joints; 0: ink
+  double far_fade = 0.25;                           ///< of the far side, into the background
+  bool letters = true;                              ///< of the panels of a figure
 };
 
 /// White, with black rods: as in the paper's figures.
@@ -60,10 +62,10 @@ MovieStyle figure_style(const preset::Preset& preset);
 /// Draft: no shadow; movie: with soft shadow; figure: many passes with jittered light. A sample a
 /// pixel is enough: what is thin knows how much of it is covered.
 DrawQuality draw_quality(Quality quality);
-/// The same, as the look wants it.
+/// The same colour with the contrast that the look has.
 DrawQuality draw_quality(const MovieStyle& style);
 
-// What stands before a movie: its title and what it follows.
+// What is before a movie: its title and what it follows.
 
 /// A card of the movie's size with its title and, where there are any, its description and source
 /// below. Long titles are set in several lines, and smaller until they fit.

@@ -19,7 +19,7 @@ Worker::Worker() {
   try {
     thread_ = std::thread([this] { loop(); });
   } catch (const std::system_error&) {
-    // whoever begins a job does it
+    // the caller that begins a job runs it
   }
 }
 
@@ -162,7 +162,7 @@ class SideBySideMovie {
     for (std::size_t k = 0; k < runs.size(); ++k)
       stages_.push_back(
           std::make_unique<Stage>(runs[k].run->layout, std::move(surveys[k]), part, bar_));
-    // one bar for all that go the same way, with nothing on it that is one's own
+    // one bar for all that have the same path, with nothing on it that is one's own
     const ProgressAxis& first = stages_.front()->progress();
     one_bar_ = std::ranges::all_of(stages_, [&](const auto& stage) {
       const ProgressAxis& axis = stage->progress();
@@ -232,7 +232,8 @@ class SideBySideMovie {
     const record::Frame& shown = frame(k, now);
     TextStyle text{.size = em_, .bold = true, .align_x = AlignX::centre, .align_y = AlignY::middle};
     const double x = box.middle().x, width = box.width - em_;
-    canvas.text(plain(canvas.shortened(runs_[k].name, width, text)), {x, box.y - 2.9 * em_}, text);
+    const TextStyle name = canvas.fitted(plain(runs_[k].name), width, text, 0.7);
+    canvas.text(plain(canvas.shortened(runs_[k].name, width, name)), {x, box.y - 2.9 * em_}, name);
     text.bold = false;
     std::string state;
     for (const std::string& caption : state_captions(shown)) {

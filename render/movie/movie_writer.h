@@ -33,12 +33,12 @@ class Worker {
   Worker();
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
-  /// Waits for the job under way.
+  /// Waits for the running job.
   ~Worker();
 
   /// Begins a job; the one before has been waited for.
   void begin(Job job);
-  /// How the job under way ended, once it has; nothing was to be done: well. What it threw is
+  /// How the running job ended, once it has; nothing was to be done: well. What it threw is
   /// thrown here.
   Result<void> wait();
 
@@ -47,34 +47,34 @@ class Worker {
 
   std::mutex mutex_;
   std::condition_variable changed_;
-  Job job_;                    // null: none under way
+  Job job_;                    // null: none is running
   Result<void> ended_;         // how the last one did
   std::exception_ptr thrown_;  // by it
   bool over_ = false;          // no more will come
   std::thread thread_;
 };
 
-// Pictures to numbered files, beside whoever draws them.
+// Pictures to numbered files, written while the next are drawn.
 
 /// "frame_00000.png"
 std::string frame_name(int index);
 
-/// Called with each frame in turn once it stands on the disk, on the thread that writes.
+/// Called with each frame in turn once it is on the disk, on the thread that writes.
 using FrameCallback = std::function<void(int index, const Image& picture)>;
 /// What is still to be drawn over a picture.
 using DrawOverPicture = std::function<void(Image& picture)>;
 
 /// Writes frame_00000.png ... into a folder: one picture is finished, compressed and handed on
 /// while the next is drawn. Every file is whole or absent. Progress of `watch` grows with what
-/// stands on the disk, to 1.
+/// is on the disk, to 1.
 class FrameWriter {
  public:
   /// The folder exists; `watch` outlives the writer.
   FrameWriter(std::filesystem::path folder, int count, Watch& watch, FrameCallback on_frame = {})
       : folder_(std::move(folder)), count_(count), watch_(watch), on_frame_(std::move(on_frame)) {}
 
-  /// The next picture, once the one before stands on the disk; `over` is done to it first, and
-  /// holds what it needs. Errors: those of write_png for the one before; Fault::cancelled, with
+  /// Takes the next picture, once the one before is on the disk; `over` is done to it first, and
+  /// owns what it needs. Errors: those of write_png for the one before; Fault::cancelled, with
   /// which nothing more is written.
   Result<void> put(Image picture, DrawOverPicture over = {});
 
@@ -104,7 +104,7 @@ Result<void> write_movie(const FrameSource& source, RunSummary survey, const Mov
                          const std::filesystem::path& folder, Watch& watch,
                          const FrameCallback& on_frame = {});
 
-// Several runs of one preset beside one another in a frame, each from its own camera, under one
+// Several runs of one preset next to one another in a frame, each from its own camera, under one
 // colour bar: the cases of a movie.
 
 /// Frames `folder`/frame_00000.png ...: frame k of every run, the last one where a run ended

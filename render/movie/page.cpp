@@ -83,7 +83,7 @@ Result<void> write_page(const std::filesystem::path& stem, const std::string& ti
                     {.size = 7.5, .align_x = AlignX::centre, .align_y = AlignY::middle});
       }
       (as_lines && panel.draw_lines ? panel.draw_lines : panel.draw)(canvas, box);
-      // over what was drawn: "B1" is wider than the room beside it
+      // over what was drawn: "B1" is wider than the room at its side
       if (!panel.letter.empty())
         canvas.text(panel.letter, corner, {.size = 9.5, .bold = true, .align_y = AlignY::top});
     }

@@ -1,5 +1,5 @@
-// A page of a journal: panels with letters at their places in millimetres, drawn once as PNG, SVG
-// and PDF.
+// A page of a journal: panels with letters at their positions in millimetres, drawn once as PNG,
+// SVG and PDF.
 #pragma once
 
 #include <filesystem>
@@ -20,7 +20,7 @@ struct PagePanel {
   std::string caption;  ///< marked text below; empty: none
   Box box_mm;
   std::function<void(Canvas&, const Box&)> draw;  ///< into a box in points
-  /// The same with shells as lines; empty: as `draw`.
+  /// The panel with shells as lines; empty: as `draw`.
   std::function<void(Canvas&, const Box&)> draw_lines = {};
 };
 
@@ -33,14 +33,14 @@ void draw_fitted(Canvas& canvas, const Box& box, const Image& image);
 /// The empty frame of what is not there: "photograph".
 void draw_empty_frame(Canvas& canvas, const Box& box, const std::string& of_what);
 
-/// `<stem>.png`, `.svg` and `.pdf`, shells as lines; with `drawn` `<stem>_drawn` beside them, with
+/// `<stem>.png`, `.svg` and `.pdf`, shells as lines; with `drawn` also `<stem>_drawn`, with
 /// pictures of the shells.
 /// Errors: those of write_figure.
 Result<void> write_page(const std::filesystem::path& stem, const std::string& title,
                         double width_mm, double height_mm, const std::vector<PagePanel>& panels,
                         const Print& print = {}, bool drawn = false);
 
-// Pictures before and after a change beside one another, to look at.
+// Pictures before and after a change next to one another, to look at.
 
 /// A picture in two versions, either of which may be missing.
 struct PicturePair {

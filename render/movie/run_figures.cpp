@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <optional>
 #include <utility>
 
-#include "engine/core/text.h"
 #include "engine/core/try.h"
 #include "engine/record/frame_values.h"
 #include "render/canvas/text.h"
@@ -23,7 +21,7 @@ record::Frame unmarked(record::Frame frame) {
   return frame;
 }
 
-/// The last frame alone, its boundary where it is held.
+/// The last frame alone, its boundary where it is fixed.
 record::Trajectory final_state(const record::Trajectory& run) {
   record::Trajectory last;
   last.layout = run.layout;
@@ -32,12 +30,29 @@ record::Trajectory final_state(const record::Trajectory& run) {
   return last;
 }
 
+/// The axis x from the middle of a shell to its boundary, L long, in front of it.
+void add_half_span(const record::Layout& layout, Drawing& drawing) {
+  const Eigen::Vector3d low = layout.actuated_boundary.rowwise().minCoeff(),
+                        high = layout.actuated_boundary.rowwise().maxCoeff();
+  const double off = 0.12 * layout.length_scale_mm, middle = 0.5 * (low.x() + high.x());
+  const Eigen::Vector3d from(middle, low.y() - off, low.z()), to(high.x(), from.y(), low.z());
+  drawing.arrows.push_back({from, to, 1.2 * drawing.rod_diameter_mm, shell_ink});
+  drawing.labels.push_back({to + Eigen::Vector3d(2 * off, 0, 0), "*x* = *L*"});
+}
+
 using DrawingEdit = std::function<void(const NetRun&, Drawing&)>;
+
+/// All panels at the scale of the largest shell, with a bar of it.
+void show_scale_of(const std::vector<Stage>& stages, const MovieStyle& style, PanelFigure& figure) {
+  figure.pixels_per_mm = stages.front().pixels_per_mm();
+  for (const Stage& stage : stages)
+    figure.pixels_per_mm = std::min(figure.pixels_per_mm, stage.pixels_per_mm());
+  figure.scale_bar_mm = scale_bar_beside(style.scale_bar_mm, stages.front().run().length_scale_mm);
+}
 
 /// One panel a run, the drawing of each changed by `edit`.
 Result<PanelFigure> panels_of(const std::vector<NetRun>& runs, const MovieStyle& movie_style,
-                              Renderer& renderer, Watch& watch, int columns,
-                              const DrawingEdit& edit) {
+                              Watch& watch, int columns, const DrawingEdit& edit) {
   const MovieStyle style = uncoloured(movie_style);
   PanelFigure figure = empty_figure(style, std::min(columns, int(runs.size())));
   std::vector<record::Trajectory> states;
@@ -47,11 +62,7 @@ Result<PanelFigure> panels_of(const std::vector<NetRun>& runs, const MovieStyle&
   }
   std::vector<Stage> stages;
   for (const record::Trajectory& state : states) stages.emplace_back(state, style);
-  // all at the scale of the largest
-  figure.pixels_per_mm = stages.front().pixels_per_mm();
-  for (const Stage& stage : stages)
-    figure.pixels_per_mm = std::min(figure.pixels_per_mm, stage.pixels_per_mm());
-  figure.scale_bar_mm = scale_bar_beside(style.scale_bar_mm, states.front().layout.length_scale_mm);
+  show_scale_of(stages, style, figure);
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const double wider = stages[k].pixels_per_mm() / figure.pixels_per_mm;
     Drawing drawing = stages[k].drawing(states[k].frames.front());
@@ -60,7 +71,7 @@ Result<PanelFigure> panels_of(const std::vector<NetRun>& runs, const MovieStyle&
     drawing.rod_diameter_mm *= wider;
     edit(runs[k], drawing);
     TRY_DO(add_panel(figure, stages[k], std::move(drawing),
-                     {runs.size() > 1, runs[k].caption, wider}, renderer, watch));
+                     {runs.size() > 1, runs[k].caption, wider}, nullptr, watch));
   }
   return figure;
 }
@@ -73,7 +84,7 @@ double round_end(double largest) {
   return 10 * power;
 }
 
-/// What the colours over nets stand for.
+/// What the colours over nets mean.
 std::vector<ColourKey> over_net_keys(const std::vector<NetRun>& runs) {
   std::vector<ColourKey> keys{{shell_ink, "equilibrium"}};
   const record::Layout& layout = runs.front().run->layout;
@@ -99,95 +110,6 @@ MovieStyle panel_style(MovieStyle style) {
   return style;
 }
 
-/// Where a frame says that the shell snapped on the way to it, mm: "snap at depth 66.180 mm".
-std::optional<double> depth_of_snap(const record::Frame& frame) {
-  const std::string begin = "snap at depth ";
-  if (!frame.event.starts_with(begin)) return std::nullopt;
-  const std::string number = frame.event.substr(begin.size());
-  return parse_number<double>(number.substr(0, number.find(' ')));
-}
-
-/// Straight down at the depth of each snap, from where the path came to it to where it went on: on
-/// both sides as far from the next frame as force and stiffness there say.
-Series snaps_of(const Series& pushed, const record::Trajectory& run) {
-  Series snaps = line_series("", pushed.colour, 1, {3, 2});
-  for (std::size_t k = 1; k < run.frames.size(); ++k) {
-    const record::Frame after = run.frames[k];
-    if (!after.event.starts_with("snap")) continue;
-    // what moved in time in between has no force
-    std::size_t at = k - 1;
-    while (at > 0 && !std::isfinite(pushed.y[at])) --at;
-    const record::Frame before = run.frames[at];
-    const double depth = depth_of_snap(after).value_or(after.depth_mm);
-    const auto force = [&](const record::Frame& frame) {
-      const double slope = std::isfinite(frame.stiffness_N_per_mm) ? frame.stiffness_N_per_mm : 0;
-      return frame.force_N + slope * (depth - frame.depth_mm);
-    };
-    snaps.add(before.depth_mm, before.force_N);
-    snaps.add(depth, force(before));
-    snaps.add(depth, force(after));
-    snaps.add(after.depth_mm, after.force_N);
-    snaps.part();
-  }
-  return snaps;
-}
-
-/// The pieces of a line on which the state is not stable.
-Series unstable_of(const Series& pushed, const record::Trajectory& run) {
-  Series pieces = line_series("", pushed.colour, pushed.line_width, {1.2, 1.5});
-  for (std::size_t k = 1; k < run.frames.size(); ++k) {
-    const record::Frame from = run.frames[k - 1], to = run.frames[k];
-    if (to.event.starts_with("snap") || std::max(from.negative_pivots, to.negative_pivots) <= 0)
-      continue;
-    pieces.add(from.depth_mm, from.force_N);
-    pieces.add(to.depth_mm, to.force_N);
-    pieces.part();
-  }
-  return pieces;
-}
-
-/// A line that goes from state to state has a gap where one snapped to the next, and where a dashed
-/// one shows states that are not stable.
-void part_at_snaps(Series& pushed, const record::Trajectory& run) {
-  for (std::size_t k = run.frames.size(); k-- > 1;)
-    if ((run.frames[k].event.starts_with("snap") ||
-         std::max(run.frames[k].negative_pivots, run.frames[k - 1].negative_pivots) > 0) &&
-        std::isfinite(pushed.y[k - 1])) {
-      pushed.x.insert(pushed.x.begin() + long(k), NAN);
-      pushed.y.insert(pushed.y.begin() + long(k), NAN);
-    }
-}
-
-/// Whether an error would be seen beside the line of the forces.
-bool errors_seen(const std::vector<NamedRun>& runs) {
-  constexpr double line = 0.01;  // a line's width, of the axis
-  double force = 0, error = 0;
-  for (const NamedRun& one : runs)
-    for (const record::Frame& frame : one.run->frames) {
-      force = std::max(force, std::abs(frame.force_N));
-      error = std::max(error, frame.push_error_N);
-    }
-  return error > line * force;
-}
-
-/// The force with its error on either side, a band from snap to snap; none where no error is known.
-std::vector<Band> error_bands(const record::Trajectory& run, Colour colour) {
-  std::vector<Band> bands;
-  colour.a = 0.25f;
-  bool goes_on = false;
-  for (const record::Frame& frame : run.frames) {
-    const bool known = std::isfinite(frame.force_N) && std::isfinite(frame.push_error_N);
-    if (known && (!goes_on || frame.event.starts_with("snap")))
-      bands.push_back({.name = "", .colour = colour});
-    goes_on = known;
-    if (!known) continue;
-    bands.back().x.push_back(frame.depth_mm);
-    bands.back().low.push_back(frame.force_N - frame.push_error_N);
-    bands.back().high.push_back(frame.force_N + frame.push_error_N);
-  }
-  return bands;
-}
-
 }  // namespace
 
 MovieStyle uncoloured(MovieStyle style) {
@@ -205,20 +127,30 @@ PanelFigure empty_figure(const MovieStyle& style, int columns) {
 }
 
 std::string panel_letter(const MovieStyle& style, std::size_t k) {
-  return style.look.letters ? std::string(1, char('a' + k % 26)) : "";
+  return style.look.letters ? std::string(1, char('A' + k % 26)) : "";
 }
 
 Result<void> add_panel(PanelFigure& figure, const Stage& stage, Drawing drawing,
-                       const PanelText& text, Renderer& renderer, const Watch& watch) {
+                       const PanelText& text, Renderer* renderer, const Watch& watch) {
   if (watch.cancelled()) return fail(Fault::cancelled, "stopped while drawing a figure");
   const MovieStyle& style = stage.style();
   Camera camera = stage.camera(stage.frames() - 1);
   camera.half_extent_mm *= text.wider;
-  TRY(picture, renderer.draw(drawing, camera, draw_quality(style), style.width(), style.height()));
-  figure.panels.push_back({std::move(*picture),
-                           text.lettered ? panel_letter(style, figure.panels.size()) : "",
-                           text.caption});
-  if (style.vector) figure.panels.back().lines = shell_lines(std::move(drawing), camera);
+  Panel& panel =
+      figure.panels.emplace_back(Panel{Image(style.width(), style.height()), "", text.caption});
+  for (const PointLabel& label : drawing.labels) {
+    const Eigen::Vector2d at = to_pixel(camera, style.width(), style.height(), label.at);
+    panel.labels.push_back(
+        {{at.x() / style.width(), at.y() / style.height()}, label.text, label.bold});
+  }
+  if (text.lettered) panel.letter = panel_letter(style, figure.panels.size() - 1);
+  if (renderer) {
+    TRY(picture,
+        renderer->draw(drawing, camera, draw_quality(style), style.width(), style.height()));
+    panel.picture = std::move(*picture);
+  }
+  figure.as_lines = renderer == nullptr;
+  if (style.vector || !renderer) panel.lines = shell_lines(std::move(drawing), camera);
   return {};
 }
 
@@ -242,20 +174,21 @@ void show_measured_joints(const Eigen::Matrix3Xd& measured, Drawing& drawing) {
 ColourKey scan_key() { return {scan_ink, "joints measured"}; }
 
 Result<PanelFigure> draw_over_nets(const std::vector<NetRun>& runs, const MovieStyle& style,
-                                   Renderer& renderer, Watch& watch, int columns) {
+                                   Watch& watch, int columns) {
   const auto dress = [kinds = BlockKinds(runs)](const NetRun& one, Drawing& drawing) {
     show_measured_joints(one.scanned, drawing);
     const record::Layout& layout = one.run->layout;
-    const double thin = drawing.rod_diameter_mm;
-    // so that a net that its shell meets is seen beside it, not through it
-    drawing.rod_diameter_mm *= 2.2;
+    // wider and below, so that a net is seen on both sides of a shell that meets it
+    drawing.rod_diameter_mm *= 1.5;
+    const double wide = 2.6 * drawing.rod_diameter_mm;
     // blocks each on a net of its own
     for (const record::Part& part : layout.parts)
-      drawing.ghosts.push_back({part.net, part.rods, thin, kinds.colour(part.name)});
+      drawing.ghosts.push_back({part.net, part.rods, wide, kinds.colour(part.name)});
     if (layout.parts.empty() && layout.net_nodes.cols() > 0)
-      drawing.ghosts.push_back({layout.net_nodes, layout.rods, thin, net_ink});
+      drawing.ghosts.push_back({layout.net_nodes, layout.rods, wide, net_ink});
+    if (one.half_span) add_half_span(layout, drawing);
   };
-  return panels_of(runs, style, renderer, watch, columns, dress).map([&](PanelFigure figure) {
+  return panels_of(runs, style, watch, columns, dress).map([&](PanelFigure figure) {
     figure.keys = over_net_keys(runs);
     return figure;
   });
@@ -268,7 +201,7 @@ DeviationUnit deviation_unit(const record::Layout& layout) {
 }
 
 Result<PanelFigure> draw_deviations(const std::vector<NetRun>& runs, const MovieStyle& style,
-                                    Renderer& renderer, Watch& watch, int columns) {
+                                    Watch& watch, int columns) {
   double largest = 0;
   const DeviationUnit unit = deviation_unit(runs.front().run->layout);
   for (const NetRun& one : runs)
@@ -276,18 +209,18 @@ Result<PanelFigure> draw_deviations(const std::vector<NetRun>& runs, const Movie
   const ColourScale scale{sequential, 0, round_end(largest), 0.2};
   const auto dress = [&](const NetRun& one, Drawing& drawing) {
     const Eigen::VectorXd deviation = last_deviation(*one.run);
-    for (double share : deviation) drawing.node_colours.push_back(scale(unit.factor * share));
+    for (double fraction : deviation) drawing.node_colours.push_back(scale(unit.factor * fraction));
     drawing.rod_diameter_mm *= 1.8;
     drawing.joint_diameter_mm = 0;
   };
-  TRY(figure, panels_of(runs, style, renderer, watch, columns, dress));
+  TRY(figure, panels_of(runs, style, watch, columns, dress));
   figure->colour_bar = ColourBar{unit.label, scale};
   figure->colour_bar->words = "distance from the net";
   return figure;
 }
 
 Result<PanelFigure> draw_pushes(const std::vector<NetRun>& runs, const MovieStyle& movie_style,
-                                Renderer& renderer, Watch& watch) {
+                                Watch& watch) {
   const MovieStyle style = panel_style(movie_style);
   std::vector<RunSummary> surveys;
   std::vector<const RunSummary*> all;
@@ -298,50 +231,23 @@ Result<PanelFigure> draw_pushes(const std::vector<NetRun>& runs, const MovieStyl
   figure.colour_bar = bar;
   // one by itself is named by the title
   const bool several = runs.size() > 1 || style.title.empty();
+  std::vector<Stage> stages;
   for (std::size_t k = 0; k < runs.size(); ++k) {
     TRY_DO(check_showable(*runs[k].run, style));
-    const Stage stage(runs[k].run->layout, std::move(surveys[k]), style, bar);
+    stages.emplace_back(runs[k].run->layout, std::move(surveys[k]), style, bar);
+  }
+  show_scale_of(stages, style, figure);
+  for (std::size_t k = 0; k < runs.size(); ++k) {
     const record::Frame last = unmarked(runs[k].run->frames.back());
-    Drawing drawing = stage.drawing(last);
+    Drawing drawing = stages[k].drawing(last);
+    const double wider = stages[k].pixels_per_mm() / figure.pixels_per_mm;
     // the colours are the rods': nothing hides them
-    drawing.rod_diameter_mm *= 1.5;
-    TRY_DO(add_panel(figure, stage, std::move(drawing), {several, several ? runs[k].caption : ""},
-                     renderer, watch));
+    drawing.rod_diameter_mm *= 1.5 * wider;
+    TRY_DO(add_panel(figure, stages[k], std::move(drawing),
+                     {several, several ? runs[k].caption : "", wider}, nullptr, watch));
     watch.report(double(k + 1) / double(runs.size()));
   }
   return figure;
-}
-
-Plot force_plot(const std::vector<NamedRun>& runs) {
-  Plot plot;
-  plot.x = {.label = "depth *δ* (mm)", .low = 0};
-  plot.y = {.label = "force (N)"};
-  bool snap_in_legend = false, unstable_in_legend = false;
-  const bool banded = errors_seen(runs);
-  for (std::size_t k = 0; k < runs.size(); ++k) {
-    Series series = line_series(runs.size() > 1 ? runs[k].name : "", series_colour(k));
-    // of many frames the line itself is what they lie on
-    constexpr std::size_t most_marked = 24;
-    if (runs[k].run->frames.size() <= most_marked) series.marker = series_marker(k);
-    for (const record::Frame& frame : runs[k].run->frames)
-      series.add(frame.depth_mm, frame.force_N);
-    for (Band& band : banded ? error_bands(*runs[k].run, series_colour(k)) : std::vector<Band>()) {
-      if (plot.bands.empty()) band.name = "error of the force";
-      plot.bands.push_back(std::move(band));
-    }
-    Series snaps = snaps_of(series, *runs[k].run), unstable = unstable_of(series, *runs[k].run);
-    part_at_snaps(series, *runs[k].run);
-    plot.series.push_back(std::move(series));
-    if (!unstable.x.empty()) {
-      if (!std::exchange(unstable_in_legend, true)) unstable.name = "unstable";
-      plot.series.push_back(std::move(unstable));
-    }
-    if (snaps.x.empty()) continue;
-    if (!snap_in_legend) snaps.name = "snap to another state";
-    snap_in_legend = true;
-    plot.series.push_back(std::move(snaps));
-  }
-  return plot;
 }
 
 Result<void> write_push_bins(const std::filesystem::path& stem, const std::vector<NamedRun>& runs,
@@ -366,8 +272,8 @@ Result<void> write_push_bins(const std::filesystem::path& stem, const std::vecto
 
 Result<void> write_plots(const std::filesystem::path& stem, std::vector<Plot> plots,
                          const std::string& title, const std::string& name, const Print& print) {
-  constexpr double font = 7.5, usual = 186, least = 150, height = 172, key = 24;  // points
-  // as many beside one another as stay readable
+  constexpr double font = 7.5, usual = 186, least = 150, height = 172;  // points
+  // as many next to one another as stay readable
   const double width = print.width_pt(usual * double(plots.size()));
   const std::size_t columns = std::clamp<std::size_t>(std::size_t(width / least), 1, plots.size());
   const std::size_t rows = (plots.size() + columns - 1) / columns;
@@ -375,8 +281,9 @@ Result<void> write_plots(const std::filesystem::path& stem, std::vector<Plot> pl
   Plot legend;
   legend.series = plots.front().series;
   legend.font_size = font;
+  const double key = legend_height(legend, width - 18) + 6;
   for (Plot& plot : plots) {
-    plot.legend = LegendPlace::none;
+    plot.legend = LegendPosition::none;
     plot.font_size = font;
   }
   return write_figure(

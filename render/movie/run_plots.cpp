@@ -64,7 +64,7 @@ double draw_boundaries(Canvas& canvas, const Box& box, const std::vector<NamedRu
   for (std::size_t k = 0; k < runs.size(); ++k)
     canvas.polyline(place.line(runs[k].run->layout.original_boundary),
                     {runs.size() == 1 ? ink : series_colour(k), 1.4}, true);
-  // of one alone, where its boundary comes to
+  // of one alone, its actuated boundary
   if (runs.size() == 1)
     canvas.polyline(place.line(runs[0].run->layout.actuated_boundary), {net_ink, 1.1, {4, 2}},
                     true);
@@ -72,12 +72,12 @@ double draw_boundaries(Canvas& canvas, const Box& box, const std::vector<NamedRu
   const Box length = draw_spacing(canvas, left, runs.front().run->layout, place.scale);
   if (runs.size() == 1) {
     const Point at{length.right() + 10, left.y};
-    const std::string text = "flat footprint; dashed: the shell's rim";
+    const std::string text = "flat footprint; dashed: actuated boundary";
     canvas.text(
         text, at,
         canvas.fitted(text, canvas.width() - at.x - 4, {.size = 8, .align_y = AlignY::middle}));
   }
-  // caps are named beside the planes that cut them, where these are theirs alone
+  // caps are named at the planes that cut them, where these are theirs alone
   if (runs.size() > 1 && !(all_caps(runs) && planes_differ(runs)))
     draw_names(canvas, {length.right() + 14, left.y}, runs);
   return place.scale;
@@ -100,29 +100,29 @@ void draw_planes(Canvas& canvas, const Box& box, const std::vector<NamedRun>& ru
   }
   canvas.polyline(arc, {{0.55f, 0.56f, 0.6f, 1}, 1});
   constexpr double size = 7;
-  double free = INFINITY;  // above it a name may stand
+  double free = INFINITY;  // above it a name may be
   std::vector<double> shown;
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const double z = plane_of(runs[k]);
     const double half = 1.1 * scale * rho, y = centre.y - scale * z;
     const Colour colour = runs.size() == 1 ? ink : series_colour(k);
     // to a hundredth, and no minus before a zero
-    const double share = std::round(100 * z / rho) / 100 + 0.0;
-    const bool again = std::ranges::find(shown, share) != shown.end();
-    shown.push_back(share);
+    const double fraction = std::round(100 * z / rho) / 100 + 0.0;
+    const bool again = std::ranges::find(shown, fraction) != shown.end();
+    shown.push_back(fraction);
     // of two that lie in one plane both are seen
     const std::vector<double> dash = again ? std::vector<double>{4, 4} : std::vector<double>{};
     canvas.line({centre.x - half, y}, {centre.x + half, y}, {colour, 1.4, dash});
     if (again) continue;
     // one plane has room below it
     if (runs.size() == 1) {
-      canvas.text(fmt::format("*z*^{{*}}/*ρ* = {:g}", share), {centre.x, y + 3},
+      canvas.text(fmt::format("*z*^{{*}}/*ρ* = {:g}", fraction), {centre.x, y + 3},
                   {.size = 8, .align_x = AlignX::centre, .align_y = AlignY::top});
       continue;
     }
     const Point name{centre.x + half + 8, std::min(y, free)};
     canvas.line({centre.x + half, y}, {name.x - 1.5, name.y}, {colour, 0.6});
-    canvas.text(fmt::format("{:g}", share), name,
+    canvas.text(fmt::format("{:g}", fraction), name,
                 {.size = size, .colour = readable(colour), .align_y = AlignY::middle});
     free = name.y - 1.25 * size;
   }
@@ -141,7 +141,7 @@ void add_by_latitude(const Eigen::Matrix3Xd& joints, double rho, Series& series)
     series.add(latitude_deg(joint.z() / joint.norm()), joint.norm() / rho);
 }
 
-/// A square about all lines, so that lengths are alike on both axes.
+/// A square about all lines, so that lengths are equal on both axes.
 void frame_about(const std::vector<Eigen::Matrix3Xd>& lines, Plot& plot) {
   constexpr double wider = 1.08;
   Eigen::Vector2d low = lines.front().col(0).head<2>(), high = low;
@@ -155,29 +155,6 @@ void frame_about(const std::vector<Eigen::Matrix3Xd>& lines, Plot& plot) {
   plot.y.low = middle.y() - half, plot.y.high = middle.y() + half;
 }
 
-constexpr Colour reference{0.62f, 0.63f, 0.66f, 0.55f}, reference_ink{0.5f, 0.51f, 0.54f, 1},
-    now_ink{0.13f, 0.33f, 0.60f, 1}, mean_ink{0.70f, 0.10f, 0.08f, 1};
-
-/// "Σ*K*_{□} = 5.898 rad, −1.78 %"; in rad where the first is next to nothing.
-std::string total_K_caption(double first, double now) {
-  const double change = now - first;
-  const bool relative = std::abs(first) > 0.1;
-  const std::string size =
-      fixed(relative ? 100 * change / std::abs(first) : change, relative ? 2 : 3);
-  return fmt::format("Σ*K*_{{□}} = {} rad, {}{}{}", fixed(now, 3), change > 0 ? "+" : "", size,
-                     relative ? " %" : " rad");
-}
-
-Series bins_of(const record::Frame& frame) {
-  Series series;
-  const long count = frame.K_bins.rows();
-  for (long k = 0; k < count; ++k) {
-    series.add(-1 + (2.0 * double(k) + 1) / double(count), frame.K_bins(k, 0));
-    series.y_error.push_back(frame.K_bins(k, 1));
-  }
-  return series;
-}
-
 }  // namespace
 
 void draw_figure_title(Canvas& canvas, const std::string& title) {
@@ -189,7 +166,8 @@ void draw_figure_title(Canvas& canvas, const std::string& title) {
 
 Box draw_spacing(Canvas& canvas, Point left, const record::Layout& layout, double scale) {
   const double end = left.x + scale * layout.spacing_mm;
-  canvas.line(left, {end, left.y}, {ink, 1.4});
+  canvas.line(left, {end, left.y}, {ink, 1});
+  for (const double x : {left.x, end}) canvas.line({x, left.y - 2.2}, {x, left.y + 2.2}, {ink, 1});
   return canvas.text(fmt::format("*d* = {:g} mm", layout.spacing_mm), {end + 4, left.y},
                      {.size = 8, .align_y = AlignY::middle});
 }
@@ -197,10 +175,10 @@ Box draw_spacing(Canvas& canvas, Point left, const record::Layout& layout, doubl
 Plot curvature_plot(const std::vector<NamedRun>& runs) {
   Plot plot;
   plot.x.label = "*x*/*L*";
-  plot.x.low = -1.05;
-  plot.x.high = 1.05;
-  plot.y.label = "integrated Gauss curvature, *K*_{□} (rad)";
-  if (runs.size() == 1) plot.legend = LegendPlace::none;
+  plot.x.low = -1.08;
+  plot.x.high = 1.08;
+  plot.y.label = "integrated *K*_{□} (rad)";
+  if (runs.size() == 1) plot.legend = LegendPosition::none;
   plot.references.push_back({.at = 0, .label = ""});
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const record::Trajectory& run = *runs[r].run;
@@ -227,6 +205,7 @@ Plot quantile_plot(const std::vector<NamedRun>& runs) {
   const DeviationUnit unit = deviation_unit(runs.front().run->layout);
   plot.y.label = "deviation from the net, " + unit.label;
   plot.y.low = 0;
+  if (runs.size() == 1) plot.legend = LegendPosition::none;
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const record::Trajectory& run = *runs[r].run;
     Eigen::VectorXd sorted = last_deviation(run).head(long(run.layout.joints.size()));
@@ -246,7 +225,7 @@ Plot latitude_plot(const NamedRun& named, const Eigen::Matrix3Xd& scan) {
   Plot plot;
   plot.x.label = "latitude (°)";
   plot.y.label = "radial position, *r*/*ρ*";
-  Series net = line_series("net", net_ink, 1.3);
+  Series net = line_series("Chebyshev net", net_ink, 1.3);
   net.add(latitude_deg(run.layout.actuated_boundary.row(2).mean() / rho), 1);
   net.add(90, 1);
   plot.x.low = net.x.front();
@@ -266,7 +245,7 @@ Plot latitude_plot(const NamedRun& named, const Eigen::Matrix3Xd& scan) {
 void draw_footprints(Canvas& canvas, const Box& box, const std::vector<NamedRun>& runs) {
   const bool caps = all_caps(runs);
   const double half = caps ? box.width / 2 : box.width;
-  // below the boundaries stands a length to read them by
+  // below the boundaries is a length to read them by
   const Box beside{box.x + half, box.y, half, box.height - 8};
   const double most =
       caps ? scale_of_planes(beside, runs.front().run->layout.length_scale_mm) : INFINITY;
@@ -308,7 +287,7 @@ Plot refused_plot(const std::vector<Eigen::Matrix3Xd>& lines, const Eigen::Matri
   plot.title = title;
   plot.x.label = "*x* (mm)";
   plot.y.label = "*y* (mm)";
-  plot.legend = LegendPlace::above;
+  plot.legend = LegendPosition::above;
   plot.series = {net};
   plot.add(std::move(close));
   plot.add(std::move(place));
@@ -359,43 +338,8 @@ Plot net_plan(const std::vector<PlanPart>& parts, const std::string& title) {
   plot.title = title;
   plot.x.label = "*x* (mm)";
   plot.y.label = "*y* (mm)";
-  plot.legend = LegendPlace::above;
+  plot.legend = LegendPosition::above;
   if (!all.empty()) frame_about(all, plot);
-  return plot;
-}
-
-Plot bins_plot(const RunSummary& run, long cells, const record::Frame& frame,
-               const std::vector<double>& range, double font_size) {
-  const double low = std::min(0.0, run.bins_rad.low), high = std::max(0.0, run.bins_rad.high);
-  const double margin = 0.06 * std::max(1e-9, high - low);
-  Plot plot;
-  plot.font_size = font_size;
-  plot.x = {.label = "*x* / *L*", .low = -1, .high = 1};
-  plot.y = {.label = "mean integrated *K*_{□} (rad)",
-            .low = !range.empty() ? range[0] : low - (low < 0 ? margin : 0),
-            .high = !range.empty() ? range[1] : high + margin};
-  Series before = bins_of(run.first), now = bins_of(frame);
-  before.name = "unloaded";
-  before.kind = SeriesKind::bars;
-  before.y_error.clear();
-  before.bar_width = 1.9 / double(std::max<std::size_t>(1, before.x.size()));
-  before.colour = reference;
-  now.name = "loaded, mean ± s.d.";
-  now.colour = now_ink;
-  now.line_width = 0;
-  now.marker = Marker::circle;
-  now.marker_size = 0.6 * font_size;
-  const Stroke dashed{reference_ink, 0.08 * font_size, {0.35 * font_size, 0.25 * font_size}},
-      solid{mean_ink, 0.1 * font_size, {}};
-  // lines across the plot have a row of the legend too
-  plot.series = {
-      before, now,
-      line_series("mean of all cells, unloaded", dashed.colour, dashed.width, dashed.dash),
-      line_series("mean of all cells", solid.colour, solid.width)};
-  plot.references = {{true, run.first.total_K / double(cells), "", dashed},
-                     {true, frame.total_K / double(cells), "", solid}};
-  plot.title = total_K_caption(run.first.total_K, frame.total_K);
-  plot.legend = LegendPlace::above;
   return plot;
 }
 

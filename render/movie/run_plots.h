@@ -24,15 +24,15 @@ struct NamedRun {
 /// boundary along x.
 Plot curvature_plot(const std::vector<NamedRun>& runs);
 
-/// Delta/rho that a share of the joints does not exceed, against that share: from the nearest joint
-/// to the farthest.
+/// Delta/rho that a fraction of the joints does not exceed, against that fraction: from the nearest
+/// joint to the farthest.
 Plot quantile_plot(const std::vector<NamedRun>& runs);
 
 /// r/rho of the joints and of the net (a line at 1) against latitude, for nets on a sphere; joints
 /// measured by others (3 x n, mm, in the frame of the net) are one more series where there are any.
 Plot latitude_plot(const NamedRun& run, const Eigen::Matrix3Xd& scan = {});
 
-/// Of nets beside their shells: apart from a shell's black in print and in grey.
+/// The colour of nets next to their shells: distinct from a shell's black in print and in grey.
 inline constexpr Colour net_ink{0.93f, 0.53f, 0.05f, 1};
 
 /// Room for the title above a figure that is no plot, points.
@@ -47,8 +47,8 @@ Box draw_spacing(Canvas& canvas, Point left, const record::Layout& layout, doubl
 /// What write_footprints draws, into a box.
 void draw_footprints(Canvas& canvas, const Box& box, const std::vector<NamedRun>& runs);
 
-/// Original boundaries to scale, with the rods inside when there is one; beside them, for caps, the
-/// planes that cut them from the sphere, `title` (plain text) above. Writes `<stem>.png` and
+/// Original boundaries to scale, with the rods inside when there is one; next to them, for caps,
+/// the planes that cut them from the sphere, `title` (plain text) above. Writes `<stem>.png` and
 /// `<stem>.svg`.
 Result<void> write_footprints(const std::filesystem::path& stem, const std::vector<NamedRun>& runs,
                               const std::string& title = "", const Print& print = {});
@@ -62,7 +62,7 @@ Plot refused_plot(const std::vector<Eigen::Matrix3Xd>& lines, const Eigen::Matri
 
 // What of a mesh a net reaches, in plan.
 
-/// Lines, or points that stand for an area, seen from above, mm.
+/// Lines, or points that represent an area, seen from above, mm.
 struct PlanPart {
   enum class Kind { rods, rim, hole, crease, left_out, apex };
   Kind kind = Kind::rods;
@@ -81,5 +81,8 @@ Plot net_plan(const std::vector<PlanPart>& parts, const std::string& title);
 /// first frame). The range is fixed over the run, or (low, high) as given. Frames need K_bins.
 Plot bins_plot(const RunSummary& run, long cells, const record::Frame& frame,
                const std::vector<double>& range, double font_size);
+
+/// By how much the means of the bins differ from those of the run's first frame; range as above.
+Plot change_plot(const RunSummary& run, const record::Frame& frame, double font_size);
 
 }  // namespace gridshell::render

@@ -53,7 +53,7 @@ std::vector<RodSample> rod_points(const record::Layout& layout) {
   return points;
 }
 
-// what stands for a frame: joints, points of the rods, and the arrows of loads
+// what represents a frame: joints, points of the rods, and the arrows of loads
 Eigen::Matrix3Xd points_of(const record::Layout& layout, const std::vector<RodSample>& rods,
                            const record::Frame& frame, double largest_N) {
   std::vector<Eigen::Vector3d> points;
@@ -116,13 +116,33 @@ std::vector<LoadArrow> force_arrows(const record::Layout& layout, const record::
   std::vector<LoadArrow> arrows;
   if (!(largest_N > 0) || layout.actuated_boundary.cols() == 0) return arrows;
   const auto known = std::min<Eigen::Index>(frame.loads_N.cols(), long(layout.supports.size()));
-  for (Eigen::Index k = 0; k < known; ++k) {
+  // of a load on an area a few arrows, all of one length
+  constexpr Eigen::Index most = 16;
+  const bool area = loads_all_alike(frame);
+  const Eigen::Index stride = area ? (known + most - 1) / most : 1;
+  for (Eigen::Index k = 0; k < known; k += stride) {
     const Eigen::Vector3d force = frame.loads_N.col(k) / largest_N;
     const int node = layout.supports[std::size_t(k)];
+    const double length = longest_force(layout) * (area ? 1 / force.norm() : 1);
     if (force.norm() > 0.01 && node < frame.nodes.cols())
-      arrows.push_back(arrow_at(layout, frame, node, longest_force(layout) * force, 0));
+      arrows.push_back(arrow_at(layout, frame, node, length * force, 0));
   }
   return arrows;
+}
+
+bool loads_all_alike(const record::Frame& frame) {
+  constexpr int many = 25;
+  constexpr double least_cosine = 0.98;
+  const Eigen::Vector3d sum = frame.loads_N.rowwise().sum();
+  int count = 0;
+  for (const auto& load : frame.loads_N.colwise()) {
+    const double size = load.norm();
+    if (size == 0) continue;
+    if (load.dot(sum) < least_cosine * size * sum.norm()) return false;
+    ++count;
+  }
+  // one that is much larger than the others is a point's
+  return count >= many && frame.loads_N.colwise().norm().maxCoeff() < 10 * sum.norm() / count;
 }
 
 void Interval::take(double value) {
@@ -171,6 +191,8 @@ void RunSummary::take(const record::Frame& frame) {
   if (frames == 0) first = frame;
   if (frame.loads_N.cols() > 0)
     largest_load_N = std::max(largest_load_N, frame.loads_N.colwise().norm().maxCoeff());
+  arrows_to_scale |= frame.loads_N.cols() > 0 && !loads_all_alike(frame);
+  any_contacts |= frame.contacts > 0;
   sample_points(frame);
   lowest_z_mm = std::min(lowest_z_mm, lowest(frame.nodes));
   depths_mm_.push_back(frame.depth_mm);
@@ -179,6 +201,9 @@ void RunSummary::take(const record::Frame& frame) {
   for (long k = 0; k < frame.K_bins.rows(); ++k)
     for (const double sign : {-1.0, 1.0})
       bins_rad.take(frame.K_bins(k, 0) + sign * frame.K_bins(k, 1));
+  if (frame.K_bins.rows() == first.K_bins.rows())
+    for (long k = 0; k < frame.K_bins.rows(); ++k)
+      bins_change_rad.take(frame.K_bins(k, 0) - first.K_bins(k, 0));
   // a shell lies near its net once its boundary does: what is before does not set the scale
   if (frame.actuation > largest_actuation_)
     spreads_[std::size_t(ColourBy::deviation)].most.setZero();

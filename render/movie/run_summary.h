@@ -1,4 +1,4 @@
-// The boundary on its way.
+// The boundary on its path.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ inline bool original_boundary_shown(const record::Frame& frame) {
   return !std::isfinite(frame.depth_mm);
 }
 
-// Where a shell is pushed or pulled: arrows that stand at the joints and go with them.
+// Where a shell is pushed or pulled: arrows at the joints that move with them.
 
 /// From tail to tip, mm.
 struct LoadArrow {
@@ -32,18 +32,21 @@ struct LoadArrow {
   Eigen::Vector3d from, to;
 };
 
-/// Whether a load acts in this frame. One that comes and goes acts where its joint is held; where
-/// the frame knows no reactions, always.
+/// Whether a load acts in this frame. One that comes and goes acts where its joint is prescribed;
+/// where the frame knows no reactions, always.
 bool load_acts(const record::LoadedJoint& load, const record::Layout& layout,
                const record::Frame& frame);
 
-/// Of the loads that act. A push has its tip at the joint; a pull away from the shell its tail. As
-/// long as a quarter of the length scale.
+/// Arrows of the loads that act. A push has its tip at the joint; a pull away from the shell its
+/// tail. As long as a quarter of the length scale.
 std::vector<LoadArrow> load_arrows(const record::Layout& layout, const record::Frame& frame);
 
-/// Of the loads of Frame::loads_N, as long as they are large: the largest of a run, `largest_N`,
-/// longest_force() mm. They stand outside the shell as those above do; what is less than a
-/// hundredth is left out.
+/// Whether the loads are those of an area: of many nodes, all in one direction.
+bool loads_all_alike(const record::Frame& frame);
+
+/// Arrows for Frame::loads_N, as long as the loads are large: the largest of a run, `largest_N`,
+/// longest_force() mm. They are outside the shell, as the arrows above; what is less than a
+/// hundredth is left out. If all loads are equal, some are shown, all of that length.
 std::vector<LoadArrow> force_arrows(const record::Layout& layout, const record::Frame& frame,
                                     double largest_N);
 inline double longest_force(const record::Layout& layout) {
@@ -74,8 +77,8 @@ struct Interval {
 };
 
 /// A quantity of cells or nodes over all frames. All count for the scale, but for the deviation
-/// from the net: those with the boundary farthest on its way alone, as a flat shell lies off by its
-/// size.
+/// from the net: those with the boundary farthest on its path alone, as a flat shell deviates by
+/// its size.
 struct ColouredRange {
   Eigen::ArrayXd most;  ///< largest size of each one's, of the frames that count for the scale
   Interval all;         ///< of all that are known
@@ -96,10 +99,10 @@ long node_count_of(const record::Layout& layout);
 /// A point of a rod between two of its nodes, or at one.
 struct RodSample {
   int from = 0, to = 0;  ///< columns of Frame::nodes
-  double part = 0;       ///< of the way between them
+  double part = 0;       ///< of the distance between them
 };
 
-/// What a bar of progress shows of a run: the quantity, its ends, and each frame's place between
+/// What a bar of progress shows of a run: the quantity, its ends, and each frame's position between
 /// them, 0 to 1. Without a name: frames alone.
 struct ProgressAxis {
   std::string name;  ///< marked text
@@ -116,23 +119,27 @@ class RunSummary {
   void take(const record::Frame& frame);
 
   int frames = 0;
-  record::Frame first;         ///< what later frames are compared with
-  double depth_mm = 0;         ///< of a push, at its deepest; 0 without one
-  double lowest_z_mm = 0;      ///< of all that is drawn
-  double support_z_mm = 0;     ///< of the lowest point of both boundaries
-  double largest_load_N = 0;   ///< of Frame::loads_N
-  Interval bins_rad;           ///< mean K of the bins, with their standard deviations
-  double largest_move_mm = 0;  ///< of a joint, from where it was in the first frame
-  std::vector<Mark> marks;     ///< in order
+  record::Frame first;           ///< what later frames are compared with
+  double depth_mm = 0;           ///< of a push, at its deepest; 0 without one
+  double lowest_z_mm = 0;        ///< of all that is drawn
+  double support_z_mm = 0;       ///< of the lowest point of both boundaries
+  double largest_load_N = 0;     ///< of Frame::loads_N
+  bool arrows_to_scale = false;  ///< some frame's loads are arrows as long as they are large
+  bool any_contacts = false;     ///< some frame has interpenetrations
+  Interval bins_rad;             ///< mean K of the bins, with their standard deviations
+  Interval bins_change_rad;      ///< of these means, from the first frame
+  double largest_move_mm = 0;    ///< of a joint, from where it was in the first frame
+  std::vector<Mark> marks;       ///< in order
 
-  /// Of what is coloured (colour_by.cpp), but for displacements, whose depth the end alone knows.
+  /// The range of what is coloured (colour_by.cpp), but for displacements, whose depth the end
+  /// alone knows.
   const ColouredRange& spread(ColourBy by) const { return spreads_[std::size_t(by)]; }
 
   /// Along the depth of a push that only grows, or the radius of a boundary that only shrinks.
   ProgressAxis progress() const;
 
   /// Points that bound all frames, what is drawn of both boundaries, and the arrows of loads: some
-  /// hundreds of some dozen frames, and the boundaries themselves. They lie at the same places of
+  /// hundreds of some dozen frames, and the boundaries themselves. They have the same positions on
   /// the rods on every mesh, and round-off does not choose them: the whole picture would move with
   /// them. 3 x n, mm.
   Eigen::Matrix3Xd bounds() const;
@@ -143,7 +150,7 @@ class RunSummary {
   const record::Layout* layout_;
   std::array<ColouredRange, words_of<ColourBy>().size()> spreads_;
   std::vector<double> depths_mm_, radii_mm_;      ///< of every frame
-  std::vector<RodSample> rod_points_;             ///< the same places of the rods on every mesh
+  std::vector<RodSample> rod_points_;             ///< the same positions on the rods of every mesh
   double largest_actuation_ = -1;                 ///< the boundary has come
   int sample_stride_ = 1;                         ///< frame whose points are kept
   std::vector<Eigen::Matrix3Xd> sampled_points_;  ///< of every so many frames
@@ -181,8 +188,8 @@ tl::unexpected<Error> missing_values_error(ColourBy by);
 
 /// The scale that suits all of the runs: sequential of sizes, diverging about zero of what has a
 /// sign, also where all values have the same; none when nothing is coloured. It comes from the most
-/// that each cell comes to, so that it does not depend on how many frames sample the path, and a
-/// few strongly bent cells at the boundary do not pale the rest. The style's map and range go
+/// of each cell, so that it does not depend on how many frames sample the path, and a
+/// few strongly bent cells at the boundary do not pale the others. The style's map and range go
 /// before.
 std::optional<ColourBar> colour_bar_of(const std::vector<const RunSummary*>& runs,
                                        const MovieStyle& style);

@@ -5,9 +5,11 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <utility>
 
 #include "render/canvas/legend.h"
+#include "render/gl/laths.h"
 
 namespace gridshell::render {
 namespace {
@@ -50,10 +52,20 @@ class Screen {
       triangles_.push_back({corner[0], corner[1], corner[2]});
       triangles_.push_back({corner[0], corner[2], corner[3]});
     }
+    for (const Triangle& t : triangles_)
+      for (const Seen& corner : t)
+        low_ = std::min(low_, corner.at.y), high_ = std::max(high_, corner.at.y);
+    for (const Triangle& t : triangles_) {
+      const auto [first, last] = std::ranges::minmax({t[0].at.y, t[1].at.y, t[2].at.y});
+      for (int row = row_of(first); row <= row_of(last); ++row)
+        rows_[std::size_t(row)].push_back(&t);
+    }
   }
 
   bool hides(const Seen& p, double slack) const {
-    return std::ranges::any_of(triangles_, [&](const Triangle& t) {
+    if (!(p.at.y >= low_ && p.at.y <= high_)) return false;
+    return std::ranges::any_of(rows_[std::size_t(row_of(p.at.y))], [&](const Triangle* triangle) {
+      const Triangle& t = *triangle;
       const double area = cross(t[0].at, t[1].at, t[2].at);
       if (std::abs(area) < 1e-9) return false;
       const double a = cross(p.at, t[1].at, t[2].at) / area,
@@ -68,7 +80,13 @@ class Screen {
   static double cross(Point a, Point b, Point c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
   }
+  int row_of(double y) const {
+    return std::clamp(int((y - low_) / std::max(1e-9, high_ - low_) * int(rows_.size())), 0,
+                      int(rows_.size()) - 1);
+  }
   std::vector<Triangle> triangles_;
+  double low_ = INFINITY, high_ = -INFINITY;
+  std::array<std::vector<const Triangle*>, 128> rows_;  // those that reach into each strip
 };
 
 Colour faded(Colour colour, Colour background, double by) {
@@ -83,11 +101,14 @@ class Lines {
       : canvas_(canvas),
         drawing_(drawing),
         eye_(camera, box),
+        forward_(camera_axes(camera).forward.cast<float>()),
         screen_(drawing, eye_),
         units_per_mm_(box.height / (2 * camera.half_extent_mm)),
-        slack_(0.25 * drawing.layout->spacing_mm) {}
+        slack_(0.25 * drawing.layout->spacing_mm) {
+    if (!drawing.laths_mm.empty()) normals_ = shell_normals(drawing);
+  }
 
-  /// Of the two passes, hidden or visible, the parts that belong to it.
+  /// Draws the parts that belong to one of the two passes, hidden or visible.
   void draw(bool hidden) {
     const double fade = hidden ? std::max(0.55, drawing_.far_fade) : 0;
     if (hidden && drawing_.far_fade >= 1) return;
@@ -104,7 +125,7 @@ class Lines {
                  {ink(ghost.colour), width(ghost.diameter_mm)}, {});
     for (std::size_t r = 0; r < drawing_.layout->rods.size(); ++r) {
       const auto& rod = drawing_.layout->rods[r];
-      const double thick = record::thickness_of(*drawing_.layout, r) * drawing_.rod_diameter_mm;
+      const double thick = thickness_of(r);
       Eigen::Matrix3Xd points(3, rod.size());
       std::vector<Colour> colours;
       for (std::size_t k = 0; k < rod.size(); ++k) {
@@ -125,6 +146,23 @@ class Lines {
   }
 
  private:
+  /// As wide as a lath appears along its length, in the mean; a round rod's diameter.
+  double thickness_of(std::size_t r) const {
+    const Eigen::Vector2f size = lath_size(drawing_, r);
+    const auto& rod = drawing_.layout->rods[r];
+    if (size.minCoeff() <= 0 || rod.size() < 2)
+      return record::thickness_of(*drawing_.layout, r) * drawing_.rod_diameter_mm;
+    const auto normals = lath_normals(drawing_, r, normals_);
+    double sum = 0;
+    for (std::size_t k = 0; k + 1 < rod.size(); ++k) {
+      const Eigen::Vector3f along = (drawing_.nodes.col(rod[k + 1]) - drawing_.nodes.col(rod[k]))
+                                        .cast<float>()
+                                        .stableNormalized();
+      sum += apparent_width(size, along, normals[k], forward_);
+    }
+    return sum / double(rod.size() - 1);
+  }
+
   double width(double diameter_mm) const { return units_per_mm_ * diameter_mm; }
 
   // Pieces of one colour that are all hidden, or all not. Colours go in steps too small to see, and
@@ -183,16 +221,34 @@ class Lines {
     for (const PointMark& mark : drawing_.marks)
       canvas_.circle(eye_(mark.at).at, 0.5 * width(mark.diameter_mm), mark.colour,
                      {{0, 0, 0, 1}, 0.15 * width(mark.diameter_mm)});
-    for (const Arrow& arrow : drawing_.arrows)
-      draw_arrow(canvas_, eye_(arrow.from).at, eye_(arrow.to).at,
-                 {arrow.colour, width(arrow.diameter_mm)});
+    for (const Arrow& arrow : drawing_.arrows) {
+      const Seen from = eye_(arrow.from), to = eye_(arrow.to);
+      const double length = (arrow.to - arrow.from).norm();
+      if (std::hypot(to.at.x - from.at.x, to.at.y - from.at.y) < 0.2 * width(length))
+        along_the_view(to.depth > from.depth ? from.at : to.at, to.depth > from.depth,
+                       {arrow.colour, width(arrow.diameter_mm)});
+      else
+        draw_arrow(canvas_, from.at, to.at, {arrow.colour, width(arrow.diameter_mm)});
+    }
+  }
+
+  /// An arrow that is seen from behind, ⊗, or from its tip, ⊙.
+  void along_the_view(Point at, bool away, const Stroke& shaft) {
+    const double radius = std::max(3.2 * shaft.width, 3.0), arm = radius * std::numbers::sqrt2 / 2;
+    const Stroke line{shaft.colour, 0.28 * radius};
+    canvas_.circle(at, radius, {1, 1, 1, 1}, line);
+    if (!away) return canvas_.circle(at, 0.34 * radius, shaft.colour);
+    canvas_.line({at.x - arm, at.y - arm}, {at.x + arm, at.y + arm}, line);
+    canvas_.line({at.x - arm, at.y + arm}, {at.x + arm, at.y - arm}, line);
   }
 
   Canvas& canvas_;
   const Drawing& drawing_;
   Eye eye_;
+  Eigen::Vector3f forward_;
   Screen screen_;
   double units_per_mm_, slack_;
+  std::vector<Eigen::Vector3f> normals_;  // of the shell, where it has laths
 };
 
 }  // namespace

@@ -1,10 +1,8 @@
 #include "render/movie/stage.h"
 
 #include <fmt/format.h>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "engine/core/try.h"
@@ -12,85 +10,11 @@
 
 namespace gridshell::render {
 
-Framing::Framing(const Eigen::Matrix3Xd& points, const MovieStyle& style, const Box& panel)
-    : azimuth_deg_(style.azimuth_deg),
-      elevation_deg_(style.elevation_deg),
-      turn_deg_(style.turn_deg),
-      field_of_view_deg_(style.orthographic ? 0 : Camera{}.field_of_view_deg),
-      width_(style.width()),
-      height_(style.height()) {
-  if (points.cols() == 0 || panel.empty()) return;
-  fit(points, panel);
-  look_at(style, panel);
-  seen_ = union_of_views(points);
-}
-
-void Framing::fit(const Eigen::Matrix3Xd& points, const Box& panel) {
-  const Eigen::Vector3d low = points.rowwise().minCoeff(), high = points.rowwise().maxCoeff();
-  middle_ = (low + high) / 2;
-  half_extent_mm_ = std::max(1e-6, (high - low).norm());
-  // size and shift act on each other through perspective, weakly: a few rounds settle both
-  for (int round = 0; round < 12; ++round) {
-    const Box seen = union_of_views(points);
-    const double fit = std::max(seen.width / panel.width, seen.height / panel.height);
-    const double mm = 1 / pixels_per_mm();
-    right_mm_ += (seen.middle().x - width_ / 2.0) * mm;
-    up_mm_ -= (seen.middle().y - height_ / 2.0) * mm;
-    // what is in the picture's middle now belongs in the panel's
-    half_extent_mm_ *= fit;
-    right_mm_ -= (panel.middle().x - width_ / 2.0) / pixels_per_mm();
-    up_mm_ += (panel.middle().y - height_ / 2.0) / pixels_per_mm();
-  }
-}
-
-// what stands in the panel's middle, the target if there is one, stays there
-void Framing::look_at(const MovieStyle& style, const Box& panel) {
-  const double x = panel.middle().x - width_ / 2.0, y = panel.middle().y - height_ / 2.0;
-  right_mm_ += x / pixels_per_mm();
-  up_mm_ -= y / pixels_per_mm();
-  if (!style.target_mm.empty()) {
-    middle_ = Eigen::Vector3d::Map(style.target_mm.data());
-    right_mm_ = up_mm_ = 0;
-  }
-  half_extent_mm_ /= style.zoom;
-  right_mm_ -= x / pixels_per_mm();
-  up_mm_ += y / pixels_per_mm();
-}
-
-Camera Framing::camera(double moment) const {
-  Camera camera;
-  camera.azimuth_deg = azimuth_deg_ + turn_deg_ * moment;
-  camera.elevation_deg = elevation_deg_;
-  camera.half_extent_mm = half_extent_mm_;
-  camera.field_of_view_deg = field_of_view_deg_;
-  const CameraAxes axes = camera_axes(camera);
-  camera.target = middle_ + right_mm_ * axes.right + up_mm_ * axes.up;
-  return camera;
-}
-
-Box Framing::union_of_views(const Eigen::Matrix3Xd& points) const {
-  const double infinity = std::numeric_limits<double>::infinity();
-  Eigen::Array2d low(infinity, infinity), high = -low;
-  const int moments = 1 + std::min(24, int(std::ceil(std::abs(turn_deg_) / 6)));
-  for (int m = 0; m < moments; ++m) {
-    const Camera now = camera(moments > 1 ? double(m) / (moments - 1) : 0);
-    const Eigen::Matrix4Xd clip =
-        view_projection(now, double(width_) / height_, now.target, now.half_extent_mm) *
-        points.colwise().homogeneous();
-    const Eigen::Array2Xd ndc = clip.topRows<2>().array().rowwise() / clip.row(3).array();
-    low = low.min(ndc.rowwise().minCoeff());
-    high = high.max(ndc.rowwise().maxCoeff());
-  }
-  // normalised device coordinates have y up, pixels have it down
-  return {(0.5 + 0.5 * low.x()) * width_, (0.5 - 0.5 * high.y()) * height_,
-          std::max(1e-9, 0.5 * (high.x() - low.x()) * width_),
-          std::max(1e-9, 0.5 * (high.y() - low.y()) * height_)};
-}
-
 namespace {
 
 constexpr Colour load_ink{0.05f, 0.05f, 0.06f, 1}, mark_ink{0.98f, 0.76f, 0.10f, 1},
-    original_ink{0.66f, 0.67f, 0.7f, 1}, ghost_ink{0.58f, 0.6f, 0.64f, 0.6f};
+    original_ink{0.66f, 0.67f, 0.7f, 1}, lath_ink{0.66f, 0.55f, 0.42f, 1},
+    ghost_ink{0.58f, 0.6f, 0.64f, 0.6f};
 
 // from the side, so that what is pushed moves in the picture's plane, near the style's own azimuth
 MovieStyle beside_the_push(MovieStyle style, const record::Layout& layout) {
@@ -151,7 +75,7 @@ double least_pixels(const MovieStyle& style) {
 // K is a frame's own
 bool by_K(ColourBy by) { return by == ColourBy::K || by == ColourBy::K_change; }
 
-// columns of equal width; a single view has the whole picture to itself, so that the ground goes on
+// columns of equal width; a single view has the whole picture to itself, so that the ground extends
 // under the captions
 std::vector<Box> panels_of(const FrameLayout& layout, const MovieStyle& style) {
   const int count = 1 + int(style.views.size());
@@ -183,7 +107,7 @@ std::vector<Framing> framings_of(const std::vector<Box>& panels, const Box& view
   return framings;
 }
 
-// everything beside the box in one colour
+// everything outside the box in one colour
 void clear_outside(Image& image, const Box& box, Colour colour) {
   const auto byte = [](float c) { return std::uint8_t(std::lround(255 * c)); };
   const std::uint8_t rgba[] = {byte(colour.r), byte(colour.g), byte(colour.b), byte(colour.a)};
@@ -193,7 +117,7 @@ void clear_outside(Image& image, const Box& box, Colour colour) {
         std::copy_n(rgba, 4, image.pixel(x, y));
 }
 
-// one line where that holds it, else two: apart where an event ends, or between words
+// one line where that has room for it, else two: parted where an event ends, or between words
 std::vector<std::string> lines_of_event(const Canvas& canvas, const std::string& said, double width,
                                         const TextStyle& style) {
   if (canvas.measure(plain(said), style).width <= width) return {said};
@@ -208,11 +132,9 @@ std::vector<std::string> lines_of_event(const Canvas& canvas, const std::string&
 
 Result<void> check_size(const MovieStyle& style) {
   if (style.width() < 16 || style.height() < 16 || style.width() > 16384 || style.height() > 16384)
-    return invalid(
-        "a picture of {} x {} pixels cannot be made: both "
-        "sides must be 16 to 16384",
-        style.width(), style.height());
-  if (!(style.zoom > 0)) return invalid("the camera's zoom must be above 0");
+    return invalid("size: got {} x {} pixels, expected 16 to 16384 for both", style.width(),
+                   style.height());
+  if (!(style.zoom > 0)) return invalid("[movie] zoom: expected above 0");
   return {};
 }
 
@@ -257,7 +179,8 @@ Stage::Stage(const record::Layout& layout, RunSummary survey, const MovieStyle& 
       progress_(survey_.progress()),
       bar_(shared ? shared : colour_bar_of({&survey_}, style_)),
       layout_(lay_out_frame(style_, bar_ && style_.legends ? &*bar_ : nullptr,
-                            style_.look.loads && survey_.largest_load_N > 0)),
+                            {style_.look.loads && survey_.largest_load_N > 0,
+                             arrow_key().has_value(), survey_.any_contacts})),
       panels_(panels_of(layout_, style_)),
       framings_(framings_of(panels_, layout_.view, survey_.bounds(), style_)),
       top_(top_extent(survey_.bounds())),
@@ -292,7 +215,7 @@ std::vector<Colour> Stage::node_colours(const record::Frame& frame) const {
 }
 
 std::optional<ArrowKey> Stage::arrow_key() const {
-  if (!style_.look.loads) return {};
+  if (!style_.look.loads || !survey_.arrows_to_scale) return {};
   return render::arrow_key(run_, survey_.largest_load_N);
 }
 
@@ -314,8 +237,16 @@ Drawing Stage::drawing(const record::Frame& frame) const {
   drawing.rod_colour = look.rod;
   drawing.rod_diameter_mm = std::max(look.rod_mm > 0 ? look.rod_mm : run_.rod_diameter_mm, thin);
   drawing.joint_colour = look.joint;
+  if (look.rod_mm == 0) drawing.laths_mm = run_.laths_mm;
+  if (look.rod_mm == 0 && run_.laths_mm.empty() && look.lath_width_mm > 0)
+    for (std::size_t r = 0; r < run_.rods.size(); ++r)
+      drawing.laths_mm.insert(drawing.laths_mm.end(), {look.lath_width_mm, look.lath_thickness_mm});
+  if (!drawing.laths_mm.empty() && look.rod == Appearance{}.rod) drawing.rod_colour = lath_ink;
   drawing.joint_diameter_mm =
       look.joint_mm > 0 ? std::max(look.joint_mm, 1.5 * drawing.rod_diameter_mm) : 0;
+  // bolts are narrower than their laths
+  if (!drawing.laths_mm.empty() && look.joint_mm > 0)
+    drawing.joint_diameter_mm = 0.5 * *std::ranges::max_element(drawing.laths_mm);
   drawing.cell_colours = cell_colours(frame);
   drawing.node_colours = node_colours(frame);
   // a red joint would look like tension
@@ -330,11 +261,7 @@ Drawing Stage::drawing(const record::Frame& frame) const {
     drawing.rings.push_back(
         {boundary_at(run_, frame.actuation), std::max(look.ring_mm, 1.6 * thin), look.ring});
   }
-  // balls in the holes of the plate
-  if (look.rings && drawing.joint_diameter_mm > 0)
-    for (const int node : run_.edge_points)
-      drawing.marks.push_back(
-          {frame.nodes.col(node), 1.3 * drawing.joint_diameter_mm, look.ring, false});
+  if (look.supports && drawing.joint_diameter_mm > 0) put_supports(run_, frame, look, drawing);
   if (look.ghost && changed(frame))
     drawing.ghosts.push_back({survey_.first.nodes, thinned_rods(run_),
                               0.8 * drawing.rod_diameter_mm, ghost_ink, 0.25 * run_.spacing_mm});
@@ -346,7 +273,7 @@ Drawing Stage::drawing(const record::Frame& frame) const {
   if (look.braces) put_braces(run_, frame, thin, drawing);
   put_contacts(run_, frame, thin, drawing);
   drawing.ground_z_mm = ground_z_mm_;
-  drawing.ground = look.floor && style_.views.empty() && look.background.a > 0;
+  drawing.ground = look.floor && style_.views.empty();
   drawing.background = look.background;
   if (is_dark(look.background)) {
     // a little lighter than what is far out
@@ -400,7 +327,7 @@ void Stage::draw_captions(Canvas& canvas, const ShownFrame& shown) const {
     canvas.text(plain(lines[k]),
                 {layout_.title.x, layout_.title.y + (double(k) + 0.5) * line_height}, title);
 
-  // columns of fixed width, so that the words stand still while the numbers run; what does not
+  // columns of fixed width, so that the words do not move while the numbers run; what does not
   // fit is left out
   double x = layout_.state.x;
   for (const std::string& caption : state_captions(shown.frame)) {
@@ -437,10 +364,19 @@ void Stage::draw_overlay(Canvas& canvas, const ShownFrame& shown) const {
     }
     draw_top_view(canvas, inset, run_, shown.frame, top_, cell_colours(shown.frame), style_.look);
   }
-  if (!layout_.plot.empty() && shown.frame.K_bins.rows() > 0)
-    draw_plot(canvas, layout_.plot,
-              bins_plot(survey_, long(run_.cells.size()), shown.frame, style_.bins_range,
-                        0.95 * layout_.font_size));
+  if (!layout_.plot.empty() && shown.frame.K_bins.rows() > 0) {
+    const double font = 0.95 * layout_.font_size;
+    Plot bins = bins_plot(survey_, long(run_.cells.size()), shown.frame, style_.bins_range, font);
+    Box above = layout_.plot, below = above;
+    // the deviations are much larger than the change of the means: below, on an axis of its own
+    if (style_.colour_by == ColourBy::K_change && above.height > 24 * font) {
+      above.height *= 0.62;
+      below = {below.x, above.bottom(), below.width, below.height - above.height};
+      bins.x.label.clear();
+      draw_plot(canvas, below, change_plot(survey_, shown.frame, font));
+    }
+    draw_plot(canvas, above, bins);
+  }
   if (!layout_.scale_bar.empty())
     draw_scale_bar(canvas, layout_.scale_bar, style_.scale_bar_mm, pixels_per_mm(),
                    0.95 * layout_.font_size);

@@ -1,5 +1,5 @@
-// A camera that keeps a whole run in its panel: one target, one size, fixed over the movie, while
-// it slowly turns.
+// A camera that keeps a complete run in its panel: one target, one size, fixed over the movie,
+// while it slowly turns.
 #pragma once
 
 #include <functional>
@@ -45,13 +45,13 @@ class Framing {
 
 // One run set up for showing: cameras, ground, colours and captions, fixed over all its frames. A
 // movie, a still and a window take a frame from here as geometry, and finish the picture drawn of
-// it with captions and legends. It holds no frame but the first: any other is handed to it.
+// it with captions and legends. It stores no frame but the first: any other is handed to it.
 
 /// Whether a run can be shown: it has frames, each with a position for every node and, where K is
 /// shown, one for every cell; some frame knows what is to be coloured; the picture has a size.
 /// Errors: Fault::bad_input naming the frame or what is lacking.
 Result<void> check_showable(const record::Trajectory& run, const MovieStyle& style);
-/// Of that, whether any frame knows what is to be coloured.
+/// Whether any frame knows what is to be coloured.
 Result<void> check_coloured(const RunSummary& survey, const MovieStyle& style);
 Result<void> check_size(const MovieStyle& style);
 /// `at`: the frame's position in the run.
@@ -70,10 +70,11 @@ class Stage {
   /// unless one is given that several runs share.
   Stage(const record::Layout& layout, RunSummary survey, const MovieStyle& style,
         const std::optional<ColourBar>& shared = std::nullopt);
-  /// Of a run in memory.
+  /// The stage of a run in memory.
   Stage(const record::Trajectory& run, const MovieStyle& style);
 
   int frames() const { return survey_.frames; }
+  const record::Layout& run() const { return run_; }
   const MovieStyle& style() const { return style_; }
   const FrameLayout& layout() const { return layout_; }
   const RunSummary& survey() const { return survey_; }
@@ -92,12 +93,12 @@ class Stage {
 
   /// The whole picture of a frame, all views of it, captions and legends. Errors: the renderer's.
   Result<Image> draw(Renderer& renderer, const ShownFrame& shown) const;
-  /// The same without captions and legends.
+  /// The picture without captions and legends.
   Result<Image> draw_views(Renderer& renderer, const ShownFrame& shown) const;
 
   /// Draws captions, colour bar, top view and scale bar of a frame over its picture.
   void finish(Image& picture, const ShownFrame& shown) const;
-  /// The same onto any canvas of the picture's size.
+  /// Draws captions and legends onto any canvas of the picture's size.
   void draw_overlay(Canvas& canvas, const ShownFrame& shown) const;
 
  private:
@@ -114,13 +115,13 @@ class Stage {
   ProgressAxis progress_;
   std::optional<ColourBar> bar_;
   FrameLayout layout_;
-  std::vector<Box> panels_;        ///< one a view
-  std::vector<Framing> framings_;  ///< one a view, each in a picture of its panel's size
+  std::vector<Box> panels_;        ///< one per view
+  std::vector<Framing> framings_;  ///< one per view, each in a picture of its panel's size
   TopExtent top_;
   double ground_z_mm_ = 0;
 };
 
-// A shell as lines: what is hidden behind cells is faded, what is not stands out, and all of it can
+// A shell as lines: what is hidden behind cells is faded, what is not is strong, and all of it can
 // be enlarged without end.
 
 /// Whether each point is hidden from the camera by a cell of the drawing (its four joints' two
@@ -128,12 +129,12 @@ class Stage {
 std::vector<bool> hidden_points(const Drawing& drawing, const Camera& camera,
                                 const Eigen::Matrix3Xd& points, double slack_mm);
 
-/// Draws rods, rings, nets beside them, joints, marks and arrows of `drawing` into a box of the
+/// Draws rods, rings, nets next to them, joints, marks and arrows of `drawing` into a box of the
 /// canvas as the camera sees them: hidden ones first, faded by the drawing's far_fade (1: left
 /// out).
 void draw_shell_lines(Canvas& canvas, const Box& box, const Drawing& drawing, const Camera& camera);
 
-/// The same at a later time: keeps the drawing and its layout.
+/// Draws the shell later: the returned function keeps the drawing and its layout.
 std::function<void(Canvas&, const Box&)> shell_lines(Drawing drawing, const Camera& camera);
 
 }  // namespace gridshell::render

@@ -34,7 +34,7 @@ using record::StateCount;
 constexpr double high = 0.84;  // of the picture, over its width
 constexpr Colour grey_ink{0.42f, 0.42f, 0.45f, 1};
 
-/// How large a class is drawn, and where beside the point, in steps between points.
+/// How large a class is drawn, and where next to the point, in steps between points.
 struct ClassMark {
   StateClass kind;
   const char* name;
@@ -46,7 +46,7 @@ constexpr std::array<ClassMark, 4> marks{{
     {StateClass::iii, "*iii*", 5.6, -0.2, -0.17},
     {StateClass::iv, "*iv*", 5.2, 0.2, -0.17},
 }};
-constexpr double others_right = 0.3;  // of the number beside them
+constexpr double others_right = 0.3;  // of the number next to them
 constexpr double most_numbered = 12;  // columns, between which there is room for these numbers
 
 /// The smallest distance between different values.
@@ -93,8 +93,8 @@ class PhasePlot {
     columns_ = double(std::set(legs.begin(), legs.end()).size());
     plot_.title = plain(title);
     plot_.x = {.label = "longest leg, *L̄*_{d} = *L*/*d*"};
-    plot_.y = {.label = "rods a direction, *n*"};
-    plot_.legend = LegendPlace::above;
+    plot_.y = {.label = "rods per direction, *n*"};
+    plot_.legend = LegendPosition::above;
     if (legs.empty()) return;
     const auto [short_leg, long_leg] = std::ranges::minmax(legs);
     const auto [few, many] = std::ranges::minmax(rods);
@@ -102,7 +102,8 @@ class PhasePlot {
     plot_.x.high = long_leg + 0.75 * leg_step_;
     plot_.y.low = few - 0.7 * rod_step_;
     plot_.y.high = many + 0.7 * rod_step_;
-    plot_.y.ticks = int(std::min(12.0, (many - few) / rod_step_ + 1));
+    // as many as rows of data, and some more, as steps are rounded up
+    plot_.y.ticks = int(std::min(12.0, (many - few) / rod_step_ + 3));
   }
 
   Plot take() && {
@@ -112,7 +113,7 @@ class PhasePlot {
       add_class(mark, false);
       add_class(mark, true);
     }
-    add_key("from symmetric forms alone", Marker::circle, true);
+    add_key("found from symmetric starts only", Marker::circle, true);
     add_others();
     add_nothing();
     return std::move(plot_);
@@ -122,7 +123,8 @@ class PhasePlot {
   /// L_d over n at one shortest leg.
   void add_line(double leg) {
     constexpr int pieces = 120;
-    Series line = line_series(leg == 1 ? "*l̄*_{d} = 1, 0, −1 (from right to left)" : "", grey_ink);
+    Series line =
+        line_series(fmt::format("*l̄*_{{d}} = {}{:g}", leg < 0 ? "−" : "", std::abs(leg)), grey_ink);
     line.dash = leg == 1   ? std::vector<double>{}
                 : leg == 0 ? std::vector<double>{5, 2.5}
                            : std::vector<double>{1.5, 2};
@@ -148,7 +150,7 @@ class PhasePlot {
     plot_.series.push_back(std::move(series));
   }
 
-  /// A dot where each footprint belongs that its marks stand around.
+  /// A dot at each footprint that its marks are arranged around.
   void add_places() {
     Series dots = mark_series("", grey_ink, Marker::circle, 1.6);
     for (const PhasePoint& point : points_) dots.add(point.longest_leg, point.rods);
@@ -162,6 +164,13 @@ class PhasePlot {
 
   /// How many more states than the paper's classes, where there is room for it.
   void add_others() {
+    Series only = mark_series("other states only", grey_ink, Marker::diamond, 4, true);
+    for (const PhasePoint& point : points_)
+      if (point.of(StateClass::other).states > 0 &&
+          std::ranges::none_of(
+              marks, [&](const ClassMark& mark) { return point.of(mark.kind).states > 0; }))
+        only.add(point.longest_leg, point.rods);
+    plot_.add(std::move(only));
     if (columns_ > most_numbered) return;
     add_key("+*n*: *n* other states", Marker::none, false);
     for (const PhasePoint& point : points_)
@@ -183,7 +192,7 @@ class PhasePlot {
 };
 
 constexpr Colour ring_ink{0.55f, 0.55f, 0.58f, 1};
-constexpr double room = 1.12;  // of the boundary, that mirrors stand out beyond it
+constexpr double room = 1.12;  // of the boundary, that mirrors extend past it
 
 /// Directions of the mirrors of a group whose name says where they are, degrees.
 std::vector<double> mirrors_of(const std::string& group) {
@@ -207,10 +216,10 @@ ClassLook look_of(StateClass kind) {
 
 Plot barrier_plot(const record::StateTables& states) {
   Plot plot;
-  plot.title = fmt::format("Barriers between states (heights found on {} edges a segment)",
+  plot.title = fmt::format("Barriers between states (heights found on {} edges per segment)",
                            states.search.judged_edges);
   plot.y = {.label = "elastic energy; heights of barriers (mJ)"};
-  plot.legend = LegendPlace::none;
+  plot.legend = LegendPosition::none;
   // of the states as everywhere else; of passes only the height above their states is known, which
   // on another mesh hardly differs, as their energies do
   std::map<int, double> energy;
@@ -256,7 +265,7 @@ Plot barrier_plot(const record::StateTables& states) {
   plot.x.low = 0.5;
   plot.x.high = double(place.size()) + 0.5;
   if (lowest <= highest) {
-    // room for what stands above passes and below states
+    // room for what is above passes and below states
     plot.y.low = lowest - 0.16 * (highest - lowest);
     plot.y.high = highest + 0.2 * (highest - lowest);
   }

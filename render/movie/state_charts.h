@@ -28,7 +28,7 @@ Plot barrier_plot(const record::StateTables& states);
 
 // A bifurcation diagram as a picture.
 
-/// What stands on the two axes of one panel.
+/// What the two axes of one panel show.
 enum class BranchAxis { height, amplitude };
 
 /// Height or amplitude over the boundary's radius, or over progress where there is none: stable
@@ -36,18 +36,19 @@ enum class BranchAxis { height, amplitude };
 /// curves: the legend is the figure's.
 Plot branches_plot(const std::vector<record::BranchPoint>& points, BranchAxis axis);
 
-/// Both panels beside one another, `<stem>.png`, `.svg` and `.pdf`; where what happens lies within
+/// Both panels next to one another, `<stem>.png`, `.svg` and `.pdf`; where what happens lies within
 /// a sixth of the path, two more below show that part alone.
 Result<void> write_branches(const std::filesystem::path& stem,
                             const std::vector<record::BranchPoint>& points,
                             const std::string& title);
 
-/// The load factor over a joint's way, a curve a case, dashed where it is not stable; limit points
-/// and bifurcations are marked, and where the rods come to their strength, with its error.
+/// The load factor over a joint's displacement, a curve per case, dashed where it is not stable;
+/// limit points and bifurcations are marked, and where the rods reach their strength, with its
+/// error.
 Plot load_plot(const std::vector<record::LoadPoint>& points,
                const std::vector<record::LoadRow>& cases, const std::string& title);
 
-// Which states footprints of so many rods and so long legs can rest in [Baek 2018, Fig. 2B].
+// Which stable states footprints of so many rods and so long legs have [Baek 2018, Fig. 2B].
 
 /// L_d along x, n upwards. At each point a marker a class of the paper, filled where trials met it
 /// and hollow where only symmetric forms led to it, and the number of other states; the lines of
@@ -55,7 +56,7 @@ Plot load_plot(const std::vector<record::LoadPoint>& points,
 /// footprint what any found.
 Plot phase_plot(const record::PhaseDiagram& diagram, const std::string& title);
 
-/// The same as `<stem>.png`, `.svg` and `.pdf`.
+/// Writes it as `<stem>.png`, `.svg` and `.pdf`.
 Result<void> write_phase_chart(const std::filesystem::path& stem,
                                const record::PhaseDiagram& diagram, const std::string& title,
                                const Print& print);
@@ -74,20 +75,20 @@ std::vector<int> inflections_of(const record::StateRow& row);
 /// Units of the canvas a millimetre at which the shell fills the box.
 double state_map_scale(const Box& box, const record::Layout& layout);
 
-/// The rods of a frame at rest, its boundary and, dashed, the mirrors of its group (a square in the
-/// middle where it is turns by 90 degrees alone), in the middle of the box.
+/// The rods of a frame in equilibrium, its boundary and, dashed, the mirrors of its group (a square
+/// in the middle where it is turns by 90 degrees alone), in the middle of the box.
 void draw_state_map(Canvas& canvas, const Box& box, double units_per_mm,
                     const record::Layout& layout, const record::Frame& frame,
                     const record::StateRow& row);
 
 // Which state of a shell goes to which when a hand disturbs it, as a graph.
 
-/// States at their height and energy, the ones that were disturbed with their name beside them and
+/// States at their height and energy, the ones that were disturbed with their name next to them and
 /// below the axes as small shells from above. Arrows lead to where they went, blue where the
 /// boundary was released and contracted again, red where joints were pushed, with how often. What
-/// came back to where it was stands beside its shell, and so does what went to a state that the
+/// came back to where it was is next to its shell, and so is what went to a state that the
 /// search did not meet.
-/// `run` has a frame a state; `title` (plain text) stands above. `<stem>.png`, `.svg`, `.pdf`.
+/// `run` has a frame per state; `title` (plain text) is above. `<stem>.png`, `.svg`, `.pdf`.
 Result<void> write_transition_graph(const std::filesystem::path& stem,
                                     const record::StateTables& states,
                                     const record::Trajectory& run, const std::string& title,

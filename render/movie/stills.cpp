@@ -43,7 +43,7 @@ Image around(const Image& picture, const Box& shell) {
   return part;
 }
 
-// lines of a whole picture, of which the part fills the panel
+// lines of a complete picture, of which the part fills the panel
 std::function<void(Canvas&, const Box&)> lines_around(
     std::function<void(Canvas&, const Box&)> lines, const MovieStyle& style, const Box& part) {
   return [=, width = style.width(), height = style.height()](Canvas& canvas, const Box& box) {
@@ -55,7 +55,17 @@ std::function<void(Canvas&, const Box&)> lines_around(
   };
 }
 
-/// A panel has no room for a legend: the marks in it are told beside its caption.
+/// By how much panels are larger than the shell in its still, where the figure is printed so wide;
+/// 1: they are not.
+double panel_scale(const Stage& stage, int columns) {
+  constexpr double most = 4, around_panels = 1.1;
+  const MovieStyle& style = stage.style();
+  const double printed = style.print.width_mm * style.print.dpi / 25.4 / (around_panels * columns);
+  const double scale = printed / std::max(1.0, 1.1 * stage.shell_box().width);
+  return scale > 1.1 ? std::min(scale, most) : 1;
+}
+
+/// A panel has no room for a legend: its marks are explained next to its caption.
 std::string with_marks(const std::string& caption, const record::Frame& frame,
                        const Appearance& look) {
   const std::string contacts = contact_caption(frame),
@@ -88,7 +98,7 @@ void draw_still_labels(Canvas& canvas, const Stage& stage, const ShownFrame& sho
   const TextStyle text{.size = layout.font_size, .align_y = AlignY::top};
   const TextStyle fitted = canvas.fitted(caption, room.width, text);
   const Box said = canvas.text(caption, {room.x, room.bottom() - line}, fitted);
-  // a row each, contacts as the marks that they are in the picture
+  // one row each, contacts as the marks that they are in the picture
   const double size = fitted.size;
   double y = said.bottom() + size;
   if (const auto loads = load_caption(shown.frame); !loads.empty() && stage.style().look.loads) {
@@ -121,13 +131,28 @@ Result<std::vector<std::filesystem::path>> write_stills(
   TRY_DO(check_showable(run, style));
   if (stem.has_parent_path()) TRY_DO(make_folder(stem.parent_path()));
   RunSummary survey = summarise_run(run);
-  if (origin) survey.first = *origin;
+  if (origin) {
+    survey.first = *origin;
+    survey.largest_move_mm = 0;
+    for (const record::Frame& frame : run.frames)
+      survey.largest_move_mm = std::max(survey.largest_move_mm,
+                                        (frame.nodes - origin->nodes).colwise().norm().maxCoeff());
+  }
   const Stage stage(run.layout, std::move(survey), style, bar);
   PanelFigure figure = empty_figure(style, columns_of(style, stage.frames()));
   figure.scale_bar_mm = scale_bar_beside(style.scale_bar_mm, run.layout.length_scale_mm);
   figure.pixels_per_mm = stage.pixels_per_mm();
   figure.colour_bar = stage.colour_bar();
   figure.arrow = stage.arrow_key();
+  // side by side a shell may fill more pixels than in its own still
+  MovieStyle larger = style;
+  const double enlarged = panel_scale(stage, figure.columns);
+  for (int& side : larger.size) side = int(std::lround(enlarged * side));
+  std::optional<Stage> panels;
+  if (enlarged > 1) {
+    panels.emplace(run.layout, RunSummary(stage.survey()), larger, bar);
+    figure.pixels_per_mm = panels->pixels_per_mm();
+  }
   const double dpi = style.print.width_mm > 0 ? style.print.dpi : 0;
   std::vector<std::filesystem::path> files;
   for (int k = 0; k < stage.frames(); ++k) {
@@ -137,12 +162,19 @@ Result<std::vector<std::filesystem::path>> write_stills(
     const std::string caption =
         captions.empty() ? frame_state_caption(frame) : captions[std::size_t(k)];
     TRY(picture, stage.draw_views(renderer, {frame, k}));
-    figure.panels.push_back({around(*picture, stage.shell_box()),
+    const Stage& shown = panels ? *panels : stage;
+    Image panel = *picture;
+    if (panels) {
+      TRY(sharp, panels->draw_views(renderer, {frame, k}));
+      panel = std::move(*sharp);
+    }
+    figure.panels.push_back({around(panel, shown.shell_box()),
                              stage.frames() > 1 ? panel_letter(style, std::size_t(k)) : "",
                              with_marks(caption, frame, style.look)});
     if (style.vector)
-      figure.panels.back().lines = lines_around(shell_lines(stage.drawing(frame), stage.camera(k)),
-                                                style, part_around(*picture, stage.shell_box()));
+      figure.panels.back().lines =
+          lines_around(shell_lines(shown.drawing(frame), shown.camera(k)), shown.style(),
+                       part_around(panel, shown.shell_box()));
     draw_over(*picture, [&](Canvas& canvas) {
       canvas.set_paper(style.look.background);
       draw_still_labels(canvas, stage, {frame, k}, caption);

@@ -26,15 +26,15 @@ void draw_still_labels(Canvas& canvas, const Stage& stage, const ShownFrame& sho
 
 /// What one still shows under it, as marked text: "*R*_{a} = 115.9 mm".
 std::string frame_state_caption(const record::Frame& frame);
-/// The same with nothing said of a push, though one may hold the shell.
+/// The caption without what is said of a push, though one may act on the shell.
 std::string unpushed_caption(const record::Frame& frame);
 
 /// Draws every frame of the run from one fixed camera in the style's size, with its caption, colour
 /// bar and scale bar (style.scale_bar_mm) as `<stem>_1.png`, `<stem>_2.png` ..., and all of them
 /// side by side, lettered, with one scale bar and one colour bar, as `<stem>.png`. Returns the
 /// files written. Progress and errors as write_movie.
-/// `bar` is a colour bar that several cases share; `captions` (marked text, one a frame) stand in
-/// the place of frame_state_caption(); `origin`: what displacements are measured from, by default
+/// `bar` is a colour bar that several cases share; `captions` (marked text, one per frame) replace
+/// frame_state_caption(); `origin`: what displacements are measured from, by default
 /// the first frame.
 Result<std::vector<std::filesystem::path>> write_stills(
     const record::Trajectory& run, const MovieStyle& style, const std::optional<ColourBar>& bar,

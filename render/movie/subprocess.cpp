@@ -152,11 +152,11 @@ int Subprocess::wait() {
 
 Result<void> Subprocess::end(const Watch& watch, const LineListener& heard) {
   close_one(stdin_pipe_);
-  bool told = false;
+  bool reported = false;
   for (;;) {
-    if (watch.cancelled() && !told) {
+    if (watch.cancelled() && !reported) {
       ::kill(child_, SIGTERM);
-      told = true;
+      reported = true;
     }
     pollfd waiting{stderr_pipe_, POLLIN, 0};
     const int ready = ::poll(&waiting, 1, poll_ms);

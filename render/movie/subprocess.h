@@ -19,10 +19,10 @@ using LineListener = std::function<void(const std::string& line)>;
 
 enum class Input { none, fed };
 
-/// A program under way, its output discarded. One that has not ended is killed with it.
+/// A running program, its output discarded. One that has not ended is killed with it.
 class Subprocess {
  public:
-  /// Runs `arguments[0]` (a path) with the rest as its arguments. Errors: Fault::io.
+  /// Runs `arguments[0]` (a path) with the others as its arguments. Errors: Fault::io.
   static Result<Subprocess> start(const std::vector<std::string>& arguments, Input input);
   Subprocess(Subprocess&& other) noexcept;
   Subprocess& operator=(Subprocess&&) = delete;

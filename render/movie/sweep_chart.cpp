@@ -96,13 +96,13 @@ Series mean_of(const Curve& curve) {
 }
 
 template <class Wanted>
-Series marks_of(const Curve& curve, Series style, const Wanted& wanted) {
+Series marks_of(const Curve& curve, Series style, const Wanted& requested) {
   style.x.clear();
   style.y.clear();
   style.name.clear();
   style.line_width = 0;
   for (const SweepMark& spot : curve.spots)
-    if (wanted(spot)) style.add(spot.x, spot.y);
+    if (requested(spot)) style.add(spot.x, spot.y);
   return style;
 }
 
@@ -169,13 +169,13 @@ void set_axes(const std::vector<Curve>& curves, Plot& plot) {
 }
 
 /// A line where the curve has left its value at the right, and a row of the legend that says where.
-void mark_departure(const Series& curve, Colour colour, double share, Plot& plot) {
-  const auto at = deviation_onset(curve.x, curve.y, share);
+void mark_departure(const Series& curve, Colour colour, double fraction, Plot& plot) {
+  const auto at = deviation_onset(curve.x, curve.y, fraction);
   if (!at) return;
   const Stroke stroke{colour, 0.8, {3, 2}};
   plot.references.push_back({.horizontal = false, .at = *at, .label = "", .stroke = stroke});
   plot.series.push_back(
-      line_series(fmt::format("{:g} % off at {}", 100 * share, scientific(*at, 2)), colour,
+      line_series(fmt::format("{:g} % off at {}", 100 * fraction, scientific(*at, 2)), colour,
                   stroke.width, stroke.dash));
 }
 
@@ -271,14 +271,14 @@ std::vector<std::string> cases_of(const SweepTable& table) {
 }
 
 std::optional<double> deviation_onset(const std::vector<double>& x, const std::vector<double>& y,
-                                      double share) {
+                                      double fraction) {
   std::vector<std::pair<double, double>> points;
   for (std::size_t k = 0; k < std::min(x.size(), y.size()); ++k)
     if (std::isfinite(x[k]) && std::isfinite(y[k])) points.emplace_back(x[k], y[k]);
   std::ranges::sort(points, std::greater<>());
-  if (points.size() < 2 || !(share > 0)) return std::nullopt;
+  if (points.size() < 2 || !(fraction > 0)) return std::nullopt;
   const bool log = points.back().first > 0;
-  const double last = points.front().second, allowed = share * std::abs(last);
+  const double last = points.front().second, allowed = fraction * std::abs(last);
   for (std::size_t k = 1; k < points.size(); ++k) {
     const double off = std::abs(points[k].second - last);
     if (!(off > allowed)) continue;
@@ -294,32 +294,32 @@ Plot law_plot(const std::vector<record::PowerLaw>& laws, const SweepView& view) 
   Plot plot;
   plot.title = plain(view.title);
   plot.y.label = label_of(view.figure);
-  // over the key itself, or where there are several over what the law makes of them
   const bool one_key =
       std::ranges::all_of(laws, [](const auto& law) { return law.keys.size() == 1; });
-  plot.x.label =
-      one_key ? label_of(laws.front().keys.front().key) : plot.y.label + " by its power law";
+  plot.x.label = label_of(laws.front().keys.front().key);
   plot.x.logarithmic = plot.y.logarithmic = true;
   for (std::size_t k = 0; k < laws.size(); ++k) {
     const record::PowerLaw& one = laws[k];
     Series marks =
         mark_series(plain(one.keys.front().case_name), series_colour(k), series_marker(k));
-    marks.x = one_key ? one.first_key : one.law;
+    marks.x = one.first_key;
     marks.y = one.found;
     const auto [low, high] = std::ranges::minmax(marks.x);
-    const auto at = [&](double x) {
-      return one_key ? one.factor * std::pow(x, one.keys.front().exponent) : x;
-    };
     plot.add(std::move(marks));
     for (const record::LawRow& key : one.keys) {
       std::string power = record::with_error(key.exponent, key.error, "");
       if (power.starts_with('-')) power.replace(0, 1, "−");
-      // one line, a row of the legend a key
-      const double width = &key == &one.keys.front() ? 1 : 0;
+      // the law is a line over its only key, a cross at each point where it has more; a row of the
+      // legend a key
+      const bool first = &key == &one.keys.front();
       Series row = line_series(fmt::format("power {} of {}", power, label_of(key.key)),
-                               series_colour(k), width);
-      row.x = {low, high};
-      row.y = {at(low), at(high)};
+                               series_colour(k), one_key ? 1 : 0);
+      if (!one_key && first) row.marker = Marker::cross;
+      row.x = one_key ? std::vector{low, high} : one.first_key;
+      row.y = one.law;
+      if (one_key)
+        row.y = {one.factor * std::pow(low, key.exponent),
+                 one.factor * std::pow(high, key.exponent)};
       plot.add(std::move(row));
     }
   }
@@ -340,7 +340,7 @@ Plot sweep_plot(const SweepTable& table, const SweepView& view) {
     add_curve(curves[k], name, k, table.has_seeds && !table.axes.empty(), plot);
   }
   set_axes(curves, plot);
-  // what spans decades comes to no limit
+  // what spans decades tends to no limit
   for (std::size_t k = 0; k < cases.size() && !plot.y.logarithmic; ++k)
     mark_departure(mean_of(curves[k]), series_colour(k), view.departure, plot);
   add_mark_legend(curves, plot);

@@ -14,7 +14,7 @@ namespace gridshell::render {
 /// The name of a key or a figure as a picture says it, with its unit: "height (mm)".
 std::string label_of(const std::string& name);
 
-/// One axis of a sweep: its values in their order, as text and as numbers (their places from 1
+/// One axis of a sweep: its values in their order, as text and as numbers (their indices from 1
 /// where they are no numbers).
 struct SweepScale {
   std::string label;
@@ -26,7 +26,7 @@ struct SweepScale {
 /// The scale of axis `k` of a table; of its seeds where it has no axis.
 SweepScale scale_of(const record::SweepTable& table, std::size_t k);
 
-/// A row's place on that scale.
+/// A row's position on that scale.
 std::size_t place_of(const record::SweepTable& table, const SweepScale& scale,
                      const record::SweepTable::Row& row, std::size_t k);
 
@@ -44,21 +44,21 @@ std::vector<std::string> cases_of(const record::SweepTable& table);
 /// What is drawn.
 struct SweepView {
   std::string figure = {};  ///< "max_deviation"
-  std::string x = {};       ///< a figure in the place of the key; empty: the key
-  double departure = 0;     ///< share by which a curve has left its value at the right where that
-                            ///< is marked; 0: nowhere
-  std::string title = {};   ///< plain
+  std::string x = {};       ///< a figure instead of the key; empty: the key
+  double departure = 0;    ///< fraction by which a curve has left its value at the right where that
+                           ///< is marked; 0: nowhere
+  std::string title = {};  ///< plain
 };
 
 /// Where y, from the largest x to the smaller ones, first differs from its value there by more than
-/// `share` of it: linear between points, in log x where all x are positive. Points that are not
+/// `fraction` of it: linear between points, in log x where all x are positive. Points that are not
 /// finite are passed over. Empty where it never does.
 std::optional<double> deviation_onset(const std::vector<double>& x, const std::vector<double>& y,
-                                      double share);
+                                      double fraction);
 
 /// The figure over the one key, a curve a case (the mean over the seeds, each run a mark). Runs
 /// that met a limit are hollow, those that are not stable crossed; where there is no state a grey
-/// cross stands on the lower edge. Axes are logarithmic where the numbers are positive and span
+/// cross is on the lower edge. Axes are logarithmic where the numbers are positive and span
 /// more than a factor of 20.
 Plot sweep_plot(const record::SweepTable& table, const SweepView& view);
 

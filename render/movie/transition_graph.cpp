@@ -39,7 +39,7 @@ Box about(Point middle, double half_width, double half_height) {
   return {middle.x - half_width, middle.y - half_height, 2 * half_width, 2 * half_height};
 }
 
-/// The place nearest to `from` for a box so large that is free of all others, inside the frame.
+/// The position nearest to `from` for a box so large that is free of all others, inside the frame.
 Box free_place(Point from, const Box& size, const std::vector<Box>& taken, const Box& inside) {
   constexpr int directions = 24;
   for (double away = 9; away < 120; away += 3)
@@ -98,12 +98,12 @@ class TransitionGraph {
   PlotFrame axes(Canvas& canvas, const Box& box) const {
     Plot plot;
     plot.font_size = font;
-    plot.legend = LegendPlace::none;
+    plot.legend = LegendPosition::none;
     plot.x = {.label = "height (mm)"};
     plot.y = {.label = "energy (mJ)"};
     Series all;
     for (const Node& node : nodes_) all.add(node.row->height_mm, node.row->energy_mJ());
-    // a margin as wide as a node, and something to show where all are alike
+    // a margin as wide as a node, and something to show where all are equal
     for (const auto& [values, axis] : {std::pair(&all.x, &plot.x), {&all.y, &plot.y}}) {
       const auto [low, high] = std::ranges::minmax(*values);
       const double room = std::max(0.07 * (high - low), 1e-3 * std::abs(high));
@@ -129,7 +129,7 @@ class TransitionGraph {
       x = canvas.text(text, {x + 27, y}, {.size = font, .align_y = AlignY::middle}).right() + 14;
     };
     entry(Disturbance::released, "boundary released and contracted again");
-    // only of what was pushed more than once an arrow has a number
+    // only of what was pushed more than once a arrow has a number
     const bool numbers = std::ranges::any_of(states_.transitions, [](const Transition& one) {
       return one.by == Disturbance::pushed && one.to != 0 && one.to != one.from && one.count > 1;
     });
@@ -191,7 +191,7 @@ class TransitionGraph {
     taken_.push_back(about(node.at, node.radius(), node.radius()));
   }
 
-  /// Beside the states that were disturbed, which stay where they are.
+  /// Names next to the states that were disturbed, which stay where they are.
   void draw_names(Canvas& canvas, const Box& inside) {
     const TextStyle style{.size = font,
                           .bold = true,
@@ -204,11 +204,11 @@ class TransitionGraph {
       const Box box = free_place(node.at, canvas.measure(name, style), taken_, inside);
       const Point near{std::clamp(node.at.x, box.x, box.right()),
                        std::clamp(node.at.y, box.y, box.bottom())};
-      const double share = node.radius() / std::max(node.radius(), distance(near, node.at));
-      canvas.line(
-          near,
-          {node.at.x + share * (near.x - node.at.x), node.at.y + share * (near.y - node.at.y)},
-          {ink, 0.5});
+      const double fraction = node.radius() / std::max(node.radius(), distance(near, node.at));
+      canvas.line(near,
+                  {node.at.x + fraction * (near.x - node.at.x),
+                   node.at.y + fraction * (near.y - node.at.y)},
+                  {ink, 0.5});
       canvas.text(name, box.middle(), style);
       taken_.push_back(box);
     }
@@ -264,7 +264,7 @@ class TransitionGraph {
   const record::Trajectory& run_;
   std::vector<Node> nodes_;
   std::vector<int> disturbed_;
-  std::vector<Box> taken_;  // where no name may stand
+  std::vector<Box> taken_;  // where no name may be
 };
 
 }  // namespace

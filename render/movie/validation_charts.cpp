@@ -93,7 +93,7 @@ void add_stopped(const std::vector<AccuracyRow>& rows, const std::vector<std::st
   if (limit > 0) plot.references.push_back({.horizontal = false, .at = limit, .label = "too slow"});
 }
 
-/// `auto` in one mark for all tolerances that come to the same meshes.
+/// `auto` in one mark for all tolerances that give the same meshes.
 void add_auto(const std::vector<AccuracyRow>& rows, Plot& plot) {
   Series marks = mark_series("auto, by tolerance", ink, Marker::circle, 9, true);
   std::vector<Note> notes;
@@ -118,45 +118,6 @@ void add_auto(const std::vector<AccuracyRow>& rows, Plot& plot) {
   plot.notes.insert(plot.notes.end(), notes.begin(), notes.end());
 }
 
-using record::TrustClass;
-using record::TrustRow;
-
-constexpr double size = 7.5, bar_height = 13, row_height = 18, label_room = 88, title_room = 22,
-                 legend_line = 14, width = 504, margin = 6;
-
-std::string label(TrustClass found) { return spaced(std::string(word_of(found))); }
-
-int count(const std::vector<TrustRow>& rows, const std::string& kind, TrustClass found) {
-  return int(std::ranges::count_if(
-      rows, [&](const TrustRow& row) { return row.kind == kind && row.found == found; }));
-}
-
-/// Colour of a class; what would be silently wrong is warm and dark.
-Colour trust_colour(TrustClass found) {
-  // from right to too_slow
-  constexpr std::array<long, words_of<TrustClass>().size()> colours{
-      0x8CC7A1, 0xE08A8D, 0xC0262B, 0xF0E2A8, 0xE9BE7C, 0xC9CDD3,
-      0xA3A9B3, 0xB0417C, 0x9A6FB0, 0xE3E5E8, 0xA9C4E6};
-  return hex_colour(colours[std::size_t(found)]);
-}
-
-void draw_bar(Canvas& canvas, const std::vector<TrustRow>& rows, const std::string& kind,
-              const Box& box) {
-  int all = 0;
-  for (const auto& one : words_of<TrustClass>()) all += count(rows, kind, one.value);
-  double x = box.x;
-  for (const auto& one : words_of<TrustClass>()) {
-    const int n = count(rows, kind, one.value);
-    if (n == 0) continue;
-    const double part = box.width * n / all;
-    canvas.rectangle({x, box.y, part, box.height}, trust_colour(one.value), {white, 0.8});
-    if (part > 10)
-      canvas.text(fmt::format("{}", n), {x + part / 2, box.y + box.height / 2},
-                  {.size = size - 1, .align_x = AlignX::centre, .align_y = AlignY::middle});
-    x += part;
-  }
-}
-
 }  // namespace
 
 constexpr const char* error_label = "largest joint error over *R*_{o} or *ρ*";
@@ -179,7 +140,7 @@ Plot unknowns_plot(const std::vector<AccuracyRow>& rows, const std::string& titl
 }
 
 Plot scaling_plot(const std::vector<record::ScalingRow>& rows, const std::string& title) {
-  Plot plot = empty_plot(title, "rods a direction, *n*", "processor time (s)");
+  Plot plot = empty_plot(title, "rods per direction, *n*", "processor time (s)");
   plot.x.ticks = 12;
   const auto names = distinct(rows, &record::ScalingRow::method);
   for (std::size_t m = 0; m < names.size(); ++m) {
@@ -198,64 +159,12 @@ std::string failures_of(const std::vector<AccuracyRow>& rows) {
   std::string text;
   for (const AccuracyRow& row : rows) {
     if (row.outcome == RunOutcome::right || row.outcome == RunOutcome::too_slow) continue;
-    // a net rung where there is no net is no failure
+    // a row of the model net where there is no net is no failure
     if (row.edges_per_segment == 0 && row.outcome == RunOutcome::refused) continue;
     text += fmt::format("{}{} at {} ({})", text.empty() ? "" : "; ", row.method,
                         row.edges_per_segment, word_of(row.outcome));
   }
   return text;
-}
-
-Result<void> write_trust_bars(const std::filesystem::path& stem,
-                              const std::vector<TrustRow>& rows) {
-  const auto kinds = distinct(rows, &TrustRow::kind);
-  const double height =
-      title_room + row_height * double(kinds.size()) + 3 * legend_line + 3 * margin;
-  const auto title =
-      fmt::format("{} random scenes beside finer meshes of another family", rows.size());
-  return write_figure(stem, width, height, title, [&](Canvas& canvas) {
-    canvas.text(
-        title, {width / 2, margin},
-        {.size = size + 1.5, .bold = true, .align_x = AlignX::centre, .align_y = AlignY::top});
-    double y = title_room;
-    for (const std::string& kind : kinds) {
-      canvas.text(plain(kind), {margin + label_room - 5, y + bar_height / 2},
-                  {.size = size, .align_x = AlignX::right, .align_y = AlignY::middle});
-      draw_bar(canvas, rows, kind,
-               {margin + label_room, y, width - 2 * margin - label_room, bar_height});
-      y += row_height;
-    }
-    Patches patches{.row_width = width - 2 * margin, .row_height = legend_line, .font_size = size};
-    patches.draw = [&](std::size_t k, const Box& box) {
-      canvas.rectangle(box, trust_colour(TrustClass(k)));
-    };
-    for (const auto& one : words_of<TrustClass>()) patches.names.push_back(label(one.value));
-    draw_patches(canvas, {margin, y + margin, 16, 9}, patches);
-  });
-}
-
-Plot trust_plot(const std::vector<TrustRow>& rows) {
-  Plot plot;
-  plot.title = "Errors of joints beside what was estimated";
-  plot.x = {.label = "error estimate over the length scale", .logarithmic = true};
-  plot.y = {.label = "error over the length scale", .logarithmic = true};
-  double low = 1, high = 1e-9;
-  for (const auto& one : words_of<TrustClass>()) {
-    Series series = mark_series(label(one.value), trust_colour(one.value));
-    for (const TrustRow& row : rows) {
-      if (row.found != one.value || !(row.error > 0) || !(row.estimate > 0)) continue;
-      series.add(row.estimate, row.error);
-      low = std::min(low, row.estimate);
-      high = std::max(high, row.estimate);
-    }
-    plot.add(std::move(series));
-  }
-  if (low < high) {
-    Series twice = line_series("twice the estimate", {0.3f, 0.3f, 0.3f, 1}, 1, {3, 2});
-    for (const double end : {low, high}) twice.add(end, 2 * end);
-    plot.add(std::move(twice));
-  }
-  return plot;
 }
 
 }  // namespace gridshell::render

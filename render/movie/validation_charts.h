@@ -15,22 +15,22 @@ inline constexpr const char* auto_prefix = "auto ";
 
 /// Largest joint error over the length scale against processor time, log-log, one curve a method
 /// with bars from its fastest to its slowest run, the Pareto front beneath, what `auto` picks
-/// marked. A method that was stopped stands hollow at the time limit, at the error of the `bend`
+/// marked. A method that was stopped is hollow at the time limit, at the error of the `bend`
 /// row of its mesh; what failed is in failures_of(). Rows `of_sizes` are those of one method at
 /// several sizes, without a front.
 Plot accuracy_plot(const std::vector<record::AccuracyRow>& rows, const std::string& title,
                    bool of_sizes = false);
 
-/// The same errors over the number of unknowns.
+/// The errors over the number of unknowns.
 Plot unknowns_plot(const std::vector<record::AccuracyRow>& rows, const std::string& title);
 
-/// Time over rods a direction, log-log; the legend bears the exponents.
+/// Time over rods per direction, log-log; the legend bears the exponents.
 Plot scaling_plot(const std::vector<record::ScalingRow>& rows, const std::string& title);
 
-/// "implicit Euler 1 (blow_up), ...": methods with edges a segment that gave nothing to draw.
+/// "implicit Euler 1 (blow_up), ...": methods with edges per segment that gave nothing to draw.
 std::string failures_of(const std::vector<record::AccuracyRow>& rows);
 
-// Maps of where methods hold: cells coloured by what a run came to.
+// Maps of where methods work: cells coloured by how a run ended.
 
 /// Colour of an outcome; the silent ones are the warm, dark ones, and their cells are crossed.
 Colour outcome_colour(record::RunOutcome outcome);
@@ -43,7 +43,7 @@ double outcome_maps_height(const std::vector<record::StabilityRow>& rows, double
 
 /// One row of panels a map, one panel a method: x along the columns, y along the rows, a legend
 /// below; a dashed line where a "step over" its limit passes 1. Panels are as wide as their
-/// columns; what does not fit goes on in the next row.
+/// columns; what does not fit continues in the next row.
 void draw_outcome_maps(Canvas& canvas, const Box& box,
                        const std::vector<record::StabilityRow>& rows, const std::string& title);
 
@@ -51,15 +51,5 @@ void draw_outcome_maps(Canvas& canvas, const Box& box,
 Result<void> write_outcome_maps(const std::filesystem::path& stem,
                                 const std::vector<record::StabilityRow>& rows,
                                 const std::string& title, double width_mm = 178);
-
-// A study of trust as pictures: what came of the scenes of each kind, and errors beside estimates.
-
-/// One bar a kind, parted by class with the number of scenes in each part, and a legend below.
-Result<void> write_trust_bars(const std::filesystem::path& stem,
-                              const std::vector<record::TrustRow>& rows);
-
-/// Error over estimate of the scenes that were judged, and the line above which an estimate was too
-/// small.
-Plot trust_plot(const std::vector<record::TrustRow>& rows);
 
 }  // namespace gridshell::render

@@ -59,11 +59,11 @@ class Running {
   /// Sends the signal and waits for the end.
   Ended interrupt(int number) const {
     const double before = cpu_so_far();
-    const auto asked = std::chrono::steady_clock::now();
+    const auto requested = std::chrono::steady_clock::now();
     signal(number);
     auto ended = wait();
     ended.wall_seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - asked).count();
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - requested).count();
     ended.cpu_seconds -= before;
     return ended;
   }

@@ -65,7 +65,7 @@ std::vector<std::string> forbidden_arrows(const std::string& file, const std::st
 
 }  // namespace
 
-TEST_CASE("the table of arrows has no way round") {
+TEST_CASE("the table of arrows has no cycle") {
   // every folder is above all that it includes, so no two include each other
   std::map<std::string, int> height;
   const auto height_of = [&](const auto& self, const std::string& folder, int depth) -> int {

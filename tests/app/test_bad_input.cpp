@@ -14,23 +14,23 @@ movie s1_actuatoin => no preset 's1_actuatoin': neither a file nor a listed name
 #radius 126
 movie bad.toml => bad.toml:1:8: not TOML: Error while parsing key-value pair: expected '=', saw '1'
 #[footprint] / radus_mm = 126.0
-movie bad.toml => bad.toml:2:1: [footprint] radus_mm = 126.0: unknown key; did you mean 'radius_mm'?
+movie bad.toml => bad.toml:2:1: [footprint] radus_mm: unknown key; did you mean 'radius_mm'?
 #[footprint] / rods = "twelve"
-movie bad.toml => bad.toml:2:8: [footprint] rods = "twelve": is a string, must be an integer from 1 to 500
+movie bad.toml => bad.toml:2:8: [footprint] rods: got "twelve" (a string), expected an integer from 1 to 500
 #[rod] / young_GPa = nan
-movie bad.toml => bad.toml:2:13: [rod] young_GPa = nan: is not finite, must be a number > 0
+movie bad.toml => bad.toml:2:13: [rod] young_GPa: got nan (not finite), expected a number > 0
 #[footprint] / radius_mm = -126.0
-movie bad.toml => bad.toml:2:13: [footprint] radius_mm = -126.0: out of range, must be a number > 0
+movie bad.toml => bad.toml:2:13: [footprint] radius_mm: got -126.0 (out of range), expected a number > 0
 #[actuation] / radius_mm = 130.0
-movie bad.toml => bad.toml:2:13: [actuation] radius_mm = 130.0: larger than the footprint, must be at most [footprint] radius_mm = 126
-movie s1_actuation --set actuation.radius_mm=130.0 => --set: [actuation] radius_mm = 130.0: larger than the footprint, must be at most [footprint] radius_mm = 126
+movie bad.toml => bad.toml:2:13: [actuation] radius_mm: got 130.0 (larger than the footprint), expected at most [footprint] radius_mm = 126
+movie s1_actuation --set actuation.radius_mm=130.0 => --set: [actuation] radius_mm: got 130.0 (larger than the footprint), expected at most [footprint] radius_mm = 126
 #[movie] / frames = 0
-movie bad.toml => bad.toml:2:10: [movie] frames = 0: out of range, must be an integer from 2 to 100000
-movie s1_actuation --frames 0 => --frames: [movie] frames = 0: out of range, must be an integer from 2 to 100000
-movie s1_actuation --size wide => --size wide: must be WxH, for example 1280x720
-figure s1_actuation --width 0mm => --width 0mm: must be in millimetres, more than 0 and less than 10000, for example 85mm
-figure s1_actuation --width 8.5cm => --width 8.5cm: must be in millimetres, more than 0 and less than 10000, for example 85mm
-movie s1_actuation --quality best => --quality best: must be draft, movie or figure
+movie bad.toml => bad.toml:2:10: [movie] frames: got 0 (out of range), expected an integer from 2 to 100000
+movie s1_actuation --frames 0 => --frames: [movie] frames: got 0 (out of range), expected an integer from 2 to 100000
+movie s1_actuation --size wide => --size wide: expected WxH, for example 1280x720
+figure s1_actuation --width 0mm => --width 0mm: expected millimetres above 0 and below 10000, for example 85mm
+figure s1_actuation --width 8.5cm => --width 8.5cm: expected millimetres above 0 and below 10000, for example 85mm
+movie s1_actuation --quality best => --quality best: expected draft, movie or figure
 run s1_actuation -o bad.toml => cannot write the folder 'bad.toml': it is a file
 run s1_actuation -o bad.toml/x => cannot write the folder 'bad.toml/x': Not a directory
 movei s1_actuation => no command 'movei'; did you mean 'movie'? ('gridshell --help' lists them)
@@ -115,6 +115,5 @@ TEST_CASE("a mesh that is none is refused with its file and line") {
   const auto ended = gridshell_program("check surface_mesh --set net.file=bad.obj", folder);
   CHECK(ended.code == 2);
   CHECK(ended.err ==
-        "--set: [net] file = \"bad.obj\": bad.obj:3: names a vertex that is none of the 2 before "
-        "it\n");
+        "--set: [net] file: bad.obj:3: got a vertex that is none of the 2 before it\n");
 }

@@ -127,7 +127,7 @@ TEST_CASE("golden hashes of all kinds of runs, the same on any number of threads
   const TemporaryFolder at;
   // the C library's functions as they are on every x86-64, whichever this is
   const Environment library("GLIBC_TUNABLES", "glibc.cpu.hwcaps=-AVX2,-AVX512F,-FMA,-FMA4");
-  const bool anew = std::getenv("GRIDSHELL_GOLDEN");
+  const bool again = std::getenv("GRIDSHELL_GOLDEN");
   const auto kept = text_of(table);
   std::string now, figures;
   for (const Scene& scene : scenes) {
@@ -136,10 +136,10 @@ TEST_CASE("golden hashes of all kinds of runs, the same on any number of threads
     const std::string first = hash_of(fast), kind = scene.kind;
     for (const char* threads : {"1", "3"})
       CHECK(hash_of(run(scene, at, "again", {"--threads", threads})) == first);
-    const Figures told(fast);
-    figures += fmt::format("{} height_mm energy_mJ {:.12g} {:.12g}\n", kind, told.height_mm,
-                           told.energy_mJ);
-    if (!anew) check_near(told, kept, kind);
+    const Figures reported(fast);
+    figures += fmt::format("{} height_mm energy_mJ {:.12g} {:.12g}\n", kind, reported.height_mm,
+                           reported.energy_mJ);
+    if (!again) check_near(reported, kept, kind);
     now += kind + " x86-64 " + hash_of(plain) + "\n";
     if (!has_clones || !runs_fast_clones()) continue;
     now += kind + " x86-64-v3 " + first + "\n";
@@ -147,7 +147,7 @@ TEST_CASE("golden hashes of all kinds of runs, the same on any number of threads
     CHECK(first != hash_of(plain));
     check_near(fast, plain);
   }
-  if (anew) {
+  if (again) {
     REQUIRE(has_clones);
     REQUIRE(runs_fast_clones());
     REQUIRE(write_file(table, made_with() + now + figures));

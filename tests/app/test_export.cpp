@@ -5,13 +5,13 @@ TEST_CASE("export writes a run in every format, and what is for the workshop", "
   const TemporaryFolder at;
   copy_shared_run("s1_actuation", at / "run");
   const auto before = files_under(at / "run", "");
-  const std::vector<std::pair<std::string, std::string>> wanted{
+  const std::vector<std::pair<std::string, std::string>> requested{
       {"", "a.csv"},         {"", "a.dxf"},          {"", "a.glb"},          {"", "a.html"},
       {"", "a.obj"},         {"", "a.pvd"},          {"", "a.vtp"},          {"", "a.xdmf"},
       {"tubes", "t.obj"},    {"footprint", "f.svg"}, {"footprint", "f.dxf"}, {"plate", "p.svg"},
       {"plate", "p.dxf"},    {"plate", "pins.csv"},  {"cutlist", "cut.csv"}, {"cutlist", "cut.pdf"},
       {"sheet", "sheet.pdf"}};
-  for (const auto& [what, file] : wanted) {
+  for (const auto& [what, file] : requested) {
     std::vector<std::string> arguments{"export", "run", "--to", file};
     if (!what.empty()) arguments.insert(arguments.end(), {"--what", what});
     const auto ended = gridshell_program(arguments, at);
@@ -44,10 +44,10 @@ TEST_CASE("what cannot be exported is refused with what would do, and writes not
   };
   refused({"run", "--to", "a.stl"}, "a shape is written as .csv .dxf .glb");
   refused({"run", "--to", "a"}, "a shape is written as");
-  refused({"run", "--to", "a.obj", "--what", "house"}, "must be one of");
+  refused({"run", "--to", "a.obj", "--what", "house"}, "expected one of");
   refused({"run", "--to", "a.obj", "--what", "plate"}, "a plate is written as .csv .dxf .svg");
-  refused({"run", "--to", "a.obj", "--frame", "4"}, "must be a number from 0 to 3");
-  refused({"run", "--to", "a.obj", "--frame", "-1"}, "must be a number from 0 to 3");
+  refused({"run", "--to", "a.obj", "--frame", "4"}, "expected a number from 0 to 3");
+  refused({"run", "--to", "a.obj", "--frame", "-1"}, "expected a number from 0 to 3");
   refused({"run", "--to", "a.obj", "--case", "x"}, "has no cases, so no 'x'");
   refused({"run", "--to", "run/a.obj"}, "would lie in the run folder");
   refused({"run", "--to", "run"}, "is no file");

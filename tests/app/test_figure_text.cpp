@@ -95,7 +95,7 @@ TEST_CASE("no text of a page is below 6 points at its print width", "[shared]") 
   }
 }
 
-TEST_CASE("all words of all figures stand out from white at 4.5 to 1", "[shared]") {
+TEST_CASE("all words of all figures have a contrast of 4.5 to 1 with white", "[shared]") {
   std::set<std::string> fills;
   for (const fs::path& run : all_runs())
     for (const fs::path& file : files_under(run, ".svg"))
@@ -215,8 +215,7 @@ bool is_tick(const Words& one, const std::vector<Words>& bare) {
 
 }  // namespace
 
-TEST_CASE("every number in a figure stands in a file of its run, to the digits printed",
-          "[shared]") {
+TEST_CASE("every number in a figure is in a file of its run, to the digits printed", "[shared]") {
   int looked_up = 0;
   for (const fs::path& run : all_runs()) {
     const std::set<double> files = numbers_in_files(run), changes = changes_of_K(run);

@@ -30,7 +30,7 @@ TEST_CASE("a file put into a run keeps it from being replaced or drawn over") {
     const auto ended = bench.run(arguments);
     CHECK(ended.code == 2);
     CHECK(ended.err ==
-          "cannot write the folder 'r': it holds what no run wrote there: 'notes.txt'; choose "
+          "cannot write the folder 'r': it contains what no run wrote there: 'notes.txt'; choose "
           "another folder with -o\n");
   }
   CHECK(text_of(bench.at / "r/notes.txt") == "mine");
@@ -97,7 +97,7 @@ TEST_CASE("inputs that are no regular files, or too large, are refused at once")
   REQUIRE(write_file(bench.at / "zero.toml", curve + "\"/dev/zero\"\n"));
   REQUIRE(write_file(bench.at / "large.toml", curve + "\"large.csv\"\n"));
   REQUIRE(write_file(bench.at / "large.csv", std::string(17 << 20, '1')));
-  const char* pipe = "it is a pipe or a device, must be a regular file";
+  const char* pipe = "got a pipe or a device, expected a regular file";
   for (const auto& [arguments, sentence] :
        std::vector<std::pair<std::vector<std::string>, const char*>>{
            {{"check", "pipe.toml"}, pipe},
@@ -185,12 +185,12 @@ TEST_CASE("a run folder of somebody else cannot write outside of -o") {
 TEST_CASE("names of cases that would meet a run's files are refused") {
   const Bench bench(small);
   for (const auto& [name, sentence] : std::vector<std::pair<std::string, std::string>>{
-           {"frames", "is the folder of a movie's pictures"},
-           {"segments", "is the folder of an unfinished run's path"},
-           {"movie.mp4", "must not end in .mp4"},
-           {"frames.journal", "must not end in .journal"},
-           {"a.json", "must not end in .json"},
-           {std::string(300, 'x'), "is 300 letters long, must be at most 100"},
+           {"frames", "the folder of a movie's pictures"},
+           {"segments", "the folder of an unfinished run's path"},
+           {"movie.mp4", "another ending than .mp4"},
+           {"frames.journal", "another ending than .journal"},
+           {"a.json", "another ending than .json"},
+           {std::string(300, 'x'), "(300 letters), expected at most 100"},
        }) {
     REQUIRE(write_file(bench.at / "bad.toml", small + "[[case]]\nname = \"" + name + "\"\n"));
     check_refused("check bad.toml", bench.at, Contains(sentence));
@@ -205,7 +205,7 @@ TEST_CASE("values whose products leave the numbers are refused by their key") {
     for (const std::string value : {"1e160", "1e-160", "1e300"}) {
       INFO(key << " = " << value);
       check_refused({"check", "small.toml", "--set", key + "=" + value}, bench.at,
-                    Contains("] " + key.substr(key.find('.') + 1) + " = "));
+                    Contains("] " + key.substr(key.find('.') + 1) + ": got "));
     }
 }
 

@@ -45,7 +45,7 @@ TEST_CASE("Ctrl-C and SIGTERM stop within a second and leave finished frames who
     CHECK_FALSE(file.filename().string().starts_with('.'));
 }
 
-TEST_CASE("a picture that takes long does not hold up Ctrl-C", "[alone]") {
+TEST_CASE("a picture that takes long does not delay Ctrl-C", "[alone]") {
   const TemporaryFolder folder;
   const Running running("movie s1_actuation --frames 2 --quality figure --size 3840x2160", folder);
   REQUIRE(wait_until([&] { return !files_under(folder, "summary.json").empty(); }));
@@ -114,7 +114,7 @@ TEST_CASE("a run that is ended continues from there, to the same state", "[full]
                 Contains("'ended' is a finished run of another command or preset"));
 }
 
-TEST_CASE("a job that is queued again needs no if: --resume begins, goes on or ends at once") {
+TEST_CASE("a job that is queued again needs no if: --resume begins, continues or ends at once") {
   const Bench bench(small_preset({}));
   bench.good("run small.toml --resume");
   const fs::path summary = bench.at / "out/small/summary.json";
@@ -128,7 +128,7 @@ TEST_CASE("a job that is queued again needs no if: --resume begins, goes on or e
         std::string("# computed by gridshell ") + gridshell::version());
 }
 
-TEST_CASE("a run that another build began is not gone on with") {
+TEST_CASE("a run that another build began is not continued") {
   const Bench bench(small_preset({}));
   bench.good("run small.toml -o whole");
   const fs::path left = bench.at / "out/small.partial-7";

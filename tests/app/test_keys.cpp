@@ -144,7 +144,7 @@ TEST_CASE("every member of a preset has a key") {
   CHECK(members > 80);
 }
 
-TEST_CASE("every key of joints, ends and loads takes a cap off the net, which knows none of them") {
+TEST_CASE("every key of joints, ends and loads excludes the model net, which has none of them") {
   // the first counts for spring joints alone, the second for surfaces with rings, the next two for
   // scans, then one with gravity and in motion, the others for load cases
   const std::set<std::string> harmless{"stiffness_N_per_mm", "rings",          "diameter_mm",

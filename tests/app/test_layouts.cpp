@@ -56,7 +56,7 @@ void check_words_of_all(const Sizes& sizes, const std::vector<double>& zooms,
   for (const auto& embedded : app::embedded_presets()) {
     const auto presets = value_of(app::load_preset(embedded.name, {}));
     for (const auto& one : app::runs_of(presets)) {
-      const record::Trajectory run = eventful(one.preset.indentation.wanted());
+      const record::Trajectory run = eventful(one.preset.indentation.requested());
       for (const auto pictures : {app::Pictures::movie, app::Pictures::stills}) {
         MovieStyle style = app::style_of(one.preset, pictures);
         Sizes all = sizes;
@@ -117,7 +117,7 @@ TEST_CASE("in what `figure` and `movie` make of every preset no text meets anoth
           "[full]") {
   for (const auto& embedded : app::embedded_presets())
     for (const auto pictures : {app::Pictures::stills, app::Pictures::movie}) {
-      const bool states = app::load_preset(embedded.name, {})->base.jitter.wanted();
+      const bool states = app::load_preset(embedded.name, {})->base.jitter.requested();
       if (states && pictures == app::Pictures::movie) continue;  // there is none of it
       const TemporaryFolder folder;
       app::Options options;
@@ -149,7 +149,7 @@ TEST_CASE("in what `figure` and `movie` make of every preset no text meets anoth
     }
 }
 
-TEST_CASE("plots of bins and forces keep their words apart, however narrow") {
+TEST_CASE("words in plots of bins and forces do not overlap, however narrow") {
   const record::Trajectory run = eventful(true);
   const RunSummary survey = summarise_run(run);
   for (const double width : {150.0, 186.0, 260.0, 500.0}) {

@@ -123,7 +123,7 @@ TEST_CASE("a phase that was not announced is one more of the last") {
   }
 }
 
-TEST_CASE("the time left on a path follows its leader's pace, and is not known at first") {
+TEST_CASE("the time left on a path follows the pace of its mesh, and is not known at first") {
   app::PathPace pace;
   CHECK(std::isnan(pace.seconds_left({0.1, 4}, 10)));
   CHECK(std::isnan(pace.seconds_left({0.11, 4}, 20)));

@@ -49,7 +49,7 @@ std::set<std::string> commands_in(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("presets/README.md holds the reference of all keys, word for word") {
+TEST_CASE("presets/README.md contains the reference of all keys, word for word") {
   const TemporaryFolder folder;
   const auto printed = gridshell_program("list --keys markdown", folder).out;
   CHECK(printed == gridshell::preset::reference_markdown());
@@ -94,7 +94,7 @@ TEST_CASE("pictures, pages and sections that the pages point to exist") {
   }
 }
 
-TEST_CASE("every preset has its picture for the window, and no picture stands without one") {
+TEST_CASE("every preset has its picture for the window, and every picture its preset") {
   const auto stems = [](const fs::path& folder, const char* ending) {
     std::set<std::string> names;
     for (const auto& file : fs::directory_iterator(root / folder))

@@ -43,7 +43,7 @@ TEST_CASE("a staged folder takes its final name only on commit") {
   CHECK_FALSE(fs::exists(staged.path()));
 }
 
-TEST_CASE("a run folder is replaced as a whole") {
+TEST_CASE("a run folder is replaced completely") {
   const TemporaryFolder folder;
   const auto run = folder / "run";
   make_run(run);
@@ -84,7 +84,7 @@ TEST_CASE("what is kept stays under its partial name, without half-written files
   CHECK_FALSE(fs::exists(folder / "run"));
 }
 
-TEST_CASE("only a run or an empty folder may be replaced, and what stands in the way is named") {
+TEST_CASE("only a run or an empty folder may be replaced, and what prevents it is named") {
   // what lies in the folder, over a run where `whole`; a name that ends in / is a folder
   struct Standing {
     bool whole;
@@ -100,13 +100,13 @@ TEST_CASE("only a run or an empty folder may be replaced, and what stands in the
       {false, {{"summary.json/", ""}}, "it exists and is no run"},
       {false, {{"summary.json", run}, {"thesis.tex", mine}}, "'thesis.tex'"},
       {false, {{"summary.json", run}, {"holiday.png", "sun"}}, "'holiday.png'"},
-      {true, {{"notes.txt", mine}}, "it holds what no run wrote there: 'notes.txt'"},
-      {true, {{"old.png", mine}}, "it holds what no run wrote there: 'old.png'"},
-      {true, {{"frames/mine.png", mine}}, "it holds what no run wrote there: 'frames/mine.png'"},
-      {true, {{"segments/mine", mine}}, "it holds what no run wrote there: 'segments/mine'"},
-      {true, {{".hidden", mine}}, "it holds what no run wrote there: '.hidden'"},
+      {true, {{"notes.txt", mine}}, "it contains what no run wrote there: 'notes.txt'"},
+      {true, {{"old.png", mine}}, "it contains what no run wrote there: 'old.png'"},
+      {true, {{"frames/mine.png", mine}}, "it contains what no run wrote there: 'frames/mine.png'"},
+      {true, {{"segments/mine", mine}}, "it contains what no run wrote there: 'segments/mine'"},
+      {true, {{".hidden", mine}}, "it contains what no run wrote there: '.hidden'"},
       {true, {{"deep/er/thesis.tex", mine}}, "no run wrote there: 'deep/er/thesis.tex'"},
-      {true, {{"empty/", ""}}, "it holds what no run wrote there: 'empty'"},
+      {true, {{"empty/", ""}}, "it contains what no run wrote there: 'empty'"},
   }));
   const TemporaryFolder folder;
   const auto at = folder / "run";
@@ -185,7 +185,7 @@ TEST_CASE("what appears under the final name meanwhile is not destroyed") {
     REQUIRE_FALSE(staged.commit());
     CHECK(read_file(run).value() == "mine");
   }
-  SECTION("a foreign file in the run that stood there") {
+  SECTION("a foreign file in the earlier run") {
     make_run(run);
     REQUIRE(write_file(run / "notes.txt", "mine"));
     REQUIRE_FALSE(staged.commit());
@@ -218,7 +218,7 @@ TEST_CASE("a folder that was left behind is neither taken over nor lost") {
   CHECK(fs::exists(before / "frames/frame_00099.png"));
 }
 
-TEST_CASE("an old run that cannot be removed is named, and the new one stands") {
+TEST_CASE("an old run that cannot be removed is named, and the new one is complete") {
   const TemporaryFolder folder;
   const auto run = folder / "run";
   make_run(run);

@@ -34,7 +34,7 @@ TEST_CASE("a search for states: tables, pictures, and the same pictures again fr
     CHECK(text_of(run / name) == text_of(at / "again" / name));
 }
 
-TEST_CASE("states and a finished sweep's phase diagram stand on one page", "[standard]") {
+TEST_CASE("states and a finished sweep's phase diagram are on one page", "[standard]") {
   const TemporaryFolder at;
   const std::string shell =
       "[footprint]\nkind = \"circle\"\n{}[actuation]\nratio = 0.75\n"
@@ -78,7 +78,8 @@ TEST_CASE("states and a finished sweep's phase diagram stand on one page", "[sta
   CHECK_THAT(refused("out/sweep"), Contains("no finished sweep"));
 }
 
-TEST_CASE("points of the shipped phase diagram come out again", "[standard]") {
+TEST_CASE("points of the shipped phase diagram are computed again with equal results",
+          "[standard]") {
   const std::string& text = app::embedded_files().at("fig2_phase_diagram.csv");
   const auto shipped = value_of(record::read_sweep_csv(text));
   CHECK(shipped.rows.size() == 207);

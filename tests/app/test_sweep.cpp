@@ -199,8 +199,8 @@ TEST_CASE("a sweep's requests that cannot be met are reported") {
   refused({"--shard", "x"}, "expected i/N");
   refused({"--shard", "0/8"},
           "where jobs are counted from 0: --shard $((SLURM_ARRAY_TASK_ID + 1))");
-  refused({"-o", "out", "--merge"}, "holds no shard");
-  refused({"-o", "."}, "it is no sweep, and holds '");
+  refused({"-o", "out", "--merge"}, "contains no shard");
+  refused({"-o", "."}, "it is no sweep, and contains '");
   refused({"-o", "small.toml"}, "it is a file");
   CHECK(fs::exists(folder / "small.toml"));
   REQUIRE(write_file(folder / "bad.toml", "[sweep.over]\nrod.diameter_mm = []\n"));

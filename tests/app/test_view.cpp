@@ -49,17 +49,17 @@ std::string typed(const std::string& field, const std::string& text) {
 double number(const json& of, const char* key) { return of[key].get<double>(); }
 std::string message_of(const json& of) { return of["message"].get<std::string>(); }
 
-/// A key of both has one value, to that share of it.
-void check_same(const json& a, const json& b, const char* key, double share = 1e-9) {
+/// A key of both has one value, to that fraction of it.
+void check_same(const json& a, const json& b, const char* key, double fraction = 1e-9) {
   INFO(key);
-  CHECK(number(a, key) == Approx(number(b, key)).epsilon(share));
+  CHECK(number(a, key) == Approx(number(b, key)).epsilon(fraction));
 }
 
 /// Result of `run` on the saved preset, which has the energy that was reported of the shell.
-json run_of_kept(const TemporaryFolder& folder, const json& told) {
+json run_of_kept(const TemporaryFolder& folder, const json& reported) {
   const Ended ran = good("run kept/small_1.toml -o ran", folder);
   json summary = json::parse(text_of(folder / "ran/summary.json"));
-  check_same(summary, told, "energy_bend_mJ");
+  check_same(summary, reported, "energy_bend_mJ");
   return summary;
 }
 
@@ -82,7 +82,8 @@ TEST_CASE("a slider dragged in the window moves the boundary, in one step that c
   CHECK(number(back, "boundary_radius_mm") == Approx(54));
 }
 
-TEST_CASE("a joint dragged by the mouse is pushed and held, and saved it is a preset that runs") {
+TEST_CASE(
+    "a joint dragged by the mouse is pushed and prescribed, and saved it is a preset that runs") {
   const TemporaryFolder folder;
   const json pushed = played(
       folder, drag({"@joint:0,0 0 0", "@joint:0,0 0 10", "@joint:0,0 0 8"}) + "do save_preset\n",
@@ -188,8 +189,9 @@ TEST_CASE("every panel, light and dark, at twice the density, and in a small win
   }
 }
 
-TEST_CASE("a shell is designed in the window, kept and saved with its tables, and runs as it stood",
-          "[standard]") {
+TEST_CASE(
+    "a shell is designed in the window, kept and saved with its tables, and runs to the same state",
+    "[standard]") {
   const std::string cap =
       "title = \"cap\"\n[footprint]\nkind = \"net\"\nplacement = \"on_axis\"\n"
       "[net]\nkind = \"sphere\"\nradius_mm = 80.0\ncut_height = 0.5\n"
@@ -226,11 +228,11 @@ TEST_CASE("a shell is designed in the window, kept and saved with its tables, an
 
 TEST_CASE("a monkey at mouse and keys breaks nothing, and all it did can be undone", "[standard]") {
   // more events by GRIDSHELL_TRIALS, others by GRIDSHELL_SEED
-  const auto asked = [](const char* name, unsigned usual) {
+  const auto requested = [](const char* name, unsigned usual) {
     const char* given = std::getenv(name);
     return given ? unsigned(std::stoul(given)) : usual;
   };
-  std::mt19937 random{asked("GRIDSHELL_SEED", 7)};
+  std::mt19937 random{requested("GRIDSHELL_SEED", 7)};
   const auto draw = [&](unsigned below) { return unsigned(random()) % below; };
   const auto deeds = words_in(
       "do step_back,do gravity,do rest,do release,do numbers,do view_iso,do undo,do redo,"
@@ -241,7 +243,7 @@ TEST_CASE("a monkey at mouse and keys breaks nothing, and all it did can be undo
       ",");
   std::string input;
   bool down = false;
-  for (unsigned k = 0; k < asked("GRIDSHELL_TRIALS", 80); ++k) {
+  for (unsigned k = 0; k < requested("GRIDSHELL_TRIALS", 80); ++k) {
     const unsigned what = draw(8);
     if (what < 2)
       input += fmt::format("mouse {} {}\n", draw(1280), 30 + draw(650));
@@ -280,16 +282,17 @@ TEST_CASE("a shell is saved under a name, exported, and compared with a run", "[
            path + "\n" + enter;
   };
   const std::string push = drag({"@joint:0,0 0 0", "@joint:0,0 0 8"});
-  const json told = played(folder, push + "do save_as\n" + entered("deep/mine") + "do export\n" +
-                                       entered("deep/mine.obj") + "do compare\n" + entered("ran"));
-  const std::string said = told["message"];
+  const json reported =
+      played(folder, push + "do save_as\n" + entered("deep/mine") + "do export\n" +
+                         entered("deep/mine.obj") + "do compare\n" + entered("ran"));
+  const std::string said = reported["message"];
   CHECK_THAT(said, Catch::StartsWith("compared with ran: largest distance") &&
                        Contains("at joint (0, 0)"));
   played(folder, "do export\n" + entered("deep/all.xdmf"));
   CHECK_THAT(text_of(folder / "deep/all.xdmf"), Contains("all_run/trajectory.h5:/nodes"));
   CHECK(fs::exists(folder / "deep/all_run/trajectory.h5"));
   CHECK_THAT(message_of(played(folder, "do export\n" + entered("deep/all.xyz"))),
-             Contains("must be one of .csv .dxf .glb .html .obj .pvd .vtp .xdmf .svg .pdf"));
+             Contains("expected one of .csv .dxf .glb .html .obj .pvd .vtp .xdmf .svg .pdf"));
   // a scan's joints, as `scan` writes them
   REQUIRE(write_file(folder / "scanned/scan.csv",
                      "i,j,x_mm,y_mm,z_mm,distance_mm,distance_radii\n0,0,0,0,99,,\n1,0,,,,,\n"));
@@ -298,10 +301,10 @@ TEST_CASE("a shell is saved under a name, exported, and compared with a run", "[
   // both are of the shell as it was pushed
   CHECK(text_of(folder / "deep/mine.obj").find("\nv ") != std::string::npos);
   good("run deep/mine.toml -o again", folder);
-  check_same(json::parse(text_of(folder / "again/summary.json")), told, "height_mm");
+  check_same(json::parse(text_of(folder / "again/summary.json")), reported, "height_mm");
   // an existing file is replaced only after a second request
-  const json asked = played(folder, "do save_as\n" + entered("deep/mine"));
-  CHECK(asked["message"] == "it is there already: once more replaces it");
+  const json requested = played(folder, "do save_as\n" + entered("deep/mine"));
+  CHECK(requested["message"] == "it is there already: once more replaces it");
   // a name that no file system takes is a sentence too, bare and in a folder
   for (const std::string& name : {std::string(300, 'x'), "deep/" + std::string(300, 'x')})
     CHECK_THAT(played(folder, "do save_as\n" + entered(name))["message"].get<std::string>(),
@@ -371,16 +374,16 @@ TEST_CASE("a number is found by a word and goes back to its default") {
 
 TEST_CASE("a movie of what was done is made in the background, and a picture of any size kept") {
   const TemporaryFolder folder;
-  const json told = played(
+  const json reported = played(
       folder, drag({"@joint:0,0 0 0", "@joint:0,0 0 10"}) + "do save_picture\ndo save_movie\n",
       {"-o", "kept", "--size", "320x180", "--quality", "draft"});
-  CHECK(told["message"] == "saved kept/small_1");
+  CHECK(reported["message"] == "saved kept/small_1");
   const auto picture =
       gridshell::value_of(gridshell::render::read_png(folder / "kept/small_1.png"));
   CHECK((picture.width == 320 && picture.height == 180));
   CHECK(fs::exists(folder / "kept/small_1/frames/frame_00001.png"));
   const json made = json::parse(text_of(folder / "kept/small_1/summary.json"));
-  check_same(made, told, "energy_bend_mJ");
+  check_same(made, reported, "energy_bend_mJ");
   // the preset that it is of runs by itself
   CHECK(gridshell_program("check kept/small_1.toml", folder).code == 0);
 }

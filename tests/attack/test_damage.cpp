@@ -26,9 +26,10 @@ const std::string small =
 // adds the checksum as trajectory_file.cpp does: the damage is intended
 std::string sealed(const std::string& hdf5) {
   const auto sum = gridshell::Checksum::of(hdf5, gridshell::ChecksumKind::crc32);
-  auto seal = fmt::format("gridshell trajectory 1\n{} bytes, CRC-32 {:016x}\n", hdf5.size(), sum);
-  seal.resize(512, '\0');
-  return seal + hdf5;
+  auto checksum =
+      fmt::format("gridshell trajectory 1\n{} bytes, CRC-32 {:016x}\n", hdf5.size(), sum);
+  checksum.resize(512, '\0');
+  return checksum + hdf5;
 }
 
 // a link that leads in a circle is no file that one could ask about

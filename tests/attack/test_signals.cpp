@@ -55,11 +55,12 @@ TEST_CASE("signals at any moment are answered, and nothing is lost", "[standard]
     static const std::vector<double> longest{0.01, 0.1, 0.5, 2};
     std::this_thread::sleep_for(std::chrono::duration<double>(draw.share() * draw.of(longest)));
     running.signal(number);
-    const auto asked = std::chrono::steady_clock::now();
+    const auto requested = std::chrono::steady_clock::now();
     const bool answered = running.ends_within(20);
     CHECK(answered);
     slowest = std::max(
-        slowest, std::chrono::duration<double>(std::chrono::steady_clock::now() - asked).count());
+        slowest,
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - requested).count());
     if (!answered) running.signal(SIGKILL);
     const auto ended = running.wait();
     INFO(ended.code << ": " << ended.err.substr(0, 1000));

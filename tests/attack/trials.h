@@ -21,8 +21,8 @@ inline std::vector<std::string> listed(const std::string& text) {
 
 /// GRIDSHELL_TRIALS, or `few`.
 inline int trials(int few) {
-  const char* asked = std::getenv("GRIDSHELL_TRIALS");
-  return asked ? std::atoi(asked) : few;
+  const char* requested = std::getenv("GRIDSHELL_TRIALS");
+  return requested ? std::atoi(requested) : few;
 }
 
 /// Draws, the same ones from the same seed (GRIDSHELL_SEED, or 1) and number of the trial: one that

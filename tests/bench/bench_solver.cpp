@@ -249,10 +249,10 @@ void rests(Figures& figures) {
       for (double& x : nodes.reshaped()) x += c.footprint.spacing * symmetric_uniform(random);
       reached += cascade.rest(1, nodes, unwatched).has_value();
     }
-    const double seconds = 1000 * (cpu_now() - begin) / throws, share = double(reached) / throws;
-    figures.say("{:4} {:12.1f} {:7.1f} %\n", n, seconds, 100 * share);
+    const double seconds = 1000 * (cpu_now() - begin) / throws, fraction = double(reached) / throws;
+    figures.say("{:4} {:12.1f} {:7.1f} %\n", n, seconds, 100 * fraction);
     figures.add(fmt::format("{} rods, 1000 rests, s", n), seconds);
-    figures.add(fmt::format("{} rods, at rest", n), share);
+    figures.add(fmt::format("{} rods, at rest", n), fraction);
   }
 }
 
@@ -262,10 +262,10 @@ int main(int argc, char** argv) {
   Figures figures(argc, argv);
   paper_shell(7, figures);
   drag(figures);
-  const auto asked = [&](const char* word) {
+  const auto requested = [&](const char* word) {
     return std::ranges::count(figures.words(), word) > 0;
   };
-  if (asked("sizes")) sizes(figures, asked("96"));
-  if (asked("growth")) growth(figures);
-  if (asked("rests")) rests(figures);
+  if (requested("sizes")) sizes(figures, requested("96"));
+  if (requested("growth")) growth(figures);
+  if (requested("rests")) rests(figures);
 }

@@ -80,7 +80,7 @@ void surface(std::string_view bytes) {
   const std::string name = name_before(bytes);
   const auto read = preset::read_surface(bytes, name);
   if (refused(read, name)) return;
-  if (const auto wrong = preset::surface_fault(*read); !wrong.empty())
+  if (const auto wrong = preset::surface_error(*read); !wrong.empty())
     complain("does not agree with its own check", wrong);
   if (!read->is_mesh() || read->vertices.size() > largest) return;
   if (const auto mesh = TriangleMesh::make(columns(read->vertices), read->triangles))
@@ -91,7 +91,7 @@ void network(std::string_view bytes) {
   const std::string name = name_before(bytes);
   const auto read = preset::read_network(bytes, name);
   if (refused(read, name)) return;
-  if (const auto wrong = preset::network_fault(*read); !wrong.empty())
+  if (const auto wrong = preset::network_error(*read); !wrong.empty())
     complain("does not agree with its own check", wrong);
   RodNetwork rods;
   rods.points = columns(read->points);

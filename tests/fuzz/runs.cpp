@@ -166,7 +166,7 @@ void trajectory(std::string_view bytes) {
   if (open < 0) return;
   for (int k = 0; k < 6 && in.any(); ++k) change(open, in);
   H5Fclose(open);
-  if (const auto read = read_trajectory(file.path(), {.unsealed = true, .trial = false}))
+  if (const auto read = read_trajectory(file.path(), {.no_checksum = true, .trial = false}))
     look_at(*read);
 }
 

@@ -34,11 +34,11 @@ inline double cell_curvature(double u, double v, double scale) {
   return (zxx * zyy - zxy * zxy) / std::pow(metric, 1.5) * spacing * spacing * s * s;
 }
 
-/// The trajectory, `frames` evenly spaced states from flat to drawn in; frame 2/3 of the way names
+/// The trajectory, `frames` evenly spaced states from flat to drawn in; frame 2/3 of the path names
 /// an event.
 inline record::Trajectory dome(int frames = 24, int edges_per_segment = 8) {
   record::Trajectory run;
-  // that of the default preset; of what a run tells besides, it has nothing
+  // that of the default preset; of what a run contains in addition, it has nothing
   const Scene scene = scene_of(preset::Preset{}).value();
   const RodMesh mesh = mesh_rods(scene.footprint, edges_per_segment);
   run.layout = simulate::layout_of(scene, mesh).value();

@@ -50,13 +50,13 @@ class Map {
 
 }  // namespace
 
-TEST_CASE("stability: the explicit integrator holds below l_min/c and blows up above") {
+TEST_CASE("stability: the explicit integrator is stable below l_min/c and blows up above") {
   const Map at(explicit_map(small_case(), {0.5, 0.8, 1.2, 1.8}, {4}));
   for (const double step : {0.5, 0.8, 1.2, 1.8})
     CHECK(at("explicit", step, 4) == (step < 1 ? RunOutcome::right : RunOutcome::blow_up));
 }
 
-TEST_CASE("stability: dynamic relaxation holds to its limit step") {
+TEST_CASE("stability: dynamic relaxation is stable up to its limit step") {
   const Map at(relaxation_map(small_case(), {0.95, 1.2, 1.8}, {1, 2}));
   for (double edges : {1.0, 2.0}) {
     CHECK(at.right("dynamic relaxation", 0.95, edges));
@@ -128,7 +128,7 @@ TEST_CASE("stability: with spring joints full steps find another state, shifted 
   }
 }
 
-TEST_CASE("stability: the judge tells states apart, whatever a method says") {
+TEST_CASE("stability: the judge distinguishes states, whatever a method says") {
   const auto study = small_case();
   const Problem& problem = *study->problem(4, Watch()).value();
   const double near = 1e-4;

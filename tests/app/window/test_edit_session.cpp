@@ -84,7 +84,7 @@ TEST_CASE("a drag of the boundary is refined at its end, and one step to undo") 
   CHECK(difference(shell, after) == 0);
 }
 
-TEST_CASE("a push that begins with a long way tells the equilibria on it, and is one step") {
+TEST_CASE("a push that begins with a long path reports the equilibria on it, and is one step") {
   EditedShell shell;
   const int joint = shell.joint(0, 0);
   const Eigen::Vector3d normal = shell.view().normals.col(joint), from = shell.node(joint);
@@ -240,8 +240,7 @@ TEST_CASE("edge points go where they are dragged, and put back the shell is as b
 }
 
 TEST_CASE(
-    "a number of the rods or loads changes the shell as it stands, one of its shape forms "
-    "another") {
+    "a parameter of rods or loads changes the present shell, one of its shape forms another") {
   EditedShell shell;
   const double energy = shell.bending_mJ();
   preset::Preset stiffer = shell.view().preset;
@@ -269,7 +268,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "a way past states that are not stable marks them, and says so though its end is stable") {
+    "a path past states that are not stable marks them, and reports them though its end is "
+    "stable") {
   // near the flat the symmetric branch of the shell of Movie S1 is not stable
   preset::Preset preset = small_shell();
   preset.footprint.rods = 12;
@@ -293,7 +293,7 @@ TEST_CASE(
   CHECK(shell.view().event.empty());
   shell.act(Move{1});
   CHECK(shell.view().stable());
-  CHECK(shell.view().event.find("stable again; not stable on the way at R_a = ") == 0);
+  CHECK(shell.view().event.find("stable again; not stable on the path at R_a = ") == 0);
   REQUIRE(unstable().size() == 1);
   shell.act(Undo{});
   CHECK_FALSE(shell.view().stable());
@@ -317,7 +317,7 @@ TEST_CASE("a shake that comes back to the same state says so, and is no snap") {
   CHECK(same < 7);
 }
 
-TEST_CASE("a state that was met beside another one is come back to, as one step") {
+TEST_CASE("a state that was found near another one is recalled, as one step") {
   EditedShell shell;
   CHECK_FALSE(shell.view().found);
   CHECK(shell.attempt(Recall{0}).find("no other state") == 0);

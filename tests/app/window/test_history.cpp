@@ -23,7 +23,7 @@ TEST_CASE("bytes put aside come back, in any order and once more") {
   CHECK(file.take({file.bytes(), 8}).empty());
 }
 
-TEST_CASE("work in the background tells how far it is, and how it ended, once") {
+TEST_CASE("work in the background reports how far it is, and how it ended, once") {
   BackgroundTask work;
   CHECK(work.idle());
   work.begin(
@@ -43,7 +43,7 @@ TEST_CASE("work in the background tells how far it is, and how it ended, once") 
   CHECK(work.idle());
 }
 
-TEST_CASE("work in the background stops when it is asked to, and when the window goes") {
+TEST_CASE("work in the background stops on request, and when the window closes") {
   const auto endless = [](const ProgressListener& listener, const Watch& watch) -> Result<void> {
     while (!watch.cancelled()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     listener("the frames so far are kept");

@@ -28,7 +28,7 @@ TEST_CASE("a change that is refused leaves what was undone to be done again") {
   CHECK(shell.view().redo_steps == 0);
 }
 
-TEST_CASE("what is thrown on the way is an error, and the shell is as before the command") {
+TEST_CASE("an exception on the path is an error, and the shell is as before the command") {
   EditedShell shell;
   shell.act(Move{0.4});
   shell.act(Undo{});

@@ -121,7 +121,7 @@ TEST_CASE("another run's joints are compared by their names") {
   CHECK(viewer.difference_text() == "no joint has the same name in both");
 }
 
-TEST_CASE("two shells stand side by side, each in half of the view") {
+TEST_CASE("two shells are side by side, each in half of the view") {
   ViewerState viewer({});
   auto shell = std::make_shared<ShellView>(shell_of_four_joints());
   viewer.shell = shell;
@@ -178,18 +178,18 @@ TEST_CASE("what loads a shell is drawn as arrows and its braces as bars, until s
   CHECK(drawing_of(shell, show, 0.1).ghosts.empty());
 }
 
-TEST_CASE("where stability is lost is not asked of a way that was left without a word of it") {
+TEST_CASE("a path that was left without a loss of stability is not searched for one") {
   ViewerState viewer({});
   auto shell = std::make_shared<ShellView>(shell_of_four_joints());
   viewer.shell = shell;
   viewer.go_to_loss();
-  CHECK(viewer.message == "on the boundary's way so far every state is stable");
+  CHECK(viewer.message == "on the boundary's path so far every state is stable");
   shell->way_left = "jitter at R_a = 94.5 mm";
   viewer.go_to_loss();
   CHECK(viewer.message.find("left by jitter at R_a = 94.5 mm") != std::string::npos);
 }
 
-TEST_CASE("every quantity of a plot has a name and a place of its own") {
+TEST_CASE("every quantity of a plot has a name and a position of its own") {
   std::set<std::string> names;
   for (const Quantity& quantity : quantities) {
     CHECK(names.insert(quantity.name).second);
@@ -299,13 +299,14 @@ TEST_CASE(
   CHECK(marks[0].to == Approx(0.6 * 0.6));
   Event lost;
   lost.t = 0.35;
-  const auto told = marks_of(way, {lost}, -1, progress_at);
-  REQUIRE(told.size() == 2);
-  CHECK(told[0].from == Approx(0.35 * 0.35));
-  CHECK((!told[1].unstable && told[1].from == told[1].to && told[1].what == "stability lost"));
+  const auto reported = marks_of(way, {lost}, -1, progress_at);
+  REQUIRE(reported.size() == 2);
+  CHECK(reported[0].from == Approx(0.35 * 0.35));
+  CHECK((!reported[1].unstable && reported[1].from == reported[1].to &&
+         reported[1].what == "stability lost"));
 }
 
-TEST_CASE("stretches of several ways that meet are one, those apart or of other joints are not") {
+TEST_CASE("ranges of several paths that meet are one, separate ones or of other joints are not") {
   std::vector<PathMark> marks{{0.1, 0.2, -1, true, "not stable"}};
   add_marks(marks, {{0.2, 0.4, -1, true, "not stable"},
                     {0.6, 0.7, -1, true, "not stable"},

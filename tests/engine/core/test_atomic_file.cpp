@@ -9,7 +9,7 @@
 using namespace gridshell;
 namespace fs = std::filesystem;
 
-TEST_CASE("a whole file replaces the old one and leaves nothing beside it") {
+TEST_CASE("a complete file replaces the old one and leaves no other file") {
   TemporaryFolder folder;
   const fs::path path = folder / "a.txt";
   REQUIRE(write_file(path, "old"));

@@ -46,7 +46,7 @@ TEST_CASE("near boxes: every pair once, as by looking at all") {
     }
 }
 
-TEST_CASE("near boxes: none, one, all at one place, all on a line") {
+TEST_CASE("near boxes: none, one, all at one position, all on a line") {
   check_all_pairs({}, 1);
   check_all_pairs(random_boxes(1, 1, 1), 1);
   const Eigen::Vector3d place(1, 2, 3);

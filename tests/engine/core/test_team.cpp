@@ -6,7 +6,7 @@
 
 using namespace gridshell;
 
-TEST_CASE("what a task throws is thrown again by the caller, and the team works on") {
+TEST_CASE("an exception of a task reaches the caller, and the team continues") {
   Team team(GENERATE(1, 2, 4));
   const int wrong = GENERATE(0, 7, 63);
   for (int round = 0; round < 20; ++round) {

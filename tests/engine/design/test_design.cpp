@@ -201,8 +201,8 @@ TEST_CASE("the table of ends gives back the same scene, and says what is wrong w
     wrong.ends.table[2][column] = value;
     CHECK_THAT(refusal(scene_of(wrong)), Catch::Contains(reason));
   };
-  refused(1, 77, "no such end");
-  refused(6, -1, "longer than 0");
+  refused(1, 77, "no end of the footprint");
+  refused(6, -1, "a leg without length");
 }
 
 TEST_CASE("rods have the diameters of their table, and what is wrong with it is reported") {
@@ -228,9 +228,9 @@ TEST_CASE("rods have the diameters of their table, and what is wrong with it is 
     wrong.rod_table = std::move(table);
     CHECK_THAT(refusal(scene_of(wrong)), Catch::Contains(reason));
   };
-  refused({{0, 99, 0.3}}, "no such rod");
-  refused({{0, 0, 0.3}, {0, 0, 0.3}}, "more often than it is there");
-  refused({{1, 0, -0.3}}, "must be above 0");
+  refused({{0, 99, 0.3}}, "got no such rod");
+  refused({{0, 0, 0.3}, {0, 0, 0.3}}, "more rows than the footprint has");
+  refused({{1, 0, -0.3}}, "expected above 0");
   refused({{1, 0, 30}}, "less than [footprint] spacing_mm");
 }
 
@@ -288,17 +288,17 @@ Result<LiveDesignResult> live(const preset::Preset& preset, const Watch& watch, 
   return design_live(preset, {scene, shell.mesh(0), shell.model(0), shell.state().levels[0]}, 25,
                      watch, [&](const CertifiedStep& now) {
                        handed.steps.push_back(now.step);
-                       handed.joints.push_back(now.shell.joints());
+                       handed.joints.push_back(now.state.x.leftCols(now.mesh.joints));
                        handed.ends.push_back(now.ends);
                        CHECK(now.distances_mm.maxCoeff() == Approx(now.step.max_mm));
-                       CHECK(now.shell.residual() < 1e-6);
+                       CHECK(now.residual_N < 1e-6);
                        if (after) after();
                      });
 }
 
 }  // namespace
 
-TEST_CASE("a design that is watched hands over every step that both meshes hold", "[standard]") {
+TEST_CASE("a design that is watched hands over every step that both meshes certify", "[standard]") {
   Handed handed;
   const auto end = value_of(live(low_cap(), unwatched, handed));
   CHECK_FALSE(end.stopped);
@@ -314,7 +314,7 @@ TEST_CASE("a design that is watched hands over every step that both meshes hold"
   CHECK(*end.rounded_max_mm == Approx(whole.rounded->max_mm).epsilon(1e-3));
 }
 
-TEST_CASE("stopped, a design stands in the last step that it handed over") {
+TEST_CASE("stopped, a design is in the last step that it handed over") {
   Handed all, some;
   REQUIRE(live(low_cap(), unwatched, all).has_value());
   Watch watch;

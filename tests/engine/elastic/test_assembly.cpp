@@ -127,7 +127,7 @@ TEST_CASE("joints: a hinge's rods keep to the common normal, edges stay centred,
   }
 }
 
-TEST_CASE("joints: rods of a hinge that pass one another go on with a negative angle") {
+TEST_CASE("joints: rods of a hinge that pass one another continue with a negative angle") {
   const ModelRod a{{0, 1, 2, 3, 4}, {0, 4, 9, 14, 18}, strip,       {},
                    {0, 0, 1, 0, 0}, RodEnd::free,      RodEnd::free};
   const ModelRod b{{5, 6, 2, 7, 8}, {0, 4, 9, 14, 18}, strip,       {},
@@ -161,7 +161,8 @@ TEST_CASE("joints: rods of a hinge that pass one another go on with a negative a
   check_derivatives(model, state, {}, 1e-7, 1e-5, 1e-6);
 }
 
-TEST_CASE("assembly: both ways give one gradient, the mixed residual is it where N = EA strain") {
+TEST_CASE(
+    "assembly: both methods give one gradient, the mixed residual equals it where N = EA strain") {
   const BentDome dome = noisy_dome(4);
   Assembly with_hessian, alone, mixed;
   assemble_hessian(dome.model, dome.state, {}, {}, with_hessian);
@@ -271,7 +272,7 @@ TEST_CASE("strain by bending: how far from its natural shape the outermost fibre
   // on a circle's arc in the plane of the axes c and s, over so many equal edges
   constexpr int edges = 20;
   constexpr double edge = 2, curvature = 0.01;
-  const auto strain_of = [&](const RodMaterial& material, RodModel rung, int c, int s) {
+  const auto strain_of = [&](const RodMaterial& material, RodModel rod_model, int c, int s) {
     ModelRod rod;
     rod.material = material;
     Eigen::Matrix3Xd x = Eigen::Matrix3Xd::Zero(3, edges + 1);
@@ -284,16 +285,16 @@ TEST_CASE("strain by bending: how far from its natural shape the outermost fibre
       x(c, k) += edge * std::cos(turn * k);
       x(s, k) += edge * std::sin(turn * k);
     }
-    const Model model = build_model(edges + 1, {rod}, rung).value();
+    const Model model = build_model(edges + 1, {rod}, rod_model).value();
     return bending_strain_of(model, start_state(model, x));
   };
   const auto is = [](const Eigen::VectorXd& strain, double value) {
     return strain.size() == edges - 1 && (strain.array() - value).abs().maxCoeff() < 1e-9;
   };
   // a round wire bends equally in both models and to every side
-  for (const RodModel rung : {RodModel::bend, RodModel::twist})
+  for (const RodModel rod_model : {RodModel::bend, RodModel::twist})
     for (const int up : {1, 2})
-      CHECK(is(strain_of(circular_material(0.254, 83, 31), rung, 0, up), curvature * 0.127));
+      CHECK(is(strain_of(circular_material(0.254, 83, 31), rod_model, 0, up), curvature * 0.127));
   // a strip of 0.4 x 0.2: its thickness is up, along m1
   RodMaterial strip = rectangular_material(0.2, 0.4, 83, 31);
   CHECK(is(strain_of(strip, RodModel::twist, 0, 2), curvature * 0.1));

@@ -133,25 +133,25 @@ TEST_CASE("contact: a move goes as far as edges keep clear of one another, and n
     for (double& value : dx.reshaped()) value = any(random);
     const double d = distance(x), end = 0.5 * radius;
     const double least = d > end ? std::max(0.5 * std::min(d, 2 * radius), end) : 0.999 * d;
-    const double share = clear_share(model, x, dx);
-    REQUIRE(share <= 1);
+    const double fraction = clear_fraction(model, x, dx);
+    REQUIRE(fraction <= 1);
     double nearest = 1e9;
     for (int k = 0; k <= 200; ++k)
-      nearest = std::min(nearest, distance(x + k / 200.0 * share * dx));
+      nearest = std::min(nearest, distance(x + k / 200.0 * fraction * dx));
     CHECK(nearest >= least * (1 - 1e-9));
-    if (share == 1) continue;
+    if (fraction == 1) continue;
     ++stopped;
-    CHECK(distance(x + share * dx) < 1.01 * least);
+    CHECK(distance(x + fraction * dx) < 1.01 * least);
   }
   CHECK(stopped > 100);
   // nor do many moves lead through
   Matrix3Xd crossed = edges({-2, 0, 0}, {2, 0, 0}, {0, -2, 1}, {0, 2, 1});
   const Matrix3Xd down = edges({0, 0, 0}, {0, 0, 0}, {0, 0, -2}, {0, 0, -2});
-  for (int move = 0; move < 200; ++move) crossed += clear_share(model, crossed, down) * down;
+  for (int move = 0; move < 200; ++move) crossed += clear_fraction(model, crossed, down) * down;
   CHECK(crossed(2, 2) > 0.4 * radius);
   // along one another they may slide as far as they like
   const Matrix3Xd x = edges({-2, 0, 0}, {2, 0, 0}, {0, -9, 0.26}, {0, 9, 0.26});
-  CHECK(clear_share(model, x, edges({0, 5, 0}, {0, 5, 0}, {0, 0, 0}, {0, 0, 0})) == 1);
+  CHECK(clear_fraction(model, x, edges({0, 5, 0}, {0, 5, 0}, {0, 0, 0}, {0, 0, 0})) == 1);
 }
 
 TEST_CASE(

@@ -102,7 +102,7 @@ Definitions definitions(const Sample& at) {
   const T m = atan2(dot(s, cross(here, d_f)), dot(here, d_f));
   const T tau = theta_f - theta_e + m;
   const V kb = (T(2) / (T(1) + dot(t, s))) * cross(t, s);
-  const T phi = theta_e + T(at.bend.share) * tau + T(at.bend.axis),
+  const T phi = theta_e + T(at.bend.fraction) * tau + T(at.bend.axis),
           u2 = (T(1) - dot(t, s)) / (T(1) + dot(t, s)),
           grown = at.bend.at_end() ? T(1) + u2 + u2 * u2 : T(1);
   const V across = cross(t, d_e);
@@ -128,7 +128,7 @@ void check(const Vector& gradient, const Matrix& hessian, const T& exact, double
 /// Value and derivatives of the bending in material axes.
 double material_bend(const Sample& at, PairEnergy& out) {
   const HalfwayFrame mu =
-      halfway_frame(at.t(), at.director_e, at.theta_e + at.bend.share * at.tau() + at.bend.axis);
+      halfway_frame(at.t(), at.director_e, at.theta_e + at.bend.fraction * at.tau() + at.bend.axis);
   const double value = add_material_bend(at.bend, mu, binormal_with_slopes(at.t(), at.s()), out);
   scale_to_edges(at.e.norm(), at.f.norm(), out);
   return value;
@@ -166,10 +166,10 @@ TEST_CASE("twist: gradient and Hessian agree with automatic differentiation") {
 
 TEST_CASE("material bend: value, gradient and Hessian agree with automatic differentiation") {
   // at a corner the frame is anywhere, and its axes lie askew
-  for (const double share : {0.5, 0.0, 1.0, 0.3, -0.4})
+  for (const double fraction : {0.5, 0.0, 1.0, 0.3, -0.4})
     for (Sample at : samples(6, 60)) {
-      at.bend.share = share;
-      at.bend.axis = share < 0.5 && share != 0 ? 0.7 : 0;
+      at.bend.fraction = fraction;
+      at.bend.axis = fraction < 0.5 && fraction != 0 ? 0.7 : 0;
       PairEnergy out;
       const T exact = definitions(at).bend;
       CHECK(material_bend(at, out) == Approx(exact.value().value()).epsilon(1e-12));
@@ -177,9 +177,9 @@ TEST_CASE("material bend: value, gradient and Hessian agree with automatic diffe
     }
 }
 
-TEST_CASE("bend at a held end: derivatives, and half of what the edge and its mirror image bend") {
+TEST_CASE("bend at a fixed end: derivatives, and half of what the edge and its mirror image bend") {
   for (Sample at : samples(8, 40)) {
-    at.bend.share = 0;
+    at.bend.fraction = 0;
     PairEnergy out;
     const T exact = definitions(at).end;
     const EndBending law{7.3};
@@ -210,7 +210,7 @@ TEST_CASE("material bend: equal stiffness and no natural curvature is the round 
   }
 }
 
-TEST_CASE("a corner gives way as its two half edges in series do") {
+TEST_CASE("a corner is as compliant as its two half edges in series") {
   const double GJ = 2.9, length_e = 1.7, length_f = 0.6;
   // a round rod about any axis, a section with two stiffnesses about one of its own
   const auto [EI, axis] = GENERATE(table<Eigen::Vector2d, double>({{{4.1, 4.1}, 0.0},

@@ -59,8 +59,8 @@ struct Rested {
   Assembly at;
   double potential = 0;
 
-  Rested(RodModel rung, double apart, double load_N) {
-    model = build_model(mesh, rods, rung).value();
+  Rested(RodModel rod_model, double apart, double load_N) {
+    model = build_model(mesh, rods, rod_model).value();
     if (load_N > 0) model.loads.push_back({0, {0, 0, -load_N}});
     BoundaryMotion boundary;
     boundary.begin = Eigen::Matrix3Xd::Zero(3, 2);
@@ -106,7 +106,7 @@ TEST_CASE(
   CHECK(dead_loads(mesh, ShellRods(section)).empty());
 }
 
-TEST_CASE("dead loads come on with the path: its tangent and the states agree") {
+TEST_CASE("dead loads are applied along the path: its tangent and the states agree") {
   ShellRods loaded(section);
   loaded.weight_N_per_mm.assign(fig1().footprint.rods.size(), 3.2e-6);
   loaded.points.push_back({0, {0, 0, -2e-3}});
@@ -148,10 +148,11 @@ TEST_CASE("rods of two kinds: a circle's state turns with its families") {
   CHECK(energy(thin) < u_thick);
 }
 
-TEST_CASE("a rod pulled by two springs: force 2 a/(2/k + L/EA), supports drawn apart by a each") {
+TEST_CASE(
+    "a rod pulled by two springs: force 2 a/(2/k + L/EA), supports moved outwards by a each") {
   const double apart = 1, force = 2 * apart / (2 / k.x() + length / section.EA);
-  for (const RodModel rung : {RodModel::bend, RodModel::twist}) {
-    const Rested rod(rung, apart, 0);
+  for (const RodModel rod_model : {RodModel::bend, RodModel::twist}) {
+    const Rested rod(rod_model, apart, 0);
     CHECK(rod.at.force.minCoeff() == Approx(force).epsilon(1e-9));
     CHECK(rod.at.force.maxCoeff() == Approx(force).epsilon(1e-9));
     CHECK((rod.reaction(0) - Eigen::Vector3d(-force, 0, 0)).norm() < 1e-9 * force);
@@ -171,8 +172,8 @@ TEST_CASE("a rod on two springs sinks by P/(2 k) and bends by P L^3/(48 EI)") {
   // so little that it does not stretch
   const double load = 1e-6;
   const double bent = load * std::pow(length, 3) / (48 * section.EI), sunk = load / (2 * k.z());
-  for (const RodModel rung : {RodModel::bend, RodModel::twist}) {
-    const Rested rod(rung, 0, load);
+  for (const RodModel rod_model : {RodModel::bend, RodModel::twist}) {
+    const Rested rod(rod_model, 0, load);
     double stored = 0;
     for (const int end : {0, 1}) {
       CHECK(rod.state.x(2, rod.mesh.joints + end) == Approx(-sunk).epsilon(1e-9));
@@ -189,11 +190,11 @@ TEST_CASE(
     "springs of supports: gradient and Hessian are the energy's derivatives, on both rod models") {
   Footprint net = circular_footprint(52.0, 4, 20.0, Placement::half).value();
   net.rods[0].begin = net.rods[5].end = RodEnd::sprung;
-  net.held_joints = {3, 4};
+  net.fixed_joints = {3, 4};
   net.springs = {{0, -1, k}, {11, -1, {0, 7, 2}}, {-1, 3, {6, 5, 0}}};
   const RodMesh mesh = mesh_rods(net, 3);
-  for (const RodModel rung : {RodModel::bend, RodModel::twist}) {
-    const Model model = build_model(mesh, rods, rung).value();
+  for (const RodModel rod_model : {RodModel::bend, RodModel::twist}) {
+    const Model model = build_model(mesh, rods, rod_model).value();
     // the supports and the fixed joint, not what is on springs
     for (const MeshSpring& spring : mesh.springs) {
       CHECK(model.pinned(spring.support));

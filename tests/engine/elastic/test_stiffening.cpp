@@ -13,7 +13,7 @@ namespace {
 
 constexpr double rigid = std::numeric_limits<double>::infinity();
 
-State shaken(const Model& model, const State& rest, double by) {
+State perturbed(const Model& model, const State& rest, double by) {
   std::mt19937 random(11);
   std::normal_distribution<double> normal;
   Eigen::Matrix3Xd x = rest.x;
@@ -58,7 +58,7 @@ struct Bolted {
 
 }  // namespace
 
-TEST_CASE("a bar: a strut on both sides, a cable that is slack, comes on and pulls") {
+TEST_CASE("a bar: a strut on both sides, a cable that is slack, becomes taut and pulls") {
   const Dome dome(2);
   const double length = (dome.state.x.col(0) - dome.state.x.col(5)).norm();
   for (const bool cable : {false, true})
@@ -90,18 +90,19 @@ TEST_CASE("bolts are free of stress in the shape they were tightened in, on its 
   for (const double stiffness : {25.0, rigid}) {
     const Model model = dome.with(tightened(dome.mesh, dome.loose, dome.state, stiffness));
     CHECK(energies_of(model, dome.state)[Term::shear] < 1e-20);
-    const State off = shaken(model, dome.state, 0.02);
+    const State off = perturbed(model, dome.state, 0.02);
     CHECK(energies_of(model, off)[Term::shear] > 1e-8);
     check_derivatives(model, off, {}, 1e-6, 1e-4, 1e-5);
   }
 }
 
-TEST_CASE("bolts of one mesh hold the shape of another, exactly on a surface of second degree") {
+TEST_CASE("bolts of one mesh keep the shape of another, exactly on a surface of second degree") {
   const Bolted fine(16);
   const Bolts bolts = tightened(fine.mesh, fine.loose, fine.state, 25);
   for (const int edges : {4, 8}) {
     const Bolted dome(edges);
     CHECK(std::sqrt(energies_of(dome.with(bolts), dome.state)[Term::shear]) < 1e-12);
-    CHECK(energies_of(dome.with(bolts), shaken(dome.loose, dome.state, 0.02))[Term::shear] > 1e-8);
+    CHECK(energies_of(dome.with(bolts), perturbed(dome.loose, dome.state, 0.02))[Term::shear] >
+          1e-8);
   }
 }

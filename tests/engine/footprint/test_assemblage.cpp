@@ -60,8 +60,8 @@ TEST_CASE(
   const auto made = value_of(Assemblage::make(stadium(match * rho, 90), in_a_row, 50));
   for (const Seam& seam : made.seams()) CHECK(seam.rods.size() == 24);
   CHECK_THAT(refused(stadium(0.8 * match * rho, 90), in_a_row),
-             Catch::Contains("left.east - middle.west: 24 rods cross left.east and 20 cross "
-                             "middle.west; the same number must"));
+             Catch::Contains("left.east - middle.west: got 24 rods across left.east and 20 across "
+                             "middle.west, expected equal numbers"));
 }
 
 TEST_CASE("gap and kink of a seam are those of the two nets at its joints") {
@@ -93,8 +93,8 @@ TEST_CASE("gap and kink of a seam are those of the two nets at its joints") {
   CHECK(made.seams()[1].max_gap_mm() == Approx(seam.max_gap_mm()).margin(1e-9));
   CHECK_THAT(refused(stadium(), in_a_row, 3),
              Catch::Contains("left.east - middle.west: at the joint") &&
-                 Catch::Contains("mm apart and the rods' tangents") &&
-                 Catch::Contains("the gap must be at most 3 mm"));
+                 Catch::Contains("mm and the rods' tangents") &&
+                 Catch::Contains("expected a gap of at most 3 mm"));
 }
 
 TEST_CASE("rods run on across the seams of an assemblage, its boundary is closed and level") {
@@ -122,7 +122,7 @@ TEST_CASE("rods run on across the seams of an assemblage, its boundary is closed
   }
 }
 
-TEST_CASE("the nets lie in their places, and closed() leaves no gap between them") {
+TEST_CASE("the nets lie at their positions, and closed() leaves no gap between them") {
   const auto made = Assemblage::make(stadium(), in_a_row, 6).value();
   // the cylinder's middle is four rows from the left pole, cos(51 degrees) of that along x
   const double half = 4 * d * std::cos(51 * M_PI / 180);
@@ -157,14 +157,14 @@ TEST_CASE("blocks that cannot be joined are refused, naming their sides") {
   beside[0].placement = Placement::on_axis;
   wrong("on the axes", beside, in_a_row);
   // two pairs that know nothing of one another
-  wrong("no join holds block \"c\"",
+  wrong("no join connects block \"c\"",
         {quarter_sphere("a", Side::east), quarter_sphere("c", Side::east),
          quarter_sphere("b", Side::west), quarter_sphere("e", Side::west)},
         {{{0, Side::east}, {2, Side::west}}, {{1, Side::east}, {3, Side::west}}});
   // a straight row round a loop does not come back to its beginning
   std::vector<Block> ring{cylinder(rho, 102, -4, 4), cylinder(rho, 102, -4, 4)};
   ring[1].name = "other";
-  wrong("round the loop leave the sides", ring,
+  wrong("round the loop leave a gap", ring,
         {{{0, Side::east}, {1, Side::west}}, {{1, Side::east}, {0, Side::west}}});
   CHECK(refused({quarter_sphere("a", Side::east), quarter_sphere("b", Side::west)},
                 {{{0, Side::east}, {1, Side::west}}}, 1e-9) == "");

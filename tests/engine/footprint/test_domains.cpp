@@ -114,13 +114,12 @@ TEST_CASE("closed curves: lengths, nearest points, and what is refused") {
   CHECK_THAT(refusal(ClosedCurve::polygon(points({{0, 0}, {10, 10}, {10, 0}, {0, 8}}))),
              Catch::StartsWith("the closed curve crosses itself near ("));
   CHECK(refusal(ClosedCurve::polygon(points({{0, 0}, {1, 1}}))) ==
-        "a closed curve needs at least 3 points, not 2");
+        "a closed curve: got 2 points, expected at least 3");
   CHECK(refusal(ClosedCurve::spline(points({{0, 0}, {1, 1}, {1, 1}, {0, 3}}))) ==
         "points 2 and 3 of the closed curve are the same");
   CHECK(refusal(ClosedCurve::polygon(points({{0, 0}, {1, NAN}, {1, 2}}))) ==
         "point 2 of the closed curve is not finite");
-  CHECK(refusal(ClosedCurve::ellipse(0, 1)) ==
-        "the half axes are 0 and 1 mm, they must be positive");
+  CHECK(refusal(ClosedCurve::ellipse(0, 1)) == "half axes: got 0 and 1 mm, expected above 0");
   CHECK_FALSE(ClosedCurve::superellipse(1, 1, 0.5));
 }
 
@@ -228,7 +227,7 @@ TEST_CASE("cap domain: grid lines end on the plane, to 1e-14, also short ones") 
     }
   }
   CHECK(cap_of(net, 1).error().message ==
-        "the cap's cut height is 1 of the radius, it must lie in [0, 1)");
+        "the cap's cut height: got 1 of the radius, expected 0 to below 1");
   CHECK_FALSE(cap_of(net, -0.1));
   CHECK_FALSE(cap_of(net, std::nan("")));
 }
@@ -271,6 +270,6 @@ TEST_CASE("half of a surface of revolution: too long says where the net ends") {
   const RevolutionNet net = right_angled(spool);
   CHECK_THAT(refusal(half_of(net, 1000)),
              Catch::Contains("folds (shear angle 180 degrees) where u + v = -18") &&
-                 Catch::Contains("-500 mm lies beyond"));
+                 Catch::Contains("-500 mm is past it"));
   CHECK_FALSE(half_of(net, 0));
 }

@@ -52,19 +52,19 @@ TEST_CASE("footprint: what makes no sense is refused with its reason") {
     return refusal(circular_footprint(radius, rods, spacing, placement));
   };
   CHECK(message(126, 1, 20, Placement::on_axis) ==
-        "1 rod a direction makes no cell: take at least 2");
-  CHECK(message(126, 11, 20, Placement::half) ==
-        "11 rods a direction do not fit placement \"half\": rods at (i + 1/2) d (\"half\") are an "
-        "even number, rods at i d (\"on_axis\") an odd one");
+        "rods: got 1 per direction, expected at least 2");
   CHECK(
-      message(100, 12, 20, Placement::half) ==
-      "12 rods a direction at d = 20 mm reach 110 mm, beyond the boundary: the longest leg R_o/d - "
-      "(n-1)/2 = -0.5 must be above 0; take R_o >= 110.02 mm or n <= 10");
+      message(126, 11, 20, Placement::half) ==
+      "11 rods per direction do not fit placement \"half\": rods at (i + 1/2) d (\"half\") are an "
+      "even number, rods at i d (\"on_axis\") an odd one");
+  CHECK(message(100, 12, 20, Placement::half) ==
+        "12 rods per direction at d = 20 mm reach 110 mm, outside the boundary: the longest leg "
+        "R_o/d - "
+        "(n-1)/2: got -0.5, expected above 0; take R_o >= 110.02 mm or n <= 10");
   // the outermost rods of each family are outside the reach of all others
-  CHECK(
-      message(50.5, 6, 20, Placement::half) ==
-      "the u-rod at v = -50 mm crosses no other rod: it would hang on its two ends alone; move the "
-      "boundary or the spacing");
+  CHECK(message(50.5, 6, 20, Placement::half) ==
+        "the u-rod at v = -50 mm crosses no other rod: it would be fixed only at its two ends; "
+        "move the boundary or the spacing");
   CHECK(refusal(cut_footprint(Disk(1e6), 1.0, Placement::half)) != "none");
 }
 
@@ -78,8 +78,8 @@ TEST_CASE("footprint: grid lines that cross no other within the boundary are lef
   CHECK(cut_footprint(Disk(51.5), 20, Placement::half)->lone_lines == 0);
   CHECK(refusal(cut_footprint(Disk(9), 20, Placement::on_axis)) == "none");
   CHECK(refusal(cut_footprint(Disk(11), 20, Placement::half)) ==
-        "no two rods of spacing 20 mm cross within the boundary: it must be larger, or the spacing "
-        "smaller");
+        "got no two rods that cross within the boundary, expected a boundary larger than 20 mm, or "
+        "the spacing smaller");
 }
 
 namespace {

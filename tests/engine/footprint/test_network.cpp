@@ -76,12 +76,12 @@ TEST_CASE("a closed chain of rods whose ends meet is a frame where its joints ar
   RodNetwork net = network(square, {{0, 1}, {1, 2}, {2, 3}, {3, 0}}, {0, 1, 2});
   net.springs = {{1, {0, 0, 9}}, {2, {9, 0, 9}}};
   refused(net,
-          "rods[3]: is joined to no other rod: where rods only end, as at point 3, each is held");
+          "rods[3]: is joined to no other rod: where rods only end, as at point 3, each is fixed");
   refused(net, "{\"point\": 3, \"to_mm\": \"free\"}");
   net.joined = {0, 1, 2, 3};
   const auto made = value_of(network_footprint(net));
   CHECK(made.footprint.joints.size() == 4);
-  CHECK(made.footprint.held_joints.size() == 3);
+  CHECK(made.footprint.fixed_joints.size() == 3);
   for (const FootprintRod& rod : made.footprint.rods) {
     CHECK(rod.begin == RodEnd::joined);
     CHECK(rod.end == RodEnd::joined);
@@ -97,13 +97,13 @@ TEST_CASE("a ring comes back to its first joint and a polyline is as long as its
   CHECK(ring.at(3).isApprox(Eigen::Vector2d(-1, 0)));
   CHECK(ring.tangent(3).isApprox(Eigen::Vector2d(0, -1)));
   CHECK(made.footprint.joints.size() == 4);
-  CHECK(made.footprint.held_joints == std::vector<int>{1, 2, 3});
+  CHECK(made.footprint.fixed_joints == std::vector<int>{1, 2, 3});
   const RodMesh mesh = mesh_rods(made.footprint, 4);
   CHECK(mesh.rods[0].front() == mesh.rods[0].back());
   CHECK(mesh.rods[0].size() == 17);
 }
 
-TEST_CASE("a network that is a square grid is named as one, whichever way its rods run") {
+TEST_CASE("a network that is a square grid is named as one, in whichever direction its rods run") {
   // 3 x 2 lines at 10 mm about the origin, rods crosswise and backwards
   std::vector<Eigen::Vector2d> points;
   std::vector<std::vector<int>> rods;
@@ -157,7 +157,7 @@ TEST_CASE("supports on springs: of an end, of ends that meet, of a joint inside 
   CHECK(footprint.rods[0].end == RodEnd::joined);
   CHECK(footprint.rods[2].begin == RodEnd::joined);
   CHECK(footprint.rods[2].end == RodEnd::pinned);
-  CHECK(footprint.held_joints == std::vector<int>{0, 1});
+  CHECK(footprint.fixed_joints == std::vector<int>{0, 1});
   REQUIRE(footprint.springs.size() == 3);
   CHECK(footprint.springs[0].end == 0);
   CHECK(footprint.springs[0].N_per_mm == Eigen::Vector3d(1, 2, 3));
@@ -178,7 +178,7 @@ TEST_CASE("springs along too few directions leave a network free") {
   const auto on = [&](const Eigen::Vector3d& k) {
     for (int point = 1; point < 7; ++point) net.springs[point] = k;
   };
-  const std::string free = "rods[0] and what is joined to it: held by springs along too few";
+  const std::string free = "rods[0] and what is joined to it: supported by springs along too few";
   on({0, 1, 1});
   refused(net, free);
   on({1, 1, 0});
@@ -196,14 +196,15 @@ TEST_CASE("springs along too few directions leave a network free") {
 }
 
 TEST_CASE("networks that do not make a shell are refused") {
-  refused(network(star, {{1, 0, 2}, {3, 3, 0, 4}}), "rods[1]: point 3 follows itself");
-  refused(network(star, {{1, 0, 2}, {3}}), "rods[1]: has one point");
+  refused(network(star, {{1, 0, 2}, {3, 3, 0, 4}}), "rods[1]: got point 3 twice in turn");
+  refused(network(star, {{1, 0, 2}, {3}}), "rods[1]: got one point");
   refused(network(star, {{1, 0, 2}, {1, 0, 3}}),
-          "rods[1]: runs from point 0 to 1, as rods[0] does");
-  refused(network(star, {{1, 0, 2}, {3, 0, 4, 5, 0, 6}}), "rods[1]: comes through a point twice");
+          "rods[1]: got a rod from point 0 to 1, as rods[0] is");
+  refused(network(star, {{1, 0, 2}, {3, 0, 4, 5, 0, 6}}),
+          "rods[1]: got a rod that passes a point twice");
   refused(network(star, {{1, 0, 1}}), "rods[0]");
-  refused(network(star, {{1, 2}, {3, 4}}), "rods[0]: is joined to no other rod");
-  refused(network(star, {{1, 0, 2}, {3, 0, 4}, {5, 6}}), "rods[2]: is joined to no other rod");
+  refused(network(star, {{1, 2}, {3, 4}}), "rods[0]: got a rod without a joint");
+  refused(network(star, {{1, 0, 2}, {3, 0, 4}, {5, 6}}), "rods[2]: got a rod without a joint");
   refused(network(star, {{1, 0, 2}, {3, 0, 4}}, {5}), "point 5 is a support, and no rod has it");
   refused(network(star, {{1, 0, 2}, {3, 0, 4}}, {}, {0}), "point 0 is free, and inside a rod");
   refused(network(star, {{1, 0, 2}, {3, 0, 4}}, {1}, {1}), "point 1 is a support and free");
@@ -245,7 +246,7 @@ TEST_CASE("rods in space are as long as their polyline there, and laid where the
   refused(upright, "at points on one line");
 }
 
-TEST_CASE("the rim of points has those on the edges of their hull, each place once") {
+TEST_CASE("the rim of points has those on the edges of their hull, each position once") {
   Eigen::Matrix2Xd points(2, 7);
   points << 0, 1, 1, 0, 0.5, 0.5, 0.5, 0, 0, 1, 1, 0.5, 0, 0;
   CHECK(rim_of(points) == std::vector<int>{0, 5, 1, 2, 3});

@@ -8,7 +8,7 @@ using preset::read_cloud;
 
 namespace {
 
-std::string fault_of(const std::string& bytes, const std::string& name) {
+std::string error_of(const std::string& bytes, const std::string& name) {
   return refusal(read_cloud(bytes, name));
 }
 
@@ -64,8 +64,8 @@ TEST_CASE("points are the vertices of a PLY, as text and as bytes") {
   bytes.append("\x03\0\0\0\0\1\0\0\0\1\0\0\0", 13);
   const auto binary = value_of(read_cloud(bytes, "a.ply"));
   CHECK(binary.points == two_points());
-  CHECK(fault_of(bytes.substr(0, bytes.size() - 20), "a.ply") ==
-        "a.ply: vertex 2: the file ends there, or what stands there is no number");
+  CHECK(error_of(bytes.substr(0, bytes.size() - 20), "a.ply") ==
+        "a.ply: vertex 2: got the end of the file or no number, expected a number");
 }
 
 TEST_CASE("rows without a point are left out and counted, and a file may be in metres") {
@@ -83,33 +83,36 @@ TEST_CASE("rows without a point are left out and counted, and a file may be in m
         two_points());
 }
 
-TEST_CASE("rows that may be read in two ways are refused") {
-  CHECK_THAT(fault_of("1,5,2,5,3,5\n4,5,5,5,6,5\n", "a.csv"),
+TEST_CASE("rows with two readings are refused") {
+  CHECK_THAT(error_of("1,5,2,5,3,5\n4,5,5,5,6,5\n", "a.csv"),
              Catch::Contains("a.csv:1: six whole numbers between commas: decimal commas, or"));
-  CHECK_THAT(fault_of("1 9 8 7\n2 8 7 6\n3 7 6 5\n", "a.xyz"),
+  CHECK_THAT(error_of("1 9 8 7\n2 8 7 6\n3 7 6 5\n", "a.xyz"),
              Catch::Contains("a.xyz:1: the first column counts the rows"));
-  CHECK_THAT(fault_of("2\n2\n0 0 0\n", "a.txt"), Catch::Contains("a.txt:2: a second count"));
-  CHECK(fault_of("1 2 3 9 9\n4 5 6 9\n", "a.xyz") ==
-        "a.xyz:2: holds 4 values, must be 5, as in the rows before");
+  CHECK_THAT(error_of("2\n2\n0 0 0\n", "a.txt"), Catch::Contains("a.txt:2: a second count"));
+  CHECK(error_of("1 2 3 9 9\n4 5 6 9\n", "a.xyz") ==
+        "a.xyz:2: got 4 values, expected 5, as in the rows before");
 }
 
 TEST_CASE("what is no cloud is refused with its position") {
-  const std::string numbers = ", must be 3 numbers: x, y, z",
-                    none = "a.xyz: holds no point, must hold one a line, 3 numbers: x, y, z";
-  CHECK(fault_of("", "a.xyz") == none);
-  CHECK(fault_of("x y z\n", "a.xyz") == none);
-  CHECK(fault_of("1 2\n", "a.xyz") == "a.xyz:1: holds 2 values" + numbers);
-  CHECK(fault_of("1 2 3\n1 nan 3\n", "a.xyz") == "a.xyz:2: 'nan' is no number" + numbers);
-  CHECK(fault_of("1 2 3\n1 2 inf\n", "a.csv") == "a.csv:2: 'inf' is no number" + numbers);
-  CHECK(fault_of("1 2 3\nfoo 2 3\n", "a.csv") == "a.csv:2: 'foo' is no number" + numbers);
-  CHECK(fault_of("1 2 3e10\n", "a.csv") ==
-        "a.csv:1: a coordinate is too large, must be a number of at most 1e9");
-  CHECK(fault_of("u,v\n1,2\n", "a.csv") ==
-        "a.csv:1: names columns 'u', 'v', of which x, y, z are missing (a remark begins with #)");
-  CHECK(fault_of("1 2 3\n", "a.obj") ==
-        "a.obj: its name must end in .ply, .xyz, .txt, .asc, .csv or .pts");
-  CHECK(fault_of("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n",
+  const std::string numbers = ", expected 3 numbers: x, y, z",
+                    none = "a.xyz: got no point, expected one per line, 3 numbers: x, y, z";
+  CHECK(error_of("", "a.xyz") == none);
+  CHECK(error_of("x y z\n", "a.xyz") == none);
+  CHECK(error_of("1 2\n", "a.xyz") == "a.xyz:1: got 2 values" + numbers);
+  CHECK(error_of("1 2 3\n1 nan 3\n", "a.xyz") ==
+        "a.xyz:2: got 'nan', which is no number" + numbers);
+  CHECK(error_of("1 2 3\n1 2 inf\n", "a.csv") ==
+        "a.csv:2: got 'inf', which is no number" + numbers);
+  CHECK(error_of("1 2 3\nfoo 2 3\n", "a.csv") ==
+        "a.csv:2: got 'foo', which is no number" + numbers);
+  CHECK(error_of("1 2 3e10\n", "a.csv") ==
+        "a.csv:1: got a coordinate that is too large, expected a number of at most 1e9");
+  CHECK(error_of("u,v\n1,2\n", "a.csv") ==
+        "a.csv:1: got columns 'u', 'v', of which x, y, z are missing (a remark begins with #)");
+  CHECK(error_of("1 2 3\n", "a.obj") ==
+        "a.obj: expected a name that ends in .ply, .xyz, .txt, .asc, .csv or .pts");
+  CHECK(error_of("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n",
                  "a.ply") ==
-        "a.ply: vertex 1: a coordinate is not a number, must be a number of at most 1e9");
-  CHECK(fault_of("ply\nformat ascii 1.0\nend_header\n", "a.ply") == "a.ply: holds no point");
+        "a.ply: vertex 1: got a coordinate that is not a number, expected a number of at most 1e9");
+  CHECK(error_of("ply\nformat ascii 1.0\nend_header\n", "a.ply") == "a.ply: got no point");
 }

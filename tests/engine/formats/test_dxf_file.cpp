@@ -85,7 +85,7 @@ TEST_CASE("polylines of all kinds, in planes that are turned") {
         EntityUse::refused);
 }
 
-TEST_CASE("blocks stand where they are inserted, turned, scaled, in rows, one in another") {
+TEST_CASE("blocks are drawn where they are inserted, turned, scaled, in rows, one in another") {
   const std::string blocks = section(
       "BLOCKS",
       entity("BLOCK", "2 Bar 70 0 10 1 20 0 30 0") + entity("LINE", "8 0 10 1 20 0 11 3 21 0") +
@@ -107,7 +107,7 @@ TEST_CASE("blocks stand where they are inserted, turned, scaled, in rows, one in
     return refusal(read_dxf(drawn_dxf(entity("INSERT", "2 " + name), blocks), "d.dxf"));
   };
   CHECK_THAT(refused("none"), Catch::Contains("INSERT of block 'none', which is not in the file"));
-  CHECK_THAT(refused("self"), Catch::Contains("which holds itself"));
+  CHECK_THAT(refused("self"), Catch::Contains("which contains itself"));
 }
 
 TEST_CASE("where an entity is, what it may be, and the unit of a drawing") {
@@ -140,7 +140,8 @@ TEST_CASE("what is no whole drawing is refused") {
   CHECK(refused(whole.substr(0, whole.find("11\n1") + 5)) ==
         "d.dxf: ends within its section ENTITIES: is it cut short?");
   CHECK(refused("AutoCAD Binary DXF\r\n\x1a") ==
-        "d.dxf: a binary DXF, must be saved as text (ASCII)");
-  CHECK(refused("AC1032") == "d.dxf: a DWG, must be saved as DXF");
-  CHECK(refused("hello\nworld\n") == "d.dxf:1: is no DXF text, must be a code and a value in turn");
+        "d.dxf: got a binary DXF, expected text: save it as ASCII DXF");
+  CHECK(refused("AC1032") == "d.dxf: got a DWG, expected a DXF: save it as one");
+  CHECK(refused("hello\nworld\n") ==
+        "d.dxf:1: got no DXF text, expected a code and a value in turn");
 }

@@ -71,7 +71,7 @@ TEST_CASE("objects that are not what they should be are refused before anything 
   // more rows than the file has bytes
   CHECK(after([&](hid_t file) {
           put(file, "/nodes", H5T_NATIVE_DOUBLE, {hsize_t(1) << 50, 12, 3});
-        }) == "/nodes claims to hold more than the file does");
+        }) == "/nodes claims to contain more than the file does");
   // numbers in another file
   CHECK(after([&](hid_t file) {
           const hid_t how = H5Pcreate(H5P_DATASET_CREATE);

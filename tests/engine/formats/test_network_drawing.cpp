@@ -118,7 +118,7 @@ TEST_CASE("layers, sheets and marks are left out by rules that are reported") {
   CHECK_THAT(layered.report.text, Catch::Contains("1 line, 1 mline on other layers than \"rods\""));
   CHECK(read(grid() + entity("CIRCLE", "10 0 20 0 40 25")).network.rods.size() == 7);
   CHECK(refused(grid() + entity("MLINE", "8 0")) ==
-        "d.dxf:78: MLINE must be exploded to lines and polylines");
+        "d.dxf:78: MLINE is not read, expected lines and polylines: explode it");
   CHECK_THAT(refused(grid() + line(-30, 0, 25, 0)),
              Catch::Contains("lies on what is drawn at d.dxf:"));
 }
@@ -145,7 +145,7 @@ TEST_CASE("the unit is that of the key, else that of the drawing, else mm") {
   CHECK(value_of(read_network("v 0 0 0\nv 0.5 0 0\nl 1 2\n", "n.obj", {.unit_mm = 1000}))
             .points[1][0] == 500);
   CHECK_THAT(refusal(read_network("{}", "n.json", {.unit_mm = 1000})),
-             Catch::Contains("file_unit must be"));
+             Catch::Contains("expected file_unit"));
 }
 
 TEST_CASE("what is near and not joined is reported, and join_mm joins it") {
@@ -216,7 +216,7 @@ TEST_CASE("the edges of a mesh are rods, those in line one, in OBJ, PLY and OFF"
   // in metres
   CHECK(value_of(read_network(rows + obj, "q.obj", {.unit_mm = 1000})).points[1][0] == 20000);
   CHECK(refusal(read_network("OFF\n2 1 0\n0 0 0\n1 0 0\n3 0 1 2\n", "q.off")) ==
-        "q.off:5: point 2, must be from 0 to 1");
+        "q.off:5: got point 2, expected 0 to 1");
   CHECK_THAT(refusal(read_network("OFF\n2 1 0\n0 0 0\n", "q.off")),
              Catch::Contains("ends after 1 of its 2 vertices and 1 faces"));
   CHECK_THAT(refusal(read_network("2 x\n", "q.off")), Catch::Contains("no OFF"));

@@ -45,7 +45,7 @@ std::string with(const std::string& from, const std::string& to) {
 
 }  // namespace
 
-TEST_CASE("a network in JSON: points by number or place, nearby ones are one") {
+TEST_CASE("a network in JSON: points by number or position, nearby ones are one") {
   const auto read = value_of(read_network(crossed, "net.json"));
   CHECK(read.points.size() == 6);
   CHECK(read.rods == std::vector<std::vector<int>>{{0, 4, 1}, {2, 4, 3}});
@@ -99,58 +99,59 @@ TEST_CASE("files of networks that are broken say where") {
   const auto changed = [](const char* here, const char* to, const char* reason) {
     wrong(with(here, to), "n.json", reason);
   };
-  wrong("", "n.json", "n.json:1: is empty");
-  wrong("{\n\"rods\": [\n[0, 1,]]}", "n.json", "n.json:3: is no JSON");
-  wrong("[1, 2]", "n.json", "must be an object");
-  wrong("{}", "n.json", "holds no rods");
+  wrong("", "n.json", "n.json:1: got an empty file");
+  wrong("{\n\"rods\": [\n[0, 1,]]}", "n.json", "n.json:3: got no JSON");
+  wrong("[1, 2]", "n.json", "expected an object");
+  wrong("{}", "n.json", "got no rods");
   changed("\"rods\"", "\"rod\"", "did you mean 'rods'");
   changed("\"points_mm\"", "\"points\"", "did you mean 'points_mm'");
-  changed("[-10, 0]", "[-10, 1e10]", "n.json:2: points_mm[0]: a coordinate");
-  changed("[-10, 0]", "[-10, \"0\"]", "n.json:2: points_mm[0]: must be a point");
-  changed("[0, 4, 1]", "[0, 4, 1000000000]", "n.json:4: rods[0]: names a point");
-  changed("[0, 4, 1]", "[0, -1]", "point -1, must be from 0");
-  changed("[0, 4, 1]", "[0]", "n.json:4: rods[0]: a rod of one point");
+  changed("[-10, 0]", "[-10, 1e10]", "n.json:2: points_mm[0]: got a coordinate");
+  changed("[-10, 0]", "[-10, \"0\"]", "n.json:2: points_mm[0]: got [-10,\"0\"], expected a point");
+  changed("[0, 4, 1]", "[0, 4, 1000000000]", "n.json:4: rods[0]: got a point");
+  changed("[0, 4, 1]", "[0, -1]", "got point -1, expected 0");
+  changed("[0, 4, 1]", "[0]", "n.json:4: rods[0]: got a rod of one point");
   changed("[0, 4, 1]", "[4, [0, 0.0005]]", "a rod of one point");
   changed("[0, 4, 1]", "[0, 5, 1]",
-          "n.json:4: rods[0]: point 5 lies where point 4 does, must be named by that number");
-  changed("\"point\": 3", "\"point\": 5", "n.json:10: supports[2]: point 5 lies where");
-  changed("[0, 4, 1]", "[0, 4, 4, 1]", "n.json:4: rods[0]: a stretch of no length");
+          "n.json:4: rods[0]: got point 5 at the position of point 4, expected that number");
+  changed("\"point\": 3", "\"point\": 5", "n.json:10: supports[2]: got point 5 at the position");
+  changed("[0, 4, 1]", "[0, 4, 4, 1]", "n.json:4: rods[0]: got a segment of no length");
   changed("[0, 4, 1]", "[0, 4, [0, 0], 1]", "and point 4 follows itself");
   changed("[0, 4, 1]", "[]", "a rod of one point");
   changed("[0, 4, 1]", "[[[[[[[[[[1]]]]]]]]]]", "rods[0]");
   changed("0.5,", "-1,", "n.json:5: rods[1]");
   changed("0.5,", "1e300,", "a diameter of 1e+300");
-  changed("\"point\": 0,", "\"point\": 9,", "n.json:8: supports[0]: names a point");
-  changed("\"point\": 0,", "", "n.json:8: supports[0]: must be");
-  changed("[-8, 0, 1]", "[-8, 0]", "to_mm must be [x, y, z]");
+  changed("\"point\": 0,", "\"point\": 9,", "n.json:8: supports[0]: got a point");
+  changed("\"point\": 0,", "", "n.json:8: supports[0]: got {");
+  changed("[-8, 0, 1]", "[-8, 0]", "to_mm: got [-8,0], expected [x, y, z]");
   changed("mm\": 3", "mm\": 0", "n.json:9: supports[1]: a spring of 0 N/mm");
   changed("mm\": 3", "mm\": 1e7", "a spring of 1e+07 N/mm");
-  changed("mm\": 3", "mm\": [3, 3]", "spring_N_per_mm must be a number, or [kx");
-  changed("mm\": 3", "mm\": \"soft\"", "spring_N_per_mm must be a number");
-  changed("\"spring_N_per_mm\": 3", "\"spring\": 3", "n.json:9: supports[1]: must be");
+  changed("mm\": 3", "mm\": [3, 3]", "spring_N_per_mm: got [3,3], expected a number, or [kx");
+  changed("mm\": 3", "mm\": \"soft\"", "spring_N_per_mm: got \"soft\", expected a number");
+  changed("\"spring_N_per_mm\": 3", "\"spring\": 3", "n.json:9: supports[1]: got {");
   changed("\"free\"", "\"free\", \"spring_N_per_mm\": 1",
           "n.json:10: supports[2]: an end that is free has no spring_N_per_mm");
-  wrong("v 0 0\nl 1 2\n", "n.obj", "n.obj:1: a vertex");
-  wrong("v 0 0 nan\n", "n.obj", "n.obj:1: a vertex");
-  wrong("v 0 0 0\nl 1 2\n", "n.obj", "n.obj:2: point 1, must be from 0 to 0");
-  wrong("v 0 0 0\nv 1 0 0\nl 1 x\n", "n.obj", "n.obj:3: 'x' is no vertex");
-  wrong("v 0 0 0\nv 9 0 0\nv 9 0 0\nl 1 2 3\n", "n.obj", "n.obj:4: a stretch of no length");
-  wrong("v 0 0 0\n", "n.obj", "holds no rods");
-  wrong("hello\nworld\n", "n.dxf", "n.dxf:1: is no DXF");
-  wrong("", "n.dxf", "holds no rods");
-  wrong("0\nSECTION\n2\nENTITIES\n0\nLINE\n10\nnan\n", "n.dxf", "n.dxf:8: must be a finite number");
+  wrong("v 0 0\nl 1 2\n", "n.obj", "n.obj:1: expected a vertex");
+  wrong("v 0 0 nan\n", "n.obj", "n.obj:1: expected a vertex");
+  wrong("v 0 0 0\nl 1 2\n", "n.obj", "n.obj:2: got point 1, expected 0 to 0");
+  wrong("v 0 0 0\nv 1 0 0\nl 1 x\n", "n.obj", "n.obj:3: got 'x', expected the number");
+  wrong("v 0 0 0\nv 9 0 0\nv 9 0 0\nl 1 2 3\n", "n.obj", "n.obj:4: got a segment of no length");
+  wrong("v 0 0 0\n", "n.obj", "got no rods");
+  wrong("hello\nworld\n", "n.dxf", "n.dxf:1: got no DXF");
+  wrong("", "n.dxf", "got no rods");
+  wrong("0\nSECTION\n2\nENTITIES\n0\nLINE\n10\nnan\n", "n.dxf",
+        "n.dxf:8: expected a finite number");
   wrong("0\nSECTION\n2\nENTITIES\n0\nLINE\n10\n1\n20\n1\n11\n1\n21\n1\n0\nENDSEC\n", "n.dxf",
-        "n.dxf:6: a rod of one point");
+        "n.dxf:6: got a rod of one point");
   wrong(
       "0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n10\n1\n20\n1\n10\n1\n20\n1\n10\n9\n20\n1\n0\nENDSEC"
       "\n",
-      "n.dxf", "n.dxf:6: a stretch of no length");
-  wrong("x", "n.txt", "must end in .json");
+      "n.dxf", "n.dxf:6: got a segment of no length");
+  wrong("x", "n.txt", "ends in .json");
 }
 
 TEST_CASE("a network is needed, and what names rods of a square grid is refused") {
   const auto message = [](const std::string& keys) {
-    return faults_of("[footprint]\nkind = \"network\"\n" + keys);
+    return errors_of("[footprint]\nkind = \"network\"\n" + keys);
   };
   const std::string file =
       "file = {points_mm = [[-9, 0, 0], [9, 0, 0], [0, 9, 0], [0, 0, 0]], "
@@ -164,8 +165,8 @@ TEST_CASE("a network is needed, and what names rods of a square grid is refused"
   };
   CHECK(sprung("[0, 1, 1, 0.5]") == "none");
   CHECK(sprung("[0, 1, 1]").find("[point, kx, ky, kz]") != std::string::npos);
-  CHECK(sprung("[1, 1, 1, 1]").find("must be one of a support") != std::string::npos);
-  CHECK(sprung("[0, 0, 0, 0]").find("holds nothing") != std::string::npos);
+  CHECK(sprung("[1, 1, 1, 1]").find("expected a support") != std::string::npos);
+  CHECK(sprung("[0, 0, 0, 0]").find("supports nothing") != std::string::npos);
   CHECK(message(file + "spacing_mm = 30.0\n").find("spacing_mm") != std::string::npos);
   CHECK_THAT(message("file = {points_mm = [[0, 0, 0]], rods = [[0, 1]]}\n"),
              Catch::Contains("rods[0] names point 1"));

@@ -31,12 +31,12 @@ NetworkData read(const std::string& text) { return value_of(read_network(text, "
 
 void wrong(const std::string& joints, const std::string& reason) {
   CHECK_THAT(refusal(read_network(with("[4, 1],\n    [2, 6]", joints), "n.json")),
-             Catch::Contains("n.json:9: joints[0]: " + reason));
+             Catch::StartsWith("n.json:9: joints[0]: ") && Catch::Contains(reason));
 }
 
 }  // namespace
 
-TEST_CASE("points of a listed joint are one, at their mean place") {
+TEST_CASE("points of a listed joint are one, at their mean position") {
   const NetworkData network = read(beside);
   CHECK(network.rods == std::vector<std::vector<int>>{{0, 4, 2}, {3, 4, 5}, {2, 7}});
   CHECK(network.points[4] == std::vector<double>{0.3, 0.4, 0});
@@ -70,17 +70,17 @@ TEST_CASE("a listed joint of three rods, and one that closes a ring") {
 }
 
 TEST_CASE("joints that cannot be are refused, with their line") {
-  wrong("\"x\"", "must be a list of 2 to 100 points");
-  wrong("[4]", "must be a list of 2 to 100 points");
-  wrong("[4, 8]", "point 8, must be from 0 to 7");
-  wrong("[4, -1]", "point -1, must be from 0 to 7");
-  wrong("[4, \"1\"]", "a point must be its number");
-  wrong("[4, 4]", "lists a point twice");
+  wrong("\"x\"", "expected a list of 2 to 100 points");
+  wrong("[4]", "expected a list of 2 to 100 points");
+  wrong("[4, 8]", "got point 8, expected 0 to 7");
+  wrong("[4, -1]", "got point -1, expected 0 to 7");
+  wrong("[4, \"1\"]", "expected the number of a point");
+  wrong("[4, 4]", "got a point twice");
   wrong("[1, 2]", "rods[0] has both point 1 and point 2");
   wrong("[0, 2]", "rods[0] has both point 0 and point 2");
-  wrong("[1, [3, 3]]", "no rod has point 8");
+  wrong("[1, [3, 3]]", "got point 8, which no rod has");
   wrong("[1, 5]",
-        "point 1 lies 5.009 mm from the middle of the joint's points, must be at most 2.3 mm");
+        "got point 1 at 5.009 mm from the middle of the joint's points, expected at most 2.3 mm");
   // the second joint has the point already
   const auto twice = read_network(with("[4, 1]", "[4, 1, 6]"), "n.json");
   REQUIRE_FALSE(twice);
@@ -89,7 +89,7 @@ TEST_CASE("joints that cannot be are refused, with their line") {
   const auto held = read_network(
       with("{\"point\": 5", "{\"point\": 2}, {\"point\": 6}, {\"point\": 5"), "n.json");
   REQUIRE_FALSE(held);
-  CHECK(held.error().message.find("point 2 is named as a support twice") != std::string::npos);
+  CHECK(held.error().message.find("got point 2 as a support twice") != std::string::npos);
 }
 
 TEST_CASE("joints of a network have laws of their own, by point or by points that become one") {
@@ -98,13 +98,12 @@ TEST_CASE("joints of a network have laws of their own, by point or by points tha
     {"points": [2, 6], "law": "spring", "shear_Nmm": 3.5, "twist_Nmm": 2})"));
   CHECK(network.rods[0] == std::vector<int>{0, 4, 2});
   CHECK(network.joint_laws == Points{{4, 0, -1}, {2, 3.5, 2}});
-  CHECK(network_fault(network).empty());
-  wrong(R"({"points": [4, 1], "law": "stiff"})", "\"law\" must be");
-  wrong(R"({"points": [4, 1], "law": "hinge", "shear_Nmm": 1})", "must be {\"point\"");
-  wrong(R"({"points": [4, 1], "law": "spring", "shear_Nmm": -1})",
-        "shear_Nmm and twist_Nmm must be");
-  wrong(R"({"law": "rigid"})", "a law must be of a");
-  wrong(R"({"point": 99, "law": "rigid"})", "names a point that is not there");
+  CHECK(network_error(network).empty());
+  wrong(R"({"points": [4, 1], "law": "stiff"})", "expected \"law\" of");
+  wrong(R"({"points": [4, 1], "law": "hinge", "shear_Nmm": 1})", "expected {\"point\"");
+  wrong(R"({"points": [4, 1], "law": "spring", "shear_Nmm": -1})", "_Nmm: got ");
+  wrong(R"({"law": "rigid"})", "got a law of no joint");
+  wrong(R"({"point": 99, "law": "rigid"})", "got a point that is not in points_mm");
 }
 
 TEST_CASE("a network's law is that of all joints which have none of their own") {
@@ -116,8 +115,8 @@ TEST_CASE("a network's law is that of all joints which have none of their own") 
   CHECK(read(lawful(R"("hinge")")).joint_laws == Points{{every_joint, 0, -1}});
   CHECK(read(lawful(R"({"law": "spring", "twist_Nmm": 2})")).joint_laws ==
         Points{{every_joint, 0, 2}});
-  CHECK(network_fault(read(lawful(R"("rigid")"))).empty());
+  CHECK(network_error(read(lawful(R"("rigid")"))).empty());
   CHECK_THAT(refusal(read_network(lawful(R"({"law": "rigid", "point": 1})"), "n.json")),
-             Catch::Contains("law: is that of all joints"));
-  CHECK_THAT(refusal(read_network(lawful("3"), "n.json")), Catch::Contains("\"law\" must be"));
+             Catch::Contains("law: got the law of all joints"));
+  CHECK_THAT(refusal(read_network(lawful("3"), "n.json")), Catch::Contains("expected \"law\" of"));
 }

@@ -23,12 +23,12 @@ TEST_CASE("a report counts rods, joints, supports and free ends, and says how la
                                 "n.json");
   CHECK(report.text ==
         "n.json: 3 rods, 2 joints, 2 supports, 1 free end, 20 x 20 x 4 mm; at 1 support rods end "
-        "together and are held");
+        "together and are fixed");
   CHECK(report.notes.empty());
   const auto upright = report_of("v 0 0 0\nv 9 0 9\nv 0 0 9\nv 9 0 0\nl 1 2\nl 3 4\n", "n.obj");
   CHECK_THAT(upright.text, Catch::StartsWith("n.obj: in mm, as OBJ names no unit"));
   REQUIRE(upright.notes.size() == 1);
-  CHECK_THAT(upright.notes[0], Catch::Contains("Its y and z must be exchanged"));
+  CHECK_THAT(upright.notes[0], Catch::Contains("Then exchange y and z"));
 }
 
 TEST_CASE("the spacing of a network is the median distance of joints along its rods") {

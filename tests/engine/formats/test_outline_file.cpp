@@ -24,7 +24,7 @@ Outline outline(const std::string& text, const std::string& name,
   const NetworkData data = value_of(read_outline(text, name, options, &report));
   REQUIRE(data.rods.size() == 1);
   REQUIRE(data.rods[0].front() == data.rods[0].back());
-  CHECK(network_fault(data).empty());
+  CHECK(network_error(data).empty());
   Outline found;
   for (std::size_t k = 0; k + 1 < data.rods[0].size(); ++k) {
     const Eigen::Vector2d a = place_of(data, data.rods[0][k]).head<2>(),
@@ -81,7 +81,7 @@ TEST_CASE("the commands of an SVG path close an outline, relative or not") {
         Approx(5000).epsilon(1e-3));
 }
 
-TEST_CASE("shapes of an SVG stand under their transforms, what is not drawn does not count") {
+TEST_CASE("shapes of an SVG have their transforms, what is not drawn does not count") {
   const Outline found = outline(
       svg("<defs><rect width=\"500\" height=\"500\"/></defs>"
           "<g transform=\"translate(10 20) scale(2)\"><rect width=\"30\" height=\"20\"/></g>"
@@ -107,7 +107,7 @@ TEST_CASE("lines of a drawing that meet end to end are one outline, in any order
   const Outline found = outline(dxf(pieces), "a.dxf");
   CHECK(found.area == Approx(stadium).epsilon(1e-3));
   CHECK_THAT(outline(dxf(pieces + line_dxf({300, 0}, {400, 0})), "a.dxf").text,
-             Contains("beside 1 open line"));
+             Contains("in addition to 1 open line"));
   const std::string open =
       line_dxf({100, 0}, {0, 0}) + line_dxf({0, 0}, {50, 100}) + line_dxf({50.5, 100}, {100, 0});
   CHECK_THAT(refused(dxf(open), "a.dxf"),
@@ -119,16 +119,16 @@ TEST_CASE("an OBJ is an outline by its lines, else by its faces") {
   const std::string points = "v 0 0 0\nv 10 0 0\nv 10 10 3\nv 0 10 0\n";
   CHECK(outline(points + "l 1 2 3 4 1\n", "a.obj").area == Approx(100));
   CHECK(outline(points + "f 1 2 3 4\n", "a.obj").area == Approx(100));
-  CHECK_THAT(refused(points + "l 1 2 9\n", "a.obj"), Contains("names vertex 9"));
+  CHECK_THAT(refused(points + "l 1 2 9\n", "a.obj"), Contains("got vertex 9"));
 }
 
 TEST_CASE("what is no outline is refused with its position") {
-  CHECK_THAT(refused("<html/>", "a.svg"), Contains("a.svg: is no SVG"));
+  CHECK_THAT(refused("<html/>", "a.svg"), Contains("a.svg: got no <svg>"));
   CHECK_THAT(refused(svg("\n<path d=\"M 0 0 L 5\"/>"), "a.svg"),
              Contains("a.svg:4: <path> has a 'L' with fewer numbers than 2"));
   CHECK_THAT(refused(svg("<path d=\"M0 0 X 5\"/>"), "a.svg"), Contains("a command 'X'"));
   CHECK_THAT(refused(svg("<g transform=\"fold(3)\"/>"), "a.svg"), Contains("is not understood"));
   CHECK_THAT(refused(svg(""), "a.svg"), Contains("no closed outline, and no line"));
   CHECK_THAT(refused("<svg", "a.svg"), Contains("a tag does not end"));
-  CHECK_THAT(refused("", "plan.pdf"), Contains("must end in .dxf, .svg or .obj"));
+  CHECK_THAT(refused("", "plan.pdf"), Contains("ends in .dxf, .svg or .obj"));
 }

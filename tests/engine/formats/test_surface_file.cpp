@@ -80,7 +80,7 @@ const std::string obj =
 
 }  // namespace
 
-TEST_CASE("the same square comes out of every format") {
+TEST_CASE("every format gives the same square") {
   for (const auto& [name, bytes] : {std::pair<std::string, std::string>("a.obj", obj),
                                     {"a.ply", ply_text()},
                                     {"a.PLY", ply_bytes(false)},
@@ -94,7 +94,7 @@ TEST_CASE("the same square comes out of every format") {
   }
 }
 
-TEST_CASE("the same square comes out of every spelling of OBJ and STL") {
+TEST_CASE("every spelling of OBJ and STL gives the same square") {
   const auto upper = [](std::string text) {
     for (char& c : text) c = char(std::toupper((unsigned char)c));
     return text;
@@ -113,12 +113,13 @@ TEST_CASE("the same square comes out of every spelling of OBJ and STL") {
   CHECK(value_of(read_surface(obj, "a.obj", 1000)).vertices[2] ==
         std::vector<double>{1000, 1000, 500});
   CHECK(value_of(read_surface(heights(), "h.csv", 10)).z[0][0] == 70);
-  wrong("v 1,5 0 0\n", "a.obj", "a.obj:1: a vertex must have three numbers, v x y z, with decimal");
-  wrong("v 0 0 0\nsurf 0 1 0 1\n", "a.obj", "a.obj:2: 'surf', a free-form surface");
+  wrong("v 1,5 0 0\n", "a.obj",
+        "a.obj:1: expected a vertex of three numbers, v x y z, with decimal");
+  wrong("v 0 0 0\nsurf 0 1 0 1\n", "a.obj", "a.obj:2: got 'surf', a free-form surface");
   wrong(stl_text().substr(0, stl_text().size() - 9), "a.stl", "is it cut short?");
 }
 
-TEST_CASE("heights come in any order, and a place without one is reported") {
+TEST_CASE("heights come in any order, and a position without one is reported") {
   const auto grid = read_surface(heights(), "h.csv");
   REQUIRE(grid.has_value());
   CHECK(grid->x == std::vector<double>{0, 1, 2, 3, 4});
@@ -127,44 +128,45 @@ TEST_CASE("heights come in any order, and a place without one is reported") {
   CHECK(grid->z[3].size() == 5);
   auto hole = heights();
   hole.erase(hole.find("2,2.1,7\n"), 8);
-  wrong(hole, "h.csv", "h.csv: holds 19 points on a grid of 5 x 4 places, and none at (2, 2.1)");
-  wrong(heights() + "3,2.1,8\n", "h.csv", "h.csv:22: a second point at (3, 2.1)");
-  wrong(heights() + "3,2.1\n", "h.csv", "h.csv:22: holds 2 values");
-  wrong(heights() + "3,2.1,nan\n", "h.csv", "h.csv:22: 'nan' is no number");
-  wrong(heights() + "3,2.1,-9999\n", "h.csv", "h.csv:22: a height of -9999, which marks a place");
+  wrong(hole, "h.csv", "h.csv: got 19 points on a grid of 5 x 4, and none at (2, 2.1)");
+  wrong(heights() + "3,2.1,8\n", "h.csv", "h.csv:22: got a second point at (3, 2.1)");
+  wrong(heights() + "3,2.1\n", "h.csv", "h.csv:22: got 2 values");
+  wrong(heights() + "3,2.1,nan\n", "h.csv", "h.csv:22: got 'nan'");
+  wrong(heights() + "3,2.1,-9999\n", "h.csv",
+        "h.csv:22: got a height of -9999, which marks a hole");
   wrong("0 0 1\n1 1 1\n2 2 1\n", "h.txt", "at least 4 x 4");
   std::string scattered;
   for (int k = 0; k < 40; ++k)
     scattered += std::to_string(k) + " " + std::to_string(k * k) + " 1\n";
-  wrong(scattered, "h.txt", "must be a whole rectangle");
+  wrong(scattered, "h.txt", "expected a complete rectangle");
 }
 
 TEST_CASE("what is no mesh is refused with its position") {
-  wrong(obj, "a.step", "must end in .csv or .txt");
-  wrong("", "a.obj", "holds no triangle");
-  wrong("v 1 2\n", "a.obj", "a.obj:1: a vertex must have three numbers");
-  wrong("v 1 2 nan\n", "a.obj", "a.obj:1: a vertex must have three numbers");
+  wrong(obj, "a.step", "ends in .csv or .txt");
+  wrong("", "a.obj", "got no triangle");
+  wrong("v 1 2\n", "a.obj", "a.obj:1: expected a vertex of three numbers");
+  wrong("v 1 2 nan\n", "a.obj", "a.obj:1: expected a vertex of three numbers");
   wrong("v 1 2 1e300\n", "a.obj", "too large");
-  wrong(obj + "f 1 2 7\n", "a.obj", "a.obj:8: names a vertex that is none of the 4");
-  wrong(obj + "f 1 2 x\n", "a.obj", "a.obj:8: 'x' is no vertex");
+  wrong(obj + "f 1 2 7\n", "a.obj", "a.obj:8: got a vertex that is none of the 4");
+  wrong(obj + "f 1 2 x\n", "a.obj", "a.obj:8: got 'x', expected the number");
   wrong(obj + "f 1 2\n", "a.obj", "a polygon of 2 corners");
   wrong("a mesh", "a.stl", "no STL");
   wrong(stl_bytes() + "x", "a.stl", "no STL");
-  wrong("solid\nvertex 1 2 3\nendsolid\n", "a.stl", "ends within a triangle");
-  wrong("solid\nvertex 1 2 inf\n", "a.stl", "a.stl:2: a vertex must have three numbers");
-  wrong("plywood\n", "a.ply", "a.ply:1: no PLY");
+  wrong("solid\nvertex 1 2 3\nendsolid\n", "a.stl", "vertices, expected three per triangle");
+  wrong("solid\nvertex 1 2 inf\n", "a.stl", "a.stl:2: expected a vertex of three numbers");
+  wrong("plywood\n", "a.ply", "a.ply:1: got no PLY");
   wrong("ply\nformat ascii 1.0\nelement vertex 3\n", "a.ply", "ends within its header");
-  wrong("ply\nformat morse 1.0\n", "a.ply", "a.ply:2: is no line of a PLY header");
+  wrong("ply\nformat morse 1.0\n", "a.ply", "a.ply:2: got no line of a PLY header");
   wrong("ply\nformat ascii 1.0\nelement vertex 1\nproperty quaternion x\n", "a.ply",
         "a type that PLY does not have");
   const auto cut = ply_bytes(false);
-  wrong(cut.substr(0, cut.size() - 3), "a.ply", "face 1: the file ends there");
+  wrong(cut.substr(0, cut.size() - 3), "a.ply", "face 1: got the end of the file");
   // sizes that a header claims cost nothing
   wrong("ply\nformat ascii 1.0\nelement vertex 999999999\nproperty float x\nend_header\n1\n",
         "a.ply", "not a number");
 }
 
-TEST_CASE("a preset holds the surface of its file, and its text reads back as the same") {
+TEST_CASE("a preset contains the surface of its file, and its text reads back as the same") {
   const std::string text =
       "[footprint]\nkind = \"net\"\n[net]\nkind = \"surface\"\nfile = \"NAME\"\n";
   const std::map<std::string, std::string> files{{"h.csv", heights()}, {"a.obj", obj}};
@@ -186,10 +188,10 @@ TEST_CASE("a preset holds the surface of its file, and its text reads back as th
   };
   refused("\"a.obj\"", "/nonexistent/a.obj");
   refused("\"\"", "needs an expression");
-  refused("3", "is an integer, must be the name of a file");
-  refused("{x_mm = [1, 2, 3, 4]}", "has no list y_mm");
-  refused("{x_mm = [1, 2, 4, 3], y_mm = [1, 2, 3, 4], z_mm = []}", "x_mm must rise");
-  refused("{x_mm = [1, 2, 3, 4], y_mm = [1, 2, 3, 4], z_mm = [[1]]}", "z_mm holds 1 rows");
+  refused("3", "an integer), expected the name of a file");
+  refused("{x_mm = [1, 2, 3, 4]}", "(no list y_mm)");
+  refused("{x_mm = [1, 2, 4, 3], y_mm = [1, 2, 3, 4], z_mm = []}", "expected rising numbers");
+  refused("{x_mm = [1, 2, 3, 4], y_mm = [1, 2, 3, 4], z_mm = [[1]]}", "z_mm: got 1 rows");
   refused("{vertices_mm = [[0, 0, 0]], triangles = [[0, 1, 2]]}", "none of the 1 before it");
-  refused("{vertices_mm = [[0, 0]], triangles = [[0, 0, 0]]}", "must be points [x, y, z]");
+  refused("{vertices_mm = [[0, 0]], triangles = [[0, 0, 0]]}", "expected points [x, y, z]");
 }

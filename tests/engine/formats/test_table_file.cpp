@@ -53,26 +53,25 @@ TEST_CASE("columns are found by their names, wherever they are, and lengths in t
     CHECK(read(text) == square);
   CHECK(read("F_z,j,i,Fx,Fy\n-1,2,3,4,5\n", {"i", "j", "F_x", "F_y", "F_z"}) ==
         Points{{3, 2, 4, 5, -1}});
-  wrong("x [furlong],y\n1,2\n",
-        "t.csv:1: column x is in 'furlong', must be in mm, cm, m, in or ft");
-  wrong("Fx [kN],Fy\n1,2\n", "column F_x is in 'kn'", {"F_x", "F_y"});
-  wrong("x,z\n1,2\n", "t.csv:1: names columns 'x', 'z', of which y is missing");
-  wrong("x,y,X\n1,2,3\n", "t.csv:1: names column x twice");
-  wrong("Outline of the shell\nx,y\n1,2\n", "t.csv:1: names columns 'Outline");
+  wrong("x [furlong],y\n1,2\n", "t.csv:1: column x: got 'furlong', expected mm, cm, m, in or ft");
+  wrong("Fx [kN],Fy\n1,2\n", "column F_x: got 'kn'", {"F_x", "F_y"});
+  wrong("x,z\n1,2\n", "t.csv:1: got columns 'x', 'z', of which y is missing");
+  wrong("x,y,X\n1,2,3\n", "t.csv:1: got column x twice");
+  wrong("Outline of the shell\nx,y\n1,2\n", "t.csv:1: got columns 'Outline");
 }
 
 TEST_CASE("a row that cannot be read is refused with its line, never left out") {
-  wrong("14O,0\n75.5,105\n", "t.csv:1: '14O' is no number");
-  wrong("x,y\n1,2\n1,2O\n", "t.csv:3: '2O' is no number");
-  wrong("x,y\n1,2\nnan,nan\n", "t.csv:3: 'nan' is no number");
-  wrong("x,y\n1,2\n3\n", "t.csv:3: holds 1 values, must be 2, as the header names");
-  wrong("1,2\n3,,4\n", "t.csv:2: holds 3 values");
-  wrong("x;y\n1;2\n;4\n", "t.csv:3: an empty cell is no number");
-  wrong("1,5,2,5\n3,5,4,5\n", "with decimal commas semicolons must part the columns");
+  wrong("14O,0\n75.5,105\n", "t.csv:1: got '14O', which is no number");
+  wrong("x,y\n1,2\n1,2O\n", "t.csv:3: got '2O', which is no number");
+  wrong("x,y\n1,2\nnan,nan\n", "t.csv:3: got 'nan', which is no number");
+  wrong("x,y\n1,2\n3\n", "t.csv:3: got 1 values, expected 2, as the header names");
+  wrong("1,2\n3,,4\n", "t.csv:2: got 3 values");
+  wrong("x;y\n1;2\n;4\n", "t.csv:3: got an empty cell, which is no number");
+  wrong("1,5,2,5\n3,5,4,5\n", "with decimal commas, semicolons separate the columns");
   wrong("x;y\n1.5;2\n1,5;2\n", "t.csv:3: '1,5' after numbers with decimal points");
-  wrong("1.400,5;0\n75,5;105\n", "t.csv:1: '1.400,5' is no number");
-  wrong("4\n1 2\n3 4\n", "t.csv: says that it holds 4 points, and holds 2: is it cut short?");
-  wrong("u 1\nw 2\n", "t.csv:1: 'u' is no number");
+  wrong("1.400,5;0\n75,5;105\n", "t.csv:1: got '1.400,5', which is no number");
+  wrong("4\n1 2\n3 4\n", "t.csv: got 2 points, expected 4 by its first line");
+  wrong("u 1\nw 2\n", "t.csv:1: got 'u', which is no number");
   CHECK(refusal(points_in("u,1\nw,2\n", "t.csv", {"family", "x"}, {{"u", "v"}, {}})) ==
-        "t.csv:2: 'w' is no value of its column, must be 2 values: family, x");
+        "t.csv:2: got 'w', which is no value of its column, expected 2 values: family, x");
 }

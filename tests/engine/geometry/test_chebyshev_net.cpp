@@ -95,10 +95,10 @@ TEST_CASE("sphere net: a fold is named with its position") {
   CHECK(net.at(13.6, 13.6));
   CHECK(refusal(net.at(13.7, 13.7)) ==
         "the net on the sphere of radius 10 mm folds (shear angle 0) where u v = 186.1592 mm^2; "
-        "(u, v) = (13.7, 13.7) mm lies beyond");
+        "(u, v) = (13.7, 13.7) mm is past it");
   CHECK(refusal(net.at(13.7, -13.7)) ==
         "the net on the sphere of radius 10 mm folds (shear angle 180 degrees) where u v = "
-        "-186.1592 mm^2; (u, v) = (13.7, -13.7) mm lies beyond");
+        "-186.1592 mm^2; (u, v) = (13.7, -13.7) mm is past it");
   CHECK_FALSE(net.at(std::nan(""), 1));
 }
 
@@ -142,7 +142,7 @@ TEST_CASE("translation net: bad curves, ends and folds are named") {
   CHECK(TranslationNet::make(x, twice).error().message ==
         "curve_v: points 4 and 5 of the curve are the same");
   CHECK(TranslationNet::make(x.leftCols(2), y).error().message ==
-        "curve_u: a curve needs at least 4 points, not 2");
+        "curve_u: a curve: got 2 points, expected at least 4");
 
   const TranslationNet net = TranslationNet::make(x, y).value();
   CHECK(net.at(0, 30).error().message.find("curve_v of the translation net ends at v = 2") == 0);

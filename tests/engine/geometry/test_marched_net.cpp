@@ -90,7 +90,7 @@ SurfaceNet exact_net(const std::string& text, const Eigen::Vector3d& apex, doubl
 
 }  // namespace
 
-TEST_CASE("marched chords are as long as asked, on the surface, and cross at the least angle") {
+TEST_CASE("marched chords have the given length, on the surface, and cross at the least angle") {
   const Fitted roof(mesh_of(110, 9, [](double x, double y) {
     return 60 - (x * x + 1.6 * y * y) / 260 + 3 * std::sin(x / 25) * std::cos(y / 31);
   }));
@@ -170,7 +170,7 @@ TEST_CASE("rods on a barrel's mesh are the barrel's") {
   CHECK(off(barrel.net(), exact, 0) < 6. * 6 / (8 * 45));
 }
 
-TEST_CASE("rods end at a hole and go on beside it") {
+TEST_CASE("rods end at a hole and continue next to it") {
   DomeMesh dome = mesh_of(100, 6, [](double x, double y) { return 40 - (x * x + y * y) / 250; });
   std::erase_if(dome.triangles, [&](const auto& t) {
     return (dome.vertices.col(t[0]).template head<2>() - Eigen::Vector2d(40, 20)).norm() < 20;
@@ -192,7 +192,7 @@ TEST_CASE("rods end at a hole and go on beside it") {
   CHECK(behind > 20);
 }
 
-TEST_CASE("rods end at a crease, whose two sides keep their surfaces, and pass beyond its end") {
+TEST_CASE("rods end at a crease, whose two sides keep their surfaces, and pass its end") {
   // two slopes that meet at x = 0 and flatten out towards y = 20
   const auto height = [](double x, double y) {
     const double fold = std::max(0.0, 20 - y) / 110;

@@ -45,7 +45,7 @@ TEST_CASE("a crease is a line where a mesh turns by much more than around it") {
   CHECK(count(value_of(TriangleMesh::make(ball.vertices, ball.triangles)), LineKind::crease) == 0);
 }
 
-TEST_CASE("the longest closed line is the rim, others are holes, and ways across are seen") {
+TEST_CASE("the longest closed line is the rim, others are holes, and crossings of it are found") {
   DomeMesh dome = ellipsoid_mesh({100, 100, 40}, 8, 1.2);
   std::erase_if(dome.triangles, [&](const auto& t) {
     return (dome.vertices.col(t[0]).template head<2>() - Eigen::Vector2d(30, 0)).norm() < 15;

@@ -44,7 +44,7 @@ TriangleMesh sheet_of(const DomeMesh& mesh, const std::string& said) {
 
 }  // namespace
 
-TEST_CASE("triangles that stand by themselves, turned at random, are joined") {
+TEST_CASE("separate triangles, turned at random, are joined") {
   const DomeMesh whole = sheet();
   DomeMesh loose{Eigen::Matrix3Xd(3, 3 * Eigen::Index(whole.triangles.size())), {}};
   for (std::size_t t = 0; t < whole.triangles.size(); ++t) {
@@ -54,7 +54,7 @@ TEST_CASE("triangles that stand by themselves, turned at random, are joined") {
                                       1e-5 * Eigen::Vector3d(std::sin(first + k), 0, 1);
     loose.triangles.push_back({first, first + 1 + int(t % 3 == 0), first + 2 - int(t % 3 == 0)});
   }
-  const TriangleMesh mesh = sheet_of(loose, "vertices at the places of others are joined");
+  const TriangleMesh mesh = sheet_of(loose, "vertices at the positions of others are joined");
   CHECK(mesh.vertices().cols() == 13 * 13);
   CHECK(mesh.lines().size() == 1);
   CHECK(mesh.area() ==

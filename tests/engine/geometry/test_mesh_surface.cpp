@@ -22,13 +22,13 @@ double off_ellipsoid(const Eigen::Vector3d& axes, double edge_mm, double from_ri
   return largest;
 }
 
-std::string fault_of(const DomeMesh& dome) {
+std::string error_of(const DomeMesh& dome) {
   const auto mesh = TriangleMesh::make(dome.vertices, dome.triangles);
   return mesh ? refusal(MeshSurface::fit(*mesh, 20)) : mesh.error().message;
 }
 
 void wrong(const DomeMesh& dome, const char* reason) {
-  CHECK_THAT(fault_of(dome), Catch::Contains(reason));
+  CHECK_THAT(error_of(dome), Catch::Contains(reason));
 }
 
 DomeMesh cap() { return ellipsoid_mesh({60, 60, 40}, 8); }
@@ -79,17 +79,17 @@ TEST_CASE("the surface of a mesh is found at its highest, and extends slightly p
 }
 
 TEST_CASE("what is no smooth sheet is refused with the position") {
-  CHECK(fault_of(cap()) == "none");
+  CHECK(error_of(cap()) == "none");
   const auto changed = [](const auto& change) {
     DomeMesh dome = cap();
     change(dome);
     return dome;
   };
   // a hole, or a vertex off the others, is none
-  CHECK(fault_of(changed([](DomeMesh& d) { d.triangles.erase(d.triangles.begin() + 3); })) ==
+  CHECK(error_of(changed([](DomeMesh& d) { d.triangles.erase(d.triangles.begin() + 3); })) ==
         "none");
   const DomeMesh bumped = changed([](DomeMesh& d) { d.vertices.col(0).z() += 5; });
-  CHECK(fault_of(bumped) == "none");
+  CHECK(error_of(bumped) == "none");
   CHECK_THAT(refusal(MeshSurface::fit(
                  value_of(TriangleMesh::make(bumped.vertices, bumped.triangles)), 20, 0.2)),
              Catch::Contains("got fit_mm = 0.2, expected at least"));
@@ -99,8 +99,8 @@ TEST_CASE("what is no smooth sheet is refused with the position") {
         "near");
   wrong(changed([](DomeMesh& d) { d.vertices.col(2) = d.vertices.col(1); }), "no area");
   wrong(changed([](DomeMesh& d) { d.vertices(0, 7) = std::nan(""); }), "not finite");
-  wrong(changed([](DomeMesh& d) { d.triangles.front()[1] = 99999; }), "names vertex 99999");
-  wrong({Eigen::Matrix3Xd(3, 0), {}}, "no triangle");
+  wrong(changed([](DomeMesh& d) { d.triangles.front()[1] = 99999; }), "got vertex 99999");
+  wrong({Eigen::Matrix3Xd(3, 0), {}}, "without a triangle");
   const DomeMesh one = cap();
   const int count = int(one.vertices.cols());
   DomeMesh two{Eigen::Matrix3Xd(3, 2 * count), one.triangles};

@@ -137,27 +137,26 @@ TEST_CASE("surfaces of revolution: folds and ends are named with their position"
   CHECK_THAT(refusal(net.at(100, 100)),
              Catch::StartsWith("the net on the spool of radius 100 mm and waist 0.5 folds "
                                "(shear angle 180 degrees) where u + v = 18") &&
-                 Catch::Contains("mm along the axis; (u, v) = (100, 100) mm lies beyond"));
+                 Catch::Contains("mm along the axis; (u, v) = (100, 100) mm is past it"));
   CHECK_THAT(refusal(net.at(-100, -100)), Catch::Contains("where u + v = -18"));
 
-  CHECK(
-      refusal(RevolutionNet::make(spool, 0.03)) ==
-      "no net exists on the spool of radius 100 mm and waist 0.5 with c = 0.03 / mm: in its middle "
-      "sin(omega/2) = c r is 1.5, it must lie between 0 and 1");
+  CHECK(refusal(RevolutionNet::make(spool, 0.03)) ==
+        "no net exists on the spool of radius 100 mm and waist 0.5 with c = 0.03 / mm: in its "
+        "middle sin(omega/2) = c r is 1.5, expected between 0 and 1");
   CHECK_FALSE(RevolutionNet::make(spool, -1));
 
   const RevolutionNet cylinder = right_angled(cylinder_profile(40, 100).value());
   CHECK(refusal(cylinder.at(80, 80)) ==
         "the cylinder of radius 40 mm ends where u + v = 141.4214 mm, 100 mm along the axis; (u, "
         "v) = "
-        "(80, 80) mm lies beyond");
+        "(80, 80) mm is past it");
   CHECK(cylinder.x_at_axial(100));
   CHECK_FALSE(cylinder.x_at_axial(100.1));
 }
 
 TEST_CASE("profiles: what is no surface is refused") {
-  CHECK(refusal(cylinder_profile(0, 1)) == "the cylinder's radius is 0, it must be positive");
-  CHECK(refusal(cylinder_profile(1, -2)) == "the cylinder's length is -4, it must be positive");
+  CHECK(refusal(cylinder_profile(0, 1)) == "the cylinder's radius: got 0, expected above 0");
+  CHECK(refusal(cylinder_profile(1, -2)) == "the cylinder's length: got -4, expected above 0");
   CHECK_FALSE(spool_profile(1, 0));
   CHECK_FALSE(spool_profile(std::nan(""), 1));
   CHECK_FALSE(beltrami_profile(1, 1));
@@ -166,8 +165,9 @@ TEST_CASE("profiles: what is no surface is refused") {
   CHECK(tabulated_profile(r_z));
   r_z(0, 2) = -3;
   CHECK(refusal(tabulated_profile(r_z)) ==
-        "point 3 of the profile has radius -3 mm, it must be positive");
+        "radius of point 3 of the profile: got -3 mm, expected above 0");
   r_z(0, 2) = std::nan("");
   CHECK(refusal(tabulated_profile(r_z)) == "point 3 of the curve is not finite");
-  CHECK(refusal(tabulated_profile(r_z.leftCols(3))) == "a curve needs at least 4 points, not 3");
+  CHECK(refusal(tabulated_profile(r_z.leftCols(3))) ==
+        "a curve: got 3 points, expected at least 4");
 }

@@ -67,9 +67,9 @@ TEST_CASE("expressions have values, and what is none says where") {
   CHECK(Expression::parse("x^2 + 2*y - sin(z)")->at({3, 4, 0}) == 17);
   CHECK(Expression::parse("x < 2 ? 1 : 5")->at({3, 4, 0}) == 5);
   CHECK_FALSE(std::isfinite(Expression::parse("1/(x - 3)")->at({3, 4, 0})));
-  for (const auto& [text, reason] : {std::pair("x^2 + ", "at place"),
+  for (const auto& [text, reason] : {std::pair("x^2 + ", "at character"),
                                      {"x^2 + w", "\"w\""},
-                                     {"", "at place"},
+                                     {"", "at character"},
                                      {"x, y", "2 values"},
                                      {"x^2 = 3", "an equation"}})
     CHECK_THAT(refusal(Expression::parse(text)), Catch::Contains(reason));
@@ -97,7 +97,7 @@ TEST_CASE(
   CHECK(at_16 / 16 <= 5e-4);  // d/64 takes seconds
 }
 
-TEST_CASE("the net of the sphere by expression is the sphere's own, whatever way it is turned") {
+TEST_CASE("the net of the sphere by expression is the sphere's own, however it is turned") {
   for (const double turned : {0.0, 0.4}) {
     const auto net =
         value_of(SurfaceNet::make(surface_of(sphere), on_top({0, 0, rho}, 0, turned), d / 8));

@@ -57,7 +57,7 @@ TEST_CASE("tubes have the stiffness of their wall") {
   CHECK(std::max(box.EI1, box.EI2) == Approx(25e3 * (6 * 512 - 4 * 216) / 12));
   CHECK(box.GJ == Approx(3e3 * 4 * 35 * 35 * 1 / 24));
   CHECK_THAT(refusal(preset::read_preset_text("[rod]\nwall_mm = 0.127\n", "a", "a")),
-             Contains("a tube of 0.254 mm has no hollow"));
+             Contains("(a tube with such a wall is not hollow)"));
 }
 
 TEST_CASE("stiffnesses, mass and section modulus may be given freely") {
@@ -74,5 +74,5 @@ TEST_CASE("stiffnesses, mass and section modulus may be given freely") {
   CHECK(value_of(scene_of(read("[rod]\n" + free))).mass_t_per_mm.front() == Approx(150e-9));
   CHECK_THAT(refusal(preset::read_preset_text(
                  "[rod]\nwidth_mm = 2\nthickness_mm = 1\nEI_Nmm2 = 3\n", "a", "a")),
-             Contains("alike in all directions"));
+             Contains("not equal in all directions"));
 }

@@ -43,77 +43,78 @@ radii_mm = [126, 110.5]
 }
 
 // more of them, through the whole program: tests/app/test_bad_input.cpp
-TEST_CASE("an error names its place, key, value, what is wrong and what is right") {
+TEST_CASE("an error names its position, key, value, what is wrong and what is right") {
   using Row = std::pair<std::string, std::string>;
   const auto [text, sentence] = GENERATE(values<Row>({
-      {"title = 12", "bad.toml:1:9: title = 12: is an integer, must be a string"},
+      {"title = 12", "bad.toml:1:9: title: got 12 (an integer), expected a string"},
       {"[movie]\nelephant = true",
-       "bad.toml:2:1: [movie] elephant = true: unknown key, must be one of frames, size, fps, "
-       "quality, colour_by, azimuth_deg, elevation_deg, turn_deg, zoom, inset, bins, captions, "
-       "beside, view, target_mm, orthographic, bins_range, views, seconds, hold_first_s, hold_s, "
-       "title_s, pace, webm, gif, poster"},
+       "bad.toml:2:1: [movie] elephant: unknown key, expected one of frames, size, fps, quality, "
+       "colour_by, azimuth_deg, elevation_deg, turn_deg, zoom, inset, bins, captions, beside, "
+       "view, target_mm, orthographic, bins_range, views, seconds, hold_first_s, hold_s, title_s, "
+       "pace, webm, gif, poster"},
       {"radius_mm = 3.0",
-       "bad.toml:1:1: radius_mm = 3.0: unknown key; did you mean 'footprint.radius_mm'?"},
+       "bad.toml:1:1: radius_mm: unknown key; did you mean 'footprint.radius_mm'?"},
       {"[actuatoin]\nradius_mm = 3",
        "bad.toml:1:2: [actuatoin]: unknown table; did you mean 'actuation'?"},
       {"footprint = 3",
-       "bad.toml:1:1: footprint = 3: is a table, must hold keys: kind, file, file_unit, join_mm, "
-       "rods, "
-       "radius_mm, longest_leg, "
-       "spacing_mm, placement, boundary, half_x_mm, half_y_mm, exponent, points_mm"},
+       "bad.toml:1:1: footprint: got 3, expected a table of keys: kind, file, file_unit, join_mm, "
+       "linkage, "
+       "rods, radius_mm, longest_leg, spacing_mm, placement, boundary, half_x_mm, half_y_mm, "
+       "exponent, points_mm"},
       {"[footprint]\nradius_mm = nan",
-       "bad.toml:2:13: [footprint] radius_mm = nan: is not finite, must be a number > 0"},
+       "bad.toml:2:13: [footprint] radius_mm: got nan (not finite), expected a number > 0"},
       {"[footprint]\nradius_mm = inf",
-       "bad.toml:2:13: [footprint] radius_mm = inf: is not finite, must be a number > 0"},
+       "bad.toml:2:13: [footprint] radius_mm: got inf (not finite), expected a number > 0"},
       {"[footprint]\nradius_mm = \"big\"",
-       "bad.toml:2:13: [footprint] radius_mm = \"big\": is a string, must be a number > 0"},
+       "bad.toml:2:13: [footprint] radius_mm: got \"big\" (a string), expected a number > 0"},
       {"[footprint]\nrods = 12.0",
-       "bad.toml:2:8: [footprint] rods = 12.0: is a number, must be an integer from 1 to 500"},
+       "bad.toml:2:8: [footprint] rods: got 12.0 (a number), expected an integer from 1 to 500"},
       {"[footprint]\nrods = 99999999999",
-       "bad.toml:2:8: [footprint] rods = 99999999999: out of range, must be an integer from 1 to "
-       "500"},
+       "bad.toml:2:8: [footprint] rods: got 99999999999 (out of range), expected an integer from 1 "
+       "to 500"},
       {"[footprint]\nplacement = \"haf\"",
-       "bad.toml:2:13: [footprint] placement = \"haf\": unknown word, must be \"half\" or "
+       "bad.toml:2:13: [footprint] placement: got \"haf\" (unknown name), expected \"half\" or "
        "\"on_axis\"; did you mean 'half'?"},
       {"[accuracy]\ntolerance = 0",
-       "bad.toml:2:13: [accuracy] tolerance = 0: out of range, must be a number from 1e-09 to 1"},
+       "bad.toml:2:13: [accuracy] tolerance: got 0 (out of range), expected a number from 1e-09 to "
+       "1"},
       {"[movie]\nsize = [1280]",
-       "bad.toml:2:8: [movie] size = [ 1280 ]: is a list of 1, must be two integers, each from 16 "
-       "to 16384"},
+       "bad.toml:2:8: [movie] size: got [ 1280 ] (a list of 1), expected two integers, each from "
+       "16 to 16384"},
       {"[movie]\ninset = 1",
-       "bad.toml:2:9: [movie] inset = 1: is an integer, must be true or false"},
+       "bad.toml:2:9: [movie] inset: got 1 (an integer), expected true or false"},
       {"[figure]\nradii_mm = [100.0, \"x\"]",
-       "bad.toml:2:12: [figure] radii_mm = [ 100.0, \"x\" ]: is a list with a string, must be a "
+       "bad.toml:2:12: [figure] radii_mm: got [ 100.0, \"x\" ] (a list with a string), expected a "
        "list of numbers, each > 0"},
       {"[rod]\ndiameter_mm = 20.0",
-       "bad.toml:2:15: [rod] diameter_mm = 20.0: neighbouring rods would touch, must be less than "
-       "[footprint] spacing_mm = 20"},
+       "bad.toml:2:15: [rod] diameter_mm: got 20.0 (neighbouring rods would touch), expected less "
+       "than [footprint] spacing_mm = 20"},
       {"[figure]\nradii_mm = [126.0, 80.0]",
-       "bad.toml:2:12: [figure] radii_mm = [126.0, 80.0]: 80 is not on the way, must fall from at "
-       "most R_o = 126 to at least R_a = 94.5"},
+       "bad.toml:2:12: [figure] radii_mm: got [126.0, 80.0] (80 is not on the path), expected "
+       "values that fall from at most R_o = 126 to at least R_a = 94.5"},
   }));
-  CHECK(faults_of(text) == sentence);
+  CHECK(errors_of(text) == sentence);
 }
 
 TEST_CASE("text that is not TOML is refused where it stops being it") {
-  CHECK_THAT(faults_of("title = \"x\"\nrods == 3"),
+  CHECK_THAT(errors_of("title = \"x\"\nrods == 3"),
              Catch::StartsWith("bad.toml:2:") && Catch::Contains(": not TOML: "));
   // a key given twice would silently win or lose
-  CHECK_THAT(faults_of("[rod]\nyoung_GPa = 1.0\nyoung_GPa = 2.0"),
+  CHECK_THAT(errors_of("[rod]\nyoung_GPa = 1.0\nyoung_GPa = 2.0"),
              Catch::StartsWith("bad.toml:3:") && Catch::Contains("redefine"));
 }
 
 TEST_CASE("all errors of a file are reported at once, in its order") {
-  CHECK(faults_of("[movie]\nfps = 0\n[footprint]\nradius_mm = -1\nrod = 3\n") ==
-        "bad.toml:2:7: [movie] fps = 0: out of range, must be an integer from 1 to 240\n"
-        "bad.toml:4:13: [footprint] radius_mm = -1: out of range, must be a number > 0\n"
-        "bad.toml:5:1: [footprint] rod = 3: unknown key; did you mean 'rods'?");
+  CHECK(errors_of("[movie]\nfps = 0\n[footprint]\nradius_mm = -1\nrod = 3\n") ==
+        "bad.toml:2:7: [movie] fps: got 0 (out of range), expected an integer from 1 to "
+        "240\nbad.toml:4:13: [footprint] radius_mm: got -1 (out of range), expected a number > "
+        "0\nbad.toml:5:1: [footprint] rod: unknown key; did you mean 'rods'?");
 }
 
 TEST_CASE("a refused value conflicts with nothing") {
   // the default of 126 mm, left behind by the refused -1, is not what the user wrote
-  CHECK(faults_of("[footprint]\nradius_mm = -1\n[actuation]\nradius_mm = 200.0") ==
-        "bad.toml:2:13: [footprint] radius_mm = -1: out of range, must be a number > 0");
+  CHECK(errors_of("[footprint]\nradius_mm = -1\n[actuation]\nradius_mm = 200.0") ==
+        "bad.toml:2:13: [footprint] radius_mm: got -1 (out of range), expected a number > 0");
 }
 
 TEST_CASE("an override (--set) lies over the file") {
@@ -131,19 +132,19 @@ TEST_CASE("an override (--set) lies over the file") {
     CHECK(good(text, {set("rod.young_GPa=1"), set("rod.young_GPa=2")}).base.rod.young_GPa == 2);
   }
   SECTION("errors name the option") {
-    CHECK(faults_of(text, {set("rod.diameter_mm=thick")}) ==
-          "--set: [rod] diameter_mm = \"thick\": is a string, must be a number > 0");
-    CHECK(faults_of(text, {set("seed=up")}) ==
-          "--set: seed = \"up\": unknown key; did you mean 'actuation.seed'?");
-    CHECK(faults_of(text, {set("foot.rods=3")}) ==
-          "--set: [foot] rods = 3: unknown table; did you mean 'footprint'?");
-    CHECK(faults_of(text, {set("footprint.radius_mm=90")}) ==
-          "--set: [actuation] radius_mm = 94.5: larger than the footprint, must be at most "
+    CHECK(errors_of(text, {set("rod.diameter_mm=thick")}) ==
+          "--set: [rod] diameter_mm: got \"thick\" (a string), expected a number > 0");
+    CHECK(errors_of(text, {set("seed=up")}) ==
+          "--set: seed: unknown key; did you mean 'actuation.seed'?");
+    CHECK(errors_of(text, {set("foot.rods=3")}) ==
+          "--set: [foot] rods: unknown table; did you mean 'footprint'?");
+    CHECK(errors_of(text, {set("footprint.radius_mm=90")}) ==
+          "--set: [actuation] radius_mm: got 94.5 (larger than the footprint), expected at most "
           "[footprint] radius_mm = 90");
   }
   SECTION("without a key or a value there is nothing to set") {
     CHECK(parse_override("footprint.radius_mm").error().message ==
-          "--set footprint.radius_mm: must be table.key=value, for example --set "
+          "--set footprint.radius_mm: expected table.key=value, for example --set "
           "footprint.radius_mm=126");
     CHECK_FALSE(parse_override("=3"));
   }
@@ -181,18 +182,19 @@ TEST_CASE("cases need names that can be folders, each its own") {
   using Row = std::pair<std::string, std::string>;
   const auto [text, sentence] = GENERATE(values<Row>({
       {"[[case]]\nrod.young_GPa = 1.0",
-       "bad.toml:1:1: [[case]]: has no name, must have one: name = \"...\""},
+       "bad.toml:1:1: [[case]] name: got none, expected a name: name = \"...\""},
       {"[[case]]\nname = \"../up\"",
-       "bad.toml:2:8: [[case]] name = \"../up\": names a folder, must be letters, digits, '.', '_' "
-       "or '-' and begin with a letter or digit"},
+       "bad.toml:2:8: [[case]] name: got \"../up\" (the name of a folder), expected letters, "
+       "digits, '.', '_' or '-' after a letter or digit"},
       {"[[case]]\nname = \"a\"\n[[case]]\nname = \"a\"",
-       "bad.toml:4:8: [[case]] name = \"a\": used twice, must be unique"},
-      {"[case]\nname = \"a\"", "bad.toml:1:1: case: must be tables, each [[case]]"},
+       "bad.toml:4:8: [[case]] name: got \"a\" (used twice), expected a unique name"},
+      {"[case]\nname = \"a\"",
+       "bad.toml:1:1: case: got one table or value, expected tables, each [[case]]"},
       {"[[case]]\nname = \"a\"\nactuation.radius_mm = 200.0",
-       "bad.toml:3:23: [actuation] radius_mm = 200.0: larger than the footprint, must be at most "
-       "[footprint] radius_mm = 126"},
+       "bad.toml:3:23: [actuation] radius_mm: got 200.0 (larger than the footprint), expected at "
+       "most [footprint] radius_mm = 126"},
   }));
-  CHECK(faults_of(text) == sentence);
+  CHECK(errors_of(text) == sentence);
 }
 
 TEST_CASE("lists of tables: blocks and joins, and what is wrong with them") {
@@ -225,35 +227,35 @@ second = "right.west"
   using Row = std::pair<std::string, std::string>;
   const auto [text, sentence] = GENERATE_COPY(values<Row>({
       {"[footprint]\nkind = \"blocks\"",
-       "bad.toml:2:8: [footprint] kind = \"blocks\": there is no block, must have at least one "
+       "bad.toml:2:8: [footprint] kind: got \"blocks\" (no block), expected at least one "
        "[[block]]"},
       {start + "[[block]]\nname = \"a\"",
-       "bad.toml:6:8: [[block]] 2 name = \"a\": used twice, must be unique"},
+       "bad.toml:6:8: [[block]] 2 name: got \"a\" (used twice), expected a unique name"},
       {start + "[[block]]\nradius_mm = 1.0",
-       "bad.toml:5:1: [[block]] 2 name = \"\": must be a name without a dot"},
+       "bad.toml:5:1: [[block]] 2 name: got \"\", expected a name without a dot"},
       {start + "east = 0.5",
-       "bad.toml:5:8: [[block]] 1 east = 0.5: is a number, must be an integer from -500 to 500, "
+       "bad.toml:5:8: [[block]] 1 east: got 0.5 (a number), expected an integer from -500 to 500, "
        "or \"none\""},
       {start + "kind = \"cone\"",
-       "bad.toml:5:8: [[block]] 1 kind = \"cone\": unknown word, must be \"sphere\", \"cylinder\", "
-       "\"spool\", \"beltrami\", \"profile\", \"translation\" or \"surface\""},
+       "bad.toml:5:8: [[block]] 1 kind: got \"cone\" (unknown name), expected \"sphere\", "
+       "\"cylinder\", \"spool\", \"beltrami\", \"profile\", \"translation\" or \"surface\""},
       {start + "[[join]]\nfirst = \"a.est\"\nsecond = \"a.west\"",
-       "bad.toml:6:9: [[join]] 1 first = \"a.est\": no side of a block, must be a block's name and "
-       "east, west, north or south with a dot between; did you mean 'a.east'?"},
+       "bad.toml:6:9: [[join]] 1 first: got \"a.est\" (not a side of a block), expected a block's "
+       "name and east, west, north or south with a dot between; did you mean 'a.east'?"},
       {start + "kind = \"profile\"\nprofile = [[1, 2], [3, 4]]",
-       "bad.toml:6:11: [[block]] 1 profile = [[1.0, 2.0], [3.0, 4.0]]: 2 points, must be at least "
-       "4 for kind = \"profile\""},
-      {"[block]\nname = \"a\"", "bad.toml:1:2: block: must be tables, each [[block]]"},
+       "bad.toml:6:11: [[block]] 1 profile: got [[1.0, 2.0], [3.0, 4.0]] (2 points), expected at "
+       "least 4 for kind = \"profile\""},
+      {"[block]\nname = \"a\"", "bad.toml:1:2: block: expected tables, each [[block]]"},
       {start + "[[case]]\nname = \"a\"\n[case.block]\nname = \"b\"",
-       "bad.toml:7:7: block: must be tables, each [[case.block]]"},
+       "bad.toml:7:7: block: expected tables, each [[case.block]]"},
       {start + "[[case]]\nname = \"a\"\n[[case.block]]\nname = \"b\"\neast = 0.5",
-       "bad.toml:9:8: [[block]] 1 east = 0.5: is a number, must be an integer from -500 to 500, "
+       "bad.toml:9:8: [[block]] 1 east: got 0.5 (a number), expected an integer from -500 to 500, "
        "or \"none\""},
   }));
-  CHECK(faults_of(text) == sentence);
+  CHECK(errors_of(text) == sentence);
 }
 
-TEST_CASE("a case's list of tables stands in the place of the file's") {
+TEST_CASE("a case's list of tables replaces the file's") {
   const auto presets = value_of(read_preset_text(
       "[footprint]\nkind = \"blocks\"\n[[block]]\nname = \"a\"\nradius_mm = 90.0\n[[block]]\n"
       "name = \"b\"\n[[join]]\nfirst = \"a.east\"\nsecond = \"b.west\"\n[[case]]\nname = \"both\"\n"
@@ -276,7 +278,7 @@ TEST_CASE("a case's list of tables stands in the place of the file's") {
   CHECK(to_toml(again) == text);
 }
 
-TEST_CASE("points stand in the preset or in a file beside it") {
+TEST_CASE("points are in the preset or in a file next to it") {
   const TemporaryFolder folder;
   const auto file = folder / "shell.toml";
   const auto with = [&](const std::string& points, const std::string& csv) {
@@ -292,18 +294,18 @@ TEST_CASE("points stand in the preset or in a file beside it") {
   const auto wrong = [&](const std::string& points, const std::string& csv) {
     return with(points, csv).error().message;
   };
-  const auto place = file.string() + ":4:13: [footprint] points_mm = ";
+  const auto place = file.string() + ":4:13: [footprint] points_mm: ";
   const auto csv = (folder / "edge.csv").string();
   CHECK(wrong("\"edge.csv\"", "0 0\n1 2 3\n") ==
-        place + "\"edge.csv\": " + csv + ":2: holds 3 values, must be 2 numbers: x, y");
+        place + csv + ":2: got 3 values, expected 2 numbers: x, y");
   CHECK(wrong("\"edge.csv\"", "0 0\n1 nan\n") ==
-        place + "\"edge.csv\": " + csv + ":2: 'nan' is no number, must be 2 numbers: x, y");
-  CHECK_THAT(wrong("\"edge.csv\"", "# nothing\n"), Catch::Contains("holds no point"));
+        place + csv + ":2: got 'nan', which is no number, expected 2 numbers: x, y");
+  CHECK_THAT(wrong("\"edge.csv\"", "# nothing\n"), Catch::Contains("got no point"));
   CHECK_THAT(wrong("\"none.csv\"", ""), Catch::Contains("cannot read"));
   CHECK_THAT(wrong("[[1, 2, 3]]", ""),
-             Catch::Contains("holds a point of 3 coordinates, must be a "
+             Catch::Contains("a point of 3 coordinates), expected a "
                              "list of points [x, y], or the name of a file"));
-  CHECK_THAT(wrong("[[0, 0], [1, 1]]", ""), Catch::Contains("2 points, must be at least 3"));
+  CHECK_THAT(wrong("[[0, 0], [1, 1]]", ""), Catch::Contains("(2 points), expected at least 3"));
 }
 
 TEST_CASE("a file is read once all that says how is known, and reported") {
@@ -331,11 +333,11 @@ TEST_CASE("a file is read once all that says how is known, and reported") {
   CHECK(value_of(read("", "none.obj", {other, {"--set", "footprint.file_unit", "cm"}}))
             .base.footprint.file.points[1][0] == Approx(0.3));
   CHECK_THAT(refusal(read("", "none.obj")),
-             Catch::Contains("shell.toml:3:8: [footprint] file = \"none.obj\": cannot read"));
+             Catch::Contains("shell.toml:3:8: [footprint] file: cannot read"));
   CHECK_THAT(
-      faults_of("[footprint]\nkind = \"network\"\njoin_mm = 0.1\nfile = {points_mm = [[-9, 0, 0], "
+      errors_of("[footprint]\nkind = \"network\"\njoin_mm = 0.1\nfile = {points_mm = [[-9, 0, 0], "
                 "[9, 0, 0], [0, 9, 0], [0, 0, 0]], rods = [[0, 3, 1], [3, 2]]}\n"),
-      Catch::Contains("join_mm = 0.1: is of a file that"));
+      Catch::Contains("join_mm: got 0.1 (it is for a file"));
 }
 
 TEST_CASE("a file is read under its own name") {

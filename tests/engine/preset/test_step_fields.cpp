@@ -50,16 +50,18 @@ TEST_CASE("an override names an item of a list of tables by its number") {
   CHECK(moved->base.step[1].progress == 0.25);
   CHECK(moved->base.step[0].progress == 1);
   for (const auto& [set, reason] :
-       {std::pair("step.3.progress=0.5", "step.3.progress: of 2 [[step]] must name one"),
-        {"step.progress=0.5", "must name one by its number, as step.1."},
-        {"step.2=1", "[[step]] 2  = 1: unknown key"},
-        {"step.2.progress=-1", "--set: [[step]] 2 progress = -1: "},
-        {"loads.case.1.snow=2", "loads.case.1.snow: of 0 [[loads.case]] must name one"}}) {
+       {std::pair("step.3.progress=0.5",
+                  "step.3.progress: got 2 [[step]], expected the number of one"),
+        {"step.progress=0.5", "expected the number of one, as step.1."},
+        {"step.2=1", "[[step]] 2 : unknown key"},
+        {"step.2.progress=-1", "--set: [[step]] 2 progress: got -1 "},
+        {"loads.case.1.snow=2",
+         "loads.case.1.snow: got 0 [[loads.case]], expected the number of one"}}) {
     CHECK_THAT(refusal(read(set)), Catch::Contains(reason));
   }
 }
 
-TEST_CASE("load cases stand in [loads], are written there and read back") {
+TEST_CASE("load cases are in [loads], are written there and read back") {
   const std::string text = R"(
 [loads]
 snow_N_m2 = 750.0
@@ -98,42 +100,41 @@ TEST_CASE(
   using Row = std::pair<std::string, std::string>;
   const auto [text, sentence] = GENERATE(values<Row>({
       {"[[step]]\ndo = \"shove\"",
-       "bad.toml:2:6: [[step]] 1 do = \"shove\": unknown word, must be \"move\", \"push\", "
-       "\"hold\", \"release\", \"load\", \"rest\", \"jitter\", \"tighten\", \"brace\" "
-       "or \"open\""},
+       "bad.toml:2:6: [[step]] 1 do: got \"shove\" (unknown name), expected \"move\", \"push\", "
+       "\"hold\", \"release\", \"load\", \"rest\", \"jitter\", \"tighten\", \"brace\" or \"open\""},
       {"[[step]]\ndo = \"open\"",
-       "bad.toml:1:1: [[step]] 1 angle_deg = 0.0: an open has `angle_deg` or `angles`, must be one "
-       "of the two"},
+       "bad.toml:1:1: [[step]] 1 angle_deg: got 0.0 (both or none of angle_deg and angles), "
+       "expected one of them"},
       {"[[step]]\ndo = \"tighten\"\nstiffness_Nmm = 5.0\n[[step]]\ndo = \"open\"\n"
        "angle_deg = 80.0\nstiffness_Nmm = 7.0",
-       "bad.toml:7:17: [[step]] 2 stiffness_Nmm = 7.0: bolts of another stiffness are there by "
-       "then, must be the same, or a release of \"bolts\" before it"},
+       "bad.toml:7:17: [[step]] 2 stiffness_Nmm: got 7.0 (bolts of another stiffness act then), "
+       "expected the same stiffness, or a release of \"bolts\" before it"},
       {"[[step]]\ndo = \"brace\"",
-       "bad.toml:1:1: [[step]] 1 EA_N = 0.0: a brace needs a stiffness, must be above 0"},
+       "bad.toml:1:1: [[step]] 1 EA_N: got 0.0 (a brace needs a stiffness), expected above 0"},
       {"[[step]]\ndo = \"load\"\ncase = \"snow\"",
-       "bad.toml:3:8: [[step]] 1 case = \"snow\": there is no such case, must be the name of a "
+       "bad.toml:3:8: [[step]] 1 case: got \"snow\" (no such case), expected the name of a "
        "[[loads.case]]"},
       {"[[loads.case]]\nname = \"snow\"\nsnow = 1.0",
-       "bad.toml:3:8: [[loads.case]] 1 snow = 1.0: there is no snow: [loads] snow_N_m2 must be "
-       "above 0"},
+       "bad.toml:3:8: [[loads.case]] 1 snow: got 1.0 (there is no snow), expected [loads] "
+       "snow_N_m2 above 0"},
       {"[[loads.case]]\nname = \"rim\"\nedge = 1.0",
-       "bad.toml:3:8: [[loads.case]] 1 edge = 1.0: there is no load on the edge: [loads] edge_N_m "
-       "must be above 0"},
+       "bad.toml:3:8: [[loads.case]] 1 edge: got 1.0 (there is no load on the edge), expected "
+       "[loads] edge_N_m above 0"},
       {"[[step]]\ndo = \"rest\"\n[[step]]\ndo = \"hold\"",
-       "bad.toml:3:1: [[step]] 2 joint = []: must be [i, j]"},
+       "bad.toml:3:1: [[step]] 2 joint: got [], expected [i, j]"},
       {"[[step]]\ndo = \"push\"\njoint = [0, 0]",
-       "bad.toml:1:1: [[step]] 1 depth_mm = 0.0: a push goes to `to_mm` or by `depth_mm`, must be "
-       "one of the two"},
+       "bad.toml:1:1: [[step]] 1 depth_mm: got 0.0 (both or none of to_mm and depth_mm), expected "
+       "one of them"},
       {"[[step]]\ndo = \"rest\"\nfactor = 2.0",
-       "bad.toml:3:10: [[step]] 1 factor = 2.0: counts for nothing here, must be left out: "
-       "[[step]] 1 do = \"rest\" does not use it, only \"load\""},
+       "bad.toml:3:10: [[step]] 1 factor = 2.0 has no effect, leave it out: [[step]] 1 do = "
+       "\"rest\" does not use it, only \"load\""},
       {"[[step]]\ndo = \"move\"\nradius_mm = 200.0",
-       "bad.toml:3:13: [[step]] 1 radius_mm = 200.0: larger than the footprint, must be at most "
-       "R_o = 126"},
+       "bad.toml:3:13: [[step]] 1 radius_mm: got 200.0 (larger than the footprint), expected at "
+       "most R_o = 126"},
       {"[indentation]\ndepth = 0.1\n[[step]]\ndo = \"rest\"",
-       "bad.toml:4:6: [[step]] 1 do = \"rest\": [indentation] pushes already, must be a step "
-       "\"push\" in its place"},
-      {"[step]\ndo = \"rest\"", "bad.toml:1:2: step: must be tables, each [[step]]"},
+       "bad.toml:4:6: [[step]] 1 do: got \"rest\" ([indentation] pushes already), expected a step "
+       "\"push\" instead of it"},
+      {"[step]\ndo = \"rest\"", "bad.toml:1:2: step: expected tables, each [[step]]"},
   }));
-  CHECK(faults_of(text) == sentence);
+  CHECK(errors_of(text) == sentence);
 }

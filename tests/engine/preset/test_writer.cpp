@@ -157,9 +157,9 @@ Preset pushed(bool joint) {
 // the steps of a user, each alone: none uses all keys
 std::vector<Preset> stepped() {
   std::vector<Step> steps;
-  const auto add = [&](StepKind deed) -> Step& {
-    steps.emplace_back().kind = deed;
-    if (deed != StepKind::move) steps.back().joint = {3, -2};
+  const auto add = [&](StepKind task) -> Step& {
+    steps.emplace_back().kind = task;
+    if (task != StepKind::move) steps.back().joint = {3, -2};
     return steps.back();
   };
   add(StepKind::move).progress = 0.71;

@@ -15,12 +15,12 @@
 namespace gridshell::record {
 
 /// The message with which a file of these bytes is refused
-inline std::string refusal(const std::string& bytes, bool unsealed = false) {
+inline std::string refusal(const std::string& bytes, bool no_checksum = false) {
   TemporaryFolder folder;
   const std::filesystem::path path = folder.path() / "trajectory.h5";
   REQUIRE(write_file(path, bytes));
   const std::string start = "'" + path.string() + "' is no trajectory of a run: ",
-                    why = gridshell::refusal(read_trajectory(path, {.unsealed = unsealed}));
+                    why = gridshell::refusal(read_trajectory(path, {.no_checksum = no_checksum}));
   CHECK_THAT(why, Catch::StartsWith(start));
   return why.substr(start.size());
 }

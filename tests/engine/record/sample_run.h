@@ -52,7 +52,7 @@ inline Trajectory sample_trajectory() {
     frame.negative_pivots = k;
     frame.error_estimate_mm = k == 1 ? unknown : 1e-3;
     frame.force_error_N = k == 1 ? unknown : 1e-5 * k;
-    frame.bending_strain_at = k == 2 ? "u0, 45.00 mm from its begin, at joint [0, 1]" : "";
+    frame.bending_strain_at = k == 2 ? "u0, 45.00 mm from its start, at joint [0, 1]" : "";
     frame.utilisation = k == 1 ? unknown : 0.7 * k;
     frame.stress_at = frame.bending_strain_at;
     frame.newton_iterations = 7 * k;
@@ -95,7 +95,7 @@ inline Summary sample_summary() {
   summary.contact = "joints (0, 0) and (0, 1) touch at progress 0.5";
   summary.total_K = 6.01157;
   summary.force_error_N = 2e-5;
-  summary.bending_strain_at = "u0, 45.00 mm from its begin, at joint [0, 1]";
+  summary.bending_strain_at = "u0, 45.00 mm from its start, at joint [0, 1]";
   summary.max_deviation = 0.031029;
   summary.newton_iterations = 12, summary.factorizations = 13;
   summary.seconds_setup = 0.25;

@@ -22,7 +22,7 @@ TEST_CASE("charts: columns, and empty where nothing is known") {
         "method,rods,edges_per_segment,dof,cpu_s,cpu_min_s,cpu_max_s,outcome\n");
 }
 
-TEST_CASE("charts: the Pareto front holds what nothing beats in both") {
+TEST_CASE("charts: the Pareto front is what nothing beats in both") {
   const auto row = [](double error, double seconds, RunOutcome outcome = RunOutcome::right) {
     return AccuracyRow{"m", 1, 1, error, seconds, seconds, seconds, outcome};
   };

@@ -135,7 +135,7 @@ TEST_CASE("contacts are those that every pair of edges has, in 200 random states
   CHECK(itself > 20);
 }
 
-TEST_CASE("straight rods that cross are not told at any angle, joints of a closed cell are") {
+TEST_CASE("straight rods that cross are not reported at any angle, joints of a closed cell are") {
   for (const int edges : {2, 8, 32}) {
     const Grid grid(3, edges);
     const ContactSearch search(grid.layout);
@@ -155,7 +155,7 @@ TEST_CASE("straight rods that cross are not told at any angle, joints of a close
   }
 }
 
-TEST_CASE("rods of a cell that bend onto each other touch, on any mesh in the same places") {
+TEST_CASE("rods of a cell that bend onto each other touch, on any mesh at the same positions") {
   for (const int edges : {8, 16, 32}) {
     const Grid grid(2, edges);
     Eigen::Matrix3Xd x = grid.sheared(10 * degree);
@@ -174,7 +174,7 @@ TEST_CASE("rods of a cell that bend onto each other touch, on any mesh in the sa
   }
 }
 
-TEST_CASE("laths that stand on edge side by side touch by their widths, not as round rods do") {
+TEST_CASE("laths on edge side by side touch by their widths, not as round rods do") {
   Grid grid(2, 8);
   grid.layout.joint_diameter_mm = 1;
   const Eigen::Matrix3Xd x = grid.sheared(8 * degree);  // 2.78 mm between parallel rods
@@ -193,7 +193,7 @@ TEST_CASE("laths that stand on edge side by side touch by their widths, not as r
   CHECK(ContactSearch(grid.layout).in(x).places.size() > 0);
 }
 
-TEST_CASE("rods that are held at one place of the boundary are near there, and cross beyond it") {
+TEST_CASE("rods that are fixed at one point of the boundary are near there, and cross after it") {
   Layout layout = lone_rod(6);
   layout.rods.push_back({6, 7, 8, 9, 10, 11});
   layout.joint_diameter_mm = 3;

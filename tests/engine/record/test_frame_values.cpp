@@ -41,7 +41,7 @@ TEST_CASE("the curvature of points on a circle is one over its radius") {
     CHECK(curvature[k] == Approx(1 / (50 * std::cos(0.025))).epsilon(1e-9));
 }
 
-TEST_CASE("forces at points are those of the edges beside them, and unknown where not recorded") {
+TEST_CASE("forces at points are those of the neighbouring edges, and unknown where not recorded") {
   const Trajectory run = sample_trajectory();
   const Frame& frame = run.frames.back();
   // the second rod's three edges follow the first one's
@@ -72,7 +72,7 @@ TEST_CASE("a node bears the mean force of its edges, and the energy of what goes
   CHECK(bending_of_nodes_mJ_per_m(tee(), old).size() == 0);
 }
 
-TEST_CASE("a value is reported in the digits that its error lets hold") {
+TEST_CASE("a value is reported in the digits that its error leaves certain") {
   CHECK(with_error(0.123456, 7.1e-4, "N") == "0.1235 ± 0.0007 N");
   CHECK(with_error(39.9791, 0.02, "mJ") == "39.98 ± 0.02 mJ");
   CHECK(with_error(1234.5, 30, "N") == "1234 ± 30 N");
@@ -84,7 +84,7 @@ TEST_CASE("a value is reported in the digits that its error lets hold") {
   CHECK(with_error(0.123456, unknown, "N") == "0.1235 N (error not known)");
 }
 
-TEST_CASE("a cell lies off its net by the mean of its joints, over the length scale") {
+TEST_CASE("a cell deviates from its net by the mean of its joints, over the length scale") {
   Trajectory run = sample_trajectory();
   Frame frame = run.frames[0];
   CHECK_FALSE(has_net(run.layout));

@@ -151,7 +151,7 @@ TEST_CASE("frames of a coarser mesh are kept until the finer one has as many") {
   CHECK_FALSE(fs::exists(folder / coarser_journal_name));
 }
 
-TEST_CASE("a run that goes on keeps the frames it had until it has as many") {
+TEST_CASE("a continued run keeps the frames it had until it has as many") {
   const TemporaryFolder folder;
   const Layout layout = sample_trajectory().layout;
   const auto begun_again = [&](int frames) {

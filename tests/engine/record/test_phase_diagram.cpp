@@ -53,7 +53,7 @@ TEST_CASE("figures of a search count states and how often they were met, by clas
   CHECK_FALSE(state_count(PointResult{}, "i"));
 }
 
-TEST_CASE("a diagram tells by the shortest leg where domes are alone and where more is found") {
+TEST_CASE("a diagram shows by the shortest leg where domes are alone and where more is found") {
   SweepTable table{{"footprint.rods", "footprint.longest_leg"}, false, false, {}};
   CHECK(makes_phase_diagram(table.axes));
   CHECK_FALSE(makes_phase_diagram({"footprint.rods", "rod.diameter_mm"}));

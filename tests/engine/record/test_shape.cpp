@@ -90,7 +90,7 @@ TEST_CASE("a VTP has as many numbers as it says") {
   CHECK(numbers("Points") == 3 * points);
 }
 
-TEST_CASE("a GLB holds its chunks, as many key shapes as frames, and a way for each joint") {
+TEST_CASE("a GLB contains its chunks, as many key shapes as frames, and a path for each joint") {
   const record::Trajectory run = sample_trajectory();
   const auto glb = value_of(to_glb(run, "sample", 2));
   const auto word = [&](std::size_t at) {
@@ -123,7 +123,7 @@ TEST_CASE("a GLB holds its chunks, as many key shapes as frames, and a way for e
   }
 }
 
-TEST_CASE("a page holds the run, and a title cannot end its script") {
+TEST_CASE("a page contains the run, and a title cannot end its script") {
   const record::Trajectory run = sample_trajectory();
   const auto page = value_of(to_page(run, "</script><b>bold"));
   CHECK(page.starts_with("<!DOCTYPE html>"));

@@ -132,7 +132,7 @@ TEST_CASE("state tables: damaged ones are refused with file and line") {
     std::string search = text_of(json_of(written.search));
     const auto at = search.find("900", search.find("\"trials\""));
     REQUIRE(at != std::string::npos);
-    refused("states.json", search.replace(at, 3, number), "\"trials\" must be a whole number");
+    refused("states.json", search.replace(at, 3, number), "\"trials\": got ");
   }
   refused("transitions.csv", "from,to\n", "first line");
   refused("transitions.csv", "from,to,by,count\niv.1,iv.7,pushed,1\n", "does not have");

@@ -79,7 +79,7 @@ TEST_CASE("rod modes: a sine of k half waves has k - 1 inflections, straight pie
   CHECK(inflections(mesh, arch) == std::vector<int>{0});
 }
 
-TEST_CASE("Chao1: known values, and an interval that holds what was seen") {
+TEST_CASE("Chao1: known values, and an interval that contains what was seen") {
   std::vector<int> counts(5, 2);
   counts.insert(counts.end(), 10, 1);
   counts.insert(counts.end(), 5, 7);

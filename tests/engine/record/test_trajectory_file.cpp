@@ -124,7 +124,7 @@ TEST_CASE("a file that is missing, foreign or cut short is refused in a sentence
   CHECK(refusal(whole.substr(0, 100)) == "it is cut short");
   const std::string damaged =
       "it is cut short, damaged or was changed: its checksum does not match (of one that another "
-      "program changed, --unsealed, in Python unsealed=True, reads what there is)";
+      "program changed, --no-checksum, in Python no_checksum=True, reads what there is)";
   for (const double part : {0.3, 0.9})
     CHECK(refusal(whole.substr(0, static_cast<std::size_t>(part * whole.size()))) == damaged);
   // one bit anywhere
@@ -150,17 +150,18 @@ TEST_CASE("parts that do not fit each other are neither written nor read") {
   CHECK(refused([](Trajectory& run) { run.layout.rods[3][1] = 99; }) ==
         "rod 3 names node 99 of 12");
   CHECK(refused([](Trajectory& run) { run.frames.edit()[2].nodes.conservativeResize(3, 11); }) ==
-        "frame 2 has 11 nodes, the first one 12");
+        "frame 2: got 11 nodes, expected 12 as in the first one");
   CHECK(refused([](Trajectory& run) { run.layout.cells[0].joints[3] = -1; }) ==
         "cell 0 names joint -1 of 4");
   CHECK(refused([](Trajectory& run) { run.frames.edit()[0].cell_K.resize(0); }) ==
-        "frame 0 has 0 values of cell_K for 1 cells");
+        "frame 0: got 0 values of cell_K, expected 1");
   CHECK(refused([](Trajectory& run) { run.frames.edit()[2].axial_force_N.resize(11); }) ==
-        "frame 2 has 11 values of axial_force_N, must be 12");
+        "axial_force_N of frame 2: got 11 values, expected 12");
   CHECK(refused([](Trajectory& run) { run.layout.families.pop_back(); }) ==
         "3 families are named for 4 rods");
-  CHECK(refused([](Trajectory& run) { run.layout.actuated_boundary.resize(3, 4); }) ==
-        "the original boundary has 5 points, the actuated one 4");
+  CHECK(
+      refused([](Trajectory& run) { run.layout.actuated_boundary.resize(3, 4); }) ==
+      "boundaries: got 5 points of the original and 4 of the actuated one, expected equal numbers");
   CHECK(folder.entries().empty());
   // a file whose index another program changed
   const auto wrong_index = [](hid_t file) {
@@ -181,7 +182,7 @@ TEST_CASE("a column that an older version did not write is unknown") {
   TemporaryFolder folder;
   const fs::path path = folder / "a.h5";
   REQUIRE(write_file(path, changed(without)));
-  const auto back = value_of(read_trajectory(path, {.unsealed = true}));
+  const auto back = value_of(read_trajectory(path, {.no_checksum = true}));
   const Frame& frame = back.frames[1];
   CHECK(std::isnan(frame.energies[Term::load]));
   CHECK_FALSE(std::isnan(frame.energies[Term::bend]));
@@ -194,12 +195,12 @@ TEST_CASE("a trajectory that another program rewrote is read only where that is 
   const fs::path path = folder / "a.h5";
   const Trajectory run = sample_trajectory();
   const std::string bytes = changed([](hid_t) {}, run);
-  CHECK(
-      refusal(bytes) ==
-      "it has no checksum, so another program wrote it (--unsealed, in Python unsealed=True, reads "
-      "it all the same)");
+  CHECK(refusal(bytes) ==
+        "it has no checksum, so another program wrote it (--no-checksum, in Python "
+        "no_checksum=True, reads "
+        "it all the same)");
   REQUIRE(write_file(path, bytes));
-  const auto back = value_of(read_trajectory(path, {.unsealed = true}));
+  const auto back = value_of(read_trajectory(path, {.no_checksum = true}));
   CHECK(same_bits(back.frames[2].nodes, run.frames[2].nodes));
 }
 

@@ -97,7 +97,8 @@ TEST_CASE("translation nets from two curves: certified, near the net") {
     const record::Summary s = run_to_end(p, true).summary;
     CHECK(s.max_deviation < near);
     std::swap(p.net.curve_u, p.net.curve_v);
-    CHECK_THAT(refused(p), Catch::Contains("curve_v of the translation net must run to the left"));
+    CHECK_THAT(refused(p),
+               Catch::Contains("curve_v of the translation net: got a curve to the right"));
   }
 }
 
@@ -131,5 +132,5 @@ TEST_CASE("an outline of a drawing is a boundary, about its middle") {
   const auto again = value_of(preset::read_preset_text(preset::to_toml(scaled.base), "a", "a"));
   CHECK(value_of(scene_of(again.base)).motion.end.row(0).maxCoeff() == Approx(90));
   CHECK_THAT(refusal(read("[actuation]\nboundary = \"file\"\n")),
-             Catch::Contains("must have the name of a drawing in [actuation] file"));
+             Catch::Contains("expected its name in [actuation] file"));
 }

@@ -52,7 +52,7 @@ TEST_CASE("faces of a circle: its cells, and what lies between them and the boun
   CHECK(plan(faces, nodes) == Approx(polygon).epsilon(1e-12));
 }
 
-TEST_CASE("a face that stands up has its area along its normal, and none in plan") {
+TEST_CASE("an upright face has its area along its normal, and none in plan") {
   const Face face{{0, 1, 2, 3}};
   Eigen::Matrix3Xd square(3, 4);
   square << 0, 0, 0, 0, 0, 3, 3, 0, 0, 0, 2, 2;

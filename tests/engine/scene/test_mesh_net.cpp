@@ -37,14 +37,14 @@ DomeMesh bent_strip() {
 
 }  // namespace
 
-TEST_CASE("points on a mesh stand for all of its area, none far from the next") {
+TEST_CASE("points on a mesh represent all of its area, none far from the next") {
   const DomeMesh dome = ellipsoid_mesh({80, 60, 40}, 9);
   const auto mesh = value_of(TriangleMesh::make(dome.vertices, dome.triangles));
   double sum = 0;
   for (const AreaSample& one : area_samples(mesh, 4)) sum += one.area;
   CHECK(sum == Approx(1).epsilon(1e-12));
   CHECK(area_samples(mesh, 4).size() > 2 * area_samples(mesh, 8).size());
-  // of small triangles one stands for those around it
+  // one of many small triangles represents those around it
   const auto few = area_samples(mesh, 60);
   CHECK(few.size() < mesh.triangles().size() / 8);
   sum = 0;

@@ -62,7 +62,7 @@ TEST_CASE("Beltrami's pseudosphere: stable, its cells negative on the whole") {
   CHECK(shell.summary.max_deviation < 0.03);
 }
 
-TEST_CASE("end rings released: their ends are free, the others still held, the state stable") {
+TEST_CASE("end rings released: their ends are free, the others still fixed, the state stable") {
   preset::Preset p = on_net(preset::NetKind::cylinder, 80, 200);
   p.ends.rings = preset::Rings::free;
   const auto scene = value_of(scene_of(p));
@@ -82,7 +82,7 @@ TEST_CASE("end rings released: their ends are free, the others still held, the s
   CHECK(s.residual_N < 1e-8);
 }
 
-TEST_CASE("a net that does not exist, and a circle asked to start from one, are refused") {
+TEST_CASE("a net that does not exist, and a circle that starts from one, are refused") {
   preset::Preset p = on_net();
   p.net.kind = preset::NetKind::beltrami;
   p.net.waist = 1.5;

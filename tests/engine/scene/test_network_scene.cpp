@@ -135,19 +135,18 @@ TEST_CASE("rods with sections of their own, springs and shearing joints work on 
   CHECK(thick.rods.material(2).EI1 == Approx(16 * plain.rods.material(2).EI1));
   CHECK(thick.rods.material(1).EI1 == plain.rods.material(1).EI1);
   // conflicts of a rod's own keys are reported with the rod
-  const auto fault_of = [&](const std::string& key, double value) {
+  const auto error_of = [&](const std::string& key, double value) {
     preset::Preset other = shipped("network_triaxial");
     other.footprint.file.own = {{3, key, value}};
-    const auto faults = conflicts(other);
-    return faults.empty() ? "none" : faults.front().what;
+    const auto errors = conflicts(other);
+    return errors.empty() ? "none" : errors.front().what;
   };
-  CHECK_THAT(fault_of("widht_mm", 3), Catch::Contains("rods[3]: unknown key 'widht_mm'") &&
+  CHECK_THAT(error_of("widht_mm", 3), Catch::Contains("rods[3]: got an unknown key 'widht_mm'") &&
                                           Catch::Contains("did you mean 'width_mm'"));
-  CHECK_THAT(fault_of("young_GPa", -1), Catch::Contains("rods[3]: young_GPa = -1, must be"));
-  CHECK_THAT(fault_of("width_mm", 3), Catch::Contains("rods[3]") && Catch::Contains("thickness"));
-  CHECK_THAT(fault_of("curvature_per_mm", 0.01),
-             Catch::Contains("shear_GPa or GJ_Nmm2 must be above 0"));
-  CHECK(fault_of("young_GPa", 70) == "none");
+  CHECK_THAT(error_of("young_GPa", -1), Catch::Contains("rods[3]: young_GPa: got -1, expected"));
+  CHECK_THAT(error_of("width_mm", 3), Catch::Contains("rods[3]") && Catch::Contains("thickness"));
+  CHECK_THAT(error_of("curvature_per_mm", 0.01), Catch::Contains("shear_GPa or GJ_Nmm2 above 0"));
+  CHECK(error_of("young_GPa", 70) == "none");
   file.diameters[2] = 31;
-  CHECK_THAT(refusal(scene_of(p)), Catch::Contains("rods[2]: a diameter of 31 mm"));
+  CHECK_THAT(refusal(scene_of(p)), Catch::Contains("rods[2]: got a diameter of 31 mm"));
 }

@@ -61,7 +61,7 @@ TEST_CASE("a second ring of 10 mm keeps the hemisphere on its sphere", "[standar
   CHECK(with[1] <= 0.01);
 }
 
-TEST_CASE("on the way from the flat far ends turn about their edge points at the tails' length") {
+TEST_CASE("on the path from the flat far ends turn about their edge points at the tails' length") {
   const auto scene = shared_scene(ringed(0.6, 10));
   const RodMesh mesh = mesh_rods(scene->footprint, 4);
   const PinnedMotion motion = pinned_motion(mesh, scene->motion);
@@ -99,12 +99,13 @@ TEST_CASE("a cap with a second ring reaches one state from the flat, from the ne
   CHECK(max_column_norm(twisted.nodes() - plain.nodes()) < 1e-5);
 }
 
-TEST_CASE("a second ring is refused where there is no net, or where directions are held already") {
+TEST_CASE(
+    "a second ring is refused where there is no net, or where directions are prescribed already") {
   const auto refused = [](const std::string& text, const char* reason) {
-    CHECK_THAT(preset::faults_of(text), Catch::Contains(reason));
+    CHECK_THAT(preset::errors_of(text), Catch::Contains(reason));
   };
   refused("[ends]\nsecond_ring_mm = 10.0\n", "this footprint has none");
   refused("[footprint]\nkind = \"net\"\n[ends]\nkind = \"tangent\"\nsecond_ring_mm = 10.0\n",
-          "held already");
+          "prescribed already");
   refused("[footprint]\nkind = \"net\"\n[ends]\nsecond_ring_mm = -1.0\n", "out of range");
 }

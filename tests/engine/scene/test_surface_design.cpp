@@ -69,14 +69,14 @@ TEST_CASE("a surface that makes no net is refused with what is wrong") {
   refused(with([](auto& n) { n.implicit = "x^2 + y^2 - sqrt(-1)"; }), "no value");
   refused(with([](auto& n) { n.implicit = "5"; }), "no slope");
   refused(with([](auto& n) { n.apex_mm = {0, 0, 110}; }), "lies 10 mm off the surface");
-  refused(with([](auto& n) { n.apex_mm = {120, 0, 0}, n.cut_mm = -10; }), "face up");
+  refused(with([](auto& n) { n.apex_mm = {120, 0, 0}, n.cut_mm = -10; }), "it faces up");
   refused(with([](auto& n) { n.cut_mm = 130; }), "lies outside");
   refused(with([](auto& n) { n.cut_mm = -200; }), "does not cross");
   refused(with([](auto& n) { n.within = "z <"; }), "[net] within");
   // seen from the apex the boundary hides parts of itself
   refused(
       with([](auto& n) { n.within = "max(x^2 + y^2 - 100^2, 12^2 - (x - 50)^2 - (y - 50)^2)"; }),
-      "crossed more than once");
+      "two crossings of the ray");
 }
 
 TEST_CASE("heights and meshes of a cap have the sphere's own footprint and boundary",
@@ -129,12 +129,12 @@ TEST_CASE("of a net that is refused there is a picture to draw, of another there
 
 TEST_CASE("a preset names the surface once, and a point of it") {
   const auto wrong = [](const std::string& net, const char* reason) {
-    CHECK_THAT(preset::faults_of("[footprint]\nkind = \"net\"\n[net]\nkind = \"surface\"\n" + net),
+    CHECK_THAT(preset::errors_of("[footprint]\nkind = \"net\"\n[net]\nkind = \"surface\"\n" + net),
                Catch::Contains(reason));
   };
   wrong("", "needs an expression");
   wrong("implicit = \"x\"\nheight = \"x\"\napex_mm = [0, 0, 0]\n", "given twice");
-  wrong("implicit = \"z\"\n", "must be [x, y, z]");
-  wrong("height = \"1\"\napex_mm = [1.0]\n", "must be [x, y]");
+  wrong("implicit = \"z\"\n", "expected [x, y, z]");
+  wrong("height = \"1\"\napex_mm = [1.0]\n", "expected [x, y]");
   wrong("height = \"1\"\nradius_mm = 3.0\n", "does not use it");
 }

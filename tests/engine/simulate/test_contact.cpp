@@ -61,7 +61,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a run that is to stop at contact ends in the last state before") {
-  const std::string told = run(crowded(12)).summary.contact;
+  const std::string reported = run(crowded(12)).summary.contact;
   auto preset = crowded(12);
   preset.limits.contact = preset::OnContact::stop;
   const auto stopped = run(preset);
@@ -75,7 +75,7 @@ TEST_CASE("a run that is to stop at contact ends in the last state before") {
   CHECK_THAT(s.limit_reason, Catch::Contains(" is the last state without contact: past it rods "));
   const record::Frame& last = last_frame(stopped);
   CHECK(last.event == "last state without contact");
-  CHECK(last.progress == Approx(number_after(told, "touch at progress ")).margin(3e-3));
+  CHECK(last.progress == Approx(number_after(reported, "touch at progress ")).margin(3e-3));
   CHECK(stopped.trajectory.frames.size() == 5);
 }
 
@@ -112,18 +112,18 @@ TEST_CASE("a contact inside the load step in which the equilibrium is lost is fo
   CHECK(depths[1] == Approx(depths[0]).margin(0.01));
 }
 
-TEST_CASE("a shell that begins in contact goes no deeper into it, and may come out") {
+TEST_CASE("a shell that begins in contact goes no deeper into it, and may leave it") {
   auto preset = with_two_mirrors();
   preset.limits.table = true;
-  const auto told = run(preset);
-  INFO(told.summary.contact);
+  const auto reported = run(preset);
+  INFO(reported.summary.contact);
   preset.limits.contact = preset::OnContact::stop;
   const auto stopped = run(preset);
   INFO(stopped.summary.limit_reason);
   CHECK(stopped.summary.limit == record::Limit::contact);
   // not where the first buckled state was looked for
   CHECK(last_frame(stopped).progress ==
-        Approx(number_after(told.summary.contact, "at progress ")).margin(1e-3));
+        Approx(number_after(reported.summary.contact, "at progress ")).margin(1e-3));
   CHECK(last_frame(stopped).contacts == 0);
 
   const auto scene = value_of(shared_scene_of(preset));
@@ -147,8 +147,7 @@ TEST_CASE("shells of the paper do not touch themselves: a rod near its joint is 
   CHECK(outcome.summary.contact.empty());
 }
 
-TEST_CASE("a barrier keeps rods apart on the whole path, of wires and of rods that twist",
-          "[full]") {
+TEST_CASE("a barrier separates rods on the whole path, of wires and of rods that twist", "[full]") {
   // further in, at 12 mm, meshes that the tolerance chooses continue for minutes
   auto preset = crowded(17);
   preset.accuracy.tolerance = 5e-3;

@@ -84,7 +84,7 @@ TEST_CASE("a bracket cut with a corner bends and twists as its legs do, at secon
   }
 }
 
-TEST_CASE("the error that a rod cut with a corner reports holds") {
+TEST_CASE("the error that a rod cut with a corner reports is a bound") {
   constexpr double L = 200, P = 5e-4;
   const auto outcome = loaded(drawn(bracket(100), 0), {0, 0, -P});
   const auto& layout = outcome.trajectory.layout;
@@ -150,16 +150,16 @@ TEST_CASE("a rod that is closed keeps the twist of its natural shape") {
   preset::Preset p = drawn(ring(radius, 24), 4);
   const double L = 24 * 2 * radius * std::sin(std::numbers::pi / 24);
   const double michell = 2 * std::numbers::pi * std::sqrt(3.0) * EI / GJ;
-  for (const double share : {0.5, 0.9, 1.1}) {
-    const double twist = share * michell / L;
+  for (const double fraction : {0.5, 0.9, 1.1}) {
+    const double twist = fraction * michell / L;
     p.rod.twist_rad_per_mm = twist;
     const auto outcome = run(p);
-    CAPTURE(share, outcome.summary.model_reason, outcome.summary.limit_reason);
+    CAPTURE(fraction, outcome.summary.model_reason, outcome.summary.limit_reason);
     CHECK(outcome.summary.model == "twist");
     CHECK_THAT(outcome.summary.model_reason, Catch::Contains("closed"));
     // Michell's ring leaves its plane above this, and nothing keeps it off itself
-    CHECK(outcome.summary.contact.empty() == (share < 1));
-    if (share > 1) {
+    CHECK(outcome.summary.contact.empty() == (fraction < 1));
+    if (fraction > 1) {
       CHECK_THAT(outcome.summary.contact, Catch::StartsWith("rod 0 passed through itself"));
       CHECK(last_frame(outcome).energies[Term::twist] < 0.95 * 0.5 * GJ * twist * twist * L);
       continue;

@@ -167,10 +167,10 @@ void check_against_finer(preset::Preset p, double tolerance) {
   p.accuracy.tolerance = 1e-5;
   const auto fine = run(p);
   p.accuracy.tolerance = tolerance;
-  const auto asked = run(p);
-  REQUIRE(fine.trajectory.frames.size() == asked.trajectory.frames.size());
-  for (std::size_t k = 0; k < asked.trajectory.frames.size(); ++k) {
-    const record::Frame &truth = fine.trajectory.frames[k], &frame = asked.trajectory.frames[k];
+  const auto requested = run(p);
+  REQUIRE(fine.trajectory.frames.size() == requested.trajectory.frames.size());
+  for (std::size_t k = 0; k < requested.trajectory.frames.size(); ++k) {
+    const record::Frame &truth = fine.trajectory.frames[k], &frame = requested.trajectory.frames[k];
     CAPTURE(k, tolerance, frame.force_error_N, frame.energy_error_mJ);
     CHECK(off(frame, truth) < 2 * frame.force_error_N + 1e-9);
     CHECK(off_energy(frame, truth) < 2 * frame.energy_error_mJ + 1e-9);
@@ -200,7 +200,7 @@ TEST_CASE("forces, energies and bending strain of pinned elasticas, as exact as 
       // the estimate is of use
       CHECK(frame.force_error_N < (tolerance < 1e-3 ? 5 * tolerance : 0.03) * exact.force);
       CHECK(frame.largest_bending_strain == Approx(exact.strain).epsilon(0.02));
-      CHECK_THAT(frame.bending_strain_at, Catch::Contains("100.00 mm from its begin, at joint ["));
+      CHECK_THAT(frame.bending_strain_at, Catch::Contains("100.00 mm from its start, at joint ["));
     }
 }
 
@@ -255,9 +255,10 @@ TEST_CASE("the curve of a push lies within its error, and its stiffness is its s
   const auto fine = run(p);
   for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
     p.accuracy.tolerance = tolerance;
-    const auto asked = run(p);
+    const auto requested = run(p);
     for (std::size_t k = 0; k < 9; ++k) {
-      const record::Frame &truth = fine.trajectory.frames[k], &frame = asked.trajectory.frames[k];
+      const record::Frame &truth = fine.trajectory.frames[k],
+                          &frame = requested.trajectory.frames[k];
       CAPTURE(k, tolerance, truth.force_N, frame.force_N, frame.push_error_N,
               truth.stiffness_N_per_mm, frame.stiffness_N_per_mm, frame.stiffness_error_N_per_mm);
       CHECK(std::abs(frame.force_N - truth.force_N) < 2 * frame.push_error_N + 1e-7);
@@ -316,18 +317,18 @@ TEST_CASE("stress of a fibre: bending and axial force of an elastica, over the s
   const Elastica exact = elastica(0.24165275);
   preset::Preset p = crossed_rods(exact.shortening);
   p.accuracy.tolerance = 1e-5;
-  const auto told = run(p);
+  const auto reported = run(p);
   // in the middle, where the rod lies level, all of the thrust is along it
   const double stress = 83e3 * exact.strain + exact.force / (M_PI * radius * radius);
-  CHECK(last_frame(told).largest_stress_MPa == Approx(stress).epsilon(1e-3));
-  CHECK(last_frame(told).stress_at.find("at joint [") != std::string::npos);
-  CHECK(std::isnan(told.summary.utilisation));
-  CHECK(told.trajectory.frames.front().largest_stress_MPa == 0);
-  const record::Layout& layout = told.trajectory.layout;
-  const Eigen::VectorXd of_nodes = record::stress_of_nodes_MPa(layout, last_frame(told));
-  CHECK(of_nodes.maxCoeff() == last_frame(told).largest_stress_MPa);
+  CHECK(last_frame(reported).largest_stress_MPa == Approx(stress).epsilon(1e-3));
+  CHECK(last_frame(reported).stress_at.find("at joint [") != std::string::npos);
+  CHECK(std::isnan(reported.summary.utilisation));
+  CHECK(reported.trajectory.frames.front().largest_stress_MPa == 0);
+  const record::Layout& layout = reported.trajectory.layout;
+  const Eigen::VectorXd of_nodes = record::stress_of_nodes_MPa(layout, last_frame(reported));
+  CHECK(of_nodes.maxCoeff() == last_frame(reported).largest_stress_MPa);
   CHECK(of_nodes[layout.joints[0].node] == of_nodes.maxCoeff());
-  CHECK(record::stress_of_nodes_MPa(layout, last_frame(told), true).size() == 0);
+  CHECK(record::stress_of_nodes_MPa(layout, last_frame(reported), true).size() == 0);
   p.rod.strength_MPa = 4 * stress;
   const auto by_stress = run(p);
   CHECK(by_stress.summary.utilisation == Approx(0.25).epsilon(1e-3));

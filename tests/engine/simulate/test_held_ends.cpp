@@ -39,24 +39,24 @@ TEST_CASE(
     "arches, pinned and of prescribed direction, are elasticas to what tolerance and estimate "
     "promise",
     "[standard]") {
-  const auto rung = GENERATE(RodModel::bend, RodModel::twist);
+  const auto rod_model = GENERATE(RodModel::bend, RodModel::twist);
   const auto hold =
       GENERATE(preset::EndKind::pinned, preset::EndKind::tangent, preset::EndKind::clamped);
-  if (rung == RodModel::bend && hold == preset::EndKind::clamped) return;
+  if (rod_model == RodModel::bend && hold == preset::EndKind::clamped) return;
   for (const double shorter : {0.97, 0.95, 0.9, 0.8, 0.7})
     for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
       preset::Preset p = held_cross(hold, shorter);
-      p.accuracy.model = rung;
+      p.accuracy.model = rod_model;
       p.accuracy.tolerance = tolerance;
-      CAPTURE(int(rung), int(hold), shorter, tolerance);
+      CAPTURE(int(rod_model), int(hold), shorter, tolerance);
       const auto outcome = run_to_end(p);
-      const double asked = tolerance * length / std::sqrt(2.0),
+      const double requested = tolerance * length / std::sqrt(2.0),
                    off = std::abs(outcome.summary.height_mm - exact(hold, shorter).height),
                    estimate = last_frame(outcome).error_estimate_mm;
-      CAPTURE(off, estimate, asked);
+      CAPTURE(off, estimate, requested);
       CHECK(off < 2 * estimate);
-      CHECK(off < asked);
-      CHECK(estimate <= asked);
+      CHECK(off < requested);
+      CHECK(estimate <= requested);
     }
 }
 

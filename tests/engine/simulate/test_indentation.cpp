@@ -34,7 +34,7 @@ double energy_of(const record::Frame& frame) {
 
 }  // namespace
 
-TEST_CASE("three point loads: certified frames, depth as asked, the force does the work") {
+TEST_CASE("three point loads: certified frames, depth as requested, the force does the work") {
   for (const Case which : {Case::pole_inward, Case::pole_outward, Case::oblique_inward}) {
     const auto outcome = run(hemisphere(which, 120, Placement::on_axis));
     const auto& frames = outcome.trajectory.frames;
@@ -56,7 +56,7 @@ TEST_CASE("three point loads: certified frames, depth as asked, the force does t
   }
 }
 
-TEST_CASE("the pushed joint goes straight down its normal, held, it does not go sideways") {
+TEST_CASE("the pushed joint goes straight down its normal and not sideways") {
   for (const auto lateral : {preset::Lateral::free, preset::Lateral::held}) {
     preset::Preset p = hemisphere(Case::oblique_inward, 120, Placement::on_axis, 0.1, 3);
     p.indentation.lateral = lateral;
@@ -164,7 +164,7 @@ TEST_CASE("deep pushes of both placements, upright and oblique, end so too", "[f
   check_deep_push(Placement::on_axis, Case::oblique_inward);
 }
 
-TEST_CASE("unloading follows the way back, after a snap on another branch", "[standard]") {
+TEST_CASE("unloading follows the path back, after a snap on another branch", "[standard]") {
   preset::Preset p = hemisphere(Case::pole_inward, 120, Placement::on_axis, 0.1, 9);
   p.indentation.unload = true;
   const auto there_and_back = run(p);
@@ -241,7 +241,7 @@ TEST_CASE("a push that ends at a limit after snaps names both", "[standard]") {
 TEST_CASE("a joint that is not there is refused") {
   preset::Preset p = hemisphere(Case::pole_inward, 120, Placement::on_axis);
   p.indentation.joint = {40, 0};
-  CHECK_THAT(refused_run(p), Catch::Contains("no such joint"));
+  CHECK_THAT(refused_run(p), Catch::Contains("expected a joint of the footprint"));
 }
 
 TEST_CASE("pushes on the twist model are those of the bend model, to a millionth of rho") {

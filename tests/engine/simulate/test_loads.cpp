@@ -86,7 +86,7 @@ double bend(const simulate::ExperimentResult& outcome) {
 
 }  // namespace
 
-TEST_CASE("a heavy column branches at its critical weight and is the elastica beyond") {
+TEST_CASE("a heavy column bifurcates at its critical weight and is the elastica above it") {
   for (const double times : {1.02, 1.1}) {
     CAPTURE(times);
     const auto outcome = run_to_end(column(times));
@@ -103,7 +103,7 @@ TEST_CASE("a heavy column branches at its critical weight and is the elastica be
   }
 }
 
-TEST_CASE("a column's state at a load does not hang on how much more was requested") {
+TEST_CASE("a column's state at a load does not depend on how much more was requested") {
   // past a load of 1.2160 there is no arch left: it turns over and hangs below its base
   preset::Preset less = column(1.1), more = column(1.5), most = column(11);
   for (preset::Preset* p : {&less, &more, &most}) p->accuracy.edges_per_segment = 32;
@@ -127,7 +127,7 @@ TEST_CASE("a column's state at a load does not hang on how much more was request
   }
 }
 
-TEST_CASE("a straight column without an imperfection tells where it is not stable") {
+TEST_CASE("a straight column without an imperfection reports where it is not stable") {
   preset::Preset p = column(1.5);
   p.imperfection.size = 0;
   p.accuracy.edges_per_segment = 16;

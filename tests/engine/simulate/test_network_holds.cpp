@@ -56,7 +56,7 @@ Energies at_rest(const preset::NetworkData& file) {
 
 }  // namespace
 
-TEST_CASE("beams of one network bear what their own ends hold, as beam theory has it") {
+TEST_CASE("beams of one network bear what their own constraints give, by beam theory") {
   for (const auto& ends :
        {std::array{clamped, pinned, clamped, pinned}, std::array{pinned, pinned, clamped, pinned},
         std::array{clamped, clamped, pinned, clamped}, std::array{tangent, pinned, pinned, pinned},
@@ -71,7 +71,7 @@ TEST_CASE("beams of one network bear what their own ends hold, as beam theory ha
   }
 }
 
-TEST_CASE("a hold for all ends is of those that the file says nothing of") {
+TEST_CASE("a constraint for all ends is of those without one in the file") {
   preset::Preset p = Cross{{clamped, pinned, clamped, pinned}}.preset(8);
   const double by_file = sunk(p);
   p.ends.kind = preset::EndKind::clamped;
@@ -79,7 +79,9 @@ TEST_CASE("a hold for all ends is of those that the file says nothing of") {
   CHECK(sunk(p) == Approx(by_file).epsilon(1e-10));
 }
 
-TEST_CASE("a network of mixed laws and holds rests alike turned, moved and listed otherwise") {
+TEST_CASE(
+    "a network of mixed laws and constraints has one equilibrium turned, moved and listed "
+    "otherwise") {
   const preset::NetworkData file = mixed_network();
   const Energies upright = at_rest(file);
   constexpr std::array terms{Term::bend, Term::joint, Term::shear, Term::twist, Term::support};
@@ -92,18 +94,18 @@ TEST_CASE("a network of mixed laws and holds rests alike turned, moved and liste
   }
 }
 
-TEST_CASE("holds of ends that have no support of their own are refused by rod and end") {
-  const auto told = [](const char* reason, const auto& change) {
+TEST_CASE("constraints of ends that have no support of their own are refused by rod and end") {
+  const auto reported = [](const char* reason, const auto& change) {
     preset::NetworkData file = mixed_network();
     change(file);
     CHECK_THAT(refusal(scene_of(network(file, 4))), Catch::Contains(reason));
   };
-  told("rods[1]: its begin hangs on a spring", [](auto& file) { file.holds[2] = {1, 0, 2}; });
-  told("rods[3]: its begin is free", [](auto& file) {
+  reported("rods[1]: its begin is on a spring", [](auto& file) { file.holds[2] = {1, 0, 2}; });
+  reported("rods[3]: its begin is free", [](auto& file) {
     std::erase_if(file.supports, [](const auto& row) { return row[0] == 2; });
     file.free = {2};
   });
-  told("rods[6]: its end is joined there", [](auto& file) {
+  reported("rods[6]: its end is joined there", [](auto& file) {
     file.points.push_back({0, -80, 0});
     file.rods.push_back({25, 12});
     file.holds.push_back({6, 1, 1});

@@ -20,7 +20,9 @@ preset::NetworkData vault(double scale) {
 
 }  // namespace
 
-TEST_CASE("a tent of two rods drawn in space rests as the arches that a flat cross becomes") {
+TEST_CASE(
+    "a tent of two rods drawn in space has the equilibrium of the arches that a flat cross "
+    "becomes") {
   const double a = 50, foot = 0.9 * a, height = std::sqrt(a * a - foot * foot);
   preset::Preset flat = network(cross(a, a), 8);
   flat.actuation.scale = 0.9;
@@ -62,7 +64,7 @@ TEST_CASE("a vault drawn in space is the same however it is turned, moved suppor
   }
 }
 
-TEST_CASE("ends of a vault in space that hold directions, on both rod models, turned too") {
+TEST_CASE("ends of a vault in space that prescribe directions, in both rod models, turned too") {
   std::vector<double> tangent;
   for (const auto kind : {preset::EndKind::tangent, preset::EndKind::clamped}) {
     preset::Preset p = network(vault(0.96), 4);

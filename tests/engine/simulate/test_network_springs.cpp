@@ -28,13 +28,12 @@ Eigen::Matrix3Xd joints_of(const Simulation& session) {
 
 }  // namespace
 
-TEST_CASE("stiff springs come to what held supports have, the distance falling as 1/k",
-          "[standard]") {
+TEST_CASE("stiff springs converge to fixed supports, the distance falling as 1/k", "[standard]") {
   // so little that the path leaves no branch
   constexpr double scale = 0.99, shortening = 0.005;
-  for (const auto rung : {RodModel::bend, RodModel::twist}) {
+  for (const auto rod_model : {RodModel::bend, RodModel::twist}) {
     const auto joints = [&](preset::Preset p) {
-      p.accuracy.model = rung;
+      p.accuracy.model = rod_model;
       p.rod.shear_GPa = 30;
       p.actuation.scale = scale;
       return joints_of(formed(p, {{4}, false}, shortening));
@@ -45,7 +44,7 @@ TEST_CASE("stiff springs come to what held supports have, the distance falling a
     for (const double k : {100.0, 1e3, 1e4}) {
       const double off =
           (joints(on_springs(Eigen::Vector3d::Constant(k))) - held).colwise().norm().maxCoeff();
-      CAPTURE(int(rung), k, off);
+      CAPTURE(int(rod_model), k, off);
       CHECK(off < 1);
       if (before > 0) CHECK(before / off == Approx(10).epsilon(0.05));
       before = off;
@@ -89,7 +88,7 @@ TEST_CASE("forces of springs are k times what the ends stay behind, and balance"
         Approx(shell.system(1).energy_at(shell.state().levels[1])).epsilon(1e-12));
 }
 
-TEST_CASE("a joint inside rods on a spring gives way, and may be pushed") {
+TEST_CASE("a joint inside rods on a spring yields, and may be pushed") {
   preset::Preset p = triaxial();
   auto& file = p.footprint.file;
   // the joint of most rods, supported from below
@@ -119,7 +118,7 @@ TEST_CASE("a joint inside rods on a spring gives way, and may be pushed") {
         Approx(session.force(0).z() - 1e-4 * session.nodes()(2, joint)).epsilon(1e-6));
 }
 
-TEST_CASE("symmetries of a mesh keep what is held, and how stiffly") {
+TEST_CASE("symmetries of a mesh keep its supports, and how stiff they are") {
   const auto count = [](const preset::Preset& p) {
     const auto scene = value_of(scene_of(p));
     const RodMesh mesh = mesh_rods(scene.footprint, 4);

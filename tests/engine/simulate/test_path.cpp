@@ -54,10 +54,10 @@ double skew(const record::Trajectory& trajectory, std::size_t frame, int n) {
 }
 
 /// Every frame is in equilibrium and says whether it is stable; a path that ended early says why.
-void check_frames(const simulate::ExperimentResult& outcome, int asked) {
+void check_frames(const simulate::ExperimentResult& outcome, int requested) {
   const auto& frames = outcome.trajectory.frames;
   CAPTURE(outcome.summary.limit_reason);
-  if (int(frames.size()) < asked) {
+  if (int(frames.size()) < requested) {
     CHECK(outcome.summary.limit != record::Limit::none);
     CHECK_FALSE(outcome.summary.limit_reason.empty());
   }
@@ -210,7 +210,7 @@ TEST_CASE("a saddle from flat loses its branch where two coarse meshes do", "[st
   CHECK(bend(confirmed) == Approx(bend(run(spool()))).epsilon(5e-3));
 }
 
-TEST_CASE("the frame after a jump is the one that tells it, and it jumps where that is reported",
+TEST_CASE("the frame after a jump is the one that reports it, and it jumps where that is reported",
           "[standard]") {
   // of two snaps the second is a limit point of the path, which a mesh of twice the edges has later
   preset::Preset p = ellipse(60);
@@ -219,27 +219,27 @@ TEST_CASE("the frame after a jump is the one that tells it, and it jumps where t
   const auto outcome = run(p);
   const auto& frames = outcome.trajectory.frames;
   const auto rise = [&](std::size_t n) { return frames[n].height_mm - frames[n - 1].height_mm; };
-  int told = 0;
+  int reported = 0;
   for (std::size_t k = 10; k < frames.size(); ++k) {
     CAPTURE(k, frames[k].progress, frames[k].event);
     const bool tells = frames[k].event.starts_with("snap at progress ");
     CHECK((rise(k) - rise(k - 1) > 0.3) == tells);
     if (!tells) continue;
-    ++told;
+    ++reported;
     const double place = std::stod(frames[k].event.substr(17));
     CHECK(frames[k].progress > place - 0.015);
     CHECK(frames[k - 1].progress < place + 0.015);
   }
-  CHECK(told == 2);
+  CHECK(reported == 2);
 }
 
-TEST_CASE("estimates hold where the meshes show another order than the second", "[full]") {
+TEST_CASE("estimates are bounds where the meshes show another order than the second", "[full]") {
   preset::Preset p = circle(17, 162.305, 113.993);
   p.accuracy.tolerance = 1e-3;
-  const auto asked = run(p);
+  const auto requested = run(p);
   p.accuracy.tolerance = 1e-6;
-  const double error = distance(asked, run(p));
-  CHECK(error < 2 * asked.summary.error_estimate_mm + 1e-9);
+  const double error = distance(requested, run(p));
+  CHECK(error < 2 * requested.summary.error_estimate_mm + 1e-9);
   CHECK(error < 1e-3 * 162.305);
 }
 
@@ -293,9 +293,9 @@ TEST_CASE("the error of an event is of two meshes", "[standard]") {
   // parameter
   preset::Preset p = spool(preset::Start::flat);
   p.ends.rings = preset::Rings::pinned;
-  const std::string told = run(p).summary.limit_reason;
+  const std::string reported = run(p).summary.limit_reason;
   double progress = 0, error = 0;
-  REQUIRE(std::sscanf(told.c_str(), "the path branches at progress %lf \u00b1 %lf", &progress,
+  REQUIRE(std::sscanf(reported.c_str(), "the path branches at progress %lf \u00b1 %lf", &progress,
                       &error) == 2);
   // on meshes of 16 and 32 edges
   constexpr double there = 0.2421, to = 0.0002;

@@ -151,7 +151,7 @@ TEST_CASE("a shell in motion reaches the equilibrium of the static solver") {
   CHECK(max_column_norm(session.nodes() - before) < 1e-4);
 }
 
-TEST_CASE("a session begins flat, on other meshes, holds a joint where it is and takes more load") {
+TEST_CASE("a session begins flat, on other meshes, fixes a joint where it is and takes more load") {
   preset::Preset p = six_rods(1e-3);
   p.loads.gravity_m_s2 = 9.81;
   preset::Preset heavy = p;

@@ -71,7 +71,7 @@ double stiffness_of_push(Simulation simulation) {
 
 }  // namespace
 
-TEST_CASE("load cases: what comes on is what the supports bear, to 1e-9 of it") {
+TEST_CASE("load cases: what is applied is what the supports bear, to 1e-9 of it") {
   Simulation simulation = formed(loaded_shell());
   const Eigen::Matrix3Xd shape = simulation.nodes();
   double plan = 0, half = 0, covered = 0;
@@ -129,7 +129,9 @@ TEST_CASE("load cases: what comes on is what the supports bear, to 1e-9 of it") 
   }
 }
 
-TEST_CASE("bolts and braces change nothing as they come in, hold afterwards, and go again") {
+TEST_CASE(
+    "bolts and braces change nothing as they are added, stiffen afterwards, and are removed "
+    "again") {
   preset::Preset p = loaded_shell();
   // edges are centred on joints that will be bolted
   p.step = {step(StepKind::tighten)};
@@ -163,7 +165,7 @@ TEST_CASE("bolts and braces change nothing as they come in, hold afterwards, and
   CHECK(!simulation.rods().bolts);
   CHECK(max_column_norm(simulation.nodes() - shape) < 1e-3);
   CHECK(refusal(apply_step(simulation, out, unwatched), Fault::bad_input) ==
-        "there are no bolts to take out");
+        "got no bolts, expected some to take out");
   simulation.restore(before);
   CHECK(max_column_norm(simulation.nodes() - shape) == 0);
 }
@@ -173,13 +175,14 @@ TEST_CASE("what is made stiff too early, or is not there, is named") {
   Simulation flat = value_of(Simulation::open(scene, plan_levels(1e-2)));
   CHECK(flat.begin_flat().end == Outcome::reached);
   CHECK_THAT(refusal(apply_step(flat, step(StepKind::tighten), unwatched), Fault::bad_input),
-             Catch::Contains("must be formed"));
+             Catch::Contains("expected a formed shell"));
   preset::Preset p = loaded_shell();
   p.step = {step(StepKind::brace)};
   p.step[0].cells = {{40, 2}};
   CHECK(refusal(plan(p), Fault::bad_input) ==
-        "[[step]] 1 cells: the footprint has no cell [40, 2]");
+        "[[step]] 1 cells: got [40, 2], expected a cell of the footprint");
   p.step = {step(StepKind::release)};
   p.step[0].what = preset::Released::braces;
-  CHECK(refusal(plan(p), Fault::bad_input) == "[[step]] 1 what: there are no braces to take out");
+  CHECK(refusal(plan(p), Fault::bad_input) ==
+        "[[step]] 1 what: got braces, of which there are none, expected others");
 }

@@ -89,10 +89,10 @@ double spring(int edges) {
   auto& torsions = std::get<std::vector<Pair<Torsion>>>(model.pairs);
   const auto wound_bends = bends;
   const auto wound_torsions = torsions;
-  for (const double share : {0.25, 0.5, 0.75, 1.0}) {
+  for (const double fraction : {0.25, 0.5, 0.75, 1.0}) {
     for (std::size_t k = 0; k < bends.size(); ++k) {
-      bends[k].law.bend.rest = share * wound_bends[k].law.bend.rest;
-      torsions[k].law.rest = share * wound_torsions[k].law.rest;
+      bends[k].law.bend.rest = fraction * wound_bends[k].law.bend.rest;
+      torsions[k].law.rest = fraction * wound_torsions[k].law.rest;
     }
     Linearisation system(model);
     settle(system, rest, 1e-8);

@@ -57,11 +57,11 @@ TEST_CASE("contact: two crossed rods press with the load, at the distance of the
   // one lies on two supports, the other across it at its middle, loaded at both its ends
   constexpr int edges = 9;
   constexpr double length = 20, load = 0.02;
-  const RodModel rung = GENERATE(RodModel::bend, RodModel::twist);
+  const RodModel rod_model = GENERATE(RodModel::bend, RodModel::twist);
   std::vector<double> s;
   for (int k = 0; k <= edges; ++k) s.push_back(length * k / edges);
   const std::vector<ModelRod> rods{rod_of(0, s), rod_of(edges + 1, s)};
-  Model model = build_model(2 * edges + 2, rods, rung).value();
+  Model model = build_model(2 * edges + 2, rods, rod_model).value();
   let_touch(rods, model);
   model.pin(0);
   for (const int row : {1, 2}) model.hold(edges, row);
@@ -103,7 +103,7 @@ TEST_CASE("contact: two crossed rods press with the load, at the distance of the
 
 TEST_CASE("contact: an overhand knot stays one, and is gone without") {
   constexpr int edges = 80;
-  const RodModel rung = GENERATE(RodModel::bend, RodModel::twist);
+  const RodModel rod_model = GENERATE(RodModel::bend, RodModel::twist);
   Matrix3Xd x(3, edges + 1);
   std::vector<double> s{0};
   for (int k = 0; k <= edges; ++k) {
@@ -113,7 +113,7 @@ TEST_CASE("contact: an overhand knot stays one, and is gone without") {
     if (k > 0) s.push_back(s.back() + (x.col(k) - x.col(k - 1)).norm());
   }
   const std::vector<ModelRod> rods{rod_of(0, s)};
-  Model model = build_model(edges + 1, rods, rung).value();
+  Model model = build_model(edges + 1, rods, rod_model).value();
   model.pin(0);
   model.pin(edges);
   finish(model);

@@ -53,7 +53,36 @@ TEST_CASE("factorisations: solve, and count negative pivots as dense eigenvalues
   CHECK(own[0] < 0);  // the counts above were not all zero
 }
 
-TEST_CASE("factorisations: what one left does not stand in the next, on long chains") {
+TEST_CASE("a matrix of rank one that joins all columns is solved with, and counted") {
+  System system(70, 6, 2);
+  BlockHessian& h = system.assembly.hessian;
+  const Eigen::MatrixXd own_blocks = dense(system.model, h);
+  const Eigen::VectorXd plain = eigenvalues(own_blocks);
+  int changed = 0;
+  for (const double size : {1.0, 100.0}) {
+    h.rank_one = size * Eigen::Matrix3Xd::Random(3, system.model.columns());
+    for (int k = 0; k < system.model.nodes; ++k)
+      if (system.model.pinned(k)) h.rank_one.col(k).setZero();
+    Eigen::VectorXd c(own_blocks.rows());
+    for (int k = 0; k < system.model.free(); ++k)
+      c.segment<3>(3 * k) = h.rank_one.col(system.model.free_columns[std::size_t(k)]);
+    const Eigen::MatrixXd full = own_blocks + c * c.transpose();
+    CHECK((dense(system.model, h) - full).norm() < 1e-12 * full.norm());
+    const Eigen::VectorXd own = eigenvalues(full);
+    const auto solver = make_linear_solver(system.model);
+    for (const double shift : {0.0, 0.3}) {
+      const int negative = int((own.array() < -shift).count());
+      changed += negative != int((plain.array() < -shift).count());
+      const Inertia inertia = solver->factor(h, shift);
+      REQUIRE(inertia.usable);
+      CHECK(inertia.negative_pivots == negative);
+      CHECK(residual(system, *solver, shift) < 1e-8);
+    }
+  }
+  CHECK(changed > 0);
+}
+
+TEST_CASE("factorisations: what one left is not in the next, on long chains") {
   const System system(70, 6, 12);
   const auto solver = make_block_cholesky(system.model), other = make_cholmod(system.model);
   for (double shift : {0.0, 500.0, 0.3, 500.0}) {

@@ -84,7 +84,7 @@ TEST_CASE("a truss of two bars snaps through the flat") {
   CHECK(std::abs(pass.saddle.x(2, 1)) < 1e-6);
 }
 
-TEST_CASE("a way from a state to itself has no pass") {
+TEST_CASE("a path from a state to itself has no pass") {
   const Arch arch(12, 126, 110);
   Linearisation system(arch.model);
   const State up = arch.rest(system, 20);

@@ -50,7 +50,8 @@ TEST_CASE("cascade: nodes that are no numbers are an error, a cancel is answered
   CHECK(refusal(cascade.rest(1, nodes, unwatched), Fault::no_equilibrium) != "none");
 }
 
-TEST_CASE("cascade: a confined form keeps its group where it is stable, and rests anyhow") {
+TEST_CASE(
+    "cascade: a confined form keeps its group where it is stable, and converges in any case") {
   MultilevelRelaxation cascade = cascade_of(8);
   int kept = 0;
   for (const SymmetryGroup& group : subgroups(cascade.symmetries())) {

@@ -59,7 +59,7 @@ TEST_CASE("along a path companions take one correction a state, and it is the ex
   }
 }
 
-TEST_CASE("a companion without a state beside the fine one leaves the error unknown") {
+TEST_CASE("a companion without a state near the fine one leaves the error unknown") {
   // 2 edges per segment: at a tenth of the length the coarse shell is another one
   const Scene scene = value_of(scene_of(paper_circle(8)));
   PathOptions options;

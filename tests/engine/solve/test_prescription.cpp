@@ -84,7 +84,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a joint held along a direction that K does not resist is found stable") {
+TEST_CASE("a joint prescribed along a direction that K does not resist is found stable") {
   // at a limit point K is singular along the push; shifted there, it has one negative pivot past it
   const BentDome shell = unstrained_dome();
   Linearisation free(shell.model);

@@ -26,7 +26,7 @@ Rest settled(Linearisation& system, const State& from, const Eigen::Matrix3Xd& m
 
 }  // namespace
 
-TEST_CASE("of two ways down that are mirror images one is gone, and it is the same one") {
+TEST_CASE("of two descents that are mirror images one is taken, always the same one") {
   const Model model = build_model(mesh, circular_section(0.254, 83)).value();
   Linearisation system(model);
   // straight rods compressed slightly past their first buckling load, a dome up or down
@@ -64,7 +64,7 @@ TEST_CASE("of two ways down that are mirror images one is gone, and it is the sa
   }
 }
 
-TEST_CASE("beyond a fold one way down is gone, and every requested side ends there") {
+TEST_CASE("past a fold one descent is taken, and every requested side ends there") {
   Model model = build_model(mesh, circular_section(0.254, 83)).value();
   model.loads.push_back({0, {0, 0, -1}});  // N: far more than the arch bears
   Linearisation system(model);
@@ -83,8 +83,8 @@ TEST_CASE("beyond a fold one way down is gone, and every requested side ends the
   CHECK(any.state.x(2, 0) < -5);
   for (const BranchSide side : {BranchSide::along, BranchSide::against}) {
     departure.side = side;
-    const Rest asked = settled(system, arch, down, departure);
-    CHECK(max_column_norm(asked.state.x - any.state.x) < 1e-6);
-    CHECK(any.factorizations < 1.6 * asked.factorizations);
+    const Rest requested = settled(system, arch, down, departure);
+    CHECK(max_column_norm(requested.state.x - any.state.x) < 1e-6);
+    CHECK(any.factorizations < 1.6 * requested.factorizations);
   }
 }

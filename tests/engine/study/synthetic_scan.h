@@ -13,7 +13,7 @@ struct ScanMaking {
   unsigned seed = 1;
   double noise_mm = 0.1;  ///< standard deviation of each coordinate
   int points = 100;       ///< a top
-  double missing = 0;     ///< share of the joints that the scanner does not see
+  double missing = 0;     ///< fraction of the joints that the scanner does not see
   int spurious = 0;       ///< discs elsewhere
   bool mirrored = false;  ///< the shell is in its mirror image
   JointCylinder cylinder = {};

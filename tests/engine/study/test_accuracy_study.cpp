@@ -71,7 +71,7 @@ TEST_CASE("every method reaches the same state of its mesh, the error falls with
   for (const auto& at : study.standings) CHECK(at.error < at.tolerance);
 }
 
-TEST_CASE("a run beyond its time is stopped and said to be too slow") {
+TEST_CASE("a run that exceeds its time is stopped and reported as too slow") {
   Watch watch;
   auto made = value_of(BenchmarkProblem::create(paper_circle(4, 0.85), 16, watch));
   const TimeLimit limit(0.05, watch);

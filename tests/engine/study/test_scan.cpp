@@ -165,7 +165,7 @@ TEST_CASE("a joint that lies elsewhere is reported with its distance") {
   CHECK(scan_matches(scan, 1.5));
 }
 
-TEST_CASE("tops that all lie further out along the normals tell by how much") {
+TEST_CASE("tops that all lie further out along the normals give the offset") {
   for (const ScanTarget* form : {&circle(), &hemisphere()})
     for (const double height : {7.5, 3.2}) {
       ScanMaking how;
@@ -173,16 +173,16 @@ TEST_CASE("tops that all lie further out along the normals tell by how much") {
       how.missing = 0.1;
       const MadeScan made = make_scan(*form, how);
       const auto scan = value_of(laid(made, *form));
-      double told = JointCylinder{}.height_mm + beyond_height(scan, *form);
-      CAPTURE(height, told);
-      CHECK(told == Approx(height).margin(0.15));
+      double reported = JointCylinder{}.height_mm + beyond_height(scan, *form);
+      CAPTURE(height, reported);
+      CHECK(reported == Approx(height).margin(0.15));
     }
   // with the known height nothing remains
   const auto known = value_of(laid(make_scan(hemisphere(), {}), hemisphere()));
   CHECK(std::abs(beyond_height(known, hemisphere())) < 0.05);
 }
 
-TEST_CASE("discs apart are clusters, each with its middle, whatever part of it is seen more") {
+TEST_CASE("separate discs are clusters, each with its middle, whatever part of it is seen more") {
   std::vector<Eigen::Vector3d> cloud;
   const Eigen::Vector3d a(0, 0, 1), b(6, 0, 2), c(0, 7, -3);
   add_disc(a, 1.5, 400, 1, cloud);
@@ -225,7 +225,7 @@ TEST_CASE("single points are specks among discs, joints where there is nothing e
   CHECK(found->tops.cols() == 4);
 }
 
-TEST_CASE("points that no shell of such joints could hold are refused") {
+TEST_CASE("points that no shell of such joints could have are refused") {
   Eigen::Matrix3Xd far(3, 2);
   far << 0, 1e9, 0, 0, 0, 0;
   CHECK(refusal(cluster_joint_tops(far, 3)) ==
@@ -250,7 +250,7 @@ const Pose tilted{Eigen::AngleAxisd(2.1, Eigen::Vector3d(1, 2, -2) / 3).toRotati
 
 }  // namespace
 
-TEST_CASE("places find their points again in any pose, exactly") {
+TEST_CASE("positions find their points again in any pose, exactly") {
   const Eigen::Matrix3Xd places = bump(), points = tilted.of(places);
   const auto found = value_of(register_points(points, places, {}));
   CHECK(found.found == 49);
@@ -275,7 +275,7 @@ TEST_CASE("a third missing and as many that belong nowhere mislead nobody") {
   CHECK(found.cost == Approx(17 * 9));
 }
 
-TEST_CASE("a mirror image is another shape, and too few points tell no pose") {
+TEST_CASE("a mirror image is another shape, and too few points give no pose") {
   const Eigen::Matrix3Xd places = bump();
   const Eigen::Matrix3Xd mirrored = Eigen::Vector3d(-1, 1, 1).asDiagonal() * places;
   const auto found = value_of(register_points(tilted.of(mirrored), places, {}));

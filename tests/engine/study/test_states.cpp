@@ -79,7 +79,7 @@ TEST_CASE("states: a search that cannot be is an error with its reason") {
   CHECK(refusal(find_states(strained, p.jitter, {}, other), Fault::no_equilibrium) != "none");
 }
 
-TEST_CASE("states tell all that their energy is made of") {
+TEST_CASE("states report all terms of their energy") {
   preset::Preset p = shell(6);
   p.accuracy.model = RodModel::twist;
   p.rod.shear_GPa = 31;

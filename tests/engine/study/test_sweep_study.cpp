@@ -117,7 +117,7 @@ TEST_CASE("shards take every point once") {
   CHECK(points_of_shard(2, 4, 4).empty());
 }
 
-TEST_CASE("the numbers of a sweep hang on its values, not on its pictures") {
+TEST_CASE("the numbers of a sweep depend on its values, not on its pictures") {
   const auto presets = small_sweep();
   auto pictures = presets;
   pictures.base.movie.frames = 77;

@@ -11,17 +11,17 @@
 
 namespace gridshell::test {
 
-/// While it lives, it is told of every canvas that is finished.
+/// While it lives, it gets every canvas that is finished.
 struct CanvasObserver {
-  explicit CanvasObserver(std::function<void(const render::Canvas&)> told) {
-    render::Canvas::on_finished = std::move(told);
+  explicit CanvasObserver(std::function<void(const render::Canvas&)> reported) {
+    render::Canvas::on_finished = std::move(reported);
   }
   ~CanvasObserver() { render::Canvas::on_finished = nullptr; }
   CanvasObserver(const CanvasObserver&) = delete;
   CanvasObserver& operator=(const CanvasObserver&) = delete;
 };
 
-/// All words lie on the canvas, and no two over one another, nor, where that is asked for, over a
+/// All words lie on the canvas, and no two over one another, nor, where that is requested, over a
 /// marker.
 inline void check_apart(const render::Canvas& canvas, bool off_markers = false) {
   const std::vector<render::Box>& boxes = canvas.text_boxes();

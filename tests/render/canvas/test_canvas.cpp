@@ -156,7 +156,7 @@ TEST_CASE("a figure is written as PNG, SVG and PDF, whose words stay words") {
   CHECK(svg.find("<glyph") == std::string::npos);
   CHECK(svg.find("<symbol") == std::string::npos);
 
-  // the same bytes again, as large as asked for
+  // the same bytes again, as large as requested
   CHECK(draw_pdf(144, 72, "energy", {draw}) == draw_pdf(144, 72, "energy", {draw}));
   CHECK(draw_pdf(144, 72, "energy", {draw}).starts_with("%PDF"));
   REQUIRE(write_figure(folder / "wide", 144, 72, "", draw, {85, 300}));

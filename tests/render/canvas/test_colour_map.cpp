@@ -54,7 +54,7 @@ TEST_CASE("the diverging map is neutral in the middle and equally strong on both
   CHECK(diverging(-7).b == diverging(-1).b);
 }
 
-TEST_CASE("the sequential maps darken all the way, in steps that look equal") {
+TEST_CASE("the sequential maps darken from end to end, in steps that look equal") {
   std::vector<double> steps;
   for (int k = 0; k < 64; ++k) {
     const Oklab p = to_oklab(sequential(k / 64.0)), q = to_oklab(sequential((k + 1) / 64.0));
@@ -75,7 +75,7 @@ TEST_CASE("a scale for thin lines begins where they can be seen") {
   CHECK(lines(0.5).b == sequential(0.6).b);
 }
 
-TEST_CASE("a scale maps its ends and clips beyond, the unknown is grey") {
+TEST_CASE("a scale maps its ends and clips outside, the unknown is grey") {
   const ColourScale scale{diverging, -0.1, 0.1};
   CHECK(scale(0.1).r == diverging(1).r);
   CHECK(scale(0.3).r == diverging(1).r);
@@ -108,4 +108,15 @@ TEST_CASE("a diverging scale is about zero, whichever part of it is shown") {
   CHECK(more(0).g == diverging(0).g);
   CHECK(more(-0.2).b == diverging(-1).b);
   CHECK(more(0.1).r == diverging(0.5).r);
+}
+
+TEST_CASE("in print without colours negative values are darker than positive ones") {
+  for (const double t : {0.4, 0.7, 1.0}) {
+    const Oklab positive = to_oklab(diverging_in_print(t)),
+                negative = to_oklab(diverging_in_print(-t));
+    CHECK(negative.L < positive.L - 0.3 * t);
+    CHECK((positive.a > 0 && negative.b < 0));
+  }
+  const ColourScale part{diverging_in_print, -0.2, 0.1};
+  CHECK(part(0).g == diverging_in_print(0).g);
 }

@@ -1,4 +1,5 @@
-// Colours that tell things apart do so for readers with any of the three kinds of colour blindness.
+// Colours that distinguish things do so for readers with any of the three kinds of colour
+// blindness.
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 
@@ -67,12 +68,12 @@ void check_all_apart(const std::vector<Colour>& colours) {
 
 }  // namespace
 
-TEST_CASE("what is red to most is not apart from green for all") {
+TEST_CASE("what is red to most readers is not distinct from green for all") {
   CHECK(apart({1, 0, 0, 1}, {0, 0, 1, 1}) > clearly);
   CHECK(apart({0.55f, 0.40f, 0.10f, 1}, {0.35f, 0.47f, 0.10f, 1}) < clearly);
 }
 
-TEST_CASE("series are told apart by colour, the later ones by colour or sign") {
+TEST_CASE("series differ by colour, the later ones by colour or sign") {
   std::vector<Colour> first;
   for (std::size_t k = 0; k < 6; ++k) first.push_back(series_colour(k));
   check_all_apart(first);
@@ -84,7 +85,7 @@ TEST_CASE("series are told apart by colour, the later ones by colour or sign") {
     }
 }
 
-TEST_CASE("shells, nets, blocks and measured joints are told apart") {
+TEST_CASE("shells, nets, blocks and measured joints have distinct colours") {
   record::Trajectory run;
   for (const char* name : {"a", "b", "c", "d"}) run.layout.parts.emplace_back().name = name;
   std::vector<Colour> blocks{ink};
@@ -95,13 +96,13 @@ TEST_CASE("shells, nets, blocks and measured joints are told apart") {
   check_all_apart({first_order_ink, higher_order_ink, mirror_ink, white});
 }
 
-TEST_CASE("the ends and the middle of colour maps are told apart") {
+TEST_CASE("the ends and the middle of colour maps are distinct") {
   check_all_apart({diverging(-1), diverging(0), diverging(1)});
   check_all_apart({diverging(-0.5), diverging(0), diverging(0.5)});
   check_all_apart({sequential(0), sequential(0.33), sequential(0.67), sequential(1)});
 }
 
-TEST_CASE("words stand out from white at 4.5 to 1 in every theme") {
+TEST_CASE("words have a contrast of 4.5 to 1 with white in every theme") {
   CHECK(contrast_to_white({0, 0, 0, 1}) == Approx(21));
   CHECK(contrast_to_white(white) == Approx(1));
   for (const auto& theme : {Appearance{}, paper_appearance()})

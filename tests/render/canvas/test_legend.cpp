@@ -38,7 +38,7 @@ TEST_CASE("a colour bar stays in its box and shows its scale from end to end") {
   }
 }
 
-TEST_CASE("the ends of a scale that are not round have ticks where it is asked for") {
+TEST_CASE("the ends of a scale that are not round have ticks where requested") {
   ColourBar bar{"*F* (N)", {diverging, -0.83, 0.83}};
   bar.ends = true;
   draw_picture(200, 300, 1, white, [&](Canvas& c) {
@@ -48,7 +48,7 @@ TEST_CASE("the ends of a scale that are not round have ticks where it is asked f
   });
 }
 
-TEST_CASE("sign, ticks and words of a colour bar stay apart, on any scale and at any height") {
+TEST_CASE("sign, ticks and words of a colour bar do not overlap, on any scale and at any height") {
   for (const double end : {0.0006, 0.02, 0.5, 0.8, 1.0, 2.0, 12.0, 250.0})
     for (const double low : {-end, 0.0})
       for (const double font : {7.1, 16.4})
@@ -89,8 +89,7 @@ TEST_CASE("a scale bar that does not fit is not drawn at all") {
   CHECK(test::ink_box(image).empty());
 }
 
-TEST_CASE(
-    "colour keys stand in the middle of their row, all of them, smaller where room is short") {
+TEST_CASE("colour keys are in the middle of their row, all of them, smaller where room is short") {
   const std::vector<ColourKey> keys{{{0.8f, 0.1f, 0.1f, 1}, "shell at rest"},
                                     {{0.1f, 0.2f, 0.8f, 1}, "its net"}};
   for (const double width : {300.0, 120.0}) {

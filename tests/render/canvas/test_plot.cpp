@@ -102,7 +102,7 @@ TEST_CASE("labels, ticks, legend, references and notes are all there") {
   });
 }
 
-TEST_CASE("values stand where the axis says") {
+TEST_CASE("values are where the axis says") {
   const Plot plot = errors();
   laid_out(plot, [&](Canvas&, const PlotFrame& frame) {
     // on a logarithmic axis equal ratios take equal room
@@ -137,11 +137,11 @@ TEST_CASE("a legend hides no data: it goes to a free corner, else above") {
   plot.series = {{"falling"}};
   for (int k = 0; k <= 10; ++k) plot.series[0].add(k, 10 - k);
   laid_out(plot, [&](Canvas& canvas, const PlotFrame& frame) {
-    CHECK(Legend(canvas, plot).free_corner(canvas, frame) == LegendPlace::upper_right);
+    CHECK(Legend(canvas, plot).free_corner(canvas, frame) == LegendPosition::upper_right);
     Plot crossed = plot;
     crossed.series.push_back(plot.series[0]);
     for (double& y : crossed.series[1].y) y = 10 - y;
-    CHECK(Legend(canvas, crossed).free_corner(canvas, frame) == LegendPlace::none);
+    CHECK(Legend(canvas, crossed).free_corner(canvas, frame) == LegendPosition::none);
   });
 }
 

@@ -105,7 +105,7 @@ TEST_CASE("small and large numbers share a power of ten") {
   CHECK(labels(linear_ticks(0, 2e6, 2)) == Labels{"0", "1 × 10^{6}", "2 × 10^{6}"});
 }
 
-TEST_CASE("logarithmic ticks stand at powers of ten with eight minor ones between") {
+TEST_CASE("logarithmic ticks are at powers of ten with eight minor ones between") {
   const auto ticks = log_ticks(1e-4, 1e-1, 6);
   CHECK(labels(ticks) == Labels{"10^{−4}", "10^{−3}", "10^{−2}", "10^{−1}"});
   CHECK(ticks.size() == 4 + 3 * 8);

@@ -1,4 +1,4 @@
-// A square net over a dome, for benches and for pictures whose size in rods is asked for: n + n
+// A square net over a dome, for benches and for pictures whose size in rods is given: n + n
 // rods on a square grid, n^2 joints, (n-1)^2 cells, 2 n (n-1) k rod segments of one edge. Geometry
 // alone.
 #pragma once
@@ -16,7 +16,7 @@ struct SquareShell {
   Eigen::Matrix3Xd nodes;
 };
 
-/// `rods` rods a direction, `edges` edges between two joints, on a square of `half` mm half side.
+/// `rods` rods per direction, `edges` edges between two joints, on a square of `half` mm half side.
 inline SquareShell square_shell(int rods, int edges, double half = 100) {
   SquareShell shell;
   auto& layout = shell.layout;

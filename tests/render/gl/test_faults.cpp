@@ -65,7 +65,7 @@ Change camera(std::function<void(Camera&)> change) {
   return [change](Subject& s) { s.spoil = [change](Drawing&, Camera& c) { change(c); }; };
 }
 
-const std::map<std::string, Change>& faults() {
+const std::map<std::string, Change>& errors() {
   static const std::map<std::string, Change> all{
       {"a lost rod", [](Subject& s) { s.run.layout.rods.erase(s.run.layout.rods.begin() + 5); }},
       {"a lost cell", drawing([](Drawing& d) { d.cell_colours[40].a = 0; })},
@@ -111,7 +111,7 @@ const std::map<std::string, Change>& faults() {
 }
 
 // round-off and other processors: numbers a little off
-Change shaken(double size_mm, int seed) {
+Change perturbed(double size_mm, int seed) {
   return [=](Subject& s) {
     std::mt19937 random(static_cast<unsigned>(seed));
     std::uniform_real_distribution<double> off(-size_mm, size_mm);
@@ -122,11 +122,11 @@ Change shaken(double size_mm, int seed) {
 
 }  // namespace
 
-TEST_CASE("the metric catches every injected fault", "[image][image][standard]") {
+TEST_CASE("the metric catches every injected error", "[image][image][standard]") {
   Easel paint;
   const Image good = paint(Subject());
-  CHECK(faults().size() >= 20);
-  for (const auto& [name, change] : faults()) {
+  CHECK(errors().size() >= 20);
+  for (const auto& [name, change] : errors()) {
     Subject subject;
     change(subject);
     const auto worst = value_of(compare(good, paint(subject)));
@@ -168,7 +168,7 @@ TEST_CASE("the metric passes every harmless variation", "[image][image][standard
   for (const double size : {1e-9, 1e-6, 1e-5, 1e-4, 1e-3, 5e-3})
     for (int seed = 1; seed <= 2; ++seed) {
       Subject subject;
-      shaken(size, seed)(subject);
+      perturbed(size, seed)(subject);
       check(paint(subject));
     }
   // a grey level more or less here and there, as other rounding gives

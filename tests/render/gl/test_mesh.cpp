@@ -7,7 +7,7 @@
 
 using namespace gridshell::render;
 
-TEST_CASE("tangents are unit vectors, also where points coincide or turn back", "[mesh]") {
+TEST_CASE("tangents are unit vectors, also where points coincide or reverse", "[mesh]") {
   const std::vector<Eigen::Vector3f> points{{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0, 0, 0}};
   for (const bool closed : {false, true})
     for (const Eigen::Vector3f& t : tangents(points, closed)) CHECK(t.norm() == Approx(1));
@@ -36,9 +36,9 @@ TEST_CASE("a ribbon has two vertices a point, one on either side, and a strip be
   CHECK(indices == std::vector<std::uint32_t>{3, 4, 6, 3, 6, 5});
 }
 
-TEST_CASE("a bead is a card whose corners tell side and shape apart", "[mesh]") {
+TEST_CASE("a bead is a card whose corners distinguish side and shape", "[mesh]") {
   Mesh mesh;
-  const auto flat = add_bead(mesh, {1, 2, 3}, {0, 0, 1}, 1.5f, BeadShape::flat, {1, 0, 0, 1});
+  const auto flat = add_bead(mesh, {1, 2, 3}, {0, 0, 1}, 1.5f, BeadShape::cylinder, {1, 0, 0, 1});
   const auto ball = add_bead(mesh, {1, 2, 3}, {0, 0, 1}, 1.5f, BeadShape::ball, {1, 0, 0, 1});
   REQUIRE(mesh.vertices.size() == 8);
   CHECK(flat.size() == 6);

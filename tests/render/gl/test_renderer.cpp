@@ -14,7 +14,7 @@ namespace {
 
 test::Studio open_studio() { return value_of(test::studio()); }
 
-/// The made-up shell, drawn as it stands at the end of so many frames.
+/// The made-up shell, drawn as it is at the end of so many frames.
 struct Dome {
   explicit Dome(int frames) : run(synthetic::dome(2, frames)) {}
 
@@ -56,7 +56,7 @@ TEST_CASE("background, ground and cells show the colours they were given", "[dra
   above.elevation_deg = 90;
   const Image image = drawn(studio, drawing, above);
   CHECK(off(image, {2, 2}, drawing.background) <= 1);
-  // without light or shadow: what a bar says of a colour holds of a cell
+  // without light or shadow: what a bar says of a colour is true of a cell
   double worst = 0;
   for (const auto& cell : run.layout.cells) {
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();
@@ -147,7 +147,7 @@ TEST_CASE("what cannot be drawn is refused with its reason", "[draw]") {
   const auto message = [&](const Drawing& d, const DrawQuality& quality, int width, int height) {
     return refusal(studio.renderer->draw(d, {}, quality, width, height));
   };
-  CHECK(message(drawing, {}, 0, 100) == "a picture of 0 x 100 pixels: each must be 1 to 65536");
+  CHECK(message(drawing, {}, 0, 100) == "size: got 0 x 100 pixels, expected 1 to 65536 each");
   CHECK(message(drawing, {0, true, 1}, 9, 9) == "supersample = 0: 1 to 16");
   CHECK(message(drawing, {1, true, 0}, 9, 9) == "jittered_passes = 0: 1 to 4096");
   CHECK(message(Drawing{}, {}, 9, 9) == "the drawing has no layout");
@@ -159,7 +159,7 @@ TEST_CASE("what cannot be drawn is refused with its reason", "[draw]") {
   CHECK_THAT(message(wrong, {}, 9, 9), Catch::Contains("cell colours for"));
   wrong = drawing;
   wrong.nodes.conservativeResize(3, 4);
-  CHECK_THAT(message(wrong, {}, 9, 9), Catch::Contains("beyond its 4 nodes"));
+  CHECK_THAT(message(wrong, {}, 9, 9), Catch::Contains("more than its 4 nodes"));
 }
 
 namespace {

@@ -32,14 +32,14 @@ struct View {
   test::SquareShell shell;
   Drawing drawing;
   Camera camera;
-  Scene scene;
+  gridshell::render::Scene scene;
 };
 
 }  // namespace
 
-TEST_CASE("every piece stands in one layer, and layers go from far to near", "[scene]") {
+TEST_CASE("every piece is in one layer, and layers go from far to near", "[scene]") {
   const View view(9, 6, 35);
-  const Scene& scene = view.scene;
+  const gridshell::render::Scene& scene = view.scene;
   const Eigen::Vector3d forward = camera_axes(view.camera).forward;
   const auto& layers = scene.layers;
   REQUIRE(layers.size() > 8);
@@ -60,9 +60,9 @@ TEST_CASE("every piece stands in one layer, and layers go from far to near", "[s
   }
 }
 
-TEST_CASE("a rod comes after the cells beside it, a joint after its rods", "[scene]") {
+TEST_CASE("a rod comes after the cells next to it, a joint after its rods", "[scene]") {
   const View view(6, 4, 25);
-  const Scene& scene = view.scene;
+  const gridshell::render::Scene& scene = view.scene;
   // the layer in which a triangle that touches a point is painted, the last one
   const auto last_layer = [&](const Mesh& mesh, std::size_t Layer::*kind,
                               const Eigen::Vector3f& at) {
@@ -82,7 +82,7 @@ TEST_CASE("a rod comes after the cells beside it, a joint after its rods", "[sce
   }
 }
 
-TEST_CASE("rods throw shadows, a ring only when asked, ghosts never", "[scene]") {
+TEST_CASE("rods throw shadows, a ring only when requested, ghosts never", "[scene]") {
   const auto shell = test::square_shell(4, 3);
   Drawing drawing = test::square_drawing(shell);
   drawing.rings.clear();

@@ -123,7 +123,7 @@ TEST_CASE("bending energy goes up from zero, and the style's range and map go be
   CHECK(bar({of_rods(0, 0, 0)}, by(ColourBy::energy))->scale.map == sequential);
 }
 
-TEST_CASE("the deviation's scale is that of the shell at the end of its boundary's way") {
+TEST_CASE("the deviation's scale is that of the shell at the end of its boundary's path") {
   record::Trajectory run = synthetic::dome(3, 1);
   run.layout.net_nodes = run.frames[2].nodes;
   run.layout.net_nodes.row(2).array() += 0.01 * run.layout.length_scale_mm;

@@ -18,12 +18,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Six frames at 20 a second, the last one held, after a title.
+/// Six frames at 20 a second, the last one repeated, after a title.
 preset::Movie of_size(int width, int height) {
   preset::Movie timing;
   timing.frames = 6;
   timing.size = {width, height};
   timing.fps = 20;
+  timing.seconds = 0.3;
   timing.hold_s = timing.title_s = 0.5;
   return timing;
 }
@@ -78,7 +79,7 @@ class FakeFfmpeg {
 
 }  // namespace
 
-TEST_CASE("without ffmpeg the command line is told instead, ready for a shell") {
+TEST_CASE("without ffmpeg the command line is printed instead, ready for a shell") {
   const FakeFfmpeg none("");
   const TemporaryFolder folder;
   REQUIRE(encode_movie("out/my run/frames", {}, folder / "movie.mp4", {}));
@@ -130,7 +131,7 @@ TEST_CASE("a shell reads the words back as they were") {
   CHECK(read_file(out).value() == expected);
 }
 
-TEST_CASE("hold, pace, title card and the kind of file stand in the command") {
+TEST_CASE("`hold`, pace, title card and the kind of file are in the command") {
   const auto line = [](const preset::Movie& timing, const char* file) {
     return shell_line(encode_arguments("frames", timing, file));
   };
@@ -154,7 +155,7 @@ TEST_CASE("hold, pace, title card and the kind of file stand in the command") {
   CHECK(has(line({}, "m.gif"), "paletteuse"));
 }
 
-TEST_CASE("a real ffmpeg makes movies of the length asked for", "[standard]") {
+TEST_CASE("a real ffmpeg makes movies of the requested length", "[standard]") {
   if (find_program("ffmpeg").empty() || find_program("ffprobe").empty()) {
     WARN("no ffmpeg, skipped");
     return;
@@ -203,7 +204,7 @@ TEST_CASE("a movie made while its frames are drawn is that of the frames, to the
 
 TEST_CASE("without ffmpeg no movie is in the making, and one that stops reading is an error") {
   const TemporaryFolder folder;
-  const Image large(800, 600);  // more than a socket holds
+  const Image large(800, 600);  // more than a socket contains
   {
     const FakeFfmpeg none("");
     const auto movie = value_of(MovieEncoder::begin("frames", of_size(800, 600), folder / "m.mp4"));
@@ -229,4 +230,17 @@ TEST_CASE("a movie that is given up, or cancelled while ffmpeg takes nothing, le
     return movie->finish(watch);
   });
   CHECK(folder.entries().empty());
+}
+
+TEST_CASE("few frames are shown longer, up to a quarter of a second each and four in all") {
+  const auto chain_of = [](int frames, double seconds) {
+    preset::Movie timing = of_size(64, 48);
+    timing.frames = frames;
+    timing.seconds = seconds;
+    return shell_line(encode_arguments("frames", timing, "movie.mp4"));
+  };
+  CHECK(chain_of(6, 0).find("N*0.250000/TB") != std::string::npos);
+  CHECK(chain_of(40, 0).find("N*0.100000/TB") != std::string::npos);
+  CHECK(chain_of(80, 0).find("setpts") == std::string::npos);  // four seconds at 20 a second
+  CHECK(chain_of(6, 0.3).find("setpts") == std::string::npos);
 }

@@ -20,7 +20,7 @@ MovieStyle small(int width = 160, int height = 120) {
   return style;
 }
 
-/// Of a run in memory.
+/// The frames of a run in memory.
 Result<void> write(const record::Trajectory& run, Renderer& renderer,
                    const std::filesystem::path& folder, Watch& watch,
                    const FrameCallback& on_frame = {}) {
@@ -30,21 +30,21 @@ Result<void> write(const record::Trajectory& run, Renderer& renderer,
 
 }  // namespace
 
-TEST_CASE("a movie is numbered frames, each told when it is whole") {
+TEST_CASE("a movie is numbered frames, each reported when it is complete") {
   const TemporaryFolder folder;
   const record::Trajectory run = synthetic::dome(3, 2);
   test::FakeRenderer renderer;
   Watch watch;
-  std::vector<int> told;
+  std::vector<int> reported;
   const auto report =
       write(run, renderer, folder / "frames", watch, [&](int index, const Image& picture) {
-        told.push_back(index);
+        reported.push_back(index);
         const auto file = value_of(read_png(folder / "frames" / frame_name(index)));
         CHECK(file.rgba == picture.rgba);
         CHECK(watch.progress() == Approx((index + 1) / 3.0));
       });
   REQUIRE(report);
-  CHECK(told == std::vector<int>{0, 1, 2});
+  CHECK(reported == std::vector<int>{0, 1, 2});
   CHECK(watch.progress() == 1);
   CHECK(names_in(folder / "frames") ==
         std::vector<std::string>{"frame_00000.png", "frame_00001.png", "frame_00002.png"});
@@ -93,13 +93,13 @@ TEST_CASE("a movie is drawn from one frame at a time, and is that of the run in 
   test::FakeRenderer renderer;
   Watch watch;
   REQUIRE(write(run, renderer, folder / "memory", watch));
-  std::vector<int> asked;
+  std::vector<int> requested;
   const FrameSource source{&run.layout, 4, [&](int k) -> Result<record::Frame> {
-                             asked.push_back(k);
+                             requested.push_back(k);
                              return run.frames[std::size_t(k)];
                            }};
   REQUIRE(write_movie(source, summarise_run(run), small(), {}, renderer, folder / "one", watch));
-  CHECK(asked == std::vector<int>{0, 1, 2, 3});
+  CHECK(requested == std::vector<int>{0, 1, 2, 3});
   for (int k = 0; k < 4; ++k) {
     const auto a = read_png(folder / "memory" / frame_name(k));
     const auto b = read_png(folder / "one" / frame_name(k));
@@ -114,7 +114,7 @@ TEST_CASE("a movie is drawn from one frame at a time, and is that of the run in 
                 Fault::io) == "the file is gone");
 }
 
-TEST_CASE("nothing to show beside one another is refused, a stopped movie keeps whole frames") {
+TEST_CASE("nothing to show next to one another is refused, a stopped movie keeps complete frames") {
   const TemporaryFolder folder;
   test::FakeRenderer renderer;
   Watch watch;
@@ -151,7 +151,7 @@ TEST_CASE("a worker does its jobs on one thread of its own and says how each end
   CHECK(threads[0] != std::this_thread::get_id());
 }
 
-TEST_CASE("what a worker's job throws is thrown where it is waited for") {
+TEST_CASE("an exception of a worker's job reaches who waits for it") {
   Worker worker;
   worker.begin([]() -> Result<void> { throw std::bad_alloc(); });
   CHECK_THROWS_AS(worker.wait(), std::bad_alloc);

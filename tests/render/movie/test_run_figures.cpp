@@ -98,7 +98,7 @@ TEST_CASE("seams are plotted about their middles, gap and kink") {
   REQUIRE(plots.size() == 2);
   for (const Plot& plot : plots) REQUIRE(plot.series.size() == 1);
   const Series &gap = plots[0].series[0], &kink = plots[1].series[0];
-  // rods of one joint stand at one place
+  // rods of one joint have one position
   const double place = 10 * M_SQRT2;
   CHECK(gap.x[0] == Approx(-place));
   CHECK(gap.x[1] == Approx(-place));
@@ -107,7 +107,7 @@ TEST_CASE("seams are plotted about their middles, gap and kink") {
   CHECK(kink.y == std::vector<double>{7, 6, 3, 4});
   // millimetres and degrees have axes of their own
   CHECK(plots[0].y.label == "gap (mm)");
-  CHECK(plots[1].y.label == "kink (°)");
+  CHECK(plots[1].y.label == "angle between tangents (°)");
 }
 
 namespace {
@@ -183,4 +183,19 @@ TEST_CASE("states that are not stable are dashed, and the line has a gap there")
   CHECK(plot.series[1].name == "unstable");
   CHECK(plot.series[1].dash.size() == 2);
   CHECK((plot.series[1].x[0] == 2 && plot.series[1].x[1] == 4));
+}
+
+TEST_CASE("shells over nets are lines, with the half-span where it is requested") {
+  const record::Trajectory run = one_cell();
+  MovieStyle style;
+  style.size = {64, 48};
+  Watch watch;
+  const auto figure =
+      draw_over_nets({{.run = &run, .caption = "shell", .half_span = true}}, style, watch);
+  REQUIRE(figure);
+  CHECK(figure->as_lines);
+  REQUIRE(figure->panels.size() == 1);
+  CHECK(figure->panels[0].lines);
+  REQUIRE(figure->panels[0].labels.size() == 1);
+  CHECK(figure->panels[0].labels[0].text == "*x* = *L*");
 }

@@ -1,4 +1,4 @@
-// Sheets of A4: what comes on which, tables that go on, words that lie apart.
+// Sheets of A4: what is on which, tables that continue, words that do not overlap.
 #include "render/movie/fabrication_sheets.h"
 
 #include "tests/render/canvas/ink.h"
@@ -22,7 +22,7 @@ std::vector<std::vector<std::string>> words_of(const render::Sheets& sheets) {
 
 }  // namespace
 
-TEST_CASE("a table goes on to the next sheets under its head") {
+TEST_CASE("a table continues on the next sheets under its head") {
   render::Sheets sheets("rods");
   sheets.heading("Cut list");
   std::vector<render::TableRow> rows;
@@ -72,7 +72,7 @@ TEST_CASE("long text is broken, a picture keeps its shape") {
   CHECK(words[0].size() > 10);
 }
 
-TEST_CASE("an assembly sheet says what is cut, where ends are held and what a hand does then") {
+TEST_CASE("an assembly sheet says what is cut, where ends are fixed and how to assemble") {
   exports::FabricationPlan work;
   work.title = "A dome";
   work.spacing_mm = 1000;

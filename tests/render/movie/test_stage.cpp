@@ -78,14 +78,14 @@ TEST_CASE("a frame says what it is") {
   // neither frames nor the solver's numbers
   for (const std::string& text : last)
     CHECK_FALSE((text.starts_with("frame ") || text.starts_with("residual")));
-  // an event is told by its own frame alone; the timeline keeps that there was one
+  // an event is reported by its own frame alone; the timeline keeps that there was one
   for (int k : {7, 8, 9}) {
     CHECK(test::has(texts_of(stage, run, k), "snap at a radius of 104.9 mm") == (k == 8));
     CHECK(test::has(texts_of(stage, run, k), "snap") == (k >= 8));
   }
 }
 
-TEST_CASE("an event that one line does not hold has two") {
+TEST_CASE("an event too long for one line has two") {
   record::Trajectory run = synthetic::dome(12, 2);
   const std::string snap = "snap at depth 33.851 mm;",
                     touch = "joints (-1, -1) and (0, 0) touch at depth 33.41 mm ± 0.04 mm";
@@ -108,7 +108,7 @@ TEST_CASE("captions name only what is known") {
   frame.boundary_radius_mm = 115.9;
   frame.depth_mm = 7.5;
   frame.force_N = 0.2137;
-  // of a pushed shell the depth says more than the boundary where it stands still
+  // of a pushed shell the depth says more than the boundary where it does not move
   frame.actuation = 0.8;
   CHECK(state_captions(frame)[2] == "*R*_{a} = 115.9 mm");
   frame.actuation = 1;
@@ -140,7 +140,7 @@ TEST_CASE("an unstable frame says so once, a stable one never") {
   CHECK(event_caption(silent) == "unstable equilibrium");
 }
 
-TEST_CASE("the bar is of the radius or the depth where these only go one way, else of frames") {
+TEST_CASE("the bar is of the radius or the depth where these are monotonic, else of frames") {
   record::Trajectory run = synthetic::dome(5, 2);
   const ProgressAxis radius = summarise_run(run).progress();
   CHECK(radius.name == "*R*_{a}");
@@ -182,7 +182,7 @@ TEST_CASE("a pushed shell is seen over its first state, with the push in the pic
   }
 }
 
-TEST_CASE("what touches wears a mark, and words beside the bar and as the event") {
+TEST_CASE("what touches has a mark, and words next to the bar and as the event") {
   record::Trajectory run = synthetic::dome(4, 2);
   run.layout.joint_diameter_mm = 3;
   for (int k : {2, 3}) {
@@ -250,7 +250,7 @@ TEST_CASE("a line goes through the supports of a network that move, and through 
   };
   const auto as_is = [](preset::Preset&) {};
   CHECK(ringed("network_space", as_is));     // scaled
-  CHECK(ringed("network_triaxial", as_is));  // each to its place
+  CHECK(ringed("network_triaxial", as_is));  // each to its position
   CHECK(ringed("fig1_actuation", as_is));
   CHECK_FALSE(ringed("lit_xshell_lens", as_is));
   CHECK(ringed("lit_xshell_lens",
@@ -259,7 +259,7 @@ TEST_CASE("a line goes through the supports of a network that move, and through 
       ringed("lit_xshell_lens", [](preset::Preset& p) { p.style.rings = preset::Visibility::on; }));
 }
 
-TEST_CASE("a push of a step wears its arrow in the frames that it holds alone") {
+TEST_CASE("a push of a step has its arrow only in the frames in which it acts") {
   record::Trajectory run = synthetic::dome(3, 2);
   const int node = run.layout.joints[3].node;
   run.layout.loaded_joints = {{3, -Eigen::Vector3d::UnitZ(), true}};
@@ -298,7 +298,7 @@ TEST_CASE("zoom is about the shell's own panel, and nothing of the shell leaves 
   }
 }
 
-TEST_CASE("several views stand beside one another") {
+TEST_CASE("several views are next to one another") {
   const record::Trajectory run = synthetic::dome(3, 2);
   MovieStyle style = titled(900, 400);
   style.views = {{-90, 0}, {-90, 90}};
@@ -375,8 +375,7 @@ TEST_CASE("a run that cannot be shown is refused with its reason") {
   CHECK(check_showable(run, {}));
   MovieStyle style;
   style.size[0] = 8;
-  CHECK(message(run, style) ==
-        "a picture of 8 x 720 pixels cannot be made: both sides must be 16 to 16384");
+  CHECK(message(run, style) == "size: got 8 x 720 pixels, expected 16 to 16384 for both");
   run.frames.edit()[1].nodes(2, 5) = std::numeric_limits<double>::quiet_NaN();
   CHECK(message(run, {}).find("frame 1 of the run has") == 0);
   run = synthetic::dome(3, 2);
@@ -429,7 +428,7 @@ TEST_CASE("rods are coloured by their forces, grey where a frame does not know t
   CHECK(known.joint_colour == style.look.rod);
 }
 
-TEST_CASE("cells are coloured by how far they lie off the net") {
+TEST_CASE("cells are coloured by their deviation from the net") {
   record::Trajectory run = synthetic::dome(3, 2);
   run.layout.net_nodes = run.frames[2].nodes;
   run.layout.net_nodes.leftCols(60).row(2).array() += 2;
@@ -486,13 +485,13 @@ TEST_CASE("the camera turns evenly about one target and keeps its distance") {
   CHECK(first.elevation_deg == last.elevation_deg);
 }
 
-TEST_CASE("zoom and target are about the panel, wherever it stands") {
+TEST_CASE("zoom and target are about the panel, wherever it is") {
   const record::Trajectory run = synthetic::dome(4, 2);
   const Box panel{300, 50, 400, 600};
   const auto points = summarise_run(run).bounds();
   MovieStyle style;
   const Framing plain(points, style, panel);
-  // the point that stands in the panel's middle
+  // the point in the panel's middle
   const Camera before = plain.camera(0);
   const CameraAxes axes = camera_axes(before);
   const double mm = 1 / plain.pixels_per_mm();
@@ -537,7 +536,9 @@ TEST_CASE("parts of a frame lie inside it and never overlap, at any size and asp
       style.captions = options & 1;
       style.inset = options & 2;
       style.scale_bar_mm = options & 4 ? 20 : 0;
-      const FrameLayout layout = lay_out_frame(style, options & 8 ? &bar : nullptr, options & 16);
+      const FrameLayout layout =
+          lay_out_frame(style, options & 8 ? &bar : nullptr,
+                        {(options & 16) != 0, (options & 16) != 0, (options & 16) != 0});
       INFO(width << " x " << height << " options " << options);
       const std::vector<Box> parts = layout.parts();
       for (std::size_t a = 0; a < parts.size(); ++a) {
@@ -566,7 +567,7 @@ TEST_CASE("at the usual sizes nothing is left out, and text grows with the pictu
     for (const Box& part : {layout.title, layout.state, layout.event, layout.timeline,
                             layout.colour_bar, layout.inset, layout.scale_bar, layout.view})
       CHECK_FALSE(part.empty());
-    CHECK(layout.plot.empty());  // not asked for
+    CHECK(layout.plot.empty());  // not requested
     CHECK(layout.font_size > before);
     before = layout.font_size;
   }

@@ -14,7 +14,7 @@ using record::StateClass;
 
 namespace {
 
-/// A path with a gap between two pitchforks near its begin, and a branch from the first.
+/// A path with a gap between two pitchforks near its start, and a branch from the first.
 std::vector<BranchPoint> points() {
   std::vector<BranchPoint> all;
   for (int k = 0; k <= 100; ++k) {
@@ -40,7 +40,7 @@ std::vector<BranchPoint> points() {
 
 }  // namespace
 
-TEST_CASE("load factors are marked where the rods come to their strength, with the error") {
+TEST_CASE("load factors are marked where the rods reach their strength, with the error") {
   using record::LoadPoint;
   const std::vector<LoadPoint> path{{"snow", 0, 0, 0, BranchEvent::none, 0.2},
                                     {"snow", 1, 2, 0, BranchEvent::none, 0.6},
@@ -51,7 +51,7 @@ TEST_CASE("load factors are marked where the rods come to their strength, with t
   torn.strength_factor = 1.45, torn.strength_error = 0.1;
   const Plot plot = load_plot(path, {torn, whole}, "");
   const Series& marks = plot.series.back();
-  CHECK(marks.name == "at its strength");
+  CHECK(marks.name == "strength reached");
   CHECK(marks.x == std::vector<double>{3.5});
   CHECK(marks.y == std::vector<double>{1.45});
   CHECK(marks.y_error == std::vector<double>{0.1});
@@ -60,7 +60,10 @@ TEST_CASE("load factors are marked where the rods come to their strength, with t
 
 TEST_CASE("stable parts are full, others dashed, and parts meet where something happens") {
   const Plot plot = branches_plot(points(), BranchAxis::amplitude);
-  CHECK(plot.x.label == "*R*_{a} (mm)");
+  CHECK(plot.x.label.starts_with("*R*_{a} (mm)"));
+  // a branch bears its number
+  REQUIRE(plot.notes.size() == 1);
+  CHECK(plot.notes[0].text == "1");
   std::vector<Series> path, branch;
   for (const Series& s : plot.series)
     if (s.line_width > 1.2)
@@ -73,7 +76,7 @@ TEST_CASE("stable parts are full, others dashed, and parts meet where something 
   CHECK(path[0].x.back() == Approx(126 - 30 * 0.05));
   CHECK(path[1].x.front() == path[0].x.back());
   CHECK(path[1].x.back() == Approx(126 - 30 * 0.09));
-  // a branch that is stable from its begin, though the path is not there
+  // a branch that is stable from its start, though the path is not there
   REQUIRE(branch.size() == 1);
   CHECK(branch[0].dash.empty());
 }
@@ -204,7 +207,7 @@ record::StateTables tables() {
   for (int k = 0; k < 3; ++k) {
     record::StateRow row;
     row.state = k + 1;
-    row.energies[Term::bend] = 40;  // all in one place
+    row.energies[Term::bend] = 40;  // all in one column
     row.height_mm = 50;
     all.rows.push_back(row);
   }
@@ -218,8 +221,7 @@ record::StateTables tables() {
 
 }  // namespace
 
-TEST_CASE(
-    "the graph of transitions writes every state and what came back, apart from one another") {
+TEST_CASE("the graph of transitions writes every state and what came back, without overlaps") {
   const TemporaryFolder folder;
   {
     const test::CanvasObserver watch([&](const Canvas& canvas) {

@@ -35,7 +35,7 @@ TEST_CASE("stills are one picture a frame and one of them all") {
   CHECK(test::rim_is_white(whole));
 }
 
-TEST_CASE("stills stop when asked to") {
+TEST_CASE("stills stop on request") {
   const TemporaryFolder folder;
   test::FakeRenderer renderer;
   check_stops([&](Watch& watch) {
@@ -44,7 +44,7 @@ TEST_CASE("stills stop when asked to") {
   CHECK(folder.entries().empty());
 }
 
-TEST_CASE("panels stand side by side, pixel by pixel, with their captions under them") {
+TEST_CASE("panels are side by side, pixel by pixel, with their captions under them") {
   PanelFigure figure;
   figure.columns = 2;
   for (int k = 0; k < 3; ++k) {
@@ -68,7 +68,7 @@ TEST_CASE("panels of different size, or none, are refused") {
   CHECK_FALSE(draw_panels(figure));
   figure.panels = {{Image(20, 10), "", ""}, {Image(20, 12), "", ""}};
   CHECK(refusal(draw_panels(figure)) ==
-        "panels of a figure must be of one size: 20 x 10 and 20 x 12");
+        "panels of a figure: expected one size, got 20 x 10 and 20 x 12");
   figure.panels = {{Image(), "", ""}};
   CHECK_THAT(refusal(draw_panels(figure)), Catch::Contains("too small for its panels"));
 }

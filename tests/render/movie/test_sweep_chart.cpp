@@ -58,7 +58,7 @@ TEST_CASE("a figure over a figure, and where it has left its limit") {
                             [](const Series& s) { return s.name.starts_with("10 % off at "); }));
 }
 
-TEST_CASE("the place of a departure is interpolated, from the right") {
+TEST_CASE("the position of a departure is interpolated, from the right") {
   CHECK(*deviation_onset({1, 2, 3}, {0, 8, 10}, 0.2) == Approx(2));
   CHECK(*deviation_onset({-1, 0, 1}, {0, 8, 10}, 0.6) == Approx(-0.5));
   CHECK(*deviation_onset({1, 10, 100}, {5, 10, 10}, 0.25) == Approx(std::sqrt(10)));
@@ -75,7 +75,7 @@ TEST_CASE("names with their units") {
   CHECK(label_of("newton_iterations") == "newton iterations");
 }
 
-TEST_CASE("words on an axis stand by their numbers") {
+TEST_CASE("words on an axis are at their numbers") {
   SweepTable table{{"actuation.seed"}, false, false, {}};
   for (const char* seed : {"\"up\"", "\"down\""}) {
     record::PointResult result;
@@ -86,7 +86,7 @@ TEST_CASE("words on an axis stand by their numbers") {
   CHECK(sweep_plot(table, {.figure = "height_mm"}).series[0].x == std::vector<double>{1, 2});
 }
 
-TEST_CASE("a map: all that is written fits, cells without a state are told") {
+TEST_CASE("a map: all that is written fits, cells without a state are named") {
   SweepTable table{{"actuation.radius_mm", "rod.diameter_mm"}, true, false, {}};
   for (const char* one : {"first", "second"})
     for (int i = 0; i < 12; ++i)

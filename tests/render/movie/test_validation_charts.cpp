@@ -26,7 +26,7 @@ TEST_CASE("accuracy chart: curves, spread, front, marks and what is too slow") {
   CHECK(test::series_named(plot, "bend")->x == std::vector<double>{1e-3, 4e-3});
   CHECK(test::series_named(plot, "bend")->x_span[1] == std::array<double, 2>{3e-3, 5e-3});
   CHECK(test::series_named(plot, "Pareto front")->y == std::vector<double>{4e-2, 2.5e-3});
-  // tolerances that come to the same meshes share a mark
+  // tolerances that give the same meshes share a mark
   CHECK(test::series_named(plot, "auto, by tolerance")->x.size() == 1);
   REQUIRE(plot.notes.size() == 1);
   CHECK(plot.notes[0].text == "10^{−2}, 10^{−3}");
@@ -79,10 +79,10 @@ TEST_CASE("outcome map: all texts are there and lie inside") {
   const double width = 400, height = outcome_maps_height(cells(), width);
   draw_picture(width, height, 1, {1, 1, 1, 1}, [&](Canvas& canvas) {
     draw_outcome_maps(canvas, {0, 0, width, height}, cells(), "A shell");
-    for (const char* wanted : {"A shell", "full steps", "default", "load steps", "10−6", "1", "4",
-                               "silent wrong", "silent: planar saddle", "right"}) {
-      CAPTURE(wanted);
-      CHECK(test::has(canvas.texts(), wanted));
+    for (const char* requested : {"A shell", "full steps", "default", "load steps", "10−6", "1",
+                                  "4", "silent wrong", "silent: planar saddle", "right"}) {
+      CAPTURE(requested);
+      CHECK(test::has(canvas.texts(), requested));
     }
     test::check_apart(canvas);
   });
@@ -94,13 +94,13 @@ TEST_CASE("outcome map: a cell bears the colour of its outcome") {
   const Image image = draw_picture(width, height, 1, {1, 1, 1, 1}, [&](Canvas& canvas) {
     draw_outcome_maps(canvas, {0, 0, width, height}, one, "");
   });
-  const Colour wanted = outcome_colour(RunOutcome::blow_up);
+  const Colour requested = outcome_colour(RunOutcome::blow_up);
   int found = 0;
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
       const auto* p = image.pixel(x, y);
-      found += p[0] == std::lround(255 * wanted.r) && p[1] == std::lround(255 * wanted.g) &&
-               p[2] == std::lround(255 * wanted.b);
+      found += p[0] == std::lround(255 * requested.r) && p[1] == std::lround(255 * requested.g) &&
+               p[2] == std::lround(255 * requested.b);
     }
   // the cell, and its key in the legend
   CHECK(found > 250);

@@ -16,7 +16,7 @@ TEST_CASE("what lies behind the shell is hidden, what lies before it is not") {
   Camera above;
   above.elevation_deg = 90;
   Eigen::Matrix3Xd points(3, 3);
-  points << 0, 0, 200, 0, 0, 0, 10, 100, 0;  // under the dome, over it, beside it
+  points << 0, 0, 200, 0, 0, 0, 10, 100, 0;  // under the dome, over it, outside it
   CHECK(hidden_points(drawing, above, points, 5) == std::vector<bool>{true, false, false});
   // seen from above no joint is hidden, from the side the far ones are
   Eigen::Matrix3Xd joints(3, run.layout.joints.size());
@@ -60,4 +60,30 @@ TEST_CASE("a shell of lines has fewer, or fainter, of them where it hides them")
   drawing.layout = &open;
   drawing.cell_colours.clear();
   CHECK(ink() > removed);
+}
+
+TEST_CASE("an arrow along the view is a ring with a cross or a dot in it") {
+  record::Layout layout;
+  layout.spacing_mm = 20;
+  Drawing drawing;
+  drawing.layout = &layout;
+  drawing.nodes.resize(3, 0);
+  Camera above;
+  above.elevation_deg = 90;
+  above.half_extent_mm = 50;
+  // the ink in the ring, between its middle and its edge
+  const auto ink_at = [&](double from_z, double to_z, double x, double y) {
+    drawing.arrows = {{{0, 0, from_z}, {0, 0, to_z}, 2, {0, 0, 0, 1}}};
+    const Image image = draw_picture(100, 100, 4, {1, 1, 1, 1}, [&](Canvas& canvas) {
+      draw_shell_lines(canvas, {0, 0, 100, 100}, drawing, above);
+    });
+    return 255 - image.pixel(int(4 * (50 + x)), int(4 * (50 + y)))[0];
+  };
+  for (const auto& [from, to] : {std::pair(20.0, 0.0), {0.0, 20.0}}) {
+    CHECK(ink_at(from, to, 0, 0) > 200);
+    CHECK(ink_at(from, to, 6.4, 0) > 200);  // the ring
+    CHECK(ink_at(from, to, 3.6, 0) < 50);
+  }
+  CHECK(ink_at(20, 0, 3, 3) > 200);  // into the picture
+  CHECK(ink_at(0, 20, 3, 3) < 50);
 }

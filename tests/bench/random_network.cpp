@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/study/trust_study.h"
+#include "tests/bench/random_scenes.h"
 
-namespace gridshell::study {
+namespace gridshell::bench {
 namespace {
 
 /// A line of a family: x . normal = offset, and its joints by how far along it they lie.
@@ -112,4 +112,4 @@ void random_network(RandomDraw& draw, preset::Preset& p) {
   }
 }
 
-}  // namespace gridshell::study
+}  // namespace gridshell::bench

@@ -1,5 +1,5 @@
 // Random scenes of every kind: what a run says is true.
-#include "engine/study/trust_study.h"
+#include "tests/bench/trust_study.h"
 
 #include <set>
 
@@ -8,12 +8,12 @@
 using namespace gridshell;
 
 TEST_CASE("random presets are the same from the same seed, of every kind, and read as written") {
-  for (const auto& kind : words_of<study::SceneKind>()) {
+  for (const auto& kind : words_of<bench::SceneKind>()) {
     std::mt19937 first(7), second(7), third(8);
-    const auto text = preset::to_toml(study::random_preset(kind.value, first));
+    const auto text = preset::to_toml(bench::random_preset(kind.value, first));
     CAPTURE(kind.word);
-    CHECK(text == preset::to_toml(study::random_preset(kind.value, second)));
-    CHECK(text != preset::to_toml(study::random_preset(kind.value, third)));
+    CHECK(text == preset::to_toml(bench::random_preset(kind.value, second)));
+    CHECK(text != preset::to_toml(bench::random_preset(kind.value, third)));
     const auto read = preset::good(text);
     CHECK(preset::to_toml(read.base) == text);
   }
@@ -22,7 +22,7 @@ TEST_CASE("random presets are the same from the same seed, of every kind, and re
 TEST_CASE("a branch that meshes of 4 edges alone have is not followed", "[standard]") {
   // at 0.44 of the path meshes finer than 4 edges go over to a branch 0.5 mm lower
   std::mt19937 random(100003u + 32);
-  preset::Preset p = study::random_preset(study::SceneKind::network, random);
+  preset::Preset p = bench::random_preset(bench::SceneKind::network, random);
   p.movie.frames = 2;
   const auto height = [&](int edges) {
     Watch watch;
@@ -38,11 +38,11 @@ TEST_CASE("a branch that meshes of 4 edges alone have is not followed", "[standa
 
 TEST_CASE("sixty random scenes and twenty networks: none is silently wrong", "[full]") {
   const bool networks = GENERATE(false, true);
-  study::TrustOptions options{
+  bench::TrustOptions options{
       .scenes = networks ? 20 : 60, .seed = networks ? 1 : 20, .seconds = 60};
-  if (networks) options.kind = study::SceneKind::network;
+  if (networks) options.kind = bench::SceneKind::network;
   Watch watch;
-  const auto scenes = value_of(study::trust_study(options, watch));
+  const auto scenes = value_of(bench::trust_study(options, watch));
   REQUIRE(int(scenes.size()) == options.scenes);
   std::set<std::string> kinds;
   int judged = 0;
@@ -51,8 +51,8 @@ TEST_CASE("sixty random scenes and twenty networks: none is silently wrong", "[f
     judged += scene.row.error > 0;
     CAPTURE(scene.row.scene, scene.row.kind, word_of(scene.row.found), scene.row.error,
             scene.row.estimate, scene.preset.description);
-    CHECK_FALSE(record::silently_wrong(scene.row.found));
+    CHECK_FALSE(bench::silently_wrong(scene.row.found));
   }
-  CHECK(kinds.size() == (networks ? 1 : std::size_t(study::SceneKind::network)));
+  CHECK(kinds.size() == (networks ? 1 : std::size_t(bench::SceneKind::network)));
   CHECK(judged > (networks ? 15 : 30));
 }

@@ -1,20 +1,16 @@
-// Values drawn at random, the same ones from the same generator on every machine: not by the
-// library's distributions, which differ from one to another.
+// Random scenes of every kind that presets can express.
 #pragma once
 
 #include <algorithm>
-#include <optional>
 #include <random>
-#include <vector>
 
 #include "engine/core/enum_words.h"
-#include "engine/core/result.h"
-#include "engine/core/watch.h"
 #include "engine/preset/preset.h"
-#include "engine/record/study_tables.h"
 
-namespace gridshell::study {
+namespace gridshell::bench {
 
+/// Values drawn at random, the same ones from the same generator on every machine: the standard
+/// library's distributions differ from one to another.
 class RandomDraw {
  public:
   explicit RandomDraw(std::mt19937& random) : random_(random) {}
@@ -28,8 +24,6 @@ class RandomDraw {
  private:
   std::mt19937& random_;
 };
-
-// Random scenes of every kind that presets can express.
 
 enum class SceneKind {
   circle,
@@ -56,25 +50,4 @@ void random_network(RandomDraw& draw, preset::Preset& p);
 /// for the same random numbers on every machine.
 preset::Preset random_preset(SceneKind kind, std::mt19937& random);
 
-// Whether a user may trust the reports of a run: random scenes of every kind, solved with defaults
-// and on meshes of another family (5, 10, 20 edges per segment instead of 4, 8, 16), with load
-// steps of half the size, an eighth of the tolerance and other numbers of frames.
-
-struct TrustOptions {
-  int scenes = 600;                 ///< of all kinds in turn, networks left out
-  std::optional<SceneKind> kind{};  ///< of this one alone
-  int seed = 1;
-  double seconds = 20;  ///< a longer run is too slow
-  int threads = 2;
-};
-
-/// A scene judged, and the preset that runs it again.
-struct TrustScene {
-  record::TrustRow row;
-  preset::Preset preset;
-};
-
-/// Errors: cancelled.
-Result<std::vector<TrustScene>> trust_study(const TrustOptions& options, Watch& watch);
-
-}  // namespace gridshell::study
+}  // namespace gridshell::bench

@@ -1,0 +1,189 @@
+// Where a branch ends: the event, the limit, and the equilibrium from which the path continues.
+#include <algorithm>
+#include <cmath>
+
+#include "engine/simulate/branch_switch.h"
+#include "engine/simulate/path_walk.h"
+
+namespace gridshell {
+namespace {
+
+constexpr double locate_mm = 5e-3;  // of prescribed move: to which a limit is located
+constexpr double loads_ways = 4;    // of the loads, what counts as the length scale of a move
+
+}  // namespace
+
+void Event::extrapolate(const Location& other) {
+  const double times = double(placed.edges) / other.edges;
+  const double left = (placed.t - other.t) / (times * times - 1);
+  // the finest mesh decides about a limit, and the saved state is that mesh's
+  if (!is_limit()) t = placed.t + left;
+  error = std::abs(left) + placed.located + other.located;
+}
+
+/// The branch ended between `good` and `next`: continues from the next equilibrium, along the
+/// states that are not stable, or not at all.
+Outcome Simulation::Walk::branch_ended(Outcome how, double next, const NestedState& good) {
+  const auto kind =
+      how == Outcome::unstable ? Event::Kind::stability_lost : Event::Kind::turned_back;
+  // what is lost by the Hessian at the end of a step alone is not located yet, nor is a limit
+  if (shell_.followed().t == next && kind == Event::Kind::stability_lost)
+    bisect(next, good, [] { return true; });
+  else if (scene_.stops_at_contact || scene_.limits_strength())
+    shell_.advance(shell_.followed().t, watch_);
+  if (auto limit = of_.beyond(limits_)) return end_before(std::move(*limit), now(), good);
+  if (now() != good.t) note();
+  const NestedState end_of_branch = shell_.state();
+  Event event{.kind = kind, .t = shell_.followed().t, .error = {}, .to = {}};
+  event.placed = {shell_.plan().edges_per_segment.back(), event.t, located_to()};
+  confirm(event);
+  if (kind == Event::Kind::stability_lost && !scene_.imperfection.chooses()) {
+    events_.push_back(std::move(event));
+    shell_.back_to(end_of_branch);
+    shell_.allow_unstable(true);
+    return Outcome::reached;
+  }
+  std::vector<TimedState> moments;
+  if (!leave(event, moments)) {
+    events_.push_back(std::move(event));
+    return watch_.cancelled() ? Outcome::cancelled : how;
+  }
+  if (auto limit = of_.beyond(limits_)) {
+    // the state past it would need longer or thinner rods, or room where others are
+    shell_.back_to(end_of_branch);
+    if (limit->kind == Event::Kind::locked) limit->what = "past a snap";
+    return end_before(std::move(*limit), event.t, end_of_branch);
+  }
+  if (record_ && !moments.empty())
+    record_->snaps.push_back({record_->load_steps.size() - 1, std::move(moments)});
+  events_.push_back(std::move(event));
+  unmeasured_since_.reset();
+  companion_.reset();
+  softening_.forget();
+  keep();
+  return Outcome::reached;
+}
+
+void Simulation::Walk::keep_companion() {
+  const int companion = shell_.last() - 1;
+  if (companion >= 0 && shell_.state().measured <= companion)
+    companion_ = TimedState{now(), shell_.state().levels[std::size_t(companion)]};
+}
+
+/// Searches for an event of the path on the coarser mesh, from its last state before it. The path
+/// returns to its state, except for the loads.
+void Simulation::Walk::confirm(Event& event) {
+  const int companion = shell_.last() - 1;
+  if (companion < 0) return;
+  keep_companion();
+  event.confirmed = false;
+  if (!companion_) return;
+  constexpr double found_to = 5e-5;  // in the path parameter
+  PathOptions options;
+  options.spacing_mm = scene_.footprint.spacing;
+  // the last step that was too long may be nearly twice the smallest
+  options.smallest_step = found_to / 2;
+  PathFollower path(shell_.system(companion), shell_.motion(companion), options);
+  if (path.start(companion_->time, companion_->state, watch_).end != Outcome::reached) return;
+  const double past = event.t + std::copysign(shell_.plan().events_apart, to_ - event.t);
+  if (path.advance(past, watch_).end == Outcome::reached) return;
+  event.confirmed = true;
+  const auto& edges = shell_.plan().edges_per_segment;
+  event.extrapolate({edges[std::size_t(companion)], path.point().t, found_to});
+}
+
+/// By how much the path parameter changes while the boundary moves by the length scale, or, where
+/// that is sooner, the loads by what they are.
+double Simulation::Walk::parameter_scale(double t) const {
+  const PinnedMotion& motion = shell_.motion();
+  const double speed = motion.speed(t);
+  // a joint actuation counts by its complete angle
+  if (motion.opening.change != 0) return 1;
+  const double boundary = scene_.length_scale_mm / std::max(shell_.reach_mm() * speed, 0.1);
+  const double rate = std::abs(speed * motion.load.change);
+  if (rate == 0 || shell_.model().loads.empty()) return boundary;
+  return std::min(boundary, loads_ways * std::abs(motion.factor_at(motion.load, t)) / rate);
+}
+
+/// The branch ended: the next equilibrium a little further on, where it is far enough from the
+/// event to be found.
+bool Simulation::Walk::leave(Event& event, std::vector<TimedState>& moments) {
+  const PathPoint last = shell_.followed();
+  const double way = to_ > last.t ? 1 : -1;
+  for (double beyond = 1e-3; beyond < 0.1; beyond *= 2) {
+    double there = last.t + way * beyond * parameter_scale(last.t);
+    if (way * (there - to_) > 0) there = to_;
+    moments.clear();
+    const auto rest =
+        rest_after_bifurcation(shell_, scene_, last, event.kind, there, moments, watch_);
+    if (watch_.cancelled()) return false;
+    if (rest && shell_.start(there, *rest, watch_).end == Outcome::reached) {
+      event.to = there;
+      event.jump = event.kind != Event::Kind::stability_lost ||
+                   !on_branch_from(shell_, scene_, last, there, *rest, watch_);
+      shell_.apply_loads();
+      return true;
+    }
+    if (there == to_) break;
+    // the path is at the state where it was lost
+    shell_.back_to(shell_.state());
+    shell_.place(last.t, last.state);
+  }
+  return false;
+}
+
+// ---- what ends it ----
+
+/// To how much in the path parameter a limit is located; where loads alone change nothing is moved.
+double Simulation::Walk::located_to() const {
+  constexpr double of_loads = 1e-3;
+  return std::min(locate_mm / std::max(shell_.reach_mm(), 1e-9), of_loads);
+}
+
+Outcome Simulation::Walk::end_at(Event limit) {
+  limit.t = now();
+  limit.placed = {shell_.plan().edges_per_segment.back(), limit.t};
+  events_.push_back(std::move(limit));
+  return outcome_of(events_.back().kind);
+}
+
+/// Ends in the last state between `good` and `bad` that exceeds no limit.
+Outcome Simulation::Walk::end_before(Event limit, double bad, const NestedState& good) {
+  bisect(bad, good, [&] {
+    auto met = of_.beyond(limits_);
+    if (met) limit = std::move(*met);
+    return !met;
+  });
+  if (limit.kind != Event::Kind::locked) {
+    // the error of a single mesh is not known
+    if (shell_.levels() > 1) limit.error = located_to();
+    if (now() != good.t) note();
+  }
+  return end_at(std::move(limit));
+}
+
+/// Moves to the last certified state between `good` and `bad` that is accepted.
+void Simulation::Walk::bisect(double bad, const NestedState& good,
+                              const std::function<bool()>& accepted) {
+  NestedState last = good;
+  while (std::abs(bad - last.t) > located_to() && !watch_.cancelled()) {
+    shell_.back_to(last);
+    const double middle = 0.5 * (last.t + bad);
+    if (shell_.advance(middle, watch_).end == Outcome::reached && accepted())
+      last = shell_.state();
+    else
+      bad = middle;
+  }
+  shell_.back_to(last);
+}
+
+Report Simulation::certify_rest_at(double t, const LoadStep& before, const Watch& watch) {
+  const CallBegin begin = call_begin();
+  std::vector<TimedState> moments;
+  const auto rest = rest_after_bifurcation(*shell_, *scene_, before.point,
+                                           Event::Kind::stability_lost, t, moments, watch);
+  if (!rest) return report(Outcome::lost, t, begin);
+  return sample(t, {{{t, *rest, {}}}, {}}, false, watch);
+}
+
+}  // namespace gridshell

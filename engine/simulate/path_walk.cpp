@@ -1,0 +1,181 @@
+#include "engine/simulate/path_walk.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/file_io.h"
+#include "engine/elastic/model.h"
+
+namespace gridshell {
+namespace {
+
+constexpr double push_step = 0.02;       // of the length scale: the largest load step
+constexpr double actuation_step = 0.05;  // in the path parameter
+// branches left on one path; rods in contact slip past each other repeatedly
+constexpr std::size_t most_events = 8, most_events_in_contact = 64;
+
+}  // namespace
+
+void StabilityStepControl::take(const NestedState& state) {
+  if (known_.size() > 1) known_.erase(known_.begin());
+  known_.push_back({state.t, state.lowest_eigenvalue});
+}
+
+double StabilityStepControl::shortened(double step) const {
+  if (known_.size() < 2) return step;
+  const auto &before = known_[0], &now = known_[1];
+  const double fall = (before.stiffness - now.stiffness) / std::abs(now.t - before.t);
+  // also where a stiffness is not known
+  if (!(fall > 0)) return step;
+  const double to_zero = now.stiffness / fall;
+  return to_zero < 3 * step ? std::clamp(to_zero / 3, step / 8, step) : step;
+}
+
+double Simulation::load_step() const {
+  if (actuating_) return scene_->load_step * actuation_step;
+  const double reach = shell_->reach_mm();
+  return scene_->load_step * (reach > 0 ? push_step * scene_->length_scale_mm / reach : 0.1);
+}
+
+Report Simulation::go(double t, const Watch& watch, const BifurcationPolicy& leaving,
+                      PathRecord* record) {
+  return Walk(*this, t, leaving, record, watch).all();
+}
+
+Report Simulation::Walk::all() {
+  const CallBegin begin = of_.call_begin();
+  shell_.allow_unstable(leaving_.through_unstable);
+  shell_.watch_stability(watches_stability());
+  Outcome end = Outcome::reached;
+  if (goes_on()) {
+    end = segment_.end.value_or(end);
+  } else {
+    keep();
+    keep_segment({});
+    if (too_coarse()) end = Outcome::too_coarse;
+  }
+  while (end == Outcome::reached && now() != to_) {
+    end = step();
+    if (end == Outcome::reached) keep_segment({});
+  }
+  if (end != Outcome::cancelled) keep_segment(end);
+  shell_.allow_unstable(false);
+  shell_.watch_stability(false);
+  // the path may be ahead of what is certified
+  if (end != Outcome::reached && !at_limit(end)) shell_.back_to(shell_.state());
+  Report done = of_.report(end, now(), begin);
+  done.events = std::move(events_);
+  if (of_.actuating_) of_.set_progress(progress_at(done.t));
+  return done;
+}
+
+void Simulation::Walk::note() {
+  if (record_) record_->load_steps.push_back({shell_.point(), of_.certificate(), of_.contacts()});
+}
+
+/// Reports the path parameter to the observer.
+void Simulation::Walk::tell() const {
+  if (&watch_ != &unwatched) watch_.stand_at(now(), shell_.plan().edges_per_segment.back());
+}
+
+/// Notes a load step from which the path continues.
+void Simulation::Walk::keep() {
+  note();
+  tell();
+  keep_companion();
+  if (watches_stability()) softening_.take(shell_.state());
+}
+
+// ---- what an earlier run kept of it ----
+
+/// Whether an earlier run saved this segment or its start; the shell then has the state saved
+/// there.
+bool Simulation::Walk::goes_on() {
+  if (!kept_) return false;
+  segment_.begin = {Checksum::of({reinterpret_cast<const char*>(shell_.state().x.data()),
+                                  sizeof(double) * std::size_t(shell_.state().x.size())}),
+                    now(), to_, shell_.plan().edges_per_segment};
+  effort_before_ = of_.effort();
+  auto before = kept_->next(segment_.begin);
+  if (!before) return false;
+  segment_ = std::move(*before);
+  of_.charge(segment_.effort);
+  static_cast<PathRecord&>(*record_) = std::move(segment_.record);
+  events_ = segment_.events;
+  softening_.know(segment_.softening);
+  const bool stays = std::ranges::any_of(events_, [](const Event& event) {
+    return event.kind == Event::Kind::stability_lost && !event.to;
+  });
+  shell_.allow_unstable(leaving_.through_unstable || stays);
+  shell_.back_to(segment_.state);
+  tell();
+  return true;
+}
+
+/// Saves the segment if enough time was spent since the last save; the result of a cancelled step
+/// is not saved.
+void Simulation::Walk::keep_segment(std::optional<Outcome> end) {
+  if (!kept_ || !kept_->wants(end.has_value())) return;
+  segment_.end = end;
+  segment_.state = shell_.state();
+  segment_.events = events_;
+  segment_.effort = of_.effort() - effort_before_;
+  segment_.softening = softening_.known();
+  // lent, as it may be large
+  std::swap<PathRecord>(segment_.record, *record_);
+  kept_->keep(segment_);
+  std::swap<PathRecord>(segment_.record, *record_);
+}
+
+// ---- how it steps ----
+
+Outcome Simulation::Walk::step() {
+  if (watch_.cancelled()) return Outcome::cancelled;
+  const double left = to_ - now(), longest = softening_.shortened(of_.load_step());
+  // where the path itself needs short steps, its load steps are no much longer ones
+  const double step = std::clamp(shell_.state().step, longest / 8, longest);
+  const int steps = std::max(1, int(std::ceil(std::abs(left) / step - 1e-9)));
+  const double next = steps == 1 ? to_ : now() + left / steps;
+  const NestedState good = shell_.state();
+  const Outcome end = shell_.advance(next, watch_).end;
+  if (end == Outcome::reached) return step_came(next, good);
+  const bool ended = end == Outcome::unstable || end == Outcome::lost;
+  const std::size_t most = shell_.model().contact.any() ? most_events_in_contact : most_events;
+  if (!ended || !leaving_.requested || events_.size() >= most) return end;
+  return branch_ended(end, next, good);
+}
+
+Outcome Simulation::Walk::step_came(double next, const NestedState& good) {
+  if (auto limit = of_.beyond(limits_)) return end_before(std::move(*limit), next, good);
+  if (from_beyond_ && !of_.beyond_limits()) {
+    limits_ = of_.limits();
+    from_beyond_ = false;
+  }
+  keep();
+  return too_coarse() ? Outcome::too_coarse : Outcome::reached;
+}
+
+/// Whether the path need not be followed further on this mesh: its error estimate is above the
+/// allowed one, or no coarser mesh has had a state for longer than two meshes' events may differ.
+bool Simulation::Walk::too_coarse() {
+  const LevelPlan& plan = shell_.plan();
+  if (!std::isfinite(plan.allowed_mm) || !of_.certificate().stable()) return false;
+  if (shell_.state().measured < shell_.last()) {
+    unmeasured_since_.reset();
+    return of_.certificate().error_estimate_mm > plan.allowed_mm;
+  }
+  if (!unmeasured_since_) unmeasured_since_ = now();
+  return std::abs(now() - *unmeasured_since_) > plan.events_apart;
+}
+
+Report Simulation::sample(double t, const LoadStep& beside, bool unstable, const Watch& watch,
+                          const LoadStep* across) {
+  const CallBegin begin = call_begin();
+  shell_->allow_unstable(unstable || !beside.certificate.stable());
+  const NestedReport nested =
+      shell_->sample(t, beside.point, watch, across ? &across->point : nullptr);
+  shell_->allow_unstable(false);
+  return report(nested.end, nested.t, begin);
+}
+
+}  // namespace gridshell

@@ -1,0 +1,84 @@
+// Simulation::Walk: how a simulation follows one segment of its path.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "engine/simulate/kept_segments.h"
+#include "engine/simulate/simulation.h"
+
+namespace gridshell {
+
+/// Follows the stiffness of the lowest mode from load step to load step. A
+/// branch may lose its stability and regain it within one step, and the shell would have left it
+/// in between: where the stiffness heads for zero, steps become short enough to see that.
+class StabilityStepControl {
+ public:
+  /// After a load step that was certified.
+  void take(const NestedState& state);
+  /// Clears the history of the path, which continues from another state.
+  void forget() { known_.clear(); }
+  /// The load step to take instead of `step`, at least an eighth of it.
+  double shortened(double step) const;
+  /// The history, for a path that continues later.
+  const std::vector<simulate::Softness>& known() const { return known_; }
+  void know(std::vector<simulate::Softness> known) { known_ = std::move(known); }
+
+ private:
+  std::vector<simulate::Softness> known_;  // at the last two load steps
+};
+
+/// One segment of the path: how it steps, what it leaves, what ends it.
+class Simulation::Walk {
+ public:
+  Walk(Simulation& of, double to, const BifurcationPolicy& leaving, PathRecord* record,
+       const Watch& watch)
+      : of_(of), to_(to), leaving_(leaving), record_(record), watch_(watch) {}
+
+  Report all();
+
+ private:
+  double now() const { return shell_.state().t; }
+  void note();
+  void tell() const;
+  void keep();
+  bool goes_on();
+  bool watches_stability() const {
+    return record_ && of_.actuating_ && leaving_.requested && scene_.imperfection.chooses();
+  }
+  void keep_segment(std::optional<Outcome> end);
+  Outcome step();
+  Outcome step_came(double next, const NestedState& good);
+  Outcome branch_ended(Outcome how, double next, const NestedState& good);
+  Outcome end_at(Event limit);
+  Outcome end_before(Event limit, double bad, const NestedState& good);
+  bool too_coarse();
+  double located_to() const;
+  double parameter_scale(double t) const;
+  void bisect(double bad, const NestedState& good, const std::function<bool()>& accepted);
+  bool leave(Event& event, std::vector<TimedState>& moments);
+  void confirm(Event& event);
+  void keep_companion();
+
+  Simulation& of_;
+  NestedShell& shell_ = *of_.shell_;
+  const Scene& scene_ = *of_.scene_;
+  double to_;
+  BifurcationPolicy leaving_;
+  PathRecord* record_;
+  const Watch& watch_;
+  // a state that starts past a limit may return, and goes no further past it
+  Limits limits_ = of_.limits_here();
+  bool from_beyond_ = of_.beyond_limits().has_value();
+  StabilityStepControl softening_;
+  std::vector<Event> events_;
+  std::optional<double> unmeasured_since_;  // path parameter: no companion has a state since
+  std::optional<TimedState> companion_;     // its last state on this branch; time: path parameter
+  // of a saved segment, as it was after the last step
+  simulate::KeptSegments* kept_ = record_ ? scene_.kept.get() : nullptr;
+  simulate::KeptSegment segment_;
+  Effort effort_before_;
+};
+
+}  // namespace gridshell

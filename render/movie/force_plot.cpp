@@ -1,0 +1,136 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "engine/core/text.h"
+#include "render/movie/run_figures.h"
+
+namespace gridshell::render {
+namespace {
+
+/// Where a frame says that the shell snapped on the path to it, mm: "snap at depth 66.180 mm".
+std::optional<double> depth_of_snap(const record::Frame& frame) {
+  const std::string begin = "snap at depth ";
+  if (!frame.event.starts_with(begin)) return std::nullopt;
+  const std::string number = frame.event.substr(begin.size());
+  return parse_number<double>(number.substr(0, number.find(' ')));
+}
+
+/// Straight down at the depth of each snap, from where the path reached it to where it continued:
+/// on both sides as far from the next frame as force and stiffness there say.
+Series snaps_of(const Series& pushed, const record::Trajectory& run) {
+  Series snaps = line_series("", pushed.colour, 1, {3, 2});
+  for (std::size_t k = 1; k < run.frames.size(); ++k) {
+    const record::Frame after = run.frames[k];
+    if (!after.event.starts_with("snap")) continue;
+    // what moved in time in between has no force
+    std::size_t at = k - 1;
+    while (at > 0 && !std::isfinite(pushed.y[at])) --at;
+    const record::Frame before = run.frames[at];
+    const double depth = depth_of_snap(after).value_or(after.depth_mm);
+    const auto force = [&](const record::Frame& frame) {
+      const double slope = std::isfinite(frame.stiffness_N_per_mm) ? frame.stiffness_N_per_mm : 0;
+      return frame.force_N + slope * (depth - frame.depth_mm);
+    };
+    snaps.add(before.depth_mm, before.force_N);
+    snaps.add(depth, force(before));
+    snaps.add(depth, force(after));
+    snaps.add(after.depth_mm, after.force_N);
+    snaps.part();
+  }
+  return snaps;
+}
+
+/// The pieces of a line on which the state is not stable.
+Series unstable_of(const Series& pushed, const record::Trajectory& run) {
+  Series pieces = line_series("", pushed.colour, pushed.line_width, {1.2, 1.5});
+  for (std::size_t k = 1; k < run.frames.size(); ++k) {
+    const record::Frame from = run.frames[k - 1], to = run.frames[k];
+    if (to.event.starts_with("snap") || std::max(from.negative_pivots, to.negative_pivots) <= 0)
+      continue;
+    pieces.add(from.depth_mm, from.force_N);
+    pieces.add(to.depth_mm, to.force_N);
+    pieces.part();
+  }
+  return pieces;
+}
+
+/// A line that goes from state to state has a gap where one snapped to the next, and where a dashed
+/// one shows states that are not stable.
+void part_at_snaps(Series& pushed, const record::Trajectory& run) {
+  for (std::size_t k = run.frames.size(); k-- > 1;)
+    if ((run.frames[k].event.starts_with("snap") ||
+         std::max(run.frames[k].negative_pivots, run.frames[k - 1].negative_pivots) > 0) &&
+        std::isfinite(pushed.y[k - 1])) {
+      pushed.x.insert(pushed.x.begin() + long(k), NAN);
+      pushed.y.insert(pushed.y.begin() + long(k), NAN);
+    }
+}
+
+/// Whether an error would be visible compared with the line of the forces.
+bool errors_seen(const std::vector<NamedRun>& runs) {
+  constexpr double line = 0.01;  // a line's width, of the axis
+  double force = 0, error = 0;
+  for (const NamedRun& one : runs)
+    for (const record::Frame& frame : one.run->frames) {
+      force = std::max(force, std::abs(frame.force_N));
+      error = std::max(error, frame.push_error_N);
+    }
+  return error > line * force;
+}
+
+/// The force with its error on either side, a band from snap to snap; none where no error is known.
+std::vector<Band> error_bands(const record::Trajectory& run, Colour colour) {
+  std::vector<Band> bands;
+  colour.a = 0.25f;
+  bool goes_on = false;
+  for (const record::Frame& frame : run.frames) {
+    const bool known = std::isfinite(frame.force_N) && std::isfinite(frame.push_error_N);
+    if (known && (!goes_on || frame.event.starts_with("snap")))
+      bands.push_back({.name = "", .colour = colour});
+    goes_on = known;
+    if (!known) continue;
+    bands.back().x.push_back(frame.depth_mm);
+    bands.back().low.push_back(frame.force_N - frame.push_error_N);
+    bands.back().high.push_back(frame.force_N + frame.push_error_N);
+  }
+  return bands;
+}
+
+}  // namespace
+
+Plot force_plot(const std::vector<NamedRun>& runs) {
+  Plot plot;
+  plot.x = {.label = "depth *δ* (mm)", .low = 0};
+  plot.y = {.label = "force (N)"};
+  bool snap_in_legend = false, unstable_in_legend = false;
+  const bool banded = errors_seen(runs);
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    Series series = line_series(runs.size() > 1 ? runs[k].name : "", series_colour(k));
+    // of many frames the line itself is what they lie on
+    constexpr std::size_t most_marked = 24;
+    if (runs[k].run->frames.size() <= most_marked) series.marker = series_marker(k);
+    for (const record::Frame& frame : runs[k].run->frames)
+      series.add(frame.depth_mm, frame.force_N);
+    for (Band& band : banded ? error_bands(*runs[k].run, series_colour(k)) : std::vector<Band>()) {
+      if (plot.bands.empty()) band.name = "error of the force";
+      plot.bands.push_back(std::move(band));
+    }
+    Series snaps = snaps_of(series, *runs[k].run), unstable = unstable_of(series, *runs[k].run);
+    part_at_snaps(series, *runs[k].run);
+    plot.series.push_back(std::move(series));
+    if (!unstable.x.empty()) {
+      if (!std::exchange(unstable_in_legend, true)) unstable.name = "unstable";
+      plot.series.push_back(std::move(unstable));
+    }
+    if (snaps.x.empty()) continue;
+    if (!snap_in_legend) snaps.name = "snap to another state";
+    snap_in_legend = true;
+    plot.series.push_back(std::move(snaps));
+  }
+  return plot;
+}
+
+}  // namespace gridshell::render

@@ -1,0 +1,54 @@
+#include "render/movie/run_summary.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/render/synthetic.h"
+
+using namespace gridshell;
+using namespace gridshell::render;
+
+namespace {
+
+/// A dome whose joints each bear the same load downwards.
+record::Trajectory loaded_dome() {
+  record::Trajectory run = synthetic::dome(2, 6);
+  run.layout.supports.clear();
+  for (const record::Joint& joint : run.layout.joints) run.layout.supports.push_back(joint.node);
+  for (record::Frame& frame : run.frames.edit())
+    frame.loads_N = Eigen::Vector3d(0, 0, -2).replicate(1, long(run.layout.supports.size()));
+  return run;
+}
+
+}  // namespace
+
+TEST_CASE("of the loads of an area a few arrows of one length are shown, without a scale") {
+  record::Trajectory run = loaded_dome();
+  REQUIRE(run.layout.joints.size() >= 25);
+  record::Frame& last = run.frames.edit().back();
+  CHECK(loads_all_alike(last));
+  auto arrows = force_arrows(run.layout, last, 2);
+  CHECK(arrows.size() > 5);
+  CHECK(arrows.size() <= 16);
+  CHECK((arrows[0].to - arrows[0].from).norm() == Approx(longest_force(run.layout)));
+  CHECK_FALSE(summarise_run(run).arrows_to_scale);
+  // one that is larger, or points elsewhere, is a load of its own
+  last.loads_N(2, 3) = -80;
+  CHECK_FALSE(loads_all_alike(last));
+  CHECK(summarise_run(run).arrows_to_scale);
+  last.loads_N.col(3) << 2, 0, 0;
+  CHECK_FALSE(loads_all_alike(last));
+  arrows = force_arrows(run.layout, last, 2);
+  CHECK(arrows.size() == run.layout.supports.size());
+}
+
+TEST_CASE("a summary knows how far the means of the bins move") {
+  record::Trajectory run = synthetic::dome(3, 2);
+  for (int k = 0; k < 3; ++k) {
+    record::Frame& frame = run.frames.edit()[std::size_t(k)];
+    frame.K_bins.resize(2, 3);
+    frame.K_bins << 0.03 + 0.01 * k, 0.002, 8, 0.02 - 0.004 * k, 0.004, 9;
+  }
+  const RunSummary summary = summarise_run(run);
+  CHECK(summary.bins_change_rad.high == Approx(0.02));
+  CHECK(summary.bins_change_rad.low == Approx(-0.008));
+}
