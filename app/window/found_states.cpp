@@ -183,9 +183,9 @@ void EditSession::note_state() {
     return;
   RestState here{now_, session_->save(), std::make_shared<const ShellView>(view_)};
   const auto is_here = [&](const RestState& one) { return one.same_as(here); };
-  // copied before anything changes, as a copy may fail
-  RestState copy = here;
-  std::optional<RestState> before = std::exchange(at_rest_, std::move(copy));
+  // a copy for which no memory is left leaves the last one as it is
+  std::optional<RestState> before = here;
+  before.swap(at_rest_);
   if (std::ranges::any_of(found_, is_here) || found_.size() >= most_states) return;
   const bool among =
       std::ranges::any_of(found_, [&](const RestState& one) { return one.beside(here); });

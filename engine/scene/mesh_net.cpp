@@ -230,7 +230,7 @@ Result<std::vector<NetStart>> best_starts(const Surface& surface, const Triangle
     }
   }
   std::ranges::stable_sort(kinds, better);
-  // each as the net itself comes out, which decides where the coarse grid was mistaken
+  // each measured on the grid of the net itself, which decides where the coarse grid was mistaken
   constexpr double mistaken = 0.05;  // of the area
   const Trial last = trial_on(net_chord(mesh, spacing_mm));
   const auto fine = area_samples(mesh, last.chord);
