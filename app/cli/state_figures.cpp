@@ -264,14 +264,13 @@ Result<void> add_diagram(Page& page, const std::string& named) {
 /// What all shells of the page have in common.
 void add_foot(Page& page, const preset::Preset& preset, const std::string& dome) {
   if (preset.footprint.kind != preset::FootprintKind::circle) return;
+  page.add_note(foot, fmt::format("A1–A3 at {}{}; *d* = {:g} mm, *R*_{{a}} = {:.3g} *R*_{{o}}",
+                                  place_of(preset), dome.empty() ? "" : ", A4 at " + dome,
+                                  preset.footprint.spacing_mm,
+                                  preset.actuated_radius_mm() / preset.original_radius_mm()));
   page.add_note(
-      foot,
-      fmt::format("A1–A3 at {}{}; *d* = {:g} mm, *R*_{{a}} = {:.3g} *R*_{{o}}; elastic energies.",
-                  place_of(preset), dome.empty() ? "" : ", A4 at " + dome,
-                  preset.footprint.spacing_mm,
-                  preset.actuated_radius_mm() / preset.original_radius_mm()));
-  page.add_note({foot.x, foot.y + 4, foot.width, foot.height},
-                "B: markers are displaced from their point, grey, for legibility.");
+      {foot.x, foot.y + 4, foot.width, foot.height},
+      "Elastic energies. B: markers are displaced from their point, grey, for legibility.");
 }
 
 /// A state of each class from above, each as large as its box.
