@@ -313,8 +313,7 @@ void add_surface(FieldList<Net> net) {
   of_mesh();
   net.add<&Net::apex>(
       "\"given\": at `apex_mm`; \"best\", for a mesh: where rods reach the largest area; "
-      "\"best_angle\": where, at 0.95 of it, the least angle is largest"); \"best_angle\": where, "
-      "at 0.95 of that area, they cross at the largest least angle");
+      "\"best_angle\": where, at 0.95 of it, the least angle is largest");
   surface().refused({"file"},
                     "the search is for a mesh of triangles, expected \"given\" for other surfaces",
                     [=](const Net& of) { return of.apex != NetApex::given && !mesh(of); });
