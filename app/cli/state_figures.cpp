@@ -26,8 +26,6 @@ namespace {
 using record::StateClass;
 using record::StateRow;
 
-constexpr double plot_height = 62.0 / 88;  // of a plot, over its width
-
 std::string class_text(StateClass kind) {
   return kind == StateClass::other ? "other" : "state *" + std::string(word_of(kind)) + "*";
 }
@@ -90,9 +88,7 @@ render::Plot energies_plot(const record::StateTables& states) {
                               fmt::join(words, ", "));
   }
   plot.series = by_class(met, [](const StateRow& row) { return double(row.count); });
-  double most = 1;
-  for (const StateRow& row : met) most = std::max(most, double(row.count));
-  plot.y.high = std::max(3.0, 1.5 * most);
+  for (const StateRow& row : met) plot.y.high = std::max(plot.y.high.value_or(3), 1.5 * row.count);
   return plot;
 }
 
@@ -268,14 +264,13 @@ Result<void> add_diagram(Page& page, const std::string& named) {
 /// What all shells of the page have in common.
 void add_foot(Page& page, const preset::Preset& preset, const std::string& dome) {
   if (preset.footprint.kind != preset::FootprintKind::circle) return;
-  page.add_note(foot,
-                fmt::format("A1–A3 at {}{}; *d* = {:g} mm, *R*_{{a}} = {:.3g} *R*_{{o}}; elastic "
-                            "energies.",
-                            place_of(preset), dome.empty() ? "" : ", A4 at " + dome,
-                            preset.footprint.spacing_mm,
-                            preset.actuated_radius_mm() / preset.original_radius_mm()));
-  page.add_note({foot.x, foot.y + 4, foot.width, foot.height},
-                "B: markers are displaced from their point, grey, for legibility.");
+  page.add_note(foot, fmt::format("A1–A3 at {}{}; *d* = {:g} mm, *R*_{{a}} = {:.3g} *R*_{{o}}",
+                                  place_of(preset), dome.empty() ? "" : ", A4 at " + dome,
+                                  preset.footprint.spacing_mm,
+                                  preset.actuated_radius_mm() / preset.original_radius_mm()));
+  page.add_note(
+      {foot.x, foot.y + 4, foot.width, foot.height},
+      "Elastic energies. B: markers are displaced from their point, grey, for legibility.");
 }
 
 /// A state of each class from above, each as large as its box.
@@ -371,7 +366,7 @@ Result<void> draw_states(const Run& one, render::Renderer& renderer, const fs::p
   const auto plot_at = [&](const char* suffix, const render::Plot& plot) {
     render::Plot titled = plot;
     titled.title = render::plain(style.title) + (plot.title.empty() ? "" : "\n") + plot.title;
-    return render::write_plot(fs::path(stem) += suffix, titled, style.print, plot_height);
+    return render::write_plot(fs::path(stem) += suffix, titled, style.print);
   };
   TRY_DO(render::write_stills(states_alone(one.trajectory, which), style, {}, renderer, stem, watch,
                               captions));

@@ -312,8 +312,8 @@ void add_surface(FieldList<Net> net) {
                                  "mesh: rods end where they would cross at less than this angle");
   of_mesh();
   net.add<&Net::apex>(
-      "\"given\": at `apex_mm`; \"best\": where rods reach the largest area of a mesh; "
-      "\"best_angle\": where, at 0.95 of that, their least angle is largest");
+      "\"given\": at `apex_mm`; \"best\", for a mesh: where rods reach the largest area; "
+      "\"best_angle\": where, at 0.95 of it, the least angle is largest");
   surface().refused({"file"},
                     "the search is for a mesh of triangles, expected \"given\" for other surfaces",
                     [=](const Net& of) { return of.apex != NetApex::given && !mesh(of); });

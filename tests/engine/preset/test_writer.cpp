@@ -176,7 +176,9 @@ std::vector<Preset> stepped() {
   add(StepKind::jitter).seed = 7;
   steps.back().force_N = 0.11;
   add(StepKind::tighten).stiffness_Nmm = 1e5 / 3;
-  add(StepKind::open).angle_deg = 100.0 / 3;
+  Step& opened = add(StepKind::open);
+  opened.angle_deg = 100.0 / 3;
+  opened.drive = JointDrive::mean;
   add(StepKind::open).angles = {{1, 0, 70.5}};
   Step& braced = add(StepKind::brace);
   braced.cells = {{-1, 2}};
@@ -264,7 +266,7 @@ TEST_CASE("a written preset reads back as one that does the same") {
         seen.insert(at->first);
   }
   // and the samples together use every field with another value than its default
-  const std::set<std::string> of_files{"file_unit", "join_mm"};
+  const std::set<std::string> of_files{"file_unit", "join_mm", "linkage"};
   for (const auto& field : field_table()) {
     INFO(name_of(field));
     CHECK((of_files.contains(field.key) || seen.contains(name_of(field))));

@@ -102,11 +102,11 @@ TEST_CASE("a frame of an older version, which kept no forces, is read without th
   Frame frame = sample_trajectory().frames[1];
   const std::string head = packed_head({"s1_actuation", Kind::run}, {});
   const auto columns = unpacked_head(head)->columns;
-  // seven empty matrices, each its rows and columns
+  // nine empty matrices, each its rows and columns
   const std::string packed = packed_frame(frame);
-  const auto old = value_of(unpacked_frame(packed.substr(0, packed.size() - 112), columns));
-  // the last four came later, one after the other
-  for (const int bytes : {16, 32, 48, 64})
+  const auto old = value_of(unpacked_frame(packed.substr(0, packed.size() - 144), columns));
+  // the last six came later, one after the other
+  for (const int bytes : {16, 32, 48, 64, 80, 96})
     CHECK(unpacked_frame(packed.substr(0, packed.size() - std::size_t(bytes)), columns));
   CHECK(same_bits(old.nodes, frame.nodes));
   CHECK(same_bits(old.K_bins, frame.K_bins));
