@@ -199,7 +199,10 @@ class PageMaker {
     page.add_figure("A", above, std::move(*over));
     page.add_plot("B", {2, 48, 174, 44}, render::curvature_plot(named_shells_));
     // from where their own preset looks
-    render::MovieStyle push_style = filling(middle, std::min(3, int(pushes_.size())), true);
+    // a row more below the shells than elsewhere, for what the arrows mean
+    Box shells = middle;
+    shells.height -= 2.5;
+    render::MovieStyle push_style = filling(shells, std::min(3, int(pushes_.size())), true);
     if (push_ != nullptr) {
       push_style.azimuth_deg = push_->preset.movie.azimuth_deg;
       push_style.elevation_deg = push_->preset.movie.elevation_deg;
