@@ -199,9 +199,9 @@ class PageMaker {
     page.add_figure("A", above, std::move(*over));
     page.add_plot("B", {2, 48, 174, 44}, render::curvature_plot(named_shells_));
     // from where their own preset looks
-    // a row more below the shells than elsewhere, for what the arrows mean
+    // narrower, as the colour bar has words: what is set smaller to fit is no longer readable
     Box shells = middle;
-    shells.height -= 2.5;
+    shells.width -= 14;
     render::MovieStyle push_style = filling(shells, std::min(3, int(pushes_.size())), true);
     if (push_ != nullptr) {
       push_style.azimuth_deg = push_->preset.movie.azimuth_deg;

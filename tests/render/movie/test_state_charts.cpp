@@ -14,7 +14,7 @@ using record::StateClass;
 
 namespace {
 
-/// A path with a gap between two pitchforks near its begin, and a branch from the first.
+/// A path with a gap between two pitchforks near its start, and a branch from the first.
 std::vector<BranchPoint> points() {
   std::vector<BranchPoint> all;
   for (int k = 0; k <= 100; ++k) {
@@ -40,7 +40,7 @@ std::vector<BranchPoint> points() {
 
 }  // namespace
 
-TEST_CASE("load factors are marked where the rods come to their strength, with the error") {
+TEST_CASE("load factors are marked where the rods reach their strength, with the error") {
   using record::LoadPoint;
   const std::vector<LoadPoint> path{{"snow", 0, 0, 0, BranchEvent::none, 0.2},
                                     {"snow", 1, 2, 0, BranchEvent::none, 0.6},
@@ -76,7 +76,7 @@ TEST_CASE("stable parts are full, others dashed, and parts meet where something 
   CHECK(path[0].x.back() == Approx(126 - 30 * 0.05));
   CHECK(path[1].x.front() == path[0].x.back());
   CHECK(path[1].x.back() == Approx(126 - 30 * 0.09));
-  // a branch that is stable from its begin, though the path is not there
+  // a branch that is stable from its start, though the path is not there
   REQUIRE(branch.size() == 1);
   CHECK(branch[0].dash.empty());
 }
@@ -207,7 +207,7 @@ record::StateTables tables() {
   for (int k = 0; k < 3; ++k) {
     record::StateRow row;
     row.state = k + 1;
-    row.energies[Term::bend] = 40;  // all in one place
+    row.energies[Term::bend] = 40;  // all at one height
     row.height_mm = 50;
     all.rows.push_back(row);
   }
