@@ -90,7 +90,7 @@ TEST_CASE("of a shell's mirror images it is the seed's, whichever mesh is follow
   CHECK(distance(run(p), chosen) > 5);
 }
 
-TEST_CASE("a branch that coarse meshes place elsewhere is followed on finer ones", "[full]") {
+TEST_CASE("a branch whose event coarse meshes have elsewhere is followed on finer ones", "[full]") {
   // at each of two corners rods buckle to either side, all at nearly the same radius: 4 edges have
   // no event, 8 a snap at 0.52, 16 a branch at 0.43
   preset::Preset p = circle(14, 168.50041607, 151.962336432, 2);
