@@ -44,9 +44,9 @@ Eigen::Matrix2Xd CurveDomain::boundary(int points) const {
   int first = 0;
   for (int k = 0; k < pieces; ++k) {
     const double from = curve_.arc_length(breaks[k]), to = curve_.arc_length(breaks[k + 1]);
-    const auto fraction = static_cast<int>(points * to / curve_.length() + 0.5);
+    const auto nearest = static_cast<int>(points * to / curve_.length() + 0.5);
     const int end =
-        k + 1 == pieces ? points : std::clamp(fraction, first + 1, points - (pieces - k - 1));
+        k + 1 == pieces ? points : std::clamp(nearest, first + 1, points - (pieces - k - 1));
     for (int n = first; n < end; ++n)
       ring.col(n) =
           curve_.at(curve_.at_arc_length(from + (to - from) * (n - first) / (end - first)))

@@ -136,6 +136,7 @@ const std::vector<Field>& field_table() {
     top.add<&Preset::source>("figure or movie of the paper it follows");
     top.add<&Preset::allow_unstable>("whether a run may end in an unstable state without failing");
     add_shape_fields(fields);
+    add_net_fields(fields);
     add_rod_fields(fields);
     add_experiment_fields(fields);
     add_picture_fields(fields);

@@ -100,14 +100,20 @@ Eigen::Vector3d way_through(const FootprintRod& rod, int joint) {
          rod.way(std::min(mark + near, rod.span.end));
 }
 
-/// Checks that rods connected at a joint cross there, and that an eccentricity joins two rods, from
-/// the one listed first in the file.
-Result<void> check_crossings(Scene& scene) {
-  Footprint& footprint = scene.footprint;
+/// The rods at each joint; a rod that is there twice counts once.
+std::vector<std::vector<const FootprintRod*>> rods_at_joints(const Footprint& footprint) {
   std::vector<std::vector<const FootprintRod*>> rods(footprint.joints.size());
   for (const FootprintRod& rod : footprint.rods)
     for (const int joint : std::set<int>(rod.joints.begin(), rod.joints.end()))
       rods[std::size_t(joint)].push_back(&rod);
+  return rods;
+}
+
+/// Checks that rods connected at a joint cross there, and that an eccentricity joins two rods, from
+/// the one listed first in the file.
+Result<void> check_crossings(Scene& scene) {
+  Footprint& footprint = scene.footprint;
+  const auto rods = rods_at_joints(footprint);
   for (int joint = 0; joint < int(rods.size()); ++joint) {
     const JointLaw& law = scene.rods.law(joint);
     FootprintJoint& here = footprint.joints[std::size_t(joint)];
@@ -212,16 +218,13 @@ void centre_edges(const preset::Preset& preset, Scene& scene) {
   const bool bolted = std::ranges::any_of(preset.step, [](const preset::Step& step) {
     return step.kind == preset::StepKind::tighten || step.kind == preset::StepKind::open;
   });
-  std::vector<int> rods(scene.footprint.joints.size(), 0);
-  for (const FootprintRod& rod : scene.footprint.rods)
-    for (const int joint : std::set<int>(rod.joints.begin(), rod.joints.end()))
-      ++rods[std::size_t(joint)];
+  const auto rods = rods_at_joints(scene.footprint);
   for (std::size_t joint = 0; joint < rods.size(); ++joint) {
     FootprintJoint& here = scene.footprint.joints[joint];
     const JointLaw& law = scene.rods.law(int(joint));
     const bool held =
         scene.rod_model == RodModel::twist && (law.shear_Nmm > 0 || law.twist_Nmm > 0);
-    here.centred = rods[joint] > 1 && (bolted || held || here.eccentricity != 0);
+    here.centred = rods[joint].size() > 1 && (bolted || held || here.eccentricity != 0);
   }
 }
 

@@ -122,7 +122,7 @@ std::vector<ContactEvent> self_passages(const EquilibriumPath& path, const At& a
   const Model& model = shell.model();
   const Scene& scene = path.simulation.scene();
   std::vector<ContactEvent> events;
-  if (!model.has_spins()) return events;
+  if (!model.has_spins() || std::ranges::none_of(model.rods, &Model::Rod::closed)) return events;
   const State drawn = start_state(
       model, columns_of(shell.finest(), model, drawn_nodes(shell.finest(), scene.flat)));
   std::vector<Shown> shown{{0, &drawn, 0}};

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double fraction_of_tolerance = 0.1;  // that a polynomial in t may leave
 constexpr double fraction_of_errors = 0.5;     // of those of the meshes, likewise
-constexpr double share_of_colour = 5e-3;       // of the largest curvature, likewise
+constexpr double fraction_of_colour = 5e-3;    // of the largest curvature, likewise
 constexpr std::size_t most_knots = 6;
 
 bool smooth(const PathSegment& segment, std::size_t k) {
@@ -200,7 +200,7 @@ std::optional<record::Frame> FramesBetween::between(double t, const Knots& knots
   };
   const double curved = largest(sum(weights.all, &Frame::curvature_per_mm));
   if (!(nodes_mm <= allowed_mm) ||
-      !(doubt(&Frame::curvature_per_mm, largest) <= share_of_colour * curved) ||
+      !(doubt(&Frame::curvature_per_mm, largest) <= fraction_of_colour * curved) ||
       seen(mJ, of_energies(frame.energies), &Frame::energy_error_mJ) ||
       seen(N, largest(frame.reactions_N), &Frame::force_error_N))
     return {};

@@ -122,7 +122,7 @@ class Show {
   Show(Work& work, const std::vector<preset::Step>& steps, int frames, record::Sink& sink,
        Watch& watch)
       : work_(work), steps_(steps), watch_(watch), shares_(frames_of_steps(steps, frames)) {
-    for (const int fraction : shares_) count_ += fraction;
+    for (const int frames_of_step : shares_) count_ += frames_of_step;
     sampler_.emplace(work, caption(), sink, watch, std::size_t(count_) + 1);
   }
 
@@ -143,10 +143,10 @@ class Show {
   Result<void> one() {
     const Done& done = work_.done[step_];
     const PathSegment& segment = work_.segments[step_];
-    const int fraction = shares_[step_];
+    const int count = shares_[step_];
     boundary_ = {boundary_[1], done.end.boundary.progress};
-    for (int k = 1; k < fraction; ++k) {
-      const double part = double(k) / fraction;
+    for (int k = 1; k < count; ++k) {
+      const double part = double(k) / count;
       const bool moves = steps_[step_].kind == StepKind::move;
       const double t = moves ? parameter_at(boundary_[0] + part * (boundary_[1] - boundary_[0]))
                              : segment.from + part * (segment.end() - segment.from);

@@ -29,6 +29,7 @@ Series bins_of(const record::Frame& frame) {
     series.add(-1 + (2.0 * double(k) + 1) / double(count), frame.K_bins(k, 0));
     series.y_error.push_back(frame.K_bins(k, 1));
   }
+  series.bar_width = 1.9 / double(std::max(1L, count));
   return series;
 }
 
@@ -47,7 +48,6 @@ Plot bins_plot(const RunSummary& run, long cells, const record::Frame& frame,
   Series before = bins_of(run.first), now = bins_of(frame);
   before.name = "unloaded, mean ± s.d.";
   before.kind = SeriesKind::bars;
-  before.bar_width = 1.9 / double(std::max<std::size_t>(1, before.x.size()));
   before.colour = reference;
   // both deviations are seen, next to one another
   Series spread = mark_series("", reference_ink, Marker::none);
@@ -81,7 +81,6 @@ Plot change_plot(const RunSummary& run, const record::Frame& frame, double font_
   change.y_error.clear();
   for (std::size_t k = 0; k < change.y.size(); ++k) change.y[k] -= first.y[k];
   change.kind = SeriesKind::bars;
-  change.bar_width = 1.9 / double(std::max<std::size_t>(1, change.x.size()));
   change.colour = now_ink;
   const double end =
       1.1 * std::max({1e-6, std::abs(run.bins_change_rad.low), std::abs(run.bins_change_rad.high)});

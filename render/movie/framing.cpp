@@ -1,9 +1,9 @@
+#include "render/movie/framing.h"
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "render/movie/stage.h"
 
 namespace gridshell::render {
 

@@ -85,7 +85,7 @@ TEST_CASE("where there is no radius progress is the axis") {
   auto all = points();
   for (BranchPoint& p : all) p.boundary_radius_mm = record::unknown;
   const Plot plot = branches_plot(all, BranchAxis::height);
-  CHECK(plot.x.label.starts_with("progress"));
+  CHECK(plot.x.label == "progress; actuation →");
   CHECK(plot.series.front().x.back() == 1);
 }
 

@@ -1,0 +1,40 @@
+// A camera that keeps a complete run in its panel: one target, one size, fixed over the movie,
+// while it slowly turns.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "render/canvas/canvas.h"
+#include "render/gl/renderer.h"
+#include "render/movie/movie_style.h"
+
+namespace gridshell::render {
+
+/// The camera over a movie.
+class Framing {
+ public:
+  /// At zoom 1 all points (3 x n, mm) lie within `panel` (pixels of a width x height picture) at
+  /// every moment of the turn, as large as possible. Zoom and target are about the panel's middle.
+  Framing(const Eigen::Matrix3Xd& points, const MovieStyle& style, const Box& panel);
+
+  /// `moment` from 0, the first frame, to 1, the last
+  Camera camera(double moment) const;
+  /// in the plane through the target that faces the camera
+  double pixels_per_mm() const { return height_ / (2 * half_extent_mm_); }
+  /// what all points cover over the whole turn, in pixels
+  const Box& seen() const { return seen_; }
+
+ private:
+  Box union_of_views(const Eigen::Matrix3Xd& points) const;
+  void fit(const Eigen::Matrix3Xd& points, const Box& panel);
+  void look_at(const MovieStyle& style, const Box& panel);
+
+  double azimuth_deg_, elevation_deg_, turn_deg_, field_of_view_deg_;
+  int width_, height_;
+  Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();
+  double half_extent_mm_ = 1;
+  double right_mm_ = 0, up_mm_ = 0;  ///< from the middle to the target, as the camera sees it
+  Box seen_;
+};
+
+}  // namespace gridshell::render
