@@ -71,7 +71,7 @@ std::string help_for(const preset::Preset& preset, record::Limit limit, double l
       return "";
     case record::Limit::locking:
       // a push may have met its stiffness instead
-      if (pushes && std::abs(largest_strain) < 0.9 * preset.limits.max_strain)
+      if (pushes && !locked_by_strain(largest_strain, preset.limits.max_strain))
         return less + " ends before that";
       return less + " ends before that, more [limits] max_strain after it";
     case record::Limit::strength:

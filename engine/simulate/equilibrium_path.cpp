@@ -154,7 +154,7 @@ std::string how_it_ended(const PathSegment& segment, double max_strain, const At
         "max_strain allows",
         place());
   const double strain = report.certificate.largest_strain;
-  const bool strained = std::abs(strain) > 0.9 * max_strain;
+  const bool strained = locked_by_strain(strain, max_strain);
   if (report.end == Outcome::locked && strained && strain < 0)
     return fmt::format(
         "{} a rod too short to buckle is compressed as far as [limits] max_strain allows: its "

@@ -85,7 +85,7 @@ std::string reason_of(HeldShell& pushed, const At& at, const Watch& watch) {
         "{} ({:.4f} of the length scale) and {:.4g} N the rods are at their length: {}",
         at(segment.report.t, {}), segment.report.t * pushed.depth_mm() / scene.length_scale_mm,
         pushed.push.displacement.normalized().dot(pushed.simulation.force(0)),
-        std::abs(strain) > 0.99 * scene.max_strain
+        locked_by_strain(strain, scene.max_strain)
             ? fmt::format("the largest strain reaches {:g}", scene.max_strain)
             : "the push meets 100 times its first stiffness");
   return {};

@@ -1,6 +1,7 @@
 // Simulation: one gridshell that a user or an experiment actuates, pushes, loads and reads.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <map>
 #include <memory>
@@ -64,6 +65,13 @@ struct Event {
 constexpr Outcome outcome_of(Event::Kind limit) {
   if (limit == Event::Kind::contact) return Outcome::contact;
   return limit == Event::Kind::overbent ? Outcome::overbent : Outcome::locked;
+}
+
+/// Whether rods at Outcome::locked met the limit of the strain, and not a push 100 times its first
+/// stiffness: the state at the limit is up to a load step before it.
+inline bool locked_by_strain(double largest_strain, double max_strain) {
+  constexpr double near_it = 0.9;
+  return std::abs(largest_strain) > near_it * max_strain;
 }
 
 /// How a command ended, what it reached and what it cost. After a failure the shell is in the last
