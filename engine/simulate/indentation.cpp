@@ -171,9 +171,10 @@ void add_load_steps(const EquilibriumPath& path, bool unload, std::vector<PathSa
     }
   }
   std::ranges::stable_sort(samples, {}, &PathSample::progress);
-  const auto same = std::ranges::unique(
-      samples, [](double a, double b) { return b - a < equal; }, &PathSample::progress);
-  samples.erase(same.begin(), same.end());
+  const auto same = [](const PathSample& a, const PathSample& b) {
+    return b.progress - a.progress < equal;
+  };
+  samples.erase(std::unique(samples.begin(), samples.end(), same), samples.end());
   for (std::size_t k = 0; k < samples.size(); ++k) samples[k].index = int(k);
 }
 
