@@ -170,6 +170,28 @@ TEST_CASE(
   CHECK(max_column_norm(simulation.nodes() - shape) == 0);
 }
 
+TEST_CASE("errors hold after bolts have fixed a shape, which stays where it is") {
+  preset::Preset p = small_shell();
+  p.step = {step(StepKind::tighten)};
+  p.step[0].stiffness_Nmm = 3;
+  const auto bolted = [&](const LevelPlan& plan) {
+    Simulation simulation = formed(p, plan);
+    const Eigen::Matrix3Xd shape = simulation.nodes();
+    done(simulation, p.step[0]);
+    CHECK(max_column_norm(simulation.nodes() - shape) <
+          0.1 * simulation.certificate().error_estimate_mm);
+    REQUIRE(simulation.push(0, {0, 0, -2}, Across::free, unwatched).end == Outcome::reached);
+    return simulation;
+  };
+  const Simulation rough = bolted(plan_levels(1e-4)), fine = bolted(plan_levels(1e-7));
+  record::Frame errors;
+  rough.put_push_errors(errors);
+  CHECK(std::abs(rough.force(0).z() - fine.force(0).z()) < errors.push_error_N);
+  CHECK(max_column_norm(rough.nodes().leftCols(rough.shell().finest().joints) -
+                        fine.nodes().leftCols(rough.shell().finest().joints)) <
+        rough.certificate().error_estimate_mm);
+}
+
 TEST_CASE("what is made stiff too early, or is not there, is named") {
   const auto scene = shared_scene(loaded_shell());
   Simulation flat = value_of(Simulation::open(scene, plan_levels(1e-2)));
