@@ -257,7 +257,7 @@ Result<Outcome> Simulation::replace_meshes(const LevelPlan& plan, bool nearby, c
   State state = shell_->stay(*before, holds_);
   if (actuating_) shell_->actuate(t, holds_, load_scale_);
   if (nearby) {
-    shell_->motion().apply_loads(shell_->system(), t);
+    shell_->motion().impose(shell_->system(), t, state);
     if (auto rest =
             find_equilibrium(shell_->system(), state, 0.5 * scene_->footprint.spacing, watch))
       state = std::move(*rest);

@@ -192,6 +192,17 @@ TEST_CASE("errors hold after bolts have fixed a shape, which stays where it is")
         rough.certificate().error_estimate_mm);
 }
 
+TEST_CASE("a pushed joint keeps its depth as braces are added") {
+  preset::Preset p = small_shell();
+  Simulation simulation = formed(p, plan_levels(1e-4));
+  simulation.constraint_origins[0] = simulation.nodes().col(0);
+  REQUIRE(simulation.push(0, {0, 0, -2}, Across::free, unwatched).end == Outcome::reached);
+  done(simulation, step(StepKind::brace));
+  record::Frame frame;
+  simulation.put_push(frame);
+  CHECK(frame.depth_mm == Approx(2).epsilon(1e-6));
+}
+
 TEST_CASE("what is made stiff too early, or is not there, is named") {
   const auto scene = shared_scene(loaded_shell());
   Simulation flat = value_of(Simulation::open(scene, plan_levels(1e-2)));
