@@ -259,22 +259,32 @@ void add_directions(const RodNetwork& network, std::size_t r, const FootprintRod
   }
 }
 
+/// Whether it is fixed at two points: a rod alone may turn about the line through them, which
+/// changes nothing.
+bool fixed_twice(const std::vector<HeldPlace>& places) {
+  const auto fixes = [](const HeldPlace& place) { return place.along == Eigen::Vector3d::Ones(); };
+  return std::ranges::all_of(places, fixes) &&
+         std::ranges::any_of(places, [&](const auto& one) { return one.at != places[0].at; });
+}
+
 /// Every connected piece has supports against rotation.
 Result<void> check_held(const RodNetwork& network, const Roles& roles, const Footprint& footprint) {
   UnionFind pieces(footprint.joints.size());
   for (const FootprintRod& rod : footprint.rods)
     for (const int joint : rod.joints) pieces.join(joint, rod.joints.front());
   std::map<int, std::vector<HeldPlace>> held;
-  std::map<int, std::size_t> first_rod;
+  std::map<int, std::size_t> first_rod, rods_of;
   for (std::size_t r = 0; r < footprint.rods.size(); ++r) {
     const int at = pieces.find(footprint.rods[r].joints.front());
     first_rod.try_emplace(at, r);
+    ++rods_of[at];
     for (const int point : network.rods[r])
       if (roles.is_held(point) && (roles.is_joint(point) || roles.at(point).ends > 0))
         held[at].push_back({network.points.col(point), held_along(network, point)});
     add_directions(network, r, footprint.rods[r], held[at]);
   }
   for (const auto& [at, rod] : first_rod) {
+    if (rods_of[at] == 1 && fixed_twice(held[at])) continue;
     if (!off_a_line(held[at]))
       return invalid(
           "rods[{}] and what is joined to it: fixed at fewer than three points, or at points on "

@@ -20,11 +20,12 @@ constexpr double still_mm = 0.01;  // perturbation of an unstable equilibrium be
 
 /// On rods that buckle between joints which stay where they are: waves drawn a rod, the same on
 /// every mesh.
-void add_waves(const Footprint& footprint, const RodMesh& mesh, std::mt19937& random,
+void add_waves(const Scene& scene, const RodMesh& mesh, std::mt19937& random,
                Eigen::Matrix3Xd& direction) {
   constexpr int waves = 3;
+  const Footprint& footprint = scene.footprint;
   const std::set<int> held(footprint.fixed_joints.begin(), footprint.fixed_joints.end());
-  const auto turning = turning_rods(footprint);
+  const auto turning = turning_rods(footprint, scene.rods, scene.motion, scene.solved_model());
   for (std::size_t r = 0; r < footprint.rods.size(); ++r) {
     const bool turns = std::ranges::find(turning, r) != turning.end();
     if (!turns && !std::ranges::all_of(footprint.rods[r].joints,
@@ -117,7 +118,7 @@ BranchSwitch departure_of(const Scene& scene, const RodMesh& mesh, const Model& 
   departure.start = Eigen::Matrix3Xd::Zero(3, model.columns());
   for (int joint = 0; joint < mesh.joints; ++joint)
     for (int axis = 0; axis < 3; ++axis) departure.start(axis, joint) = symmetric_uniform(random);
-  add_waves(scene.footprint, mesh, random, departure.start);
+  add_waves(scene, mesh, random, departure.start);
   return departure;
 }
 

@@ -13,13 +13,13 @@ MeshLevel::~MeshLevel() = default;
 
 Result<void> MeshLevel::build(const Footprint& footprint, const ShellRods& rods, RodModel rod_model,
                               const BoundaryMotion& boundary, int edges_per_segment) {
-  mesh = mesh_rods(centred(footprint, rods.bolts.get()), edges_per_segment);
+  const Footprint meshed = centred(footprint, rods.bolts.get());
+  mesh = mesh_rods(meshed, edges_per_segment);
   TRY(built, build_model(mesh, rods, rod_model));
   model = std::move(*built);
   motion = pinned_motion(mesh, boundary);
   system = std::make_unique<Linearisation>(model);
-  if (rod_model == RodModel::bend && !turning_rods(footprint).empty())
-    system->bear_neutral_directions();
+  if (!turning_rods(meshed, rods, boundary, rod_model).empty()) system->bear_neutral_directions();
   return {};
 }
 

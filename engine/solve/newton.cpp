@@ -62,6 +62,11 @@ void Linearisation::bear_neutral_directions() {
   // single correction leaves along a direction without stiffness
   constexpr double fraction = 5e-5;
   double softest = std::numeric_limits<double>::infinity();
+  // EI/l, of a section with axes the smaller one
+  const auto stiffness = [&](std::size_t k) {
+    const auto section = law_of<SectionBending>(model_, int(k));
+    return section ? section->bend.stiffness.minCoeff() : 0.5 * model_.bends[k].stiffness;
+  };
   for (std::size_t k = 0; k < model_.bends.size();) {
     const ModelBend& first = model_.bends[k];
     // the ghost at an end of prescribed direction has no length; its bend follows a law of its own
@@ -69,7 +74,7 @@ void Linearisation::bear_neutral_directions() {
     double rod = length(first.e), soft = 0;
     for (int e = first.e; k < model_.bends.size() && model_.bends[k].e == e; ++k) {
       const double l = length_between(model_, e, model_.bends[k].f);
-      if (soft == 0) soft = 0.5 * model_.bends[k].stiffness * l * l;
+      if (soft == 0) soft = stiffness(k) * l * l;
       rod += length(e = model_.bends[k].f);
     }
     if (soft > 0) softest = std::min(softest, soft * std::pow(M_PI / rod, 4));
