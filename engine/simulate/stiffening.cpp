@@ -28,13 +28,13 @@ double stiffness_of(const preset::Step& step) {
 
 /// Vectors of the current shape that bolts and braces fix, from those of each mesh. A shape of one
 /// mesh would put that mesh's error into the problem that all meshes solve, where no difference
-/// between them shows it: where forces are extrapolated these are too.
+/// between them shows it: these are extrapolated.
 template <typename OfLevel>
 Eigen::Matrix3Xd fixed_vectors(const NestedShell& shell, const OfLevel& of_level) {
   std::vector<Eigen::Matrix3Xd> levels;
   for (int level = shell.first_of_last_three(); level < shell.levels(); ++level)
     levels.push_back(of_level(level));
-  return certify_vectors(levels, shell.extrapolates_forces(), false).value;
+  return certify_vectors(levels, levels.size() > 1, false).value;
 }
 
 Bolts now_tightened(const Simulation& simulation, double stiffness) {
