@@ -56,12 +56,14 @@ Result<record::Summary> run(const preset::Preset& preset, bool stills, record::S
 
 /// Runs a preset on its scene with changed meshes or load steps.
 Result<record::Summary> run(const preset::Preset& preset, const std::shared_ptr<const Scene>& scene,
-                            bool stills, record::Sink& sink, Watch& watch);
+                            bool stills, record::Sink& sink, Watch& watch,
+                            const RunContext& context = {});
 
 /// Follows the path of a scene and returns it; its simulation is in the state of the last frame.
 Result<EquilibriumPath> follow(const preset::Preset& preset,
                                const std::shared_ptr<const Scene>& scene, bool stills,
-                               record::Sink& frames, Watch& watch, record::Summary& summary);
+                               record::Sink& frames, Watch& watch, record::Summary& summary,
+                               const RunContext& context = {});
 
 /// Runs a preset and stores all frames in memory.
 Result<ExperimentResult> run(const preset::Preset& preset, bool stills, Watch& watch);
