@@ -278,9 +278,10 @@ Result<void> check_held(const RodNetwork& network, const Roles& roles, const Foo
     if (!off_a_line(held[at]))
       return invalid(
           "rods[{}] and what is joined to it: fixed at fewer than three points, or at points on "
-          "one line, and would turn freely about it; a support off that line holds it, or draw it "
-          "with a little sag and hold a point of it across by a weak spring, as among the supports "
-          "{{\"point\": {}, \"spring_N_per_mm\": [0, 0.001, 0]}}",
+          "one line, and would turn freely about it; add a support off that line, or draw it with "
+          "a "
+          "little sag and a weak spring across it at one of its points: "
+          "{{\"point\": {}, \"spring_N_per_mm\": [0, 0.001, 0]}} among the supports",
           rod, network.rods[rod][network.rods[rod].size() / 2]);
     if (!hold_all(held[at]))
       return invalid(

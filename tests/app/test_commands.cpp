@@ -120,6 +120,8 @@ TEST_CASE("a turntable is the last state of a run, seen once around") {
   const auto frames = files_under(bench.at / "out/run_turntable/frames", ".png");
   REQUIRE(frames.size() == 4);
   CHECK(text_of(frames[0]) != text_of(frames[2]));
+  check_refused("movie out/run", bench.at,
+                Contains("the folder of a run") && Contains("gridshell render out/run"));
   // again into the same folder, which is one of ours, and not into the run
   bench.good("movie out/run --turntable --frames 2 --size 160x120 --quiet");
   check_refused("movie out/run --turntable -o out/run", bench.at, Contains("out/run"));

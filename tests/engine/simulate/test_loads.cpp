@@ -256,7 +256,7 @@ TEST_CASE("a load on a free end of a network bends it as a cantilever") {
   CHECK_THAT(refusal(scene_of(p)), Catch::Contains("is no joint or free end"));
 }
 
-TEST_CASE("a rope with sag hangs on two pins and a weak spring across") {
+TEST_CASE("a rope with sag is stable between two pins if a weak spring is across it") {
   preset::NetworkData file;
   file.points = {{0, 0, 0}, {50, 0, -2}, {100, 0, 0}};
   file.rods = {{0, 1, 2}};
