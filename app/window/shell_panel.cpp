@@ -55,7 +55,7 @@ void slider(const Panel& panel, const char* name, float value, float low, float 
   ImGui::SetNextItemWidth(-1);
   const bool other = ImGui::DragFloat(number.c_str(), &typed, 0.002f * std::max(1e-3f, high - low),
                                       low, high, format, ImGuiSliderFlags_AlwaysClamp);
-  panel.named(std::string(name) + "_number", tip + "; a click types it");
+  panel.named(std::string(name) + "_number", "a click types it; " + tip);
   left = left || ImGui::IsItemDeactivated();
   if (is_meant(number, typed, other)) value = typed, changed = true;
   if (changed) set(value);
