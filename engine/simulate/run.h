@@ -70,7 +70,8 @@ Result<ExperimentResult> run(const preset::Preset& preset, bool stills, Watch& w
 
 // Fabrication plan of a preset.
 
-/// The rods, marks, boundaries and pins of a preset's footprint. Errors: bad_input, as scene_of().
+/// The rods, marks, splices, boundaries and pins of a preset's footprint. Errors: bad_input, as
+/// scene_of() and spliced().
 Result<exports::FabricationPlan> fabrication_plan_of(const preset::Preset& preset);
 
 }  // namespace gridshell::simulate

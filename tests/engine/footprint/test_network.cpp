@@ -209,6 +209,9 @@ TEST_CASE("networks that do not make a shell are refused") {
   refused(network(star, {{1, 0, 2}, {3, 0, 4}}, {}, {0}), "point 0 is free, and inside a rod");
   refused(network(star, {{1, 0, 2}, {3, 0, 4}}, {1}, {1}), "point 1 is a support and free");
   refused(network(star, {{1, 0, 2}, {3, 0, 4}}, {}, {3, 4}), "fewer than three points");
+  // a rope on two pins
+  refused(network({{0, 0}, {9, 0}, {18, 0}}, {{0, 1, 2}}),
+          "{\"point\": 1, \"spring_N_per_mm\": [0, 0.001, 0]}");
   // a second piece, fixed on one line
   refused(network({{0, 0}, {9, 0}, {-9, 0}, {0, 9}, {0, -9}, {50, 0}, {60, 0}, {55, 0}, {55, 5}},
                   {{1, 0, 2}, {3, 0, 4}, {5, 7, 6}, {7, 8}}, {}, {8}),
