@@ -75,9 +75,8 @@ void install_terminate_handler() {
     for (const int refused : {SIGSEGV, SIGTRAP, SIGABRT})
       std::signal(refused, [](int) {
         end_at_once(
-            "ended by a signal: memory ran out under the limit that is set (ulimit -v), or, where "
-            "if it happens without a limit, it is an error of this program; what was finished "
-            "stays "
+            "ended by a signal: memory ran out under the limit that is set (ulimit -v); if it "
+            "happens without a limit too, it is an error of this program; what was finished stays "
             "under its partial name\n",
             ExitCode::failed);
       });

@@ -1,9 +1,11 @@
 #include "app/python/shell.h"
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "engine/core/try.h"
+#include "engine/simulate/expected_cost.h"
 
 namespace gridshell::python {
 
@@ -79,7 +81,24 @@ Result<Done> Shell::move(const preset::Step& step, const Watch& watch) {
 Result<Done> Shell::take(const preset::Step& step, const Watch& watch) {
   if (!formed_) return invalid("the shell is still flat: actuate it first");
   as_drawn_ = false;
+  Checkpoint before = session_->save();
   TRY(report, simulate::apply_step(*session_, step, watch));
+  // where the error passes the tolerance it is made on finer meshes, or reported where there is
+  // none
+  while (report->end == Outcome::too_coarse) {
+    session_->restore(before);
+    LevelPlan plan = session_->shell().plan();
+    const auto next = finer(plan);
+    if (next && fits_memory(*scene_, *next))
+      plan = *next;
+    else
+      plan.allowed_mm = std::numeric_limits<double>::infinity();
+    TRY(finer_meshes, session_->remesh(plan, watch));
+    if (finer_meshes->end != Outcome::reached) return ended("refine", std::move(*finer_meshes));
+    before = session_->save();
+    TRY(again, simulate::apply_step(*session_, step, watch));
+    report = std::move(again);
+  }
   return ended(simulate::text_of(step), std::move(*report));
 }
 

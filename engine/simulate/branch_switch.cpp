@@ -10,8 +10,8 @@
 #include "engine/core/algorithms.h"
 #include "engine/core/try.h"
 #include "engine/elastic/model.h"
-#include "engine/solve/buckling.h"
 #include "engine/solve/newton.h"
+#include "engine/solve/turning_rods.h"
 
 namespace gridshell {
 namespace {
@@ -27,7 +27,7 @@ void add_waves(const Scene& scene, const RodMesh& mesh, std::mt19937& random,
   const std::set<int> held(footprint.fixed_joints.begin(), footprint.fixed_joints.end());
   const auto turning = turning_rods(footprint, scene.rods, scene.motion, scene.solved_model());
   for (std::size_t r = 0; r < footprint.rods.size(); ++r) {
-    const bool turns = std::ranges::find(turning, r) != turning.end();
+    const bool turns = std::ranges::find(turning, r, &TurningRod::rod) != turning.end();
     if (!turns && !std::ranges::all_of(footprint.rods[r].joints,
                                        [&](int joint) { return held.contains(joint); }))
       continue;

@@ -30,11 +30,18 @@ bool on_one_branch(const PathSegment& segment, const LoadStep& a, const LoadStep
 
 }  // namespace
 
+bool at_event(const PathSegment& segment, double t) {
+  constexpr double times = 2;  // of an estimated error
+  return std::ranges::any_of(segment.report.events, [t](const Event& event) {
+    return !event.is_limit() && std::abs(t - event.t) <= times * event.error.value_or(0);
+  });
+}
+
 double worst_estimate_mm(const EquilibriumPath& path) {
   double worst = std::numeric_limits<double>::quiet_NaN();
   for (const PathSegment& segment : path.segments)
     for (const LoadStep& load_step : segment.load_steps)
-      if (load_step.certificate.stable())
+      if (load_step.certificate.stable() && !at_event(segment, load_step.point.t))
         worst = std::fmax(worst, load_step.certificate.error_estimate_mm);
   return worst;
 }

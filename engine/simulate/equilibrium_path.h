@@ -69,7 +69,12 @@ struct EquilibriumPath {
 /// (3 x nodes of the finest mesh, mm).
 double distance_of_joints(const Simulation& simulation, const Eigen::Matrix3Xd& nodes);
 
-/// Largest error estimate of the stable states of a path, mm; NaN if no state has one.
+/// Whether it is not known on which side of an event, where the branch changes, a position lies:
+/// that of the event is known to its error. States there have no error estimate.
+bool at_event(const PathSegment& segment, double t);
+
+/// Largest error estimate of the stable states of a path that are at no event, mm; NaN if none has
+/// one.
 double worst_estimate_mm(const EquilibriumPath& path);
 
 /// The last load step that the segment passed before parameter t.

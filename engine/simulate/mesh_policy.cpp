@@ -150,15 +150,19 @@ Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follo
       coarse = nullptr;
       auto last = follow(plan, watch);
       if (!last || watch.cancelled()) return last;
-      (*last)->meshes = plan;
-      (*last)->simulation.charge(found.simulation.effort());
-      const double worst = worst_estimate_mm(**last);
-      (*last)->tolerance_missed = worst > allowed || std::isnan(worst);
-      (*last)->mesh_disagreement = fmt::format(
-          "the tolerance {:g} is not met: {} edges per segment leave an estimated error of "
-          "{:.2g} mm, {:.2g} of the length scale{}",
-          scene.tolerance, plan.edges_per_segment.back(), worst, worst / scene.length_scale_mm,
-          fits ? "" : "; " + fits.error().message);
+      EquilibriumPath& kept = **last;
+      kept.meshes = plan;
+      kept.simulation.charge(found.simulation.effort());
+      const double worst = worst_estimate_mm(kept);
+      kept.tolerance_missed = worst > allowed || std::isnan(worst);
+      if (kept.tolerance_missed)
+        kept.mesh_disagreement = fmt::format(
+            "the tolerance {:g} is not met: {} edges per segment leave an estimated error of "
+            "{:.2g} mm, {:.2g} of the length scale{}",
+            scene.tolerance, plan.edges_per_segment.back(), worst, worst / scene.length_scale_mm,
+            fits ? "" : "; " + fits.error().message);
+      else if (auto doubt = not_confirmed(kept))
+        kept.mesh_disagreement = std::move(*doubt);
       return last;
     }
     if (!too_coarse) ++doublings;

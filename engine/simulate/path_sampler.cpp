@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "engine/core/try.h"
@@ -11,15 +12,6 @@
 
 namespace gridshell::simulate {
 namespace {
-
-/// Whether it is not known on which side of an event, where the branch changes, a position lies:
-/// that of the event is known to its error.
-bool at_event(const PathSegment& segment, double t) {
-  constexpr double times = 2;  // of an estimated error
-  return std::ranges::any_of(segment.report.events, [t](const Event& event) {
-    return !event.is_limit() && std::abs(t - event.t) <= times * event.error.value_or(0);
-  });
-}
 
 /// Whether the path was followed as far as a sample.
 bool came_to(const EquilibriumPath& path, const PathSample& sample) {
@@ -123,19 +115,19 @@ Result<void> PathSampler::take(record::Frame frame, const PathSample& sample) {
 Result<void> PathSampler::motions(const PathSample& sample, double past) {
   const PathSegment& segment = path_.segments[sample.segment];
   if (!last_ || last_->segment != sample.segment) next_snap_ = 0;
-  bool any = false;
+  std::optional<Checkpoint> here;
   for (; next_snap_ < segment.snaps.size(); ++next_snap_) {
     const PathRecord::Snap& snap = segment.snaps[next_snap_];
     const double landed = segment.load_steps[snap.before + 1].point.t;
     if (segment.sign() * (past - landed) < 0) break;
-    any = true;
+    // these frames move the simulation
+    if (!here) here = path_.simulation.save();
     PathSample there = sample;
     there.t = landed;
     for (record::Frame& frame : frames_in_motion(path_.simulation, snap.moments))
       if (auto taken = take(std::move(frame), there); !taken) return taken;
   }
-  // the simulation was moved for these samples
-  if (any) certify_sample(path_, sample, watch_);
+  if (here) path_.simulation.restore(*here);
   return {};
 }
 

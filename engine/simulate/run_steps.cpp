@@ -113,8 +113,10 @@ Result<Work> do_steps(const std::shared_ptr<const Scene>& scene,
   return work;
 }
 
-std::string on_its_way(double t, std::optional<double>) {
-  return fmt::format("at {:.3f} of its path", t);
+std::string on_its_way(double t, std::optional<double> error) {
+  auto text = fmt::format("at {:.4f}", t);
+  if (error) text += fmt::format(" ± {:.1g}", *error);
+  return text + " of its path";
 }
 
 /// Hands the frames of one work to a sink.
@@ -211,8 +213,8 @@ std::string message_of(std::size_t k, const preset::Step& step, const PathSegmen
   std::string text = fmt::format("{} {}: {}", k + 1, text_of(step), words_of(report.end).name);
   for (const Event& event : report.events)
     if (event.to)
-      text += fmt::format(", {} at {:.3f} of its path",
-                          event.jump ? "snap to another state" : "branches", event.t);
+      text += fmt::format(", {} {}", event.jump ? "snap to another state" : "branches",
+                          on_its_way(event.t, event.error));
   const Certificate& certificate = report.certificate;
   text += fmt::format(", residual {:.2g} N, ", certificate.residual_N);
   text += certificate.stable()
@@ -225,9 +227,7 @@ std::string message_of(std::size_t k, const preset::Step& step, const PathSegmen
 
 /// Which step the limit belongs to, in front of its reason.
 void name_step_of_limit(Work& work, const std::vector<preset::Step>& steps) {
-  set_limit(work, [](double t, std::optional<double>) {
-    return fmt::format("at path parameter {:.4g}", t);
-  });
+  set_limit(work, on_its_way);
   if (work.limit == record::Limit::none) return;
   // the event that ended the path, else the first snap
   const auto ended = std::ranges::find_if(work.segments, [](const PathSegment& segment) {

@@ -37,6 +37,7 @@ void Simulation::apply_field(std::vector<NodeAction> field) {
 Report Simulation::drive(const PrescribedMove& drive, std::vector<NodeAction> coming,
                          const Watch& watch, PathRecord* record) {
   const CallBegin begin = call_begin();
+  const Checkpoint before = save();
   const std::vector<Constraint> held = drive.holds;
   shell_->set_fields(field_, coming);
   shell_->drive(drive);
@@ -44,7 +45,10 @@ Report Simulation::drive(const PrescribedMove& drive, std::vector<NodeAction> co
   actuating_ = false;
   first_stiffness_ = 0;
   const NestedReport started = shell_->start(0, shell_->state().levels.back(), watch);
-  if (started.end != Outcome::reached) return report(started.end, 0, begin);
+  if (started.end != Outcome::reached) {
+    restore(before);
+    return report(started.end, 0, begin);
+  }
   Report done = go(1, watch, {}, record);
   std::vector<NodeAction> field = field_;
   const auto come = times(std::move(coming), drive.field.begin + done.t * drive.field.change);
@@ -58,10 +62,14 @@ Report Simulation::move_to(double progress, const Watch& watch, PathRecord* reco
   const double t = parameter_at(progress);
   if (!actuating_) {
     const double now = parameter_at(progress_);
+    const Checkpoint before = save();
     shell_->actuate(now, holds_, load_scale_);
     actuating_ = true;
     const NestedReport started = shell_->start(now, shell_->state().levels.back(), watch);
-    if (started.end != Outcome::reached) return report(started.end, now, call_begin());
+    if (started.end != Outcome::reached) {
+      restore(before);
+      return report(started.end, now, call_begin());
+    }
   }
   return go(t, watch, {}, record);
 }
@@ -75,6 +83,7 @@ Report Simulation::begin_joint_push(std::vector<Constraint> holds,
                                     std::vector<Eigen::Vector3d> displacements,
                                     const Watch& watch) {
   const CallBegin begin = call_begin();
+  const Checkpoint before = save();
   const LoadFactor load = steady_load();
   along_.resize(0);
   for (std::size_t k = 0; k < holds.size(); ++k) {
@@ -87,7 +96,10 @@ Report Simulation::begin_joint_push(std::vector<Constraint> holds,
   holds_ = std::move(holds);
   actuating_ = false;
   const NestedReport nested = shell_->start(0, shell_->state().levels.back(), watch);
-  if (nested.end == Outcome::reached) first_stiffness_ = push_stiffness();
+  if (nested.end == Outcome::reached)
+    first_stiffness_ = push_stiffness();
+  else
+    restore(before);
   return report(nested.end, nested.t, begin);
 }
 
@@ -106,8 +118,9 @@ Report Simulation::push(int joint, const Eigen::Vector3d& displacement, Across a
   std::vector<Eigen::Vector3d> displacements(holds.size(), Eigen::Vector3d::Zero());
   displacements.back() = displacement;
   const Report taken = begin_joint_push(std::move(holds), std::move(displacements), watch);
+  if (taken.end != Outcome::reached) return taken;
   if (first_stiffness > 0) first_stiffness_ = first_stiffness;
-  return taken.end == Outcome::reached ? go(1, watch, {}, record) : taken;
+  return go(1, watch, {}, record);
 }
 
 Report Simulation::release(int joint, const Watch& watch) {

@@ -1,10 +1,7 @@
 #include "engine/solve/buckling.h"
 
-#include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <set>
-#include <utility>
 
 #include "engine/elastic/model.h"
 #include "engine/footprint/symmetry.h"
@@ -27,40 +24,6 @@ double spread(const RodMesh& mesh, const Eigen::Matrix3Xd& x) {
   const std::vector<int> held = held_nodes(mesh);
   const Eigen::Matrix3Xd places = x(Eigen::all, held);
   return (places.colwise() - Eigen::Vector3d(places.rowwise().mean())).colwise().norm().sum();
-}
-
-/// Whether the boundary keeps what holds a rod, its hinges and prescribed directions, on one line.
-bool stays_on_line(const Footprint& footprint, std::size_t r, const std::vector<int>& hinges,
-                   const BoundaryMotion& motion) {
-  constexpr double on_line = 1e-9;  // of the line's length; sine of a direction's angle
-  const FootprintRod& rod = footprint.rods[r];
-  std::vector<Eigen::Vector3d> points, directions;
-  for (const auto& [hold, end] : {std::pair(rod.begin, 2 * r), {rod.end, 2 * r + 1}}) {
-    const auto column = Eigen::Index(end);
-    if (hold == RodEnd::sprung) return false;
-    if (!is_held(hold)) continue;
-    points.insert(points.end(), {motion.begin.col(column), motion.end.col(column)});
-    if (holds_direction(hold))
-      directions.insert(directions.end(),
-                        {motion.begin_tangent.col(column), motion.end_tangent.col(column)});
-  }
-  for (const int joint : hinges) {
-    const auto fixed = std::ranges::find(footprint.fixed_joints, joint);
-    if (fixed == footprint.fixed_joints.end() || footprint.is_sprung(joint)) return false;
-    const auto column = Eigen::Index(fixed - footprint.fixed_joints.begin());
-    points.insert(points.end(), {motion.begin_joints.col(column), motion.end_joints.col(column)});
-  }
-  if (rod.has_tails() || points.empty()) return false;
-  const auto distance = [&](const Eigen::Vector3d& at) { return (at - points.front()).norm(); };
-  const Eigen::Vector3d far = *std::ranges::max_element(points, {}, distance);
-  const double length = distance(far);
-  Eigen::Vector3d line = directions.empty() ? Eigen::Vector3d(0, 0, 0) : directions.front();
-  if (length > 0) line = (far - points.front()) / length;
-  const auto off = [&](const Eigen::Vector3d& way) { return line.cross(way).norm(); };
-  return std::ranges::all_of(
-             points,
-             [&](const auto& at) { return off(at - points.front()) <= on_line * length; }) &&
-         std::ranges::all_of(directions, [&](const auto& way) { return off(way) <= on_line; });
 }
 
 }  // namespace
@@ -102,34 +65,6 @@ Result<double> parameter_of_shortening(const RodMesh& mesh, const PinnedMotion& 
     (mean_shortening(mesh, motion, middle) < shortening ? low : high) = middle;
   }
   return high;
-}
-
-std::vector<std::size_t> turning_rods(const Footprint& footprint, const ShellRods& rods,
-                                      const BoundaryMotion& motion, RodModel rod_model) {
-  std::vector<int> hold(footprint.joints.size());
-  for (const FootprintRod& rod : footprint.rods)
-    for (const int joint : rod.joints) ++hold[std::size_t(joint)];
-  for (const int joint : footprint.fixed_joints) ++hold[std::size_t(joint)];
-  std::vector<std::size_t> turning;
-  for (std::size_t r = 0; r < footprint.rods.size(); ++r) {
-    const FootprintRod& rod = footprint.rods[r];
-    if (rod.closed()) continue;
-    std::vector<int> hinges;
-    std::ranges::copy_if(rod.joints, std::back_inserter(hinges),
-                         [&](int joint) { return hold[std::size_t(joint)] > 1; });
-    // a law between rods passes moments
-    if (rod_model == RodModel::twist && std::ranges::any_of(hinges, [&](int joint) {
-          return footprint.joints[std::size_t(joint)].centred;
-        }))
-      continue;
-    // one that spins freely turns about two hinges wherever they are, its section with it
-    const bool spins = !holds_direction(rod.begin) && !holds_direction(rod.end);
-    const auto points = std::ssize(hinges) + is_held(rod.begin) + is_held(rod.end);
-    if ((spins && points <= 2) || ((spins || rods.material(r).round_and_straight()) &&
-                                   stays_on_line(footprint, r, hinges, motion)))
-      turning.push_back(r);
-  }
-  return turning;
 }
 
 State flat_state(const Model& model, const RodMesh& mesh, const PinnedMotion& motion,

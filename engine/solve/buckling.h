@@ -28,12 +28,6 @@ Result<State> first_buckled(Linearisation& system, const RodMesh& mesh, const Pi
                             double t, const BuckleSeed& seed, const FlatFrame& flat,
                             const Watch& watch);
 
-/// Rods that may rotate about a line without force and buckle in any direction: those with at most
-/// two hinges, and those of which the boundary keeps all hinges on one line; with prescribed
-/// directions on that line only round straight ones.
-std::vector<std::size_t> turning_rods(const Footprint& footprint, const ShellRods& rods,
-                                      const BoundaryMotion& motion, RodModel rod_model);
-
 /// The flat footprint as a state at the start of a motion: straight rods, first directors vertical;
 /// ghosts and supports of springs at the start of the motion.
 State flat_state(const Model& model, const RodMesh& mesh, const PinnedMotion& motion,

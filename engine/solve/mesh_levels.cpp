@@ -4,7 +4,6 @@
 
 #include "engine/core/try.h"
 #include "engine/elastic/model.h"
-#include "engine/solve/buckling.h"
 
 namespace gridshell {
 
@@ -19,7 +18,9 @@ Result<void> MeshLevel::build(const Footprint& footprint, const ShellRods& rods,
   model = std::move(*built);
   motion = pinned_motion(mesh, boundary);
   system = std::make_unique<Linearisation>(model);
-  if (!turning_rods(meshed, rods, boundary, rod_model).empty()) system->bear_neutral_directions();
+  const auto free_to_turn = turning_rods(meshed, rods, boundary, rod_model);
+  if (!free_to_turn.empty()) system->bear_neutral_directions();
+  turning = turning_nodes(free_to_turn, meshed, mesh);
   return {};
 }
 

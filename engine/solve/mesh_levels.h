@@ -11,6 +11,7 @@
 #include "engine/elastic/shell_rods.h"
 #include "engine/footprint/actuation.h"
 #include "engine/solve/pinned_motion.h"
+#include "engine/solve/turning_rods.h"
 
 namespace gridshell {
 
@@ -25,6 +26,7 @@ struct MeshLevel {
   Model& model;
   PinnedMotion motion;
   std::unique_ptr<Linearisation> system;
+  std::vector<TurningNodes> turning;  ///< rods that rotate about a line without force
 
   /// Builds mesh, model and solver for a number of edges per segment. Errors (bad_input): rods that
   /// the rod model does not support.

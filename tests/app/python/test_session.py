@@ -86,6 +86,14 @@ def test_a_push_resists_and_comes_back(formed):
     np.testing.assert_allclose(formed.nodes, before, rtol=0, atol=1e-12)
 
 
+def test_a_step_past_the_tolerance_is_made_on_finer_meshes():
+    session = small(footprint__radius_mm=66, actuation__radius_mm=64)
+    session.actuate()
+    session.actuate(radius_mm=45)
+    assert session.state.boundary_radius_mm == pytest.approx(45)
+    assert session.state.error_estimate_mm < 1e-3 * 66
+
+
 def test_a_push_by_a_depth_goes_inward(formed):
     kept = formed.save()
     formed.push(np.array([0, 0]), depth_mm=3)

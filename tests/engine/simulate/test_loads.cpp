@@ -127,6 +127,29 @@ TEST_CASE("a column's state at a load does not depend on how much more was reque
   }
 }
 
+TEST_CASE("a column's end does not depend on how far from straight it is drawn", "[standard]") {
+  for (const double lean : {0.0, 0.1, 0.2, 0.5, 2.0}) {
+    CAPTURE(lean);
+    preset::Preset p = column(1.5);
+    p.footprint.file.points.push_back({lean, 0, L / 2});
+    p.footprint.file.rods.back() = {0, 6, 5};
+    p.movie.frames = 41;
+    const auto outcome = run(p);
+    CAPTURE(outcome.summary.limit_reason);
+    const auto places = places_of(outcome.summary.limit_reason);
+    REQUIRE(places.size() == 2);
+    CHECK(std::abs(places[1].at - 1.2160 / 1.5) <= places[1].error);
+    CHECK(tip_of(outcome.trajectory, 40).z() == Approx(-L).margin(0.1));
+    // the angle about its axis, which nothing determines, is no error
+    for (const record::Frame& frame : outcome.trajectory.frames)
+      CHECK_FALSE(frame.error_estimate_mm > 0.3);
+    // states at an event, known to its error, miss no tolerance
+    if (lean > 0) CHECK(outcome.summary.tolerance_met);
+    if (outcome.summary.tolerance_met)
+      CHECK_THAT(outcome.summary.limit_reason, !Catch::Contains("not met"));
+  }
+}
+
 TEST_CASE("a straight column without an imperfection reports where it is not stable") {
   preset::Preset p = column(1.5);
   p.imperfection.size = 0;

@@ -3,6 +3,7 @@
 #include "engine/simulate/steps.h"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "tests/engine/simulate/run.h"
 
@@ -197,4 +198,34 @@ TEST_CASE("a push that no mesh follows ends the run with its reason, and draws n
   if (outcome.summary.limit == record::Limit::none) return;  // it is followed then
   CHECK_THAT(outcome.summary.limit_reason, Catch::StartsWith("step 2 (push [1, 1]): "));
   CHECK(outcome.trajectory.layout.loaded_joints.size() <= 1);
+}
+
+TEST_CASE("a snap under a load is where the shell snaps, with an error, however much is requested",
+          "[standard]") {
+  constexpr double snaps_at = 1.514, known_to = 0.003;  // `gridshell load` of this shell
+  preset::Preset p = circle(6, 56.12, 42.22);
+  p.movie.frames = 2;
+  p.load_case = {
+      {.name = "down",
+       .points = {
+           {0, 0, 0, 0, -0.1}, {-1, -1, 0, 0, -0.1}, {0, -1, 0, 0, -0.1}, {-1, 0, 0, 0, -0.1}}}};
+  p.step = {of(StepKind::load)};
+  p.step[0].load_case = "down";
+  for (const int edges : {0, 32})
+    for (const double factor : {1.518, 1.55, 2.0}) {
+      CAPTURE(edges, factor);
+      p.accuracy.edges_per_segment = edges;
+      p.step[0].factor = factor;
+      const auto outcome = run(p);
+      REQUIRE(outcome.summary.steps.size() == 1);
+      for (const std::string& text : {outcome.summary.steps[0], outcome.summary.limit_reason}) {
+        CAPTURE(text);
+        double at = 0, error = 0;
+        const auto place = text.find(" at 0.");
+        REQUIRE(place != std::string::npos);
+        REQUIRE(std::sscanf(text.c_str() + place, " at %lf ± %lf of its path", &at, &error) == 2);
+        CHECK(std::abs(at * factor - snaps_at) < error * factor + known_to);
+        CHECK(error < 0.01);
+      }
+    }
 }

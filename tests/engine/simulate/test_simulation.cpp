@@ -124,6 +124,12 @@ TEST_CASE("what fails leaves the last certified state, what is cancelled says so
   watch.cancel();
   CHECK(session.push(7, {0, 0, -5}, Across::free, watch).end == Outcome::cancelled);
   CHECK(max_column_norm(session.nodes() - before) < 1e-6);
+  // nothing is half changed: what did not begin prescribes nothing
+  CHECK(session.holds().empty());
+  CHECK(session.move_to(0.9, watch).end == Outcome::cancelled);
+  CHECK(session.load(2, watch).end == Outcome::cancelled);
+  CHECK(session.move_to(1, unwatched).end == Outcome::reached);
+  CHECK(max_column_norm(session.nodes() - before) < 1e-6);
   // outwards the rods reach the strain limit: it stops there, certified
 
   const Report pulled = session.push(0, {0, 0, 60}, Across::free, unwatched);
