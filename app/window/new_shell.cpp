@@ -88,13 +88,6 @@ void NewShellForm::fields(const Panel& panel) {
     label(panel, "rods per direction");
     ImGui::DragInt("##rods", &rods_, 0.1f, 2, 500, "%d", ImGuiSliderFlags_AlwaysClamp);
     panel.named("new_rods", "number of parallel rods in each of the two directions");
-    // what n rods need: 0.8 of the spacing is left for the longest leg
-    const double fits = (0.5 * (rods_ - 1) + 0.8) * spacing_mm_;
-    if (!scene_ && std::abs(fits - radius_mm_) > 1e-9) {
-      if (ImGui::Button(fmt::format("Rₒ = {:.5g} mm for {} rods", fits, rods_).c_str()))
-        radius_mm_ = fits;
-      panel.named("new_fit", "a radius that has room for as many rods");
-    }
   } else if (boundaries[boundary_] == "file") {
     label(panel, "drawing");
     text_input("##drawing", file_, "plan.dxf, .svg or .obj");
@@ -112,6 +105,18 @@ void NewShellForm::fields(const Panel& panel) {
   number(panel, "rod diameter", "new_diameter", diameter_mm_, 0.01f, 1000, "%.6g mm");
 }
 
+/// Why there is no such shell, and a radius that has room for the rods.
+void NewShellForm::refusal(const Panel& panel) {
+  ImGui::PushStyleColor(ImGuiCol_Text, text_colours(panel.viewer.show.dark).error);
+  ImGui::TextWrapped("%s", scene_.error().message.c_str());
+  ImGui::PopStyleColor();
+  // 0.8 of the spacing is left for the longest leg, as in the paper
+  const double fits = (0.5 * (rods_ - 1) + 0.8) * spacing_mm_;
+  if (boundaries[boundary_] != "circle" || std::abs(fits - radius_mm_) < 1e-9) return;
+  if (ImGui::Button(fmt::format("Rₒ = {:.5g} mm: do it", fits).c_str())) radius_mm_ = fits;
+  panel.named("new_fit", "a radius that has room for as many rods");
+}
+
 void NewShellForm::draw(const Panel& panel, const render::Box& box) {
   begin_fixed("new shell", box, 0, Layer::over);
   heading(panel, "New shell");
@@ -121,13 +126,6 @@ void NewShellForm::draw(const Panel& panel, const render::Box& box) {
   if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
   fields(panel);
   build();
-  ImGui::PushTextWrapPos();
-  if (!scene_)
-    coloured_text(text_colours(panel.viewer.show.dark).error, scene_.error().message);
-  else
-    ImGui::TextDisabled("%d joints, %d rods", int(scene_->footprint.joints.size()),
-                        int(scene_->footprint.rods.size()));
-  ImGui::PopTextWrapPos();
   ImGui::BeginDisabled(!scene_);
   const bool taken = ImGui::Button("Form it");
   ImGui::EndDisabled();
@@ -135,6 +133,11 @@ void NewShellForm::draw(const Panel& panel, const render::Box& box) {
   ImGui::SameLine();
   const bool cancelled = ImGui::Button("Cancel");
   panel.named("new_cancel", "Esc");
+  if (scene_)
+    ImGui::TextDisabled("%d joints, %d rods", int(scene_->footprint.joints.size()),
+                        int(scene_->footprint.rods.size()));
+  else
+    refusal(panel);
   ImGui::EndChild();
   ImGui::SameLine();
   const ImVec2 low = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();

@@ -208,6 +208,7 @@ class NewShellForm {
   std::string preset() const;
   void build();
   void fields(const Panel& panel);
+  void refusal(const Panel& panel);
   void number(const Panel& panel, const char* text, const char* name, double& value, float low,
               float high, const char* format) const;
 

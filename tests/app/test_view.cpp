@@ -291,7 +291,7 @@ TEST_CASE("a step of the strip along the bottom is gone back to, and on to") {
 
 TEST_CASE("a click on a step with an event that is in sight shows the state before it") {
   const TemporaryFolder folder;
-  const std::string lose = "open s1_actuation\n" + drag({"@R_a 0.5 0.5", "@R_a 0.958 0.5"});
+  const std::string lose = "open s1_actuation\n" + drag({"@R_a 0.5 0.5", "@R_a 0.941 0.5"});
   const json lost = played(folder, lose);
   CHECK(lost["negative_pivots"].get<int>() > 0);
   const json before = played(folder, lose + click("@step_1 0.5 0.5"));
@@ -342,7 +342,7 @@ TEST_CASE("a movie of what was done is made in the background, and a picture of 
   const json reported = played(
       folder, drag({"@joint:0,0 0 0", "@joint:0,0 0 10"}) + "do save_picture\ndo save_movie\n",
       {"-o", "kept", "--size", "320x180", "--quality", "draft"});
-  CHECK(reported["message"] == "saved kept/small_1");
+  CHECK_THAT(message_of(reported), Catch::EndsWith("/kept/small_1"));
   const auto picture =
       gridshell::value_of(gridshell::render::read_png(folder / "kept/small_1.png"));
   CHECK((picture.width == 320 && picture.height == 180));

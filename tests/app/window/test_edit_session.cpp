@@ -312,7 +312,7 @@ TEST_CASE(
   CHECK(shell.view().event.empty());
   shell.act(Move{1});
   CHECK(shell.view().stable());
-  CHECK(shell.view().event.find("stable again; not stable on the path at R_a = ") == 0);
+  CHECK(shell.view().event.find("stable again; not stable on the path at Rₐ = ") == 0);
   REQUIRE(unstable().size() == 1);
   shell.act(Undo{});
   CHECK_FALSE(shell.view().stable());

@@ -8,9 +8,9 @@ TEST_CASE("a click on a number types it, and its digits never turn the view") {
       {"--shot", "typed.png"});
   CHECK(number(after, "boundary_radius_mm") == Approx(56));
   // digits over a control that is not typed into do nothing
-  const std::string over = "mouse @R_a_number 0.5 0.5\n";
+  const std::string over = "mouse @R_a_number 0.5 0.5\nwait 1\n";
   played(folder, over, {"--shot", "before.png"});
-  played(folder, over + "down 7\nup 7\n", {"--shot", "after.png"});
+  played(folder, over + "down 7\nup 7\nwait 1\n", {"--shot", "after.png"});
   CHECK(text_of(folder / "before.png") == text_of(folder / "after.png"));
 }
 
