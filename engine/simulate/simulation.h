@@ -319,6 +319,7 @@ class Simulation {
   Report report(Outcome end, double t, const CallBegin& begin) const;
   Report drive(const PrescribedMove& drive, std::vector<NodeAction> field, const Watch& watch,
                PathRecord* record = nullptr);
+  Outcome start_here(double t, const Checkpoint& before, const Watch& watch);
   void apply_field(std::vector<NodeAction> field);
   void set_progress(double progress);
   double load_step() const;

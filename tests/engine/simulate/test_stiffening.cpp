@@ -170,7 +170,7 @@ TEST_CASE(
   CHECK(max_column_norm(simulation.nodes() - shape) == 0);
 }
 
-TEST_CASE("errors hold after bolts have fixed a shape, which stays where it is") {
+TEST_CASE("errors are right after bolts have fixed a shape, which stays where it is") {
   preset::Preset p = small_shell();
   p.step = {step(StepKind::tighten)};
   const auto bolted = [&](const LevelPlan& plan) {
