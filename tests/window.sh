@@ -49,8 +49,8 @@ key() { xdotool key "$1"; sleep "${2:-0.6}"; }
 
 key Home 1
 key space 6        # plays to the end
-drag 254 138 150 138 257 138   # scrubs back and to the end again
-drag 105 183 120 183 130 183   # R_a
+drag 156 182 90 182 158 182   # scrubs back and to the end again
+drag 69 226 80 226 90 226   # R_a
 drag 658 277 658 287 658 297   # a joint
 key ctrl+z 1
 key ctrl+p 3

@@ -130,6 +130,7 @@ struct Options {
   bool print_config = false;
   bool pdf = false;
   bool resume = false;
+  bool turntable = false;
 };
 
 /// PRESET and everything that changes it: --set, --frames, --size, --quality, --print-config.

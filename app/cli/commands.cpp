@@ -65,35 +65,37 @@ void add_list(CommandLine& program) {
 }
 
 /// Those that take a preset, what changes it, where to write and how to draw, and nothing else.
-void add_preset_command(CommandLine& program, const char* name, const char* meaning,
-                        Result<int> (*act)(const Options&),
-                        const char* output = "folder to write, by default out/<preset>",
-                        bool resumes = false) {
+std::pair<CommandArguments, Options&> add_preset_command(
+    CommandLine& program, const char* name, const char* meaning, Result<int> (*act)(const Options&),
+    const char* output = "folder to write, by default out/<preset>") {
   auto [command, options] = program.add<Options>(name, meaning, act);
   add_preset_options(command, options);
   add_work_options(command, options, output);
   add_picture_options(command, options);
-  if (resumes)
-    command.flag("--resume", options.resume,
-                 "continue a run of this preset to the same folder; starts if there is none, ends "
-                 "at once if it is finished");
+  return {command, options};
 }
 
 template <Pictures pictures>
 Result<int> produce_with(const Options& options) {
-  return produce(options, pictures);
+  return options.turntable ? turntable(options) : produce(options, pictures);
 }
 
 }  // namespace
 
 void add_commands(CommandLine& program) {
-  add_preset_command(program, "movie", "run the experiment and render it: frames and a movie",
-                     produce_with<Pictures::movie>);
+  auto [movie, to_draw] =
+      add_preset_command(program, "movie", "run the experiment and render it: frames and a movie",
+                         produce_with<Pictures::movie>);
+  movie.flag("--turntable", to_draw.turntable,
+             "instead, of the folder of a finished run: its last state seen once around, in "
+             "RUN_turntable");
   add_preset_command(program, "figure", "the stills of a preset", produce_with<Pictures::stills>,
                      "folder to write, by default out/<preset>_figure");
-  add_preset_command(program, "run", "the experiment alone, no pictures",
-                     produce_with<Pictures::none>, "folder to write, by default out/<preset>",
-                     true);
+  auto [run, to_run] = add_preset_command(program, "run", "the experiment alone, no pictures",
+                                          produce_with<Pictures::none>);
+  run.flag("--resume", to_run.resume,
+           "continue a run of this preset to the same folder; starts if there is none, ends at "
+           "once if it is finished");
   add_render(program);
   add_view(program);
   add_chart(program);

@@ -28,7 +28,7 @@ bool to_be_designed(const preset::Preset& preset) {
 }
 
 std::string name_of(const preset::Preset& preset) {
-  if (preset.footprint.kind == preset::FootprintKind::blocks) return "assemblage";
+  if (preset.footprint.kind == preset::FootprintKind::blocks) return "assembled shell";
   const preset::Net& net = preset.net;
   using preset::NetKind;
   if (net.kind == NetKind::sphere)

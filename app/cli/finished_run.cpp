@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "app/cli/commands.h"
 #include "app/cli/console.h"
@@ -13,8 +14,10 @@
 #include "app/cli/staged_folder.h"
 #include "engine/core/file_io.h"
 #include "engine/core/json.h"
+#include "engine/core/text.h"
 #include "engine/core/try.h"
 #include "engine/gridshell.h"
+#include "render/movie/stage.h"
 
 namespace gridshell::app {
 namespace fs = std::filesystem;
@@ -229,6 +232,28 @@ Result<void> render_runs(std::vector<Run>& runs, const Options& options, const f
   return cases ? copy_data(from, to) : Result<void>{};
 }
 
+/// Camera once around the last state; the last frame is one before the first.
+Result<void> draw_turntable(const Run& run, int frames, render::Renderer& renderer,
+                            const fs::path& folder, Watch& watch) {
+  record::Trajectory last{run.trajectory.layout, {}};
+  last.frames = {record::Frame(run.trajectory.frames.back())};
+  if (const auto& fault = run.trajectory.frames.fault()) return tl::unexpected(*fault);
+  render::MovieStyle style = style_of(run.preset, Pictures::movie);
+  style.view = preset::View::free;
+  style.turn_deg = 360.0 * (frames - 1) / frames;
+  TRY_DO(render::check_showable(last, style));
+  render::RunSummary survey = render::summarise_run(last);
+  survey.frames = frames;
+  const render::FrameSource source{&last.layout, frames, [&](int) -> Result<record::Frame> {
+                                     return record::Frame(last.frames.front());
+                                   }};
+  return make_movie(folder, run.preset, style, frames, watch,
+                    [&](const render::FrameCallback& seen) {
+                      return render::write_movie(source, survey, style, std::nullopt, renderer,
+                                                 folder / "frames", watch, seen);
+                    });
+}
+
 Result<int> render(const Options& options, bool no_checksum) {
   TRY(overrides, overrides_of_run(options));
   TRY(runs, read_runs(options.input, *overrides, no_checksum));
@@ -268,6 +293,40 @@ Result<std::vector<Run>> read_runs(const fs::path& folder,
   }
   if (runs.empty()) return no_run(folder, "none of its cases is there");
   return runs;
+}
+
+Result<int> turntable(const Options& options) {
+  Options looks = options;
+  looks.frames.clear();
+  TRY(overrides, overrides_of_run(looks));
+  TRY(runs, read_runs(options.input, *overrides, false));
+  const auto frames = options.frames.empty() ? std::optional(preset::Movie{}.frames)
+                                             : parse_number<int>(options.frames);
+  if (!frames || *frames < 2 || *frames > 100000)
+    return invalid("--frames: got {}, expected 2 to 100000", options.frames);
+  fs::path folder = fs::path(options.input).lexically_normal();
+  if (!folder.has_filename()) folder = folder.parent_path();
+  folder = options.output.empty() ? fs::path(folder.string() + "_turntable") : options.output;
+  std::vector<Phase> phases;
+  for (Run& run : *runs) {
+    run.preset.movie.frames = *frames;
+    phases.push_back(drawing("drawing", expected_seconds(Pictures::movie, run.preset)));
+  }
+  TRY(maker, PictureMaker::create(options.context, runs->front().preset.style.font));
+  const auto work = [&](const fs::path& partial, Progress& progress) -> Result<void> {
+    for (const Run& run : *runs) {
+      const fs::path to = folder_of(partial, run.name);
+      TRY_DO(make_folder(to));
+      TRY_DO(draw_turntable(run, *frames, maker->renderer(), to, progress.next_phase()));
+    }
+    return {};
+  };
+  TRY_DO(deliver({folder, "turntable"}, phases, options.quiet, work));
+  if (options.quiet) return ExitCode::done;
+  for (const Run& run : *runs)
+    fmt::print("{}: {} frames\n{}", folder_of(folder, run.name).string(), *frames,
+               how_to_make_movie(folder_of(folder, run.name), run.preset));
+  return ExitCode::done;
 }
 
 std::string progress_text(const Run& run) {

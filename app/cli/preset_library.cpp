@@ -37,6 +37,11 @@ Result<preset::Presets> load_preset(const std::string& argument,
                                       embedded_files());
     names.push_back(embedded.name);
   }
+  if (std::filesystem::exists(path / "summary.json", error))
+    return invalid(
+        "'{0}' is the folder of a run, expected a preset: 'gridshell render {0}' draws it again, "
+        "'gridshell movie {0} --turntable' its last state from all sides",
+        argument);
   if (path.has_parent_path() || path.extension() == ".toml")
     return preset::read_preset_file(path, overrides);
   return invalid("no preset '{}': neither a file nor a listed name{} ('gridshell list' lists them)",

@@ -95,10 +95,10 @@ std::string help_for(const preset::Preset& preset, record::Limit limit, double l
 Result<record::Summary> computed(Run& run, int threads, const fs::path& segments,
                                  record::Sink& sink, Watch& watch) {
   if (!run.preset.jitter.requested()) {
-    const auto scene = std::make_shared<Scene>(*std::exchange(run.scene, nullptr));
-    scene->team = std::make_shared<Team>(threads);
-    if (!segments.empty()) scene->kept = std::make_shared<simulate::KeptSegments>(segments);
-    return simulate::run(run.preset, scene, run.pictures == Pictures::stills, sink, watch);
+    RunContext context{std::make_shared<Team>(threads), nullptr};
+    if (!segments.empty()) context.segments = std::make_shared<simulate::KeptSegments>(segments);
+    return simulate::run(run.preset, std::exchange(run.scene, nullptr),
+                         run.pictures == Pictures::stills, sink, watch, context);
   }
   TRY(search, study::run_states(run.preset, threads, sink, watch));
   run.states = std::move(search->tables);

@@ -12,6 +12,10 @@
 
 namespace gridshell::app {
 
+/// The last state of a finished run as a movie in which the camera goes once around it, of
+/// --frames or as many as a movie has: RUN_turntable/movie.mp4 and its frames. Errors: bad_input.
+Result<int> turntable(const Options& options);
+
 /// Simulates a preset and draws it. Prints the results; returns the exit code.
 Result<int> produce(const Options& options, Pictures pictures);
 

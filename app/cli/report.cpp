@@ -129,8 +129,21 @@ void add_stresses(Sheets& sheets, const record::Summary& summary) {
     sheets.text("The rods' strength is not known: [rod] strength_MPa or yield_strain says it.");
 }
 
+/// "u-3 begin", as plate and pins.csv call it, or the joint: "joint [0, 4]".
+std::string support_name(const record::Layout& layout, const exports::FabricationPlan& plan,
+                         int node) {
+  const auto end =
+      std::size_t(std::ranges::find(layout.edge_points, node) - layout.edge_points.begin());
+  if (end < 2 * plan.rods.size() && end < layout.edge_points.size())
+    return plan.rods[end / 2].name + (end % 2 == 0 ? " begin" : " end");
+  for (const record::Joint& joint : layout.joints)
+    if (joint.node == node) return fmt::format("joint [{}, {}]", joint.i, joint.j);
+  return "";
+}
+
 /// The reactions, one support per line, the largest first.
-void add_reactions(Sheets& sheets, const record::Layout& layout, const record::Frame& frame) {
+void add_reactions(Sheets& sheets, const record::Layout& layout, const record::Frame& frame,
+                   const exports::FabricationPlan& plan) {
   sheets.heading("Reactions");
   if (frame.reactions_N.cols() == 0) return sheets.text("They are not known of this state.");
   std::vector<Eigen::Index> order;
@@ -140,12 +153,13 @@ void add_reactions(Sheets& sheets, const record::Layout& layout, const record::F
                            [&](Eigen::Index k) { return frame.reactions_N.col(k).norm(); });
   std::vector<TableRow> rows;
   const double largest = frame.reactions_N.colwise().norm().maxCoeff();
-  const auto add = [&](const std::string& place, const Eigen::Vector3d& force) {
+  const auto add = [&](const std::string& pin, const std::string& place,
+                       const Eigen::Vector3d& force) {
     const auto parts = numbers(force, largest);
-    rows.push_back({{place, parts[0], parts[1], parts[2], number(force.norm()), ""}});
+    rows.push_back({{pin, place, parts[0], parts[1], parts[2], number(force.norm()), ""}});
   };
-  add("sum of loads", frame.loads_N.rowwise().sum());
-  add("sum", frame.reactions_N.rowwise().sum());
+  add("sum of loads", "", frame.loads_N.rowwise().sum());
+  add("sum", "", frame.reactions_N.rowwise().sum());
   // heights are above the lowest support
   double ground = INFINITY;
   for (const Eigen::Index k : order)
@@ -153,14 +167,16 @@ void add_reactions(Sheets& sheets, const record::Layout& layout, const record::F
   for (const Eigen::Index k : order) {
     const Eigen::Vector3d at =
         frame.nodes.col(layout.supports[std::size_t(k)]) - Eigen::Vector3d(0, 0, ground);
-    add(fmt::format("{:.1f}, {:.1f}, {:.1f}", at.x() + 0.0, at.y() + 0.0, at.z() + 0.0),
+    add(support_name(layout, plan, layout.supports[std::size_t(k)]),
+        fmt::format("{:.1f}, {:.1f}, {:.1f}", at.x() + 0.0, at.y() + 0.0, at.z() + 0.0),
         frame.reactions_N.col(k));
   }
   sheets.text(fmt::format(
       "Forces of the supports on the shell, at their positions in mm, z above the lowest "
       "support; each is known to ± {}.",
       error_with_unit(frame.force_error_N, "N")));
-  sheets.table({{"place", 130, AlignX::left},
+  sheets.table({{"pin", 76, AlignX::left},
+                {"place", 120, AlignX::left},
                 {"*x* (N)", 60},
                 {"*y* (N)", 60},
                 {"*z* (N)", 60},
@@ -291,7 +307,7 @@ Result<void> add_run(Sheets& sheets, const Run& run, const ReportOptions& option
     sheets.picture(*stresses);
   }
   drawing.report(1);
-  add_reactions(sheets, run.trajectory.layout, last);
+  add_reactions(sheets, run.trajectory.layout, last, *plan);
   Watch& studies = progress.next_phase();
   if (run.summary.solved) {
     TRY(shell, study::form_shell(preset, studies));

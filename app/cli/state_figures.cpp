@@ -71,8 +71,8 @@ std::vector<render::Series> by_class(const std::vector<StateRow>& rows, const Va
 render::Plot energies_plot(const record::StateTables& states) {
   render::Plot plot;
   plot.title = completeness_text(states);
-  plot.x = {.label = "energy (mJ)"};
-  plot.y = {.label = "times found", .logarithmic = true, .low = 0.5};
+  plot.x = {.label = "elastic energy (mJ)"};
+  plot.y = {.label = "times found", .logarithmic = true, .low = 0.8};
   std::vector<StateRow> met;
   std::set<StateClass> left_out;
   for (const StateRow& row : states.rows)
@@ -95,7 +95,7 @@ render::Plot energies_plot(const record::StateTables& states) {
 render::Plot lives_plot(const record::StateTables& states) {
   render::Plot plot;
   plot.title = "Range in which the states exist";
-  plot.x = {.label = "energy at the end of the path (mJ)"};
+  plot.x = {.label = "elastic energy at the end of the path (mJ)"};
   const bool circle = std::ranges::none_of(
       states.rows, [](const StateRow& row) { return std::isnan(row.lives_to_radius_mm); });
   plot.y = {.label = circle ? "exists up to *R*_{a} (mm)" : "exists from progress"};
@@ -339,6 +339,7 @@ std::string found_text(const record::StateTables& states) {
                         search.found, search.judged_edges, search.finer_lost, search.finer_merged);
   for (const auto& [why, count] : search.ended_otherwise)
     text += fmt::format("  {} trials: {}\n", count, why);
+  text += "  the lowest in energy, the lowest of each class, then those met most often:\n";
   for (const std::size_t k : record::states_to_draw(states.rows, 4)) {
     const StateRow& row = states.rows[k];
     text += fmt::format("  state {}: {}{}, {:.3f} mJ of bending, height {:.2f} mm, met {}\n",

@@ -30,7 +30,8 @@ struct Action {
   Shortcut key;
   const char* help;  ///< one sentence
   void (*act)(ViewerState&);
-  bool (*on)(const ViewerState&) = nullptr;  ///< of those that switch: whether it is on
+  bool (*on)(const ViewerState&) = nullptr;    ///< of those that switch: whether it is on
+  bool (*able)(const ViewerState&) = nullptr;  ///< whether it has an effect now; null: always
 };
 
 /// In the order of the menus.
@@ -87,6 +88,7 @@ class Picker {
   bool holding_ = false, moved_ = false;
   Gesture gesture_ = Gesture::orbit;
   double begin_x_ = 0, begin_y_ = 0, last_x_ = 0, last_y_ = 0;
+  Eigen::Vector2d grip_ = Eigen::Vector2d::Zero();  // of the mouse, off the joint's picture
   Eigen::Vector3d place_ = Eigen::Vector3d::Zero(), along_ = Eigen::Vector3d::UnitZ();
 };
 

@@ -1,6 +1,7 @@
 #include "app/window/command.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace gridshell::window {
 
@@ -57,6 +58,23 @@ ChangeKind kind_of_change(const preset::Preset& before, const preset::Preset& af
   }
   // a change of two kinds at once forms the shell again
   return kinds > 1 ? ChangeKind::shape : kind;
+}
+
+std::shared_ptr<const preset::Preset> nearest_that_works(const preset::Preset& before,
+                                                         preset::Preset refused) {
+  using preset::FootprintKind;
+  if (before.footprint.kind != FootprintKind::circle ||
+      refused.footprint.kind != FootprintKind::circle)
+    return nullptr;
+  const auto half = [](const preset::Preset& of) { return 0.5 * (of.footprint.rods - 1); };
+  const double leg = before.original_radius_mm() / before.footprint.spacing_mm - half(before),
+               ratio = before.actuated_radius_mm() / before.original_radius_mm(),
+               radius = refused.footprint.spacing_mm * (half(refused) + leg);
+  refused.set_radii(radius, ratio * radius);
+  refused.footprint.placement =
+      refused.footprint.rods % 2 == 0 ? Placement::half : Placement::on_axis;
+  if (!check_preset(refused) || !scene_of(refused)) return nullptr;
+  return std::make_shared<const preset::Preset>(std::move(refused));
 }
 
 Result<void> check_preset(const preset::Preset& preset) {

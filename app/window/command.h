@@ -105,6 +105,12 @@ enum class ChangeKind { none, looks, accuracy, boundary, rods, shape };
 
 ChangeKind kind_of_change(const preset::Preset& before, const preset::Preset& after);
 
+/// For a circle that has no room for its rods, the same rods in one whose radii are as large as
+/// they need, with the longest leg over d and the ratio of the radii of `before`; null: not that,
+/// or no circle helps.
+std::shared_ptr<const preset::Preset> nearest_that_works(const preset::Preset& before,
+                                                         preset::Preset refused);
+
 /// Whether the keys agree with one another. Errors: bad_input, as of a file that says the same.
 Result<void> check_preset(const preset::Preset& preset);
 

@@ -42,6 +42,7 @@ void EditSession::run_command(const Command& command, const Watch& watch) {
   const bool travels = is_any<Undo, Redo, AcceptDesign, DiscardDesign>(command.edit);
   if (!settles) {
     view_.error.clear();
+    view_.offer.reset();
     view_.event.clear();
     // nor is it cleared by what the drag does next
     if (command.drag == 0 || command.drag != this_drag_) view_.message.clear();
@@ -192,31 +193,38 @@ Result<void> EditSession::act(const Open& command, const Watch& watch) {
 
 Result<void> EditSession::act(const Change& command, const Watch& watch) {
   if (!session_) return form(command.preset, watch);
-  const ChangeKind kind = kind_of_change(view_.preset, command.preset);
+  auto changed = change_preset(command.preset, watch);
+  if (!changed && changed.error().fault == Fault::bad_input)
+    view_.offer = nearest_that_works(view_.preset, command.preset);
+  return changed;
+}
+
+Result<void> EditSession::change_preset(const preset::Preset& preset, const Watch& watch) {
+  const ChangeKind kind = kind_of_change(view_.preset, preset);
   if (kind == ChangeKind::none) return {};
-  TRY_DO(check_preset(command.preset));
+  TRY_DO(check_preset(preset));
   switch (kind) {
     case ChangeKind::none:
       break;
     case ChangeKind::looks:
-      take_over_keys(command.preset);
+      take_over_keys(preset);
       return {};
     case ChangeKind::accuracy: {
       auto scene = std::make_shared<Scene>(*now_.scene);
-      scene->tolerance = command.preset.accuracy.tolerance;
-      scene->edges_per_segment = command.preset.accuracy.edges_per_segment;
-      scene->memory_GB = command.preset.accuracy.memory_GB;
+      scene->tolerance = preset.accuracy.tolerance;
+      scene->edges_per_segment = preset.accuracy.edges_per_segment;
+      scene->memory_GB = preset.accuracy.memory_GB;
       now_.scene = std::move(scene);
-      now_.preset.accuracy = command.preset.accuracy;
+      now_.preset.accuracy = preset.accuracy;
       now_.refined = false;
       return {};
     }
     case ChangeKind::boundary:
-      return act(Move{now_.scene->progress_of_radius(command.preset.actuated_radius_mm())}, watch);
+      return act(Move{now_.scene->progress_of_radius(preset.actuated_radius_mm())}, watch);
     case ChangeKind::rods:
-      return change_rods(command.preset, watch);
+      return change_rods(preset, watch);
     case ChangeKind::shape:
-      return rebuild_shell(command.preset, watch);
+      return rebuild_shell(preset, watch);
   }
   return {};
 }

@@ -115,6 +115,7 @@ class EditSession {
   void recover(const Command& command, const std::exception& thrown);
   void refine_meshes(const Watch& watch);
   Result<void> form(const preset::Preset& preset, const Watch& watch);
+  Result<void> change_preset(const preset::Preset& preset, const Watch& watch);
   Result<void> rebuild_shell(const preset::Preset& preset, const Watch& watch);
   void set_shell(const preset::Preset& preset, std::shared_ptr<const Scene> scene,
                  Simulation session);

@@ -13,7 +13,7 @@ namespace gridshell::window {
 // clang-format off
 enum class Key { a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z,
                  n0, n1, n2, n3, n4, n5, n6, n7, n8, n9,
-                 f1, f5, f9, f11, space, enter, escape, tab, backspace, del, left, right, up, down,
+                 f1, f4, f5, f9, f10, f11, space, enter, escape, tab, backspace, del, left, right, up, down,
                  home, end, page_up, page_down, comma, period, minus, plus, ctrl, shift, alt };
 constexpr auto words(Key) {
   return names_except<Key>(
@@ -24,7 +24,8 @@ constexpr auto words(Key) {
        {Key::y, "Y"}, {Key::z, "Z"},
        {Key::n0, "0"}, {Key::n1, "1"}, {Key::n2, "2"}, {Key::n3, "3"}, {Key::n4, "4"},
        {Key::n5, "5"}, {Key::n6, "6"}, {Key::n7, "7"}, {Key::n8, "8"}, {Key::n9, "9"},
-       {Key::f1, "F1"}, {Key::f5, "F5"}, {Key::f9, "F9"}, {Key::f11, "F11"},
+       {Key::f1, "F1"}, {Key::f4, "F4"}, {Key::f5, "F5"}, {Key::f9, "F9"}, {Key::f10, "F10"},
+       {Key::f11, "F11"},
        {Key::space, "Space"}, {Key::enter, "Enter"}, {Key::escape, "Esc"}, {Key::tab, "Tab"},
        {Key::backspace, "Backspace"}, {Key::del, "Del"}, {Key::left, "Left"},
        {Key::right, "Right"}, {Key::up, "Up"}, {Key::down, "Down"}, {Key::home, "Home"},

@@ -25,7 +25,7 @@ void map_keys(ImGuiIO& io) {
   map(ImGuiKey_Home, Key::home), map(ImGuiKey_End, Key::end);
   map(ImGuiKey_Delete, Key::del), map(ImGuiKey_Backspace, Key::backspace);
   map(ImGuiKey_Enter, Key::enter), map(ImGuiKey_Escape, Key::escape);
-  map(ImGuiKey_Tab, Key::tab);
+  map(ImGuiKey_Tab, Key::tab), map(ImGuiKey_Space, Key::space);
   map(ImGuiKey_A, Key::a), map(ImGuiKey_C, Key::c), map(ImGuiKey_V, Key::v);
   map(ImGuiKey_X, Key::x), map(ImGuiKey_Y, Key::y), map(ImGuiKey_Z, Key::z);
 }
@@ -53,12 +53,26 @@ Column column_of(const ViewerState& viewer, double height, double density) {
   return column;
 }
 
+bool is_popup_open() {
+  return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+}
+
 /// Whether a menu or a list was open.
 bool close_popups() {
-  constexpr ImGuiPopupFlags any = ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel;
-  const bool open = ImGui::IsPopupOpen("", any);
+  const bool open = is_popup_open();
   if (open) ImGui::ClosePopupToLevel(0, true);
   return open;
+}
+
+/// Keys that go from control to control and press them.
+bool moves(Key key) {
+  return (key >= Key::left && key <= Key::page_down) || key == Key::space || key == Key::enter ||
+         key == Key::tab;
+}
+
+/// Keys that a number is typed with.
+bool is_of_a_number(Key key) {
+  return (key >= Key::n0 && key <= Key::n9) || (key >= Key::comma && key <= Key::plus);
 }
 
 bool is_modifier(Key key) { return key == Key::ctrl || key == Key::shift || key == Key::alt; }
@@ -84,6 +98,8 @@ Result<std::unique_ptr<Interface>> Interface::create(const render::Context& cont
   made->painter_.emplace(std::move(*painter));
   ImGui::GetIO().IniFilename = nullptr;
   ImGui::GetIO().LogFilename = nullptr;
+  ImGui::GetIO().ConfigDragClickToInputText = true;
+  ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
   map_keys(ImGui::GetIO());
   TRY_DO(made->resize(1280, 720, 1));
   return made;
@@ -170,6 +186,7 @@ void Interface::feed(const InputEvent& event) {
     case InputKind::press:
     case InputKind::release:
       io.MouseDown[int(event.button)] = event.kind == InputKind::press;
+      keyboard_ = false;
       break;
     case InputKind::wheel:
       io.MouseWheel += float(event.y);
@@ -177,10 +194,10 @@ void Interface::feed(const InputEvent& event) {
     case InputKind::down:
     case InputKind::up: {
       const bool down = event.kind == InputKind::down;
-      io.KeysDown[int(event.key)] = down;
+      io.KeysDown[int(event.key)] = down && reaches_controls(event.key);
       if (event.key == Key::ctrl) io.KeyCtrl = down;
       if (event.key == Key::shift) io.KeyShift = down;
-      if (event.key == Key::alt) io.KeyAlt = down;
+      if (event.key == Key::alt) alt_ = down;
       if (down) press_key(event.key);
       break;
     }
@@ -202,21 +219,51 @@ void Interface::feed(const InputEvent& event) {
 /// Closes the top panel; false: there is none.
 bool Interface::close_top() {
   if (close_popups()) return true;
-  const bool any = viewer_.file_request || viewer_.help || viewer_.terms;
+  const bool any = viewer_.file_request || viewer_.help || viewer_.terms || viewer_.new_shell;
   viewer_.file_request.reset();
-  viewer_.help = viewer_.terms = false;
+  viewer_.help = viewer_.terms = viewer_.new_shell = false;
   return any;
+}
+
+/// Whether the interface library gets a key: those that go from control to control only while the
+/// keyboard does so, and in menus and texts.
+bool Interface::reaches_controls(Key key) const {
+  return !moves(key) || keyboard_ || ImGui::GetIO().WantTextInput || is_popup_open();
+}
+
+/// The menu whose name begins with the letter; F10: the first.
+void Interface::open_menu(Key key) {
+  const std::string_view letter = word_of(key);
+  for (const Action& action : actions()) {
+    if (key != Key::f10 && (letter.size() != 1 || letter.front() != action.menu[0])) continue;
+    viewer_.menu_to_open = action.menu;
+    keyboard_ = true;
+    return;
+  }
 }
 
 void Interface::press_key(Key key) {
   const ImGuiIO& io = ImGui::GetIO();
   if (key == Key::escape && close_top()) return;
-  if (is_modifier(key) || io.WantTextInput) return;
+  if (is_modifier(key)) return;
+  if (alt_ || key == Key::f10) return open_menu(key);
+  if (io.WantTextInput) return;
+  if (key == Key::escape && std::exchange(keyboard_, false)) return;
+  if (key == Key::tab && !io.KeyCtrl && !keyboard_) {
+    keyboard_ = viewer_.take_keyboard = true;
+    return;
+  }
+  // digits over a number are not meant for the camera
+  const bool over_control =
+      ImGui::GetCurrentContext()->HoveredIdPreviousFrame != 0 && !mouse_over_view_;
+  if ((keyboard_ || is_popup_open()) && (moves(key) || is_of_a_number(key))) return;
+  if (over_control && is_of_a_number(key)) return;
   if (key == Key::escape && viewer_.picking && viewer_.shell->any()) viewer_.picking = false;
   const Action* action = action_of({key, io.KeyCtrl, io.KeyShift});
   if (!action) return;
   // nothing happens to a shell that is not seen
-  const bool hidden = viewer_.help || viewer_.terms || viewer_.picking || viewer_.file_request;
+  const bool hidden =
+      viewer_.help || viewer_.terms || viewer_.picking || viewer_.file_request || viewer_.new_shell;
   const std::string menu = action->menu;
   if (hidden && (menu == "Shell" || menu == "Edit")) return;
   action->act(viewer_);
@@ -243,6 +290,7 @@ void Interface::view_panel(const Panel& panel, const render::Box& box) {
   panel.controls["view"] = box;
   const ImGuiIO& io = ImGui::GetIO();
   const double x = io.MousePos.x - low.x, y = io.MousePos.y - low.y;
+  mouse_over_view_ = ImGui::IsItemHovered();
   if (mouse_.holds()) {
     mouse_.drag(x, y);
     if (!ImGui::IsItemActive()) mouse_.release(x, y);
@@ -299,6 +347,8 @@ void Interface::lay_out() {
   status_line(panel, {0, top + height + strip, double(width_), status});
   if (viewer_.picking && !viewer_.help) picker_.draw(panel, {left, top, width_ - left, height});
   const double around = (viewer_.small_window ? 10 : 60) * density_;
+  if (viewer_.new_shell)
+    new_shell_.draw(panel, render::Box{0, top, double(width_), height}.inset(around));
   if (viewer_.file_request)
     files_.draw(panel, render::Box{0, top, double(width_), height}.inset(around));
   if (viewer_.terms) terms_sheet(panel, render::Box{0, top, double(width_), height}.inset(around));

@@ -69,6 +69,8 @@ class Interface {
   void feed(const InputEvent& event);
   Result<Eigen::Vector2d> place_of(const InputEvent& event) const;
   void press_key(Key key);
+  void open_menu(Key key);
+  bool reaches_controls(Key key) const;
   bool close_top();
   void lay_out();
   void view_panel(const Panel& panel, const render::Box& box);
@@ -91,7 +93,10 @@ class Interface {
   NumbersPanel numbers_;
   PresetPicker picker_;
   FilePrompt files_;
+  NewShellForm new_shell_;
   render::Target target_;
+  bool keyboard_ = false;  // moves between the controls
+  bool alt_ = false, mouse_over_view_ = false;
   std::deque<InputEvent> events_;
   std::map<std::string, render::Box> controls_;
   render::Box view_;

@@ -7,6 +7,7 @@
 #include <array>
 #include <cctype>
 #include <sstream>
+#include <string_view>
 
 namespace gridshell::window {
 namespace {
@@ -81,6 +82,7 @@ void Panel::named(const std::string& name, const std::string& tip) const {
   if (tip.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   // not over what is about to be used
   const ImGuiContext& imgui = *ImGui::GetCurrentContext();
+  if (ImGui::GetIO().WantTextInput) return;
   const bool rests = imgui.HoveredId == 0 || imgui.HoveredIdTimer > tip_after_s;
   if (!rests || ImGui::IsAnyMouseDown()) return;
   ImGui::BeginTooltip();
@@ -90,9 +92,9 @@ void Panel::named(const std::string& name, const std::string& tip) const {
   ImGui::EndTooltip();
 }
 
-void Panel::button(const char* name, const char* text, bool able) const {
+void Panel::button(const char* name, const char* text) const {
   const Action& action = *find_action(name);
-  ImGui::BeginDisabled(!able);
+  ImGui::BeginDisabled(action.able && !action.able(viewer));
   if (ImGui::Button(text ? text : action.label)) action.act(viewer);
   ImGui::EndDisabled();
   named(name, help_of(action));
@@ -136,6 +138,13 @@ std::string help_of(const preset::Field& field) {
 }
 
 std::string label_of(const preset::Field& field) {
+  const std::string name = field.table + "." + field.key;
+  if (name == "footprint.rods") return "rods per direction";
+  if (name == "footprint.radius_mm") return "radius Rₒ";
+  if (name == "footprint.spacing_mm") return "spacing d";
+  if (name == "footprint.longest_leg") return "longest leg over d";
+  if (name == "actuation.radius_mm") return "radius Rₐ";
+  if (name == "actuation.ratio") return "Rₐ/Rₒ";
   if (field.key == "young_GPa") return "Young's modulus";
   if (field.key == "shear_GPa") return "shear modulus";
   std::size_t end = field.key.size();
@@ -167,6 +176,13 @@ bool text_input(const char* id, std::string& text, const char* hint) {
                                                 ImGuiInputTextFlags_EnterReturnsTrue);
   text = typed.data();
   return entered;
+}
+
+void label(const Panel& panel, const char* text) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(text);
+  ImGui::SameLine(panel.px(138));
+  ImGui::SetNextItemWidth(-1);
 }
 
 void heading(const Panel& panel, const char* text) {
@@ -223,7 +239,8 @@ void choose_colours(bool dark, double density) {
   colours[ImGuiCol_Header] = dark ? rgb(0x3a404b) : rgb(0xdfe4ec);
   colours[ImGuiCol_HeaderHovered] = dark ? rgb(0x4a5362) : rgb(0xcbd8ee);
   colours[ImGuiCol_HeaderActive] = dark ? rgb(0x57627a) : rgb(0xb3c8ec);
-  colours[ImGuiCol_CheckMark] = colours[ImGuiCol_PlotLines] = dark ? rgb(0x6ea2f5) : rgb(0x2f6bd0);
+  colours[ImGuiCol_NavHighlight] = colours[ImGuiCol_CheckMark] = colours[ImGuiCol_PlotLines] =
+      dark ? rgb(0x6ea2f5) : rgb(0x2f6bd0);
   // a slider's number is above its grab
   colours[ImGuiCol_SliderGrab] = dark ? rgb(0x4a6ba6) : rgb(0xa9c6f5);
   colours[ImGuiCol_SliderGrabActive] = dark ? rgb(0x5b80c4) : rgb(0x86aef0);
@@ -246,6 +263,17 @@ void coloured_text(ImU32 colour, const std::string& text) {
 
 // The menus, filled from the table of actions.
 
+namespace {
+
+/// Actions that begin a group of their menu, below a line.
+constexpr std::string_view first_of_groups[] = {
+    "compare",      "save_preset", "export",       "save_picture",  "copy_camera",
+    "quit",         "find_number", "stop",         "release",       "gravity",
+    "soft_mode",    "state_next",  "design_start", "closer",        "turn_left",
+    "orthographic", "joints",      "numbers",      "colour_energy", "range_run"};
+
+}  // namespace
+
 void menu_bar(const Panel& panel) {
   if (!ImGui::BeginMainMenuBar()) return;
   const char* open_menu = nullptr;
@@ -254,16 +282,21 @@ void menu_bar(const Panel& panel) {
     if (!open_menu || std::string(open_menu) != action.menu) {
       if (open) ImGui::EndMenu();
       open_menu = action.menu;
+      if (panel.viewer.menu_to_open == action.menu) ImGui::OpenPopup(action.menu);
       open = ImGui::BeginMenu(action.menu);
       if (!open) panel.named(std::string("menu ") + action.menu, "");
     }
     if (!open) continue;
-    const bool ticked = action.on && action.on(panel.viewer);
-    if (ImGui::MenuItem(action.label, name_of(action.key).c_str(), ticked))
+    const bool ticked = action.on && action.on(panel.viewer),
+               able = !action.able || action.able(panel.viewer);
+    if (std::ranges::find(first_of_groups, action.name) != std::end(first_of_groups))
+      ImGui::Separator();
+    if (ImGui::MenuItem(action.label, name_of(action.key).c_str(), ticked, able))
       action.act(panel.viewer);
     panel.named(std::string("menu ") + action.menu + " " + action.name, action.help);
   }
   if (open) ImGui::EndMenu();
+  panel.viewer.menu_to_open.clear();
   ImGui::EndMainMenuBar();
 }
 
@@ -286,7 +319,11 @@ void help_sheet(const Panel& panel, const render::Box& box) {
     ImGui::TableNextColumn();
     if (begin_table(panel, "mouse", 240)) {
       for (const MouseAction& action : mouse_actions()) row(action.how, action.help);
-      row("Ctrl + click on a number", "types it");
+      row("click on a number", "types it; a drag changes it");
+      row("Tab",
+          "into the panels by the keyboard; arrows and Tab move on, Space presses, Ctrl+Tab "
+          "takes the next panel, Esc leaves them");
+      row("Alt + letter, F10", "opens a menu");
       ImGui::EndTable();
     }
     keys(panel, "View Colour Help");

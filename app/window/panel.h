@@ -4,6 +4,7 @@
 #include <imgui.h>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -30,7 +31,7 @@ struct Panel {
   void named(const std::string& name, const std::string& tip) const;
   /// A button or a tick of an action, with its help and key. A button may have another text if the
   /// panel names the action, and is pale if it has no effect now.
-  void button(const char* action, const char* text = nullptr, bool able = true) const;
+  void button(const char* action, const char* text = nullptr) const;
   void tick(const char* action) const;
 };
 
@@ -58,12 +59,15 @@ std::string help_of(const Action& action);
 /// The meaning of a key, with its unit and what is allowed.
 std::string help_of(const preset::Field& field);
 
+/// A label, with space for the control that follows it.
+void label(const Panel& panel, const char* text);
 /// A small heading within a panel.
 void heading(const Panel& panel, const char* text);
-/// A slider over the panel's width; true while the mouse changes its value, and once what was typed
-/// is done.
-bool slider(const Panel& panel, const char* name, float& value, float low, float high,
-            const char* format, const std::string& tip);
+/// A slider over the panel's width with its number, which a click types, as the control
+/// NAME_number. Calls `set` while the mouse changes the value and once it was typed; then the drag
+/// ends.
+void slider(const Panel& panel, const char* name, float value, float low, float high,
+            const char* format, const std::string& tip, const std::function<void(float)>& set);
 /// Without what a float adds.
 inline double four_digits(float value) { return std::round(1e4 * double(value)) / 1e4; }
 
@@ -166,6 +170,7 @@ struct Curve {
   std::vector<std::size_t> unstable = {};  ///< points
   std::vector<std::size_t> coarse = {};    ///< points of a drag's coarse mesh: pale
   std::vector<CurveMark> marks = {};
+  bool whole = false;  ///< x counts something
 };
 
 /// Draws it between two corners, pixels.
@@ -190,6 +195,32 @@ class FilePrompt {
   FileUse use_ = FileUse::open;
   std::string folder_;
   std::optional<std::filesystem::file_time_type> changed_;
+};
+
+// A shell of one's own.
+
+/// A form for boundary, rods, spacing and material, and the flat grid that they give.
+class NewShellForm {
+ public:
+  void draw(const Panel& panel, const render::Box& box);
+
+ private:
+  std::string preset() const;
+  void build();
+  void fields(const Panel& panel);
+  void refusal(const Panel& panel);
+  void number(const Panel& panel, const char* text, const char* name, double& value, float low,
+              float high, const char* format) const;
+
+  std::size_t boundary_ = 0;
+  int rods_ = 12;
+  double radius_mm_ = 126, half_mm_[2] = {160, 110}, spacing_mm_ = 20, ratio_ = 0.8,
+         diameter_mm_ = 0.254;
+  std::string file_;
+  preset::Material material_ = preset::Material::none;
+  std::string built_;  // the text that the next two are of
+  Result<preset::Presets> presets_ = invalid("");
+  Result<Scene> scene_ = invalid("");
 };
 
 // All presets to choose from, as pictures.

@@ -70,10 +70,10 @@ void push_depth(const Panel& panel, int joint) {
   float depth = -float((shell.frame.nodes.col(joint) - from).dot(along));
   if (std::abs(depth) < 5e-4f) depth = 0;
   const float most = float(0.5 * shell.layout->length_scale_mm);
-  if (slider(panel, "push_depth", depth, -most, most, "pushed in %.2f mm",
-             "pushes it along its normal to this depth, inwards above 0; Ctrl+click to type"))
-    viewer.post(Push{joint, from - four_digits(depth) * along, along}, true);
-  if (ImGui::IsItemDeactivated()) viewer.end_drag();
+  slider(panel, "push_depth", depth, -most, most, "%.2f mm",
+         "pushed in: along its normal to this depth, inwards above 0", [&](float to) {
+           viewer.post(Push{joint, from - four_digits(to) * along, along}, true);
+         });
 }
 
 }  // namespace

@@ -94,6 +94,7 @@ void Picker::press(Button button, bool shift, double x, double y) {
   begin_y_ = last_y_ = y;
   if (joint_ >= 0) {
     place_ = viewer_.shell->frame.nodes.col(joint_);
+    grip_ = Eigen::Vector2d(x, y) - pixel_of(joint_);
     along_ = viewer_.shell->normals.col(joint_);
     // pushed before, it continues along the direction of its constraint
     for (const HeldJoint& held : viewer_.shell->held)
@@ -118,7 +119,12 @@ void Picker::drag(double x, double y) {
     case Gesture::pan:
       return pan(camera, viewer_.view, dx, dy);
     case Gesture::push: {
-      const double depth = dragged_along(camera, viewer_.view, place_, along_, from_x, from_y);
+      double depth = dragged_along(camera, viewer_.view, place_, along_, from_x, from_y);
+      // the shell may carry it aside: where it is now counts, unless it is seen along the push
+      const Eigen::Vector3d at = viewer_.shell->frame.nodes.col(joint_);
+      const double under = pushed_under(camera, viewer_.view, place_, along_, at,
+                                        Eigen::Vector2d(x, y) - grip_ - pixel_of(joint_));
+      if (under != (at - place_).dot(along_)) depth = under;
       return viewer_.post(Push{joint_, place_ + depth * along_, along_}, true);
     }
     case Gesture::pull_freely:

@@ -67,7 +67,7 @@ class PlotBox {
     };
     draw_marks(curve, x);
     ticks_y(y, curve.logarithmic);
-    ticks_x(x);
+    ticks_x(x, curve.whole);
     if (curve.bars)
       draw_bars(points_of(curve.y), height_of(y, 0));
     else
@@ -163,12 +163,12 @@ class PlotBox {
           text.c_str());
     }
   }
-  void ticks_x(const Span& x) {
+  void ticks_x(const Span& x, bool whole) {
     const float y = to_.y + panel_.px(2);
     const int count = std::max(1, int((to_.x - from_.x) / (3.2f * line_)));
     float last = from_.x - panel_.px(6);  // where the label before ends
     for (const render::Tick& tick : render::linear_ticks(double(x.low), double(x.high), count)) {
-      if (!tick.major) continue;
+      if (!tick.major || (whole && tick.value != std::round(tick.value))) continue;
       const float at = from_.x + x.at(float(tick.value)) * (to_.x - from_.x);
       const std::string text = fmt::format("{:.6g}", tick.value);
       const float wide = ImGui::CalcTextSize(text.c_str()).x;
@@ -247,6 +247,7 @@ Curve curve_of(const ViewerState& viewer, const PlotAxes& axes) {
   const int x = axes.x >= 0 ? axes.x : abscissa_of(viewer, points);
   const Quantity &over = quantities[std::size_t(x)], &shown = quantities[std::size_t(axes.y)];
   Curve curve{shown.label, over.label, "nothing was done yet", {}, {}};
+  curve.whole = x == quantity_called("equilibrium");
   if (&shown == &quantities[std::size_t(quantity_called("force_N"))] &&
       (points.empty() || points.back().joint < 0))
     return curve.without = "no joint is fixed", curve;

@@ -146,14 +146,6 @@ void what_varies(const Panel& panel) {
   }
 }
 
-/// A label, with space for what follows it.
-void label(const Panel& panel, const char* text) {
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(text);
-  ImGui::SameLine(panel.px(138));
-  ImGui::SetNextItemWidth(-1);
-}
-
 void number(const Panel& panel, const char* text, const char* key, double& value, float step,
             float low, float high, const char* format) {
   label(panel, text);
@@ -182,15 +174,13 @@ void choices(const Panel& panel) {
 }
 
 void buttons(const Panel& panel) {
-  const ShellView& shell = *panel.viewer.shell;
-  const bool under_way = shell.designing(), pending = shell.design && !shell.design->kept;
-  panel.button("design_start", "Start", !under_way && why_not_designed(shell).empty());
+  panel.button("design_start", "Start");
   ImGui::SameLine();
-  panel.button("design_stop", "Stop", under_way);
+  panel.button("design_stop", "Stop");
   ImGui::SameLine();
-  panel.button("design_keep", "Keep this", pending);
+  panel.button("design_keep", "Keep this");
   ImGui::SameLine();
-  panel.button("design_put_back", "Put back", shell.design != nullptr);
+  panel.button("design_put_back", "Put back");
 }
 
 void standing(const Panel& panel, const DesignProgress& course) {

@@ -1,5 +1,7 @@
 // The interface in a window of the desktop, played from a recording, and dragged by a bench.
 
+#include <imgui_internal.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -182,6 +184,9 @@ Result<bool> Interface::compose(double seconds) {
   if (dark_ != viewer_.show.dark) choose_colours(dark_ = viewer_.show.dark, density_);
   feed();
   TRY_DO(draw_states());
+  // the mouse shows itself what it is at
+  constexpr ImGuiPopupFlags any = ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel;
+  if (!ImGui::IsPopupOpen("", any)) ImGui::GetCurrentContext()->NavDisableHighlight = !keyboard_;
   ImGui::NewFrame();
   lay_out();
   ImGui::Render();

@@ -141,7 +141,7 @@ void ViewerState::save_preset() {
 void ViewerState::save_preset_as(const fs::path& file) {
   if (auto written = write_preset(preset_to_save(), file); !written)
     return say(written.error().message, true);
-  say("saved " + file.string() + left_out(*shell), !left_out(*shell).empty());
+  say("saved " + fs::absolute(file).string() + left_out(*shell), !left_out(*shell).empty());
 }
 
 void ViewerState::save_picture() {
@@ -170,8 +170,11 @@ void ViewerState::ask_file(FileUse use) {
   const char* ending = ending_of(use);
   std::error_code error;
   const bool any = fs::is_directory(library.save_to, error);
-  request.path = *ending ? path_to_save({ending}).string() + ending
-                         : (any ? library.save_to / "" : fs::path("./")).string();
+  // files are looked for where the last one was
+  const fs::path open_from = !file_.empty() ? file_.parent_path() / "."
+                             : any          ? library.save_to / ""
+                                            : fs::path("./");
+  request.path = *ending ? path_to_save({ending}).string() + ending : open_from.string();
   request.folder = fs::path(request.path).parent_path().string();
   file_request = request;
 }
@@ -324,7 +327,8 @@ void ViewerState::report_finished_tasks() {
     const auto end = work->take_end();
     if (!end) continue;
     if (end->made)
-      say((work == &manual_task ? "shown in the browser: " : "saved ") + end->target.string());
+      say((work == &manual_task ? "shown in the browser: " : "saved ") +
+          fs::absolute(end->target).string());
     else if (end->made.error().fault == Fault::cancelled)
       say("stopped: " + end->last_words);
     else
@@ -349,7 +353,7 @@ void ViewerState::save_plot(const PlottedCurve& curve) {
         return write_file(stem.string() + ".csv", table);
       });
   if (!written) return say(written.error().message, true);
-  say("saved " + stem.string() + ".pdf, .svg, .png and .csv");
+  say("saved " + fs::absolute(stem).string() + ".pdf, .svg, .png and .csv");
 }
 
 void ViewerState::show_manual() {

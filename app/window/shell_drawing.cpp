@@ -366,6 +366,16 @@ double dragged_along(const render::Camera& camera, const PictureSize& size,
   return px.dot(Eigen::Vector2d(right_px, down_px)) / px.squaredNorm();
 }
 
+double pushed_under(const render::Camera& camera, const PictureSize& size,
+                    const Eigen::Vector3d& from, const Eigen::Vector3d& axis,
+                    const Eigen::Vector3d& at, const Eigen::Vector2d& off_px) {
+  const Eigen::Vector2d px = seen_px(camera, size, at, axis);
+  const double depth = (at - from).dot(axis);
+  // seen along itself its picture does not say how far it is
+  if (px.norm() < steep_px / mm_per_pixel(camera, size)) return depth;
+  return depth + px.dot(off_px) / px.squaredNorm();
+}
+
 Eigen::Vector3d dragged_level(const render::Camera& camera, const PictureSize& size,
                               const Eigen::Vector3d& place, double right_px, double down_px) {
   Eigen::Matrix2d px;

@@ -41,6 +41,11 @@ Eigen::Vector3d dragged_in_plane(const render::Camera& camera, const PictureSize
 double dragged_along(const render::Camera& camera, const PictureSize& size,
                      const Eigen::Vector3d& place, const Eigen::Vector3d& axis, double right_px,
                      double down_px);
+/// How far from `from` along the unit vector `axis` a point is to be pushed that is at `at` now, so
+/// that it comes under a cursor so many pixels off its picture; across the axis it moves by itself.
+double pushed_under(const render::Camera& camera, const PictureSize& size,
+                    const Eigen::Vector3d& from, const Eigen::Vector3d& axis,
+                    const Eigen::Vector3d& at, const Eigen::Vector2d& off_px);
 /// Displacement within the horizontal plane through the position; seen from the side, along the
 /// picture's right alone.
 Eigen::Vector3d dragged_level(const render::Camera& camera, const PictureSize& size,

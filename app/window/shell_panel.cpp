@@ -1,8 +1,10 @@
 // Controls of the shell: path, boundary, constrained joints, relaxation, accuracy, colours.
 #include <fmt/format.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/window/panel.h"
 #include "app/window/shell_drawing.h"
@@ -11,13 +13,11 @@
 
 namespace gridshell::window {
 
-bool slider(const Panel& panel, const char* name, float& value, float low, float high,
-            const char* format, const std::string& tip) {
-  const std::string label = std::string("##") + name;
-  ImGui::SetNextItemWidth(-1);
-  const bool changed =
-      ImGui::SliderFloat(label.c_str(), &value, low, high, format, ImGuiSliderFlags_AlwaysClamp);
-  panel.named(name, tip);
+namespace {
+
+/// Whether the last control's new value is meant: while the mouse drags it, and once what was typed
+/// is entered.
+bool is_meant(const std::string& label, float& value, bool changed) {
   ImGuiStorage& kept = *ImGui::GetStateStorage();
   const ImGuiID number = ImGui::GetID((label + " typed").c_str()),
                 any = ImGui::GetID((label + " any typed").c_str());
@@ -31,14 +31,46 @@ bool slider(const Panel& panel, const char* name, float& value, float low, float
   return true;
 }
 
+}  // namespace
+
+void slider(const Panel& panel, const char* name, float value, float low, float high,
+            const char* format, const std::string& tip, const std::function<void(float)>& set) {
+  const std::string label = std::string("##") + name, number = label + " number";
+  const float field = panel.px(92);
+  float typed = value;
+  const auto keeps_text = [&](const std::string& id) {
+    return ImGui::TempInputIsActive(ImGui::GetID(id.c_str()));
+  };
+  // its number is in the field next to it
+  const bool hidden = !keeps_text(label);
+  if (hidden) ImGui::PushStyleColor(ImGuiCol_Text, 0);
+  ImGui::SetNextItemWidth(-field - ImGui::GetStyle().ItemSpacing.x);
+  bool changed =
+      ImGui::SliderFloat(label.c_str(), &value, low, high, format, ImGuiSliderFlags_AlwaysClamp);
+  if (hidden) ImGui::PopStyleColor();
+  panel.named(name, tip);
+  changed = is_meant(label, value, changed);
+  bool left = ImGui::IsItemDeactivated();
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(-1);
+  const bool other = ImGui::DragFloat(number.c_str(), &typed, 0.002f * std::max(1e-3f, high - low),
+                                      low, high, format, ImGuiSliderFlags_AlwaysClamp);
+  panel.named(std::string(name) + "_number", "a click types it; " + tip);
+  left = left || ImGui::IsItemDeactivated();
+  if (is_meant(number, typed, other)) value = typed, changed = true;
+  if (changed) set(value);
+  if (left) panel.viewer.end_drag();
+}
+
 namespace {
 
-/// Marks, on the slider that was drawn last, ranges without a stable state (red) and events
-/// (amber); `share_of` takes a progress to a fraction of the slider.
+/// Marks on a slider ranges without a stable state (red) and events (amber); `share_of` takes a
+/// progress to a fraction of the slider.
 template <class ShareOf>
-void mark_slider(const Panel& panel, const ShareOf& share_of) {
+void mark_slider(const Panel& panel, const char* name, const ShareOf& share_of) {
   const TextColours& colours = text_colours(panel.viewer.show.dark);
-  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  const render::Box& box = panel.controls.at(name);
+  const ImVec2 low{float(box.x), float(box.y)}, high{float(box.right()), float(box.bottom())};
   const float margin = 2 + 0.5f * ImGui::GetStyle().GrabMinSize, room = high.x - low.x - 2 * margin;
   const auto at = [&](double progress) {
     return low.x + margin + float(std::clamp(share_of(progress), 0.0, 1.0)) * room;
@@ -58,7 +90,7 @@ std::string text_of_marks(const ShellView& shell) {
   const bool circle = shell.preset.footprint.kind == preset::FootprintKind::circle;
   for (const PathMark& mark : shell.marks)
     if (mark.joint < 0)
-      text += fmt::format("\n{}: {}{}", mark.what, circle ? "R_a = " : "progress ",
+      text += fmt::format("\n{}: {}{}", mark.what, circle ? "Rₐ = " : "progress ",
                           text_of_place(
                               mark, [&](double at) { return circle ? shell.radius_at(at) : at; })) +
               (circle ? " mm" : "");
@@ -82,7 +114,7 @@ void path(const Panel& panel) {
   heading(panel, "Boundary");
   const bool push = viewer.shell->push.joint >= 0;
   const float gap = 0.5f * ImGui::GetStyle().ItemSpacing.x;
-  panel.button("play", viewer.playing ? "Stop##play" : "Play##play", true);
+  panel.button("play", viewer.playing ? "Stop##play" : "Play##play");
   for (const char* action : {"step_back", "step_on"}) {
     ImGui::SameLine(0, gap);
     panel.button(action);
@@ -91,13 +123,14 @@ void path(const Panel& panel) {
   float part = float(viewer.part());
   // the correction of finer meshes before the push does not count as a push
   if (std::abs(part) < 5e-4f || (push && viewer.shell->steps.empty())) part = 0;
-  if (slider(panel, "path", part, 0, std::max(1.f, part), push ? "push %.3f" : "progress %.3f",
-             push ? "fraction of the preset's depth"
-                  : "fraction of the boundary's displacement" + text_of_marks(*viewer.shell)))
-    viewer.playing = false, viewer.go(part, true);
+  ImGui::TextUnformatted(push ? "Push, of the preset's depth" : "Progress");
+  if (std::exchange(viewer.take_keyboard, false)) ImGui::SetKeyboardFocusHere();
+  slider(panel, "path", part, 0, std::max(1.f, part), "%.3f",
+         push ? "fraction of the preset's depth"
+              : "fraction of the boundary's displacement" + text_of_marks(*viewer.shell),
+         [&](float to) { viewer.playing = false, viewer.go(to, true); });
   const double whole = std::max(1.0, viewer.part());
-  if (!push) mark_slider(panel, [&](double at) { return at / whole; });
-  if (ImGui::IsItemDeactivated()) viewer.end_drag();
+  if (!push) mark_slider(panel, "path", [&](double at) { return at / whole; });
 }
 
 void boundary(const Panel& panel) {
@@ -107,18 +140,17 @@ void boundary(const Panel& panel) {
   const double from = shell.preset.original_radius_mm();
   const double now = shell.frame.boundary_radius_mm;
   const double way = shell.progress > 0 ? (now - from) / shell.progress : -1;
-  ImGui::TextUnformatted("Boundary's radius");
-  float radius = float(now);
-  if (slider(panel, "R_a", radius, float(0.6 * from), float(from + shell.least_progress * way),
-             "R_a = %.2f mm",
-             fmt::format("radius of the actuated boundary, from {:.1f} to {:.1f} mm; Ctrl+click to "
-                         "type",
-                         0.6 * from, from + shell.least_progress * way) +
-                 text_of_marks(shell)))
-    viewer.playing = false, viewer.post(Move{(four_digits(radius) - from) / way}, true);
+  ImGui::TextUnformatted("Radius of the boundary, Rₐ");
+  slider(panel, "R_a", float(now), float(0.6 * from), float(from + shell.least_progress * way),
+         "%.2f mm",
+         fmt::format("radius of the actuated boundary, from {:.1f} to {:.1f} mm", 0.6 * from,
+                     from + shell.least_progress * way) +
+             text_of_marks(shell),
+         [&](float to) {
+           viewer.playing = false, viewer.post(Move{(four_digits(to) - from) / way}, true);
+         });
   const double low = 0.6 * from, high = from + shell.least_progress * way;
-  mark_slider(panel, [&](double at) { return (shell.radius_at(at) - low) / (high - low); });
-  if (ImGui::IsItemDeactivated()) viewer.end_drag();
+  mark_slider(panel, "R_a", [&](double at) { return (shell.radius_at(at) - low) / (high - low); });
 }
 
 /// At the right end of a line, the small button that reverts what the line reports.
@@ -208,7 +240,7 @@ void accuracy(const Panel& panel) {
     changed.accuracy.edges_per_segment = 0;
     viewer.post(Change{changed}, false);
   }
-  panel.named("tolerance", "largest error of a joint, over R_o or ρ, when nothing is dragged");
+  panel.named("tolerance", "largest error of a joint, over Rₒ or ρ, when nothing is dragged");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-1);
   // the net alone is geometry, which no command moves
@@ -303,15 +335,16 @@ void shell_panel(const Panel& panel, const render::Box& box) {
     panel.button(action);
   }
   if (viewer.shell->any()) {
+    // sections that grow come last, so that nothing shifts under the mouse
     path(panel);
     boundary(panel);
-    held(panel);
-    picked_figures(panel);
-    stability(panel);
-    contacts(panel);
     accuracy(panel);
     colours(panel);
     keep(panel);
+    held(panel);
+    stability(panel);
+    contacts(panel);
+    picked_figures(panel);
   }
   ImGui::End();
 }

@@ -129,6 +129,8 @@ struct ShellView : ViewedState {
   std::string message;         ///< what was done, or happened on the path; empty: nothing
   std::string event;           ///< what happened to the branch on the path; empty: nothing
   std::string error;           ///< why the last command was not met; empty: it was
+  /// The nearest preset that works of one that was refused; null: none is known.
+  std::shared_ptr<const preset::Preset> offer;
   /// Equilibria on one boundary, if more than one was found; null: none.
   std::shared_ptr<const std::vector<std::shared_ptr<const ShellView>>> found;
   std::vector<PlotPoint> way;  ///< equilibria that the last push came past, but for this one

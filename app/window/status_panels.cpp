@@ -17,7 +17,7 @@ std::string text_of_step(const ShellView& shell) {
   switch (step.kind) {
     case preset::StepKind::move:
       return std::isfinite(shell.frame.boundary_radius_mm)
-                 ? fmt::format("boundary to R_a = {:.4g} mm", shell.frame.boundary_radius_mm)
+                 ? fmt::format("boundary to Rₐ = {:.4g} mm", shell.frame.boundary_radius_mm)
                  : fmt::format("boundary to progress {:.3g}", step.progress);
     case preset::StepKind::push:
       return shell.held.empty()
@@ -283,6 +283,35 @@ void why_popup(const Panel& panel) {
   ImGui::EndPopup();
 }
 
+/// A refusal in full, where the line has no room for it, and what would work instead.
+void notice(const Panel& panel, const render::Box& line, float room) {
+  ViewerState& viewer = panel.viewer;
+  const auto& offer = viewer.shell->offer;
+  const bool fits = ImGui::CalcTextSize(viewer.message.c_str()).x <= room;
+  if (!viewer.message_bad || viewer.file_request || (fits && !offer)) return;
+  ImGui::SetNextWindowPos({float(line.middle().x), float(line.y) - panel.px(40)}, ImGuiCond_Always,
+                          {0.5f, 1});
+  ImGui::Begin("notice", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoFocusOnAppearing);
+  ImGui::PushTextWrapPos(panel.px(520));
+  ImGui::PushStyleColor(ImGuiCol_Text, text_colours(viewer.show.dark).error);
+  ImGui::TextWrapped("%s", viewer.message.c_str());
+  ImGui::PopStyleColor();
+  ImGui::PopTextWrapPos();
+  if (offer) {
+    const std::string text = fmt::format("Rₒ = {:.4g} mm, Rₐ = {:.4g} mm: do it",
+                                         offer->original_radius_mm(), offer->actuated_radius_mm());
+    if (ImGui::Button(text.c_str())) viewer.post(Change{*offer}, false);
+    panel.named("offer", "the nearest shell that works");
+    ImGui::SameLine();
+  }
+  if (ImGui::Button("Close")) viewer.say("");
+  panel.named("close_notice", "");
+  ImGui::End();
+}
+
 // The certificate of the state shown, what the engine is at, what was said last.
 
 void status_line(const Panel& panel, const render::Box& box) {
@@ -321,8 +350,10 @@ void status_line(const Panel& panel, const render::Box& box) {
   coloured_text(bad ? colours.error : ImGui::GetColorU32(ImGuiCol_TextDisabled),
                 said.substr(0, said.find('\n')));
   panel.named("message", said);
+  const float room = float(box.right()) - ImGui::GetItemRectMin().x - panel.px(10);
   if (viewer.movie_task.under_way()) movie_standing(panel);
   ImGui::End();
+  if (bad) notice(panel, box, room);
 }
 
 }  // namespace gridshell::window

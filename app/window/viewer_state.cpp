@@ -16,6 +16,7 @@ constexpr std::size_t most_points = 4000;
 constexpr std::size_t most_recent = 8;
 constexpr double look_every_s = 0.5;  // at the preset's file
 constexpr double most_number = 1e9;   // in a workspace
+constexpr double other_size = 0.02;   // of a shell that does not fill the view as before
 constexpr double earth_m_s2 = 9.81, nitinol_kg_m3 = 6450;
 
 /// Calls visit(key, value) for what is on or off.
@@ -104,15 +105,26 @@ void ViewerState::open(const std::string& name) {
   run_opened_ = fs::is_directory(name, error);
   file_ = fs::is_regular_file(name, error) ? fs::path(name) : fs::path();
   if (!file_.empty()) written_ = fs::last_write_time(file_, error);
-  picking = playing = false;
+  form(std::move(*preset));
+}
+
+void ViewerState::open(preset::Preset preset) {
+  show.other.reset();
+  run_opened_ = false;
+  file_.clear();
+  form(std::move(preset));
+}
+
+void ViewerState::form(preset::Preset preset) {
+  picking = playing = new_shell = false;
   fresh_ = true;
   plot_points.clear();
   timeline.clear();
   picked_joint = picked_cell = -1;
   picked_rod = {};
   measured.clear();
-  say("forming '" + preset->title + "'");
-  send_command(Open{std::move(*preset)});
+  say("forming '" + preset.title + "'");
+  send_command(Open{std::move(preset)});
 }
 
 void ViewerState::go(double part, bool passing) {
@@ -244,7 +256,12 @@ void ViewerState::take(std::shared_ptr<const ShellView> next) {
     say("");
   if (!shell->any() || !newer) return;
   const bool to_end = fresh_ && std::exchange(run_opened_, false) && part() < 1;
-  if (fresh_) reset_view();
+  const double size_mm = shell->layout->length_scale_mm;
+  if (fresh_)
+    reset_view();
+  else if (std::abs(size_mm - size_mm_) > other_size * size_mm_)
+    fit_view();
+  size_mm_ = size_mm;
   if (to_end) go(1, false), say("on to where the run ended");
   show.scale = next_scale(show.scale, scale_of(*shell, show), range_of);
   if (shell->frame.loads_N.cols() > 0)

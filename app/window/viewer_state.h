@@ -112,9 +112,9 @@ struct Quantity {
   double PlotPoint::*value;
 };
 inline constexpr Quantity quantities[] = {
-    {"equilibrium", "equilibrium", &PlotPoint::equilibrium},
+    {"equilibrium", "state number", &PlotPoint::equilibrium},
     {"progress", "progress", &PlotPoint::progress},
-    {"boundary_radius_mm", "R_a (mm)", &PlotPoint::radius_mm},
+    {"boundary_radius_mm", "Rₐ (mm)", &PlotPoint::radius_mm},
     {"depth_mm", "depth (mm)", &PlotPoint::depth_mm},
     {"force_N", "force (N)", &PlotPoint::force_N},
     {"height_mm", "height (mm)", &PlotPoint::height_mm},
@@ -175,6 +175,9 @@ class ViewerState {
   bool small_window = false;      ///< one column has space next to the view
   bool plots_when_small = false;  ///< and it shows the plots
   bool find_number = false;       ///< the search over the numbers is to be typed into
+  bool take_keyboard = false;     ///< the first control of the panels is to be typed into
+  bool new_shell = false;         ///< the form of a shell of one's own is shown
+  std::string menu_to_open;       ///< by the keyboard
   DesignOptions design;
   std::vector<PlotPoint> plot_points;
   std::vector<TimelineEntry> timeline;  ///< by the number of steps that can be undone
@@ -208,6 +211,8 @@ class ViewerState {
 
   /// A preset by its name or file, or a run by its folder.
   void open(const std::string& name);
+  /// A preset that has no file.
+  void open(preset::Preset preset);
   /// Adds a joint to the measurement; after three it starts again.
   void measure(int joint);
   /// A command of a drag while it is `passing`; a running design refuses it.
@@ -282,6 +287,7 @@ class ViewerState {
   bool tick(double seconds);
 
  private:
+  void form(preset::Preset preset);
   void take(std::shared_ptr<const ShellView> next);
   void reset_view();
   void add_plot_point();
@@ -297,6 +303,7 @@ class ViewerState {
   void report_finished_tasks();
 
   int drag_ = 1;
+  double size_mm_ = 0;       // length scale of the shell in sight
   bool run_opened_ = false;  // the next view continues at the run's end
   bool fresh_ = true;        // the next sight is of another shell: the camera goes round it
   std::filesystem::path file_;

@@ -19,9 +19,9 @@ namespace gridshell {
 struct Model;
 struct State;
 
-/// A dead force on a joint, N.
+/// A dead force on a joint or an end, N.
 struct PointLoad {
-  int joint = 0;
+  int joint = 0;  ///< its node
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
 };
 

@@ -152,6 +152,7 @@ struct Footprint {
   std::vector<FootprintCell> cells;      ///< none where rods are not of a square grid
   std::vector<int> fixed_joints{};       ///< those that the boundary fixes, as it does edge points
   std::vector<SupportSpring> springs{};  ///< of the supports on springs; none of the remaining ones
+  std::vector<int> end_points{};  ///< of a network: the point of each end, begin of rod r at 2 r
   int lone_lines = 0;  ///< pieces of grid lines within the boundary that no other crosses
 
   bool is_sprung(int joint) const;  ///< whether a fixed joint is on a spring

@@ -288,8 +288,11 @@ Result<void> check_held(const RodNetwork& network, const Roles& roles, const Foo
     if (!off_a_line(held[at]))
       return invalid(
           "rods[{}] and what is joined to it: fixed at fewer than three points, or at points on "
-          "one line, and would turn freely about it",
-          rod);
+          "one line, and would turn freely about it; add a support off that line, or draw it with "
+          "a "
+          "little sag and a weak spring across it at one of its points: "
+          "{{\"point\": {}, \"spring_N_per_mm\": [0, 0.001, 0]}} among the supports",
+          rod, network.rods[rod][network.rods[rod].size() / 2]);
     if (!hold_all(held[at]))
       return invalid(
           "rods[{}] and what is joined to it: supported by springs along too few directions, and "
@@ -356,6 +359,7 @@ Result<NetworkFootprint> network_footprint(const RodNetwork& network) {
   for (const Placement placement : {Placement::half, Placement::on_axis})
     if (footprint.cells.empty() && !footprint.in_space()) name_as_grid(made, placement);
   put_springs(network, made);
+  footprint.end_points = made.ends;
   return made;
 }
 

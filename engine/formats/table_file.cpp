@@ -239,6 +239,7 @@ class TableReader {
       ++table_.empty_rows;
       return {};
     }
+    fill_up();
     if (length_ == 0)
       length_ = by_place && !options_.longer_rows ? least : std::max(least, cells_.size());
     if (cells_.size() != length_ && !split_by_any()) return wrong_length(line);
@@ -263,6 +264,13 @@ class TableReader {
            std::ranges::all_of(place_, [&](std::size_t at) {
              return at < cells_.size() && is_missing(cells_[at]);
            });
+  }
+
+  /// Gives a row under a header its last cells, which are empty, as those of unknown numbers are.
+  void fill_up() {
+    if (!table_.by_name || apart_ == ' ') return;
+    const auto cells = std::size_t(std::ranges::count(row_, apart_)) + 1;
+    if (cells == length_) cells_.resize(std::max(cells_.size(), cells));
   }
 
   /// A row of numbers with other signs between them than most have, where no comma is a decimal

@@ -1,6 +1,7 @@
 // What a user does to a formed shell: a push, steps, additional loads.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -99,7 +100,8 @@ struct LoadCase {
   std::string name;
   double dead = 0, snow = 0, wind = 0, pressure = 0, edge = 0;  ///< factors
   SnowSide snow_side = SnowSide::all;
-  Points points;  ///< (i, j, F_x, F_y, F_z), N
+  std::optional<double> wind_deg = {};  ///< where its wind blows to; none: as [loads] has it
+  Points points;                        ///< (i, j, F_x, F_y, F_z), N
 };
 
 }  // namespace gridshell::preset

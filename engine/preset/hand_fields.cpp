@@ -174,13 +174,16 @@ void add_steps(FieldList<Step> list) {
   only({K::jitter});
 }
 
+constexpr const char* force_points =
+    "forces in N on joints, and on free ends of a network, named as its joints: [point, 0]";
+
 void add_loads(FieldList<Loads> list) {
   list.add<&Loads::gravity_m_s2>(
       "gravity, downwards; loads grow with the actuation to their full value at its end");
   needs_mass<Loads>(list, "gravity", [](const Loads& of) { return of.gravity_m_s2 != 0; });
   list.add<&Loads::field_N_per_mm>(
       "artificial gravity: force on every millimetre of rod, downwards");
-  list.add<&Loads::points>("forces in N on joints")
+  list.add<&Loads::points>(force_points)
       .points({"i", "j", "F_x", "F_y", "F_z"})
       .needs_equilibrium("a net does not answer loads", &Loads::any);
 }
@@ -204,7 +207,12 @@ void add_area_loads(FieldList<Loads> list) {
   idle(&LoadCase::wind);
   list.add<&Loads::wind_deg>(between(-360, 360),
                              "direction to which the wind blows, from +x towards +y");
-  idle(&LoadCase::wind);
+  list.unused({"[[loads.case]] wind_deg"}, "every case with wind has a direction of its own",
+              [](const Preset& preset) {
+                return std::ranges::none_of(preset.load_case, [](const LoadCase& one) {
+                  return one.wind != 0 && !one.wind_deg;
+                });
+              });
   list.add<&Loads::pressure_N_m2>(at_least(0),
                                   "cases: pressure on every face against its normal; it turns with "
                                   "the shell; the edge must be fixed");
@@ -249,6 +257,10 @@ void add_load_cases(FieldList<LoadCase> list) {
   list.add<&C::wind>(between(-1000, 1000), "multiple of wind_N_m2")
       .refused({"[loads] wind_N_m2"}, "there is no wind, expected [loads] wind_N_m2 above 0",
                lacks(&C::wind, &Loads::wind_N_m2));
+  list.add<&C::wind_deg>(between(-360, 360),
+                         "direction to which the wind of this case blows; \"none\": [loads] "
+                         "wind_deg")
+      .unused({"wind"}, "the case has no wind", [](const C& of) { return of.wind == 0; });
   list.add<&C::pressure>(between(-1000, 1000), "multiple of pressure_N_m2; negative: from inside")
       .refused({"[loads] pressure_N_m2"},
                "there is no pressure, expected [loads] pressure_N_m2 above 0",
@@ -257,7 +269,7 @@ void add_load_cases(FieldList<LoadCase> list) {
       .refused({"[loads] edge_N_m"},
                "there is no load on the edge, expected [loads] edge_N_m above 0",
                lacks(&C::edge, &Loads::edge_N_m));
-  list.add<&C::points>("forces in N on joints").points({"i", "j", "F_x", "F_y", "F_z"});
+  list.add<&C::points>(force_points).points({"i", "j", "F_x", "F_y", "F_z"});
 }
 
 }  // namespace

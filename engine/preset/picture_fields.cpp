@@ -169,6 +169,10 @@ void add_figure(FieldList<Figure> list) {
   list.add<&Figure::dpi>(between(30, 2400), "pixels per inch, if a width is given").unit("1/inch");
   list.add<&Figure::cut_step_mm>(
       between(0, 10), "lengths and marks of exported cut lists are multiples of it; 0: all digits");
+  list.add<&Figure::stock_mm>(
+      at_least(0),
+      "length in which rods are sold: cut lists splice longer ones, in the middle between joints; "
+      "0: rods of any length");
   list.add<&Figure::vector>(
       "whether stills are also drawn as lines, as SVG and PDF, hidden lines faded");
 }

@@ -93,6 +93,7 @@ struct Figure {
   double dpi = 300;
   bool vector = false;           ///< shells as lines in addition to their pictures
   double cut_step_mm = 0.1;      ///< lengths and marks of cut lists are multiples of it; 0: as are
+  double stock_mm = 0;           ///< longest piece of rod that there is; 0: any
   std::vector<double> radii_mm;  ///< boundary radii of the stills
   double scale_bar_mm = 20;
   bool title = true;  ///< over every still, figure and plot

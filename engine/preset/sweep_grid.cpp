@@ -118,6 +118,8 @@ SweepPoint SweepGrid::at(std::size_t point) const {
     const auto value = toml::parse("x = " + found.values[k]);
     assign(field_of(axis.key), *value.get("x"), found.preset, {});
   }
+  // stills of the base are not on every path
+  found.preset.figure.radii_mm.clear();
   // searches shake otherwise from point to point, and a point by itself can be made again
   if (found.preset.jitter.requested() && !sweeps(sweep, "jitter.seed")) {
     int& seed = found.preset.jitter.seed;

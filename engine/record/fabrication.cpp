@@ -62,7 +62,7 @@ FabricationPlan rounded(FabricationPlan plan, double step_mm) {
   const auto round = [&](double value) { return to_step(value, step_mm); };
   for (CutRod& rod : plan.rods) {
     rod.length_mm = round(rod.length_mm);
-    for (auto* marks : {&rod.joint_marks_mm, &rod.pin_marks_mm})
+    for (auto* marks : {&rod.joint_marks_mm, &rod.pin_marks_mm, &rod.splices_mm})
       for (double& mark : *marks) mark = round(mark);
     if (rod.joint_marks_mm.empty()) continue;
     const auto [first, last] = std::ranges::minmax(rod.joint_marks_mm);
@@ -70,6 +70,27 @@ FabricationPlan rounded(FabricationPlan plan, double step_mm) {
     for (const double pin : rod.pin_marks_mm) (pin < first ? begin : end) = pin;
     if (std::isfinite(rod.leg_begin_mm)) rod.leg_begin_mm = round(first - begin);
     if (std::isfinite(rod.leg_end_mm)) rod.leg_end_mm = round(end - last);
+  }
+  return plan;
+}
+
+Result<FabricationPlan> spliced(FabricationPlan plan, double stock_mm) {
+  for (CutRod& rod : plan.rods) {
+    if (stock_mm == 0 || rod.length_mm <= stock_mm) continue;
+    std::vector<double> places{0};  // of joints and ends, between which a splice may lie
+    places.insert(places.end(), rod.joint_marks_mm.begin(), rod.joint_marks_mm.end());
+    places.push_back(rod.length_mm);
+    for (double from = 0; rod.length_mm - from > stock_mm;) {
+      double to = from;
+      for (std::size_t k = 1; k < places.size(); ++k)
+        if (const double middle = 0.5 * (places[k - 1] + places[k]); middle <= from + stock_mm)
+          to = std::max(to, middle);
+      if (to <= from)
+        return invalid(
+            "[figure] stock_mm: got {:g}, expected more: joints of rod {} are further apart",
+            stock_mm, rod.name);
+      rod.splices_mm.push_back(from = to);
+    }
   }
   return plan;
 }
@@ -150,10 +171,11 @@ Result<Drawing> plate_drawing(const FabricationPlan& work) {
 std::string cut_list_csv(const FabricationPlan& work) {
   record::CsvWriter csv;
   csv.line("rod", "length_mm", "joint_marks_mm", "pin_marks_mm", "leg_begin_mm", "leg_end_mm",
-           "note");
+           "splices_mm", "note");
   for (const CutRod& rod : work.rods)
     csv.line(rod.name, rod.length_mm, space_separated(rod.joint_marks_mm),
              space_separated(rod.pin_marks_mm), rod.leg_begin_mm, rod.leg_end_mm,
+             space_separated(rod.splices_mm),
              rod.hard_to_build()
                  ? fmt::format("a leg below {:g} mm: hard to build", shortest_leg_mm)
                  : std::string());

@@ -26,6 +26,7 @@ struct CutRod {
   std::vector<Eigen::Vector2d> corners{};  ///< between them, of one that is not straight there
   /// from the edge points to the joints next to them; NaN: it ends at a joint
   double leg_begin_mm = 0, leg_end_mm = 0;
+  std::vector<double> splices_mm{};           ///< where pieces of stock length meet
   bool free_begin = false, free_end = false;  ///< not pinned
 
   bool hard_to_build() const {
@@ -74,6 +75,10 @@ struct FabricationPlan {
 /// rod's begin, and legs are what is left between them, so that pieces add up to their rod.
 FabricationPlan rounded(FabricationPlan plan, double step_mm);
 
+/// Splices rods that are longer than `stock_mm` (0: none are): pieces as long as the stock gives,
+/// which meet in the middle between two joints. Errors (bad_input): joints further apart than it.
+Result<FabricationPlan> spliced(FabricationPlan plan, double stock_mm);
+
 // Files for the workshop: the footprint and the plate as drawings, the cut list and the pins as
 // tables.
 
@@ -87,8 +92,8 @@ Drawing footprint_drawing(const FabricationPlan& work);
 /// horizontal plane.
 Result<Drawing> plate_drawing(const FabricationPlan& work);
 
-/// Columns `rod,length_mm,joint_marks_mm,pin_marks_mm,leg_begin_mm,leg_end_mm,note`, one row per
-/// rod; marks are measured from the rod's start and separated by blanks.
+/// Columns `rod,length_mm,joint_marks_mm,pin_marks_mm,leg_begin_mm,leg_end_mm,splices_mm,note`, one
+/// row per rod; marks are measured from the rod's start and separated by blanks.
 std::string cut_list_csv(const FabricationPlan& work);
 
 /// `pin,ring,x_mm,y_mm,z_mm`, those of the second ring too.

@@ -239,16 +239,33 @@ std::vector<NodeAction> forces_of(const LoadCase& load, const Footprint& footpri
   return actions;
 }
 
+namespace {
+
+/// The node of a network's free end by the number of its point; -1: there is none.
+int free_end_at(const Footprint& footprint, int point) {
+  for (std::size_t end = 0; end < footprint.end_points.size(); ++end) {
+    const FootprintRod& rod = footprint.rods[end / 2];
+    if (footprint.end_points[end] == point && (end % 2 == 0 ? rod.begin : rod.end) == RodEnd::free)
+      return int(footprint.joints.size() + end);
+  }
+  return -1;
+}
+
+}  // namespace
+
 Result<std::vector<PointLoad>> points_of(const preset::Points& rows, const std::string& key,
                                          const Footprint& footprint) {
   std::vector<PointLoad> points;
   for (const auto& row : rows) {
     const int i = int(std::lround(row[0])), j = int(std::lround(row[1]));
-    const int joint = row[0] == i && row[1] == j ? joint_at(footprint, i, j) : -1;
+    const bool whole = row[0] == i && row[1] == j;
+    int joint = whole ? joint_at(footprint, i, j) : -1;
+    if (joint < 0 && whole && j == 0) joint = free_end_at(footprint, i);
     if (joint < 0)
       return invalid(
-          "{} points: got [{:g}, {:g}], which is no joint, expected one of the footprint's {}{}",
-          key, row[0], row[1], footprint.joints.size(),
+          "{} points: got [{:g}, {:g}], which is no joint{}, expected one of the footprint's {}{}",
+          key, row[0], row[1], footprint.end_points.empty() ? "" : " or free end",
+          footprint.joints.size(),
           footprint.joints.empty()
               ? ""
               : fmt::format(", as [{}, {}]", footprint.joints[0].i, footprint.joints[0].j));
@@ -266,8 +283,9 @@ Result<std::vector<LoadCase>> load_cases_of(const preset::Preset& preset,
     const auto key = fmt::format("[[loads.case]] {}", k + 1);
     TRY(forces, points_of(one.points, key, footprint));
     cases.push_back({one.name, one.dead, 1e-6 * one.snow * loads.snow_N_m2,
-                     1e-6 * one.wind * loads.wind_N_m2, loads.wind_deg * M_PI / 180,
-                     side_of(one.snow_side), 1e-3 * one.edge * loads.edge_N_m, loads.edge_direction,
+                     1e-6 * one.wind * loads.wind_N_m2,
+                     one.wind_deg.value_or(loads.wind_deg) * M_PI / 180, side_of(one.snow_side),
+                     1e-3 * one.edge * loads.edge_N_m, loads.edge_direction,
                      1e-6 * one.pressure * loads.pressure_N_m2, std::move(*forces)});
     TRY_DO(check_pressure(cases.back(), key, footprint));
   }

@@ -59,7 +59,8 @@ struct LoadCase {
 std::vector<NodeAction> forces_of(const LoadCase& load, const Footprint& footprint,
                                   const Eigen::Matrix3Xd& nodes);
 
-/// Rows of `key` as forces on joints. Errors (bad_input): a joint that is not there.
+/// Rows of `key` as forces on joints and on free ends of a network, which are named as its joints.
+/// Errors (bad_input): a joint that is not there.
 Result<std::vector<PointLoad>> points_of(const preset::Points& rows, const std::string& key,
                                          const Footprint& footprint);
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "engine/core/result.h"
-#include "engine/core/team.h"
 #include "engine/elastic/shell_rods.h"
 #include "engine/footprint/actuation.h"
 #include "engine/footprint/assemblage.h"
@@ -17,10 +16,6 @@
 #include "engine/preset/preset.h"
 #include "engine/scene/load_case.h"
 #include "engine/scene/mesh_net.h"
-
-namespace gridshell::simulate {
-class KeptSegments;
-}
 
 namespace gridshell {
 
@@ -71,9 +66,6 @@ struct Scene {
   SnapDynamics snap;
   std::vector<LoadCase> load_cases;
   double load_imperfection_mm = 0;  ///< size of the imperfection in a load study
-  std::shared_ptr<Team> team;       ///< threads for large shells, if a single path is followed
-  /// Saved segments of the path, for a run that continues from them (simulate/kept_segments.h).
-  std::shared_ptr<simulate::KeptSegments> kept;
 
   /// The rod model of the mechanics, if there is one.
   RodModel solved_model() const {

@@ -160,9 +160,9 @@ std::string at_progress(double t, std::optional<double> error) {
 
 Result<EquilibriumPath> follow_actuation(const std::shared_ptr<const Scene>& scene,
                                          const LevelPlan& plan, bool inner, double to,
-                                         const Watch& watch) {
+                                         const Watch& watch, const RunContext& context) {
   const double started = seconds_now();
-  TRY(simulation, Simulation::open(scene, plan));
+  TRY(simulation, Simulation::open(scene, plan, context));
   EquilibriumPath path{std::move(*simulation)};
   path.seconds_setup = seconds_now() - started;
   const auto certified = [](const Result<Report>& first, const char* which) -> Result<void> {
@@ -196,8 +196,8 @@ Result<EquilibriumPath> follow_actuation(const std::shared_ptr<const Scene>& sce
 
 Result<EquilibriumPath> follow_whole_actuation(const std::shared_ptr<const Scene>& scene,
                                                const LevelPlan& plan, std::string_view wanted_for,
-                                               const Watch& watch) {
-  auto actuated = follow_actuation(scene, plan, false, 1, watch);
+                                               const Watch& watch, const RunContext& context) {
+  auto actuated = follow_actuation(scene, plan, false, 1, watch, context);
   if (actuated && actuated->too_coarse()) return actuated;
   if (actuated && actuated->limit != record::Limit::none && actuated->limit != record::Limit::snap)
     return fail(Fault::no_equilibrium, "there is no actuated shell {}: {}{}", wanted_for,
@@ -210,12 +210,12 @@ Result<EquilibriumPath> follow_whole_actuation(const std::shared_ptr<const Scene
 
 Result<EquilibriumPath> run_actuation(std::shared_ptr<const Scene> scene,
                                       const std::vector<double>& progress, record::Sink& sink,
-                                      Watch& watch) {
+                                      Watch& watch, const RunContext& context) {
   const bool inner = std::ranges::any_of(progress, [](double p) { return p > 0 && p < 1; });
   auto path = converged_path(
       *scene,
       [&](const LevelPlan& plan, const Watch& w) {
-        return follow_actuation(scene, plan, inner, progress.back(), w);
+        return follow_actuation(scene, plan, inner, progress.back(), w, context);
       },
       watch);
   if (!path) return path;

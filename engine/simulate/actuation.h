@@ -23,20 +23,20 @@ std::string at_progress(double t, std::optional<double> error);
 /// requested. Errors: bad_input, no_equilibrium (no buckled state), cancelled.
 Result<EquilibriumPath> follow_actuation(const std::shared_ptr<const Scene>& scene,
                                          const LevelPlan& plan, bool inner, double to,
-                                         const Watch& watch);
+                                         const Watch& watch, const RunContext& context = {});
 
 /// Follows the actuation to progress 1 for a later task. An actuation that ends earlier is an
 /// error, no_equilibrium, "there is no actuated shell `wanted_for`: ..."; one whose mesh is
 /// too_coarse() is returned as far as it was followed.
 Result<EquilibriumPath> follow_whole_actuation(const std::shared_ptr<const Scene>& scene,
                                                const LevelPlan& plan, std::string_view wanted_for,
-                                               const Watch& watch);
+                                               const Watch& watch, const RunContext& context = {});
 
 /// Hands frames at `progress` (ascending, in [0, 1]; 0 is the flat footprint) to the sink. Where
 /// the path ends before a sample, the path's limit says why. Errors: as follow_actuation(), and
 /// the sink's.
 Result<EquilibriumPath> run_actuation(std::shared_ptr<const Scene> scene,
                                       const std::vector<double>& progress, record::Sink& sink,
-                                      Watch& watch);
+                                      Watch& watch, const RunContext& context = {});
 
 }  // namespace gridshell::simulate

@@ -18,6 +18,16 @@ const LoadStep& load_step_after(const PathSegment& segment, double t) {
   return segment.load_steps.back();
 }
 
+/// Whether no event lies between consecutive load steps, whatever their stability.
+bool on_one_branch(const PathSegment& segment, const LoadStep& a, const LoadStep& b) {
+  const double way = segment.sign(), from = way * a.point.t, to = way * b.point.t;
+  return from < to && std::ranges::none_of(segment.report.events, [&](const Event& event) {
+           const double lost = event.placed.t;
+           const auto [begin, end] = std::minmax({way * lost, way * event.to.value_or(lost)});
+           return begin < to && end > from;
+         });
+}
+
 }  // namespace
 
 bool at_event(const PathSegment& segment, double t) {
@@ -56,13 +66,7 @@ bool EquilibriumPath::too_coarse() const {
 }
 
 bool goes_on_between(const PathSegment& segment, const LoadStep& a, const LoadStep& b) {
-  const double way = segment.sign(), from = way * a.point.t, to = way * b.point.t;
-  if (!(from < to) || !a.certificate.stable() || !b.certificate.stable()) return false;
-  return std::ranges::none_of(segment.report.events, [&](const Event& event) {
-    const double lost = event.placed.t;
-    const auto [begin, end] = std::minmax({way * lost, way * event.to.value_or(lost)});
-    return begin < to && end > from;
-  });
+  return a.certificate.stable() && b.certificate.stable() && on_one_branch(segment, a, b);
 }
 
 bool all_stable(const PathSegment& segment) {
@@ -101,12 +105,13 @@ CertifiedSample certify_sample(EquilibriumPath& path, const PathSample& sample,
     return report.end == Outcome::reached || watch.cancelled();
   };
   const LoadStep &before = load_step_before(segment, t), &after = load_step_after(segment, t);
-  const bool goes_on = goes_on_between(segment, before, after);
-  Report report = path.simulation.sample(t, before, false, watch,
-                                         goes_on && t != before.point.t ? &after : nullptr);
+  const bool goes_on = on_one_branch(segment, before, after);
+  // between two states of one branch it is that branch's, stable or not
+  const bool inside = goes_on && t != before.point.t;
+  Report report = path.simulation.sample(t, before, inside, watch, inside ? &after : nullptr);
   if (done(report)) return {report, t};
   // a branch was left in between: it may be a state of the next one
-  report = from(after, false);
+  if (&after != &before) report = from(after, false);
   if (done(report)) return {report, after.point.t};
   // or, where the next state does not extend back so far, the equilibrium to which the shell
   // snapped; not on a branch that continues between the two

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <cmath>
+#include <utility>
 
 #include "engine/core/try.h"
 #include "engine/preset/preset.h"
@@ -90,7 +91,7 @@ Result<exports::FabricationPlan> fabrication_plan_of(const preset::Preset& prese
   work.in_space = scene->drawn_in_space;
   work.original_radius_mm = scene->radius_begin_mm;
   work.actuated_radius_mm = scene->radius_end_mm;
-  return work;
+  return exports::spliced(std::move(work), preset.figure.stock_mm);
 }
 
 }  // namespace gridshell::simulate

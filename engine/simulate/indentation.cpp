@@ -112,8 +112,8 @@ void set_push_limit(HeldShell& pushed, const Watch& watch) {
 
 Result<HeldShell> follow_push(const std::shared_ptr<const Scene>& scene,
                               const preset::Indentation& requested, const LevelPlan& plan,
-                              const Watch& watch) {
-  auto pushed = hold_to_push(scene, requested, plan, watch);
+                              const Watch& watch, const RunContext& context) {
+  auto pushed = hold_to_push(scene, requested, plan, watch, context);
   if (pushed && pushed->too_coarse()) return pushed;
   for (double to : requested.unload ? std::vector<double>{1, 0} : std::vector<double>{1}) {
     if (!pushed) break;
@@ -235,8 +235,8 @@ Result<PushOf> push_of(const preset::Indentation& requested, const Scene& scene,
 
 Result<HeldShell> hold_to_push(const std::shared_ptr<const Scene>& scene,
                                const preset::Indentation& requested, const LevelPlan& plan,
-                               const Watch& watch) {
-  TRY(actuated, follow_whole_actuation(scene, plan, "to push", watch));
+                               const Watch& watch, const RunContext& context) {
+  TRY(actuated, follow_whole_actuation(scene, plan, "to push", watch, context));
   if (actuated->too_coarse()) return HeldShell{std::move(*actuated), {}, {}};
   Simulation& simulation = actuated->simulation;
   TRY(push, push_of(requested, *scene, simulation.shell()));
@@ -256,11 +256,12 @@ Result<HeldShell> hold_to_push(const std::shared_ptr<const Scene>& scene,
 Result<EquilibriumPath> run_indentation(std::shared_ptr<const Scene> scene,
                                         const preset::Indentation& indentation,
                                         const std::vector<double>& progress, bool own_steps,
-                                        record::Sink& sink, Watch& watch) {
+                                        record::Sink& sink, Watch& watch,
+                                        const RunContext& context) {
   auto kept = converged_path(
       *scene,
       [&](const LevelPlan& plan, const Watch& w) {
-        return follow_push(scene, indentation, plan, w);
+        return follow_push(scene, indentation, plan, w, context);
       },
       watch);
   if (!kept) return tl::unexpected<Error>(kept.error());

@@ -43,7 +43,7 @@ struct HeldShell : EquilibriumPath {
 /// no_equilibrium (no shell to push, or none with the constraint), cancelled.
 Result<HeldShell> hold_to_push(const std::shared_ptr<const Scene>& scene,
                                const preset::Indentation& indentation, const LevelPlan& plan,
-                               const Watch& watch);
+                               const Watch& watch, const RunContext& context = {});
 
 /// Actuates, then pushes. Frames sample the push at `progress` in [0, 1] (fraction of the depth;
 /// with `unload` of loading and unloading); the first is the unloaded shell. The solver chooses its
@@ -53,6 +53,7 @@ Result<HeldShell> hold_to_push(const std::shared_ptr<const Scene>& scene,
 Result<EquilibriumPath> run_indentation(std::shared_ptr<const Scene> scene,
                                         const preset::Indentation& indentation,
                                         const std::vector<double>& progress, bool own_steps,
-                                        record::Sink& sink, Watch& watch);
+                                        record::Sink& sink, Watch& watch,
+                                        const RunContext& context);
 
 }  // namespace gridshell::simulate

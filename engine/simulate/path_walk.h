@@ -76,7 +76,7 @@ class Simulation::Walk {
   std::optional<double> unmeasured_since_;  // path parameter: no companion has a state since
   std::optional<TimedState> companion_;     // its last state on this branch; time: path parameter
   // of a saved segment, as it was after the last step
-  simulate::KeptSegments* kept_ = record_ ? scene_.kept.get() : nullptr;
+  simulate::KeptSegments* kept_ = record_ ? of_.context_.segments.get() : nullptr;
   simulate::KeptSegment segment_;
   Effort effort_before_;
 };

@@ -258,15 +258,17 @@ Result<void> check_opening(const preset::Preset& preset, const Scene& scene) {
 /// Follows and samples the experiment of a preset; for steps with a report of each.
 Result<EquilibriumPath> path_for(const preset::Preset& preset,
                                  const std::shared_ptr<const Scene>& scene, bool stills,
-                                 std::vector<std::string>& reported, LastFrame& sink,
-                                 Watch& watch) {
+                                 std::vector<std::string>& reported, LastFrame& sink, Watch& watch,
+                                 const RunContext& context) {
   // for a push all frames of a movie, or enough for its force curve
   const auto samples = evenly(stills ? 61 : std::max(2, preset.movie.frames));
   if (preset.indentation.requested())
-    return run_indentation(scene, preset.indentation, samples, stills, sink, watch);
-  if (preset.step.empty()) return run_actuation(scene, samples_of(preset, stills), sink, watch);
+    return run_indentation(scene, preset.indentation, samples, stills, sink, watch, context);
+  if (preset.step.empty())
+    return run_actuation(scene, samples_of(preset, stills), sink, watch, context);
   // stills show each step's end
-  TRY(stepped, run_steps(scene, preset.step, stills ? 1 : preset.movie.frames, sink, watch));
+  TRY(stepped,
+      run_steps(scene, preset.step, stills ? 1 : preset.movie.frames, sink, watch, context));
   reported = std::move(stepped->messages);
   return std::move(stepped->path);
 }
@@ -340,11 +342,12 @@ Result<Plan> plan(const preset::Preset& preset) {
 
 Result<EquilibriumPath> follow(const preset::Preset& preset,
                                const std::shared_ptr<const Scene>& scene, bool stills,
-                               record::Sink& frames, Watch& watch, record::Summary& summary) {
+                               record::Sink& frames, Watch& watch, record::Summary& summary,
+                               const RunContext& context) {
   const double begin = seconds_now();
   LastFrame sink(frames, watch);
   std::vector<std::string> reported;
-  auto path = path_for(preset, scene, stills, reported, sink, watch);
+  auto path = path_for(preset, scene, stills, reported, sink, watch, context);
   if (watch.cancelled()) return stopped();
   if (!path) return tl::unexpected<Error>(path.error());
   if (!sink.frame())
@@ -370,10 +373,11 @@ Result<record::Summary> run(const preset::Preset& preset, bool stills, record::S
 }
 
 Result<record::Summary> run(const preset::Preset& preset, const std::shared_ptr<const Scene>& scene,
-                            bool stills, record::Sink& sink, Watch& watch) {
+                            bool stills, record::Sink& sink, Watch& watch,
+                            const RunContext& context) {
   record::Summary summary;
   if (scene->rod_model != RodModel::net) {
-    TRY_DO(follow(preset, scene, stills, sink, watch, summary));
+    TRY_DO(follow(preset, scene, stills, sink, watch, summary, context));
     return summary;
   }
   LastFrame seen(sink, watch);

@@ -56,19 +56,22 @@ Result<record::Summary> run(const preset::Preset& preset, bool stills, record::S
 
 /// Runs a preset on its scene with changed meshes or load steps.
 Result<record::Summary> run(const preset::Preset& preset, const std::shared_ptr<const Scene>& scene,
-                            bool stills, record::Sink& sink, Watch& watch);
+                            bool stills, record::Sink& sink, Watch& watch,
+                            const RunContext& context = {});
 
 /// Follows the path of a scene and returns it; its simulation is in the state of the last frame.
 Result<EquilibriumPath> follow(const preset::Preset& preset,
                                const std::shared_ptr<const Scene>& scene, bool stills,
-                               record::Sink& frames, Watch& watch, record::Summary& summary);
+                               record::Sink& frames, Watch& watch, record::Summary& summary,
+                               const RunContext& context = {});
 
 /// Runs a preset and stores all frames in memory.
 Result<ExperimentResult> run(const preset::Preset& preset, bool stills, Watch& watch);
 
 // Fabrication plan of a preset.
 
-/// The rods, marks, boundaries and pins of a preset's footprint. Errors: bad_input, as scene_of().
+/// The rods, marks, splices, boundaries and pins of a preset's footprint. Errors: bad_input, as
+/// scene_of() and spliced().
 Result<exports::FabricationPlan> fabrication_plan_of(const preset::Preset& preset);
 
 }  // namespace gridshell::simulate

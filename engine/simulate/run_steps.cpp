@@ -61,16 +61,17 @@ void close(PathSegment& segment, const Simulation& simulation) {
 /// that close into a bundle, or if it prescribes the mean angle; `reported` then says so.
 Result<EquilibriumPath> begin(const std::shared_ptr<const Scene>& scene,
                               const std::vector<preset::Step>& steps, const LevelPlan& plan,
-                              const Watch& watch, std::string& reported) {
+                              const Watch& watch, const RunContext& context,
+                              std::string& reported) {
   const bool opens = opens_as_drawn(steps, *scene);
   const bool mean = opens && steps.front().drive == preset::JointDrive::mean;
   Result<EquilibriumPath> loose = fail(Fault::no_equilibrium, "");
-  if (!mean) loose = follow_whole_actuation(scene, plan, "to begin with", watch);
+  if (!mean) loose = follow_whole_actuation(scene, plan, "to begin with", watch, context);
   if (loose || !opens || watch.cancelled()) return loose;
   TRY(bolts, bolts_as_drawn(steps.front(), scene->footprint));
   auto bolted = std::make_shared<Scene>(*scene);
   bolted->rods.bolts = std::make_shared<const Bolts>(std::move(*bolts));
-  auto begun = follow_whole_actuation(bolted, plan, "to begin with", watch);
+  auto begun = follow_whole_actuation(bolted, plan, "to begin with", watch, context);
   if (mean) return begun;
   if (!begun)
     return fail(begun.error().fault, "{}; with the joints' springs as drawn {}",
@@ -82,9 +83,9 @@ Result<EquilibriumPath> begin(const std::shared_ptr<const Scene>& scene,
 
 Result<Work> do_steps(const std::shared_ptr<const Scene>& scene,
                       const std::vector<preset::Step>& steps, const LevelPlan& plan,
-                      const Watch& watch) {
+                      const Watch& watch, const RunContext& context) {
   std::string reported;
-  TRY(actuated, begin(scene, steps, plan, watch, reported));
+  TRY(actuated, begin(scene, steps, plan, watch, context, reported));
   Checkpoint begin = actuated->simulation.save();
   Work work{std::move(*actuated), std::move(begin)};
   if (work.too_coarse()) return work;
@@ -317,10 +318,12 @@ std::vector<int> frames_of_steps(const std::vector<preset::Step>& steps, int fra
 
 Result<StepsResult> run_steps(const std::shared_ptr<const Scene>& scene,
                               const std::vector<preset::Step>& steps, int frames,
-                              record::Sink& sink, Watch& watch) {
+                              record::Sink& sink, Watch& watch, const RunContext& context) {
   auto work = converged_path(
       *scene,
-      [&](const LevelPlan& plan, const Watch& w) { return do_steps(scene, steps, plan, w); },
+      [&](const LevelPlan& plan, const Watch& w) {
+        return do_steps(scene, steps, plan, w, context);
+      },
       watch);
   if (!work) return tl::unexpected<Error>(work.error());
   name_step_of_limit(*work, steps);

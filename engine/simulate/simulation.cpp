@@ -17,27 +17,29 @@ namespace {
 
 constexpr double stiffness_growth = 100;  // at which the rods are at their length
 
-PathOptions options_for(const Scene& scene) {
+PathOptions options_for(const Scene& scene, Team* team) {
   PathOptions options;
   options.spacing_mm = scene.footprint.spacing;
   // far below what the meshes leave, so that it does not show in the differences between them
   options.tolerance_mm = std::clamp(1e-3 * scene.tolerance * scene.length_scale_mm, 1e-7, 1e-4);
   // rods that press on one another are stiff: a distance so much off would show in their forces
   if (scene.rods.contact.barrier.acts()) options.tolerance_mm = 1e-7;
-  options.team = scene.team.get();
+  options.team = team;
   return options;
 }
 
 }  // namespace
 
-Simulation::Simulation(std::shared_ptr<const Scene> scene) : scene_(std::move(scene)) {}
+Simulation::Simulation(std::shared_ptr<const Scene> scene, RunContext context)
+    : scene_(std::move(scene)), context_(std::move(context)) {}
 
 record::Contacts Simulation::contacts() const { return search_->in(nodes()); }
 
 std::optional<Event> Simulation::beyond_limits() const { return beyond(limits()); }
 
-Result<Simulation> Simulation::open(std::shared_ptr<const Scene> scene, const LevelPlan& plan) {
-  Simulation simulation(std::move(scene));
+Result<Simulation> Simulation::open(std::shared_ptr<const Scene> scene, const LevelPlan& plan,
+                                    const RunContext& context) {
+  Simulation simulation(std::move(scene), context);
   simulation.set_progress(0);
   TRY(shell, simulation.build(plan));
   simulation.use(std::move(*shell));
@@ -49,7 +51,7 @@ Result<std::shared_ptr<NestedShell>> Simulation::build(const LevelPlan& plan) {
   for (const auto& built : built_)
     if (built->plan() == plan) return built;
   TRY(shell, NestedShell::make(scene_->footprint, rods(), scene_->solved_model(), scene_->motion,
-                               plan, options_for(*scene_)));
+                               plan, options_for(*scene_, context_.team.get())));
   return built_.emplace_back(std::make_shared<NestedShell>(std::move(*shell)));
 }
 
@@ -257,7 +259,7 @@ Result<Outcome> Simulation::replace_meshes(const LevelPlan& plan, bool nearby, c
   State state = shell_->stay(*before, holds_);
   if (actuating_) shell_->actuate(t, holds_, load_scale_);
   if (nearby) {
-    shell_->motion().apply_loads(shell_->system(), t);
+    shell_->motion().impose(shell_->system(), t, state);
     if (auto rest =
             find_equilibrium(shell_->system(), state, 0.5 * scene_->footprint.spacing, watch))
       state = std::move(*rest);

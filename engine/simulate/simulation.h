@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/core/outcome.h"
+#include "engine/core/team.h"
 #include "engine/record/contacts.h"
 #include "engine/record/frame.h"
 #include "engine/scene/scene.h"
@@ -173,13 +174,25 @@ inline constexpr double nearest_mm = 1e-9;
 /// Whether a pushed joint may move perpendicular to the push.
 enum class Across { free, held };
 
+namespace simulate {
+class KeptSegments;
+}
+
+/// Services of a run, which change no result.
+struct RunContext {
+  std::shared_ptr<Team> team;  ///< threads for large shells; null: one thread
+  /// Saved segments of the path, from which the run continues; null: none (kept_segments.h).
+  std::shared_ptr<simulate::KeptSegments> segments;
+};
+
 /// A simulation of one scene. It is not thread-safe. A watch may be cancelled from any thread; the
 /// simulation then returns within one factorisation. Every call ends: load steps are halved at most
 /// five times, a path switches branches at most eight times, Newton iterations are counted.
 class Simulation {
  public:
   /// Builds meshes, model and solver. Errors (bad_input): rods that the rod model does not support.
-  static Result<Simulation> open(std::shared_ptr<const Scene> scene, const LevelPlan& plan);
+  static Result<Simulation> open(std::shared_ptr<const Scene> scene, const LevelPlan& plan,
+                                 const RunContext& context = {});
 
   // ---- begin ----
 
@@ -295,7 +308,7 @@ class Simulation {
   std::vector<CaseOnShell> cases;
 
  private:
-  Simulation(std::shared_ptr<const Scene> scene);
+  Simulation(std::shared_ptr<const Scene> scene, RunContext context);
   Result<std::shared_ptr<NestedShell>> build(const LevelPlan& plan);
   void use(std::shared_ptr<NestedShell> shell);
   struct CallBegin {
@@ -306,6 +319,7 @@ class Simulation {
   Report report(Outcome end, double t, const CallBegin& begin) const;
   Report drive(const PrescribedMove& drive, std::vector<NodeAction> field, const Watch& watch,
                PathRecord* record = nullptr);
+  Outcome start_here(double t, const Checkpoint& before, const Watch& watch);
   void apply_field(std::vector<NodeAction> field);
   void set_progress(double progress);
   double load_step() const;
@@ -325,6 +339,7 @@ class Simulation {
   class Walk;
 
   std::shared_ptr<const Scene> scene_;
+  RunContext context_;
   std::optional<ShellRods> rods_;  // replace the rods of the scene
   std::shared_ptr<NestedShell> shell_;
   /// The meshes built for rods(), by edges per segment. A drag alternates between two of them.

@@ -33,6 +33,14 @@ void Simulation::apply_field(std::vector<NodeAction> field) {
   shell_->set_fields(field_, {});
 }
 
+/// Certifies the current state as the start of a motion that was just prescribed; else everything
+/// is as it was `before`.
+Outcome Simulation::start_here(double t, const Checkpoint& before, const Watch& watch) {
+  const Outcome end = shell_->start(t, shell_->state().levels.back(), watch).end;
+  if (end != Outcome::reached) restore(before);
+  return end;
+}
+
 /// Drives the shell from the current state, to the end if possible.
 Report Simulation::drive(const PrescribedMove& drive, std::vector<NodeAction> coming,
                          const Watch& watch, PathRecord* record) {
@@ -44,11 +52,8 @@ Report Simulation::drive(const PrescribedMove& drive, std::vector<NodeAction> co
   holds_ = held;
   actuating_ = false;
   first_stiffness_ = 0;
-  const NestedReport started = shell_->start(0, shell_->state().levels.back(), watch);
-  if (started.end != Outcome::reached) {
-    restore(before);
-    return report(started.end, 0, begin);
-  }
+  const Outcome started = start_here(0, before, watch);
+  if (started != Outcome::reached) return report(started, 0, begin);
   Report done = go(1, watch, {}, record);
   std::vector<NodeAction> field = field_;
   const auto come = times(std::move(coming), drive.field.begin + done.t * drive.field.change);
@@ -65,11 +70,8 @@ Report Simulation::move_to(double progress, const Watch& watch, PathRecord* reco
     const Checkpoint before = save();
     shell_->actuate(now, holds_, load_scale_);
     actuating_ = true;
-    const NestedReport started = shell_->start(now, shell_->state().levels.back(), watch);
-    if (started.end != Outcome::reached) {
-      restore(before);
-      return report(started.end, now, call_begin());
-    }
+    const Outcome started = start_here(now, before, watch);
+    if (started != Outcome::reached) return report(started, now, call_begin());
   }
   return go(t, watch, {}, record);
 }

@@ -60,7 +60,7 @@ struct StepsResult {
 /// initial shell), cancelled, those of the sink.
 Result<StepsResult> run_steps(const std::shared_ptr<const Scene>& scene,
                               const std::vector<preset::Step>& steps, int frames,
-                              record::Sink& sink, Watch& watch);
+                              record::Sink& sink, Watch& watch, const RunContext& context = {});
 
 // Stiffening and loading of a formed shell: bolts, braces, load cases.
 

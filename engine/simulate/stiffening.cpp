@@ -26,9 +26,32 @@ double stiffness_of(const preset::Step& step) {
   return step.stiffness_Nmm > 0 ? step.stiffness_Nmm : std::numeric_limits<double>::infinity();
 }
 
+/// Vectors of the current shape that bolts and braces fix, from those of each mesh. A shape of one
+/// mesh would put that mesh's error into the problem that all meshes solve, where no difference
+/// between them shows it: these are extrapolated.
+template <typename OfLevel>
+Eigen::Matrix3Xd fixed_vectors(const NestedShell& shell, const OfLevel& of_level) {
+  std::vector<Eigen::Matrix3Xd> levels;
+  for (int level = shell.first_of_last_three(); level < shell.levels(); ++level)
+    levels.push_back(of_level(level));
+  return certify_vectors(levels, levels.size() > 1, false).value;
+}
+
 Bolts now_tightened(const Simulation& simulation, double stiffness) {
   const NestedShell& shell = simulation.shell();
-  return tightened(shell.finest(), shell.model(), shell.state().levels.back(), stiffness);
+  Bolts bolts;
+  const Eigen::Matrix3Xd tangents = fixed_vectors(shell, [&](int level) {
+    // the finest is the last
+    bolts = tightened(shell.mesh(level), shell.model(level),
+                      shell.state().levels[std::size_t(level)], stiffness);
+    std::vector<Eigen::Vector3d> all;
+    for (const auto& rods : bolts.rods) all.insert(all.end(), rods.begin(), rods.end());
+    return Eigen::Matrix3Xd(Eigen::Map<const Eigen::Matrix3Xd>(all.data()->data(), 3, all.size()));
+  });
+  Eigen::Index column = 0;
+  for (auto& rods : bolts.rods)
+    for (Eigen::Vector3d& tangent : rods) tangent = tangents.col(column++).normalized();
+  return bolts;
 }
 
 /// How far each joint is to open so that its bolt, of `now`, has no torque at the step's angle,
@@ -143,8 +166,10 @@ std::string text_of_opened(const Simulation& simulation) {
 Result<Report> brace(Simulation& simulation, const preset::Step& step, const Watch& watch) {
   TRY_DO(check_formed(simulation));
   ShellRods rods = simulation.rods();
-  // the finest mesh's own shape, which is free of stress then
-  const Eigen::Matrix3Xd& at = simulation.shell().state().levels.back().x;
+  const NestedShell& shell = simulation.shell();
+  const Eigen::Matrix3Xd at = fixed_vectors(shell, [&](int level) -> Eigen::Matrix3Xd {
+    return shell.state().levels[std::size_t(level)].x.leftCols(shell.finest().joints);
+  });
   for (const FootprintCell& cell : simulation.scene().footprint.cells) {
     const bool chosen = std::ranges::any_of(
         step.cells, [&](const auto& row) { return row[0] == cell.i && row[1] == cell.j; });

@@ -82,6 +82,9 @@ State NestedShell::stay(const NestedShell& other, const std::vector<Constraint>&
                      Eigen::Matrix3Xd::Zero(3, state.x.cols()),
                      PathLaw::even,
                      {theirs.system->outside.load, 0}};
+    // a prescribed joint stays where it is shown: on one mesh it is off by that mesh's error
+    for (const Constraint& hold : holds)
+      level->motion.begin.col(hold.node) = other.state_.x.col(hold.node);
     level->system->hold(holds);
     fine = std::move(state);
   }

@@ -11,7 +11,7 @@
 namespace gridshell {
 namespace {
 
-/// Whether the boundary keeps what holds a rod, its hinges and prescribed directions, on one line.
+/// Whether the boundary keeps what fixes a rod, its hinges and prescribed directions, on one line.
 bool stays_on_line(const Footprint& footprint, std::size_t r, const std::vector<int>& hinges,
                    const BoundaryMotion& motion) {
   constexpr double on_line = 1e-9;  // of the line's length; sine of a direction's angle

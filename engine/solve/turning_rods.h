@@ -13,7 +13,7 @@
 
 namespace gridshell {
 
-/// A rod that turns, and the joints at which others or the boundary hold it.
+/// A rod that turns, and the joints at which others or the boundary fix it.
 struct TurningRod {
   std::size_t rod = 0;
   std::vector<int> hinges;

@@ -188,8 +188,13 @@ class Weaver {
     const float radius = radius_of(drawing_.joint_diameter_mm, mm_per_sample_);
     const Eigen::Vector4f colour = opaque(drawing_.joint_colour);
     const auto& [joints, above] = std::tie(drawing_.layout->joints, drawing_.layout->above);
+    // a point of one rod alone, as networks have, joins nothing
+    std::map<int, int> rods_at;
+    for (const auto& rod : drawing_.layout->rods)
+      for (const int node : std::set(rod.begin(), rod.end())) ++rods_at[node];
     for (std::size_t k = 0; k < joints.size(); ++k) {
       const int joint = joints[k].node;
+      if (above.empty() && rods_at[joint] < 2) continue;
       const float length = normals[joint].norm();
       const Eigen::Vector3f axis =
           length > 1e-6f ? Eigen::Vector3f(normals[joint] / length) : Eigen::Vector3f::UnitZ();

@@ -97,13 +97,18 @@ std::string marks_of(const CutRod& rod) {
   std::string marks;
   for (const double mark : rod.joint_marks_mm)
     marks += fmt::format("{}{:.1f}", marks.empty() ? "" : "  ", mark);
+  for (const double splice : rod.splices_mm)
+    marks +=
+        fmt::format("{}{:.1f}", splice == rod.splices_mm.front() ? "; splice at " : "  ", splice);
   return marks;
 }
 
 /// The rod as it is marked from its other end.
 CutRod turned(CutRod rod) {
-  std::ranges::reverse(rod.joint_marks_mm);
-  for (double& mark : rod.joint_marks_mm) mark = rod.length_mm - mark;
+  for (auto* marks : {&rod.joint_marks_mm, &rod.splices_mm}) {
+    std::ranges::reverse(*marks);
+    for (double& mark : *marks) mark = rod.length_mm - mark;
+  }
   return rod;
 }
 
@@ -151,11 +156,16 @@ std::vector<std::string> steps(const FabricationPlan& work) {
   const double extent =
       (work.original_boundary.rowwise().maxCoeff() - work.original_boundary.rowwise().minCoeff())
           .maxCoeff();
+  const auto spliced =
+      std::ranges::count_if(work.rods, [](const CutRod& rod) { return !rod.splices_mm.empty(); });
   const char* bolt = work.width_mm > 0 ? "bolt" : "tie";
   std::vector<std::string> list{
-      fmt::format("Cut {} {}, {:.2f} m in all, to the lengths of the cut list; write its name on "
+      fmt::format("Cut {} {}, {:.2f} m in all, to the lengths of the cut list{}; write its name on "
                   "each.",
-                  work.rods.size(), work.section_text(), 1e-3 * work.total_length_mm()),
+                  work.rods.size(), work.section_text(), 1e-3 * work.total_length_mm(),
+                  spliced > 0
+                      ? fmt::format(", {} of them of pieces that meet at its splices", spliced)
+                      : std::string()),
       "Mark the joints on each rod at the distances of the cut list, measured from its start: the "
       "left of a u-rod, the lower end of a v-rod.",
       fmt::format("{}, lay the u-rods on it, the v-rods over them, and {} them at all {} crossings "

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <iterator>
 
 #include "engine/record/contacts.h"
 #include "render/canvas/text.h"
@@ -201,17 +201,14 @@ void put_contacts(const record::Layout& layout, const record::Frame& frame, doub
     drawing.marks.push_back({contact.at, std::max(4.0, 5 * thin_mm), contact_ink});
 }
 
-void put_supports(const record::Layout& layout, const record::Frame& frame, const Appearance& look,
-                  Drawing& drawing) {
+void put_supports(const record::Layout& layout, const record::Frame& frame,
+                  const std::set<int>& supported, const Appearance& look, Drawing& drawing) {
   const double size = 1.3 * drawing.joint_diameter_mm;
   // those with a reaction, as ends may be free; in a flat grid without any all that the ring
   // constrains
   const std::set<int> ends(layout.edge_points.begin(), layout.edge_points.end());
   std::set<int> held;
-  if (frame.reactions_N.cols() == Eigen::Index(layout.supports.size()))
-    for (std::size_t k = 0; k < layout.supports.size(); ++k)
-      if (ends.contains(layout.supports[k]) && !frame.reactions_N.col(Eigen::Index(k)).isZero(0))
-        held.insert(layout.supports[k]);
+  std::ranges::set_intersection(ends, supported, std::inserter(held, held.end()));
   if (held.empty() && look.rings) held = ends;
   for (const int node : held)
     drawing.marks.push_back({frame.nodes.col(node), size, look.ring, false});

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -61,9 +62,10 @@ std::vector<std::string> state_captions(const record::Frame& frame);
 void put_contacts(const record::Layout& layout, const record::Frame& frame, double thin_mm,
                   Drawing& drawing);
 
-/// Balls at the supports, as in the holes of a plate; sleeves around the ends of clamped rods.
-void put_supports(const record::Layout& layout, const record::Frame& frame, const Appearance& look,
-                  Drawing& drawing);
+/// Balls at the ends that are supported, as in the holes of a plate; sleeves around the ends of
+/// clamped rods. `supported`: nodes with a reaction in some frame of the run.
+void put_supports(const record::Layout& layout, const record::Frame& frame,
+                  const std::set<int>& supported, const Appearance& look, Drawing& drawing);
 
 /// The frame's braces as bars.
 void put_braces(const record::Layout& layout, const record::Frame& frame, double thin_mm,

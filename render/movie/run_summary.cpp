@@ -219,6 +219,9 @@ void RunSummary::take(const record::Frame& frame) {
       if (joint.node < frame.nodes.cols())
         largest_move_mm = std::max(
             largest_move_mm, (frame.nodes.col(joint.node) - first.nodes.col(joint.node)).norm());
+  if (frame.reactions_N.cols() == Eigen::Index(layout_->supports.size()))
+    for (std::size_t k = 0; k < layout_->supports.size(); ++k)
+      if (!frame.reactions_N.col(Eigen::Index(k)).isZero(0)) supported.insert(layout_->supports[k]);
   if (const MarkKind kind = kind_of(frame); kind != MarkKind::other)
     marks.push_back({frames, kind});
   if (frame.contacts > 0) marks.push_back({frames, MarkKind::contact});

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "engine/core/result.h"
@@ -130,6 +131,7 @@ class RunSummary {
   Interval bins_change_rad;      ///< of these means, from the first frame
   double largest_move_mm = 0;    ///< of a joint, from where it was in the first frame
   std::vector<Mark> marks;       ///< in order
+  std::set<int> supported;       ///< nodes with a reaction in some frame: a flat grid has round-off
 
   /// The range of what is coloured (colour_by.cpp), but for displacements, whose depth the end
   /// alone knows.

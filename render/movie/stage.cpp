@@ -261,10 +261,13 @@ Drawing Stage::drawing(const record::Frame& frame) const {
     drawing.rings.push_back(
         {boundary_at(run_, frame.actuation), std::max(look.ring_mm, 1.6 * thin), look.ring});
   }
-  if (look.supports && drawing.joint_diameter_mm > 0) put_supports(run_, frame, look, drawing);
+  if (look.supports && drawing.joint_diameter_mm > 0)
+    put_supports(run_, frame, survey_.supported, look, drawing);
   if (look.ghost && changed(frame))
+    // behind what moved away from it, whose colours it would cover from above
     drawing.ghosts.push_back({survey_.first.nodes, thinned_rods(run_),
-                              0.8 * drawing.rod_diameter_mm, ghost_ink, 0.25 * run_.spacing_mm});
+                              0.8 * drawing.rod_diameter_mm, ghost_ink,
+                              std::max(0.25 * run_.spacing_mm, survey_.largest_move_mm)});
   for (const LoadArrow& arrow : load_arrows(run_, frame)) {
     drawing.arrows.push_back({arrow.from, arrow.to, std::max(1.6, 2.0 * thin), load_ink});
     drawing.marks.push_back({frame.nodes.col(arrow.node), std::max(5.0, 6 * thin), mark_ink});

@@ -112,6 +112,22 @@ TEST_CASE("movie draws a frame each, and render draws them again without simulat
                               "show it\n"));
 }
 
+TEST_CASE("a turntable is the last state of a run, seen once around") {
+  const Bench bench(small);
+  bench.good("run small.toml -o out/run");
+  const auto said = bench.good("movie out/run --turntable --frames 4 --size 160x120");
+  CHECK_THAT(said.out, Catch::StartsWith("out/run_turntable: 4 frames"));
+  const auto frames = files_under(bench.at / "out/run_turntable/frames", ".png");
+  REQUIRE(frames.size() == 4);
+  CHECK(text_of(frames[0]) != text_of(frames[2]));
+  check_refused("movie out/run", bench.at,
+                Contains("the folder of a run") && Contains("gridshell render out/run"));
+  // again into the same folder, which is one of ours, and not into the run
+  bench.good("movie out/run --turntable --frames 2 --size 160x120 --quiet");
+  check_refused("movie out/run --turntable -o out/run", bench.at, Contains("out/run"));
+  check_refused("movie out/run --turntable --frames 1", bench.at, Contains("expected 2 to"));
+}
+
 TEST_CASE("pictures do not depend on the number of threads", "[standard]") {
   const Bench bench(small);
   bench.good("movie small.toml -o one --threads 1 --quality figure");

@@ -66,6 +66,25 @@ TEST_CASE("a drag of the boundary of a large shell is coarse, a small shell's is
   }
 }
 
+TEST_CASE("rods that a circle has no room for are offered a circle that has") {
+  EditedShell shell;
+  preset::Preset more = shell.view().preset;
+  more.footprint.rods = 9;
+  CHECK(shell.attempt(Change{more}) != "");
+  REQUIRE(shell.view().offer);
+  // the longest leg and the ratio of the radii remain
+  const preset::Preset offer = *shell.view().offer;
+  CHECK(offer.footprint.radius_mm == Approx(66 + 3 * 10));
+  CHECK(offer.actuated_radius_mm() == Approx(96 * 54 / 66.0));
+  shell.act(Change{offer});
+  CHECK(shell.view().preset.footprint.rods == 9);
+  CHECK_FALSE(shell.view().offer);
+  more = offer;
+  more.rod.diameter_mm = 99;
+  CHECK(shell.attempt(Change{more}) != "");
+  CHECK_FALSE(shell.view().offer);
+}
+
 TEST_CASE("a drag of the boundary is refined at its end, and one step to undo") {
   EditedShell shell;
   const ShellView before = shell.view();
@@ -293,7 +312,7 @@ TEST_CASE(
   CHECK(shell.view().event.empty());
   shell.act(Move{1});
   CHECK(shell.view().stable());
-  CHECK(shell.view().event.find("stable again; not stable on the path at R_a = ") == 0);
+  CHECK(shell.view().event.find("stable again; not stable on the path at Rₐ = ") == 0);
   REQUIRE(unstable().size() == 1);
   shell.act(Undo{});
   CHECK_FALSE(shell.view().stable());

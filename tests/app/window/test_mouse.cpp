@@ -64,6 +64,20 @@ TEST_CASE("all points lie in the picture that was fitted to them") {
   }
 }
 
+TEST_CASE("a joint that the shell carries aside is pushed until it is under the cursor") {
+  const render::Camera camera;
+  const Eigen::Vector3d from(20, 10, 30), axis = Eigen::Vector3d(0.3, -0.2, 0.9).normalized();
+  // 4 mm along the push and 3 mm aside
+  const Eigen::Vector3d aside = axis.unitOrthogonal(), at = from + 4 * axis + 3 * aside;
+  const double deeper = 7;
+  const Eigen::Vector2d cursor = pixel(camera, from + deeper * axis + 3 * aside);
+  CHECK(pushed_under(camera, size, from, axis, at, cursor - pixel(camera, at)) ==
+        Approx(deeper).margin(0.05));
+  // seen along the push nothing is known
+  const Eigen::Vector3d ahead = render::camera_axes(camera).forward;
+  CHECK(pushed_under(camera, size, from, ahead, from + 4 * ahead, {5, 5}) == Approx(4));
+}
+
 TEST_CASE("a drag takes a point to where the mouse is") {
   render::Camera camera;
   const Eigen::Vector3d place(20, 10, 30);

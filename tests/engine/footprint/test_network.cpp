@@ -214,6 +214,7 @@ TEST_CASE("networks that do not make a shell are refused") {
   CHECK(network_footprint(rope));
   rope.springs[2] = {1, 0, 0};
   refused(rope, "at points on one line");
+  refused(rope, "{\"point\": 1, \"spring_N_per_mm\": [0, 0.001, 0]}");
   // a second piece, fixed on one line
   refused(network({{0, 0}, {9, 0}, {-9, 0}, {0, 9}, {0, -9}, {50, 0}, {60, 0}, {55, 0}, {55, 5}},
                   {{1, 0, 2}, {3, 0, 4}, {5, 7, 6}, {7, 8}}, {}, {8}),

@@ -49,6 +49,7 @@ TEST_CASE("columns are found by their names, wherever they are, and lengths in t
            "y_mm;x_mm\n0;-1,5\n-1;75,25\n2000;1\n",
            "X [cm],Y [m]\n-0.15,0\n7.525,-0.001\n0.1,2\n",
            "x (mm);note;y (mm)\n-1,5;a;0\n75,25;;-1\n1;b;2000\n",
+           "i,x,y,unknown\n1,-1.5,0,\n2,75.25,-1,\n3,1,2000,\n",
        })
     CHECK(read(text) == square);
   CHECK(read("F_z,j,i,Fx,Fy\n-1,2,3,4,5\n", {"i", "j", "F_x", "F_y", "F_z"}) ==

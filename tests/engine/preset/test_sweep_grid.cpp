@@ -42,6 +42,12 @@ footprint.rods = 10
   CHECK(grid.at(2).preset.actuation.radius_mm == 100);
 }
 
+TEST_CASE("points of a sweep need not have the stills of its base") {
+  const auto presets =
+      good("[figure]\nradii_mm = [126.0, 94.5]\n" + over("actuation.ratio = [0.9, 0.8]"));
+  CHECK(SweepGrid(presets).at(0).preset.actuated_radius_mm() == Approx(0.9 * 126));
+}
+
 TEST_CASE("searches for states perturb differently at every point, and equally when repeated") {
   const auto seeds_of = [](const std::string& text) {
     const auto presets = good(text);

@@ -98,6 +98,8 @@ Preset of_curve(CurveKind kind, double scale) {
   preset.footprint.kind = FootprintKind::curve;
   preset.actuation.start = Start::flat;
   preset.inverse = {};
+  // wind as [loads] has it, where others have their own
+  preset.load_case.front().wind_deg.reset();
   preset.footprint.boundary.kind = preset.actuation.boundary.kind = kind;
   preset.actuation.scale = scale;
   if (kind == CurveKind::file)

@@ -52,6 +52,18 @@ TEST_CASE("faces of a circle: its cells, and what lies between them and the boun
   CHECK(plan(faces, nodes) == Approx(polygon).epsilon(1e-12));
 }
 
+TEST_CASE("each load case has its own wind") {
+  preset::Preset p = circle(6, 66, 54);
+  p.loads.wind_N_m2 = 100;
+  p.loads.wind_deg = 30;
+  p.load_case.resize(2);
+  p.load_case[0].wind = p.load_case[1].wind = 1;
+  p.load_case[1].wind_deg = 90;
+  const auto cases = value_of(load_cases_of(p, value_of(scene_of(p)).footprint));
+  CHECK(cases[0].wind_rad == Approx(M_PI / 6));
+  CHECK(cases[1].wind_rad == Approx(M_PI / 2));
+}
+
 TEST_CASE("an upright face has its area along its normal, and none in plan") {
   const Face face{{0, 1, 2, 3}};
   Eigen::Matrix3Xd square(3, 4);

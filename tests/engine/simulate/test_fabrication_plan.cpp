@@ -95,6 +95,26 @@ TEST_CASE("legs too short to build are named in the cut list") {
   CHECK(csv.find("a leg below 3 mm: hard to build") != csv.npos);
 }
 
+TEST_CASE("rods longer than the stock are spliced in the middle between joints") {
+  preset::Preset preset = paper_circle();
+  preset.figure.stock_mm = 100;
+  const FabricationPlan work = made(preset);
+  for (const CutRod& rod : work.rods) {
+    CHECK(rod.splices_mm.empty() == (rod.length_mm <= 100));
+    double from = 0;
+    for (const double splice : rod.splices_mm) {
+      CHECK(splice - from <= 100);
+      for (const double mark : rod.joint_marks_mm) CHECK(std::abs(mark - splice) > 9.9);
+      from = splice;
+    }
+    CHECK(rod.length_mm - from <= 100);
+  }
+  CHECK_THAT(exports::cut_list_csv(work), Catch::Contains("leg_end_mm,splices_mm,note"));
+  preset.figure.stock_mm = 8;
+  CHECK_THAT(refusal(simulate::fabrication_plan_of(preset)),
+             Catch::Contains("stock_mm: got 8, expected more"));
+}
+
 TEST_CASE("what is cut in tenths of a millimetre adds up to its rod") {
   const FabricationPlan exact = made(paper_circle());
   const FabricationPlan work = exports::rounded(exact, 0.1);

@@ -3,6 +3,7 @@
 
 #include "engine/simulate/mesh_policy.h"
 #include "tests/engine/simulate/run.h"
+#include "tests/presets.h"
 
 using namespace gridshell;
 using namespace gridshell::simulate;
@@ -105,4 +106,21 @@ TEST_CASE("where a path leaves its branch nothing is read off", "[standard]") {
       CHECK_FALSE(between.at({0, 0, t, 0}));
     }
   CHECK(left > 0);
+}
+
+TEST_CASE("between a stable and an unstable load step a state is solved once") {
+  preset::Preset p = shipped("s1_actuation");
+  EquilibriumPath path =
+      value_of(follow_actuation(shared_scene(p), plan_of_mesh(16), true, 1, unwatched));
+  const std::vector<LoadStep> steps = path.segments[0].load_steps;
+  int turns = 0;
+  for (std::size_t k = 0; k + 1 < steps.size(); ++k) {
+    if (steps[k].certificate.stable() == steps[k + 1].certificate.stable()) continue;
+    ++turns;
+    const double t = 0.4 * steps[k].point.t + 0.6 * steps[k + 1].point.t;
+    const Effort before = path.simulation.effort();
+    CHECK(certify_sample(path, {0, 0, t, t}, unwatched).report.end == Outcome::reached);
+    CHECK((path.simulation.effort() - before).newton_iterations < 12);
+  }
+  CHECK(turns == 2);
 }

@@ -37,8 +37,8 @@ struct Run {
 /// Every load step is kept; `stop_at`: the path parameter at which the run is stopped.
 Run run_with(const fs::path& folder, double stop_at = 2) {
   const preset::Preset p = imperfect();
-  Scene scene = *shared_scene(p);
-  if (!folder.empty()) scene.kept = std::make_shared<KeptSegments>(folder, 0);
+  RunContext context;
+  if (!folder.empty()) context.segments = std::make_shared<KeptSegments>(folder, 0);
   Watch watch;
   std::atomic<bool> over = false;
   std::thread stopper([&] {
@@ -48,7 +48,7 @@ Run run_with(const fs::path& folder, double stop_at = 2) {
     if (!over) watch.cancel();
   });
   record::MemorySink sink;
-  auto summary = run(p, std::make_shared<const Scene>(std::move(scene)), false, sink, watch);
+  auto summary = run(p, shared_scene(p), false, sink, watch, context);
   over = true;
   stopper.join();
   return {std::move(summary), std::move(sink.trajectory())};

@@ -263,6 +263,33 @@ TEST_CASE("beams of a grillage have sections of their own") {
         Approx(1e-4 * L * L * L / (192 * (EI + lath))).epsilon(1e-3));
 }
 
+TEST_CASE("a load on a free end of a network bends it as a cantilever") {
+  preset::NetworkData file;
+  file.points = {{0, 0, 0}, {L / 2, 0, 0}, {L, 0, 0}};
+  file.rods = {{0, 1, 2}};
+  file.free = {2};
+  file.holds = {{0, 0, 2}};
+  preset::Preset p = network(file, 32);
+  p.rod.shear_GPa = 31;
+  p.loads.points = {{2, 0, 0, 0, -1e-6}};
+  const auto outcome = run(p);
+  CHECK(-last_frame(outcome).nodes.row(2).minCoeff() ==
+        Approx(1e-6 * L * L * L / (3 * EI)).epsilon(2e-3));
+  p.loads.points = {{0, 0, 0, 0, -1e-6}};
+  CHECK_THAT(refusal(scene_of(p)), Catch::Contains("is no joint or free end"));
+}
+
+TEST_CASE("a rope with sag is stable between two pins if a weak spring is across it") {
+  preset::NetworkData file;
+  file.points = {{0, 0, 0}, {50, 0, -2}, {100, 0, 0}};
+  file.rods = {{0, 1, 2}};
+  file.supports = {{1}};
+  file.springs = {{1, 0, 0.001, 0}};
+  preset::Preset p = network(file);
+  p.loads.field_N_per_mm = 0.001;
+  CHECK(run(p).summary.stable);
+}
+
 TEST_CASE("a cable net hangs as its lengths allow") {
   constexpr double d = 0.05, P = 0.1, EA = 83e3 * std::numbers::pi * d * d / 4;
   preset::Preset p = network(cross(100, 100));

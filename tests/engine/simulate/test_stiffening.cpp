@@ -170,6 +170,43 @@ TEST_CASE(
   CHECK(max_column_norm(simulation.nodes() - shape) == 0);
 }
 
+TEST_CASE("errors are right after bolts have fixed a shape, which stays where it is") {
+  preset::Preset p = small_shell();
+  p.step = {step(StepKind::tighten)};
+  const auto bolted = [&](const LevelPlan& plan) {
+    Simulation simulation = formed(p, plan);
+    const Eigen::Matrix3Xd shape = simulation.nodes();
+    const double error_mm = simulation.certificate().error_estimate_mm;
+    done(simulation, p.step[0]);
+    CHECK(max_column_norm(simulation.nodes() - shape) < (plan.extrapolate ? 0.1 : 1) * error_mm);
+    REQUIRE(simulation.push(0, {0, 0, -2}, Across::free, unwatched).end == Outcome::reached);
+    return simulation;
+  };
+  for (const double stiffness_Nmm : {3, 0}) {  // 0: rigid
+    p.step[0].stiffness_Nmm = stiffness_Nmm;
+    const LevelPlan coarse = stiffness_Nmm > 0 ? plan_levels(1e-4) : plan_of_mesh(16);
+    const Simulation rough = bolted(coarse), fine = bolted(plan_levels(1e-7));
+    record::Frame errors;
+    rough.put_push_errors(errors);
+    CAPTURE(stiffness_Nmm);
+    CHECK(std::abs(rough.force(0).z() - fine.force(0).z()) < errors.push_error_N);
+    const int joints = rough.shell().finest().joints;
+    CHECK(max_column_norm(rough.nodes().leftCols(joints) - fine.nodes().leftCols(joints)) <
+          rough.certificate().error_estimate_mm);
+  }
+}
+
+TEST_CASE("a pushed joint keeps its depth as braces are added") {
+  preset::Preset p = small_shell();
+  Simulation simulation = formed(p, plan_levels(1e-4));
+  simulation.constraint_origins[0] = simulation.nodes().col(0);
+  REQUIRE(simulation.push(0, {0, 0, -2}, Across::free, unwatched).end == Outcome::reached);
+  done(simulation, step(StepKind::brace));
+  record::Frame frame;
+  simulation.put_push(frame);
+  CHECK(frame.depth_mm == Approx(2).epsilon(1e-6));
+}
+
 TEST_CASE("what is made stiff too early, or is not there, is named") {
   const auto scene = shared_scene(loaded_shell());
   Simulation flat = value_of(Simulation::open(scene, plan_levels(1e-2)));

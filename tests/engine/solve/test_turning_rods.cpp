@@ -1,5 +1,5 @@
-// Rods that turn about a line without force: one alone, pinned, clamped or held in between, buckles
-// out of the flat to any side and is the elastica.
+// Rods that turn about a line without force: one alone, pinned, clamped or fixed in between,
+// buckles out of the flat to any side and is the elastica.
 #include "engine/solve/turning_rods.h"
 
 #include "engine/core/dense.h"
@@ -80,7 +80,7 @@ TEST_CASE("a rod alone that is pinned, clamped or both is the elastica") {
   }
 }
 
-TEST_CASE("a rod held between its ends buckles in a plane, and meshes agree") {
+TEST_CASE("a rod fixed between its ends buckles in a plane, and meshes agree") {
   for (const double ratio : {0.9, 0.7}) {
     CAPTURE(ratio);
     preset::Preset p = rod({0, 0.35 * L, L}, (0.35 + 0.65 * ratio) * L);
@@ -96,7 +96,7 @@ TEST_CASE("a rod held between its ends buckles in a plane, and meshes agree") {
   }
 }
 
-TEST_CASE("rods turn that are held on one line, on it as long as the boundary moves") {
+TEST_CASE("rods turn that are fixed on one line, on it as long as the boundary moves") {
   const auto turning = [](const preset::Preset& p) {
     const auto scene = shared_scene(p);
     return turning_rods(scene->footprint, scene->rods, scene->motion, scene->solved_model()).size();

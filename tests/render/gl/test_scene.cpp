@@ -82,6 +82,20 @@ TEST_CASE("a rod comes after the cells next to it, a joint after its rods", "[sc
   }
 }
 
+TEST_CASE("a point of one rod alone is no joint, bolts of rods above one another are", "[scene]") {
+  test::SquareShell shell = test::square_shell(3, 2);
+  auto& layout = shell.layout;
+  const auto vertices = [&] {
+    return make_scene(test::square_drawing(shell), {}, 0.3)->beads.vertices.size();
+  };
+  const std::size_t joints = layout.joints.size(), all = vertices();
+  const int node = layout.joints[0].node;
+  std::erase_if(layout.rods, [&](const auto& rod) { return std::ranges::count(rod, node) > 0; });
+  CHECK(vertices() < all * (joints - 1) / joints);
+  for (const auto& joint : layout.joints) layout.above.push_back(joint.node);
+  CHECK(vertices() == all);
+}
+
 TEST_CASE("rods throw shadows, a ring only when requested, ghosts never", "[scene]") {
   const auto shell = test::square_shell(4, 3);
   Drawing drawing = test::square_drawing(shell);

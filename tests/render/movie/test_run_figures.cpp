@@ -61,6 +61,7 @@ TEST_CASE("r over rho is plotted against latitude, the net at one") {
   CHECK(plot.series[0].y == std::vector<double>{1, 1});
   for (double latitude : plot.series[1].x) CHECK(latitude == Approx(45));
   for (double r : plot.series[1].y) CHECK(r == Approx(0.98));
+  CHECK(plot.x.high > 91);  // a joint at the pole is not cut in half
 }
 
 TEST_CASE("scanned joints are one more series of the latitude plot") {

@@ -168,6 +168,8 @@ TEST_CASE("a pushed shell is seen over its first state, with the push in the pic
   const auto drawing = Stage(run, style).drawing(run.frames[2]);
   REQUIRE(drawing.ghosts.size() == 1);
   CHECK(drawing.ghosts[0].nodes == run.frames[0].nodes);
+  // from above it does not cover the colours of what went down below it
+  CHECK(drawing.ghosts[0].behind_mm >= summarise_run(run).largest_move_mm);
   CHECK(Stage(run, style).drawing(run.frames[0]).ghosts.empty());
   style.look.ghost = false;
   CHECK(Stage(run, style).drawing(run.frames[2]).ghosts.empty());
@@ -180,6 +182,18 @@ TEST_CASE("a pushed shell is seen over its first state, with the push in the pic
     CHECK(std::abs(camera_axes(camera).forward.dot(Eigen::Vector3d(1, 1, 0))) < 1e-9);
     CHECK(std::abs(camera.azimuth_deg - azimuth) <= 90);
   }
+}
+
+TEST_CASE("a flat grid has a ball at every support of the run, and none at a free end") {
+  record::Trajectory run = synthetic::dome(3, 2);
+  run.layout.supports = run.layout.edge_points;
+  const auto count = Eigen::Index(run.layout.supports.size());
+  auto& frames = run.frames.edit();
+  for (record::Frame& frame : frames) frame.reactions_N = Eigen::Matrix3Xd::Zero(3, count);
+  frames[0].reactions_N(0, 4) = 1e-17;  // round-off
+  frames[2].reactions_N.rightCols(count - 1).setOnes();
+  const Stage stage(run, titled(640, 480));
+  for (const auto& frame : run.frames) CHECK(long(stage.drawing(frame).marks.size()) == count - 1);
 }
 
 TEST_CASE("what touches has a mark, and words next to the bar and as the event") {

@@ -1,0 +1,46 @@
+// The panels by mouse and by keyboard alone.
+#include "tests/app/visit.h"
+
+TEST_CASE("a click on a number types it, and its digits never turn the view") {
+  const TemporaryFolder folder;
+  const json after = played(
+      folder, click("@R_a_number 0.5 0.5") + "down 5\nup 5\ntype 5\ndown 6\nup 6\ntype 6\n" + enter,
+      {"--shot", "typed.png"});
+  CHECK(number(after, "boundary_radius_mm") == Approx(56));
+  // digits over a control that is not typed into do nothing
+  const std::string over = "mouse @R_a_number 0.5 0.5\nwait 1\n";
+  played(folder, over, {"--shot", "before.png"});
+  played(folder, over + "down 7\nup 7\nwait 1\n", {"--shot", "after.png"});
+  CHECK(text_of(folder / "before.png") == text_of(folder / "after.png"));
+}
+
+TEST_CASE("the keyboard alone reaches numbers and menus") {
+  const TemporaryFolder folder;
+  const auto press = [](const std::string& key) { return "down " + key + "\nup " + key + "\n"; };
+  // Tab types into the path; the next one into its number, then the radius
+  const json moved = played(folder, press("Tab") + "type 0.5\n" + enter);
+  CHECK(number(moved, "progress") == Approx(0.5));
+  // Alt+S opens the menu Shell, whose second entry is the one below the first
+  const json menu = played(
+      folder,
+      "down Alt\n" + press("H") + "up Alt\n" + press("Down") + press("Down") + press("Space"),
+      {"--shot", "menu.png"});
+  const json none = played(folder, "", {"--shot", "none.png"});
+  CHECK(text_of(folder / "menu.png") != text_of(folder / "none.png"));
+  // letters with Alt are no shortcuts
+  CHECK(played(folder, "down Alt\n" + press("G") + "up Alt\n")["gravity"] == false);
+}
+
+TEST_CASE("a shell of one's own is formed from the form") {
+  const TemporaryFolder folder;
+  const json formed =
+      played(folder, "do new_shell\n" + typed("@new_rods", "6") + enter +
+                         typed("@new_radius", "66") + enter + click("@new_form 0.5 0.5"));
+  CHECK(formed["preset"] == "new_shell");
+  CHECK(number(formed, "boundary_radius_mm") == Approx(0.8 * 66));
+  // a circle without room is explained, and a click gives it room
+  const json fitted = played(folder, "do new_shell\n" + typed("@new_rods", "8") + enter +
+                                         typed("@new_radius", "50") + enter +
+                                         click("@new_fit 0.5 0.5") + click("@new_form 0.5 0.5"));
+  CHECK(number(fitted, "boundary_radius_mm") == Approx(0.8 * 86));
+}
