@@ -285,7 +285,8 @@ constexpr std::pair<const char*, const char*> words_of_panels[] = {
     {"rod", "an elastic wire of the net; u-rods and v-rods cross"},
     {"joint", "where two rods are connected; they turn freely there"},
     {"footprint", "the flat grid of rods before it is actuated"},
-    {"actuated boundary", "the curve onto which the rods' ends are moved, R_a of a circle"},
+    {"actuated boundary",
+     "the curve onto which the rods' ends are moved, of radius Rₐ where it is a circle"},
     {"edge point", "the end of a rod, pinned to the boundary"},
     {"leg", "the piece of a rod between its last joint and the boundary"},
     {"cell", "four joints and the rods between them"},
@@ -298,7 +299,7 @@ constexpr std::pair<const char*, const char*> words_of_panels[] = {
     {"residual", "the largest force on an unconstrained node; of an equilibrium round-off"},
     {"error ±", "how far the joints may be off, from what finer meshes change"},
     {"edges per segment", "straight pieces between two joints that a mesh computes with"},
-    {"tolerance", "the requested error, over R_o of a circle or ρ of a net"}};
+    {"tolerance", "the requested error, over Rₒ of a circle or ρ of a net"}};
 
 }  // namespace
 

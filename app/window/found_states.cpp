@@ -33,7 +33,7 @@ std::string text_of_event(const Event& event) {
     case Event::Kind::turned_back:
       return event.to ? "limit point: snapped to another state" : "limit point";
     case Event::Kind::locked:
-      return "the rods are at their length";
+      return "the rods reached the strain limit";
     case Event::Kind::overbent:
       return "a rod is strained as far as [limits] " + event.what + " allows";
     case Event::Kind::contact:
@@ -117,12 +117,12 @@ double EditSession::pushed_mm(const preset::Step& step) const {
   return (session_->nodes().col(*joint) - from->second).norm();
 }
 
-/// "R_a = 124.2 to 122.9 mm", "2.1 mm".
+/// "Rₐ = 124.2 to 122.9 mm", "2.1 mm".
 std::string EditSession::place_text(const PathMark& mark) const {
   if (mark.joint >= 0) return text_of_place(mark, [](double mm) { return mm; }) + " mm";
   if (now_.preset.footprint.kind != preset::FootprintKind::circle)
     return "progress " + text_of_place(mark, [](double at) { return at; });
-  return "R_a = " + text_of_place(mark, [&](double at) { return now_.scene->radius_at(at); }) +
+  return "Rₐ = " + text_of_place(mark, [&](double at) { return now_.scene->radius_at(at); }) +
          " mm";
 }
 

@@ -58,7 +58,7 @@ std::string text_of_marks(const ShellView& shell) {
   const bool circle = shell.preset.footprint.kind == preset::FootprintKind::circle;
   for (const PathMark& mark : shell.marks)
     if (mark.joint < 0)
-      text += fmt::format("\n{}: {}{}", mark.what, circle ? "R_a = " : "progress ",
+      text += fmt::format("\n{}: {}{}", mark.what, circle ? "Rₐ = " : "progress ",
                           text_of_place(
                               mark, [&](double at) { return circle ? shell.radius_at(at) : at; })) +
               (circle ? " mm" : "");
@@ -110,7 +110,7 @@ void boundary(const Panel& panel) {
   ImGui::TextUnformatted("Boundary's radius");
   float radius = float(now);
   if (slider(panel, "R_a", radius, float(0.6 * from), float(from + shell.least_progress * way),
-             "R_a = %.2f mm",
+             "Rₐ = %.2f mm",
              fmt::format("radius of the actuated boundary, from {:.1f} to {:.1f} mm; Ctrl+click to "
                          "type",
                          0.6 * from, from + shell.least_progress * way) +
@@ -208,7 +208,7 @@ void accuracy(const Panel& panel) {
     changed.accuracy.edges_per_segment = 0;
     viewer.post(Change{changed}, false);
   }
-  panel.named("tolerance", "largest error of a joint, over R_o or ρ, when nothing is dragged");
+  panel.named("tolerance", "largest error of a joint, over Rₒ or ρ, when nothing is dragged");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-1);
   // the net alone is geometry, which no command moves

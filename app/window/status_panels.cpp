@@ -17,7 +17,7 @@ std::string text_of_step(const ShellView& shell) {
   switch (step.kind) {
     case preset::StepKind::move:
       return std::isfinite(shell.frame.boundary_radius_mm)
-                 ? fmt::format("boundary to R_a = {:.4g} mm", shell.frame.boundary_radius_mm)
+                 ? fmt::format("boundary to Rₐ = {:.4g} mm", shell.frame.boundary_radius_mm)
                  : fmt::format("boundary to progress {:.3g}", step.progress);
     case preset::StepKind::push:
       return shell.held.empty()
@@ -76,7 +76,7 @@ void ViewerState::go_to_loss() {
   }
   if (places.empty())
     return say(shell->way_left.empty()
-                   ? "on the boundary's path so far every state is stable"
+                   ? "every state computed on the boundary's path is stable"
                    : "the path on which stability is lost was left by " + shell->way_left +
                          ", and the one since then is stable; Undo goes back to it",
                true);

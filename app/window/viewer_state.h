@@ -112,9 +112,9 @@ struct Quantity {
   double PlotPoint::*value;
 };
 inline constexpr Quantity quantities[] = {
-    {"equilibrium", "equilibrium", &PlotPoint::equilibrium},
+    {"equilibrium", "number of the equilibrium", &PlotPoint::equilibrium},
     {"progress", "progress", &PlotPoint::progress},
-    {"boundary_radius_mm", "R_a (mm)", &PlotPoint::radius_mm},
+    {"boundary_radius_mm", "Rₐ (mm)", &PlotPoint::radius_mm},
     {"depth_mm", "depth (mm)", &PlotPoint::depth_mm},
     {"force_N", "force (N)", &PlotPoint::force_N},
     {"height_mm", "height (mm)", &PlotPoint::height_mm},
