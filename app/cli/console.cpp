@@ -124,7 +124,7 @@ bool flush_stdout(int failed_before) {
   const bool flushed = std::fflush(stdout) == 0;
   if (flushed && !std::ferror(stdout)) return true;
   std::fprintf(stderr, "cannot write to standard output: %s\n",
-               errno ? std::strerror(errno) : "what was printed did not arrive");
+               errno ? std::strerror(errno) : "it was cut short");
   return false;
 }
 

@@ -20,6 +20,7 @@
 #include "engine/core/json.h"
 #include "engine/core/try.h"
 #include "engine/gridshell.h"
+#include "render/canvas/text.h"
 #include "render/movie/state_charts.h"
 #include "render/movie/stills.h"
 
@@ -53,8 +54,8 @@ Result<void> draw(preset::Preset preset, const FormedStudy& found, const std::st
   preset.movie.colour_by = preset::ColourBy::displacement;
   preset.movie.turn_deg = 0;
   if (!preset.title.empty())
-    preset.title += fmt::format(": shapes, largest displacement drawn as {:.3g} mm",
-                                drawn_move_mm(found.state.layout));
+    preset.title += ": shapes, largest displacement drawn as " +
+                    render::length_text(drawn_move_mm(found.state.layout));
   Watch& watch = progress.next_phase();
   if (!found.moves.empty())
     TRY_DO(render::write_stills({found.state.layout, found.moves},
@@ -136,8 +137,9 @@ std::string sentence_of(const record::LoadRow& row) {
                         row.event == BranchEvent::turn ? "limit point" : "bifurcation",
                         record::with_error(row.critical_factor, row.error, ""));
   else
-    text += row.event == BranchEvent::locking ? "rods at their length before stability is lost"
-                                              : "stability is not lost on the path followed";
+    text += row.event == BranchEvent::locking
+                ? "the rods reach the strain limit before stability is lost"
+                : "stability is not lost on the path followed";
   if (std::isfinite(row.linear_factor)) text += fmt::format(" (linear {:.4g})", row.linear_factor);
   if (row.strength_factor == 0)
     text += "; the rods BREAK already without that load";

@@ -1,5 +1,6 @@
 #include "app/cli/pictures.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 
 #include "engine/core/try.h"
@@ -40,6 +41,41 @@ Result<PictureMaker> PictureMaker::create(const std::string& context) {
 
 namespace {
 
+/// What a step did, as the captions of its still has it: "joint (1, −2) pushed".
+std::string done_by(const preset::Step& step) {
+  using enum preset::StepKind;
+  const auto joint = [&](const char* done) {
+    if (step.joint.size() < 2) return std::string("joints ") + done;
+    std::string at = fmt::format("joint ({}, {}) {}", step.joint[0], step.joint[1], done);
+    for (std::size_t k = 0; (k = at.find("-", k)) != at.npos;) at.replace(k, 1, "−");
+    return at;
+  };
+  switch (step.kind) {
+    case move:
+      return "boundary moved";
+    case push:
+      return joint("pushed");
+    case hold:
+      return joint("fixed");
+    case release:
+      return step.what == preset::Released::joints ? joint("released")
+                                                   : fmt::format("{} removed", word_of(step.what));
+    case load:
+      return step.load_case.empty() ? "loads changed" : "load case " + step.load_case;
+    case rest:
+      return "in equilibrium";
+    case jitter:
+      return "perturbed";
+    case tighten:
+      return "joints tightened";
+    case brace:
+      return "cells braced";
+    case open:
+      return "joints opened";
+  }
+  return "";
+}
+
 /// Captions of stills that each show the end of a step: which step; else those of the stills.
 std::vector<std::string> captions_of(const preset::Preset& preset, const record::Trajectory& run) {
   std::vector<std::string> captions;
@@ -51,7 +87,7 @@ std::vector<std::string> captions_of(const preset::Preset& preset, const record:
     // a depth belongs to the push that made it, not to what was done while the joint is prescribed
     const bool pushes = step.kind == preset::StepKind::push;
     captions.push_back(
-        simulate::text_of(step) + ": " +
+        done_by(step) + ": " +
         (pushes ? render::frame_state_caption(frame) : render::unpushed_caption(frame)));
   }
   return captions;

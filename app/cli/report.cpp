@@ -14,6 +14,7 @@
 #include "engine/core/try.h"
 #include "engine/gridshell.h"
 #include "render/canvas/panels.h"
+#include "render/canvas/text.h"
 #include "render/movie/fabrication_sheets.h"
 #include "render/movie/run_figures.h"
 #include "render/movie/state_charts.h"
@@ -48,7 +49,9 @@ std::string with_unit(double value, const char* unit) {
 
 /// An error with its unit; its second digit is not known: "0.01 mm".
 std::string error_with_unit(double value, const char* unit) {
-  return std::isfinite(value) ? fmt::format("{:.1g} {}", value, unit) : "not known";
+  if (!std::isfinite(value)) return "not known";
+  const std::string digit = fmt::format("{:.1g}", value);
+  return (value < 1 ? digit : fmt::format("{:.0f}", std::stod(digit))) + " " + unit;
 }
 
 /// The components of a force; those that are round-off compared with `beside` are left out.
@@ -113,7 +116,7 @@ void add_geometry(Sheets& sheets, const Run& run, const exports::FabricationPlan
                                   : "not stable"},
        {"residual force", error_with_unit(summary.residual_N, "N")}});
   if (!summary.limit_reason.empty()) sheets.text("On its path: " + summary.limit_reason + ".");
-  if (!summary.doubt.empty()) sheets.text("In doubt: " + summary.doubt + ".");
+  if (!summary.doubt.empty()) sheets.text("Not confirmed: " + summary.doubt + ".");
   for (const std::string& step : summary.steps) sheets.text(step);
 }
 
@@ -121,7 +124,9 @@ void add_stresses(Sheets& sheets, const record::Summary& summary) {
   sheets.heading("Stresses");
   sheets.values(
       {{"largest fibre stress", with_unit(summary.largest_stress_MPa, "MPa")},
-       {"utilisation", fmt::format("{:.2f}", summary.utilisation)},
+       {"utilisation", std::isfinite(summary.utilisation)
+                           ? fmt::format("{:.2f}", summary.utilisation)
+                           : "not known"},
        {"largest bending strain", fmt::format("{:.2f} %", 100 * summary.largest_bending_strain)}});
   if (!summary.stress_at.empty()) sheets.text("It is largest in " + summary.stress_at + ".");
   if (const std::string text = summary.breaking(); !text.empty()) sheets.text(text + ".");
@@ -256,10 +261,8 @@ Result<void> add_shapes(Sheets& sheets, const study::Vibrations& found, render::
         {false, fmt::format("mode {}: {:.3g} Hz", mode.mode, mode.frequency_Hz)}, nullptr, watch));
   }
   TRY(picture, render::draw_panels(figure));
-  sheets.text(
-      fmt::format("Shapes over the state in grey; their largest displacement is drawn as "
-                  "{:.3g} mm.",
-                  drawn_move_mm(found.state.layout)));
+  sheets.text("Shapes over the state in grey; their largest displacement is drawn as " +
+              render::length_text(drawn_move_mm(found.state.layout)) + ".");
   sheets.picture(*picture);
   return {};
 }

@@ -311,7 +311,7 @@ Result<ComparedScan> compared(const Scanned& scanned, const std::string& file, W
   }
   return invalid(
       "{}: {} clusters of points as wide as joints of {:g} mm ([joints] diameter_mm), {} "
-      "specks and {} wider ones; they lie like the joints of no shell given",
+      "specks and {} wider ones; no given shell has its joints there",
       file, scan.clusters.tops.cols(), scan.cylinder.diameter_mm, scan.clusters.specks,
       scan.clusters.others);
 }

@@ -41,8 +41,7 @@ bool may_replace(const std::string& command, const std::string& maker) {
 std::string refusal(const fs::path& folder, const std::string& command) {
   std::error_code error;
   const auto status = fs::status(folder, error);
-  if (!fs::exists(status))
-    return fs::is_symlink(folder, error) ? "it is a link that leads nowhere" : "";
+  if (!fs::exists(status)) return fs::is_symlink(folder, error) ? "it is a broken link" : "";
   if (!fs::is_directory(status)) return "it is a file";
   if (fs::is_empty(folder, error) && !error) return "";
   const auto because = why_not_a_run(folder);

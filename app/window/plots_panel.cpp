@@ -266,7 +266,7 @@ Curve curve_of(const ViewerState& viewer, const PlotAxes& axes) {
 }
 
 Curve bins_of(const ShellView& shell) {
-  Curve curve{"K□ in bins (rad)", "x/L", "no cells", {}, {}, true};
+  Curve curve{"integrated curvature K□ (rad)", "x/L", "no cells", {}, {}, true};
   const auto& bins = shell.frame.K_bins;
   for (Eigen::Index k = 0; shell.any() && k < bins.rows(); ++k) {
     if (!std::isfinite(bins(k, 0))) continue;

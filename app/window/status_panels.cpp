@@ -76,7 +76,7 @@ void ViewerState::go_to_loss() {
   }
   if (places.empty())
     return say(shell->way_left.empty()
-                   ? "on the boundary's path so far every state is stable"
+                   ? "every state computed on the boundary's path is stable"
                    : "the path on which stability is lost was left by " + shell->way_left +
                          ", and the one since then is stable; Undo goes back to it",
                true);

@@ -66,9 +66,10 @@ Result<int> NetworkBuilder::place(const std::vector<double>& xyz, const std::str
 
 Result<int> NetworkBuilder::point(long number, const std::string& at) const {
   if (number < 0 || number >= long(points()))
-    return invalid(points() == 0 ? fmt::format("{}: point {}, and there are none", at, number)
-                                 : fmt::format("{}: got point {}, expected 0 to {}", at, number,
-                                               points() - 1));
+    return invalid(
+        points() == 0
+            ? fmt::format("{}: got point {}, but there are no points", at, number)
+            : fmt::format("{}: got point {}, expected 0 to {}", at, number, points() - 1));
   return same_as_[std::size_t(number)];
 }
 

@@ -69,9 +69,11 @@ struct MarchedGrid::March {
   PointGrid taken{grid.chord_};
   std::vector<std::array<int, 2>> accepted{};  // by their numbers in it
 
-  /// Whether a node that is none of those around (i, j) lies at p.
+  /// Whether a node that is none of those around (i, j) lies at p. Of a net that is there already
+  /// some node is nearer than 0.75 chords to almost every point; where rods cross at the least
+  /// angle, those three steps along the short diagonal are no nearer than 6 sin(angle / 2).
   bool is_taken(int i, int j, const Eigen::Vector3d& p) const {
-    constexpr double as_near = 0.45;
+    const double as_near = std::min(0.75, 4 * std::sin(0.5 * least_angle));
     return taken.any_near(p, [&](int k) {
       const auto [a, b] = accepted[std::size_t(k)];
       return std::max(std::abs(a - i), std::abs(b - j)) > 2 &&

@@ -87,6 +87,8 @@ void each_dataset(LayoutType& layout, const Visit& visit) {
   visit("/rods", layout.rods, "1", always);
   visit("/layout/families", layout.families, "", where_known);
   visit("/layout/supports", layout.supports, "1", where_known);
+  visit("/layout/sprung", layout.sprung, "1", where_known);
+  visit("/layout/spring_stiffness", layout.spring_N_per_mm, "N/mm", where_known);
   visit("/joints", layout.joints, "mm", always);
   visit("/layout/above", layout.above, "1", where_known);
   visit("/cells", layout.cells, "mm", always);

@@ -38,6 +38,7 @@ Result<void> check_indices(const Layout& layout, Eigen::Index nodes) {
   TRY_DO(check("joint", layout.joints, node, "node", nodes));
   TRY_DO(check("edge point", layout.edge_points, itself, "node", nodes));
   TRY_DO(check("support", layout.supports, itself, "node", nodes));
+  TRY_DO(check("spring", layout.sprung, itself, "node", nodes));
   TRY_DO(check("joint's second rod", layout.above, itself, "node", nodes));
   TRY_DO(check("cell", layout.cells, corners, "joint", joints));
   TRY_DO(check("loaded joint", layout.loaded_joints, pushed, "joint", joints));
@@ -72,6 +73,8 @@ Result<void> check_numbers(const Layout& layout) {
   if (!computable(layout.net_nodes) || !computable(layout.flat_nodes)) return refuse("the net");
   for (const Part& part : layout.parts)
     if (!computable(part.net) || !computable(part.flat)) return refuse("a block");
+  if (!(layout.spring_N_per_mm.array() >= 0).all() || !layout.spring_N_per_mm.allFinite())
+    return invalid("a spring's stiffness: got a number that is none");
   for (const Joint& joint : layout.joints)
     if (!(std::max(std::abs(joint.u_mm), std::abs(joint.v_mm)) <= largest_mm))
       return refuse("a joint");
@@ -100,6 +103,8 @@ Result<void> check_sizes(const Layout& layout, Eigen::Index nodes) {
   TRY_DO(fits(layout.diameters_mm.size(), "diameters are given", layout.rods, "rods"));
   TRY_DO(fits(layout.laths_mm.size(), "widths and thicknesses are given", layout.rods, "rods", 2));
   TRY_DO(fits(layout.above.size(), "second nodes are named", layout.joints, "joints"));
+  TRY_DO(fits(std::size_t(layout.spring_N_per_mm.cols()), "stiffnesses are given", layout.sprung,
+              "springs"));
   for (const auto* net : {&layout.net_nodes, &layout.flat_nodes})
     if (net->cols() > 0 && net->cols() < most)
       return invalid("the net: got {} nodes, expected {} as in the shell", net->cols(), most);

@@ -16,8 +16,9 @@
 //   /frames/<name>  frames              the columns of frames.csv, and `actuation`
 //   /layout         spacing_mm, rod_diameter_mm, length_scale_mm (attributes); edge_points (nodes),
 //                   original_boundary, actuated_boundary (points x 3, mm); families (of each rod,
-//                   "u" or "v"), supports (nodes that may be constrained), diameters (of each
-//                   rod, mm, where they differ)
+//                   "u" or "v"), supports (nodes that may be constrained), sprung (nodes that
+//                   springs pull to their supports) and spring_stiffness (along x, y, z, N/mm),
+//                   diameters (of each rod, mm, where they differ)
 //   /               title, preset, program (attributes)
 //
 // Axial forces, curvature and bending along the rods are those of the finest mesh itself; reactions

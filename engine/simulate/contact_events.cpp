@@ -211,8 +211,8 @@ std::vector<ContactEvent> contact_events(const EquilibriumPath& path, const At& 
       for (const ContactKind kind : kinds)
         if (const record::Contact* touch = steps[0]->contacts.deepest(kind))
           events.push_back({0, steps[0]->point.t, 0,
-                            text_of(*touch, scene.footprint) + " touch from the start, " +
-                                at(steps[0]->point.t, {})});
+                            text_of(*touch, scene.footprint) +
+                                " touch in the first state already, " + at(steps[0]->point.t, {})});
     for (std::size_t k = 1; k < steps.size(); ++k) {
       const LoadStep &a = *steps[k - 1], &b = *steps[k];
       const bool smooth = goes_on_between(segment, segment.back ? b : a, segment.back ? a : b);

@@ -173,14 +173,14 @@ std::string how_it_ended(const PathSegment& segment, double max_strain, const At
         "strain is {:.3g}",
         at(report.t, {}), strain);
   if (report.end == Outcome::locked)
-    return fmt::format("{} the rods are at their length: {}", at(report.t, {}),
+    return fmt::format("{} the rods reached the strain limit: {}", at(report.t, {}),
                        strained ? fmt::format("the largest strain is {:.3g}", strain)
                                 : "the push meets 100 times its first stiffness");
   if (report.end == Outcome::contact) {
     const std::string& what = report.events.back().what;
     const bool touched = !segment.load_steps.back().contacts.places.empty();
-    if (touched && begun) return what + " touch from the start, " + at(report.t, {});
-    if (touched) return place() + " what touched from the start is next to overlap more: " + what;
+    if (touched && begun) return what + " touch in the first state already, " + at(report.t, {});
+    if (touched) return place() + " what touched in the first state would overlap more: " + what;
     return fmt::format("{} is the last state without contact: past it {} touch", place(), what);
   }
   if (segment.back)

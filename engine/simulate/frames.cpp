@@ -211,6 +211,11 @@ Result<record::Layout> layout_of(const Scene& scene, const RodMesh& mesh) {
   for (const FootprintRod& rod : scene.footprint.rods)
     layout.families.emplace_back(rod.family == Family::other ? "other" : name_of(rod.family));
   layout.supports = supports_of(mesh);
+  layout.spring_N_per_mm.resize(3, Eigen::Index(mesh.springs.size()));
+  for (const MeshSpring& spring : mesh.springs) {
+    layout.spring_N_per_mm.col(Eigen::Index(layout.sprung.size())) = spring.N_per_mm;
+    layout.sprung.push_back(spring.node);
+  }
   for (const FootprintCell& cell : scene.footprint.cells) {
     const FootprintJoint& corner = scene.footprint.joints[cell.joints[0]];
     const double half = 0.5 * scene.footprint.spacing;

@@ -286,8 +286,9 @@ Result<void> check_steps(const std::vector<preset::Step>& steps, const Footprint
     if (step.kind != preset::StepKind::release) continue;
     if (step.what != preset::Released::joints) {
       if (strengthened.erase(step.what) > 0) continue;
-      return invalid("[[step]] {} what: got {}, of which there are none, expected others", k + 1,
-                     word_of(step.what));
+      const bool bolts = step.what == preset::Released::bolts;
+      return invalid("[[step]] {} what: got {}, expected a step {} before it that adds them", k + 1,
+                     word_of(step.what), bolts ? "\"tighten\" or \"open\"" : "\"brace\"");
     }
     if (one ? !held.contains(step.joint) : held.empty())
       return invalid(

@@ -15,7 +15,7 @@
 namespace gridshell {
 namespace {
 
-constexpr double stiffness_growth = 100;  // at which the rods are at their length
+constexpr double stiffness_growth = 100;  // at which the rods reach the strain limit
 
 PathOptions options_for(const Scene& scene, Team* team) {
   PathOptions options;

@@ -144,7 +144,7 @@ Result<State> StateSearcher::push_start(const StartForm& form, std::mt19937& ran
   for (unsigned k = 0; k < pushes; ++k) {
     const int joint = pushable_[random() % std::uint32_t(pushable_.size())];
     const double depth = jitter_.depth * scene_->footprint.spacing * random_fraction(random);
-    // how far it came is far enough: a hand stops where the rods are at their length
+    // how far it came is far enough: a user stops where the rods reach the strain limit
     (void)session_.push(joint, depth * direction(random), Across::free, watch);
     if (watch.cancelled()) return stopped();
     TRY_DO(reached_or(session_.release(joint, watch).end, "did not converge when it was released",

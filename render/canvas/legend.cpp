@@ -146,8 +146,11 @@ void draw_colour_bar(Canvas& canvas, const Box& box, const ColourBar& bar, doubl
 
 bool draw_scale_bar(Canvas& canvas, const Box& box, double length_mm, double units_per_mm,
                     double font_size) {
+  const bool metres = length_mm >= 1000;
+  const double length = metres ? 1e-3 * length_mm : length_mm;
   const std::string label =
-      (length_mm == std::round(length_mm) ? fixed(length_mm, 0) : scientific(length_mm, 2)) + " mm";
+      (length == std::round(length) ? fixed(length, 0) : scientific(length, 2)) +
+      (metres ? " m" : " mm");
   return draw_length(canvas, box, length_mm * units_per_mm, label, font_size,
                      [&](const Box& bar) { canvas.rectangle(bar, ink); });
 }

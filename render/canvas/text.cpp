@@ -129,6 +129,10 @@ std::string fixed(double value, int decimals) {
   return with_minus(fmt::format("{:.{}f}", without_negative_zero(value, decimals), decimals));
 }
 
+std::string length_text(double mm) {
+  return mm >= 1000 ? fixed(1e-3 * mm, 3) + " m" : fixed(mm, 1) + " mm";
+}
+
 std::string scientific(double value, int digits) {
   if (!std::isfinite(value)) return "–";
   if (value == 0) return "0";

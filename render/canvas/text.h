@@ -46,6 +46,10 @@ std::string scientific(double value, int digits);
 
 /// The smallest of 1, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times a power of ten that is >= value (> 0).
 double nice_ceiling(double value);
+
+/// "45.7 mm"; from a metre on "1.756 m".
+std::string length_text(double mm);
+
 /// The length of a scale bar next to a thing of half size `size_mm`: the given one, or, where that
 /// would be a dot or longer than the thing, a round length; 0 stays 0.
 inline double scale_bar_beside(double wanted_mm, double size_mm) {

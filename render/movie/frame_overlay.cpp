@@ -92,6 +92,22 @@ std::string force_text(double N) {
   return N >= 1000 ? fmt::format("{:.3g} kN", 1e-3 * N) : fmt::format("{:.3g} N", N);
 }
 
+/// A spring from `from` as a zigzag of so many turns, `half_width` to either side.
+void add_spring(const Eigen::Vector3d& from, const Eigen::Vector3d& stretch, double half_width,
+                GhostRods& springs) {
+  constexpr int turns = 4;
+  const Eigen::Vector3d side = half_width * stretch.unitOrthogonal();
+  std::vector<int>& rod = springs.rods.emplace_back();
+  const Eigen::Index first = springs.nodes.cols();
+  springs.nodes.conservativeResize(3, first + 2 * turns + 2);
+  for (int k = 0; k <= 2 * turns + 1; ++k) {
+    const bool end = k == 0 || k == 2 * turns + 1;
+    const double along = end ? k > 0 : (k - 0.5) / (2 * turns);
+    springs.nodes.col(first + k) = from + along * stretch + (end ? 0 : k % 2 == 0 ? 1 : -1) * side;
+    rod.push_back(int(first) + k);
+  }
+}
+
 }  // namespace
 
 TextStyle title_style(const MovieStyle& style, double font_size) {
@@ -188,7 +204,7 @@ std::vector<std::string> state_captions(const record::Frame& frame) {
   const bool moved = frame.actuation != 1;
   if (std::isfinite(frame.boundary_radius_mm) && (!pushed || moved))
     captions.push_back("*R*_{a} = " + fixed(frame.boundary_radius_mm, 1) + " mm");
-  captions.push_back("height " + fixed(frame.height_mm, 1) + " mm");
+  captions.push_back("height " + length_text(frame.height_mm));
   if (std::isfinite(frame.time_s))
     captions.push_back("*t* = " + fixed(1e3 * frame.time_s, 0) + " ms");
   return captions;
@@ -210,6 +226,20 @@ void put_supports(const record::Layout& layout, const record::Frame& frame,
   std::set<int> held;
   std::ranges::set_intersection(ends, supported, std::inserter(held, held.end()));
   if (held.empty() && look.rings) held = ends;
+  GhostRods springs{Eigen::Matrix3Xd(3, 0), {}, 0.3 * size, look.ring, -size};
+  for (std::size_t k = 0; k < layout.sprung.size(); ++k) {
+    const int node = layout.sprung[k];
+    const auto at = std::ranges::find(layout.supports, node) - layout.supports.begin();
+    held.erase(node);
+    if (at >= frame.reactions_N.cols()) continue;
+    // the support is where the spring pulls with the reaction
+    const Eigen::Array3d stiffness = layout.spring_N_per_mm.col(Eigen::Index(k));
+    const Eigen::Vector3d stretch =
+        (stiffness > 0).select(frame.reactions_N.col(at).array() / stiffness, 0);
+    add_spring(frame.nodes.col(node), stretch, 0.5 * size, springs);
+    drawing.marks.push_back({frame.nodes.col(node) + stretch, size, look.ring, false});
+  }
+  if (!springs.rods.empty()) drawing.ghosts.push_back(std::move(springs));
   for (const int node : held)
     drawing.marks.push_back({frame.nodes.col(node), size, look.ring, false});
   if (!look.clamped) return;

@@ -62,8 +62,9 @@ std::vector<std::string> state_captions(const record::Frame& frame);
 void put_contacts(const record::Layout& layout, const record::Frame& frame, double thin_mm,
                   Drawing& drawing);
 
-/// Balls at the ends that are supported, as in the holes of a plate; sleeves around the ends of
-/// clamped rods. `supported`: nodes with a reaction in some frame of the run.
+/// Balls at the ends that are supported, as in the holes of a plate; where a spring pulls a node, a
+/// zigzag to a ball at the spring's support; sleeves around the ends of clamped rods. `supported`:
+/// nodes with a reaction in some frame of the run.
 void put_supports(const record::Layout& layout, const record::Frame& frame,
                   const std::set<int>& supported, const Appearance& look, Drawing& drawing);
 

@@ -102,7 +102,7 @@ TEST_CASE("a narrow still has its whole title, in two lines where one is too sho
     INFO(embedded.name);
     check_words(style.width(), style.height(), [&](Canvas& canvas) {
       draw_still_labels(canvas, stage, {run.frames[2], 2},
-                        "push [-2, -2], a joint far from its middle: *δ* = 10.00 mm");
+                        "joint (−2, −2) pushed, far from its middle: *δ* = 10.00 mm");
     });
     std::string title;
     for (const std::string& line : stage.layout().title_lines)

@@ -182,14 +182,21 @@ TEST_CASE("rods end at a hole and continue next to it") {
   CHECK(net.reached(40, -15));
   // behind the hole as seen from the apex
   int behind = 0;
+  std::vector<std::array<int, 2>> around;
   for (int j = -150; j <= 150; ++j)
     for (int i = -150; i <= 150; ++i) {
       const Eigen::Vector3d& p = net.grid().at(i, j).p;
       if (!net.grid().known(i, j)) continue;
       CHECK((p.head<2>() - Eigen::Vector2d(40, 20)).norm() > 13);
       behind += (p.head<2>() - Eigen::Vector2d(72, 36)).norm() < 8;
+      if ((p.head<2>() - Eigen::Vector2d(72, 36)).norm() < 30) around.push_back({i, j});
     }
   CHECK(behind > 20);
+  // what comes around the hole from both sides does not overlap
+  for (const auto& [i, j] : around)
+    for (const auto& [a, b] : around)
+      if (std::max(std::abs(a - i), std::abs(b - j)) > 2)
+        REQUIRE((net.grid().at(i, j).p - net.grid().at(a, b).p).norm() > 0.6 * net.chord());
 }
 
 TEST_CASE("rods end at a crease, whose two sides keep their surfaces, and pass its end") {

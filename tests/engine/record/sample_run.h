@@ -22,6 +22,8 @@ inline Trajectory sample_trajectory() {
   layout.rods = {{4, 0, 1, 5}, {6, 3, 2, 7}, {8, 0, 3, 9}, {10, 1, 2, 11}};
   layout.families = {"u", "u", "v", "v"};
   layout.supports = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
+  layout.sprung = {5};
+  layout.spring_N_per_mm = Eigen::Vector3d(0.05, 0.1, 0);
   layout.joints = {
       {-1, -1, -10, -10, 0}, {0, -1, 10, -10, 1}, {0, 0, 10, 10, 2}, {-1, 0, -10, 10, 3}};
   layout.cells = {{-1, -1, 0, 0, {0, 1, 2, 3}}};

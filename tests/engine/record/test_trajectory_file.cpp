@@ -31,11 +31,12 @@ void check_same(const Layout& a, const Layout& b) {
     return all;
   };
   const auto lists = [](const Layout& of) {
-    return std::tie(of.diameters_mm, of.strength_MPa, of.rods, of.families, of.supports,
+    return std::tie(of.diameters_mm, of.strength_MPa, of.rods, of.families, of.supports, of.sprung,
                     of.edge_points, of.joints, of.cells, of.seam_rods);
   };
   CHECK(same_bits(numbers(a), numbers(b)));
   CHECK((lists(a) == lists(b)));
+  CHECK(same_bits(a.spring_N_per_mm, b.spring_N_per_mm));
   CHECK(same_bits(a.original_boundary, b.original_boundary));
   CHECK(same_bits(a.actuated_boundary, b.actuated_boundary));
   REQUIRE(a.parts.size() == b.parts.size());

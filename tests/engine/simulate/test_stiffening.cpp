@@ -221,5 +221,5 @@ TEST_CASE("what is made stiff too early, or is not there, is named") {
   p.step = {step(StepKind::release)};
   p.step[0].what = preset::Released::braces;
   CHECK(refusal(plan(p), Fault::bad_input) ==
-        "[[step]] 1 what: got braces, of which there are none, expected others");
+        "[[step]] 1 what: got braces, expected a step \"brace\" before it that adds them");
 }

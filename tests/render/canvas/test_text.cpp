@@ -57,6 +57,8 @@ TEST_CASE("numbers have a true minus and no negative zero") {
   CHECK(fixed(-0.05, 2) == "−0.05");
   CHECK(fixed(-0.001, 2) == "0.00");
   CHECK(fixed(115.9, 1) == "115.9");
+  CHECK(length_text(45.67) == "45.7 mm");
+  CHECK(length_text(1755.5) == "1.756 m");
   CHECK(fixed(NAN, 1) == "–");
   CHECK(scientific(3.2e-9, 2) == "3.2 × 10^{−9}");
   CHECK(scientific(-1.25e7, 3) == "−1.25 × 10^{7}");

@@ -196,6 +196,25 @@ TEST_CASE("a flat grid has a ball at every support of the run, and none at a fre
   for (const auto& frame : run.frames) CHECK(long(stage.drawing(frame).marks.size()) == count - 1);
 }
 
+TEST_CASE("a support on a spring is where its spring pulls from, with the spring up to the rod") {
+  record::Trajectory run = synthetic::dome(2, 2);
+  const int node = run.layout.edge_points[2];
+  run.layout.supports = {node};
+  run.layout.sprung = {node};
+  run.layout.spring_N_per_mm = Eigen::Vector3d(0.05, 0.1, 0);
+  for (record::Frame& frame : run.frames.edit()) frame.reactions_N = Eigen::Vector3d(0.5, -0.2, 0);
+  const Drawing drawing = Stage(run, titled(640, 480)).drawing(run.frames[1]);
+  const Eigen::Vector3d rod = run.frames[1].nodes.col(node),
+                        support = rod + Eigen::Vector3d(10, -2, 0);
+  REQUIRE(drawing.marks.size() == 1);
+  CHECK((drawing.marks[0].at - support).norm() < 1e-9);
+  REQUIRE(drawing.ghosts.size() == 1);
+  const auto& spring = drawing.ghosts[0].nodes;
+  CHECK((spring.leftCols(1) - rod).norm() < 1e-9);
+  CHECK((spring.rightCols(1) - support).norm() < 1e-9);
+  CHECK(spring.cols() > 6);
+}
+
 TEST_CASE("what touches has a mark, and words next to the bar and as the event") {
   record::Trajectory run = synthetic::dome(4, 2);
   run.layout.joint_diameter_mm = 3;
