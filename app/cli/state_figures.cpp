@@ -339,7 +339,7 @@ std::string found_text(const record::StateTables& states) {
                         search.found, search.judged_edges, search.finer_lost, search.finer_merged);
   for (const auto& [why, count] : search.ended_otherwise)
     text += fmt::format("  {} trials: {}\n", count, why);
-  text += "  the lowest in energy, the lowest of each class, then those met most often:\n";
+  text += "  of them the lowest of each class, then those met most often:\n";
   for (const std::size_t k : record::states_to_draw(states.rows, 4)) {
     const StateRow& row = states.rows[k];
     text += fmt::format("  state {}: {}{}, {:.3f} mJ of bending, height {:.2f} mm, met {}\n",

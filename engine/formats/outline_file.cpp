@@ -169,7 +169,7 @@ Result<NetworkData> largest_loop(const PlanDrawing& drawing, const std::string& 
   Eigen::AlignedBox2d around;
   for (const Eigen::Vector2d& point : *largest) around.extend(point);
   const Eigen::Vector2d wide = drawing.unit_mm * around.sizes();
-  report.text += fmt::format("an outline of {} points, {:.4g} x {:.4g} mm, {}", largest->size(),
+  report.text += fmt::format("an outline of {} points, {:.6g} x {:.6g} mm, {}", largest->size(),
                              wide.x(), wide.y(), drawing.unit);
   std::vector<std::string> others;
   if (loops.closed.size() > 1)

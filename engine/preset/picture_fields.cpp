@@ -138,7 +138,7 @@ std::string radii_error(const Preset& preset) {
   const double from = preset.original_radius_mm(), to = preset.actuated_radius_mm();
   double last = from;
   for (const double radius : preset.figure.radii_mm) {
-    if (radius > last || radius < to)
+    if (radius > last || radius < to * (1 - 1e-9))
       return fmt::format(
           "{} is not on the path, expected values that fall from at most R_o = {} to at least R_a "
           "= {}",

@@ -152,8 +152,8 @@ struct StateTables {
   std::vector<Barrier> barriers;
 };
 
-/// Which of the states are drawn: the lowest in energy, of each of the paper's classes the lowest,
-/// then those met most often, `most` in all. Indices of `rows`, ascending.
+/// Which of the states are drawn: of each of the paper's classes the lowest in energy, then those
+/// met most often, `most` in all. Indices of `rows`, ascending.
 std::vector<std::size_t> states_to_draw(const std::vector<StateRow>& rows, int most);
 
 inline constexpr const char* states_name = "states.csv";

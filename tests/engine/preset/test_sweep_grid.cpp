@@ -48,6 +48,14 @@ TEST_CASE("points of a sweep need not have the stills of its base") {
   CHECK(SweepGrid(presets).at(0).preset.actuated_radius_mm() == Approx(0.9 * 126));
 }
 
+TEST_CASE("a still at the end of the path is on it, whatever the ratio rounds to") {
+  CHECK(
+      good(
+          "[footprint]\nrods = 6\nradius_mm = 66.0\n[actuation]\nratio = 0.8\n[figure]\nradii_mm = "
+          "[52.8]\n")
+          .base.figure.radii_mm.size() == 1);
+}
+
 TEST_CASE("searches for states perturb differently at every point, and equally when repeated") {
   const auto seeds_of = [](const std::string& text) {
     const auto presets = good(text);
