@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/elastic/model.h"
+#include "engine/solve/newton.h"
 
 namespace gridshell {
 namespace {
