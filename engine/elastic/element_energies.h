@@ -1,4 +1,5 @@
-// What acts on nodes from outside: a load, the ground, a pressure.
+// The energies of a model's elements, each with gradient and Hessian: external actions on nodes,
+// springs and bars between nodes, bending and torsion of rods, the laws of joints.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,10 +10,12 @@
 
 namespace gridshell {
 
-/// E = -f . x + 1/2 sum over x, y, z of k (x - a)^2 - p/6 x . (y x z): a dead or transient force,
-/// springs to the ground, and the pressure p under the triangle of the node and the two `beside` it
-/// at y and z: the volume of its cone from the origin times p, so that the force turns with it. On
-/// a plane curve z is the anchor, three times its normal, and p a force per length.
+/// An external action on a node at x:
+///   E = -f . x + 1/2 sum over the axes of k (x - a)^2 - p/6 x . (y x z).
+/// The terms are a force, springs to fixed points (the ground), and a pressure p on the triangle of
+/// x and the two nodes `beside` it, at y and z: p times the volume between the triangle and the
+/// origin, so that the force stays normal to the triangle. For a pressure along a plane curve, z is
+/// the anchor (three times the plane's normal) and p a force per length.
 struct NodeAction {
   int node = 0;
   Eigen::Vector3d force = Eigen::Vector3d::Zero();      ///< f, N
@@ -44,9 +47,10 @@ struct NodeSpring {
   Eigen::Vector3d gradient(const Eigen::Vector3d& gap) const;
 };
 
-/// A straight bar between nodes a and b that may be slack: E = EA l F(e), e = |x_b - x_a|/l - 1. Of
-/// a strut F' = e. A cable bears no compression; so that its stiffness has no jump it is applied
-/// over a small strain w: F' = 0 below 0, e^2/(2w) up to w, e - w/2 above.
+/// A straight bar between nodes a and b: E = EA l F(e) with the strain e = |x_b - x_a|/l - 1.
+/// - Strut: F' = e.
+/// - Cable, without compression: F' = 0 for e < 0, e^2/(2w) for e < w, e - w/2 above. The small
+///   strain w makes the stiffness continuous.
 struct NodeBar {
   int a = 0, b = 0;
   double rest_length = 0;  ///< l, mm
@@ -60,22 +64,22 @@ struct NodeBar {
   double stiffness(double strain) const;  ///< change of the force with the strain, N
 };
 
-// What energies of two edges share: their eight local unknowns and the curvature binormal with its
-// derivatives.
+// Common to all energies of two edges e and f: their eight local unknowns, and the curvature
+// binormal with its derivatives.
 
-/// An edge vector with what every energy needs of it.
+/// Direction and length of an edge.
 struct EdgeGeometry {
   Eigen::Vector3d tangent = Eigen::Vector3d::UnitX();  ///< unit
   double length = 0;                                   ///< current length, mm
 };
 
-/// What an energy of two edges e, f may read of a state.
+/// The part of a state that an energy of two edges e, f depends on.
 struct PairGeometry {
   EdgeGeometry e, f;
   double angle_e = 0, angle_f = 0;         ///< theta of each edge, rad
   Eigen::Vector3d director_e, director_f;  ///< of their reference frames
   double reference_twist = 0;              ///< m_ref from e to f, of edges that follow one another
-  double opening = 0;  ///< actuation angle so far of the joint that is opened, rad
+  double opening = 0;  ///< factor of the joint actuation, times JointAngle::opening
 
   /// tau = theta_f - theta_e + m_ref
   double twist() const { return angle_f - angle_e + reference_twist; }
@@ -84,9 +88,9 @@ struct PairGeometry {
 using PairVector = Eigen::Matrix<double, 8, 1>;
 using PairMatrix = Eigen::Matrix<double, 8, 8>;
 
-/// Energy of two edges e, f by (e, f, theta_e, theta_f): edge vectors and angles. The derivatives
-/// contain the reference frames as carried along straight lines from the present edges (parallel in
-/// time), so the Hessian is symmetric and is that of the energy itself.
+/// Gradient and Hessian of an energy of two edges by (e, f, theta_e, theta_f): the two edge vectors
+/// and the two angles. The reference frames are transported in parallel with the edges (parallel in
+/// time). Their change is part of the derivatives, so the Hessian is symmetric and exact.
 struct PairEnergy {
   PairVector gradient = PairVector::Zero();
   PairMatrix hessian = PairMatrix::Zero();
@@ -120,11 +124,12 @@ CurvatureBinormal curvature_binormal(const Eigen::Vector3d& t, const Eigen::Vect
 
 BinormalSlopes binormal_with_slopes(const Eigen::Vector3d& t, const Eigen::Vector3d& s);
 
-/// From increments p, q to edge vectors: e counts 1/|e|, f counts 1/|f|.
+/// Converts derivatives by the increments p = de/|e|, q = df/|f| to derivatives by e and f.
 void scale_to_edges(double length_e, double length_f, PairEnergy& out);
 
-/// E(c), c = t.s, given E' and E'' (edge vectors, after scale_to_edges): bending of a round rod,
-/// shear of a joint.
+/// Adds an energy E(c) of the cosine c = t . s between the edges, given E' and E'', to `out` by
+/// edge vectors (so after scale_to_edges()). Used for the bending of round rods and the shear of
+/// joints.
 void add_cosine(double by_c, double by_cc, const EdgeGeometry& e, const EdgeGeometry& f,
                 PairEnergy& out);
 
@@ -226,18 +231,20 @@ struct EndBending {
   double add(const PairGeometry& at, PairEnergy& out) const;
 };
 
-// The resistances of a joint, to shear and to spin, on the edges that are centred on it.
+// The laws of a joint, shear and spin. They act on the edges that are centred on the joint.
 
-/// The angle between two rods at a joint, E = k/2 (angle - `rest` - `opening`)^2. The mixed form
-/// has its torque T = k (angle - `rest` - `opening`) for an unknown, as an edge its axial force.
+/// Shear: the resistance to a change of the angle between two rods,
+/// E = k/2 (angle - `rest` - factor `opening`)^2. In the mixed form its torque, k times the
+/// expression in brackets, is an unknown of its own, as the axial force of an edge is.
 struct JointAngle {
   static constexpr Term term = Term::shear;
   double stiffness = 0;  ///< k, N mm/rad
   double rest = M_PI / 2;
-  double opening = 0;  ///< in all, rad
+  double opening = 0;  ///< complete actuation angle of the joint, rad
   int joint = 0;
-  /// +1, -1: rods with this side of the joint's normal, the first edge's director, have a positive
-  /// angle, and one that closes continues below zero; 0: no normal is known
+  /// Sign of the angle, by the joint's normal (the first edge's director): +1 if t_e x t_f along
+  /// the normal is a positive angle, -1 if it is negative. An angle that closes continues below
+  /// zero. 0: there is no normal, the angle is between 0 and pi.
   int side = 0;
   /// Weight w in the mean of several joints' angles, which stores K/2 (sum of w times the excess)^2
   /// instead of their own energies (Model::mean_stiffness); 0: the joint is by itself.

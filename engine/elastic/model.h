@@ -20,20 +20,21 @@
 
 namespace gridshell {
 
-/// Edge k joins nodes `from` and `to`; edges of a rod follow one another. A ghost has no EA.
+/// An edge of a rod from node `from` to node `to`. The edges of a rod are consecutive. A ghost edge
+/// has EA = 0.
 struct ModelEdge {
   int from = 0, to = 0;
   double rest_length = 0;  ///< mm
   double EA = 0;           ///< N
   BlockSlot slot = 0;
-  int centre = -1;  ///< node that it is centred on, of which it is one half; -1: none
+  int centre = -1;  ///< node of the joint on which it is centred with its other half; -1: none
 };
 
-/// Bending at the node between edges e and f: f = e + 1, but where a ring closes.
+/// Bending at the node between edges e and f of a rod. f = e + 1, except where a ring closes.
 struct ModelBend {
   int e = 0, f = 0;
   double stiffness =
-      0;  ///< 2 EI/l, l the mean natural length of the two edges (mJ); 0: one of PairLists
+      0;  ///< 2 EI/l, mJ, l the mean natural length of both edges; 0: its law is in Model::pairs
   BlockSlot slot = 0;
 };
 
@@ -49,35 +50,39 @@ struct ModelBar {
   BlockSlot slot = 0;
 };
 
-/// Blocks between the nodes of two edges and the columns of their angles; -1: none.
+/// Positions in the Hessian of the blocks that an energy of two edges e, f adds to; -1: no block.
 struct PairSlots {
-  BlockSlot e = -1, f = -1;                                         ///< between the ends of an edge
-  BlockSlot across[2][2] = {{-1, -1}, {-1, -1}};                    ///< an end of e, an end of f
-  BlockSlot spin[4][2] = {{-1, -1}, {-1, -1}, {-1, -1}, {-1, -1}};  ///< end (e's, f's), angle
-  BlockSlot spins = -1;                                             ///< between the angles
+  BlockSlot e = -1, f = -1;                       ///< between both ends of e, both ends of f
+  BlockSlot across[2][2] = {{-1, -1}, {-1, -1}};  ///< [end of e][end of f]
+  /// [end: e.from, e.to, f.from, f.to][angle of e, of f]
+  BlockSlot spin[4][2] = {{-1, -1}, {-1, -1}, {-1, -1}, {-1, -1}};
+  BlockSlot spins = -1;  ///< between the columns of the two angles
 };
 
-/// An energy of two edges of one kind.
+/// An energy of the kind `Law` of two edges e and f.
 template <class Law>
 struct Pair {
   int e = 0, f = 0;
-  int bend = -1;  ///< of edges that follow one another: whose reference twist it is
+  int bend =
+      -1;  ///< bend at the node between e and f, for its reference twist; -1: not consecutive
   Law law;
   PairSlots slots = {};
 };
 
-/// All energies of two edges except plain bending: another energy is another list.
+/// All energies of two edges, a list for each kind, except the bending of round straight rods
+/// (ModelBend).
 using PairLists = std::tuple<std::vector<Pair<Torsion>>, std::vector<Pair<SectionBending>>,
                              std::vector<Pair<EndBending>>, std::vector<Pair<JointAngle>>,
                              std::vector<Pair<JointSpin>>>;
 
-// A joint with a law has unknowns of its own: its position x_c, and for each rod the vector of the
-// edge that is centred on it, by one of the neighbouring nodes, whose edges are its halves. What
-// else is there follows from these, and so do energies, forces and the Hessian: those by all nodes
-// and angles are taken first, then they are carried over to what is free (chain rule).
+// A joint with a law has unknowns of its own: its position x_c and, for each of its rods, the edge
+// that is centred on x_c. Such an edge is given by x_c and its first node; its second node
+// *follows* from these. Energies, forces and the Hessian are first computed by all nodes and
+// angles, then transferred to the leading ones by the chain rule.
 
-/// A column that follows others: where its blocks of the Hessian go. Of every column that it has a
-/// block with the slot of that, and those of the leading ones with it (-1: it is the same column).
+/// Where the Hessian's blocks of a following column are added. For each column with which it has a
+/// block: the position of that block, and those of the leading columns with it (-1: the same
+/// column).
 struct FollowerBlocks {
   struct Column {
     int column = 0;
@@ -88,15 +93,17 @@ struct FollowerBlocks {
   std::vector<Column> beside;
 };
 
-/// The second node of a centred edge, x = 2 x_centre - x_first.
+/// The second node of a centred edge, which follows from the joint and the first node:
+/// x = 2 x_centre - x_first.
 struct ModelFollower {
   int node = 0, centre = 0, first = 0;
   FollowerBlocks blocks = {};
 };
 
-/// A rod at a joint that keeps its section near the joint's normal n = side t_e x t_f/|...|, t the
-/// tangents of the two rods' centred edges: n is the first reference director of edge e, whose
-/// angle then is the spin phi from the normal, E = k/2 phi^2, or is fixed (k infinite).
+/// A rod whose section is connected to the normal of a joint. The normal is n = side t_e x t_f
+/// /|t_e x t_f|, with the tangents of both rods' centred edges. It is the first reference director
+/// of edge e, so the angle of e is the spin phi from the normal: E = k/2 phi^2, or phi = 0 (k
+/// infinite).
 struct ModelHinge {
   Pair<JointSpin> pair;
   int other_half = -1;   ///< of edge e; -1: the rod ends there
@@ -134,9 +141,9 @@ struct ModelRod {
   bool closed() const { return position.size() == nodes.size() + 1; }
 };
 
-/// The unknowns are in columns of three: one per node (mm), then, of the twist model, the angles of
-/// edges, three per column and times `spin_length`, so that every unknown is a length, every force
-/// a force and every stiffness N/mm.
+/// The model. Its unknowns are columns of three numbers: first one column per node (position, mm),
+/// then, in the twist model, the angles of the edges, three per column. Angles are multiplied by
+/// `spin_length`, so that all unknowns are lengths (mm), all forces N and all stiffnesses N/mm.
 struct Model {
   int nodes = 0;           ///< ghosts too
   double spin_length = 1;  ///< mm; the mean edge
@@ -167,18 +174,18 @@ struct Model {
     FibreReach fibres;
   };
   std::vector<Rod> rods;
-  /// Rods of one wave share no node, and those at a node are in the order of their waves: sums at
-  /// a node have one order, whoever goes along which rod.
+  /// Rods in groups that share no node. Groups are processed one after another, the rods of a group
+  /// in parallel: the sum at a node has the same order for any number of threads.
   std::vector<std::vector<int>> waves;
 
-  /// per column: a bit set for each of its three unknowns that is prescribed or does not exist; all
-  /// of one that follows others, and a fourth
+  /// For each column bits 1, 2, 4 of its unknowns that are prescribed or do not exist (all_held:
+  /// all three), and bit 8 in addition if it follows other columns (`follows`).
   std::vector<unsigned char> held;
   static constexpr unsigned char all_held = 7, follows = 15;
 
-  // worked out by finish()
+  // computed by finish()
   BlockPattern pattern;
-  std::vector<int> free_index;    ///< per column: index among those not completely fixed, or -1
+  std::vector<int> free_index;    ///< per column: its index among the free ones; -1: all prescribed
   std::vector<int> free_columns;  ///< its inverse
   Eigen::Matrix2Xd flat;          ///< (u, v) of every column, for seeds and orderings
   std::vector<int> segment;       ///< per column: the segment of a rod it is inside of, or -1
@@ -195,9 +202,9 @@ struct Model {
   void pin(int node) { held[std::size_t(node)] = all_held; }
   void hold(int column, int row) { held[std::size_t(column)] |= (unsigned char)(1 << row); }
   bool has_spins() const { return !spin.empty(); }
-  /// Puts nodes that follow others where these say: positions, or moves of them.
+  /// Sets the following nodes of `x`, positions or displacements, from the leading ones.
   void follow(Eigen::Matrix3Xd& x) const;
-  /// Forces on nodes that follow others become forces on these.
+  /// Transfers the forces on following nodes to the leading ones (chain rule).
   void fold(Eigen::Matrix3Xd& force) const;
   /// Fixes the angle of an edge.
   void hold_spin(int edge) { hold(spin[std::size_t(edge)] / 3, spin[std::size_t(edge)] % 3); }
@@ -207,22 +214,23 @@ struct Model {
   }
 };
 
-/// The length of an edge that bends at its two nodes, mm: none of a ghost, of a half that of the
-/// whole centred edge.
+/// The length of an edge that counts for bending, mm: 0 of a ghost edge; of half a centred edge
+/// that of the complete edge.
 double bending_length(const Model& model, int edge);
-/// What bends between two edges, mm: the mean of their lengths.
+/// The length over which the node between two edges bends, mm: the mean of their bending_length().
 double length_between(const Model& model, int e, int f);
 
-/// Puts rods together; nodes that rods share are shared joints. `crossings` marks more nodes at
-/// which rods are connected (spring joints). In the twist model the spin of a rod that
-/// nothing resists (round and straight, no end clamped) costs no energy: one of its angles is
-/// fixed. In the bend model a section with axes bends as its softer one (an initial guess for the
-/// twist model). Errors (bad_input): stiffness that is not positive, a torsional stiffness that is
-/// missing on the twist model, arc lengths that do not ascend, a node that does not exist.
+/// Builds the model of `rods` on `nodes` nodes. Rods with a common node share that joint.
+/// `crossings` marks further nodes at which rods are connected (spring joints). In the twist model,
+/// if nothing resists the spin of a rod (round, straight, no clamped end), one of its angles is
+/// fixed. In the bend model a section with two stiffnesses has the smaller one (for an initial
+/// guess of the twist model). Errors (bad_input): stiffness that is not positive, a torsional
+/// stiffness that is missing on the twist model, arc lengths that do not ascend, a node that does
+/// not exist.
 Result<Model> build_model(int nodes, const std::vector<ModelRod>& rods, RodModel rod_model,
                           const std::vector<char>& crossings = {});
 
-/// The law of a bend of which `bends` has no stiffness, if it is one of these; else null.
+/// The law of kind `Law` in Model::pairs at a bend; null if the bend has none of that kind.
 template <class Law, class AnyModel>
 auto* law_of(AnyModel& model, int bend) {
   auto& pairs = std::get<std::vector<Pair<Law>>>(model.pairs);  // in the order of the bends
@@ -230,11 +238,11 @@ auto* law_of(AnyModel& model, int bend) {
   return at != pairs.end() && at->bend == bend ? &at->law : nullptr;
 }
 
-/// The edges of a rod that meet at a node, one or two.
+/// The edges of rod `rod` at a node: one at its end, else two.
 std::vector<int> edges_beside(const Model& model, int rod, int node);
 
-/// The tangent of a rod at a node, of one centred there that of its edge, else by the quadratic
-/// through the two edges at the node: t ~ t1 l2 + t2 l1.
+/// The unit tangent of a rod at a node: of an edge centred there its direction; else that of the
+/// quadratic through the two edges, t ~ t1 l2 + t2 l1 (t1, t2 unit tangents, l1, l2 lengths).
 Eigen::Vector3d tangent_at(const Model& model, const Eigen::Matrix3Xd& x, int rod, int node);
 
 /// Where rods `a` and `b` of a model cross: at a node, or at two nodes that a spring joins.
@@ -255,8 +263,8 @@ void add_joint_hinge(Model& model, const Crossing& at, double stiffness, int sid
 /// own.
 void add_joint_spin(Model& model, const Crossing& at, double stiffness, int side = 1);
 
-/// Adds the bolt of two rods that lie apart where they cross, `eccentricity` along t_a x t_b: as
-/// stiff as so long a piece of the softer rod.
+/// Adds the bolt between two rods whose axes have the distance `eccentricity` (mm) along t_a x t_b.
+/// Its stiffness is EA/|eccentricity| of the rod with the smaller EA.
 void add_joint_link(Model& model, const Crossing& at, double eccentricity);
 
 /// The nodes of its two edges.

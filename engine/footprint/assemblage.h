@@ -1,5 +1,5 @@
-// Building blocks: nets cut along rows of joints, where the crossing rods leave v-shaped notches,
-// and joined there into larger footprints [Baek 2018, Fig. 5].
+// Assembled shells: nets are cut along rows of joints into blocks, and blocks are joined at these
+// cuts into a larger footprint [Baek 2018, Fig. 5].
 #pragma once
 
 #include <Eigen/Core>
@@ -16,41 +16,42 @@
 
 namespace gridshell {
 
-/// A side of a block, by where it faces in the footprint: east and west along u + v, north and
-/// south along v - u.
+/// A side of a block in the footprint: east and west are the directions of +(u + v) and -(u + v),
+/// north and south those of +(v - u) and -(v - u).
 enum class Side { east, west, north, south };
 
-/// A net, the part of its (u, v) plane that is used, and the rows of joints at which it is cut.
-/// Cut at row m on its east side it is kept where u + v <= m d, on its west side where
-/// u + v >= m d; on its north and south side likewise with v - u.
+/// A building block: a net, the part of its (u, v) plane that is used, and the rows of joints at
+/// which it is cut. A cut at row m of the east side retains u + v <= m d, of the west side
+/// u + v >= m d; the north and south sides likewise with v - u.
 struct Block {
   std::string name;
   std::shared_ptr<const ChebyshevNet> net;
   std::shared_ptr<const Domain> domain;  ///< before it is cut
-  /// puts the net into a frame that all blocks share: its boundary in z = 0, +u + v along x
+  /// moves the net into the common frame of all blocks: its boundary in z = 0, +(u + v) along x
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   double spacing = 0;  ///< d, mm
   Placement placement = Placement::half;
-  std::array<std::optional<int>, 4> cut;  ///< by side
+  std::array<std::optional<int>, 4>
+      cut;  ///< row m of each side, in the order of Side; empty: no cut
 };
 
-/// A side of the block with that index in the list of blocks.
+/// One side of block number `block` of a list.
 struct BlockSide {
   int block = 0;
   Side side = Side::east;
 };
 
-/// Two sides that become one seam; they must face one another (east west, or north south).
+/// Two sides that are joined to a seam: an east and a west side, or a north and a south side.
 struct Join {
   BlockSide first, second;
 };
 
-/// A rod across a seam: how far apart the two nets put it, and the angle between its tangents.
+/// A rod that crosses a seam.
 struct SeamRod {
   Family family = Family::u;
-  double line_mm = 0;  ///< v of a u-rod, u of a v-rod, in the whole footprint
-  double gap_mm = 0;
-  double kink_deg = 0;
+  double line_mm = 0;   ///< v of a u-rod, u of a v-rod, in the complete footprint
+  double gap_mm = 0;    ///< distance between its positions on the two nets at the seam
+  double kink_deg = 0;  ///< angle between its tangents on the two nets there
 };
 
 /// The rods across one seam, in order along it.
@@ -62,17 +63,18 @@ struct Seam {
   double max_kink_deg() const;
 };
 
-/// A rod of one block alone, on its net, at its position in the assemblage.
+/// A rod of a single block, as points at the block's position in the assembled shell.
 struct BlockRod {
-  Eigen::Matrix3Xd net;   ///< points along it, mm
-  Eigen::Matrix2Xd flat;  ///< and where they lie in the whole footprint
+  Eigen::Matrix3Xd net;   ///< points on the net, mm
+  Eigen::Matrix2Xd flat;  ///< the same points in the complete footprint, mm
 };
 
-/// Blocks side by side: their footprints in one plane, their nets in one space.
+/// Joined blocks: their footprints next to each other in one plane, their nets in one space.
 class Assemblage {
  public:
-  /// Moves each block in the footprint by whole cells so that the joints of its seams coincide, and
-  /// its net straight and level so that the middles of the seams do. The first block stays.
+  /// Joins the blocks. In the footprint each block is translated by an integer number of cells, so
+  /// that the joints of its seams coincide; its net is translated horizontally, so that the middles
+  /// of the seams coincide. The first block is not moved.
   ///
   /// Errors (bad_input), naming the sides: blocks of unequal d or placement; sides that do not face
   /// one another, are not cut, or are cut and not joined; another number or order of rods across a
@@ -81,12 +83,14 @@ class Assemblage {
   static Result<Assemblage> make(std::vector<Block> blocks, const std::vector<Join>& joins,
                                  double max_gap_mm);
 
-  /// The nets piece by piece; on a seam the middle of both.
+  /// The net of the assembled shell: inside a block that block's net, on a seam the mean of the
+  /// two.
   std::shared_ptr<const ChebyshevNet> net() const;
-  /// The inside of the joined footprints; rods run on across seams.
+  /// The region of the joined footprints. Rods continue across seams.
   std::unique_ptr<Domain> domain() const;
-  /// A position near the net at every column of `uv` without its gaps: each block moved towards the
-  /// other by half the gap at the seam, fading out over `fade_mm` away from it. Errors: as net().
+  /// Positions at the columns of `uv`, 3 x n, mm, near the net but without gaps: at a seam each
+  /// block is moved towards the other by half the gap; the move decreases to zero within `fade_mm`
+  /// of the seam. Errors: those of net()->at().
   Result<Eigen::Matrix3Xd> closed(const Eigen::Matrix2Xd& uv, double fade_mm) const;
 
   const std::vector<Seam>& seams() const { return seams_; }
@@ -96,7 +100,7 @@ class Assemblage {
   /// `step_mm`. Errors (bad_input): those of its net.
   Result<std::vector<BlockRod>> rods(int index, double step_mm) const;
 
-  struct PlacedBlock;  ///< a block and where it lies
+  struct PlacedBlock;  ///< a block and its position
   using Places = std::vector<PlacedBlock>;
 
  private:
@@ -105,31 +109,32 @@ class Assemblage {
   std::vector<Seam> seams_;
 };
 
-// A building block where it lies in an assemblage.
+// A block at its position in an assembled shell.
 
-/// +1 where a cut keeps what lies below its row (east, north), else -1.
+/// +1 if a cut of this side retains what is below its row (east, north), else -1.
 double outward(Side side);
 
-/// A block moved by `shift` in the footprint and by `offset` in space. Points (u, v) are those of
-/// the whole footprint, mm.
+/// A block translated by `shift` in the footprint and by `offset` in space. Arguments (u, v) are
+/// positions in the complete footprint, mm.
 struct Assemblage::PlacedBlock {
   Block block;
   Eigen::Vector2d shift = Eigen::Vector2d::Zero();
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();
 
-  /// The net there, in place. Errors: those of the net.
+  /// The net, translated, at (u, v). Errors: those of the net.
   Result<NetPoint> at(const Eigen::Vector2d& uv) const;
-  /// How far `uv` lies inside the cut on `side`, along u + v or v - u; infinite without a cut.
+  /// Distance of `uv` from the cut on `side`, measured in u + v or v - u, positive inside; infinite
+  /// without a cut.
   double depth(Side side, const Eigen::Vector2d& uv) const;
-  /// Whether `uv` lies inside all cuts, and inside the uncut boundary, to 1e-9 d.
+  /// Whether `uv` is inside all cuts; next function: inside the uncut boundary. Tolerance 1e-9 d.
   bool within_cuts(const Eigen::Vector2d& uv) const;
   bool within_boundary(const Eigen::Vector2d& uv) const;
-  /// Pieces of a grid line inside, in order.
+  /// The pieces of a grid line (as Domain::intervals()) inside the block, in order.
   std::vector<Interval> intervals(Family family, double c) const;
-  /// The joints on the row of a cut that lie inside, by growing u.
+  /// The joints on the row of a cut that are inside the boundary, in the order of u.
   std::vector<Eigen::Vector2d> row(Side side) const;
-  /// The boundary without what the cuts take away, open polylines counter-clockwise that end just
-  /// before the cuts; the whole boundary of a block without cuts.
+  /// The parts of the boundary that the cuts leave: open counter-clockwise polylines that end just
+  /// before the cuts. Without cuts the complete boundary.
   std::vector<Eigen::Matrix2Xd> outline(int points) const;
 };
 

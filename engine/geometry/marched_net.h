@@ -1,4 +1,5 @@
-// A net that is marched over a surface as far as there is one.
+// Chebyshev nets on meshes with rims, holes and creases: marched from an apex over the surface
+// until each rod meets a line of the mesh.
 #pragma once
 
 #include <algorithm>
@@ -13,35 +14,41 @@
 
 namespace gridshell {
 
-/// What ends a rod of a net: a line of the mesh, the boundary that the preset gives, rods too close
-/// to parallel, no smooth surface, another part of the net.
+/// Why a rod of a net ends: at a line of the mesh (rim, hole, crease), at the boundary given by the
+/// preset (cut), because rods are too close to parallel (angle), because the surface bends too
+/// sharply (surface), or because another part of the net is there already (net).
 enum class RodStop : char { none, rim, hole, crease, cut, angle, surface, net };
 
-/// "a hole", "rods too close to parallel": why a net ends there.
+/// The reason in words: "a hole", "rods too close to parallel ([net] least_angle_deg)".
 std::string text_of(RodStop stop);
 
-/// Points p(i, j) of a surface, neighbours a chord h apart, from an apex outwards. Where both
-/// neighbours towards the axes are there, they decide [as in ChordGrid]; where only one is, as the
-/// other's rod has ended, its rod goes straight on as a geodesic: the axes are the first of these.
-/// A path that would cross a line of the mesh, leave the requested part, or bring rods closer to
-/// parallel than the least angle is not gone; but outside rims and holes some nodes are found where
-/// the surface continues, for what lies between the last nodes and there.
+/// A discrete Chebyshev net: points p(i, j) of a surface, neighbours at distance h (the chord),
+/// computed from the apex outwards.
+/// - If both neighbours towards the axes are known, p(i, j) is at distance h from both [ChordGrid].
+/// - If only one is known, because the other's rod has ended, its rod continues as a geodesic. The
+///   axes are the first such rods.
+/// - A node is not computed if its rod would cross a line of the mesh, leave the requested part, or
+///   cross another rod at less than the least angle.
+/// - Outside rims and holes, on the continued surface, `margin` nodes are computed all the same
+///   (Node::beyond). They serve the interpolation between the last nodes and the rim.
 class MarchedGrid {
  public:
   struct Node {
     Eigen::Vector3d p = Eigen::Vector3d::Zero();
     bool known = false;
-    char beyond = 0;                  ///< of one outside a rim or hole: how many nodes; 0: none
-    bool to_u = false, to_v = false;  ///< joined to node (i + 1, j), (i, j + 1) by a rod
-    bool on_u = false, on_v = false;  ///< the same, or as a rod would continue past its end
+    char beyond = 0;                  ///< number of nodes outside a rim or hole; 0: not outside
+    bool to_u = false, to_v = false;  ///< a rod connects it to node (i + 1, j), (i, j + 1)
+    bool on_u = false, on_v = false;  ///< as to_u, to_v, or a rod's continuation past its end does
+    /// computed from both neighbours, or as the geodesic of its u-rod or v-rod
     enum : char { corner, straight_u, straight_v } by = corner;
-    RodStop stop = RodStop::none;  ///< why it is not known; none: no rod comes there
+    RodStop stop = RodStop::none;  ///< why it is not known; none: no rod leads to it
   };
 
-  /// No further than `most` chords from the apex, and `margin` outside rims. `least_angle` in rad.
+  /// Computes nodes up to `most` chords from the apex and `margin` nodes outside rims. `lines`: the
+  /// lines of the mesh; `least_angle`: between rods, rad; `chord`: h, mm.
   MarchedGrid(const Surface& surface, const NetPlace& place, const Barriers& lines,
               double least_angle, double chord, int most, int margin = 0);
-  /// The grid of half the chord, where `lead` has nodes, its rods straight where that one's are.
+  /// The grid of half the chord on the part that `lead` covers, with geodesics for the same rods.
   MarchedGrid(const Surface& surface, const NetPlace& place, const MarchedGrid& lead);
 
   double chord() const { return chord_; }
@@ -51,17 +58,17 @@ class MarchedGrid {
     return std::abs(i) <= most_ && std::abs(j) <= most_ ? nodes_[index(i, j)] : outside;
   }
   bool known(int i, int j) const { return at(i, j).known; }
-  /// Or outside a rim.
+  /// Whether the node is computed, inside or outside a rim.
   bool present(int i, int j) const { return at(i, j).known || at(i, j).beyond > 0; }
-  /// Whether a rod joins neighbours; `way` a unit step along u or v.
+  /// Whether a rod connects node (i, j) to its neighbour (i + way_u, j + way_v), one of these +-1.
   bool joined(int i, int j, int way_u, int way_v) const {
     return way_u != 0 ? at(std::min(i, i + way_u), j).to_u : at(i, std::min(j, j + way_v)).to_v;
   }
-  /// Or would, outside a rim.
+  /// As joined(), or a rod's continuation outside a rim does.
   bool linked(int i, int j, int way_u, int way_v) const {
     return way_u != 0 ? at(std::min(i, i + way_u), j).on_u : at(i, std::min(j, j + way_v)).on_v;
   }
-  /// visit(i, j) of all that are known, row by row.
+  /// Calls visit(i, j) for all known nodes, row by row.
   template <class Visit>
   void each_known(const Visit& visit) const {
     for (int j = -most_; j <= most_; ++j)
@@ -82,25 +89,28 @@ class MarchedGrid {
   std::vector<Node> nodes_;
 };
 
-/// The smooth net of two such grids, of h and h/2, whose leading error is taken away, as far as
-/// they reach. Between the nodes as SurfaceNet; near its edges from nodes that are continued
-/// smoothly.
+/// The smooth net, extrapolated from two MarchedGrids of h and h/2: (4 fine - coarse)/3. Between
+/// the nodes it is interpolated as SurfaceNet is; near its edges from nodes continued smoothly past
+/// them.
 class MarchedNet final : public ChebyshevNet {
  public:
-  /// `chord_mm`: h. Errors (bad_input): no rod leaves the apex.
+  /// `lines`: the lines of the mesh; `least_angle`: between rods, rad; `chord_mm`: h; `most`:
+  /// largest number of chords from the apex. Errors (bad_input): no rod leaves the apex.
   static Result<MarchedNet> make(const Surface& surface, const NetPlace& place,
                                  std::shared_ptr<const Barriers> lines, double least_angle,
                                  double chord_mm, int most);
 
   Result<NetPoint> at(double u, double v) const override;
 
-  /// The net at (u, v) where it is reached without crossing a line; else nothing.
+  /// The net at (u, v); empty if rods do not reach (u, v) without crossing a line of the mesh.
   std::optional<NetPoint> reached(double u, double v) const;
-  /// Whether a rod goes from p to q, `way_mm` along it and as far apart but for `off` of that.
+  /// Whether a rod of length `way_mm` connects p and q: no line of the mesh is between them, and
+  /// their distance differs from the length by at most the fraction `off`.
   bool joined(const Eigen::Vector3d& p, const Eigen::Vector3d& q, double way_mm, double off) const;
 
   double chord() const { return grid_.chord(); }
-  const MarchedGrid& grid() const { return grid_; }  ///< its nodes are the net's
+  /// The grid of h, with its nodes moved to the extrapolated positions.
+  const MarchedGrid& grid() const { return grid_; }
   /// Smallest angle between rods at the nodes, rad.
   double least_angle() const { return least_angle_; }
 

@@ -10,52 +10,55 @@
 
 namespace gridshell {
 
-/// Where on a surface a net lies: its axes leave `apex`, a point of the surface, along `along_u`
-/// and, at a right angle and to the left of it as `up` is seen from above, v.
+/// Position and direction of a net on a surface. The u axis starts at `apex` along `along_u`, the v
+/// axis along up x along_u.
 struct NetPlace {
-  Eigen::Vector3d apex, along_u, up;  ///< mm; unit and orthogonal
-  /// below zero where the net is used; not a number counts as outside
+  Eigen::Vector3d apex;         ///< a point of the surface, mm
+  Eigen::Vector3d along_u, up;  ///< unit and orthogonal; `up` is the surface's normal
+  /// Below zero at points of the surface that the net is to cover. NaN counts as outside.
   Surface::Function outside;
 };
 
-/// The point a chord away from `here` in the plane of the surface's normal and `along`, a unit
-/// tangent; nothing: none is found near.
+/// The point of the surface at distance `chord` (mm) from `here`, in the plane of the surface's
+/// normal and the unit tangent `along`: one step of a geodesic. Empty if no such point is near.
 std::optional<Eigen::Vector3d> geodesic_chord(const Surface& surface, const Eigen::Vector3d& here,
                                               const Eigen::Vector3d& along, double chord);
 
-/// The point of the surface near `guess` a chord away from A and from B; nothing: none is near.
+/// The point of the surface at distance `chord` (mm) from both A and B, by Newton's method from
+/// `guess`. Empty if no such point is near.
 std::optional<Eigen::Vector3d> chord_corner(const Surface& surface, const Eigen::Vector3d& guess,
                                             const Eigen::Vector3d& A, const Eigen::Vector3d& B,
                                             double chord);
 
-/// Nodes to each side that a value between two nodes takes.
+/// Number of nodes on each side of a position that interpolation between nodes uses.
 inline constexpr int net_reach = 3;
-/// Those around a cell of a grid, row by row along u.
+/// The 6 x 6 nodes around a cell of a grid, row by row along u, mm.
 using NetNodes = std::array<Eigen::Vector3d, 4 * net_reach * net_reach>;
 
-/// The error of who asks for a net where there is none.
+/// The error (bad_input) "the net ends before (u, v)".
 tl::unexpected<Error> ended_before(double u, double v);
 
-/// The net at a position in the middle cell, t_u and t_v of it from 0 to 1, by a polynomial of
-/// degree 5 in u and in v.
+/// Position, tangents and curvature of the net inside the middle cell of `nodes`, by a polynomial
+/// of degree 5 in u and in v. t_u, t_v: position in the cell, 0 to 1; `chord`: its side, mm.
 NetPoint net_point(const NetNodes& nodes, double t_u, double t_v, double chord);
 
-/// Points p(i, j) of a surface, neighbours a chord h apart. The axes i and j are geodesics, each
-/// point in the plane of the normal and the chord before; all others follow from their two
-/// neighbours towards the axes, |p - p(i-1, j)| = |p - p(i, j-1)| = h. Distance from the smooth
-/// net: of second order in h.
+/// A discrete Chebyshev net: points p(i, j) of a surface, neighbours at distance h (the chord). The
+/// axes j = 0 and i = 0 are discrete geodesics (geodesic_chord()). Every other point follows from
+/// its two neighbours towards the axes: |p(i,j) - p(i-1,j)| = |p(i,j) - p(i,j-1)| = h. It differs
+/// from the smooth net by O(h^2).
 class ChordGrid {
  public:
   enum class Node : char {
-    unasked,  ///< too far outside
-    known,
-    folded,  ///< rods close to parallel: the sine of their angle is below 0.12
-    lost     ///< no point of the surface lies there, or it lies past such nodes
+    unasked,  ///< not computed: more than `margin` nodes outside the part that is used
+    known,    ///< computed
+    folded,   ///< rods are close to parallel: the sine of their angle is below least_sine
+    lost      ///< the surface has no such point, or the node lies past one without
   };
   static constexpr double least_sine = 0.12;
 
-  /// As far as the net is used and `margin` nodes further. Errors (bad_input): the axes do not
-  /// leave the used part within `most` nodes.
+  /// Computes all nodes of the part that is used (NetPlace::outside below zero) and `margin` nodes
+  /// around it. `chord_mm`: h. Errors (bad_input): an axis is still inside that part after `most`
+  /// nodes.
   static Result<ChordGrid> make(const Surface& surface, const NetPlace& place, double chord_mm,
                                 int margin, int most);
 
@@ -69,9 +72,9 @@ class ChordGrid {
   }
   Node node(int i, int j) const { return has(i, j) ? nodes_[place(i, j)] : Node::unasked; }
   const Eigen::Vector3d& at(int i, int j) const { return points_[place(i, j)]; }
-  /// From now on a node is not known.
+  /// Marks a node as lost.
   void forget(int i, int j) { nodes_[place(i, j)] = Node::lost; }
-  /// Whether the net is used there and joined to the apex by neighbours where it is.
+  /// Whether node (i, j) is in the part that is used and connected to the apex by nodes of it.
   bool inside(int i, int j) const { return has(i, j) && inside_[place(i, j)] != 0; }
 
  private:
@@ -95,28 +98,29 @@ class ChordGrid {
 
 // Chebyshev nets on any surface, found on grids of equal chords.
 
-/// What there is of a net that is refused, mm.
+/// The computed part of a net that was refused, for a picture of what went wrong; mm.
 struct PartialNet {
-  std::vector<Eigen::Matrix3Xd> lines;  ///< every fourth of the coarser grid, where it is used
-  Eigen::Matrix3Xd narrow{3, 0};  ///< its nodes where rods are less than 17 degrees from parallel
-  Eigen::Vector3d end = Eigen::Vector3d::Zero();  ///< where it ends too early
+  std::vector<Eigen::Matrix3Xd> lines;  ///< every fourth line of the coarser grid
+  Eigen::Matrix3Xd narrow{3, 0};        ///< nodes where rods cross at less than 17 degrees
+  Eigen::Vector3d end = Eigen::Vector3d::Zero();  ///< the position at which the net ends too early
 };
 
-/// From two geodesics that cross at right angles at u = v = 0. Two grids of equal chords, h and
-/// h/2, err by multiples of h^2 to leading order: (4 fine - coarse)/3 takes that away. Between the
-/// nodes, 6 x 6 of them make a polynomial of degree 5 in u and in v, from which tangents and
-/// curvature come too.
+/// The smooth Chebyshev net whose axes are two geodesics that cross at right angles at u = v = 0.
+/// It is computed on two ChordGrids, of h and h/2, and extrapolated: (4 fine - coarse)/3
+/// [Richardson 1911]. Between the nodes, positions, tangents and curvature are those of a
+/// polynomial of degree 5 in u and in v through 6 x 6 nodes (net_point()).
 class SurfaceNet final : public ChebyshevNet {
  public:
-  /// h, the chord of the coarser grid. Errors (bad_input): those of ChordGrid; where the net ends
-  /// though it is used, with the position and what may help; `so_far`, where given, is then filled.
+  /// `chord_mm`: h of the coarser grid. Errors (bad_input): those of ChordGrid::make(); a net that
+  /// ends inside the part that is used, with the position and what may help. On such an error
+  /// `so_far`, if given, receives the part that was computed.
   static Result<SurfaceNet> make(const Surface& surface, const NetPlace& place, double chord_mm,
                                  PartialNet* so_far = nullptr);
 
   Result<NetPoint> at(double u, double v) const override;
 
   double chord() const { return grid_.chord(); }
-  /// Whether the net is used at a node of the coarser grid, joined to the apex by such nodes.
+  /// As ChordGrid::inside(), of the coarser grid.
   bool inside(int i, int j) const { return grid_.inside(i, j); }
   int first_u() const { return grid_.first_u(); }
   int last_u() const { return grid_.last_u(); }

@@ -1,4 +1,5 @@
-// The language in which the field table is written: a list of keys of one struct.
+// FieldList: declares the keys of a preset's table from the members of its struct, with ranges,
+// meanings and rules. The files *_fields.cpp use it.
 #pragma once
 
 #include <fmt/format.h>
@@ -14,7 +15,7 @@
 
 namespace gridshell::preset {
 
-/// The name of a member: "diameter_mm" of &Rod::diameter_mm.
+/// The name of a member, from its pointer: "diameter_mm" for &Rod::diameter_mm.
 template <auto member>
 std::string member_name() {
   const std::string_view text = __PRETTY_FUNCTION__;
@@ -56,7 +57,7 @@ std::vector<std::string> words_of_type(const std::vector<T>*) {
   return words_of_type(static_cast<const T*>(nullptr));
 }
 
-/// What the lists of all structs share, compiled once and not once per key.
+/// The part of FieldList that does not depend on the struct, so that it is compiled once.
 class AnyFieldList {
  protected:
   using StructOf = std::function<void*(Preset& preset, int item)>;
@@ -72,7 +73,7 @@ class AnyFieldList {
   void rename(std::string key);
   void add_rule(RuleKind kind, Keys others, Fault fault);
   void add_rule(RuleKind kind, Keys others, std::string_view what, Condition condition);
-  /// Unused unless the word of `decider` is one of `users`.
+  /// The key is unused unless the value of the key `decider` is one of `users`.
   void use_only(std::string_view decider, WordOf word, std::vector<std::string> users);
 
   std::vector<Field>& all_;
@@ -86,12 +87,14 @@ class AnyFieldList {
   std::vector<Rule> common_;
 };
 
-/// The keys of a struct. A rule after a key applies to that key; a rule before the first key
-/// applies to all. Conditions take the preset, the struct, or both.
+/// Declares the keys of one struct, in order. A rule that follows a key applies to that key, a rule
+/// before the first key to all keys. The function of a rule takes (const Preset&), (const Struct&),
+/// or both.
 template <class Struct>
 class FieldList : AnyFieldList {
  public:
-  /// `of` leads to the struct, in a list of tables to that of an item (below 0: the last).
+  /// `of` returns the struct of a preset: of(preset), or for a list of tables of(preset, item),
+  /// where an item below 0 is the last one.
   template <class Of>
   FieldList(std::vector<Field>& all, std::string table, Of of)
       : AnyFieldList(all, std::move(table), [of](Preset& preset, int item) -> void* {
@@ -101,7 +104,7 @@ class FieldList : AnyFieldList {
             return &std::invoke(of, preset);
         }) {}
 
-  /// A key with the name of its member and the unit that its name ends in.
+  /// Adds a key named as its member; its unit is the ending of that name.
   template <auto member>
   FieldList& add(Range range, std::string_view meaning) {
     using Value = std::remove_reference_t<decltype(std::declval<Struct&>().*member)>;
@@ -117,7 +120,7 @@ class FieldList : AnyFieldList {
 
   FieldList& named(std::string key) { return rename(std::move(key)), *this; }
   FieldList& unit(std::string unit) { return all_.back().unit = std::move(unit), *this; }
-  /// Describes the entries of a list of numbers that is not empty.
+  /// The entries of a list of numbers, such as "[i, j]": a list that is not empty has that many.
   FieldList& shape(std::string shape) { return all_.back().shape = std::move(shape), *this; }
   FieldList& colour() { return all_.back().colour = true, *this; }
   FieldList& points(std::vector<std::string> coordinates,
@@ -127,11 +130,11 @@ class FieldList : AnyFieldList {
     return *this;
   }
 
-  /// Restricts the following rules to presets that fulfil the condition.
+  /// Restricts all following rules to presets for which the condition is true.
   FieldList& where(std::function<bool(const Preset&)> holds) {
     return where_ = std::move(holds), *this;
   }
-  /// `fault` returns the error, or an empty text.
+  /// Adds a rule whose function returns the error, or an empty text if there is none.
   template <class Say>
   FieldList& rule(RuleKind kind, Keys others, Say fault) {
     add_rule(kind, others, [fault](const Preset& preset, const void* one) {
@@ -162,7 +165,7 @@ class FieldList : AnyFieldList {
     return rule(RuleKind::needs_equilibrium, {}, why, holds);
   }
 
-  /// The words of `kind`, the first key of the list, for which the key counts.
+  /// The values of `kind`, the first key of the list, for which this key is used.
   template <class Kind>
   FieldList& used_by(Kind Struct::*kind, std::vector<std::type_identity_t<Kind>> users) {
     use_only(
@@ -201,7 +204,7 @@ class FieldList : AnyFieldList {
   }
 };
 
-/// What asks for a mass that a family of rods lacks.
+/// Adds the rule that the density must be given if `asks` is true of the struct.
 template <class Struct>
 void needs_mass(FieldList<Struct>& list, const char* what, bool (*asks)(const Struct&)) {
   for (const char* table : {"rod", "rod_v"})

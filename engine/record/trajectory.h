@@ -163,14 +163,14 @@ struct Layout {
   std::vector<int> edge_points;  ///< nodes pinned on the boundary
   /// Nodes that may be constrained: joints, edge points, far ends of tails. Empty: not known.
   std::vector<int> supports;
-  std::vector<int> sprung;             ///< nodes that a spring pulls to a support
-  Eigen::Matrix3Xd spring_N_per_mm;    ///< of each of these springs along x, y, z; 0: none that way
-  Eigen::Matrix3Xd original_boundary;  ///< closed polyline (last point joins the first)
-  Eigen::Matrix3Xd actuated_boundary;  ///< same number of points; in correspondence
-  Eigen::Matrix3Xd net_nodes;          ///< position of every node on the designed net, if any
-  Eigen::Matrix3Xd flat_nodes;         ///< and in the flat footprint, where there is a net
-  std::vector<Part> parts;             ///< of a net made of building blocks
-  std::vector<SeamRod> seam_rods;      ///< and how they meet
+  std::vector<int> sprung;                 ///< nodes that a spring pulls to a support
+  Eigen::Matrix3Xd spring_N_per_mm;        ///< stiffness of each along x, y, z; may be 0
+  Eigen::Matrix3Xd original_boundary;      ///< closed polyline (last point joins the first)
+  Eigen::Matrix3Xd actuated_boundary;      ///< same number of points; in correspondence
+  Eigen::Matrix3Xd net_nodes;              ///< position of every node on the designed net, if any
+  Eigen::Matrix3Xd flat_nodes;             ///< and in the flat footprint, where there is a net
+  std::vector<Part> parts;                 ///< of a net made of building blocks
+  std::vector<SeamRod> seam_rods;          ///< and how they meet
   std::vector<LoadedJoint> loaded_joints;  ///< where the shell is pushed or pulled
   /// Whether nodes and K of frames are extrapolated over the last two meshes. Residuals and pivots
   /// are those of the finest mesh always. Written, not read back.
