@@ -32,6 +32,7 @@
 #include "engine/scene/scene.h"                // IWYU pragma: export
 #include "engine/simulate/actuation.h"         // IWYU pragma: export
 #include "engine/simulate/equilibrium_path.h"  // IWYU pragma: export
+#include "engine/simulate/expected_cost.h"     // IWYU pragma: export
 #include "engine/simulate/frames.h"            // IWYU pragma: export
 #include "engine/simulate/indentation.h"       // IWYU pragma: export
 #include "engine/simulate/kept_segments.h"     // IWYU pragma: export

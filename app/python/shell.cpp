@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "engine/core/try.h"
-#include "engine/simulate/expected_cost.h"
 
 namespace gridshell::python {
 

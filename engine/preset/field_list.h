@@ -1,5 +1,5 @@
 // FieldList: declares the keys of a preset's table from the members of its struct, with ranges,
-// meanings and rules. The files *_fields.cpp use it.
+// meanings and rules. The files that declare keys (rod_fields.cpp and others) use it.
 #pragma once
 
 #include <fmt/format.h>

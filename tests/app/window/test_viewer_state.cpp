@@ -183,7 +183,7 @@ TEST_CASE("a path that was left without a loss of stability is not searched for 
   auto shell = std::make_shared<ShellView>(shell_of_four_joints());
   viewer.shell = shell;
   viewer.go_to_loss();
-  CHECK(viewer.message == "on the boundary's path so far every state is stable");
+  CHECK(viewer.message == "every state computed on the boundary's path is stable");
   shell->way_left = "jitter at R_a = 94.5 mm";
   viewer.go_to_loss();
   CHECK(viewer.message.find("left by jitter at R_a = 94.5 mm") != std::string::npos);
