@@ -140,7 +140,7 @@ std::string support_name(const record::Layout& layout, const exports::Fabricatio
   const auto end =
       std::size_t(std::ranges::find(layout.edge_points, node) - layout.edge_points.begin());
   if (end < 2 * plan.rods.size() && end < layout.edge_points.size())
-    return plan.rods[end / 2].name + (end % 2 == 0 ? " begin" : " end");
+    return exports::pin_name(plan.rods[end / 2].name, end % 2 == 1);
   for (const record::Joint& joint : layout.joints)
     if (joint.node == node) return fmt::format("joint [{}, {}]", joint.i, joint.j);
   return "";

@@ -53,10 +53,6 @@ Column column_of(const ViewerState& viewer, double height, double density) {
   return column;
 }
 
-bool is_popup_open() {
-  return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
-}
-
 /// Whether a menu or a list was open.
 bool close_popups() {
   const bool open = is_popup_open();

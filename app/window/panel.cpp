@@ -178,6 +178,10 @@ bool text_input(const char* id, std::string& text, const char* hint) {
   return entered;
 }
 
+bool is_popup_open() {
+  return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+}
+
 void label(const Panel& panel, const char* text) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(text);

@@ -59,6 +59,8 @@ std::string help_of(const Action& action);
 /// The meaning of a key, with its unit and what is allowed.
 std::string help_of(const preset::Field& field);
 
+/// Whether a menu or a list is open.
+bool is_popup_open();
 /// A label, with space for the control that follows it.
 void label(const Panel& panel, const char* text);
 /// A small heading within a panel.

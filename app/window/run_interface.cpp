@@ -185,8 +185,7 @@ Result<bool> Interface::compose(double seconds) {
   feed();
   TRY_DO(draw_states());
   // the mouse shows itself what it is at
-  constexpr ImGuiPopupFlags any = ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel;
-  if (!ImGui::IsPopupOpen("", any)) ImGui::GetCurrentContext()->NavDisableHighlight = !keyboard_;
+  if (!is_popup_open()) ImGui::GetCurrentContext()->NavDisableHighlight = !keyboard_;
   ImGui::NewFrame();
   lay_out();
   ImGui::Render();

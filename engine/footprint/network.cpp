@@ -289,8 +289,7 @@ Result<void> check_held(const RodNetwork& network, const Roles& roles, const Foo
       return invalid(
           "rods[{}] and what is joined to it: fixed at fewer than three points, or at points on "
           "one line, and would turn freely about it; add a support off that line, or draw it with "
-          "a "
-          "little sag and a weak spring across it at one of its points: "
+          "a little sag and a weak spring across it at one of its points: "
           "{{\"point\": {}, \"spring_N_per_mm\": [0, 0.001, 0]}} among the supports",
           rod, network.rods[rod][network.rods[rod].size() / 2]);
     if (!hold_all(held[at]))

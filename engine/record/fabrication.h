@@ -34,9 +34,14 @@ struct CutRod {
   }
 };
 
+/// "u-3 begin", "u-3 end".
+inline std::string pin_name(const std::string& rod, bool at_end) {
+  return rod + (at_end ? " end" : " begin");
+}
+
 /// A hole for an end of a rod in the actuated shell.
 struct Pin {
-  std::string name;  ///< "u-3 begin", "u-3 end, far" of a second ring
+  std::string name;  ///< pin_name(), ", far" after it of a second ring
   Eigen::Vector3d at;
   bool in_ring = true;  ///< of the actuated boundary; a far pin of the second ring is not
 };

@@ -41,14 +41,16 @@ CutRod cut(const FootprintRod& rod, const Scene& scene) {
 
 void add_pins(const FootprintRod& rod, Eigen::Index r, const std::string& name, const Scene& scene,
               std::vector<Pin>& pins) {
-  const auto add = [&](Eigen::Index end, RodEnd held, double tail, const char* word) {
+  const auto add = [&](bool at_end, RodEnd held, double tail) {
     if (!is_held(held)) return;
-    pins.push_back({name + " " + word, scene.motion.end.col(end), true});
+    const Eigen::Index end = 2 * r + at_end;
+    pins.push_back({exports::pin_name(name, at_end), scene.motion.end.col(end), true});
     if (tail > 0)
-      pins.push_back({name + " " + word + ", far", scene.motion.end_far.col(end), false});
+      pins.push_back(
+          {exports::pin_name(name, at_end) + ", far", scene.motion.end_far.col(end), false});
   };
-  add(2 * r, rod.begin, rod.tail_begin, "begin");
-  add(2 * r + 1, rod.end, rod.tail_end, "end");
+  add(false, rod.begin, rod.tail_begin);
+  add(true, rod.end, rod.tail_end);
 }
 
 /// What a builder does of a step; empty for one that is none of building.

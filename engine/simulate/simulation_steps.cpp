@@ -97,12 +97,9 @@ Report Simulation::begin_joint_push(std::vector<Constraint> holds,
   shell_->drive({.holds = holds, .displacements = std::move(displacements), .load = load});
   holds_ = std::move(holds);
   actuating_ = false;
-  const NestedReport nested = shell_->start(0, shell_->state().levels.back(), watch);
-  if (nested.end == Outcome::reached)
-    first_stiffness_ = push_stiffness();
-  else
-    restore(before);
-  return report(nested.end, nested.t, begin);
+  const Outcome started = start_here(0, before, watch);
+  if (started == Outcome::reached) first_stiffness_ = push_stiffness();
+  return report(started, shell_->state().t, begin);
 }
 
 Report Simulation::push(int joint, const Eigen::Vector3d& displacement, Across across,

@@ -127,10 +127,12 @@ bool NestedShell::measure_on(std::size_t k, const State& base, const NestedState
     if (watch.cancelled()) return false;
     if (!correct(level, base, trial, report, watch)) continue;
     // the angle about the line is no error of a rod that turns
-    if (State turned = trial;
-        turn_towards(base.x, level.turning, level.model, turned) > options_.tolerance_mm &&
-        correct(level, base, turned, report, watch))
-      trial = std::move(turned);
+    if (!level.turning.empty()) {
+      State turned = trial;
+      if (turn_towards(base.x, level.turning, level.model, turned) > options_.tolerance_mm &&
+          correct(level, base, turned, report, watch))
+        trial = std::move(turned);
+    }
     state_.levels[k] = std::move(trial);
     return true;
   }

@@ -189,12 +189,15 @@ class Weaver {
     const Eigen::Vector4f colour = opaque(drawing_.joint_colour);
     const auto& [joints, above] = std::tie(drawing_.layout->joints, drawing_.layout->above);
     // a point of one rod alone, as networks have, joins nothing
-    std::map<int, int> rods_at;
-    for (const auto& rod : drawing_.layout->rods)
-      for (const int node : std::set(rod.begin(), rod.end())) ++rods_at[node];
+    std::vector<int> rods_at(above.empty() ? std::size_t(drawing_.nodes.cols()) : 0),
+        last_rod(rods_at.size(), -1);
+    if (above.empty())
+      for (int r = 0; r < int(drawing_.layout->rods.size()); ++r)
+        for (const int node : drawing_.layout->rods[std::size_t(r)])
+          if (std::exchange(last_rod[std::size_t(node)], r) != r) ++rods_at[std::size_t(node)];
     for (std::size_t k = 0; k < joints.size(); ++k) {
       const int joint = joints[k].node;
-      if (above.empty() && rods_at[joint] < 2) continue;
+      if (above.empty() && rods_at[std::size_t(joint)] < 2) continue;
       const float length = normals[joint].norm();
       const Eigen::Vector3f axis =
           length > 1e-6f ? Eigen::Vector3f(normals[joint] / length) : Eigen::Vector3f::UnitZ();

@@ -1,6 +1,5 @@
 // What commands do to a shell.
 #include "app/window/viewer_state.h"
-#include "app/window/worker_threads.h"
 #include "tests/app/window/edited_shell.h"
 #include "tests/results.h"
 
@@ -379,31 +378,4 @@ TEST_CASE("without a shell there is nothing to do") {
     CHECK(session.shell().error != "");
     CHECK_FALSE(session.shell().any());
   }
-}
-
-TEST_CASE("the thread executes every command, and the latest of a drag") {
-  EngineThread engine;
-  engine.post({Open{small_shell()}});
-  engine.wait();
-  REQUIRE(engine.shell()->any());
-  CHECK(engine.shell()->refined);
-  for (int k = 1; k <= 50; ++k) engine.post({Move{1 - 0.004 * k}, 3, true});
-  engine.post({RefineAfterDrag{}, 3, false});
-  engine.wait();
-  CHECK(engine.shell()->progress == Approx(0.8));
-  CHECK(engine.shell()->refined);
-  CHECK(engine.shell()->undo_steps == 1);
-  // fewer equilibria than commands, or as many on a machine that is quick
-  CHECK(engine.shell()->equilibria <= 60);
-}
-
-TEST_CASE("a cancel stops the thread and keeps a certified state") {
-  EngineThread engine;
-  engine.post({Open{small_shell()}});
-  engine.wait();
-  engine.post({Move{0.1}});
-  engine.cancel();
-  engine.wait();
-  CHECK(engine.idle());
-  CHECK(engine.shell()->certificate.residual_N < 1e-5);
 }

@@ -2,7 +2,9 @@
 
 #include <vector>
 
+#include "render/movie/stage.h"
 #include "tests/presets.h"
+#include "tests/render/synthetic.h"
 
 using namespace gridshell;
 using namespace gridshell::render;
@@ -63,4 +65,35 @@ TEST_CASE("what is switched off takes no room") {
   const FrameLayout layout = lay_out_frame(style, nullptr);
   CHECK(layout.view.width > 0.95 * 1280);
   CHECK(layout.view.height > 0.9 * 720);
+}
+
+TEST_CASE("a flat grid has a ball at every support of the run, and none at a free end") {
+  record::Trajectory run = synthetic::dome(3, 2);
+  run.layout.supports = run.layout.edge_points;
+  const auto count = Eigen::Index(run.layout.supports.size());
+  auto& frames = run.frames.edit();
+  for (record::Frame& frame : frames) frame.reactions_N = Eigen::Matrix3Xd::Zero(3, count);
+  frames[0].reactions_N(0, 4) = 1e-17;  // round-off
+  frames[2].reactions_N.rightCols(count - 1).setOnes();
+  const Stage stage(run, MovieStyle{});
+  for (const auto& frame : run.frames) CHECK(long(stage.drawing(frame).marks.size()) == count - 1);
+}
+
+TEST_CASE("a support on a spring is where its spring pulls from, with the spring up to the rod") {
+  record::Trajectory run = synthetic::dome(2, 2);
+  const int node = run.layout.edge_points[2];
+  run.layout.supports = {node};
+  run.layout.sprung = {node};
+  run.layout.spring_N_per_mm = Eigen::Vector3d(0.05, 0.1, 0);
+  for (record::Frame& frame : run.frames.edit()) frame.reactions_N = Eigen::Vector3d(0.5, -0.2, 0);
+  const Drawing drawing = Stage(run, MovieStyle{}).drawing(run.frames[1]);
+  const Eigen::Vector3d rod = run.frames[1].nodes.col(node),
+                        support = rod + Eigen::Vector3d(10, -2, 0);
+  REQUIRE(drawing.marks.size() == 1);
+  CHECK((drawing.marks[0].at - support).norm() < 1e-9);
+  REQUIRE(drawing.ghosts.size() == 1);
+  const auto& spring = drawing.ghosts[0].nodes;
+  CHECK((spring.leftCols(1) - rod).norm() < 1e-9);
+  CHECK((spring.rightCols(1) - support).norm() < 1e-9);
+  CHECK(spring.cols() > 6);
 }

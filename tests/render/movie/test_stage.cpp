@@ -184,37 +184,6 @@ TEST_CASE("a pushed shell is seen over its first state, with the push in the pic
   }
 }
 
-TEST_CASE("a flat grid has a ball at every support of the run, and none at a free end") {
-  record::Trajectory run = synthetic::dome(3, 2);
-  run.layout.supports = run.layout.edge_points;
-  const auto count = Eigen::Index(run.layout.supports.size());
-  auto& frames = run.frames.edit();
-  for (record::Frame& frame : frames) frame.reactions_N = Eigen::Matrix3Xd::Zero(3, count);
-  frames[0].reactions_N(0, 4) = 1e-17;  // round-off
-  frames[2].reactions_N.rightCols(count - 1).setOnes();
-  const Stage stage(run, titled(640, 480));
-  for (const auto& frame : run.frames) CHECK(long(stage.drawing(frame).marks.size()) == count - 1);
-}
-
-TEST_CASE("a support on a spring is where its spring pulls from, with the spring up to the rod") {
-  record::Trajectory run = synthetic::dome(2, 2);
-  const int node = run.layout.edge_points[2];
-  run.layout.supports = {node};
-  run.layout.sprung = {node};
-  run.layout.spring_N_per_mm = Eigen::Vector3d(0.05, 0.1, 0);
-  for (record::Frame& frame : run.frames.edit()) frame.reactions_N = Eigen::Vector3d(0.5, -0.2, 0);
-  const Drawing drawing = Stage(run, titled(640, 480)).drawing(run.frames[1]);
-  const Eigen::Vector3d rod = run.frames[1].nodes.col(node),
-                        support = rod + Eigen::Vector3d(10, -2, 0);
-  REQUIRE(drawing.marks.size() == 1);
-  CHECK((drawing.marks[0].at - support).norm() < 1e-9);
-  REQUIRE(drawing.ghosts.size() == 1);
-  const auto& spring = drawing.ghosts[0].nodes;
-  CHECK((spring.leftCols(1) - rod).norm() < 1e-9);
-  CHECK((spring.rightCols(1) - support).norm() < 1e-9);
-  CHECK(spring.cols() > 6);
-}
-
 TEST_CASE("what touches has a mark, and words next to the bar and as the event") {
   record::Trajectory run = synthetic::dome(4, 2);
   run.layout.joint_diameter_mm = 3;
@@ -416,58 +385,4 @@ TEST_CASE("a run that cannot be shown is refused with its reason") {
   CHECK(message(run, {}) == "frame 2 of the run has K of 5 cells instead of 97");
   run.frames = {};
   CHECK(message(run, {}) == "the run has no frame to show");
-}
-
-TEST_CASE("what no frame knows cannot be what is coloured") {
-  record::Trajectory run = synthetic::dome(3, 2);
-  const auto lacks = [&](ColourBy by) {
-    const MovieStyle style = coloured(by);
-    const auto checked = check_showable(run, style);
-    CHECK(bool(check_coloured(summarise_run(run), style)) == bool(checked));
-    return checked ? "" : checked.error().message;
-  };
-  CHECK(lacks(ColourBy::axial_force).find("[movie] colour_by = \"axial_force\": no frame") == 0);
-  CHECK(lacks(ColourBy::energy).find("bending energy") != std::string::npos);
-  CHECK(lacks(ColourBy::deviation).find("no net") != std::string::npos);
-  run.layout.net_nodes = run.frames[0].nodes;
-  CHECK(lacks(ColourBy::deviation).empty());
-  run.frames.edit()[2].axial_force_N.setConstant(record::edges_of_rods(run.layout), -0.1);
-  CHECK(lacks(ColourBy::axial_force).empty());
-  CHECK(lacks(ColourBy::stress).find("stress") != std::string::npos);
-  run.frames.edit()[2].stress_MPa.setConstant(record::points_of_rods(run.layout), 300);
-  CHECK(lacks(ColourBy::stress).empty());
-  CHECK(lacks(ColourBy::utilisation).find("strength") != std::string::npos);
-  run.layout.strength_MPa.assign(run.layout.rods.size(), 500);
-  CHECK(lacks(ColourBy::utilisation).empty());
-}
-
-TEST_CASE("rods are coloured by their forces, grey where a frame does not know them") {
-  record::Trajectory run = synthetic::dome(3, 2);
-  record::Frame& last = run.frames.edit()[2];
-  last.axial_force_N.setConstant(record::edges_of_rods(run.layout), -0.1);
-  last.axial_force_N.head(4).setConstant(0.1);
-  const MovieStyle style = coloured(ColourBy::axial_force);
-  const Stage stage(run, style);
-  const Drawing known = stage.drawing(run.frames[2]), unknown = stage.drawing(run.frames[1]);
-  REQUIRE(long(known.node_colours.size()) == last.nodes.cols());
-  CHECK(known.cell_colours.empty());
-  const Colour pulled = known.node_colours[std::size_t(run.layout.rods[0][0])],
-               pressed = known.node_colours[std::size_t(run.layout.rods[5][0])];
-  CHECK(pulled.r > pulled.b);
-  CHECK(pressed.b > pressed.r);
-  for (const Colour& grey : unknown.node_colours) CHECK(grey == stage.colour_bar()->scale(NAN));
-  CHECK(unknown.rod_diameter_mm == known.rod_diameter_mm);
-  // joints are not as red as tension, unless they are wished so
-  CHECK(known.joint_colour == style.look.rod);
-}
-
-TEST_CASE("cells are coloured by their deviation from the net") {
-  record::Trajectory run = synthetic::dome(3, 2);
-  run.layout.net_nodes = run.frames[2].nodes;
-  run.layout.net_nodes.leftCols(60).row(2).array() += 2;
-  const Stage stage(run, coloured(ColourBy::deviation));
-  const Drawing drawing = stage.drawing(run.frames[2]);
-  REQUIRE(drawing.cell_colours.size() == run.layout.cells.size());
-  CHECK(drawing.node_colours.empty());
-  CHECK(drawing.cell_colours.front().r < drawing.cell_colours.back().r);
 }
