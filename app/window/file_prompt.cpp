@@ -58,7 +58,7 @@ void picture_size(const Panel& panel, FileRequest& request, const PictureSize& v
 /// The endings to choose from, which the path then has.
 void endings(const Panel& panel, FileRequest& request) {
   const float right = ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x;
-  for (const ExportFormat& format : panel.viewer.library.export_formats) {
+  for (const app::ExportFormat& format : panel.viewer.library.export_formats) {
     const std::string text = fmt::format("{}  {}", format.ending, format.read_by);
     const float wide =
         ImGui::CalcTextSize(text.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x + panel.px(8);

@@ -50,7 +50,8 @@ const char* ending_of(FileUse use) {
 }
 
 /// Why no file of that name is written; empty: it is.
-std::string error_of(FileUse use, const fs::path& file, const std::vector<ExportFormat>& formats) {
+std::string error_of(FileUse use, const fs::path& file,
+                     const std::vector<app::ExportFormat>& formats) {
   std::error_code error;
   // one new folder is made
   const fs::path folder = fs::absolute(file, error).parent_path();
@@ -62,7 +63,7 @@ std::string error_of(FileUse use, const fs::path& file, const std::vector<Export
                ? ""
                : fmt::format("'{}': it is written as {}", ending, ending_of(use));
   std::string all;
-  for (const ExportFormat& format : formats) {
+  for (const app::ExportFormat& format : formats) {
     if (format.ending == ending) return "";
     all += " " + format.ending;
   }
