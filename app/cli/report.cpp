@@ -61,14 +61,22 @@ std::vector<std::string> numbers(const Eigen::Vector3d& force, double beside) {
   return texts;
 }
 
-/// The last state, its rods in the colours of a quantity.
+/// A force with the decimals that its error leaves.
+std::string force_text(double force, double error) {
+  if (!std::isfinite(error) || error <= 0) return number(force);
+  const int decimals = std::clamp(int(std::ceil(-std::log10(error))), 0, 9);
+  const std::string text = fmt::format("{:.{}f}", force, decimals);
+  return std::stod(text) == 0 ? "0" : text;
+}
+
+/// The last state, in the colours of a quantity; half as wide as the sheet.
 Result<render::Image> picture_of(const Run& run, preset::ColourBy colours,
                                  render::Renderer& renderer) {
   preset::Preset preset = run.preset;
   preset.movie.colour_by = colours;
   preset.movie.bins = false;
   preset.style.range.clear();
-  constexpr double width_mm = 180, height_mm = 90, dpi = 200;
+  constexpr double width_mm = 88, height_mm = 66, dpi = 300;
   // a bar that can be seen next to the shell
   const double length = run.trajectory.layout.length_scale_mm;
   if (preset.figure.scale_bar_mm < 0.05 * length)
@@ -157,11 +165,11 @@ void add_reactions(Sheets& sheets, const record::Layout& layout, const record::F
   std::ranges::stable_sort(order, std::greater<>(),
                            [&](Eigen::Index k) { return frame.reactions_N.col(k).norm(); });
   std::vector<TableRow> rows;
-  const double largest = frame.reactions_N.colwise().norm().maxCoeff();
   const auto add = [&](const std::string& pin, const std::string& place,
                        const Eigen::Vector3d& force) {
-    const auto parts = numbers(force, largest);
-    rows.push_back({{pin, place, parts[0], parts[1], parts[2], number(force.norm()), ""}});
+    rows.push_back({{pin, place}});
+    for (const double one : {force.x(), force.y(), force.z(), force.norm()})
+      rows.back().cells.push_back(force_text(one, frame.force_error_N));
   };
   add("sum of loads", "", frame.loads_N.rowwise().sum());
   add("sum", "", frame.reactions_N.rowwise().sum());
@@ -177,17 +185,30 @@ void add_reactions(Sheets& sheets, const record::Layout& layout, const record::F
         frame.reactions_N.col(k));
   }
   sheets.text(fmt::format(
-      "Forces of the supports on the shell, at their positions in mm, z above the lowest "
-      "support; each is known to ± {}.",
+      "Forces of the supports on the shell, the largest first, z above the lowest support; each is "
+      "known to ± {}.",
       error_with_unit(frame.force_error_N, "N")));
-  sheets.table({{"pin", 76, AlignX::left},
-                {"place", 120, AlignX::left},
-                {"*x* (N)", 60},
-                {"*y* (N)", 60},
-                {"*z* (N)", 60},
-                {"magnitude (N)", 60},
-                {"", 0}},
-               rows);
+  std::vector<render::TableColumn> columns{
+      {"pin", 48, AlignX::left}, {"place (mm)", 75, AlignX::left},
+      {"*x* (N)", 32},           {"*y* (N)", 32},
+      {"*z* (N)", 32},           {"size (N)", 40}};
+  // many supports, two a line without the sizes
+  constexpr std::size_t most_lines = 24;
+  if (rows.size() > most_lines) {
+    std::vector<TableRow> pairs;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      rows[k].cells.pop_back();
+      if (k % 2 == 0)
+        pairs.push_back(std::move(rows[k]));
+      else
+        std::ranges::move(rows[k].cells, std::back_inserter(pairs.back().cells));
+    }
+    rows = std::move(pairs);
+    columns.pop_back();
+    const auto half = columns;
+    columns.insert(columns.end(), half.begin(), half.end());
+  }
+  sheets.table(columns, rows);
 }
 
 Result<void> add_loads(Sheets& sheets, study::FormedShell& shell, const ReportOptions& options,
@@ -263,7 +284,7 @@ Result<void> add_shapes(Sheets& sheets, const study::Vibrations& found, render::
   TRY(picture, render::draw_panels(figure));
   sheets.text("Shapes over the state in grey; their largest displacement is drawn as " +
               render::length_text(drawn_move_mm(found.state.layout)) + ".");
-  sheets.picture(*picture);
+  sheets.pictures({std::move(*picture)});
   return {};
 }
 
@@ -296,20 +317,21 @@ Result<void> add_run(Sheets& sheets, const Run& run, const ReportOptions& option
   sheets.heading(preset::title_or_name(preset), 15);
   if (!preset.description.empty()) sheets.text(preset.description);
   Watch& drawing = progress.next_phase();
-  TRY(shape, picture_of(run, preset.movie.colour_by, renderer));
-  sheets.picture(*shape);
-  sheets.heading("Geometry");
-  add_geometry(sheets, run, *plan);
   const record::Frame& last = run.trajectory.frames.back();
-  add_stresses(sheets, run.summary);
+  TRY(shape, picture_of(run, preset.movie.colour_by, renderer));
+  std::vector<render::Image> pictures{std::move(*shape)};
   if (last.stress_MPa.size() > 0) {
     const bool strength = std::isfinite(run.summary.utilisation);
     TRY(stresses,
         picture_of(run, strength ? preset::ColourBy::utilisation : preset::ColourBy::stress,
                    renderer));
-    sheets.picture(*stresses);
+    pictures.push_back(std::move(*stresses));
   }
   drawing.report(1);
+  sheets.pictures(pictures);
+  sheets.heading("Geometry");
+  add_geometry(sheets, run, *plan);
+  add_stresses(sheets, run.summary);
   add_reactions(sheets, run.trajectory.layout, last, *plan);
   Watch& studies = progress.next_phase();
   if (run.summary.solved) {
