@@ -250,6 +250,8 @@ const Action table[] = {
      "rods by the largest stress of their fibres"),
     colour<ColourBy::utilisation>("colour_utilisation", "Utilisation", none,
      "rods by that stress over their strength"),
+    colour<ColourBy::joint_angle>("colour_joint_angle", "Joint angle", none,
+     "rods by the angle at their joints, where these have laws or springs"),
     colour<ColourBy::displacement>("colour_displacement", "Displacement", on(Key::u),
      "rods by how far they moved"),
     range<RangeOf::run>("range_run", "Range of all states", none,
