@@ -108,9 +108,9 @@ Result<void> EditSession::do_step(preset::Step step, const Watch& watch) {
     (void)session_->remesh(simulate::initial_levels(*now_.scene), watch);
   const bool began_stable = view_.stable();
   const double began_mm = pushed_mm(step);
-  simulate::StepPath way;
-  TRY(report, simulate::apply_step(*session_, step, watch, looks_between() ? &way : nullptr));
-  const std::string event_at = note_way(step, way, began_mm, began_stable, *report);
+  simulate::StepPath path;
+  TRY(report, simulate::apply_step(*session_, step, watch, looks_between() ? &path : nullptr));
+  const std::string event_at = note_path(step, path, began_mm, began_stable, *report);
   add_step(std::move(step), *report);
   const auto done = note_events(*report);
   if (!event_at.empty()) view_.event = view_.message += " at " + event_at;
@@ -184,21 +184,23 @@ Result<void> EditSession::act(const Push& command, const Watch& watch) {
   if (free) step.along = xyz_of(command.along);
   step.lateral = free ? preset::Lateral::free : preset::Lateral::held;
   // a joint that is already constrained and does not move makes no step
-  const Eigen::Vector3d way = command.to - session_->nodes().col(command.joint);
-  const bool still = (free ? std::abs(way.dot(command.along)) : way.norm()) < nearest_mm;
+  const Eigen::Vector3d displacement = command.to - session_->nodes().col(command.joint);
+  const bool still =
+      (free ? std::abs(displacement.dot(command.along)) : displacement.norm()) < nearest_mm;
   if (still && session_->constraint_origins.contains(command.joint)) return {};
   // a long displacement that was typed shows its equilibria as a dragged one does
   const bool dragged = this_drag_ == 0 || this_drag_ == steps_drag_;
-  const int parts = dragged || !looks_between()
-                        ? 1
-                        : int(std::clamp(std::round(way.norm() / part_mm), 1.0, most_parts));
+  const int parts =
+      dragged || !looks_between()
+          ? 1
+          : int(std::clamp(std::round(displacement.norm() / part_mm), 1.0, most_parts));
   for (int k = 1; k < parts; ++k) {
-    step.to_mm = xyz_of(command.to - (1 - double(k) / parts) * way);
+    step.to_mm = xyz_of(command.to - (1 - double(k) / parts) * displacement);
     TRY_DO(do_step(step, watch));
     now_.refined = false;
     update_view();
     if (listener_) listener_(view_);
-    view_.way.push_back(plot_point_of(view_));
+    view_.push_path.push_back(plot_point_of(view_));
   }
   step.to_mm = xyz_of(command.to);
   return do_step(std::move(step), watch);

@@ -303,7 +303,7 @@ void ViewerState::add_plot_point() {
   if (now.refined && !plot_points.empty() && !plot_points.back().refined &&
       plot_points.back().steps == now.steps)
     plot_points.pop_back();
-  for (const PlotPoint& point : shell->way)
+  for (const PlotPoint& point : shell->push_path)
     if (plot_points.empty() || point.equilibrium > plot_points.back().equilibrium)
       plot_points.push_back(point);
   plot_points.push_back(now);

@@ -232,8 +232,8 @@ class Part final : public Domain {
 
  private:
   struct Line {
-    Eigen::Vector2d begin, way;
-    Eigen::Vector2d at(double s) const { return begin + s * way; }
+    Eigen::Vector2d begin, direction;
+    Eigen::Vector2d at(double s) const { return begin + s * direction; }
   };
   static Line ray_at(double angle) {
     return {Eigen::Vector2d::Zero(), Eigen::Vector2d(std::cos(angle), std::sin(angle))};

@@ -104,15 +104,15 @@ double FootprintRod::height(double position) const {
 Eigen::Vector3d FootprintRod::on_path(double position) const {
   const std::size_t piece = piece_at(path, position);
   const Eigen::Vector4d& corner = path[piece];
-  const Eigen::Vector3d way = (path[piece + 1] - corner).head<3>().normalized();
-  return corner.head<3>() + (position - corner.w()) * way;
+  const Eigen::Vector3d direction = (path[piece + 1] - corner).head<3>().normalized();
+  return corner.head<3>() + (position - corner.w()) * direction;
 }
 
 Eigen::Vector2d FootprintRod::tangent(double position) const {
-  return way(position).head<2>().normalized();
+  return tangent_in_space(position).head<2>().normalized();
 }
 
-Eigen::Vector3d FootprintRod::way(double position) const {
+Eigen::Vector3d FootprintRod::tangent_in_space(double position) const {
   if (path.empty()) return {direction.x(), direction.y(), 0};
   const std::size_t piece = piece_at(path, position);
   return (path[piece + 1] - path[piece]).head<3>().normalized();

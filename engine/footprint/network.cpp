@@ -30,12 +30,12 @@ bool is_ring(const std::vector<int>& rod) { return rod.front() == rod.back(); }
 
 bool is_straight(const Eigen::Matrix3Xd& points, const std::vector<int>& rod) {
   if (is_ring(rod)) return false;
-  const Eigen::Vector3d first = points.col(rod.front()), way = points.col(rod.back()) - first;
+  const Eigen::Vector3d first = points.col(rod.front()), chord = points.col(rod.back()) - first;
   double reached = -1;
   return std::ranges::all_of(rod, [&](int point) {
     const Eigen::Vector3d at = points.col(point) - first;
-    const bool onwards = at.dot(way) > std::exchange(reached, at.dot(way));
-    return (onwards || point == rod.front()) && area(way, at) < straight * way.squaredNorm();
+    const bool onwards = at.dot(chord) > std::exchange(reached, at.dot(chord));
+    return (onwards || point == rod.front()) && area(chord, at) < straight * chord.squaredNorm();
   });
 }
 
@@ -218,9 +218,9 @@ bool off_a_line(const std::vector<HeldPlace>& places) {
   Eigen::Vector3d far = first;
   for (const HeldPlace& place : places)
     if ((place.at - first).norm() > (far - first).norm()) far = place.at;
-  const Eigen::Vector3d way = far - first;
+  const Eigen::Vector3d chord = far - first;
   return std::ranges::any_of(places, [&](const HeldPlace& place) {
-    return area(way, place.at - first) > on_a_line * way.squaredNorm();
+    return area(chord, place.at - first) > on_a_line * chord.squaredNorm();
   });
 }
 
@@ -252,10 +252,10 @@ void add_directions(const RodNetwork& network, std::size_t r, const FootprintRod
                                                {rod.end, points[last], points[last - 1]}};
   for (const auto& [hold, from, to] : ends) {
     if (!holds_direction(hold)) continue;
-    const Eigen::Vector3d at = network.points.col(from), way = network.points.col(to) - at;
-    places.push_back({at + way, Eigen::Vector3d::Ones()});
+    const Eigen::Vector3d at = network.points.col(from), chord = network.points.col(to) - at;
+    places.push_back({at + chord, Eigen::Vector3d::Ones()});
     if (hold == RodEnd::clamped)
-      places.push_back({at + way.norm() * way.unitOrthogonal(), Eigen::Vector3d::Ones()});
+      places.push_back({at + chord.norm() * chord.unitOrthogonal(), Eigen::Vector3d::Ones()});
   }
 }
 

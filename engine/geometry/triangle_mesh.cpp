@@ -20,14 +20,14 @@ using Triangle = std::array<int, 3>;
 std::optional<Eigen::Vector3d> meeting(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                                        const Eigen::Matrix3Xd& x, const Triangle& triangle) {
   constexpr double parallel = 1e-12;
-  const Eigen::Vector3d way = b - a, p = x.col(triangle[0]), e = x.col(triangle[1]) - p,
-                        f = x.col(triangle[2]) - p, across = way.cross(f), off = a - p;
+  const Eigen::Vector3d ray = b - a, p = x.col(triangle[0]), e = x.col(triangle[1]) - p,
+                        f = x.col(triangle[2]) - p, across = ray.cross(f), off = a - p;
   const double volume = e.dot(across);
-  if (std::abs(volume) <= parallel * way.norm() * e.norm() * f.norm()) return std::nullopt;
+  if (std::abs(volume) <= parallel * ray.norm() * e.norm() * f.norm()) return std::nullopt;
   const Eigen::Vector3d q = off.cross(e);
-  const double u = off.dot(across) / volume, v = way.dot(q) / volume, t = f.dot(q) / volume;
+  const double u = off.dot(across) / volume, v = ray.dot(q) / volume, t = f.dot(q) / volume;
   if (u < 0 || v < 0 || u + v > 1 || t < 0 || t > 1) return std::nullopt;
-  return a + t * way;
+  return a + t * ray;
 }
 
 std::optional<Eigen::Vector3d> meeting(const Eigen::Matrix3Xd& x, const Triangle& one,

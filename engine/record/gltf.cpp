@@ -261,10 +261,10 @@ class Gltf {
     };
     for (const int node : morphing_) add(node, "weights", output);
     for (std::size_t k = 0; k < moving_.size(); ++k) {
-      Eigen::Matrix3Xd way(3, Eigen::Index(keys));
+      Eigen::Matrix3Xd positions(3, Eigen::Index(keys));
       for (std::size_t key = 0; key < keys; ++key)
-        way.col(Eigen::Index(key)) = places[key].col(Eigen::Index(k));
-      add(moving_[k], "translation", buffer_.vectors(way, 0));
+        positions.col(Eigen::Index(key)) = places[key].col(Eigen::Index(k));
+      add(moving_[k], "translation", buffer_.vectors(positions, 0));
     }
     json_["animations"] =
         Json::array({{{"name", "run"}, {"samplers", samplers}, {"channels", channels}}});

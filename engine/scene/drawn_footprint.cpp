@@ -106,9 +106,9 @@ RodNetwork network_of(const preset::NetworkData& file, preset::EndKind ends,
 }
 
 /// Prescribed displacement of the supports.
-class Way {
+class EndMotion {
  public:
-  Way(const preset::Preset& preset, const Scene& scene)
+  EndMotion(const preset::Preset& preset, const Scene& scene)
       : scale_(preset.actuation.scale > 0 ? preset.actuation.scale : 1), flat_(scene.flat) {
     for (const auto& row : preset.footprint.file.supports)
       if (row.size() == 4) to_[int(row[0])] = vector_of(row, 1);
@@ -131,16 +131,16 @@ class Way {
 
 /// The motion of ends and constrained joints; `held` has the columns of what is constrained, from
 /// and to.
-void put_motion(const NetworkFootprint& made, const Eigen::Matrix3Xd& points, const Way& way,
-                Scene& scene) {
+void put_motion(const NetworkFootprint& made, const Eigen::Matrix3Xd& points,
+                const EndMotion& motion, Scene& scene) {
   const auto fill = [&](const std::vector<int>& numbers, Eigen::Matrix3Xd& begin,
                         Eigen::Matrix3Xd& end) {
     begin.resize(3, Eigen::Index(numbers.size()));
     end.resizeLike(begin);
     for (std::size_t k = 0; k < numbers.size(); ++k) {
       const Eigen::Vector3d from = points.col(numbers[k]);
-      begin.col(Eigen::Index(k)) = way.begin(from);
-      end.col(Eigen::Index(k)) = way.end(numbers[k], from);
+      begin.col(Eigen::Index(k)) = motion.begin(from);
+      end.col(Eigen::Index(k)) = motion.end(numbers[k], from);
     }
   };
   fill(made.ends, scene.motion.begin, scene.motion.end);
@@ -260,7 +260,7 @@ Result<void> build_network(const preset::Preset& preset, Scene& scene) {
   auto made = network_footprint(network);
   if (!made) return refuse(made.error());
   if (auto thin = check_diameters(preset, made->footprint); !thin) return refuse(thin.error());
-  put_motion(*made, network.points, Way(preset, scene), scene);
+  put_motion(*made, network.points, EndMotion(preset, scene), scene);
   put_boundaries(*made, network.points, scene);
   scene.footprint = std::move(made->footprint);
   scene.drawn_in_space = scene.footprint.in_space();

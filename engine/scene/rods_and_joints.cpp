@@ -93,11 +93,11 @@ Result<std::vector<preset::Rod>> rods_of(const preset::Preset& preset, const Foo
 }
 
 /// How a rod runs through a joint as drawn.
-Eigen::Vector3d way_through(const FootprintRod& rod, int joint) {
+Eigen::Vector3d tangent_through(const FootprintRod& rod, int joint) {
   const auto at = std::ranges::find(rod.joints, joint) - rod.joints.begin();
   const double mark = rod.marks[std::size_t(at)], near = 1e-6 * (rod.span.end - rod.span.begin);
-  return rod.way(std::max(mark - near, rod.span.begin)) +
-         rod.way(std::min(mark + near, rod.span.end));
+  return rod.tangent_in_space(std::max(mark - near, rod.span.begin)) +
+         rod.tangent_in_space(std::min(mark + near, rod.span.end));
 }
 
 /// The rods at each joint; a rod that is there twice counts once.
@@ -125,8 +125,8 @@ Result<void> check_crossings(Scene& scene) {
       here.eccentricity *= -1;
     for (const FootprintRod* a : rods[std::size_t(joint)])
       for (const FootprintRod* b : rods[std::size_t(joint)]) {
-        const Eigen::Vector3d t = way_through(*a, joint).normalized(),
-                              s = way_through(*b, joint).normalized();
+        const Eigen::Vector3d t = tangent_through(*a, joint).normalized(),
+                              s = tangent_through(*b, joint).normalized();
         if (a < b && t.cross(s).norm() < 1e-3)
           return invalid(
               "joint [{}, {}]: rods[{}] and rods[{}] have equal directions there, expected rods "

@@ -82,7 +82,7 @@ std::optional<State> unstable_branch(Linearisation& system, State state, double 
 State extrapolated_state(Linearisation& system, const PinnedMotion& motion, const PathPoint& last,
                          double there, double farthest_mm, const Watch& watch) {
   constexpr double least_shift = 1e-9, largest_shift = 1e4;  // N/mm
-  const double way = there - last.t;
+  const double change = there - last.t;
   State state = last.state;
   motion.apply_loads(system, last.t);
   Inertia inertia = system.at(last.state);
@@ -90,11 +90,11 @@ State extrapolated_state(Linearisation& system, const PinnedMotion& motion, cons
     if (inertia.positive_definite()) {
       State velocity;
       motion.velocity(system, last.t, last.state, velocity);
-      if (std::abs(way) * max_column_norm(velocity.x) <= farthest_mm) {
-        const Eigen::Matrix3Xd move = way * velocity.x;
+      if (std::abs(change) * max_column_norm(velocity.x) <= farthest_mm) {
+        const Eigen::Matrix3Xd move = change * velocity.x;
         const double fraction = system.clear_fraction(last.state, move);
         move_to(system.model(), last.state.x + fraction * move, state);
-        state.force += fraction * way * velocity.force;
+        state.force += fraction * change * velocity.force;
         break;
       }
     }

@@ -163,12 +163,12 @@ double expected_seconds(const Scene& scene, const preset::Preset& preset) {
     to_begin = preset.step.empty() ? 1 : 0.5;
   else if (scene.imperfection.chooses())
     to_begin = network ? 1.6 : 3;
-  const double ways = to_begin + 3 * double(moves);
+  const double paths = to_begin + 3 * double(moves);
   const std::vector<int> shares = frames_of_steps(preset.step, preset.movie.frames);
   const int frames =
       shares.empty() ? preset.movie.frames : std::accumulate(shares.begin(), shares.end(), 1);
   return start_s + frame * frames +
-         (ways * factorisations_of(scene, preset.footprint) + build * double(builds)) * all *
+         (paths * factorisations_of(scene, preset.footprint) + build * double(builds)) * all *
              (unit.assembly + unit.factorisation);
 }
 

@@ -7,16 +7,16 @@ namespace {
 
 constexpr double gap_mm = 2.5;  // between joint and arrow
 
-/// As long as `way`, outside the shell.
+/// As long as `arrow`, outside the shell.
 LoadArrow arrow_at(const record::Layout& layout, const record::Frame& frame, int node,
-                   const Eigen::Vector3d& way, double gap) {
+                   const Eigen::Vector3d& arrow, double gap) {
   const Eigen::Vector3d middle = layout.actuated_boundary.rowwise().mean(),
                         at = frame.nodes.col(node);
-  const Eigen::Vector3d along = way.normalized();
+  const Eigen::Vector3d along = arrow.normalized();
   // clearly so: in a flat shell round-off must not choose
   const bool away = along.dot(at - middle) > 0.02 * layout.length_scale_mm;
   const Eigen::Vector3d near = at + (away ? gap : -gap) * along;
-  return away ? LoadArrow{node, near, near + way} : LoadArrow{node, near - way, near};
+  return away ? LoadArrow{node, near, near + arrow} : LoadArrow{node, near - arrow, near};
 }
 
 constexpr double infinity = std::numeric_limits<double>::infinity();

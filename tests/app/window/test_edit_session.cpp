@@ -110,7 +110,7 @@ TEST_CASE("a push that begins with a long path reports the equilibria on it, and
     shell.drag(Push{joint, from - depth * normal, normal}, drag);
   };
   push(6, 1);
-  const std::vector<PlotPoint> way = shell.view().way;
+  const std::vector<PlotPoint> way = shell.view().push_path;
   REQUIRE(way.size() == 5);
   for (std::size_t k = 0; k < way.size(); ++k) {
     // the drag's coarse mesh begins a little elsewhere
@@ -122,7 +122,7 @@ TEST_CASE("a push that begins with a long path reports the equilibria on it, and
   CHECK(shell.view().held.at(0).moved_mm.norm() == Approx(6));
   // the same drag continues without it
   push(9, 1);
-  CHECK(shell.view().way.empty());
+  CHECK(shell.view().push_path.empty());
   CHECK(shell.view().steps.size() == 1);
 }
 

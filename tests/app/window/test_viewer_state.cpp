@@ -184,7 +184,7 @@ TEST_CASE("a path that was left without a loss of stability is not searched for 
   viewer.shell = shell;
   viewer.go_to_loss();
   CHECK(viewer.message == "every state computed on the boundary's path is stable");
-  shell->way_left = "jitter at R_a = 94.5 mm";
+  shell->path_left = "jitter at R_a = 94.5 mm";
   viewer.go_to_loss();
   CHECK(viewer.message.find("left by jitter at R_a = 94.5 mm") != std::string::npos);
 }
