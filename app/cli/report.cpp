@@ -189,7 +189,7 @@ void add_reactions(Sheets& sheets, const record::Layout& layout, const record::F
       "known to ± {}.",
       error_with_unit(frame.force_error_N, "N")));
   std::vector<render::TableColumn> columns{
-      {"pin", 48, AlignX::left}, {"place (mm)", 75, AlignX::left},
+      {"pin", 48, AlignX::left}, {"position (mm)", 75, AlignX::left},
       {"*x* (N)", 32},           {"*y* (N)", 32},
       {"*z* (N)", 32},           {"size (N)", 40}};
   // many supports, two a line without the sizes

@@ -22,7 +22,7 @@ void add_movie(FieldList<Movie> list) {
   list.add<&M::quality>(
       "draft: no shadow; movie: a soft shadow; figure: many passes with jittered light");
   list.add<&M::colour_by>(
-          "cells by K, its change since the first frame, or their deviation over rho; rods by "
+          "cells by K, its change or their deviation over rho; rods by "
           "displacement over depth, bending energy over length, axial force, stress, utilisation "
           "or "
           "the angle of their joints")

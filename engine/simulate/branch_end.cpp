@@ -110,8 +110,9 @@ double Simulation::Walk::parameter_scale(double t) const {
 bool Simulation::Walk::leave(Event& event, std::vector<TimedState>& moments) {
   const PathPoint last = shell_.followed();
   const double sign = to_ > last.t ? 1 : -1;
-  for (double beyond = 1e-3; beyond < 0.1; beyond *= 2) {
-    double there = last.t + sign * beyond * parameter_scale(last.t);
+  const double scale = parameter_scale(last.t);
+  for (double beyond = 1e-3 * std::min(scale, 1.0); beyond < 0.1 * scale; beyond *= 2) {
+    double there = last.t + sign * beyond;
     if (sign * (there - to_) > 0) there = to_;
     moments.clear();
     const auto rest =

@@ -88,7 +88,9 @@ void put(auto& in, Is<record::Contact> auto& s) {
 void put(auto& in, Is<record::Contacts> auto& s) {
   all(in, s.places, s.rod_gap_mm, s.joint_gap_mm);
 }
-void put(auto& in, Is<LoadStep> auto& s) { all(in, s.point, s.certificate, s.contacts); }
+void put(auto& in, Is<LoadStep> auto& s) {
+  all(in, s.point, s.certificate, s.contacts, s.stability_confirmed);
+}
 void put(auto& in, Is<TimedState> auto& s) { all(in, s.time, s.state); }
 void put(auto& in, Is<PathRecord::Snap> auto& s) { all(in, s.before, s.moments); }
 void put(auto& in, Is<PathRecord> auto& s) { all(in, s.load_steps, s.snaps); }

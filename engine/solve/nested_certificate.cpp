@@ -163,6 +163,39 @@ void NestedShell::measure(const Watch& watch, const NestedState& before) {
   if (held) take_reactions(forces);
 }
 
+namespace {
+
+constexpr double roughly = 0.02;  // of the lowest eigenvalue, whose trend is enough
+
+/// Length of rod that belongs to each node, mm.
+Eigen::VectorXd unit_length(const RodMesh& mesh) {
+  return lumped(mesh, std::vector<double>(mesh.rods.size(), 1.0));
+}
+
+}  // namespace
+
+void NestedShell::watch_stability(bool watches, const Watch& watch) {
+  watches_stability_ = watches;
+  if (!watches || !state_.inertia.positive_definite() || !std::isnan(state_.lowest_eigenvalue))
+    return;
+  Level& finest = *levels_.back();
+  state_.lowest_eigenvalue = lowest_eigenvalue(*finest.system, state_.levels.back(),
+                                               unit_length(finest.mesh), watch, roughly);
+}
+
+bool NestedShell::stability_confirmed(const Watch& watch) {
+  const int companion = last() - 1;
+  if (companion < 0 || state_.measured > companion || !state_.inertia.positive_definite())
+    return true;
+  Level& level = *levels_[std::size_t(companion)];
+  const State& state = state_.levels[std::size_t(companion)];
+  level.motion.apply_loads(*level.system, state_.t);
+  const double coarse =
+      lowest_eigenvalue(*level.system, state, unit_length(level.mesh), watch, roughly);
+  // where the coarser mesh is not stable, finer ones are the more so
+  return !(state_.lowest_eigenvalue < margin * (coarse - state_.lowest_eigenvalue) / 3);
+}
+
 NestedReport NestedShell::certify(const PathFollower& path, const Watch& watch,
                                   const Inertia& known) {
   const PathPoint& point = path.point();
@@ -195,10 +228,9 @@ NestedReport NestedShell::certify(const PathFollower& path, const Watch& watch,
   state_.largest_strain = finest.system->assembly().largest_strain;
   const Energies energies = finest.system->assembly().energies;
   if (watches_stability_ && state_.inertia.positive_definite()) {
-    constexpr double roughly = 0.02;  // the trend is enough
-    const Eigen::VectorXd equal = Eigen::VectorXd::Ones(finest.model.nodes);
     Eigen::Matrix3Xd mode = before.lowest_mode.cast<double>();
-    state_.lowest_eigenvalue = lowest_eigenvalue(*finest.system, equal, mode, watch, roughly);
+    state_.lowest_eigenvalue =
+        lowest_eigenvalue(*finest.system, unit_length(finest.mesh), mode, watch, roughly);
     state_.lowest_mode = mode.cast<float>();
   }
   measure(watch, before);
