@@ -70,9 +70,8 @@ bool leads_to(EquilibriumPath& path, const Checkpoint& first, const Watch& watch
   return same;
 }
 
-/// Of the current state and its mirror images, which are equivalent, selects the one whose diagonal
-/// is lower according to the seed; of several, the one to the side to which the imperfection
-/// points.
+/// Selects, from the current state and its mirror images, which are equivalent, the one whose
+/// diagonal is lower according to the seed; from several, the one on the imperfection's side.
 void turn_to_seed(Simulation& simulation, const Watch& watch) {
   const NestedShell& shell = simulation.shell();
   const RodMesh& mesh = shell.finest();

@@ -181,9 +181,8 @@ class NestedShell {
   /// Frees the memory of the matrices, most of what the shell uses; the next use allocates it
   /// again.
   void free_memory();
-  /// Whether the lowest eigenvalue of a stable state is larger than its error by the mesh, which
-  /// the companion's own tells: (coarse - fine)/3. Of a state with lowest_eigenvalue; true without
-  /// a companion.
+  /// Whether the lowest eigenvalue of a stable state is larger than its error by the mesh, which is
+  /// (coarse - fine)/3 with the companion's. Needs lowest_eigenvalue; true without a companion.
   bool stability_confirmed(const Watch& watch);
   /// Sets whether certified states compute their lowest eigenvalue; that of the current state, if
   /// it is stable, is computed at once.
