@@ -37,13 +37,20 @@ bool at_event(const PathSegment& segment, double t) {
   });
 }
 
-double worst_estimate_mm(const EquilibriumPath& path) {
-  double worst = std::numeric_limits<double>::quiet_NaN();
+const LoadStep* worst_load_step(const EquilibriumPath& path) {
+  const LoadStep* worst = nullptr;
   for (const PathSegment& segment : path.segments)
     for (const LoadStep& load_step : segment.load_steps)
-      if (load_step.certificate.stable() && !at_event(segment, load_step.point.t))
-        worst = std::fmax(worst, load_step.certificate.error_estimate_mm);
+      if (load_step.certificate.stable() && !at_event(segment, load_step.point.t) &&
+          load_step.certificate.error_estimate_mm >
+              (worst ? worst->certificate.error_estimate_mm : -1))
+        worst = &load_step;
   return worst;
+}
+
+double worst_estimate_mm(const EquilibriumPath& path) {
+  const LoadStep* worst = worst_load_step(path);
+  return worst ? worst->certificate.error_estimate_mm : std::numeric_limits<double>::quiet_NaN();
 }
 
 double distance_of_joints(const Simulation& simulation, const Eigen::Matrix3Xd& nodes) {

@@ -73,8 +73,10 @@ double distance_of_joints(const Simulation& simulation, const Eigen::Matrix3Xd& 
 /// that of the event is known to its error. States there have no error estimate.
 bool at_event(const PathSegment& segment, double t);
 
-/// Largest error estimate of the stable states of a path that are at no event, mm; NaN if none has
-/// one.
+/// The stable load step of a path that is at no event and has the largest error estimate; null:
+/// none has one.
+const LoadStep* worst_load_step(const EquilibriumPath& path);
+/// Its estimate, mm, or NaN.
 double worst_estimate_mm(const EquilibriumPath& path);
 
 /// The last load step that the segment passed before parameter t.
