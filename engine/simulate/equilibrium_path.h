@@ -121,6 +121,9 @@ CertifiedSample certify_sample(EquilibriumPath& path, const PathSample& sample, 
 /// one is known.
 using At = std::function<std::string(double t, std::optional<double> error)>;
 
+/// Which of its two limits a path met that ended `locked`: the strain's, or a push's.
+std::string text_of_locking(double largest_strain, double max_strain);
+
 /// Text of the frame in which a path ended at a limit; empty for another end.
 std::string limit_event(const Simulation& simulation, Outcome end);
 
