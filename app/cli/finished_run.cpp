@@ -195,7 +195,12 @@ Result<void> copy_data(const fs::path& from, const fs::path& to) {
         name.string().starts_with('.') || name == manifest_name)
       continue;
     fs::copy_file(at->path(), to / name, fs::copy_options::overwrite_existing, error);
-    if (error) break;
+    if (!error) continue;
+    // the library calls a full disk an error of input
+    std::error_code other;
+    if (error == std::errc::io_error && fs::space(to, other).available < at->file_size(other))
+      error = std::make_error_code(std::errc::no_space_on_device);
+    break;
   }
   if (!error) return {};
   return fail(Fault::io, "cannot copy '{}' to '{}': {}", from.string(), to.string(),

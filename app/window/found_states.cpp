@@ -33,7 +33,7 @@ std::string text_of_event(const Event& event) {
     case Event::Kind::turned_back:
       return event.to ? "limit point: snapped to another state" : "limit point";
     case Event::Kind::locked:
-      return "the rods reached the strain limit";
+      return words_of(outcome_of(event.kind)).what;
     case Event::Kind::overbent:
       return "a rod is strained as far as [limits] " + event.what + " allows";
     case Event::Kind::contact:

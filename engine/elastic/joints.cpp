@@ -135,11 +135,14 @@ Footprint centred(Footprint footprint, const Bolts* bolts) {
 }
 
 std::vector<double> joint_torques(const RodMesh& mesh, const Model& model, const State& state,
-                                  double opening) {
+                                  double opening, bool bolts_alone) {
   std::vector<double> torques(std::size_t(mesh.joints), 0);
   const Eigen::VectorXd of_springs = spring_torques(model, spring_excess(model, state, opening));
   each_spring(model, [&](const auto& pair, Eigen::Index place) {
-    torques[std::size_t(pair.law.joint)] -= of_springs[place - Eigen::Index(model.edges.size())];
+    double& torque = torques[std::size_t(pair.law.joint)];
+    // a bolt is added after the joint's own law
+    if (bolts_alone) torque = 0;
+    torque -= of_springs[place - Eigen::Index(model.edges.size())];
   });
   return torques;
 }

@@ -107,9 +107,10 @@ Result<Model> build_model(const RodMesh& mesh, const ShellRods& rods,
                           RodModel rod_model = RodModel::bend);
 
 /// Torques of bolts and of joints that resist shear, on each joint's rods, that would open it: sums
-/// of k (rest - angle) over every two of its rods, N mm, at the opening that has come.
+/// of k (rest - angle) over every two of its rods, N mm, at the opening that has come. Of bolts
+/// alone, where two rods cross and have one.
 std::vector<double> joint_torques(const RodMesh& mesh, const Model& model, const State& state,
-                                  double opening = 0);
+                                  double opening = 0, bool bolts_alone = false);
 
 /// Bolts that keep the angles between rods as drawn.
 Bolts drawn_bolts(const RodMesh& mesh, double stiffness_Nmm);

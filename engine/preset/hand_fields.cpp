@@ -21,29 +21,13 @@ void step_rules(FieldList<Step>& list) {
       .needs_equilibrium("a net does not answer a hand", first);
 }
 
-/// Whether an `open` step finds bolts of another stiffness or drive, which it cannot drive.
-bool meets_other_bolts(const Preset& preset, const Step& of) {
-  const Step* bolted = nullptr;
-  for (const Step& step : preset.step) {
-    if (&step == &of) break;
-    if (step.kind == StepKind::tighten || step.kind == StepKind::open) bolted = &step;
-    if (step.kind == StepKind::release && step.what == Released::bolts) bolted = nullptr;
-  }
-  return of.kind == StepKind::open && bolted &&
-         (bolted->stiffness_Nmm != of.stiffness_Nmm || bolted->drive != of.drive);
-}
-
 /// What makes a formed shell stiff, and takes it away again.
 void add_stiffening(FieldList<Step>& list) {
   using K = StepKind;
   list.add<&Step::stiffness_Nmm>(at_least(0),
                                  "tighten: resistance of each joint to a change of its angle; "
                                  "open: to a deviation from the target angle; 0: rigid");
-  list.used_by(&Step::kind, {K::tighten, K::open})
-      .refused({},
-               "bolts of another stiffness act then, expected the same stiffness, or a release of "
-               "\"bolts\" before it",
-               meets_other_bolts);
+  list.used_by(&Step::kind, {K::tighten, K::open});
   list.add<&Step::angle_deg>(
       between(0, 180),
       "open: target for the average angle of all crossings of two rods, each turned equally; "

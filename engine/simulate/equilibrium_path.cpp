@@ -37,13 +37,20 @@ bool at_event(const PathSegment& segment, double t) {
   });
 }
 
-double worst_estimate_mm(const EquilibriumPath& path) {
-  double worst = std::numeric_limits<double>::quiet_NaN();
+const LoadStep* worst_load_step(const EquilibriumPath& path) {
+  const LoadStep* worst = nullptr;
   for (const PathSegment& segment : path.segments)
     for (const LoadStep& load_step : segment.load_steps)
-      if (load_step.certificate.stable() && !at_event(segment, load_step.point.t))
-        worst = std::fmax(worst, load_step.certificate.error_estimate_mm);
+      if (load_step.certificate.stable() && !at_event(segment, load_step.point.t) &&
+          load_step.certificate.error_estimate_mm >
+              (worst ? worst->certificate.error_estimate_mm : -1))
+        worst = &load_step;
   return worst;
+}
+
+double worst_estimate_mm(const EquilibriumPath& path) {
+  const LoadStep* worst = worst_load_step(path);
+  return worst ? worst->certificate.error_estimate_mm : std::numeric_limits<double>::quiet_NaN();
 }
 
 double distance_of_joints(const Simulation& simulation, const Eigen::Matrix3Xd& nodes) {
@@ -173,9 +180,7 @@ std::string how_it_ended(const PathSegment& segment, double max_strain, const At
         "strain is {:.3g}",
         at(report.t, {}), strain);
   if (report.end == Outcome::locked)
-    return fmt::format("{} the rods reached the strain limit: {}", at(report.t, {}),
-                       strained ? fmt::format("the largest strain is {:.3g}", strain)
-                                : "the push meets 100 times its first stiffness");
+    return at(report.t, {}) + " " + text_of_locking(strain, max_strain);
   if (report.end == Outcome::contact) {
     const std::string& what = report.events.back().what;
     const bool touched = !segment.load_steps.back().contacts.places.empty();
@@ -194,6 +199,13 @@ std::string how_it_ended(const PathSegment& segment, double max_strain, const At
 }
 
 }  // namespace
+
+std::string text_of_locking(double largest_strain, double max_strain) {
+  return locked_by_strain(largest_strain, max_strain)
+             ? fmt::format("the rods reached the strain limit: the largest strain is {:.3g}",
+                           largest_strain)
+             : "the push met 100 times its first stiffness";
+}
 
 std::string limit_event(const Simulation& simulation, Outcome end) {
   if (end == Outcome::locked) return "locking";

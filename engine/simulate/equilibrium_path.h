@@ -73,8 +73,10 @@ double distance_of_joints(const Simulation& simulation, const Eigen::Matrix3Xd& 
 /// that of the event is known to its error. States there have no error estimate.
 bool at_event(const PathSegment& segment, double t);
 
-/// Largest error estimate of the stable states of a path that are at no event, mm; NaN if none has
-/// one.
+/// The stable load step of a path that is at no event and has the largest error estimate; null:
+/// none has one.
+const LoadStep* worst_load_step(const EquilibriumPath& path);
+/// Its estimate, mm, or NaN.
 double worst_estimate_mm(const EquilibriumPath& path);
 
 /// The last load step that the segment passed before parameter t.
@@ -118,6 +120,9 @@ CertifiedSample certify_sample(EquilibriumPath& path, const PathSample& sample, 
 /// Writes a path parameter in the terms of the experiment, "at progress 0.4312", with its error if
 /// one is known.
 using At = std::function<std::string(double t, std::optional<double> error)>;
+
+/// Which of its two limits a path met that ended `locked`: the strain's, or a push's.
+std::string text_of_locking(double largest_strain, double max_strain);
 
 /// Text of the frame in which a path ended at a limit; empty for another end.
 std::string limit_event(const Simulation& simulation, Outcome end);

@@ -81,13 +81,10 @@ std::string reason_of(HeldShell& pushed, const At& at, const Watch& watch) {
   const PathSegment& segment = pushed.segments.back();
   const double strain = segment.report.certificate.largest_strain;
   if (pushed.limit == record::Limit::locking && strain != 0)
-    return fmt::format(
-        "{} ({:.4f} of the length scale) and {:.4g} N the rods reached the strain limit: {}",
-        at(segment.report.t, {}), segment.report.t * pushed.depth_mm() / scene.length_scale_mm,
-        pushed.push.displacement.normalized().dot(pushed.simulation.force(0)),
-        locked_by_strain(strain, scene.max_strain)
-            ? fmt::format("the largest strain reaches {:g}", scene.max_strain)
-            : "the push meets 100 times its first stiffness");
+    return fmt::format("{} ({:.4f} of the length scale) and {:.4g} N {}", at(segment.report.t, {}),
+                       segment.report.t * pushed.depth_mm() / scene.length_scale_mm,
+                       pushed.push.displacement.normalized().dot(pushed.simulation.force(0)),
+                       text_of_locking(strain, scene.max_strain));
   return {};
 }
 

@@ -60,6 +60,17 @@ std::optional<std::string> disagreement(const PathSegment& a, const PathSegment&
   return std::nullopt;
 }
 
+/// Where the largest error is; next to a loss of stability a state moves most with the parameter.
+std::string where_worst(const EquilibriumPath& path) {
+  const LoadStep* worst = worst_load_step(path);
+  if (!worst) return "";
+  const double t = worst->point.t;
+  const bool near = std::ranges::any_of(
+      path.segments, [t](const PathSegment& segment) { return near_event(segment, t); });
+  return fmt::format(", at path parameter {:.3f}{}", t,
+                     near ? ", next to an event, where a state moves most" : "");
+}
+
 /// The positions of events that a mesh's own companion does not have, extrapolated from those on
 /// two meshes.
 void extrapolate_events(const std::vector<PathSegment>& coarse, std::vector<PathSegment>& fine) {
@@ -163,9 +174,9 @@ Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follo
       if (kept.tolerance_missed)
         kept.mesh_disagreement = fmt::format(
             "the tolerance {:g} is not met: {} edges per segment leave an estimated error of "
-            "{:.2g} mm, {:.2g} of the length scale{}",
+            "{:.2g} mm, {:.2g} of the length scale{}{}",
             scene.tolerance, plan.edges_per_segment.back(), worst, worst / scene.length_scale_mm,
-            fits ? "" : "; " + fits.error().message);
+            where_worst(kept), fits ? "" : "; " + fits.error().message);
       else if (auto doubt = not_confirmed(kept))
         kept.mesh_disagreement = std::move(*doubt);
       return last;

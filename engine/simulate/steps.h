@@ -79,8 +79,10 @@ Result<Bolts> bolts_as_drawn(const preset::Step& step, const Footprint& footprin
 /// Drives the crossing angles of joints linearly along a path by bolts: each is a spring at the
 /// joint, tightened at its current angle, whose natural angle is driven to the target of the step.
 /// With the drive `mean` one torque, equal at all joints, keeps their mean angle at the target.
+/// Bolts of another stiffness or drive are replaced first: where two rods cross the new ones have
+/// their torque.
 /// Errors (bad_input): a flat shell, a joint where not two rods cross, an angle that no joint can
-/// have, bolts of another stiffness.
+/// have.
 Result<Report> open(Simulation& simulation, const preset::Step& step, const Watch& watch,
                     StepPath* path);
 

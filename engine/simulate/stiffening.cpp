@@ -54,6 +54,18 @@ Bolts now_tightened(const Simulation& simulation, double stiffness) {
   return bolts;
 }
 
+/// The torque of every joint's bolt that opens the joint, N mm.
+std::vector<double> torques_of_bolts(const Simulation& simulation) {
+  const NestedShell& shell = simulation.shell();
+  const Eigen::Matrix3Xd torques = fixed_vectors(shell, [&](int level) -> Eigen::Matrix3Xd {
+    const auto of =
+        joint_torques(shell.mesh(level), shell.model(level),
+                      shell.state().levels[std::size_t(level)], shell.outside(level).opening, true);
+    return Eigen::RowVectorXd::Map(of.data(), Eigen::Index(of.size())).replicate(3, 1);
+  });
+  return {torques.row(0).begin(), torques.row(0).end()};
+}
+
 /// How far each joint is to open so that its bolt, of `now`, has no torque at the step's angle,
 /// rad; NaN of joints that are left as they are.
 Result<std::vector<double>> openings(const preset::Step& step, const Footprint& footprint,
@@ -120,16 +132,19 @@ Result<Report> open(Simulation& simulation, const preset::Step& step, const Watc
   TRY_DO(check_formed(simulation));
   const double stiffness = stiffness_of(step);
   const auto known = simulation.rods().bolts;
-  const bool mean = step.drive == preset::JointDrive::mean;
-  if (known && (known->stiffness_Nmm != stiffness || known->mean != mean))
-    return invalid(
-        "bolts of another stiffness or drive act, expected the same, or their release before");
-  // bolts that are there keep what they strive for
   Bolts bolts = now_tightened(simulation, stiffness);
-  bolts.mean = mean;
+  bolts.mean = step.drive == preset::JointDrive::mean;
   bolts.opened.assign(bolts.rods.size(), 0);
+  // bolts that are there keep what they strive for; others that replace them, their torque
+  const bool same = known && known->stiffness_Nmm == stiffness && known->mean == bolts.mean;
+  const std::vector<double> torques =
+      known && !same ? torques_of_bolts(simulation) : std::vector<double>();
   for (std::size_t joint = 0; known && joint < bolts.rods.size(); ++joint) {
     if (known->rods[joint].empty()) continue;
+    if (!same && bolts.rods[joint].size() == 2) {
+      bolts.opened[joint] = torques[joint] / stiffness;
+      continue;
+    }
     bolts.rods[joint] = known->rods[joint];
     if (!known->opened.empty()) bolts.opened[joint] = known->opened[joint];
   }

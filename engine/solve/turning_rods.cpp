@@ -83,19 +83,22 @@ std::vector<TurningNodes> turning_nodes(const std::vector<TurningRod>& turning,
   for (const TurningRod& one : turning) {
     const FootprintRod& rod = footprint.rods[one.rod];
     const std::vector<int>& nodes = mesh.rods[one.rod];
+    const bool spins = !holds_direction(rod.begin) && !holds_direction(rod.end);
     std::vector<int> axis;
     if (is_held(rod.begin)) axis.push_back(nodes.front());
     axis.insert(axis.end(), one.hinges.begin(), one.hinges.end());
     if (is_held(rod.end)) axis.push_back(nodes.back());
     if (axis.size() > 1 && axis.front() != axis.back())
-      found.push_back({axis.front(), axis.back(), nodes});
+      found.push_back({axis.front(), axis.back(), nodes, spins ? int(one.rod) : -1});
   }
   return found;
 }
 
 double turn_towards(const Eigen::Matrix3Xd& to, const std::vector<TurningNodes>& rods,
                     const Model& model, State& state) {
+  const State before = state;
   Eigen::Matrix3Xd x = state.x;
+  std::vector<Eigen::AngleAxisd> turns;
   for (const TurningNodes& rod : rods) {
     const Eigen::Vector3d from = x.col(rod.from), axis = (x.col(rod.to) - from).normalized();
     double along = 0, across = 0;
@@ -105,12 +108,20 @@ double turn_towards(const Eigen::Matrix3Xd& to, const std::vector<TurningNodes>&
       along += here.dot(there);
       across += axis.dot(here.cross(there));
     }
-    const Eigen::AngleAxisd turn(std::atan2(across, along), axis);
-    for (const int node : rod.nodes) x.col(node) = from + turn * (x.col(node) - from);
+    turns.emplace_back(std::atan2(across, along), axis);
+    for (const int node : rod.nodes) x.col(node) = from + turns.back() * (x.col(node) - from);
   }
-  const double moved = max_column_norm(x - state.x);
   move_to(model, x, state);
-  return moved;
+  // frames that are only carried along would leave the section behind
+  for (std::size_t k = 0; model.has_spins() && k < rods.size(); ++k) {
+    if (rods[k].section < 0) continue;
+    const Model::Rod& rod = model.rods[std::size_t(rods[k].section)];
+    for (const int edge : rod.edges)
+      state.director.col(edge) = turns[k] * before.director.col(edge);
+    const auto bends = Eigen::seqN(rod.first_bend, std::ssize(rod.edges) - 1);
+    state.reference_twist(bends) = before.reference_twist(bends);
+  }
+  return max_column_norm(x - before.x);
 }
 
 }  // namespace gridshell

@@ -29,6 +29,7 @@ std::vector<TurningRod> turning_rods(const Footprint& footprint, const ShellRods
 struct TurningNodes {
   int from = 0, to = 0;
   std::vector<int> nodes;
+  int section = -1;  ///< the rod if its section turns with it, where no direction is prescribed
 };
 
 /// Those of the rods with two points of their line on a mesh.

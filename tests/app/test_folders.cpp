@@ -77,6 +77,54 @@ TEST_CASE("where memory is short a command ends with a sentence, wherever it run
   }
 }
 
+TEST_CASE("on a disk that is full commands say so and leave what was there") {
+  const Bench bench(small);
+  if (shell(bench, "unshare -m mount -t tmpfs tmpfs . 2> err") != 0) {
+    WARN("skipped: no file system can be mounted here");
+    return;
+  }
+  REQUIRE(write_file(bench.at / "visit", "do save_preset\n"));
+  REQUIRE(write_file(bench.at / "sweep.toml",
+                     small + "[sweep]\nover = {footprint.radius_mm = [100, 101]}\n"));
+  // what differs from what is expected, a line each; 60 kB are enough for pictures, not for data
+  REQUIRE(write_file(bench.at / "full.sh", R"sh(
+gridshell() { "$PROGRAM" "$@"; }
+mount -t tmpfs -o size=8m tmpfs disk && cd disk && cp ../small.toml . &&
+  gridshell run small.toml -o r --quiet || exit 1
+files() { find . -type f ! -name filler ! -path '*.partial-*' ! -path './out/*'; }
+files | sort | xargs cksum > ../before
+fill() { head -c $(($(df -k --output=avail . | tail -1) - $1))k /dev/zero > filler; }
+small='--quality draft --size 64x48 --quiet'
+for free in 0 60; do
+  fill $free
+  while read -r command; do
+    gridshell $command < /dev/null > ../out 2> ../err
+    [ $? = 1 ] || echo "$free $command: $?"
+    grep -q "^cannot write '.*': No space left on device$\|^cannot copy .*: No space left" ../err ||
+      echo "$free $command: $(cat ../err)"
+    files | sort | xargs cksum | cmp -s - ../before || echo "$free $command: $(files)"
+    rm -rf *.partial-* out
+  done <<END
+run small.toml -o r --quiet
+run small.toml -o new --quiet
+movie small.toml -o r $small
+figure small.toml -o new $small
+render r $small
+report r
+export r --to shape.vtp
+sweep ../sweep.toml --quiet --jobs 1
+END
+  rm filler
+done
+fill 0
+gridshell view small.toml --play ../visit | grep -q "small.*: No space left on device" || echo view
+files | sort | xargs cksum | cmp -s - ../before || echo "view: $(files)"
+)sh"));
+  CHECK(shell(bench,
+              "mkdir disk && PROGRAM='" GRIDSHELL_PROGRAM "' unshare -m sh full.sh > wrong") == 0);
+  CHECK(text_of(bench.at / "wrong").empty());
+}
+
 TEST_CASE("what stdout does not take is noticed") {
   const Bench bench(small);
   CHECK(shell(bench, "gridshell list > /dev/full 2> err") == 1);

@@ -210,7 +210,7 @@ def test_a_fault_of_a_file_names_its_place(tmp_path):
 
 def test_a_path_that_ends_early_raises_and_stays_certified(formed):
     kept = formed.save()
-    with pytest.raises(gs.NoEquilibrium, match="rods reached the strain limit"):
+    with pytest.raises(gs.NoEquilibrium, match="the limit of the strain or of a push's stiffness"):
         formed.push((0, 0), -60)
     assert formed.certificate.residual_N < 1e-5 and formed.held == [(0, 0)]
     formed.restore(kept)

@@ -105,10 +105,6 @@ TEST_CASE(
       {"[[step]]\ndo = \"open\"",
        "bad.toml:1:1: [[step]] 1 angle_deg: got 0.0 (both or none of angle_deg and angles), "
        "expected one of them"},
-      {"[[step]]\ndo = \"tighten\"\nstiffness_Nmm = 5.0\n[[step]]\ndo = \"open\"\n"
-       "angle_deg = 80.0\nstiffness_Nmm = 7.0",
-       "bad.toml:7:17: [[step]] 2 stiffness_Nmm: got 7.0 (bolts of another stiffness act then), "
-       "expected the same stiffness, or a release of \"bolts\" before it"},
       {"[[step]]\ndo = \"brace\"",
        "bad.toml:1:1: [[step]] 1 EA_N: got 0.0 (a brace needs a stiffness), expected above 0"},
       {"[[step]]\ndo = \"load\"\ncase = \"snow\"",

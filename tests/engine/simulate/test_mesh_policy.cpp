@@ -108,7 +108,16 @@ TEST_CASE("a tolerance that no mesh meets keeps what there is, and says what is 
   CHECK(tried == std::vector<int>{8, 16, 32, 64, 128, 128});
   CHECK(path->tolerance_missed);
   CHECK(path->segments.back().report.end == Outcome::reached);
-  CHECK_THAT(path->mesh_disagreement, Catch::StartsWith("the tolerance 0.001 is not met: 128 "));
+  CHECK_THAT(path->mesh_disagreement, Catch::StartsWith("the tolerance 0.001 is not met: 128 ") &&
+                                          Catch::EndsWith(", at path parameter 1.000"));
+  const auto next = value_of(policy(
+      small(),
+      [](int) {
+        return Said{true, true, 0.97};
+      },
+      tried));
+  CHECK_THAT(next->mesh_disagreement, Catch::EndsWith("1.000, next to an event, where a state "
+                                                      "moves most"));
 }
 
 TEST_CASE("a mesh that memory does not have ends the doubling, with its reason") {

@@ -152,8 +152,9 @@ TEST_CASE("a step that ends early ends the run, and both say so") {
   CHECK_THAT(outcome.summary.limit_reason, Catch::StartsWith("step 1 (push [0, 0]): "));
   // which of the two limits of a push it met
   const bool strained = std::abs(outcome.summary.largest_strain) > 0.9 * preset.limits.max_strain;
-  CHECK_THAT(outcome.summary.limit_reason,
-             Catch::Contains(strained ? "largest strain" : "100 times its first stiffness"));
+  CHECK_THAT(
+      outcome.summary.limit_reason,
+      Catch::Contains(strained ? "largest strain" : "the push met 100 times its first stiffness"));
   REQUIRE(outcome.summary.steps.size() == 1);
   CHECK_THAT(outcome.summary.steps[0], Catch::Contains("locked"));
   CHECK(outcome.trajectory.frames.back().event == "locking");

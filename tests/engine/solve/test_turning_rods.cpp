@@ -96,6 +96,27 @@ TEST_CASE("a rod fixed between its ends buckles in a plane, and meshes agree") {
   }
 }
 
+TEST_CASE("a lath turns with its section, upright as well as level") {
+  std::vector<double> energies;
+  for (const bool upright : {false, true}) {
+    CAPTURE(upright);
+    preset::Preset p = rod({0, 0.35 * L, L}, 0.935 * L);
+    p.footprint.file.supports.push_back({1});
+    p.rod.width_mm = 3, p.rod.thickness_mm = 1, p.rod.young_GPa = 10, p.rod.shear_GPa = 4;
+    if (upright) {
+      for (auto& point : p.footprint.file.points) std::swap(point[0], point[2]);
+      std::swap(p.footprint.file.supports[0][1], p.footprint.file.supports[0][3]);
+    }
+    const auto outcome = run(p);
+    CAPTURE(outcome.summary.limit_reason);
+    CHECK(outcome.summary.tolerance_met);
+    for (const record::Frame& frame : outcome.trajectory.frames)
+      CHECK_FALSE(frame.error_estimate_mm > 0.1);
+    energies.push_back(outcome.summary.energies[Term::bend]);
+  }
+  CHECK(energies[1] == Approx(energies[0]).epsilon(1e-3));
+}
+
 TEST_CASE("rods turn that are fixed on one line, on it as long as the boundary moves") {
   const auto turning = [](const preset::Preset& p) {
     const auto scene = shared_scene(p);
