@@ -23,9 +23,10 @@ void add_rods(FieldList<Rod> rods, const std::string& table) {
                        spacing)
                  : "";
     });
-  rods.add<&Rod::young_GPa>(above(0), "Young's modulus E");
+  rods.add<&Rod::young_GPa>(above(0), "Young's modulus E").label("Young's modulus");
   rods.add<&Rod::shear_GPa>(
-      at_least(0), "shear modulus G; 0: not given, which is enough where no rod is twisted");
+          at_least(0), "shear modulus G; 0: not given, which is enough where no rod is twisted")
+      .label("shear modulus");
   rods.add<&Rod::density_kg_m3>(
       at_least(0), "density; 0: not given, which is enough without gravity and motion");
   rods.add<&Rod::strength_MPa>(at_least(0),
