@@ -215,8 +215,11 @@ Result<Scanned> read_all(const ScanOptions& options) {
       scanned.candidates.push_back(std::move(one));
   if (scanned.candidates.empty())
     return invalid("'{}' contains no state to compare with", options.runs.front());
-  const preset::Joints& joints = scanned.candidates.front().run->preset.joints;
-  scanned.cylinder = {joints.diameter_mm, options.centres ? 0 : joints.height_mm};
+  const Run& run = *scanned.candidates.front().run;
+  const record::Layout& layout = run.trajectory.layout;
+  const preset::Joints& joints = run.preset.joints;
+  scanned.cylinder = {joints.diameter_mm.value_or(layout.joint_diameter_mm),
+                      options.centres ? 0 : joints.height_mm.value_or(layout.joint_height_mm)};
   return scanned;
 }
 
