@@ -114,6 +114,7 @@ class NumbersPanel {
   struct Row {
     const preset::Field* field;
     std::string name, label, text, standard, help;
+    bool by_name;  ///< the words that are looked for are in its name, not in what it means
   };
 
   bool is_shown(const preset::Field& field);
@@ -122,6 +123,7 @@ class NumbersPanel {
   void look(const ViewerState& viewer);
   void find_idle();
   void list_rows();
+  void list_tables(const Panel& panel, bool by_name);
 
   std::shared_ptr<const ShellView> seen_;  // that the numbers are of
   preset::Preset edited_;
