@@ -161,11 +161,11 @@ bool contains_words(std::string text, std::string sought) {
   return true;
 }
 
-bool text_input(const char* id, std::string& text, const char* hint) {
+bool text_input(const char* id, std::string& text, const char* hint, int flags) {
   std::array<char, 1024> typed{};
   text.copy(typed.data(), typed.size() - 1);
   const bool entered = ImGui::InputTextWithHint(id, hint, typed.data(), typed.size(),
-                                                ImGuiInputTextFlags_EnterReturnsTrue);
+                                                ImGuiInputTextFlags_EnterReturnsTrue | flags);
   text = typed.data();
   return entered;
 }
