@@ -106,6 +106,11 @@ void add_footprint(std::vector<Field>& all) {
                               return row[1] != 0 || row[2] != 0;
                             });
                    })
+      .needs_twist(
+          "the file is one closed rod (if it is an outline: kind = \"curve\", boundary = \"file\")",
+          [=](const Footprint& of) {
+            return network(of) && of.file.rods.size() == 1 && has_closed_rods(of.file);
+          })
       .needs_twist("rods that are closed have no ends that could spin",
                    [=](const Footprint& of) { return network(of) && has_closed_rods(of.file); })
       .needs_twist("clamped ends of the file prescribe the rods' twist angle",
