@@ -138,15 +138,7 @@ std::string help_of(const preset::Field& field) {
 }
 
 std::string label_of(const preset::Field& field) {
-  const std::string name = field.table + "." + field.key;
-  if (name == "footprint.rods") return "rods per direction";
-  if (name == "footprint.radius_mm") return "radius Rₒ";
-  if (name == "footprint.spacing_mm") return "spacing d";
-  if (name == "footprint.longest_leg") return "longest leg over d";
-  if (name == "actuation.radius_mm") return "radius Rₐ";
-  if (name == "actuation.ratio") return "Rₐ/Rₒ";
-  if (field.key == "young_GPa") return "Young's modulus";
-  if (field.key == "shear_GPa") return "shear modulus";
+  if (!field.label.empty()) return field.label;
   std::size_t end = field.key.size();
   for (std::size_t at = 0; at < field.key.size(); ++at)
     if (!field.unit.empty() && field.key[at] == '_' &&
@@ -169,11 +161,11 @@ bool contains_words(std::string text, std::string sought) {
   return true;
 }
 
-bool text_input(const char* id, std::string& text, const char* hint) {
+bool text_input(const char* id, std::string& text, const char* hint, int flags) {
   std::array<char, 1024> typed{};
   text.copy(typed.data(), typed.size() - 1);
   const bool entered = ImGui::InputTextWithHint(id, hint, typed.data(), typed.size(),
-                                                ImGuiInputTextFlags_EnterReturnsTrue);
+                                                ImGuiInputTextFlags_EnterReturnsTrue | flags);
   text = typed.data();
   return entered;
 }
@@ -267,17 +259,6 @@ void coloured_text(ImU32 colour, const std::string& text) {
 
 // The menus, filled from the table of actions.
 
-namespace {
-
-/// Actions that begin a group of their menu, below a line.
-constexpr std::string_view first_of_groups[] = {
-    "compare",      "save_preset", "export",       "save_picture",  "copy_camera",
-    "quit",         "find_number", "stop",         "release",       "gravity",
-    "soft_mode",    "state_next",  "design_start", "closer",        "turn_left",
-    "orthographic", "joints",      "numbers",      "colour_energy", "range_run"};
-
-}  // namespace
-
 void menu_bar(const Panel& panel) {
   if (!ImGui::BeginMainMenuBar()) return;
   const char* open_menu = nullptr;
@@ -293,8 +274,7 @@ void menu_bar(const Panel& panel) {
     if (!open) continue;
     const bool ticked = action.on && action.on(panel.viewer),
                able = !action.able || action.able(panel.viewer);
-    if (std::ranges::find(first_of_groups, action.name) != std::end(first_of_groups))
-      ImGui::Separator();
+    if (action.below_line) ImGui::Separator();
     if (ImGui::MenuItem(action.label, name_of(action.key).c_str(), ticked, able))
       action.act(panel.viewer);
     panel.named(std::string("menu ") + action.menu + " " + action.name, action.help);

@@ -196,6 +196,7 @@ class ViewerState {
     return {&picture_task, &movie_task, &export_task, &manual_task};
   }
   std::optional<FileRequest> file_request;
+  std::string last_folders[2];      ///< of a file that was saved, and of one that was opened
   std::vector<std::string> recent;  ///< what was opened, the last first
   std::string copied;               ///< text for the clipboard
   bool timed = true;                ///< whether what took how long is shown

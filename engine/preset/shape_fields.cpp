@@ -106,6 +106,11 @@ void add_footprint(std::vector<Field>& all) {
                               return row[1] != 0 || row[2] != 0;
                             });
                    })
+      .needs_twist(
+          "the file is one closed rod (if it is an outline: kind = \"curve\", boundary = \"file\")",
+          [=](const Footprint& of) {
+            return network(of) && of.file.rods.size() == 1 && has_closed_rods(of.file);
+          })
       .needs_twist("rods that are closed have no ends that could spin",
                    [=](const Footprint& of) { return network(of) && has_closed_rods(of.file); })
       .needs_twist("clamped ends of the file prescribe the rods' twist angle",
@@ -131,16 +136,19 @@ void add_footprint(std::vector<Field>& all) {
       .used_by(&Footprint::kind, {Kinds::network})
       .refused({"file"}, of_a_file, [=](const Footprint& of) { return network(of) && of.linkage; });
   list.add<&Footprint::rods>(between(1, 500), "rods per direction in a circle, n")
+      .label("rods per direction")
       .used_by(&Footprint::kind, {Kinds::circle});
-  list.add<&Footprint::radius_mm>(above(0), "radius of a circle, R_o");
+  list.add<&Footprint::radius_mm>(above(0), "radius of a circle, R_o").label("radius Rₒ");
   radius_rules(list, &Footprint::boundary, &Footprint::longest_leg, "[footprint] longest_leg");
   list.add<&Footprint::longest_leg>(between(0, 1000),
                                     "L_d of a circle, instead of `radius_mm`: longest leg over d; "
                                     "R_o = d (L_d + (n - 1)/2); 0: not given")
+      .label("longest leg over d")
       .used_by(&Footprint::kind, {Kinds::circle});
   const char* in_the_file =
       "of a footprint of kind \"network\" the file says where rods and joints lie";
   list.add<&Footprint::spacing_mm>(above(0), "distance between neighbouring rods, d")
+      .label("spacing d")
       .unused({"kind"}, in_the_file, network);
   list.add<&Footprint::placement>("rods at u = (i + 1/2) d, or at u = i d with one on each axis")
       .unused({"kind"}, in_the_file, network);
@@ -158,6 +166,7 @@ void add_actuation(std::vector<Field>& all) {
   };
   list.add<&Actuation::radius_mm>(above(0),
                                   "radius of the actuated boundary of a circle, R_a, at most R_o")
+      .label("radius Rₐ")
       .unused({"scale"}, scaled, by_scale)
       .refused({"[footprint] radius_mm", "[footprint] longest_leg"}, [](const Preset& preset) {
         return is_circle(preset) && preset.actuated_radius_mm() > preset.original_radius_mm()
@@ -167,6 +176,7 @@ void add_actuation(std::vector<Field>& all) {
   radius_rules(list, &Actuation::boundary, &Actuation::ratio, "[actuation] ratio");
   list.add<&Actuation::ratio>(between(0, 1),
                               "R_a/R_o of a circle, instead of `radius_mm`; 0: not given")
+      .label("Rₐ/Rₒ")
       .used_by_footprint({Kinds::circle});
   list.add<&Actuation::start>(
           "\"flat\": along the path from the flat grid; \"net\": directly to the equilibrium near "

@@ -13,7 +13,6 @@ namespace gridshell::exports {
 namespace {
 
 constexpr std::size_t most_shapes = 60, most_model_bytes = 20'000'000;
-constexpr double joint_radius_mm = 1.5;  // of the paper's joints
 
 // numbers of the format
 constexpr int type_float = 5126, type_uint = 5125, for_vertices = 34962, for_indices = 34963;
@@ -233,7 +232,8 @@ class Gltf {
 
   /// One sphere per joint, at the first of its positions.
   void add_joints(const std::vector<Eigen::Matrix3Xd>& places) {
-    json_["meshes"].push_back(MorphingMesh("joint", ball(joint_radius_mm), 1, buffer_).mesh({}));
+    const double radius_mm = 0.5 * layout_.joint_diameter_mm;
+    json_["meshes"].push_back(MorphingMesh("joint", ball(radius_mm), 1, buffer_).mesh({}));
     const std::size_t mesh = json_["meshes"].size() - 1;
     for (std::size_t k = 0; k < layout_.joints.size(); ++k) {
       const Eigen::Vector3d at = places.front().col(Eigen::Index(k));

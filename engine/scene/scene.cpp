@@ -188,8 +188,6 @@ Result<Scene> scene_of(const preset::Preset& preset) {
   scene.max_strain = preset.limits.max_strain;
   scene.max_bending_strain = preset.limits.max_bending_strain;
   scene.max_utilisation = preset.limits.max_utilisation;
-  scene.joint_diameter_mm = preset.joints.diameter_mm;
-  scene.joint_height_mm = preset.joints.height_mm;
   scene.stops_at_contact = preset.limits.contact == preset::OnContact::stop;
   scene.table = preset.limits.table;
   scene.snap = {preset.dynamics.snap, preset.dynamics.step_s, preset.dynamics.damping_per_s};

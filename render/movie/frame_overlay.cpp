@@ -320,7 +320,7 @@ void draw_timeline(Canvas& canvas, const Box& box, const std::vector<Mark>& mark
   const TextStyle text{.size = 0.85 * font_size, .align_y = AlignY::middle};
   const bool named = !axis.name.empty();
   const std::string first = named ? axis.name + " = " + fixed(axis.first, 1) : "",
-                    last = named ? fixed(axis.last, 1) + " mm" : "";
+                    last = named ? fixed(axis.last, 1) + axis.unit : "";
   const double before = named ? canvas.measure(first, text).width + gap : 0,
                after = named ? canvas.measure(last, text).width + gap : 0;
   const double length =

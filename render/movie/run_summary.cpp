@@ -242,10 +242,14 @@ ProgressAxis RunSummary::progress() const {
     return axis;
   };
   ProgressAxis axis;
-  if (frames > 1) axis = along(depths_mm_, "*δ*");
-  if (frames > 1 && axis.places.empty()) axis = along(radii_mm_, "*R*_{a}");
-  for (int k = 0; axis.name.empty() && k < frames; ++k)
-    axis.places.push_back(double(k) / std::max(1, frames - 1));
+  if (turn_deg > 0) {
+    axis = {"angle", 0, turn_deg, {}, "°"};
+  } else if (frames > 1) {
+    axis = along(depths_mm_, "*δ*");
+    if (axis.places.empty()) axis = along(radii_mm_, "*R*_{a}");
+  }
+  while (int(axis.places.size()) < frames)
+    axis.places.push_back(double(axis.places.size()) / std::max(1, frames - 1));
   return axis;
 }
 
