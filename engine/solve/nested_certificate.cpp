@@ -200,7 +200,8 @@ bool NestedShell::stability_confirmed(const Watch& watch) {
   level.motion.apply_loads(*level.system, state_.t);
   const double coarse =
       lowest_eigenvalue(*level.system, state, unit_length(level.mesh), watch, roughly);
-  // a coarse eigenvalue below the fine one confirms stability: finer meshes have larger ones
+  // a coarse eigenvalue below the fine one confirms stability, as finer meshes have larger ones; so
+  // does NaN, that of an unstable coarse mesh
   return !(state_.lowest_eigenvalue < margin * (coarse - state_.lowest_eigenvalue) / 3);
 }
 
