@@ -97,8 +97,10 @@ Result<render::Image> picture_of(const Run& run, preset::ColourBy colours,
   return std::move(*picture);
 }
 
-/// The name of a rod's material, "timber c24", or without a name its stiffness, "E = 83 GPa".
+/// The name of a rod's material, "timber c24", or without a name its stiffness, "E = 83 GPa"; the
+/// bending stiffness where it is given.
 std::string material_text(const preset::Rod& rod) {
+  if (rod.EI_Nmm2 > 0) return fmt::format("EI = {:g} N mm²", rod.EI_Nmm2);
   if (rod.material == preset::Material::none) return fmt::format("E = {:g} GPa", rod.young_GPa);
   return render::spaced(std::string(word_of(rod.material)));
 }
@@ -146,12 +148,13 @@ void add_stresses(Sheets& sheets, const record::Summary& summary) {
 /// joint, "joint [0, 4]".
 std::string support_name(const record::Layout& layout, const exports::FabricationPlan& plan,
                          int node) {
+  // a rod may end on a fixed joint, which is no pin
+  for (const record::Joint& joint : layout.joints)
+    if (joint.node == node) return fmt::format("joint [{}, {}]", joint.i, joint.j);
   const auto end =
       std::size_t(std::ranges::find(layout.edge_points, node) - layout.edge_points.begin());
   if (end < 2 * plan.rods.size() && end < layout.edge_points.size())
     return exports::pin_name(plan.rods[end / 2].name, end % 2 == 1);
-  for (const record::Joint& joint : layout.joints)
-    if (joint.node == node) return fmt::format("joint [{}, {}]", joint.i, joint.j);
   return "";
 }
 

@@ -165,8 +165,9 @@ bool contains_words(std::string text, std::string sought) {
 }
 
 bool text_input(const char* id, std::string& text, const char* hint, int flags) {
-  std::array<char, 1024> typed{};
-  text.copy(typed.data(), typed.size() - 1);
+  constexpr std::size_t room = 1024;  // for what is typed
+  std::vector<char> typed(text.size() + room);
+  std::ranges::copy(text, typed.begin());
   const bool entered = ImGui::InputTextWithHint(id, hint, typed.data(), typed.size(),
                                                 ImGuiInputTextFlags_EnterReturnsTrue | flags);
   text = typed.data();

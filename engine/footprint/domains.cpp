@@ -195,7 +195,8 @@ class Part final : public Domain {
                     along_u ? Eigen::Vector2d(1, 0) : Eigen::Vector2d(0, 1)};
     std::vector<Interval> pieces;
     bool was_inside = false;
-    for (int k = -reach_ - 1; k <= reach_ + 1; ++k) {
+    // points up to one step past the last node that is inside may be inside
+    for (int k = -reach_ - 2; k <= reach_ + 2; ++k) {
       const bool inside = holds(line.at(k * step()));
       if (inside && !was_inside) pieces.push_back({crossing(line, k, -1), 0});
       if (was_inside && !inside) pieces.back().end = crossing(line, k - 1, 1);

@@ -203,13 +203,17 @@ Result<Footprint> circular_footprint(double radius, int rods, double spacing, Pl
         "{} rods per direction do not fit placement \"{}\": rods at (i + 1/2) d (\"half\") "
         "are an even number, rods at i d (\"on_axis\") an odd one",
         rods, placement == Placement::half ? "half" : "on_axis");
-  const double longest = radius / spacing - (rods - 1) / 2.0;
-  if (!(longest > on_boundary))
+  // the outermost rod crosses the one nearest to the middle inside the boundary
+  const double middle = even ? 0.5 : 0, least = std::hypot(0.5 * (rods - 1), middle) + short_leg,
+               size = radius / spacing;
+  if (!(size >= least)) {
+    const double most = std::sqrt(std::max(std::pow(size - short_leg, 2) - middle * middle, 0.0));
     return invalid(
-        "{} rods per direction at d = {:g} mm reach {:g} mm, outside the boundary: the longest leg "
-        "R_o/d - (n-1)/2: got {:.4g}, expected above 0; take R_o >= {:.7g} mm or n <= {}",
-        rods, spacing, (rods - 1) / 2.0 * spacing, longest,
-        ((rods - 1) / 2.0 + short_leg) * spacing, rods - 2 * std::max(1, int(std::ceil(-longest))));
+        "{} rods per direction at d = {:g} mm do not fit the boundary: the outermost crossing lies "
+        "at {:.7g} mm; take R_o >= {:.7g} mm or n <= {}",
+        rods, spacing, (least - short_leg) * spacing, std::ceil(1e4 * least * spacing) / 1e4,
+        2 * int(most + middle) + (even ? 0 : 1));
+  }
   Footprint net{spacing, placement, {}, {}, {}};
   const int first = even ? -rods / 2 : -(rods - 1) / 2;
   const Disk disk(radius);

@@ -31,11 +31,11 @@ std::string space_separated(const std::vector<double>& numbers) {
   return row;
 }
 
-/// The value rounded to a multiple of `step`. Below 1, the division by the integer 1/step leaves no
-/// digits of round-off.
+/// The value rounded to a multiple of `step`. Where 1/step is an integer, the division by it leaves
+/// no digits of round-off.
 double to_step(double value, double step) {
-  return step < 1 ? std::round(value / step) / std::round(1 / step)
-                  : std::round(value / step) * step;
+  const double count = std::round(value / step), whole = std::round(1 / step);
+  return std::abs(whole * step - 1) < 1e-9 ? count / whole : count * step;
 }
 
 }  // namespace
@@ -62,15 +62,17 @@ FabricationPlan rounded(FabricationPlan plan, double step_mm) {
   if (!(step_mm > 0)) return plan;
   const auto round = [&](double value) { return to_step(value, step_mm); };
   for (CutRod& rod : plan.rods) {
+    double begin = 0, end = rod.length_mm;  // positions of its edge points
+    if (!rod.joint_marks_mm.empty())
+      for (const double pin : rod.pin_marks_mm)
+        (pin < std::ranges::min(rod.joint_marks_mm) ? begin : end) = pin;
     rod.length_mm = round(rod.length_mm);
     for (auto* marks : {&rod.joint_marks_mm, &rod.pin_marks_mm, &rod.splices_mm})
       for (double& mark : *marks) mark = round(mark);
     if (rod.joint_marks_mm.empty()) continue;
     const auto [first, last] = std::ranges::minmax(rod.joint_marks_mm);
-    double begin = 0, end = rod.length_mm;  // positions of its edge points
-    for (const double pin : rod.pin_marks_mm) (pin < first ? begin : end) = pin;
-    if (std::isfinite(rod.leg_begin_mm)) rod.leg_begin_mm = round(first - begin);
-    if (std::isfinite(rod.leg_end_mm)) rod.leg_end_mm = round(end - last);
+    if (std::isfinite(rod.leg_begin_mm)) rod.leg_begin_mm = round(first - round(begin));
+    if (std::isfinite(rod.leg_end_mm)) rod.leg_end_mm = round(round(end) - last);
   }
   return plan;
 }
