@@ -1,4 +1,6 @@
-# The program: gridshell_app holds the commands (testable), gridshell is main.cpp over it.
+# The programs: gridshell_app holds the commands (testable), gridshell is main.cpp over it;
+# gridshell_view holds the window, gridshell_window is both. `gridshell view` starts that one, so that
+# whoever makes movies need not wait for the window to be compiled.
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(Threads REQUIRED)
@@ -22,12 +24,14 @@ add_custom_command(OUTPUT ${embedded_cards}
   DEPENDS ${card_files} ${PROJECT_SOURCE_DIR}/app/cli/embed_cards.cmake VERBATIM)
 
 file(GLOB_RECURSE APP_SOURCES CONFIGURE_DEPENDS app/*.cpp app/*.h)
-list(FILTER APP_SOURCES EXCLUDE REGEX "/app/(cli/main\\.cpp$|examples/|python/)")
+set(VIEW_SOURCES ${APP_SOURCES})
+list(FILTER APP_SOURCES EXCLUDE REGEX "/app/(cli/main\\.cpp$|examples/|python/|window/)")
+list(FILTER VIEW_SOURCES INCLUDE REGEX "/app/window/")
+list(FILTER VIEW_SOURCES EXCLUDE REGEX "/main\\.cpp$")
 add_library(gridshell_app STATIC ${APP_SOURCES} ${embedded_presets} ${embedded_cards})
 target_link_libraries(gridshell_app PUBLIC gridshell_engine gridshell_render
-  PRIVATE CLI11::CLI11 nlohmann_json::nlohmann_json Threads::Threads
-          PkgConfig::IMGUI PkgConfig::FONTCONFIG)
-target_include_directories(gridshell_app SYSTEM PRIVATE ${GL_CORE_INCLUDE_DIR})
+  PRIVATE CLI11::CLI11 nlohmann_json::nlohmann_json Threads::Threads)
+target_include_directories(gridshell_app SYSTEM PUBLIC ${GL_CORE_INCLUDE_DIR})
 gridshell_position_independent(gridshell_app)
 gridshell_compile_lightly(gridshell_app)
 # its files read the whole library
@@ -37,3 +41,14 @@ gridshell_in_batches(gridshell_app 8)
 
 add_executable(gridshell app/cli/main.cpp)
 target_link_libraries(gridshell PRIVATE gridshell_app)
+
+add_library(gridshell_view STATIC ${VIEW_SOURCES})
+target_link_libraries(gridshell_view PUBLIC gridshell_app
+  PRIVATE nlohmann_json::nlohmann_json PkgConfig::IMGUI PkgConfig::FONTCONFIG)
+gridshell_position_independent(gridshell_view)
+gridshell_compile_lightly(gridshell_view)
+gridshell_read_once(gridshell_view gridshell_app)
+gridshell_in_batches(gridshell_view 8)
+
+add_executable(gridshell_window app/window/main.cpp)
+target_link_libraries(gridshell_window PRIVATE gridshell_view)

@@ -7,6 +7,9 @@ cd "$(dirname "$0")/.."
 root=$PWD
 . app/setup.sh
 install_packages
+case "${1:-}" in
+view) build gridshell_window ;; # a program of its own, which takes longer to build
+esac
 build gridshell
 [ $# -gt 0 ] || set -- movie s1_actuation -o "$root/out/s1_actuation"
 # paths among the arguments are meant from the folder of the user

@@ -41,16 +41,16 @@ install(FILES ${PROJECT_BINARY_DIR}/generated/gridshell.pc
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 
 if(TARGET gridshell)
-  install(TARGETS gridshell)
+  install(TARGETS gridshell gridshell_window)
   # both say what the program says of itself
   set(manual ${PROJECT_BINARY_DIR}/generated/gridshell.1)
   set(completion ${PROJECT_BINARY_DIR}/generated/gridshell.bash)
   add_custom_command(OUTPUT ${manual} ${completion}
-    COMMAND gridshell list --man > ${manual}
+    COMMAND gridshell_window list --man > ${manual}
     COMMAND gridshell list --completion bash > ${completion}
-    DEPENDS gridshell VERBATIM)
+    DEPENDS gridshell gridshell_window VERBATIM)
   add_custom_target(manual ALL DEPENDS ${manual} ${completion})
-  add_dependencies(installed gridshell manual)
+  add_dependencies(installed gridshell gridshell_window manual)
   install(FILES ${manual} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
   install(FILES ${completion} RENAME gridshell
     DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)

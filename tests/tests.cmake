@@ -94,16 +94,16 @@ endif()
 if(GRIDSHELL_PICTURES)
   gridshell_tests(render gridshell_render gridshell_engine)
   # every call of the system fails once: tests/faults -> test_faults
-  gridshell_tests(faults gridshell_app gridshell_render gridshell_engine ${CMAKE_DL_LIBS})
+  gridshell_tests(faults gridshell_view gridshell_app gridshell_render gridshell_engine ${CMAKE_DL_LIBS})
   if(TARGET test_faults)
     target_sources(test_faults PRIVATE tests/faults/faults.cpp)
     # solves fail as well: faults.cpp stands between the engine and its linear solver
     target_link_options(test_faults PRIVATE
       "LINKER:--wrap=_ZN9gridshell18make_linear_solverERKNS_5ModelE")
   endif()
-  gridshell_tests(app gridshell_app gridshell_render gridshell_engine)
+  gridshell_tests(app gridshell_view gridshell_app gridshell_render gridshell_engine)
   if(TARGET test_app)
-    add_dependencies(test_app gridshell)
+    add_dependencies(test_app gridshell gridshell_window)
     target_compile_definitions(test_app PRIVATE GRIDSHELL_PROGRAM="$<TARGET_FILE:gridshell>"
       GRIDSHELL_SHARED_RUNS="${PROJECT_BINARY_DIR}/shared_runs" GRIDSHELL_IMGUI="${IMGUI_VERSION}"
       GRIDSHELL_BUILT_WITH="${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION} ${CMAKE_BUILD_TYPE}")
@@ -118,10 +118,10 @@ if(GRIDSHELL_PICTURES)
   endif()
   # hostile inputs, damaged folders and signals, drawn: tests/attack -> test_attack; by hand
   # GRIDSHELL_TRIALS=1000 build/test_attack "[damage]" draws more, GRIDSHELL_SEED others.
-  gridshell_tests(attack gridshell_app gridshell_render gridshell_engine)
+  gridshell_tests(attack gridshell_view gridshell_app gridshell_render gridshell_engine)
   if(TARGET test_attack)
     target_sources(test_attack PRIVATE tests/attack/hostile_preset.cpp)
-    add_dependencies(test_attack gridshell)
+    add_dependencies(test_attack gridshell gridshell_window)
     # the few of every run of the tests, and more
     foreach(kind damage presets signals)
       add_test(NAME "attacks: ${kind}" COMMAND test_attack "[${kind}]")

@@ -110,6 +110,7 @@ CommandArguments CommandLine::add(const std::string& name, const std::string& me
 }
 
 int CommandLine::run(int argc, char** argv) {
+  given_ = argv;
   if (argc > 1 && argv[1][0] != '-')
     if (const auto fault = no_such_command(*program_, argv[1]); !fault.empty())
       return report({Fault::bad_input, fault});

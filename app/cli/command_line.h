@@ -107,6 +107,8 @@ class CommandLine {
 
   /// Executes the command line and returns the exit code; errors are reported.
   int run(int argc, char** argv);
+  /// The words that run() was given, ended by a null pointer.
+  char** given() const { return given_; }
 
   /// All commands, in the order of the help.
   std::vector<CommandEntry> table() const;
@@ -114,6 +116,7 @@ class CommandLine {
  private:
   std::unique_ptr<CLI::App> program_;
   Action action_;
+  char** given_ = nullptr;
 };
 
 // The options that the commands share, declared once.

@@ -4,6 +4,9 @@
 #include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <exception>
+#include <system_error>
 
 #include "app/cli/console.h"
 #include "app/cli/pictures.h"
@@ -12,6 +15,7 @@
 #include "app/cli/staged_folder.h"
 #include "engine/core/try.h"
 #include "engine/gridshell.h"
+#include "render/gl/context.h"
 
 namespace gridshell::app {
 
@@ -42,7 +46,9 @@ struct ListOptions {
   bool json = false, man = false;
 };
 
-Result<int> list(const ListOptions& options) {
+Result<int> list(const ListOptions& options, const CommandLine& program,
+                 Result<std::string> (*man_page)()) {
+  if (options.man && !man_page) return start_window_program(program);
   TRY(text, !options.keys.empty()         ? preset::reference_markdown()
             : !options.completion.empty() ? bash_completion()
             : options.json                ? listing_json()
@@ -52,9 +58,10 @@ Result<int> list(const ListOptions& options) {
   return printed();
 }
 
-void add_list(CommandLine& program) {
-  auto [command, options] =
-      program.add<ListOptions>("list", "the presets that come with the program", list);
+void add_list(CommandLine& program, Result<std::string> (*man_page)()) {
+  auto [command, options] = program.add<ListOptions>(
+      "list", "the presets that come with the program",
+      [man_page, &program](const ListOptions& given) { return list(given, program, man_page); });
   command.option("--keys", options.keys, "instead, the reference of all keys of a preset")
       .one_of({"markdown"});
   command.flag("--json", options.json,
@@ -82,7 +89,7 @@ Result<int> produce_with(const Options& options) {
 
 }  // namespace
 
-void add_commands(CommandLine& program) {
+void add_commands(CommandLine& program, const WindowProgram& window) {
   auto [movie, to_draw] =
       add_preset_command(program, "movie", "run the experiment and render it: frames and a movie",
                          produce_with<Pictures::movie>);
@@ -97,7 +104,7 @@ void add_commands(CommandLine& program) {
            "continue a run of this preset to the same folder; starts if there is none, ends at "
            "once if it is finished");
   add_render(program);
-  add_view(program);
+  add_view(program, window.view);
   add_chart(program);
   add_sweep(program);
   add_preset_command(
@@ -112,7 +119,32 @@ void add_commands(CommandLine& program) {
   // the command line of a movie can also be checked without changes
   add_preset_command(program, "check", "validate a preset and say what would run", check);
   add_compare(program);
-  add_list(program);
+  add_list(program, window.man_page);
+}
+
+int run_program(int argc, char** argv, const WindowProgram& window) {
+  install_signal_handlers();
+  install_terminate_handler();
+  open_standard_streams();
+  render::keep_compiled_shaders();
+  int code = ExitCode::failed;
+  int not_printed = 0;
+  try {
+    CommandLine program;
+    add_commands(program, window);
+    code = program.run(argc, argv);
+  } catch (const std::system_error& error) {
+    // a failed write to stdout is reported below
+    if (std::ferror(stdout))
+      not_printed = error.code().value();
+    else
+      code = report_exception(error);
+  } catch (const std::exception& error) {
+    code = report_exception(error);
+  }
+  // what could not be printed was not done
+  if (!flush_stdout(not_printed) && code == ExitCode::done) code = ExitCode::failed;
+  return code;
 }
 
 }  // namespace gridshell::app

@@ -9,14 +9,28 @@
 #include "app/cli/command_line.h"
 #include "engine/gridshell.h"
 
-namespace gridshell::window {
-struct ExportFormat;
-}
-
 namespace gridshell::app {
 
+/// What `gridshell view` was given; empty or zero where nothing was.
+struct ViewOptions {
+  std::string input, record, play, shot, picture, size, quality = "movie", context = "auto";
+  std::filesystem::path output = "out", workspace;
+  bool bare = false;
+  double bench = 0;
+};
+
+/// What only the program with the window in it can do; a program without starts that one instead.
+struct WindowProgram {
+  Result<int> (*view)(ViewOptions options) = nullptr;
+  Result<std::string> (*man_page)() = nullptr;
+};
+
+/// Starts gridshell_window, which lies in the folder of this program, in place of this program with
+/// the same arguments. Returns only if that fails. Errors (io): it is missing.
+Result<int> start_window_program(const CommandLine& program);
+
 void add_render(CommandLine& program);
-void add_view(CommandLine& program);
+void add_view(CommandLine& program, Result<int> (*view)(ViewOptions options));
 void add_chart(CommandLine& program);
 void add_sweep(CommandLine& program);
 void add_export(CommandLine& program);
@@ -41,11 +55,21 @@ Result<int> produce_design(const Options& options);
 Result<void> write_preset_with_tables(const preset::Preset& preset,
                                       const std::filesystem::path& file);
 
+/// What a shell can be exported as.
+struct ExportFormat {
+  std::string ending;   ///< of the file: ".vtp"
+  std::string thing;    ///< shape, footprint or sheet
+  std::string read_by;  ///< "ParaView"
+};
+
 /// What `export` writes by a file's ending alone.
-std::vector<window::ExportFormat> usual_exports();
+std::vector<ExportFormat> usual_exports();
 
 /// All of them, in the order of the help.
-void add_commands(CommandLine& program);
+void add_commands(CommandLine& program, const WindowProgram& window = {});
+
+/// main() of a program: reads the command line, runs one command, returns its exit code.
+int run_program(int argc, char** argv, const WindowProgram& window = {});
 
 /// All commands as data.
 std::vector<CommandEntry> command_table();
@@ -55,11 +79,6 @@ std::vector<CommandEntry> command_table();
 /// One object: `version`; `commands`, each with its options; `presets` with title, description and
 /// source; `tables` and `keys`, each with table, unit, default (as TOML), allowed and meaning.
 Result<std::string> listing_json();
-
-/// gridshell(1) in roff: commands with their options, presets, all keys.
-Result<std::string> man_page();
-/// The manual as a page for a browser, which needs no network.
-Result<std::string> manual_html();
 
 /// A script for bash that completes command lines: commands, options and their words, names of
 /// presets, keys after --set; files and folders elsewhere.

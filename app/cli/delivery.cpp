@@ -145,13 +145,14 @@ ProgressState standing(const std::vector<Phase>& phases, std::size_t current, do
 }
 
 double PathPace::seconds_left(const Watch::Place& at, double now) {
-  constexpr double least_way = 0.02, least_s = 2;
+  constexpr double least_advance = 0.02, least_s = 2;
   // another mesh, or the same on another path
   if (at.edges != last_.edges || at.t < last_.t) begun_ = at, begun_at_ = now;
   last_ = at;
-  const double way = at.t - begun_.t, elapsed = now - begun_at_;
-  if (!(way >= least_way && elapsed >= least_s)) return std::numeric_limits<double>::quiet_NaN();
-  return std::max(0.0, 1 - at.t) * elapsed / way;
+  const double advance = at.t - begun_.t, elapsed = now - begun_at_;
+  if (!(advance >= least_advance && elapsed >= least_s))
+    return std::numeric_limits<double>::quiet_NaN();
+  return std::max(0.0, 1 - at.t) * elapsed / advance;
 }
 
 std::string bar_text(const ProgressState& at, const std::string& label, int width) {

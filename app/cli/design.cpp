@@ -133,7 +133,7 @@ std::string design_csv(const DesignResult& found, const preset::Points& table) {
     const double after = one.kind == preset::Vary::legs ? row[6]
                          : one.kind == preset::Vary::directions
                              ? q
-                             : one.way.dot(Eigen::Vector3d(row[3], row[4], row[5]));
+                             : one.direction.dot(Eigen::Vector3d(row[3], row[4], row[5]));
     csv.line(std::string(word_of(one.kind)), row[0] == 0 ? "u" : "v", int(row[1]),
              row[2] == 0 ? "begin" : "end", one.component, after - q, after);
   }

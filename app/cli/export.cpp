@@ -9,7 +9,6 @@
 #include "app/cli/preset_library.h"
 #include "app/cli/produce.h"
 #include "app/cli/staged_folder.h"
-#include "app/window/viewer_state.h"
 #include "engine/core/file_io.h"
 #include "engine/core/text.h"
 #include "engine/core/try.h"
@@ -248,8 +247,8 @@ Result<int> export_file(const ExportOptions& options) {
 
 }  // namespace
 
-std::vector<window::ExportFormat> usual_exports() {
-  std::vector<window::ExportFormat> usual;
+std::vector<ExportFormat> usual_exports() {
+  std::vector<ExportFormat> usual;
   for (const auto& [what, by_ending] : formats())
     for (const auto& [ending, format] : by_ending)
       if (what == usual_thing(ending)) usual.push_back({ending, what, format.read_by});

@@ -40,8 +40,11 @@ Result<void> draw_net_pictures(const Runs& runs, const std::filesystem::path& st
 // Pictures of the states of a shell [Baek 2018, Fig. 2].
 
 /// Lines for the terminal: how many states a search found, how many there may be, why trials ended
-/// otherwise, and the lowest state of each of the paper's classes.
+/// otherwise, and some of them, as states_to_draw() chooses.
 std::string found_text(const record::StateTables& states);
+
+/// "state *ii*", or "other", which the paper has no class for.
+std::string class_text(record::StateClass kind);
 
 /// "*C*_{4v}" of "C4v"; the position of mirrors is left to the table.
 std::string group_text(const std::string& group);
@@ -50,11 +53,11 @@ std::string group_text(const std::string& group);
 record::Trajectory states_alone(const record::Trajectory& run,
                                 const std::vector<std::size_t>& which);
 
-/// The atlas: the states side by side from one camera with class, group, energy and how often they
-/// were met (`<stem>.png`, each by itself `<stem>_1.png` ...); energy against how often they were
-/// met (`<stem>_energies.*`); how far back along the path they live (`<stem>_lives.*`); which goes
-/// to which (`<stem>_transitions.*`) and the barriers between them (`<stem>_barriers.*`), where
-/// that was found out.
+/// The atlas: the states of states_to_draw() side by side from one camera with class, group,
+/// energy, why each is drawn and how often it was found (`<stem>.png`, each by itself
+/// `<stem>_1.png` ...); energy against how often they were met (`<stem>_energies.*`); how far back
+/// along the path they live (`<stem>_lives.*`); which goes to which (`<stem>_transitions.*`) and
+/// the barriers between them (`<stem>_barriers.*`), where that was found out.
 Result<void> draw_states(const Run& run, render::Renderer& renderer,
                          const std::filesystem::path& stem, Watch& watch);
 

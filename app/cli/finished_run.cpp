@@ -249,6 +249,7 @@ Result<void> draw_turntable(const Run& run, int frames, render::Renderer& render
   TRY_DO(render::check_showable(last, style));
   render::RunSummary survey = render::summarise_run(last);
   survey.frames = frames;
+  survey.turn_deg = style.turn_deg;
   const render::FrameSource source{&last.layout, frames, [&](int) -> Result<record::Frame> {
                                      return record::Frame(last.frames.front());
                                    }};

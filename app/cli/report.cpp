@@ -36,7 +36,7 @@ struct ReportOptions {
   bool quiet = false, no_checksum = false;
 };
 
-/// Four digits, of thousands all before the point.
+/// A number with four digits; from 1000 to 1e9 with all digits before the decimal point.
 std::string number(double value) {
   if (!std::isfinite(value)) return "not known";
   return std::abs(value) >= 1000 && std::abs(value) < 1e9 ? fmt::format("{:.0f}", value)
@@ -47,7 +47,7 @@ std::string with_unit(double value, const char* unit) {
   return std::isfinite(value) ? number(value) + " " + unit : "not known";
 }
 
-/// An error with its unit; its second digit is not known: "0.01 mm".
+/// An error with its unit, with one digit, as the second one is not known: "0.01 mm".
 std::string error_with_unit(double value, const char* unit) {
   if (!std::isfinite(value)) return "not known";
   const std::string digit = fmt::format("{:.1g}", value);
@@ -61,15 +61,23 @@ std::vector<std::string> numbers(const Eigen::Vector3d& force, double beside) {
   return texts;
 }
 
-/// The last state, its rods in the colours of a quantity.
+/// A force with as many decimals as its error permits.
+std::string force_text(double force, double error) {
+  if (!std::isfinite(error) || error <= 0) return number(force);
+  const int decimals = std::clamp(int(std::ceil(-std::log10(error))), 0, 9);
+  const std::string text = fmt::format("{:.{}f}", force, decimals);
+  return std::stod(text) == 0 ? "0" : text;
+}
+
+/// The picture of a run's last state, in the colours of a quantity, half as wide as the sheet.
 Result<render::Image> picture_of(const Run& run, preset::ColourBy colours,
                                  render::Renderer& renderer) {
   preset::Preset preset = run.preset;
   preset.movie.colour_by = colours;
   preset.movie.bins = false;
   preset.style.range.clear();
-  constexpr double width_mm = 180, height_mm = 90, dpi = 200;
-  // a bar that can be seen next to the shell
+  constexpr double width_mm = 88, height_mm = 66, dpi = 300;
+  // a scale bar of at least a twentieth of the shell's length scale
   const double length = run.trajectory.layout.length_scale_mm;
   if (preset.figure.scale_bar_mm < 0.05 * length)
     preset.figure.scale_bar_mm = render::nice_ceiling(0.2 * length);
@@ -89,7 +97,7 @@ Result<render::Image> picture_of(const Run& run, preset::ColourBy colours,
   return std::move(*picture);
 }
 
-/// "timber_c24", or what is known of it: "*E* = 83 GPa".
+/// The name of a rod's material, "timber c24", or without a name its stiffness, "E = 83 GPa".
 std::string material_text(const preset::Rod& rod) {
   if (rod.material == preset::Material::none) return fmt::format("E = {:g} GPa", rod.young_GPa);
   return render::spaced(std::string(word_of(rod.material)));
@@ -98,7 +106,7 @@ std::string material_text(const preset::Rod& rod) {
 void add_geometry(Sheets& sheets, const Run& run, const exports::FabricationPlan& plan) {
   const record::Summary& summary = run.summary;
   const auto& boundary = plan.actuated_boundary;
-  // a rod that is clamped at one end has none
+  // a cantilever has no boundary
   const Eigen::Vector3d span =
       boundary.cols() > 0
           ? Eigen::Vector3d(boundary.rowwise().maxCoeff() - boundary.rowwise().minCoeff())
@@ -134,7 +142,8 @@ void add_stresses(Sheets& sheets, const record::Summary& summary) {
     sheets.text("The rods' strength is not known: [rod] strength_MPa or yield_strain says it.");
 }
 
-/// "u-3 begin", as plate and pins.csv call it, or the joint: "joint [0, 4]".
+/// The name of a support: that of a rod's end, as in the plate and pins.csv, "u-3 begin", or of a
+/// joint, "joint [0, 4]".
 std::string support_name(const record::Layout& layout, const exports::FabricationPlan& plan,
                          int node) {
   const auto end =
@@ -146,7 +155,7 @@ std::string support_name(const record::Layout& layout, const exports::Fabricatio
   return "";
 }
 
-/// The reactions, one support per line, the largest first.
+/// Adds the table of reactions, one support per line, the largest first.
 void add_reactions(Sheets& sheets, const record::Layout& layout, const record::Frame& frame,
                    const exports::FabricationPlan& plan) {
   sheets.heading("Reactions");
@@ -157,11 +166,11 @@ void add_reactions(Sheets& sheets, const record::Layout& layout, const record::F
   std::ranges::stable_sort(order, std::greater<>(),
                            [&](Eigen::Index k) { return frame.reactions_N.col(k).norm(); });
   std::vector<TableRow> rows;
-  const double largest = frame.reactions_N.colwise().norm().maxCoeff();
-  const auto add = [&](const std::string& pin, const std::string& place,
+  const auto add = [&](const std::string& pin, const std::string& position,
                        const Eigen::Vector3d& force) {
-    const auto parts = numbers(force, largest);
-    rows.push_back({{pin, place, parts[0], parts[1], parts[2], number(force.norm()), ""}});
+    rows.push_back({{pin, position}});
+    for (const double one : {force.x(), force.y(), force.z(), force.norm()})
+      rows.back().cells.push_back(force_text(one, frame.force_error_N));
   };
   add("sum of loads", "", frame.loads_N.rowwise().sum());
   add("sum", "", frame.reactions_N.rowwise().sum());
@@ -177,17 +186,30 @@ void add_reactions(Sheets& sheets, const record::Layout& layout, const record::F
         frame.reactions_N.col(k));
   }
   sheets.text(fmt::format(
-      "Forces of the supports on the shell, at their positions in mm, z above the lowest "
-      "support; each is known to ± {}.",
+      "Forces of the supports on the shell, the largest first, z above the lowest support; each is "
+      "known to ± {}.",
       error_with_unit(frame.force_error_N, "N")));
-  sheets.table({{"pin", 76, AlignX::left},
-                {"place", 120, AlignX::left},
-                {"*x* (N)", 60},
-                {"*y* (N)", 60},
-                {"*z* (N)", 60},
-                {"magnitude (N)", 60},
-                {"", 0}},
-               rows);
+  std::vector<render::TableColumn> columns{
+      {"pin", 48, AlignX::left}, {"position (mm)", 75, AlignX::left},
+      {"*x* (N)", 32},           {"*y* (N)", 32},
+      {"*z* (N)", 32},           {"size (N)", 40}};
+  // of many supports a line has two, without the magnitudes of the forces
+  constexpr std::size_t most_lines = 24;
+  if (rows.size() > most_lines) {
+    std::vector<TableRow> pairs;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      rows[k].cells.pop_back();
+      if (k % 2 == 0)
+        pairs.push_back(std::move(rows[k]));
+      else
+        std::ranges::move(rows[k].cells, std::back_inserter(pairs.back().cells));
+    }
+    rows = std::move(pairs);
+    columns.pop_back();
+    const auto half = columns;
+    columns.insert(columns.end(), half.begin(), half.end());
+  }
+  sheets.table(columns, rows);
 }
 
 Result<void> add_loads(Sheets& sheets, study::FormedShell& shell, const ReportOptions& options,
@@ -238,7 +260,7 @@ Result<void> add_loads(Sheets& sheets, study::FormedShell& shell, const ReportOp
   return {};
 }
 
-/// The shapes of the first modes over the state in grey.
+/// Adds the picture of the first modes' shapes, over the state in grey.
 Result<void> add_shapes(Sheets& sheets, const study::Vibrations& found, render::MovieStyle style,
                         Watch& watch) {
   constexpr std::size_t most = 6, columns = 3;
@@ -265,7 +287,7 @@ Result<void> add_shapes(Sheets& sheets, const study::Vibrations& found, render::
   TRY(picture, render::draw_panels(figure));
   sheets.text("Shapes over the state in grey; their largest displacement is drawn as " +
               render::length_text(drawn_move_mm(found.state.layout)) + ".");
-  sheets.picture(*picture);
+  sheets.pictures({std::move(*picture)});
   return {};
 }
 
@@ -298,20 +320,21 @@ Result<void> add_run(Sheets& sheets, const Run& run, const ReportOptions& option
   sheets.heading(preset::title_or_name(preset), 15);
   if (!preset.description.empty()) sheets.text(preset.description);
   Watch& drawing = progress.next_phase();
-  TRY(shape, picture_of(run, preset.movie.colour_by, renderer));
-  sheets.picture(*shape);
-  sheets.heading("Geometry");
-  add_geometry(sheets, run, *plan);
   const record::Frame& last = run.trajectory.frames.back();
-  add_stresses(sheets, run.summary);
+  TRY(shape, picture_of(run, preset.movie.colour_by, renderer));
+  std::vector<render::Image> pictures{std::move(*shape)};
   if (last.stress_MPa.size() > 0) {
     const bool strength = std::isfinite(run.summary.utilisation);
     TRY(stresses,
         picture_of(run, strength ? preset::ColourBy::utilisation : preset::ColourBy::stress,
                    renderer));
-    sheets.picture(*stresses);
+    pictures.push_back(std::move(*stresses));
   }
   drawing.report(1);
+  sheets.pictures(pictures);
+  sheets.heading("Geometry");
+  add_geometry(sheets, run, *plan);
+  add_stresses(sheets, run.summary);
   add_reactions(sheets, run.trajectory.layout, last, *plan);
   Watch& studies = progress.next_phase();
   if (run.summary.solved) {
@@ -328,11 +351,13 @@ Result<void> add_run(Sheets& sheets, const Run& run, const ReportOptions& option
   else
     render::add_cut_list(sheets, rounded);
   last_cut_list = render::cut_list_text(rounded);
-  if (const auto& fault = run.trajectory.frames.fault()) return tl::unexpected(*fault);
+  // frames are read when they are used: an error of reading is known at the end
+  if (const auto& error = run.trajectory.frames.fault()) return tl::unexpected(*error);
   return {};
 }
 
-/// What following loads and finding modes takes, each.
+/// Expected time of forming the shell again, s, by which the studies of loads and modes are scaled;
+/// 1 if it is not known.
 double study_seconds(const preset::Preset& preset) {
   const auto plan = plan_of(preset);
   return plan && std::isfinite(plan->expected_seconds) ? plan->expected_seconds : 1;

@@ -143,14 +143,15 @@ std::string scan_text(const ComparedScan& scan) {
         "is "
         "pushed, loaded or built otherwise; --tolerance {:.2g} takes it for that state\n",
         best.name, laid.rms_mm / scan.clusters.noise_mm, 1.01 * laid.rms_mm);
-  if (scan.with_height)
+  if (scan.with_height) {
+    const auto& [fits_mm, name] = *scan.with_height;
+    const double assumed_mm = scan.cylinder.height_mm;
     text += fmt::format(
         "  all tops lie {:.2f} mm further {} along the normals than [joints] height_mm = {:g} "
-        "says: "
-        "with --set joints.height_mm={:.3g} it shows {}\n",
-        std::abs(scan.with_height->first - scan.cylinder.height_mm),
-        scan.with_height->first > scan.cylinder.height_mm ? "out" : "in", scan.cylinder.height_mm,
-        scan.with_height->first, scan.with_height->second);
+        "assumes: with {} it shows {}\n",
+        std::abs(fits_mm - assumed_mm), fits_mm > assumed_mm ? "out" : "in", assumed_mm,
+        fits_mm > 0 ? fmt::format("--set joints.height_mm={:.3g}", fits_mm) : "--centres", name);
+  }
   return text;
 }
 
@@ -215,8 +216,11 @@ Result<Scanned> read_all(const ScanOptions& options) {
       scanned.candidates.push_back(std::move(one));
   if (scanned.candidates.empty())
     return invalid("'{}' contains no state to compare with", options.runs.front());
-  const preset::Joints& joints = scanned.candidates.front().run->preset.joints;
-  scanned.cylinder = {joints.diameter_mm, options.centres ? 0 : joints.height_mm};
+  const Run& run = *scanned.candidates.front().run;
+  const record::Layout& layout = run.trajectory.layout;
+  const preset::Joints& joints = run.preset.joints;
+  scanned.cylinder = {joints.diameter_mm.value_or(layout.joint_diameter_mm),
+                      options.centres ? 0 : joints.height_mm.value_or(layout.joint_height_mm)};
   return scanned;
 }
 
@@ -241,7 +245,8 @@ std::optional<std::pair<double, std::string>> height_that_fits(const Scanned& sc
     const double cost = laid ? laid->cost / double(run.layout.joints.size()) : least;
     if (!shown || !(cost < least)) continue;
     least = cost;
-    fits = {cylinder.height_mm, scan.states[k].name};
+    // no scan is as fine as the last digits; joints that were measured themselves have 0
+    fits = {std::round(1e3 * cylinder.height_mm) / 1e3, scan.states[k].name};
   }
   return fits;
 }

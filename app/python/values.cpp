@@ -105,6 +105,10 @@ void add_report(py::module_& module) {
 void add_layout(py::module_& module) {
   py::class_<Layout, std::shared_ptr<Layout>> type(module, "Layout",
                                                    "Rods, joints and cells; no step changes it.");
+  type.def("__repr__", [](const Layout& of) {
+    return fmt::format("Layout({} rods, {} joints, {} cells)", of.rods.size(), of.joints.size(),
+                       of.cells.size());
+  });
   type.def_readonly("spacing_mm", &Layout::spacing_mm,
                     "Distance between neighbouring rods of the flat grid, d, mm.")
       .def_readonly("rod_diameter_mm", &Layout::rod_diameter_mm, "Diameter of the rods, mm.")

@@ -32,6 +32,7 @@ struct Action {
   void (*act)(ViewerState&);
   bool (*on)(const ViewerState&) = nullptr;    ///< of those that switch: whether it is on
   bool (*able)(const ViewerState&) = nullptr;  ///< whether it has an effect now; null: always
+  bool below_line = false;                     ///< it begins a group of its menu
 };
 
 /// In the order of the menus.

@@ -33,6 +33,8 @@ constexpr Eigen::Index most_nodes_marked =
     8000;                                       // of the coarsest mesh: some 30 rods per direction
 constexpr double same_shape = 2e-3;             // of the length scale
 constexpr double part_mm = 1, most_parts = 12;  // of a long push
+constexpr double free_fraction = 0.8;           // of a drag's last step to the strain limit
+constexpr const char* resisting = "the joint resists: the rods are near their strain limit";
 
 preset::Step step_of(preset::StepKind kind) {
   preset::Step step;
@@ -55,39 +57,6 @@ bool goes_on(const preset::Step& before, const preset::Step& step) {
          before.along == step.along;
 }
 
-std::string text_of_design(const DesignProgress& course) {
-  const double percent = 100 / course.length_scale_mm;
-  const DesignPoint &first = course.points.front(), &last = course.points.back();
-  std::string message =
-      fmt::format("{} after {} iteration{}: largest {:.3f} %, before {:.3f} %",
-                  course.stopped ? "stopped" : "designed", course.iterations,
-                  course.iterations == 1 ? "" : "s", percent * last.max_mm, percent * first.max_mm);
-  if (course.inverse.round_mm > 0 && !course.stopped)
-    message += course.rounded_max_mm
-                   ? fmt::format(", rounded to {:g} mm {:.3f} %", course.inverse.round_mm,
-                                 percent * *course.rounded_max_mm)
-                   : fmt::format("; rounded to {:g} mm it is lost", course.inverse.round_mm);
-  return message;
-}
-
-bool varies_rods(const preset::Inverse& inverse) {
-  return std::ranges::find(inverse.vary, preset::Vary::diameters) != inverse.vary.end();
-}
-
-DesignPoint point_of(const CertifiedStep& now) {
-  DesignPoint point{now.step.iteration,
-                    now.step.max_mm,
-                    now.step.mean_mm,
-                    now.eigenvalue,
-                    now.step.largest_move_mm,
-                    0,
-                    0};
-  const Eigen::VectorXd& diameter = now.shell_ends.diameter;
-  if (diameter.size() > 0)
-    point.thinnest_mm = diameter.minCoeff(), point.thickest_mm = diameter.maxCoeff();
-  return point;
-}
-
 }  // namespace
 
 /// One step, as a preset would have it done.
@@ -108,9 +77,16 @@ Result<void> EditSession::do_step(preset::Step step, const Watch& watch) {
     (void)session_->remesh(simulate::initial_levels(*now_.scene), watch);
   const bool began_stable = view_.stable();
   const double began_mm = pushed_mm(step);
-  simulate::StepPath way;
-  TRY(report, simulate::apply_step(*session_, step, watch, looks_between() ? &way : nullptr));
-  const std::string event_at = note_way(step, way, began_mm, began_stable, *report);
+  // a drag past the limit of strain or stiffness would leave a shell that no step moves
+  std::optional<Checkpoint> before;
+  if (passing_ && step.kind == preset::StepKind::push) before = session_->save();
+  simulate::StepPath path;
+  TRY(report, simulate::apply_step(*session_, step, watch, looks_between() ? &path : nullptr));
+  if (before && report->end == Outcome::locked) {
+    const auto joint = simulate::joint_of(step, now_.scene->footprint);
+    return resist(std::move(step), *before, session_->nodes().col(*joint), watch);
+  }
+  const std::string event_at = note_path(step, path, began_mm, began_stable, *report);
   add_step(std::move(step), *report);
   const auto done = note_events(*report);
   if (!event_at.empty()) view_.event = view_.message += " at " + event_at;
@@ -120,6 +96,35 @@ Result<void> EditSession::do_step(preset::Step step, const Watch& watch) {
       std::ranges::all_of(report->events, lost))
     view_.event = view_.message = "stable again; on the path " + view_.message;
   return done;
+}
+
+/// Moves a dragged joint a fraction of the distance to where the rods reached their strain limit;
+/// it remains there until it is dragged back.
+Result<void> EditSession::resist(preset::Step step, const Checkpoint& before,
+                                 const Eigen::Vector3d& reached, const Watch& watch) {
+  const auto joint = simulate::joint_of(step, now_.scene->footprint);
+  session_->restore(before);
+  const Eigen::Vector3d from = session_->nodes().col(*joint),
+                        to = from + free_fraction * (reached - from);
+  step.to_mm = xyz_of(to);
+  TRY(report, simulate::apply_step(*session_, step, watch, nullptr));
+  const bool moved = report->end == Outcome::reached;
+  if (!moved) session_->restore(before);
+  if (moved) {
+    add_step(std::move(step), *report);
+    TRY_DO(note_events(*report));
+  }
+  stop_ = {this_drag_, moved ? to : from, from - (reached - from)};
+  view_.message = resisting;
+  return {};
+}
+
+/// Whether the drag continues past where it was stopped.
+bool EditSession::resists(const Eigen::Vector3d& to) {
+  if (!passing_ || stop_.drag != this_drag_) return false;
+  if ((to - stop_.at).dot(stop_.at - stop_.from) >= 0) return true;
+  if (view_.message == resisting) view_.message.clear();
+  return false;
 }
 
 /// Notes a step as far as it came.
@@ -178,27 +183,30 @@ Result<void> EditSession::act(const ResetEdgePoint& command, const Watch& watch)
 Result<void> EditSession::act(const Push& command, const Watch& watch) {
   const auto& joints = now_.scene->footprint.joints;
   if (command.joint < 0 || command.joint >= int(joints.size())) return invalid("no such joint");
+  if (resists(command.to)) return {};
   preset::Step step = step_of(preset::StepKind::push, joints[std::size_t(command.joint)]);
   step.to_mm = xyz_of(command.to);
   const bool free = !command.along.isZero(0);
   if (free) step.along = xyz_of(command.along);
   step.lateral = free ? preset::Lateral::free : preset::Lateral::held;
   // a joint that is already constrained and does not move makes no step
-  const Eigen::Vector3d way = command.to - session_->nodes().col(command.joint);
-  const bool still = (free ? std::abs(way.dot(command.along)) : way.norm()) < nearest_mm;
+  const Eigen::Vector3d displacement = command.to - session_->nodes().col(command.joint);
+  const bool still =
+      (free ? std::abs(displacement.dot(command.along)) : displacement.norm()) < nearest_mm;
   if (still && session_->constraint_origins.contains(command.joint)) return {};
   // a long displacement that was typed shows its equilibria as a dragged one does
   const bool dragged = this_drag_ == 0 || this_drag_ == steps_drag_;
-  const int parts = dragged || !looks_between()
-                        ? 1
-                        : int(std::clamp(std::round(way.norm() / part_mm), 1.0, most_parts));
+  const int parts =
+      dragged || !looks_between()
+          ? 1
+          : int(std::clamp(std::round(displacement.norm() / part_mm), 1.0, most_parts));
   for (int k = 1; k < parts; ++k) {
-    step.to_mm = xyz_of(command.to - (1 - double(k) / parts) * way);
+    step.to_mm = xyz_of(command.to - (1 - double(k) / parts) * displacement);
     TRY_DO(do_step(step, watch));
     now_.refined = false;
     update_view();
     if (listener_) listener_(view_);
-    view_.way.push_back(plot_point_of(view_));
+    view_.push_path.push_back(plot_point_of(view_));
   }
   step.to_mm = xyz_of(command.to);
   return do_step(std::move(step), watch);
@@ -246,133 +254,6 @@ Result<void> EditSession::act(const Jitter& command, const Watch& watch) {
   view_.event.clear();
   now_.snapped = snapped;
   return {};
-}
-
-// The shell is designed: its steps are seen as they come, the last certified one stays.
-
-std::string why_not_designed(const ShellView& shell) {
-  if (!shell.any()) return "there is no shell yet";
-  if (shell.layout->net_nodes.cols() == 0)
-    return "this shell was not designed on a net, so there is no surface that it could meet";
-  if (const auto needs = key_errors(shell.preset, preset::RuleKind::needs_twist); !needs.empty())
-    return "only rods that stretch and bend can be designed: " + needs.front().what;
-  if (!shell.held.empty()) return "a joint is fixed: release all joints first";
-  if (!shell.steps.empty() || shell.rods_changed_late)
-    return "a hand has moved this shell: take that back first (Undo)";
-  return "";
-}
-
-Result<void> EditSession::act(const Design& command, const Watch& watch) {
-  if (const std::string why = why_not_designed(view_); !why.empty()) return invalid(why);
-  preset::Preset preset = now_.preset;
-  preset.inverse = command.inverse;
-  TRY_DO(check_preset(preset));
-  TRY(made, shared_scene_of(preset));
-  const std::shared_ptr<const Scene>& scene = *made;
-  TRY(target, design_target(*scene, preset.inverse.target));
-
-  DesignProgress course;
-  course.inverse = preset.inverse;
-  course.length_scale_mm = scene->length_scale_mm;
-  preset::Preset designed = preset;
-  State state;
-  const NestedShell& shell = session_->shell();
-  const int last = shell.levels() - 1;
-  const DesignStart from{scene, shell.mesh(last), shell.model(last),
-                         shell.state().levels[std::size_t(last)]};
-  // the steps are seen on a mesh of their own
-  view_.layout.reset();
-  const auto ended =
-      design_live(preset, from, command.most_iterations, watch, [&](const CertifiedStep& now) {
-        state = now.state;
-        designed.ends.table = now.ends;
-        if (varies_rods(preset.inverse)) designed.rod_table = now.rods;
-        show_design_step(*scene, now, course);
-      });
-  view_.layout.reset();
-  if (!ended) return tl::unexpected<Error>(ended.error());
-  course.under_way = false;
-  course.stopped = ended->stopped;
-  course.iterations = ended->iterations;
-  course.rounded_max_mm = ended->rounded_max_mm;
-  if (course.points.size() < 2) {
-    if (course.stopped) return stopped();
-    return fail(Fault::no_equilibrium, "no step brings the shell nearer to its surface");
-  }
-  TRY_DO(show_designed(designed, state));
-  view_.message = text_of_design(course);
-  now_.design = std::make_shared<const DesignProgress>(std::move(course));
-  now_.target = std::make_shared<DesignTarget>(std::move(*target));
-  return {};
-}
-
-/// The designed shell, as a preset of it has it, in the state that was designed.
-Result<void> EditSession::show_designed(const preset::Preset& designed, const State& state) {
-  TRY(made, shared_scene_of(designed));
-  const std::shared_ptr<const Scene>& scene = *made;
-  TRY(session, Simulation::open(scene, LevelPlan{{designed_on}, false}));
-  if (const Report report = session->begin_at(1, state, unwatched); report.end != Outcome::reached)
-    return fail(Fault::no_equilibrium,
-                std::string("the designed shell is lost: ") + words_of(report.end).what);
-  set_shell(designed, scene, std::move(*session));
-  return set_preset_push();
-}
-
-/// Shows a step while the next one is looked for.
-void EditSession::show_design_step(const Scene& scene, const CertifiedStep& now,
-                                   DesignProgress& course) {
-  ShellView& s = view_;
-  course.iterations = now.step.iteration;
-  course.points.push_back(point_of(now));
-  if (!s.layout) {
-    auto layout = simulate::layout_of(scene, now.mesh);
-    if (!layout) return;
-    layout->flat_nodes = drawn_nodes(now.mesh, scene.flat).leftCols(now.mesh.rod_nodes());
-    s.layout = std::make_shared<const record::Layout>(std::move(*layout));
-  }
-  if (varies_rods(course.inverse)) {
-    auto layout = std::make_shared<record::Layout>(*s.layout);
-    const Eigen::VectorXd& diameters = now.shell_ends.diameter;
-    layout->diameters_mm.assign(diameters.begin(), diameters.end());
-    s.layout = std::move(layout);
-  }
-  const record::Frame before =
-      std::exchange(s.frame, simulate::frame_of(scene, now.mesh, now.model, now.state, now.forces));
-  s.frame.progress = s.frame.actuation = before.progress;
-  s.frame.boundary_radius_mm = before.boundary_radius_mm;
-  s.certificate = {now.residual_N, 0, std::numeric_limits<double>::quiet_NaN(), 0};
-  s.frame.residual_N = s.certificate.residual_N;
-  s.meshes = {designed_on};
-  s.refined = false;
-  s.symmetry.clear();
-  s.soft_mode.resize(3, 0);
-  s.axial_N = record::axial_force_of_nodes_N(*s.layout, s.frame);
-  s.bending_mJ_m = record::bending_of_nodes_mJ_per_m(*s.layout, s.frame);
-  update_deviation(now.distances_mm);
-  s.design = std::make_shared<const DesignProgress>(course);
-  ++s.equilibria;
-  if (listener_) listener_(s);
-}
-
-/// A designed shell that something else is done to is kept.
-void EditSession::accept_design() {
-  if (!now_.design || now_.design->kept) return;
-  auto kept = std::make_shared<DesignProgress>(*now_.design);
-  kept->kept = true;
-  now_.design = std::move(kept);
-}
-
-Result<void> EditSession::act(const AcceptDesign&, const Watch&) {
-  if (!now_.design) return invalid("nothing was designed that could be kept");
-  view_.message = "the designed shell is kept; Ctrl+S saves it with its tables";
-  return {};
-}
-
-Result<void> EditSession::act(const DiscardDesign&, const Watch&) {
-  if (undo_.empty() || !undo_.back().before_design)
-    return invalid(now_.design ? "what was done since the design is to be undone first"
-                               : "nothing was designed that could be put back");
-  return travel(undo_, redo_, "");
 }
 
 }  // namespace gridshell::window

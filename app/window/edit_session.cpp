@@ -47,8 +47,9 @@ void EditSession::run_command(const Command& command, const Watch& watch) {
     // nor is it cleared by what the drag does next
     if (command.drag == 0 || command.drag != this_drag_) view_.message.clear();
   }
-  if (!settles) view_.way.clear();
+  if (!settles) view_.push_path.clear();
   this_drag_ = command.drag;
+  passing_ = command.passing;
   remembered_ = !travels && !settles && remember(command);
   if (!settles && !is_any<Undo, Redo, DiscardDesign>(command.edit)) accept_design();
   if (session_ && command.passing && session_->shell().levels() > 1) coarsen(watch);

@@ -104,8 +104,8 @@ class EditSession {
     bool same_as(const RestState& other) const;
   };
   void note_state();
-  std::string note_way(const preset::Step& step, const simulate::StepPath& way, double began_mm,
-                       bool began_stable, Report& report);
+  std::string note_path(const preset::Step& step, const simulate::StepPath& path, double began_mm,
+                        bool began_stable, Report& report);
   bool looks_between() const;
   double pushed_mm(const preset::Step& step) const;
   std::string place_text(const PathMark& mark) const;
@@ -126,6 +126,9 @@ class EditSession {
   Result<void> change_rods(const preset::Preset& preset, const Watch& watch);
   void take_over_keys(const preset::Preset& preset);
   Result<void> do_step(preset::Step step, const Watch& watch);
+  Result<void> resist(preset::Step step, const Checkpoint& before, const Eigen::Vector3d& reached,
+                      const Watch& watch);
+  bool resists(const Eigen::Vector3d& to);
   Result<void> move_boundary(double progress, const Eigen::Matrix3Xd& dragged, const Watch& watch);
   void add_step(preset::Step step, const Report& report);
   Result<void> note_events(const Report& report);
@@ -146,7 +149,15 @@ class EditSession {
   void update_soft_mode();
   void update_deviation(const Eigen::VectorXd& of_joints_mm);
 
+  /// Where a dragged joint was stopped before the rods' strain limit, and from where it came.
+  struct DragStop {
+    int drag = 0;
+    Eigen::Vector3d at = Eigen::Vector3d::Zero(), from = Eigen::Vector3d::Zero();
+  };
+
   EditState now_;
+  DragStop stop_;
+  bool passing_ = false;  // the command at hand is of a drag that continues
   std::optional<Simulation> session_;
   std::deque<UndoStep> undo_, redo_;
   std::deque<UndoStep> redo_aside_;  // until the command at hand is known to be a step

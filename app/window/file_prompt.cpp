@@ -1,9 +1,14 @@
 // Asks for a preset by pictures of all, and for a file by its path and what lies in its folder.
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <string_view>
+#include <utility>
 
 #include "app/window/imgui_painter.h"
 #include "app/window/panel.h"
@@ -34,7 +39,37 @@ bool requested(FileUse use, const fs::path& file) {
 /// A run's folder is picked, and a scan's; others are gone into.
 bool is_run(const fs::path& folder) {
   std::error_code error;
-  return fs::exists(folder / "summary.json", error) || fs::exists(folder / "scan.json", error);
+  return std::ranges::any_of(std::array{"summary.json", "scan.json", "scan.csv"},
+                             [&](const char* name) { return fs::exists(folder / name, error); });
+}
+
+/// "4.2 MB"
+std::string size_text(std::uintmax_t bytes) {
+  const char* const units[] = {"bytes", "kB", "MB", "GB"};
+  std::size_t unit = 0;
+  double size = double(bytes);
+  for (; size >= 1000 && unit < 3; ++unit) size /= 1000;
+  return fmt::format("{:.3g} {}", size, units[unit]);
+}
+
+std::string date_text(const fs::file_time_type& time) {
+  const auto seconds = std::chrono::floor<std::chrono::seconds>(
+      std::chrono::file_clock::to_sys(time).time_since_epoch());
+  return fmt::format("{:%Y-%m-%d %H:%M}", fmt::localtime(std::time_t(seconds.count())));
+}
+
+/// The path that is typed, of which a bare name is in the folder that is shown.
+fs::path place_of(const FileRequest& request) {
+  const fs::path path = request.path;
+  std::error_code error;
+  return path.has_parent_path() || fs::exists(path, error) ? path : request.folder / path;
+}
+
+/// A name that is not there yet filters what is there; empty: all is shown.
+std::string filter_of(const FileRequest& request) {
+  std::error_code error;
+  if (!is_read(request.use) || fs::exists(place_of(request), error)) return "";
+  return fs::path(request.path).filename().string();
 }
 
 /// Its size in print, and what that is in pixels.
@@ -58,7 +93,7 @@ void picture_size(const Panel& panel, FileRequest& request, const PictureSize& v
 /// The endings to choose from, which the path then has.
 void endings(const Panel& panel, FileRequest& request) {
   const float right = ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x;
-  for (const ExportFormat& format : panel.viewer.library.export_formats) {
+  for (const app::ExportFormat& format : panel.viewer.library.export_formats) {
     const std::string text = fmt::format("{}  {}", format.ending, format.read_by);
     const float wide =
         ImGui::CalcTextSize(text.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x + panel.px(8);
@@ -123,31 +158,89 @@ void FilePrompt::look(FileUse use, const std::string& folder) {
     const std::string name = entry->path().filename().string();
     std::error_code gone;
     const bool is_folder = entry->is_directory(gone);
-    if (!name.starts_with('.') && (is_folder || requested(use, entry->path())))
-      entries_.push_back({name, is_folder, is_folder && is_read(use) && is_run(entry->path())});
+    if (name.starts_with('.') || !(is_folder || requested(use, entry->path()))) continue;
+    Entry& one = entries_.emplace_back(name, is_folder);
+    one.run = is_folder && is_read(use) && is_run(entry->path());
+    if (const auto size = entry->file_size(gone); !is_folder && !gone) one.size = size_text(size);
+    if (const auto time = entry->last_write_time(gone); !gone) one.changed = date_text(time);
   }
   std::ranges::sort(entries_, [](const Entry& a, const Entry& b) {
     return std::pair(!a.folder, a.name) < std::pair(!b.folder, b.name);
   });
 }
 
-void FilePrompt::list(const Panel& panel, FileRequest& request) {
+/// Buttons for folders that many files are in.
+void FilePrompt::places(const Panel& panel, FileRequest& request) const {
+  const char* home = std::getenv("HOME");
+  std::error_code error;
+  const std::pair<const char*, fs::path> all[] = {{"Home", home ? home : ""},
+                                                  {"Working folder", fs::current_path(error)},
+                                                  {"Saved files", panel.viewer.library.save_to}};
+  for (const auto& [name, folder] : all) {
+    if (!fs::is_directory(folder, error)) continue;
+    if (ImGui::Button(name))
+      request.path =
+          (folder / (is_read(request.use) ? "" : fs::path(request.path).filename())).string();
+    panel.named(std::string("folder ") + name, folder.string());
+    ImGui::SameLine();
+  }
+  ImGui::NewLine();
+}
+
+/// Folders and files, of which a click picks one. Returns whether a double click takes it.
+bool FilePrompt::list(const Panel& panel, FileRequest& request) {
   const fs::path path = request.path;
   std::error_code error;
   if (path.has_parent_path() && fs::is_directory(path.parent_path(), error))
     request.folder = path.parent_path().string();
   const fs::path folder = request.folder.empty() ? fs::path(".") : fs::path(request.folder);
   look(request.use, request.folder);
+  const std::string filter = filter_of(request);
+  bool taken = false;
+  if (!ImGui::BeginTable("files", 3)) return false;
+  ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn("size", ImGuiTableColumnFlags_WidthFixed, panel.px(70));
+  ImGui::TableSetupColumn("changed", ImGuiTableColumnFlags_WidthFixed, panel.px(120));
+  ImGui::TableNextColumn();
   if (ImGui::Selectable("../##up"))
     request.path = (fs::absolute(folder).lexically_normal().parent_path() / "").string();
   panel.named("file ..", "the folder above");
   for (const Entry& entry : entries_) {
+    if (!filter.empty() && !contains_words(entry.name, filter)) continue;
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
     const fs::path there = folder / entry.name;
     const std::string label = entry.name + (entry.run ? "   (run)" : entry.folder ? "/" : "");
-    if (ImGui::Selectable(label.c_str(), path == there))
+    if (ImGui::Selectable(
+            label.c_str(), path == there,
+            ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowDoubleClick)) {
       request.path = entry.folder && !entry.run ? (there / "").string() : there.string();
+      taken |= ImGui::IsMouseDoubleClicked(0) && (entry.run || !entry.folder);
+    }
     panel.named("file " + entry.name, "");
+    for (const std::string& text : {entry.size, entry.changed}) {
+      ImGui::TableNextColumn();
+      ImGui::TextDisabled("%s", text.c_str());
+    }
   }
+  ImGui::EndTable();
+  return taken;
+}
+
+/// What Enter makes of the name: the first entry that has its letters; whether that is to be
+/// opened, and no folder to be shown.
+bool FilePrompt::complete(FileRequest& request) const {
+  if (!is_read(request.use)) return true;
+  const std::string filter = filter_of(request);
+  const auto first = std::ranges::find_if(
+      entries_, [&](const Entry& entry) { return contains_words(entry.name, filter); });
+  if (!filter.empty() && first != entries_.end())
+    request.path = (fs::path(request.folder) / first->name).string();
+  const fs::path place = place_of(request);
+  std::error_code error;
+  if (!fs::is_directory(place, error) || is_run(place) || !place.has_filename()) return true;
+  request.path = (place / "").string();
+  return false;
 }
 
 void FilePrompt::draw(const Panel& panel, const render::Box& box) {
@@ -157,14 +250,19 @@ void FilePrompt::draw(const Panel& panel, const render::Box& box) {
   begin_fixed("file", box, 0, Layer::over);
   heading(panel, text.title);
   ImGui::SetNextItemWidth(-1);
-  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
-  bool taken = text_input("##path", request.path);
-  panel.named("file_path", "path of the file; Enter takes it");
+  if (ImGui::IsWindowAppearing() || std::exchange(refocus_, false)) ImGui::SetKeyboardFocusHere();
+  bool taken = text_input("##path", request.path, "", ImGuiInputTextFlags_AutoSelectAll);
+  panel.named("file_path",
+              is_read(request.use)
+                  ? "part of a name or a path; Enter opens the first that is shown below"
+                  : "path of the file; Enter takes it");
   ImGui::TextDisabled("%s", text.hint);
+  places(panel, request);
   if (request.use == FileUse::save_picture) picture_size(panel, request, viewer.view);
   if (request.use == FileUse::export_shell) endings(panel, request);
   const float foot = 2.6f * ImGui::GetFrameHeightWithSpacing();
-  if (ImGui::BeginChild("entries", {0, -foot}, true)) list(panel, request);
+  bool double_click = false;
+  if (ImGui::BeginChild("entries", {0, -foot}, true)) double_click = list(panel, request);
   ImGui::EndChild();
   coloured_text(text_colours(viewer.show.dark).error, viewer.message_bad ? viewer.message : "");
   const bool replaces = !request.replaced.empty() && request.replaced == request.path;
@@ -175,7 +273,8 @@ void FilePrompt::draw(const Panel& panel, const render::Box& box) {
   panel.named("file_cancel", "Esc");
   ImGui::End();
   viewer.file_request = request;
-  if (taken) viewer.take_file();
+  if (taken && !complete(*viewer.file_request)) taken = false, refocus_ = true;
+  if (taken || double_click) viewer.take_file();
   if (cancelled) viewer.file_request.reset();
 }
 

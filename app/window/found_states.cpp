@@ -127,8 +127,8 @@ std::string EditSession::place_text(const PathMark& mark) const {
 }
 
 /// Marks a path. Returns where its first event is, and whether stability was regained.
-std::string EditSession::note_way(const preset::Step& step, const simulate::StepPath& way,
-                                  double began_mm, bool began_stable, Report& report) {
+std::string EditSession::note_path(const preset::Step& step, const simulate::StepPath& path,
+                                   double began_mm, bool began_stable, Report& report) {
   // a path that starts at an unstable state does not lose its stability there
   if (!began_stable)
     std::erase_if(report.events, [](const Event& event) {
@@ -142,17 +142,17 @@ std::string EditSession::note_way(const preset::Step& step, const simulate::Step
   const auto lost = [](const PathMark& mark) { return mark.unstable; };
   if ((leapt || !(moves || pushes)) && std::erase_if(now_.marks, lost) > 0) {
     const double at = session_->boundary.progress;
-    now_.way_left = fmt::format("{} at {}", moves || pushes ? "a snap" : word_of(step.kind),
-                                place_text({at, at}));
+    now_.path_left = fmt::format("{} at {}", moves || pushes ? "a snap" : word_of(step.kind),
+                                 place_text({at, at}));
   }
-  if (way.load_steps.empty()) return "";
+  if (path.load_steps.empty()) return "";
   const auto joint = simulate::joint_of(step, now_.scene->footprint);
   const double grew_mm = pushed_mm(step) - began_mm,
-               end = std::max(1e-12, way.load_steps.back().point.t);
+               end = std::max(1e-12, path.load_steps.back().point.t);
   const auto place = [&](double t) {
     return moves ? progress_at(t) : began_mm + grew_mm * t / end;
   };
-  const auto marks = marks_of(way, report.events, pushes && joint ? *joint : -1, place);
+  const auto marks = marks_of(path, report.events, pushes && joint ? *joint : -1, place);
   add_marks(now_.marks, marks);
   for (const PathMark& mark : marks)
     if (mark.unstable && report.certificate.stable() && !leapt)

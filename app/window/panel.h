@@ -100,8 +100,9 @@ std::string label_of(const preset::Field& field);
 /// Whether a text has all words that are looked for, in any order and case.
 bool contains_words(std::string text, std::string sought);
 
-/// A line of text to type into, of at most 1 kB; true once it is entered.
-bool text_input(const char* id, std::string& text, const char* hint = "");
+/// A line of text to type into, of at most 1 kB, with flags of the library; true once it is
+/// entered.
+bool text_input(const char* id, std::string& text, const char* hint = "", int flags = 0);
 
 /// Every number of the preset, from the field table; remembers what is being changed, and what it
 /// says of each as long as none changes.
@@ -114,6 +115,7 @@ class NumbersPanel {
   struct Row {
     const preset::Field* field;
     std::string name, label, text, standard, help;
+    bool by_name;  ///< the words that are looked for are in its name, not in what it means
   };
 
   bool is_shown(const preset::Field& field);
@@ -122,6 +124,7 @@ class NumbersPanel {
   void look(const ViewerState& viewer);
   void find_idle();
   void list_rows();
+  void list_tables(const Panel& panel, bool by_name);
 
   std::shared_ptr<const ShellView> seen_;  // that the numbers are of
   preset::Preset edited_;
@@ -188,13 +191,17 @@ class FilePrompt {
   struct Entry {
     std::string name;
     bool folder = false, run = false;
+    std::string size = {}, changed = {};  ///< as shown
   };
 
   void look(FileUse use, const std::string& folder);
-  void list(const Panel& panel, FileRequest& request);
+  void places(const Panel& panel, FileRequest& request) const;
+  bool list(const Panel& panel, FileRequest& request);
+  bool complete(FileRequest& request) const;
 
   std::vector<Entry> entries_;
   FileUse use_ = FileUse::open;
+  bool refocus_ = false;  // the path is typed on
   std::string folder_;
   std::optional<std::filesystem::file_time_type> changed_;
 };

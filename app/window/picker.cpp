@@ -18,8 +18,8 @@ constexpr double click_px = 3;        // a press that moves less is a click
 /// Fraction, 0 to 1, between two positions at which a point's nearest point is.
 double fraction_along(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
                       const Eigen::Vector2d& at) {
-  const Eigen::Vector2d way = to - from;
-  return std::clamp((at - from).dot(way) / std::max(way.squaredNorm(), 1e-12), 0.0, 1.0);
+  const Eigen::Vector2d segment = to - from;
+  return std::clamp((at - from).dot(segment) / std::max(segment.squaredNorm(), 1e-12), 0.0, 1.0);
 }
 
 }  // namespace

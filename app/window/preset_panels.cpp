@@ -272,7 +272,8 @@ void NumbersPanel::list_rows() {
       continue;
     const std::string name = name_of(field), text = value_text(field, edited_);
     rows_.push_back({&field, name, label_of(field), text, value_text(field, defaults),
-                     fmt::format("{} = {}: {}", name, text, help_of(field))});
+                     fmt::format("{} = {}: {}", name, text, help_of(field)),
+                     contains_words(name + " " + label_of(field), sought_)});
   }
 }
 
@@ -303,6 +304,24 @@ bool NumbersPanel::is_shown(const Field& field) {
                         sought_);
 }
 
+void NumbersPanel::list_tables(const Panel& panel, bool by_name) {
+  ImGui::PushID(by_name);
+  for (const preset::Table& table : preset::tables()) {
+    const auto here = [&](const Row& row) {
+      return row.field->table == table.name && row.by_name == by_name;
+    };
+    if (std::ranges::none_of(rows_, here)) continue;
+    // rods of the second family
+    const char* title = table.name == "rod_v" ? "rods along v" : table.name.c_str();
+    const bool open = ImGui::CollapsingHeader(title, ImGuiTreeNodeFlags_DefaultOpen);
+    panel.named("table " + table.name, table.meaning);
+    if (!open) continue;
+    for (const Row& row : rows_)
+      if (here(row)) edit(panel, row);
+  }
+  ImGui::PopID();
+}
+
 void NumbersPanel::draw(const Panel& panel, const render::Box& box) {
   begin_fixed("numbers", box);
   heading(panel, "Parameters of the preset");
@@ -318,17 +337,8 @@ void NumbersPanel::draw(const Panel& panel, const render::Box& box) {
     panel.named("all numbers", "also those that this scene does not use");
     if (other || sought != sought_) listed_ = false;
     list_rows();
-    for (const preset::Table& table : preset::tables()) {
-      const auto in_table = [&](const Row& row) { return row.field->table == table.name; };
-      if (std::ranges::none_of(rows_, in_table)) continue;
-      // rods of the second family
-      const char* title = table.name == "rod_v" ? "rods along v" : table.name.c_str();
-      const bool open = ImGui::CollapsingHeader(title, ImGuiTreeNodeFlags_DefaultOpen);
-      panel.named("table " + table.name, table.meaning);
-      if (!open) continue;
-      for (const Row& row : rows_)
-        if (in_table(row)) edit(panel, row);
-    }
+    // what is called so comes before what is explained so
+    for (const bool by_name : {true, false}) list_tables(panel, by_name);
   }
   ImGui::End();
 }

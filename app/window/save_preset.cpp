@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 #include <utility>
 
@@ -50,7 +51,8 @@ const char* ending_of(FileUse use) {
 }
 
 /// Why no file of that name is written; empty: it is.
-std::string error_of(FileUse use, const fs::path& file, const std::vector<ExportFormat>& formats) {
+std::string error_of(FileUse use, const fs::path& file,
+                     const std::vector<app::ExportFormat>& formats) {
   std::error_code error;
   // one new folder is made
   const fs::path folder = fs::absolute(file, error).parent_path();
@@ -62,7 +64,7 @@ std::string error_of(FileUse use, const fs::path& file, const std::vector<Export
                ? ""
                : fmt::format("'{}': it is written as {}", ending, ending_of(use));
   std::string all;
-  for (const ExportFormat& format : formats) {
+  for (const app::ExportFormat& format : formats) {
     if (format.ending == ending) return "";
     all += " " + format.ending;
   }
@@ -169,12 +171,20 @@ void ViewerState::ask_file(FileUse use) {
   request.use = use;
   const char* ending = ending_of(use);
   std::error_code error;
-  const bool any = fs::is_directory(library.save_to, error);
-  // files are looked for where the last one was
-  const fs::path open_from = !file_.empty() ? file_.parent_path() / "."
-                             : any          ? library.save_to / ""
-                                            : fs::path("./");
-  request.path = *ending ? path_to_save({ending}).string() + ending : open_from.string();
+  const auto there = [&](const fs::path& folder) {
+    return !folder.empty() && fs::is_directory(folder, error);
+  };
+  // files are looked for where the last one was; a desktop starts programs in the root's folder
+  const fs::path here = fs::current_path(error), last = last_folders[is_read(use)];
+  const char* home = std::getenv("HOME");
+  const fs::path start = there(last)                                           ? last
+                         : !is_read(use)                                       ? library.save_to
+                         : use == FileUse::compare && there(library.save_to)   ? library.save_to
+                         : here == here.root_path() && there(home ? home : "") ? fs::path(home)
+                                                                               : here;
+  request.path =
+      (*ending ? start / (path_to_save({ending}).filename().string() + ending) : start / "")
+          .string();
   request.folder = fs::path(request.path).parent_path().string();
   file_request = request;
 }
@@ -223,7 +233,9 @@ void ViewerState::take_file() {
       break;
   }
   // what did not go can be mended where it was typed
-  if (!message_bad) file_request.reset();
+  if (message_bad) return;
+  last_folders[reads] = fs::absolute(file, error).lexically_normal().parent_path().string();
+  file_request.reset();
 }
 
 /// Runs the program's own `run` and `export` on the current preset, in a process of its own.

@@ -36,6 +36,8 @@ constexpr ColourText colour_texts[] = {
     {"σ (MPa)", "largest stress of a fibre, by axial force and bending", "*σ* (MPa)",
      "largest stress of a fibre"},
     {"σ / strength", "that over the rods' strength", "*σ* / strength", "utilisation of the rods"},
+    {"joint angle (°)", "between the rods at joints with laws or springs", "*α* (°)",
+     "angle between the rods at joints"},
 };
 static_assert(std::size(colour_texts) == words_of<ColourBy>().size());
 
@@ -75,10 +77,10 @@ std::optional<double> along_rod(const ShellView& shell, const std::vector<int>& 
   auto first = std::ranges::find(rod, from), last = std::ranges::find(rod, to);
   if (first == rod.end() || last == rod.end()) return {};
   if (last < first) std::swap(first, last);
-  double way = 0;
+  double length = 0;
   for (; first != last; ++first)
-    way += (shell.frame.nodes.col(first[1]) - shell.frame.nodes.col(first[0])).norm();
-  return way;
+    length += (shell.frame.nodes.col(first[1]) - shell.frame.nodes.col(first[0])).norm();
+  return length;
 }
 
 using render::Colour;
@@ -122,8 +124,9 @@ void put_forces(const ShellView& shell, const Show& show, double thin_mm,
     drawing.marks.push_back({at, std::max(5.0, 6 * thin_mm), held_yellow});
     const double length = 0.35 * shell.layout->length_scale_mm * held.force_N.norm() / most;
     if (!(length > 3 * thin_mm)) continue;
-    const Eigen::Vector3d way = length * held.force_N.normalized();
-    drawing.arrows.push_back({at - way, at, std::max(1.4, 1.6 * thin_mm), palette_of(show).arrow});
+    const Eigen::Vector3d arrow = length * held.force_N.normalized();
+    drawing.arrows.push_back(
+        {at - arrow, at, std::max(1.4, 1.6 * thin_mm), palette_of(show).arrow});
   }
 }
 
@@ -183,6 +186,8 @@ Eigen::VectorXd values_of(const ShellView& shell, const Show& show) {
     case ColourBy::utilisation:
       return record::stress_of_nodes_MPa(*shell.layout, shell.frame,
                                          show.colour_by == ColourBy::utilisation);
+    case ColourBy::joint_angle:
+      return record::joint_angle_of_nodes_deg(*shell.layout, shell.frame);
     case ColourBy::displacement:
       if (!show.other) return displacement(shell, shell.first->nodes);
       if (!same_joints(shell.layout->joints, show.other->seen->layout->joints)) return {};
@@ -204,6 +209,11 @@ render::ColourScale scale_of(const ShellView& shell, const Show& show) {
     if (!changed || scale.high < least) scale.low = -least, scale.high = least;
     scale.start = start;
     return scale;
+  }
+  if (by == ColourBy::joint_angle && all.size() > 0) {
+    double low = INFINITY, high = -INFINITY;
+    for (const double angle : all) low = std::fmin(low, angle), high = std::fmax(high, angle);
+    return {render::sequential, low, std::max(high, low + 0.01), start};
   }
   const bool any = all.size() > 0 && all.maxCoeff() > 1e-9;
   // the largest of these is requested
@@ -231,15 +241,15 @@ render::ColourScale next_scale(const render::ColourScale& before, const render::
 }
 
 std::string text_of_measure(const ShellView& shell, const std::vector<int>& joints) {
-  const auto way = [&](std::size_t from, std::size_t to) -> Eigen::Vector3d {
+  const auto between = [&](std::size_t from, std::size_t to) -> Eigen::Vector3d {
     return shell.frame.nodes.col(joints[to]) - shell.frame.nodes.col(joints[from]);
   };
   if (joints.size() < 2) return "";
   if (joints.size() > 2) {
-    const Eigen::Vector3d a = way(1, 0), b = way(1, 2);
+    const Eigen::Vector3d a = between(1, 0), b = between(1, 2);
     return fmt::format("{:.2f}°", 180 / std::numbers::pi * std::atan2(a.cross(b).norm(), a.dot(b)));
   }
-  std::string text = fmt::format("{:.2f} mm", way(0, 1).norm());
+  std::string text = fmt::format("{:.2f} mm", between(0, 1).norm());
   for (const std::vector<int>& rod : shell.layout->rods)
     if (const auto along = along_rod(shell, rod, joints[0], joints[1]))
       text += fmt::format(", {:.2f} mm along the rod", *along);

@@ -139,17 +139,18 @@ void boundary(const Panel& panel) {
   if (shell.preset.footprint.kind != preset::FootprintKind::circle) return;
   const double from = shell.preset.original_radius_mm();
   const double now = shell.frame.boundary_radius_mm;
-  const double way = shell.progress > 0 ? (now - from) / shell.progress : -1;
+  const double mm_per_progress = shell.progress > 0 ? (now - from) / shell.progress : -1;
   ImGui::TextUnformatted("Radius of the boundary, Rₐ");
-  slider(panel, "R_a", float(now), float(0.6 * from), float(from + shell.least_progress * way),
-         "%.2f mm",
+  slider(panel, "R_a", float(now), float(0.6 * from),
+         float(from + shell.least_progress * mm_per_progress), "%.2f mm",
          fmt::format("radius of the actuated boundary, from {:.1f} to {:.1f} mm", 0.6 * from,
-                     from + shell.least_progress * way) +
+                     from + shell.least_progress * mm_per_progress) +
              text_of_marks(shell),
          [&](float to) {
-           viewer.playing = false, viewer.post(Move{(four_digits(to) - from) / way}, true);
+           viewer.playing = false,
+           viewer.post(Move{(four_digits(to) - from) / mm_per_progress}, true);
          });
-  const double low = 0.6 * from, high = from + shell.least_progress * way;
+  const double low = 0.6 * from, high = from + shell.least_progress * mm_per_progress;
   mark_slider(panel, "R_a", [&](double at) { return (shell.radius_at(at) - low) / (high - low); });
 }
 

@@ -102,7 +102,8 @@ struct ViewedState {
   bool refined = false;            ///< to the preset's tolerance; else coarse, as in a drag
   bool rods_changed_late = false;  ///< keys of its rods were changed after steps
   bool snapped = false;            ///< it snapped to another equilibrium
-  std::string way_left;  ///< event and position at which the known path was left; empty: it was not
+  std::string
+      path_left;  ///< event and position at which the known path was left; empty: it was not
   std::shared_ptr<const DesignProgress> design;  ///< that the shell is of; null: none
 };
 
@@ -133,7 +134,7 @@ struct ShellView : ViewedState {
   std::shared_ptr<const preset::Preset> offer;
   /// Equilibria on one boundary, if more than one was found; null: none.
   std::shared_ptr<const std::vector<std::shared_ptr<const ShellView>>> found;
-  std::vector<PlotPoint> way;  ///< equilibria that the last push came past, but for this one
+  std::vector<PlotPoint> push_path;  ///< equilibria that the last push came past, but for this one
   int undo_steps = 0, redo_steps = 0;
   int equilibria = 0;  ///< found so far
   double seconds = 0;  ///< the last one took

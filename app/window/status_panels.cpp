@@ -75,9 +75,9 @@ void ViewerState::go_to_loss() {
     places.push_back(0.5 * (mark.from + mark.to));
   }
   if (places.empty())
-    return say(shell->way_left.empty()
+    return say(shell->path_left.empty()
                    ? "every state computed on the boundary's path is stable"
-                   : "the path on which stability is lost was left by " + shell->way_left +
+                   : "the path on which stability is lost was left by " + shell->path_left +
                          ", and the one since then is stable; Undo goes back to it",
                true);
   std::ranges::sort(places);

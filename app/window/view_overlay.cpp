@@ -192,7 +192,7 @@ void Overlay::draw_scale() {
 void Overlay::draw_axes() {
   struct AxisEnd {
     const char *name, *action;
-    Eigen::Vector3d way;
+    Eigen::Vector3d direction;
     ImU32 colour;
   };
   const AxisEnd ends[] = {{"x", "view_side", Eigen::Vector3d::UnitX(), IM_COL32(200, 60, 50, 255)},
@@ -202,8 +202,8 @@ void Overlay::draw_axes() {
   const ImVec2 centre{float(view_.x) + panel_.px(40), float(view_.bottom()) - panel_.px(62)};
   const float reach = panel_.px(24), half = panel_.px(8);
   for (const AxisEnd& end : ends) {
-    const ImVec2 at{centre.x + reach * float(end.way.dot(axes.right)),
-                    centre.y - reach * float(end.way.dot(axes.up))};
+    const ImVec2 at{centre.x + reach * float(end.direction.dot(axes.right)),
+                    centre.y - reach * float(end.direction.dot(axes.up))};
     list_.AddLine(centre, at, end.colour, panel_.px(1.6));
     list_.AddCircleFilled(at, half, end.colour);
     const ImVec2 size = ImGui::CalcTextSize(end.name);

@@ -303,7 +303,7 @@ void ViewerState::add_plot_point() {
   if (now.refined && !plot_points.empty() && !plot_points.back().refined &&
       plot_points.back().steps == now.steps)
     plot_points.pop_back();
-  for (const PlotPoint& point : shell->way)
+  for (const PlotPoint& point : shell->push_path)
     if (plot_points.empty() || point.equilibrium > plot_points.back().equilibrium)
       plot_points.push_back(point);
   plot_points.push_back(now);
@@ -343,6 +343,8 @@ std::string workspace_text(const ViewerState& viewer) {
   each_switch(viewer, [&](const char* key, bool on) { shown[key] = on; });
   json["shown"] = shown;
   json["recent"] = viewer.recent;
+  json["saved_in"] = viewer.last_folders[0];
+  json["opened_from"] = viewer.last_folders[1];
   return text_of(json);
 }
 
@@ -363,6 +365,8 @@ Result<void> take_workspace(ViewerState& viewer, const std::string& text) {
     for (const Json& one : json["recent"])
       if (one.is_string() && viewer.recent.size() < most_recent)
         viewer.recent.push_back(one.get<std::string>());
+  take(json, "saved_in", viewer.last_folders[0]);
+  take(json, "opened_from", viewer.last_folders[1]);
   SavedCamera kept{"", viewer.camera, viewer.show.colour_by};
   if (!take(json, "camera", camera) || !take(json, "preset", kept.preset)) return {};
   bool whole = true;

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/cli/commands.h"
 #include "app/window/shell_drawing.h"
 #include "app/window/worker_threads.h"
 #include "render/movie/movie_style.h"
@@ -65,13 +66,6 @@ struct FileRequest {
   std::string replaced = {};        ///< a file that is there and was confirmed to go
 };
 
-/// What a shell can be exported as.
-struct ExportFormat {
-  std::string ending;   ///< of the file: ".vtp"
-  std::string thing;    ///< shape, footprint or sheet
-  std::string read_by;  ///< "ParaView"
-};
-
 /// Where presets come from, what makes pictures and movies, and where all that is kept goes.
 struct Library {
   std::vector<PresetCard> cards;
@@ -92,7 +86,7 @@ struct Library {
   std::function<Result<void>(const preset::Preset& preset, const std::filesystem::path& file,
                              const ProgressListener&, const Watch&)>
       export_shell;
-  std::vector<ExportFormat> export_formats;
+  std::vector<app::ExportFormat> export_formats;
   /// What a run ended in, or the joints of a scan.
   std::function<Result<OtherShell>(const std::filesystem::path& run)> load_run;
   /// Shows the manual in a browser. Errors: io where there is none, saying where the manual is.
@@ -202,6 +196,7 @@ class ViewerState {
     return {&picture_task, &movie_task, &export_task, &manual_task};
   }
   std::optional<FileRequest> file_request;
+  std::string last_folders[2];      ///< of a file that was saved, and of one that was opened
   std::vector<std::string> recent;  ///< what was opened, the last first
   std::string copied;               ///< text for the clipboard
   bool timed = true;                ///< whether what took how long is shown

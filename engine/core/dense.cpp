@@ -81,8 +81,8 @@ Eigen::MatrixX2d slope_weights(const std::vector<double>& known, double t) {
     double slope = 0;  // of the basis where it is one
     for (std::size_t j = 0; j < known.size(); ++j)
       if (j != k) slope += 1 / (known[k] - known[j]);
-    const double square = std::pow(basis[Eigen::Index(k)], 2), way = t - known[k];
-    all.row(Eigen::Index(k)) << (1 - 2 * way * slope) * square, way * square;
+    const double square = std::pow(basis[Eigen::Index(k)], 2), offset = t - known[k];
+    all.row(Eigen::Index(k)) << (1 - 2 * offset * slope) * square, offset * square;
   }
   return all;
 }

@@ -46,8 +46,8 @@ BoxPlane::BoxPlane(const std::vector<Eigen::AlignedBox3d>& boxes, double mm) {
     int at[2] = {0, 0};
     for (int k = 0; k < 2; ++k) {
       if (!(each.sizes()[axes[k]] + mm <= size[k])) return -1;
-      const double way = each.min()[axes[k]] - all.min()[axes[k]];
-      if (size[k] > 0) at[k] = int(std::min(*cells[k] - 1.0, way / size[k]));
+      const double offset = each.min()[axes[k]] - all.min()[axes[k]];
+      if (size[k] > 0) at[k] = int(std::min(*cells[k] - 1.0, offset / size[k]));
     }
     return at[1] * columns + at[0];
   };

@@ -70,7 +70,7 @@ bool is_pin(Vary kind) {
 }
 
 /// The directions in which an end may be moved.
-std::vector<Eigen::Vector3d> ways_of(Vary kind, const ShellEnds& ends, Eigen::Index end) {
+std::vector<Eigen::Vector3d> directions_of(Vary kind, const ShellEnds& ends, Eigen::Index end) {
   const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY(),
                         z = Eigen::Vector3d::UnitZ();
   switch (kind) {
@@ -111,14 +111,14 @@ Eigen::MatrixXd projector(const std::vector<DesignVariable>& all,
       const int end = one.to[std::size_t(from.end)];
       // a direction runs along its rod, whose ends a symmetry may swap
       const double sign = from.kind == Vary::directions && end % 2 != from.end % 2 ? -1 : 1;
-      const Eigen::Vector3d way = sign * (one.turn * from.way);
+      const Eigen::Vector3d turned = sign * (one.turn * from.direction);
       for (Eigen::Index j = 0; j < n; ++j) {
         const DesignVariable& to = all[std::size_t(j)];
         if (to.kind != from.kind) continue;
         // a symmetry may map the start of a rod to the end of another
         const bool rods = from.kind == Vary::diameters;
         if (rods ? to.end / 2 != end / 2 : to.end != end) continue;
-        mean(j, k) += rods || from.kind == Vary::legs ? 1 : to.way.dot(way);
+        mean(j, k) += rods || from.kind == Vary::legs ? 1 : to.direction.dot(turned);
       }
     }
   return mean / double(symmetries.size());
@@ -156,9 +156,9 @@ DesignVariables::DesignVariables(const Scene& scene, const std::vector<Vary>& va
     for (Eigen::Index end = 0; end < begin_.at.cols(); ++end) {
       const FootprintRod& rod = scene.footprint.rods[std::size_t(end / 2)];
       if (!applies(kind, end, end % 2 == 0 ? rod.begin : rod.end)) continue;
-      const auto ways = ways_of(kind, begin_, end);
-      for (std::size_t k = 0; k < ways.size(); ++k)
-        all_.push_back({kind, int(end), int(k), ways[k]});
+      const auto directions = directions_of(kind, begin_, end);
+      for (std::size_t k = 0; k < directions.size(); ++k)
+        all_.push_back({kind, int(end), int(k), directions[k]});
     }
   if (all_.empty()) return;
   const Eigen::MatrixXd mean = projector(all_, symmetries);
@@ -177,9 +177,9 @@ ShellEnds DesignVariables::ends_at(const Eigen::VectorXd& q) const {
     else if (one.kind == Vary::legs)
       ends.leg[one.end] += q[k];
     else if (is_pin(one.kind))
-      ends.at.col(one.end) += q[k] * one.way;
+      ends.at.col(one.end) += q[k] * one.direction;
     else
-      ends.direction.col(one.end) += q[k] * one.way;
+      ends.direction.col(one.end) += q[k] * one.direction;
   }
   for (auto direction : ends.direction.colwise()) direction.normalize();  // zero stays zero
   return ends;
@@ -189,17 +189,17 @@ std::vector<DesignVariables::Rate> DesignVariables::rates_at(const Eigen::Vector
   Eigen::Matrix3Xd direction = begin_.direction;
   for (Eigen::Index k = 0; k < count(); ++k)
     if (all_[std::size_t(k)].kind == Vary::directions)
-      direction.col(all_[std::size_t(k)].end) += q[k] * all_[std::size_t(k)].way;
+      direction.col(all_[std::size_t(k)].end) += q[k] * all_[std::size_t(k)].direction;
   std::vector<Rate> rates;
   for (const DesignVariable& one : all_) {
     Rate rate{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), 0, 0};
     if (one.kind == Vary::legs) rate.leg = 1;
     if (one.kind == Vary::diameters) rate.ln_diameter = per_unit;
-    if (is_pin(one.kind)) rate.at = one.way;
+    if (is_pin(one.kind)) rate.at = one.direction;
     if (one.kind == Vary::directions) {
       const double length = direction.col(one.end).norm();
       const Eigen::Vector3d along = direction.col(one.end) / length;
-      rate.direction = (one.way - along.dot(one.way) * along) / length;
+      rate.direction = (one.direction - along.dot(one.direction) * along) / length;
     }
     rates.push_back(rate);
   }

@@ -25,15 +25,15 @@ std::vector<ShellSymmetry> symmetries_of(const Scene& scene, const Eigen::Matrix
 
 // What a design changes, as numbers.
 
-/// One variable at one end: displacement of a pin along `way` (mm), change of a leg's length (mm),
-/// or rotation of a prescribed direction towards `way` (the new direction is the old one plus the
-/// sum of q `way`, normalised: rad for small ones). For a rod, at its start: the diameter, the old
-/// one times exp(q/10).
+/// One variable at one end: displacement of a pin along `direction` (mm), change of a leg's length
+/// (mm), or rotation of a prescribed direction towards `direction` (the new direction is the old
+/// one plus the sum of q `direction`, normalised: rad for small ones). For a rod, at its start: the
+/// diameter, the old one times exp(q/10).
 struct DesignVariable {
   preset::Vary kind = preset::Vary::pins;
   int end = 0;
   int component = 0;  ///< of those of its kind at its end
-  Eigen::Vector3d way = Eigen::Vector3d::Zero();
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
 };
 
 /// All variables of a design. They change together so that the symmetries of the shell stay: q =

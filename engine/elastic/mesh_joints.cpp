@@ -68,7 +68,7 @@ Eigen::Vector3d drawn_place(const RodMesh& mesh, int node) {
   return {mesh.flat(0, k), mesh.flat(1, k), mesh.height.size() > 0 ? mesh.height[k] : 0};
 }
 
-Eigen::Vector3d drawn_way(const RodMesh& mesh, int from, int to) {
+Eigen::Vector3d drawn_direction(const RodMesh& mesh, int from, int to) {
   return (drawn_place(mesh, to) - drawn_place(mesh, from)).normalized();
 }
 
@@ -90,7 +90,7 @@ Eigen::Vector3d direction_at(const RodMesh& mesh, const RodAt& of) {
   const auto at = std::ranges::find(nodes, node);
   const auto before = at == nodes.begin() ? at : at - 1,
              after = at + 1 == nodes.end() ? at : at + 1;
-  return drawn_way(mesh, *before, *after);
+  return drawn_direction(mesh, *before, *after);
 }
 
 std::vector<Eigen::Vector3d> normals_of(const RodMesh& mesh, const Crossings& crossings) {

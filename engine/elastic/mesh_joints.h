@@ -13,7 +13,7 @@ namespace gridshell {
 /// Where a node is drawn, mm; a joint's second one too.
 Eigen::Vector3d drawn_place(const RodMesh& mesh, int node);
 /// Unit vector between two nodes as drawn.
-Eigen::Vector3d drawn_way(const RodMesh& mesh, int from, int to);
+Eigen::Vector3d drawn_direction(const RodMesh& mesh, int from, int to);
 
 /// A rod and its node at a joint.
 struct RodAt {

@@ -20,9 +20,9 @@ std::vector<Eigen::Vector2d> turns_of(const RodMesh& mesh, const ModelRod& rod) 
   const std::vector<int>& nodes = rod.nodes;
   const std::size_t size = nodes.size(), last = rod.closed() ? size : size - 2;
   std::vector<Eigen::Vector2d> turns(size, Eigen::Vector2d::Zero());
-  Eigen::Vector3d t = drawn_way(mesh, nodes[0], nodes[1]), m1 = normal_near(rod.director, t);
+  Eigen::Vector3d t = drawn_direction(mesh, nodes[0], nodes[1]), m1 = normal_near(rod.director, t);
   for (std::size_t k = 1; k <= last; ++k) {
-    const Eigen::Vector3d s = drawn_way(mesh, nodes[k % size], nodes[(k + 1) % size]),
+    const Eigen::Vector3d s = drawn_direction(mesh, nodes[k % size], nodes[(k + 1) % size]),
                           kb = curvature_binormal(t, s).kb;
     turns[k % size] << kb.dot(m1), kb.dot(t.cross(m1));
     m1 = carried_director(m1, t, s);
@@ -80,14 +80,14 @@ Eigen::Vector3d director_of(const RodMesh& mesh, std::size_t r,
                             const std::vector<Eigen::Vector3d>& normals) {
   const std::vector<int>& nodes = mesh.rods[r];
   if (mesh.height.size() == 0) return Eigen::Vector3d::UnitZ();
-  const Eigen::Vector3d first = drawn_way(mesh, nodes[0], nodes[1]),
+  const Eigen::Vector3d first = drawn_direction(mesh, nodes[0], nodes[1]),
                         begin = normal_near(Eigen::Vector3d::UnitZ(), first);
   Eigen::Vector3d t = first, m1 = begin;
   Eigen::Vector2d sum(0, 0);  // along m1 and across it
   const std::size_t size = nodes.size() - (nodes.front() == nodes.back() ? 1 : 0);
   for (std::size_t k = 0; k < size; ++k) {
     if (k > 0 && k + 1 < nodes.size()) {
-      const Eigen::Vector3d s = drawn_way(mesh, nodes[k], nodes[k + 1]);
+      const Eigen::Vector3d s = drawn_direction(mesh, nodes[k], nodes[k + 1]);
       m1 = carried_director(m1, t, s);
       t = s;
     }

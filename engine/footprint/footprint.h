@@ -124,7 +124,7 @@ struct FootprintRod {
   Eigen::Vector2d at(double position) const;
   Eigen::Vector2d tangent(double position) const;
   /// (u, v, height) of the unit tangent there.
-  Eigen::Vector3d way(double position) const;
+  Eigen::Vector3d tangent_in_space(double position) const;
   /// Above the plane.
   double height(double position) const;
   /// (u, v, height) of a position on the path.

@@ -92,9 +92,9 @@ class ReachedPart final : public Domain {
   /// How far a line continues from its position s, which is at p.
   template <class Line>
   double end_from(const Line& on_line, double s, const Eigen::Vector3d& p, int side) const {
-    const auto goes_on = [&](double way) {
-      const auto there = position(on_line(s + side * way));
-      return there && net_->joined(p, *there, way, exact);
+    const auto goes_on = [&](double distance) {
+      const auto there = position(on_line(s + side * distance));
+      return there && net_->joined(p, *there, distance, exact);
     };
     double inside = 0, outside = net_->chord() / 2;
     while (outside - inside > 1e-13 * reach()) {
@@ -114,13 +114,13 @@ class ReachedPart final : public Domain {
     int i = 0;
     while (known(i + 1, 0)) ++i;
     std::array<int, 2> node{i, 0};
-    int way = 0;  // to the node that is not there: +u, +v, -u, -v
-    constexpr std::array<std::array<int, 2>, 4> ways{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+    int heading = 0;  // to the node that is not there: +u, +v, -u, -v
+    constexpr std::array<std::array<int, 2>, 4> headings{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
     const auto start = node;
-    const int start_way = way;
+    const int start_heading = heading;
     do {
       const Eigen::Vector2d at = h * Eigen::Vector2d(node[0], node[1]);
-      const auto [du, dv] = ways[std::size_t(way)];
+      const auto [du, dv] = headings[std::size_t(heading)];
       const auto on_line = [&, du = du, dv = dv](double s) -> Eigen::Vector2d {
         return at + s * Eigen::Vector2d(du, dv);
       };
@@ -132,16 +132,16 @@ class ReachedPart final : public Domain {
       }
       ring_.push_back(on_line(end));
       // to the left: around this node, along the side of the next one, or around the corner
-      const auto [lu, lv] = ways[std::size_t((way + 1) % 4)];
+      const auto [lu, lv] = headings[std::size_t((heading + 1) % 4)];
       if (!known(node[0] + lu, node[1] + lv)) {
-        way = (way + 1) % 4;
+        heading = (heading + 1) % 4;
       } else if (!known(node[0] + lu + du, node[1] + lv + dv)) {
         node = {node[0] + lu, node[1] + lv};
       } else {
         node = {node[0] + lu + du, node[1] + lv + dv};
-        way = (way + 3) % 4;
+        heading = (heading + 3) % 4;
       }
-    } while (node != start || way != start_way);
+    } while (node != start || heading != start_heading);
     ring_length_.push_back(0);
     for (std::size_t k = 1; k <= ring_.size(); ++k)
       ring_length_.push_back(ring_length_.back() + (ring_[k % ring_.size()] - ring_[k - 1]).norm());

@@ -106,12 +106,12 @@ Result<void> NetworkBuilder::check_reach(const std::vector<int>& joint_of) const
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     const Coordinates mean = mean_of(joints_[j].points, network_.points);
     for (const int point : joints_[j].points) {
-      const double way = distance(network_.points[std::size_t(point)], mean);
-      if (!(way <= farthest * shortest[j]))
+      const double offset = distance(network_.points[std::size_t(point)], mean);
+      if (!(offset <= farthest * shortest[j]))
         return invalid(
             "{}: got point {} at {:.4g} mm from the middle of the joint's points, expected at most "
             "{:.4g} mm, a quarter of the shortest segment of rod next to them",
-            joints_[j].at, point, way, farthest * shortest[j]);
+            joints_[j].at, point, offset, farthest * shortest[j]);
     }
   }
   return {};

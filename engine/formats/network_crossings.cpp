@@ -27,9 +27,9 @@ struct Stretch {
   int from, to;
   Eigen::Vector3d begin, end;
 
-  Eigen::Vector3d way() const { return end - begin; }
-  Eigen::Vector3d at(double fraction) const { return begin + fraction * way(); }
-  double length() const { return way().norm(); }
+  Eigen::Vector3d vector() const { return end - begin; }
+  Eigen::Vector3d at(double fraction) const { return begin + fraction * vector(); }
+  double length() const { return vector().norm(); }
   double low() const { return std::min(begin.x(), end.x()) - one_point_mm; }
   /// Whether they reach over one another along an axis.
   bool near(const Stretch& other, int k, double by) const {
@@ -48,15 +48,15 @@ struct Cut {
 
 /// Where two segments meet, as fractions of their lengths; none: nowhere, or they are parallel.
 std::optional<std::pair<double, double>> meeting(const Stretch& a, const Stretch& b, double near) {
-  const Eigen::Vector3d way_a = a.way(), way_b = b.way(), apart = b.begin - a.begin;
-  const Eigen::Vector3d normal = way_a.cross(way_b);
+  const Eigen::Vector3d vector_a = a.vector(), vector_b = b.vector(), apart = b.begin - a.begin;
+  const Eigen::Vector3d normal = vector_a.cross(vector_b);
   if (!(normal.norm() > 1e-9 * a.length() * b.length())) return std::nullopt;
   // seen along the axis that is nearest to their normal, of a drawing in the plane z
   const auto beyond = [&](int k) { return std::abs(normal[2]) < std::abs(normal[k]); };
   const int view = !beyond(0) && !beyond(1) ? 2 : std::abs(normal[0]) < std::abs(normal[1]) ? 1 : 0;
   const int x = (view + 1) % 3, y = (view + 2) % 3;
-  const double s = (apart[x] * way_b[y] - apart[y] * way_b[x]) / normal[view],
-               t = (apart[x] * way_a[y] - apart[y] * way_a[x]) / normal[view];
+  const double s = (apart[x] * vector_b[y] - apart[y] * vector_b[x]) / normal[view],
+               t = (apart[x] * vector_a[y] - apart[y] * vector_a[x]) / normal[view];
   const double on_a = one_point_mm / a.length(), on_b = one_point_mm / b.length();
   if (s < -on_a || s > 1 + on_a || t < -on_b || t > 1 + on_b) return std::nullopt;
   // one passes over the other
@@ -95,8 +95,8 @@ void put(std::vector<Cut> cuts, std::vector<std::vector<int>>& rods) {
 /// How far two parallel segments lie on one another; 0: they do not.
 double overlap(const Stretch& a, const Stretch& b) {
   constexpr double alike = 1e-6;
-  const Eigen::Vector3d along = a.way().normalized();
-  if (along.cross(b.way()).norm() > alike * b.length()) return 0;
+  const Eigen::Vector3d along = a.vector().normalized();
+  if (along.cross(b.vector()).norm() > alike * b.length()) return 0;
   const Eigen::Vector3d apart = b.begin - a.begin;
   if (along.cross(apart).norm() > one_point_mm) return 0;
   const double from = along.dot(apart), to = along.dot(b.end - a.begin);
@@ -105,8 +105,8 @@ double overlap(const Stretch& a, const Stretch& b) {
 
 /// The point of a segment nearest to a position, as a fraction of its length.
 double nearest_fraction(const Stretch& stretch, const Eigen::Vector3d& place) {
-  const Eigen::Vector3d way = stretch.way();
-  return std::clamp((place - stretch.begin).dot(way) / way.squaredNorm(), 0.0, 1.0);
+  const Eigen::Vector3d vector = stretch.vector();
+  return std::clamp((place - stretch.begin).dot(vector) / vector.squaredNorm(), 0.0, 1.0);
 }
 
 }  // namespace

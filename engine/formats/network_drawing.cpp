@@ -66,10 +66,10 @@ class Marks {
  private:
   static double distance(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
                          const Eigen::Vector3d& b) {
-    const Eigen::Vector3d way = b - a;
-    const double length = way.squaredNorm();
-    const double fraction = length > 0 ? std::clamp((p - a).dot(way) / length, 0.0, 1.0) : 0;
-    return (a + fraction * way - p).norm();
+    const Eigen::Vector3d segment = b - a;
+    const double length = segment.squaredNorm();
+    const double fraction = length > 0 ? std::clamp((p - a).dot(segment) / length, 0.0, 1.0) : 0;
+    return (a + fraction * segment - p).norm();
   }
 
   const std::vector<const DrawnEntity*>& drawn_;

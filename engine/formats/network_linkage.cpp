@@ -27,9 +27,9 @@ SegmentEnds segment_ends(const NetworkData& network) {
   SegmentEnds ends(network.points.size());
   for (std::size_t r = 0; r < network.rods.size(); ++r) {
     const int a = network.rods[r].front(), b = network.rods[r].back();
-    const Eigen::Vector3d way = (place_of(network, b) - place_of(network, a)).normalized();
-    ends[std::size_t(a)].push_back({int(2 * r), b, way});
-    ends[std::size_t(b)].push_back({int(2 * r) + 1, a, -way});
+    const Eigen::Vector3d direction = (place_of(network, b) - place_of(network, a)).normalized();
+    ends[std::size_t(a)].push_back({int(2 * r), b, direction});
+    ends[std::size_t(b)].push_back({int(2 * r) + 1, a, -direction});
   }
   return ends;
 }
@@ -232,16 +232,16 @@ void NetworkBuilder::support_on_springs() {
   const int a = farthest([&](const Eigen::Vector3d& at) { return -(at - middle).norm(); });
   const Eigen::Vector3d from = place_of(network_, a);
   const int b = farthest([&](const Eigen::Vector3d& at) { return (at - from).norm(); });
-  const Eigen::Vector3d way = place_of(network_, b) - from;
-  const int c = farthest([&](const Eigen::Vector3d& at) { return way.cross(at - from).norm(); });
+  const Eigen::Vector3d axis = place_of(network_, b) - from;
+  const int c = farthest([&](const Eigen::Vector3d& at) { return axis.cross(at - from).norm(); });
   if (a == b || b == c || a == c) return;
   const auto support = [&](int point, const Eigen::Vector3d& k) {
     add_support({double(point)});
     add_spring(point, {k.x(), k.y(), k.z()});
   };
   Eigen::Index along = 0, turned = 0;
-  way.cwiseAbs().maxCoeff(&along);
-  way.cross(place_of(network_, c) - from).cwiseAbs().maxCoeff(&turned);
+  axis.cwiseAbs().maxCoeff(&along);
+  axis.cross(place_of(network_, c) - from).cwiseAbs().maxCoeff(&turned);
   support(a, Eigen::Vector3d::Ones());
   support(b, Eigen::Vector3d::Ones() - Eigen::Vector3d::Unit(along));
   support(c, Eigen::Vector3d::Unit(turned));

@@ -150,9 +150,9 @@ class NearPoints {
   }
 
   double distance(const Eigen::Vector3d& at, int from, int to) const {
-    const Eigen::Vector3d a = place_of(network_, from), way = place_of(network_, to) - a;
-    const double fraction = std::clamp((at - a).dot(way) / way.squaredNorm(), 0.0, 1.0);
-    return (a + fraction * way - at).norm();
+    const Eigen::Vector3d a = place_of(network_, from), segment = place_of(network_, to) - a;
+    const double fraction = std::clamp((at - a).dot(segment) / segment.squaredNorm(), 0.0, 1.0);
+    return (a + fraction * segment - at).norm();
   }
 
   const NetworkData& network_;

@@ -290,12 +290,12 @@ std::vector<int> rim_of(const Eigen::Matrix2Xd& points) {
   std::vector<int> rim;
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const Eigen::Vector2d first = points.col(corners[k]),
-                          way = points.col(corners[(k + 1) % corners.size()]) - first;
+                          edge = points.col(corners[(k + 1) % corners.size()]) - first;
     std::map<double, int> on_edge;  // by how far along it
     for (int point = 0; point < int(points.cols()); ++point) {
       const Eigen::Vector2d at = points.col(point) - first;
-      const double along = at.dot(way) / way.squaredNorm();
-      const bool on_it = std::abs(cross(way, at)) < on_an_edge * way.squaredNorm();
+      const double along = at.dot(edge) / edge.squaredNorm();
+      const bool on_it = std::abs(cross(edge, at)) < on_an_edge * edge.squaredNorm();
       if (on_it && along > on_an_edge && along < 1 - on_an_edge) on_edge.try_emplace(along, point);
     }
     rim.push_back(corners[k]);

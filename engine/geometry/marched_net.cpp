@@ -102,30 +102,32 @@ struct MarchedGrid::March {
   }
 
   /// On along the rod through (a, b), away from the axes.
-  std::optional<Eigen::Vector3d> straight(int a, int b, int way_u, int way_v) const {
+  std::optional<Eigen::Vector3d> straight(int a, int b, int step_u, int step_v) const {
     const Eigen::Vector3d& here = grid.at(a, b).p;
     if (a == 0 && b == 0)
       return geodesic_chord(
-          surface, here, way_u != 0 ? way_u * place.along_u : way_v * place.up.cross(place.along_u),
+          surface, here,
+          step_u != 0 ? step_u * place.along_u : step_v * place.up.cross(place.along_u),
           grid.chord_);
-    if (!grid.linked(a, b, -way_u, -way_v)) return std::nullopt;
-    const Eigen::Vector3d last = (here - grid.at(a - way_u, b - way_v).p).normalized();
+    if (!grid.linked(a, b, -step_u, -step_v)) return std::nullopt;
+    const Eigen::Vector3d last = (here - grid.at(a - step_u, b - step_v).p).normalized();
     Eigen::Vector3d along = last;
     // a rod that was bent sideways continues along its tangent, half a chord after its last one
     const auto by = grid.at(a, b).by;
-    const bool bent = by != (way_u != 0 ? Node::straight_u : Node::straight_v);
-    if (bent && grid.linked(a - way_u, b - way_v, -way_u, -way_v))
-      along = (1.5 * last -
-               0.5 * (grid.at(a - way_u, b - way_v).p - grid.at(a - 2 * way_u, b - 2 * way_v).p) /
-                   grid.chord_)
-                  .normalized();
+    const bool bent = by != (step_u != 0 ? Node::straight_u : Node::straight_v);
+    if (bent && grid.linked(a - step_u, b - step_v, -step_u, -step_v))
+      along =
+          (1.5 * last -
+           0.5 * (grid.at(a - step_u, b - step_v).p - grid.at(a - 2 * step_u, b - 2 * step_v).p) /
+               grid.chord_)
+              .normalized();
     return geodesic_chord(surface, here, along, grid.chord_);
   }
 
   /// Continues from the neighbour towards the axis; returns why not.
-  RodStop go_straight(int i, int j, int way_u, int way_v) {
-    const int a = i - way_u, b = j - way_v;
-    const auto p = straight(a, b, way_u, way_v);
+  RodStop go_straight(int i, int j, int step_u, int step_v) {
+    const int a = i - step_u, b = j - step_v;
+    const auto p = straight(a, b, step_u, step_v);
     if (!p) return RodStop::surface;
     if (lines) {
       const Eigen::Vector3d& here = grid.at(a, b).p;
@@ -133,15 +135,15 @@ struct MarchedGrid::March {
       if (!(place.outside(*p) < 0)) return RodStop::cut;
       if (is_taken(i, j, *p)) return RodStop::net;
     }
-    accept(i, j, *p, way_u != 0, way_v != 0);
+    accept(i, j, *p, step_u != 0, step_v != 0);
     return RodStop::none;
   }
 
   /// Whether the four corners of the cell behind (i, j) but itself are there and joined, or linked.
   bool has_cell(int i, int j, bool rods) const {
     const int a = i - sign(i), b = j - sign(j);
-    const auto to = [&](int way_u, int way_v) {
-      return rods ? grid.joined(a, b, way_u, way_v) : grid.linked(a, b, way_u, way_v);
+    const auto to = [&](int step_u, int step_v) {
+      return rods ? grid.joined(a, b, step_u, step_v) : grid.linked(a, b, step_u, step_v);
     };
     return i != 0 && j != 0 && to(0, sign(j)) && to(sign(i), 0);
   }
@@ -196,8 +198,8 @@ struct MarchedGrid::March {
     }
     for (const bool along_u : {true, false}) {
       if (!(along_u ? by_u : by_v)) continue;
-      const int way_u = along_u ? su : 0, way_v = along_u ? 0 : sv;
-      if (const auto p = straight(i - way_u, j - way_v, way_u, way_v))
+      const int step_u = along_u ? su : 0, step_v = along_u ? 0 : sv;
+      if (const auto p = straight(i - step_u, j - step_v, step_u, step_v))
         return accept(i, j, *p, along_u, !along_u, beyond);
     }
   }
@@ -299,9 +301,9 @@ Result<MarchedNet> MarchedNet::make(const Surface& surface, const NetPlace& plac
   return net;
 }
 
-bool MarchedNet::joined(const Eigen::Vector3d& p, const Eigen::Vector3d& q, double way_mm,
+bool MarchedNet::joined(const Eigen::Vector3d& p, const Eigen::Vector3d& q, double length_mm,
                         double off) const {
-  return std::abs((q - p).norm() - way_mm) <= off * way_mm + 1e-6 * chord() &&
+  return std::abs((q - p).norm() - length_mm) <= off * length_mm + 1e-6 * chord() &&
          !lines_->crossed(p, q);
 }
 
@@ -324,10 +326,10 @@ std::optional<NetPoint> MarchedNet::from(int i, int j, double u, double v) const
     open[count++] = {a, b};
   };
   take(i - first_i, j - first_j);
-  constexpr std::array<std::array<int, 2>, 4> ways{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+  constexpr std::array<std::array<int, 2>, 4> neighbours{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
   for (std::size_t k = 0; k < count; ++k) {
     const auto [a, b] = open[k];
-    for (const auto& [da, db] : ways)
+    for (const auto& [da, db] : neighbours)
       if (within(a + da, b + db) && !have[place(a + da, b + db)] &&
           grid_.linked(first_i + a, first_j + b, da, db))
         take(a + da, b + db);
@@ -342,7 +344,7 @@ std::optional<NetPoint> MarchedNet::from(int i, int j, double u, double v) const
         if (before[place(a, b)]) continue;
         int degree = -1, times = 0;
         Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-        for (const auto& [da, db] : ways) {
+        for (const auto& [da, db] : neighbours) {
           int known = 0;
           while (known < 4 && within(a + (known + 1) * da, b + (known + 1) * db) &&
                  before[place(a + (known + 1) * da, b + (known + 1) * db)])

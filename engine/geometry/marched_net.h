@@ -60,13 +60,14 @@ class MarchedGrid {
   bool known(int i, int j) const { return at(i, j).known; }
   /// Whether the node is computed, inside or outside a rim.
   bool present(int i, int j) const { return at(i, j).known || at(i, j).beyond > 0; }
-  /// Whether a rod connects node (i, j) to its neighbour (i + way_u, j + way_v), one of these +-1.
-  bool joined(int i, int j, int way_u, int way_v) const {
-    return way_u != 0 ? at(std::min(i, i + way_u), j).to_u : at(i, std::min(j, j + way_v)).to_v;
+  /// Whether a rod connects node (i, j) to its neighbour (i + step_u, j + step_v), one of these
+  /// +-1.
+  bool joined(int i, int j, int step_u, int step_v) const {
+    return step_u != 0 ? at(std::min(i, i + step_u), j).to_u : at(i, std::min(j, j + step_v)).to_v;
   }
   /// As joined(), or a rod's continuation outside a rim does.
-  bool linked(int i, int j, int way_u, int way_v) const {
-    return way_u != 0 ? at(std::min(i, i + way_u), j).on_u : at(i, std::min(j, j + way_v)).on_v;
+  bool linked(int i, int j, int step_u, int step_v) const {
+    return step_u != 0 ? at(std::min(i, i + step_u), j).on_u : at(i, std::min(j, j + step_v)).on_v;
   }
   /// Calls visit(i, j) for all known nodes, row by row.
   template <class Visit>
@@ -104,9 +105,10 @@ class MarchedNet final : public ChebyshevNet {
 
   /// The net at (u, v); empty if rods do not reach (u, v) without crossing a line of the mesh.
   std::optional<NetPoint> reached(double u, double v) const;
-  /// Whether a rod of length `way_mm` connects p and q: no line of the mesh is between them, and
+  /// Whether a rod of length `length_mm` connects p and q: no line of the mesh is between them, and
   /// their distance differs from the length by at most the fraction `off`.
-  bool joined(const Eigen::Vector3d& p, const Eigen::Vector3d& q, double way_mm, double off) const;
+  bool joined(const Eigen::Vector3d& p, const Eigen::Vector3d& q, double length_mm,
+              double off) const;
 
   double chord() const { return grid_.chord(); }
   /// The grid of h, with its nodes moved to the extrapolated positions.

@@ -29,8 +29,8 @@ double length_of(const Eigen::Matrix3Xd& x, const std::vector<int>& line) {
 std::vector<int> followed(const Next& next, int begin, int to) {
   std::vector<int> line{begin, to};
   while (line.back() != begin && next.at(line.back()).size() == 2) {
-    const auto& ways = next.at(line.back());
-    line.push_back(ways[0] == line[line.size() - 2] ? ways[1] : ways[0]);
+    const auto& neighbours = next.at(line.back());
+    line.push_back(neighbours[0] == line[line.size() - 2] ? neighbours[1] : neighbours[0]);
   }
   return line;
 }
@@ -44,11 +44,11 @@ Result<std::vector<MeshLine>> rims_of(const Eigen::Matrix3Xd& x, const EdgeSides
     }
   std::vector<MeshLine> rims;
   std::set<int> seen;
-  for (const auto& [begin, ways] : next) {
-    if (ways.size() != 2)
+  for (const auto& [begin, neighbours] : next) {
+    if (neighbours.size() != 2)
       return mesh_error("two parts of the mesh touch in one vertex", x.col(begin));
     if (seen.contains(begin)) continue;
-    rims.push_back({LineKind::hole, followed(next, begin, ways[0])});
+    rims.push_back({LineKind::hole, followed(next, begin, neighbours[0])});
     seen.insert(rims.back().vertices.begin(), rims.back().vertices.end());
   }
   if (!rims.empty())
@@ -112,9 +112,9 @@ std::vector<MeshLine> creases_of(const std::map<MeshEdge, double>& turns) {
       if (most >= sharp && line.vertices.size() > 2) creases.push_back(std::move(line));
     }
   };
-  for (const auto& [begin, ways] : next)
-    if (ways.size() != 2) follow(begin);
-  for (const auto& [begin, ways] : next) follow(begin);
+  for (const auto& [begin, neighbours] : next)
+    if (neighbours.size() != 2) follow(begin);
+  for (const auto& [begin, neighbours] : next) follow(begin);
   return creases;
 }
 
@@ -162,12 +162,12 @@ Barriers::Barriers(const TriangleMesh& mesh)
 std::optional<LineKind> Barriers::crossing(const Eigen::Vector3d& p, const Eigen::Vector3d& q,
                                            bool creases_alone) const {
   if (walls_.empty()) return std::nullopt;
-  const Eigen::Vector3d way = q - p;
+  const Eigen::Vector3d edge = q - p;
   // cells of two mean edges along the path
-  const int steps = std::max(1, int(std::ceil(2 * way.norm() / height_)));
+  const int steps = std::max(1, int(std::ceil(2 * edge.norm() / height_)));
   const std::vector<int>* before = nullptr;
   for (int k = 0; k <= steps; ++k) {
-    const auto* near = near_.at(p + double(k) / steps * way);
+    const auto* near = near_.at(p + double(k) / steps * edge);
     if (!near || near == before) continue;
     before = near;
     for (const int number : *near) {
@@ -176,7 +176,7 @@ std::optional<LineKind> Barriers::crossing(const Eigen::Vector3d& p, const Eigen
       const Eigen::Vector3d across = wall.normal.cross(wall.along);
       const double from = across.dot(p - wall.begin), to = across.dot(q - wall.begin);
       if ((from < 0) == (to < 0)) continue;
-      const Eigen::Vector3d at = p + from / (from - to) * way - wall.begin;
+      const Eigen::Vector3d at = p + from / (from - to) * edge - wall.begin;
       const double along = wall.along.dot(at) / wall.along.squaredNorm();
       if (along >= 0 && along <= 1 && std::abs(wall.normal.dot(at)) <= height_) return wall.kind;
     }

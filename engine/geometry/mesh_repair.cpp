@@ -121,7 +121,7 @@ struct Link {
 };
 
 /// From an edge into a triangle, at right angles to it.
-Eigen::Vector3d way_from(const Eigen::Matrix3Xd& x, const Triangle& t, int side) {
+Eigen::Vector3d edge_from(const Eigen::Matrix3Xd& x, const Triangle& t, int side) {
   const auto [a, b] = edge_of(t, side);
   const Eigen::Vector3d along = (x.col(b) - x.col(a)).normalized(),
                         to = x.col(t[std::size_t(next(next(side)))]) - x.col(a);
@@ -132,8 +132,8 @@ Eigen::Vector3d way_from(const Eigen::Matrix3Xd& x, const Triangle& t, int side)
 /// are in one plane.
 double turn_between(const Eigen::Matrix3Xd& x, const Triangles& triangles,
                     const std::array<int, 2>& a, const std::array<int, 2>& b) {
-  return way_from(x, triangles[std::size_t(a[0])], a[1])
-      .dot(way_from(x, triangles[std::size_t(b[0])], b[1]));
+  return edge_from(x, triangles[std::size_t(a[0])], a[1])
+      .dot(edge_from(x, triangles[std::size_t(b[0])], b[1]));
 }
 
 struct Sides {
@@ -190,7 +190,7 @@ std::vector<int> part(Eigen::Matrix3Xd& x, Triangles& triangles, const std::vect
 
 /// Vertices that were one and are not any more draw back a little, each into its triangles.
 void draw_apart(Eigen::Matrix3Xd& x, const Triangles& triangles, const std::vector<int>& from) {
-  constexpr double way = 1e-3;  // to the middle of its triangles
+  constexpr double inwards = 1e-3;  // to the middle of its triangles
   std::map<int, std::vector<int>> of;
   for (int t = 0; t < int(triangles.size()); ++t)
     for (const int vertex : triangles[std::size_t(t)]) of[vertex].push_back(t);
@@ -203,7 +203,7 @@ void draw_apart(Eigen::Matrix3Xd& x, const Triangles& triangles, const std::vect
     for (const int t : around)
       for (const int corner : triangles[std::size_t(t)])
         middle += old.col(corner) / double(3 * around.size());
-    x.col(vertex) += way * (middle - old.col(vertex));
+    x.col(vertex) += inwards * (middle - old.col(vertex));
   }
 }
 

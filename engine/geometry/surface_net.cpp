@@ -76,10 +76,10 @@ std::optional<Eigen::Vector3d> geodesic_chord(const Surface& surface, const Eige
   const Eigen::Vector3d sideways = surface.gradient(here).cross(along).normalized();
   return solved(surface, here + chord * along, chord,
                 [&](const auto& p, auto& residual, auto& slope) {
-                  const Eigen::Vector3d way = p - here;
-                  residual[1] = (way.squaredNorm() / chord - chord) / 2;
-                  residual[2] = sideways.dot(way);
-                  slope.row(1) = way / chord;
+                  const Eigen::Vector3d offset = p - here;
+                  residual[1] = (offset.squaredNorm() / chord - chord) / 2;
+                  residual[2] = sideways.dot(offset);
+                  slope.row(1) = offset / chord;
                   slope.row(2) = sideways;
                 });
 }
@@ -177,10 +177,10 @@ void ChordGrid::put_axis(const Axis& axis, int step_u, int step_v) {
 Result<ChordGrid> ChordGrid::make(const Surface& surface, const NetPlace& place, double chord_mm,
                                   int margin, int most) {
   const Eigen::Vector3d along_v = place.up.cross(place.along_u);
-  const std::array<Eigen::Vector3d, 4> ways{place.along_u, along_v, -place.along_u, -along_v};
+  const std::array<Eigen::Vector3d, 4> directions{place.along_u, along_v, -place.along_u, -along_v};
   std::array<Axis, 4> axes;
   for (std::size_t k = 0; k < 4; ++k) {
-    TRY(axis, geodesic(surface, place, ways[k], chord_mm, margin, most));
+    TRY(axis, geodesic(surface, place, directions[k], chord_mm, margin, most));
     axes[k] = std::move(*axis);
   }
   ChordGrid grid;

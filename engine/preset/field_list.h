@@ -120,6 +120,7 @@ class FieldList : AnyFieldList {
 
   FieldList& named(std::string key) { return rename(std::move(key)), *this; }
   FieldList& unit(std::string unit) { return all_.back().unit = std::move(unit), *this; }
+  FieldList& label(std::string label) { return all_.back().label = std::move(label), *this; }
   /// The entries of a list of numbers, such as "[i, j]": a list that is not empty has that many.
   FieldList& shape(std::string shape) { return all_.back().shape = std::move(shape), *this; }
   FieldList& colour() { return all_.back().colour = true, *this; }

@@ -172,6 +172,17 @@ class Reader {
   /// Whether the error is complete, as of a file.
   bool reported_in_full() const { return reported_in_full_; }
 
+  /// How an outline is read, if the name of a drawing is given for its points or its kind.
+  std::string drawing_hint(const std::string& name) const {
+    const bool boundary = field_.key == "boundary" || field_.key == "points_mm";
+    const auto dot = name.rfind('.');
+    const std::string ending = dot == std::string::npos ? "" : name.substr(dot);
+    return boundary && (ending == ".dxf" || ending == ".svg" || ending == ".obj")
+               ? fmt::format("; an outline is drawn in file = \"{}\" with boundary = \"file\"",
+                             name)
+               : "";
+  }
+
  private:
   std::string read(const toml::node& value, double& number) const {
     const auto real = real_of(value);
@@ -234,7 +245,7 @@ class Reader {
         return points_in(bytes, file, field_.coordinates, field_.coordinate_words);
       };
       if (auto wrong = read_file_of(name->get(), read_rows, largest_text, points); !wrong.empty())
-        return wrong;
+        return wrong + drawing_hint(name->get());
       report(name->get(),
              fmt::format("{} points: {}", points.size(), fmt::join(field_.coordinates, ", ")));
       const auto wrong = points_error(points);
@@ -337,7 +348,8 @@ std::string assign(const Field& field, const toml::node& value, Preset& preset,
     return wrong;
   std::string text = wrong + ", expected " + allowed(field);
   if (field.as_word(preset) && value.is_string())
-    text += did_you_mean(value.as_string()->get(), field.words);
+    text += did_you_mean(value.as_string()->get(), field.words) +
+            reader.drawing_hint(value.as_string()->get());
   return text;
 }
 

@@ -69,9 +69,10 @@ struct Field {
   std::string meaning;  ///< one sentence without a full stop
   /// the member, of an item of a list of tables or, below 0, of the last
   std::function<Member(Preset& preset, int item)> in;
-  Range range = {};                                             ///< of numbers
-  std::string shape = {};                                       ///< of a list: "[x, y, z]"
-  bool colour = false;                                          ///< of a text
+  Range range = {};        ///< of numbers
+  std::string label = {};  ///< what a control of it is called; empty: as the key, without its unit
+  std::string shape = {};  ///< of a list: "[x, y, z]"
+  bool colour = false;     ///< of a text
   std::vector<std::string> words = {};                          ///< of an enum
   std::vector<std::string> coordinates = {};                    ///< of points: their names
   std::vector<std::vector<std::string>> coordinate_words = {};  ///< of those that are no numbers

@@ -174,7 +174,9 @@ void add_loads(FieldList<Loads> list) {
 
 void add_area_loads(FieldList<Loads> list) {
   const auto idle = [&list](auto factor) {
-    list.unused({"[[loads.case]] name"}, "no [[loads.case]] has any of it",
+    list.unused({"[[loads.case]] name"},
+                "no [[loads.case]] has a factor of it; a case has a name and factors, such as "
+                "snow = 1.0",
                 [=](const Preset& preset) {
                   return std::ranges::none_of(
                       preset.load_case, [&](const LoadCase& one) { return one.*factor != 0; });

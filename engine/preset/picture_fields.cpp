@@ -22,8 +22,10 @@ void add_movie(FieldList<Movie> list) {
   list.add<&M::quality>(
       "draft: no shadow; movie: a soft shadow; figure: many passes with jittered light");
   list.add<&M::colour_by>(
-          "cells by K, its change since the first frame, or their deviation over rho; rods by "
-          "displacement over depth, bending energy over length, axial force, stress or utilisation")
+          "cells by K, its change or their deviation over rho; rods by "
+          "displacement over depth, bending energy over length, axial force, stress, utilisation "
+          "or "
+          "the angle of their joints")
       .refused({"[footprint] kind"},
                "\"deviation\" is measured from the net of a footprint, expected another value, or "
                "[footprint] kind = \"net\" or \"blocks\"",

@@ -20,7 +20,8 @@ enum class ColourBy {
   energy,
   axial_force,
   stress,
-  utilisation
+  utilisation,
+  joint_angle
 };
 enum class View { free, front, side, top, corner, push };
 enum class Pace { even, eased, height };

@@ -57,9 +57,10 @@ struct Joints {
   double shear_Nmm = 0;           ///< per rad of change of the crossing angle
   double twist_Nmm = 0;  ///< per rad of rotation about axes perpendicular to the joint's normal
   double eccentricity_mm = 0;  ///< height of the second rod's axis above the first's
-  double diameter_mm = 3;      ///< of the joint's cylinder, whose top a scan sees
-  double height_mm = 5;        ///< height of its top above the crossing of the rods
-  double mass_g = 0;           ///< of each joint, in addition to its rods
+  /// Diameter of the joint's cylinder, whose top a scan sees; none: as the rods are thick.
+  std::optional<double> diameter_mm;
+  std::optional<double> height_mm;  ///< of the cylinder's top above the crossing of the rods
+  double mass_g = 0;                ///< of each joint, in addition to its rods
 };
 
 enum class Rings { pinned, free };

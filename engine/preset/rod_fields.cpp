@@ -23,9 +23,10 @@ void add_rods(FieldList<Rod> rods, const std::string& table) {
                        spacing)
                  : "";
     });
-  rods.add<&Rod::young_GPa>(above(0), "Young's modulus E");
+  rods.add<&Rod::young_GPa>(above(0), "Young's modulus E").label("Young's modulus");
   rods.add<&Rod::shear_GPa>(
-      at_least(0), "shear modulus G; 0: not given, which is enough where no rod is twisted");
+          at_least(0), "shear modulus G; 0: not given, which is enough where no rod is twisted")
+      .label("shear modulus");
   rods.add<&Rod::density_kg_m3>(
       at_least(0), "density; 0: not given, which is enough without gravity and motion");
   rods.add<&Rod::strength_MPa>(at_least(0),
@@ -150,11 +151,14 @@ void add_joints(FieldList<Joints> joints) {
           "axes at a distance are connected by a bolt, expected 0, or [joints] kind = \"shared\"",
           [=](const Joints& of) { return eccentric(of) && of.kind == JointKind::spring; })
       .needs_equilibrium("a net's rods cross in a point", eccentric);
-  joints.add<&Joints::diameter_mm>(above(0),
-                                   "diameter of the joint's cylinder, whose top a scan sees");
+  joints.add<&Joints::diameter_mm>(
+      above(0),
+      "diameter of the joint's cylinder, whose top a scan sees; \"none\": 3 mm, or 1.5 times the "
+      "thickest rod (of laths the smaller side) if larger");
   joints.add<&Joints::height_mm>(
       at_least(0),
-      "height of the cylinder's top above the rods' crossing, along the shell's normal");
+      "height of the cylinder's top above the rods' crossing, along the shell's normal; \"none\": "
+      "5 mm, or 1.5 times the thickest rod (of laths the smaller side) if larger");
   joints.add<&Joints::mass_g>(
       at_least(0), "mass of each joint, in addition to that of its rods, for gravity and motion");
 }

@@ -10,7 +10,7 @@ using Kinds = FootprintKind;
 bool is_circle(const Preset& preset) { return preset.footprint.kind == Kinds::circle; }
 bool is_curve(const Preset& preset) { return preset.footprint.kind == Kinds::curve; }
 
-/// A radius of a circle that another key may give, for a message.
+/// Text of a message about a circle's radius: with its symbol if the key gives it indirectly.
 std::string radius_text(const char* key, const char* name, double radius) {
   return std::string(key).ends_with("radius_mm") ? fmt::format("{} = {}", key, radius)
                                                  : fmt::format("{} = {} by {}", name, radius, key);
@@ -22,7 +22,7 @@ std::string original_text(const Preset& preset) {
       preset.original_radius_mm());
 }
 
-/// A closed curve, where a footprint is one.
+/// The keys of a closed curve: of a footprint's boundary or of the actuated one.
 void add_curve(FieldList<Curve> curve, const std::string& meaning) {
   curve.add<&Curve::kind>(meaning).named("boundary");
   const auto ellipses = {CurveKind::ellipse, CurveKind::superellipse};
@@ -45,7 +45,8 @@ void add_curve(FieldList<Curve> curve, const std::string& meaning) {
       });
 }
 
-/// The key of a circle's radius is outside the table of the curve and also belongs to it.
+/// Rules for the key of a circle's radius, which a footprint of kind "circle" uses and a curve
+/// whose boundary is a circle; the key `label` replaces it.
 template <class Struct>
 void radius_rules(FieldList<Struct>& list, Curve Struct::*boundary, double Struct::*other,
                   const std::string& label) {
@@ -106,6 +107,11 @@ void add_footprint(std::vector<Field>& all) {
                               return row[1] != 0 || row[2] != 0;
                             });
                    })
+      .needs_twist(
+          "the file is one closed rod (if it is an outline: kind = \"curve\", boundary = \"file\")",
+          [=](const Footprint& of) {
+            return network(of) && of.file.rods.size() == 1 && has_closed_rods(of.file);
+          })
       .needs_twist("rods that are closed have no ends that could spin",
                    [=](const Footprint& of) { return network(of) && has_closed_rods(of.file); })
       .needs_twist("clamped ends of the file prescribe the rods' twist angle",
@@ -131,16 +137,19 @@ void add_footprint(std::vector<Field>& all) {
       .used_by(&Footprint::kind, {Kinds::network})
       .refused({"file"}, of_a_file, [=](const Footprint& of) { return network(of) && of.linkage; });
   list.add<&Footprint::rods>(between(1, 500), "rods per direction in a circle, n")
+      .label("rods per direction")
       .used_by(&Footprint::kind, {Kinds::circle});
-  list.add<&Footprint::radius_mm>(above(0), "radius of a circle, R_o");
+  list.add<&Footprint::radius_mm>(above(0), "radius of a circle, R_o").label("radius Rₒ");
   radius_rules(list, &Footprint::boundary, &Footprint::longest_leg, "[footprint] longest_leg");
   list.add<&Footprint::longest_leg>(between(0, 1000),
                                     "L_d of a circle, instead of `radius_mm`: longest leg over d; "
                                     "R_o = d (L_d + (n - 1)/2); 0: not given")
+      .label("longest leg over d")
       .used_by(&Footprint::kind, {Kinds::circle});
   const char* in_the_file =
       "of a footprint of kind \"network\" the file says where rods and joints lie";
   list.add<&Footprint::spacing_mm>(above(0), "distance between neighbouring rods, d")
+      .label("spacing d")
       .unused({"kind"}, in_the_file, network);
   list.add<&Footprint::placement>("rods at u = (i + 1/2) d, or at u = i d with one on each axis")
       .unused({"kind"}, in_the_file, network);
@@ -158,6 +167,7 @@ void add_actuation(std::vector<Field>& all) {
   };
   list.add<&Actuation::radius_mm>(above(0),
                                   "radius of the actuated boundary of a circle, R_a, at most R_o")
+      .label("radius Rₐ")
       .unused({"scale"}, scaled, by_scale)
       .refused({"[footprint] radius_mm", "[footprint] longest_leg"}, [](const Preset& preset) {
         return is_circle(preset) && preset.actuated_radius_mm() > preset.original_radius_mm()
@@ -167,6 +177,7 @@ void add_actuation(std::vector<Field>& all) {
   radius_rules(list, &Actuation::boundary, &Actuation::ratio, "[actuation] ratio");
   list.add<&Actuation::ratio>(between(0, 1),
                               "R_a/R_o of a circle, instead of `radius_mm`; 0: not given")
+      .label("Rₐ/Rₒ")
       .used_by_footprint({Kinds::circle});
   list.add<&Actuation::start>(
           "\"flat\": along the path from the flat grid; \"net\": directly to the equilibrium near "

@@ -145,6 +145,29 @@ Eigen::VectorXd bending_of_nodes_mJ_per_m(const Layout& layout, const Frame& fra
   return bending;
 }
 
+Eigen::VectorXd joint_angle_of_nodes_deg(const Layout& layout, const Frame& frame) {
+  if (!frame.angle_deg.array().isFinite().any()) return {};
+  Eigen::VectorXd of_joints = Eigen::VectorXd::Constant(frame.nodes.cols(), NAN);
+  for (std::size_t k = 0; k < layout.joints.size(); ++k) {
+    const double angle = frame.angle_deg[Eigen::Index(k)];
+    of_joints[layout.joints[k].node] = angle;
+    if (!layout.above.empty()) of_joints[layout.above[k]] = angle;
+  }
+  Eigen::VectorXd at_nodes = of_joints;
+  for (const std::vector<int>& rod : layout.rods) {
+    std::vector<std::size_t> known;
+    for (std::size_t k = 0; k < rod.size(); ++k)
+      if (std::isfinite(of_joints[rod[k]])) known.push_back(k);
+    for (std::size_t k = 0, next = 0; !known.empty() && k < rod.size(); ++k) {
+      while (next + 1 < known.size() && known[next] < k) ++next;
+      const std::size_t b = known[next], a = next > 0 ? known[next - 1] : b;
+      const double part = a == b ? 1 : std::min(1.0, double(k - a) / double(b - a));
+      at_nodes[rod[k]] = part * of_joints[rod[b]] + (1 - part) * of_joints[rod[a]];
+    }
+  }
+  return at_nodes;
+}
+
 Eigen::VectorXd deviation_of_nodes(const Layout& layout, const Frame& frame) {
   const Eigen::Index nodes = std::min(frame.nodes.cols(), layout.net_nodes.cols());
   if (!has_net(layout)) return {};

@@ -44,6 +44,11 @@ Eigen::VectorXd stress_of_nodes_MPa(const Layout& layout, const Frame& frame,
 /// it, else of those that end there. Empty where the run did not record it.
 Eigen::VectorXd bending_of_nodes_mJ_per_m(const Layout& layout, const Frame& frame);
 
+/// Angle between the two rods of joints with laws or springs, degrees, at each node of the frame:
+/// along a rod linear in the points from joint to joint, constant past the last; NaN on rods
+/// without such a joint. Empty if no joint has an angle.
+Eigen::VectorXd joint_angle_of_nodes_deg(const Layout& layout, const Frame& frame);
+
 // How far a frame lies from the net it was designed on, as its run recorded both.
 
 /// Whether a run has a net to lie off.

@@ -13,7 +13,6 @@ namespace gridshell::exports {
 namespace {
 
 constexpr std::size_t most_shapes = 60, most_model_bytes = 20'000'000;
-constexpr double joint_radius_mm = 1.5;  // of the paper's joints
 
 // numbers of the format
 constexpr int type_float = 5126, type_uint = 5125, for_vertices = 34962, for_indices = 34963;
@@ -233,7 +232,8 @@ class Gltf {
 
   /// One sphere per joint, at the first of its positions.
   void add_joints(const std::vector<Eigen::Matrix3Xd>& places) {
-    json_["meshes"].push_back(MorphingMesh("joint", ball(joint_radius_mm), 1, buffer_).mesh({}));
+    const double radius_mm = 0.5 * layout_.joint_diameter_mm;
+    json_["meshes"].push_back(MorphingMesh("joint", ball(radius_mm), 1, buffer_).mesh({}));
     const std::size_t mesh = json_["meshes"].size() - 1;
     for (std::size_t k = 0; k < layout_.joints.size(); ++k) {
       const Eigen::Vector3d at = places.front().col(Eigen::Index(k));
@@ -261,10 +261,10 @@ class Gltf {
     };
     for (const int node : morphing_) add(node, "weights", output);
     for (std::size_t k = 0; k < moving_.size(); ++k) {
-      Eigen::Matrix3Xd way(3, Eigen::Index(keys));
+      Eigen::Matrix3Xd positions(3, Eigen::Index(keys));
       for (std::size_t key = 0; key < keys; ++key)
-        way.col(Eigen::Index(key)) = places[key].col(Eigen::Index(k));
-      add(moving_[k], "translation", buffer_.vectors(way, 0));
+        positions.col(Eigen::Index(key)) = places[key].col(Eigen::Index(k));
+      add(moving_[k], "translation", buffer_.vectors(positions, 0));
     }
     json_["animations"] =
         Json::array({{{"name", "run"}, {"samplers", samplers}, {"channels", channels}}});

@@ -48,8 +48,8 @@ class ShapeContacts {
     bool any = false;
 
     bool reported(double at_a, double at_b) const {
-      const double way = std::abs(at_b - at_a);
-      if (std::min(way, round - way) < apart) return false;
+      const double distance = std::abs(at_b - at_a);
+      if (std::min(distance, round - distance) < apart) return false;
       for (int k = 0; k < joints; ++k)
         if (std::abs(at_a - joint[k].at_a) <= joint[k].within &&
             std::abs(at_b - joint[k].at_b) <= joint[k].within)

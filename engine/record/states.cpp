@@ -166,6 +166,7 @@ std::vector<std::size_t> states_to_draw(const std::vector<StateRow>& rows, int m
     if (int(chosen.size()) < most && std::ranges::find(chosen, k) == chosen.end())
       chosen.push_back(k);
   };
+  if (!rows.empty()) choose(0);
   for (const auto& [kind, word] : words_of<StateClass>()) {
     const auto first = std::ranges::find(rows, kind, &StateRow::kind);
     if (kind != StateClass::other && first != rows.end()) choose(std::size_t(first - rows.begin()));

@@ -152,8 +152,9 @@ struct StateTables {
   std::vector<Barrier> barriers;
 };
 
-/// Which of the states are drawn: of each of the paper's classes the lowest in energy, then those
-/// met most often, `most` in all. Indices of `rows`, ascending.
+/// Which of the states, given in the order of energy, are drawn: the lowest of all, the lowest of
+/// each of the paper's classes, then those met most often, `most` in all. Indices of `rows`,
+/// ascending.
 std::vector<std::size_t> states_to_draw(const std::vector<StateRow>& rows, int most);
 
 inline constexpr const char* states_name = "states.csv";

@@ -144,8 +144,9 @@ struct LoadedJoint {
 struct Layout {
   double spacing_mm = 0;
   double rod_diameter_mm = 0;
-  /// Size of the joints' cylinders; the height is measured above the rods' crossing; 0: not known.
-  double joint_diameter_mm = 0, joint_height_mm = 0;
+  /// Size of the joints' cylinders; the height is measured above the rods' crossing. Runs of 0.1 do
+  /// not contain it: the paper's.
+  double joint_diameter_mm = 3, joint_height_mm = 5;
   double table_mm = unknown;  ///< height of the plane that no rod passes; NaN: there is none
   /// Diameter of each rod, for other sections that of a circle of equal area; empty: all
   /// rod_diameter_mm.

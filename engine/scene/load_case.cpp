@@ -45,22 +45,22 @@ struct Graph {
 
   void sort_around(int node) {
     std::ranges::sort(beside[std::size_t(node)], {}, [&](int other) {
-      const Eigen::Vector3d way = place.col(other) - place.col(node);
-      return std::atan2(way.y(), way.x());
+      const Eigen::Vector3d edge = place.col(other) - place.col(node);
+      return std::atan2(edge.y(), edge.x());
     });
   }
 };
 
 /// The nodes of the face to the left of the edge from a to b, back to a.
 std::vector<int> walk(const Graph& graph, int a, int b, std::set<std::pair<int, int>>& walked) {
-  std::vector<int> way;
+  std::vector<int> chain;
   while (walked.insert({a, b}).second) {
-    way.push_back(a);
+    chain.push_back(a);
     const std::vector<int>& around = graph.beside[std::size_t(b)];
     const auto back = std::ranges::find(around, a);
     a = std::exchange(b, *(back == around.begin() ? around.end() - 1 : back - 1));
   }
-  return way;
+  return chain;
 }
 
 using FaceSide = std::array<int, 2>;
@@ -163,18 +163,18 @@ std::vector<Face> faces_of(const Footprint& footprint) {
   std::set<std::pair<int, int>> walked;
   for (int a = 0; a < int(graph.beside.size()); ++a)
     for (const int b : graph.beside[std::size_t(a)]) {
-      std::vector<int> way = walk(graph, a, b, walked);
-      const auto first = std::ranges::find_if(way, is_edge_point);
-      if (way.empty()) continue;
-      if (first == way.end()) {
-        keep(way, false);
+      std::vector<int> chain = walk(graph, a, b, walked);
+      const auto first = std::ranges::find_if(chain, is_edge_point);
+      if (chain.empty()) continue;
+      if (first == chain.end()) {
+        keep(chain, false);
         continue;
       }
-      std::rotate(way.begin(), first, way.end());
-      way.push_back(way.front());
-      for (std::size_t from = 0, k = 1; k < way.size(); ++k) {
-        if (!is_edge_point(way[k])) continue;
-        keep({way.begin() + std::ptrdiff_t(from), way.begin() + std::ptrdiff_t(k) + 1}, true);
+      std::rotate(chain.begin(), first, chain.end());
+      chain.push_back(chain.front());
+      for (std::size_t from = 0, k = 1; k < chain.size(); ++k) {
+        if (!is_edge_point(chain[k])) continue;
+        keep({chain.begin() + std::ptrdiff_t(from), chain.begin() + std::ptrdiff_t(k) + 1}, true);
         from = k;
       }
     }

@@ -93,11 +93,11 @@ Result<std::vector<preset::Rod>> rods_of(const preset::Preset& preset, const Foo
 }
 
 /// How a rod runs through a joint as drawn.
-Eigen::Vector3d way_through(const FootprintRod& rod, int joint) {
+Eigen::Vector3d tangent_through(const FootprintRod& rod, int joint) {
   const auto at = std::ranges::find(rod.joints, joint) - rod.joints.begin();
   const double mark = rod.marks[std::size_t(at)], near = 1e-6 * (rod.span.end - rod.span.begin);
-  return rod.way(std::max(mark - near, rod.span.begin)) +
-         rod.way(std::min(mark + near, rod.span.end));
+  return rod.tangent_in_space(std::max(mark - near, rod.span.begin)) +
+         rod.tangent_in_space(std::min(mark + near, rod.span.end));
 }
 
 /// The rods at each joint; a rod that is there twice counts once.
@@ -125,8 +125,8 @@ Result<void> check_crossings(Scene& scene) {
       here.eccentricity *= -1;
     for (const FootprintRod* a : rods[std::size_t(joint)])
       for (const FootprintRod* b : rods[std::size_t(joint)]) {
-        const Eigen::Vector3d t = way_through(*a, joint).normalized(),
-                              s = way_through(*b, joint).normalized();
+        const Eigen::Vector3d t = tangent_through(*a, joint).normalized(),
+                              s = tangent_through(*b, joint).normalized();
         if (a < b && t.cross(s).norm() < 1e-3)
           return invalid(
               "joint [{}, {}]: rods[{}] and rods[{}] have equal directions there, expected rods "
@@ -143,7 +143,10 @@ Result<void> put_rods(const preset::Preset& preset, Scene& scene) {
   const Footprint& footprint = scene.footprint;
   const preset::Loads& loads = preset.loads;
   TRY(rods, rods_of(preset, footprint));
+  double deepest_mm = 0;
   for (const preset::Rod& rod : *rods) {
+    deepest_mm = std::max(
+        deepest_mm, rod.rectangular() ? std::min(rod.width_mm, rod.thickness_mm) : rod.diameter_mm);
     scene.diameters_mm.push_back(rod.diameter_mm);
     scene.drawn_diameters_mm.push_back(drawn_diameter_of(rod));
     const bool lath = rod.rectangular();
@@ -157,6 +160,9 @@ Result<void> put_rods(const preset::Preset& preset, Scene& scene) {
     if (loads.gravity_m_s2 != 0 || loads.field_N_per_mm != 0)
       scene.rods.weight_N_per_mm.push_back(1e3 * loads.gravity_m_s2 * mass + loads.field_N_per_mm);
   }
+  // the paper's joints, for rods of 0.254 mm; those of thick rods are as large as these need
+  scene.joint_diameter_mm = preset.joints.diameter_mm.value_or(std::max(3.0, 1.5 * deepest_mm));
+  scene.joint_height_mm = preset.joints.height_mm.value_or(std::max(5.0, 1.5 * deepest_mm));
   scene.joint_mass_t = 1e-6 * preset.joints.mass_g;
   scene.rods.joint_weight_N = 1e3 * loads.gravity_m_s2 * scene.joint_mass_t;
   if (std::ranges::count(scene.strength_MPa, 0) > 0) scene.strength_MPa.clear();
@@ -169,7 +175,7 @@ Result<void> put_rods(const preset::Preset& preset, Scene& scene) {
                        preset.joints.twist_Nmm};
   if (preset.contact.model == preset::ContactModel::barrier) {
     scene.rods.contact = {
-        {preset.contact.gap_mm, preset.contact.stiffness_N_per_mm}, {}, preset.joints.diameter_mm};
+        {preset.contact.gap_mm, preset.contact.stiffness_N_per_mm}, {}, scene.joint_diameter_mm};
     for (const double diameter : scene.drawn_diameters_mm)
       scene.rods.contact.radius_mm.push_back(0.5 * diameter);
   }

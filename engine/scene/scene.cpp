@@ -85,9 +85,10 @@ Result<void> hold_directions(const Eigen::Matrix2Xd& ends, Scene& scene) {
   for (Eigen::Index k = 0; k < ends.cols(); ++k) {
     const FootprintRod& rod = scene.footprint.rods[std::size_t(k / 2)];
     if (!holds_direction(k % 2 == 0 ? rod.begin : rod.end)) continue;
-    const Eigen::Vector3d way = rod.way(k % 2 == 0 ? rod.span.begin : rod.span.end);
+    const Eigen::Vector3d tangent =
+        rod.tangent_in_space(k % 2 == 0 ? rod.span.begin : rod.span.end);
     scene.motion.begin_tangent.col(k) =
-        scene.flat.axes * way.head<2>() + way.z() * Eigen::Vector3d::UnitZ();
+        scene.flat.axes * tangent.head<2>() + tangent.z() * Eigen::Vector3d::UnitZ();
     scene.motion.end_tangent.col(k) = scene.motion.begin_tangent.col(k);
     if (!scene.net) continue;
     TRY(point, scene.net->at(ends(0, k), ends(1, k)));
@@ -187,8 +188,6 @@ Result<Scene> scene_of(const preset::Preset& preset) {
   scene.max_strain = preset.limits.max_strain;
   scene.max_bending_strain = preset.limits.max_bending_strain;
   scene.max_utilisation = preset.limits.max_utilisation;
-  scene.joint_diameter_mm = preset.joints.diameter_mm;
-  scene.joint_height_mm = preset.joints.height_mm;
   scene.stops_at_contact = preset.limits.contact == preset::OnContact::stop;
   scene.table = preset.limits.table;
   scene.snap = {preset.dynamics.snap, preset.dynamics.step_s, preset.dynamics.damping_per_s};

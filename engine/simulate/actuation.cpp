@@ -8,6 +8,7 @@
 #include "engine/core/system_info.h"
 #include "engine/core/try.h"
 #include "engine/elastic/model.h"
+#include "engine/simulate/branch_switch.h"
 #include "engine/simulate/first_state.h"
 #include "engine/simulate/frames.h"
 #include "engine/simulate/mesh_policy.h"
@@ -69,8 +70,8 @@ bool leads_to(EquilibriumPath& path, const Checkpoint& first, const Watch& watch
   return same;
 }
 
-/// For the current state next to the flat: of the state and its mirror images, which are
-/// equivalent, selects the one whose diagonal is lower according to the seed.
+/// Selects, from the current state and its mirror images, which are equivalent, the one whose
+/// diagonal is lower according to the seed; from several, the one on the imperfection's side.
 void turn_to_seed(Simulation& simulation, const Watch& watch) {
   const NestedShell& shell = simulation.shell();
   const RodMesh& mesh = shell.finest();
@@ -79,12 +80,20 @@ void turn_to_seed(Simulation& simulation, const Watch& watch) {
   const double t = shell.state().t, diagonal = simulation.scene().seed.diagonal;
   const Checkpoint here = simulation.save();
   const Eigen::Matrix3Xd nodes = shell.state().levels.back().x.leftCols(model.nodes);
+  const Eigen::Matrix3Xd side = departure_of(simulation.scene(), mesh, model).start;
+  const auto along_side = [&](const Eigen::Matrix3Xd& x) {
+    return side.size() > 0 ? product(side.leftCols(mesh.joints), x.leftCols(mesh.joints)) : 0;
+  };
   Eigen::Matrix3Xd best = nodes;
   for (const MeshSymmetry& symmetry :
        symmetries_of_shell(simulation.scene(), mesh, symmetries_of(mesh, shell.motion().at(t)))) {
+    constexpr double equal_mm = 1e-6;
     const Eigen::Matrix3Xd image = symmetry.of(nodes);
+    const double lower =
+        diagonal * (lower_on_diagonal(mesh, image) - lower_on_diagonal(mesh, best));
+    const bool same = std::abs(lower) <= equal_mm;
     if (!symmetry.turns_over() &&
-        diagonal * (lower_on_diagonal(mesh, image) - lower_on_diagonal(mesh, best)) > 1e-6)
+        (lower > equal_mm || (same && along_side(image) - along_side(best) > 1e-3)))
       best = image;
   }
   if (best != nodes &&
@@ -118,6 +127,7 @@ void follow_from_flat(EquilibriumPath& path, const Checkpoint& first, double to,
     }
   }
   simulation.restore(first);
+  if (!connected) turn_to_seed(simulation, watch);
   if (to >= first.state.t) follow_segment(path, to, {}, watch);
 }
 

@@ -8,8 +8,8 @@
 namespace gridshell {
 namespace {
 
-constexpr double locate_mm = 5e-3;  // of prescribed move: to which a limit is located
-constexpr double loads_ways = 4;    // of the loads, what counts as the length scale of a move
+constexpr double locate_mm = 5e-3;       // of prescribed move: to which a limit is located
+constexpr double fraction_of_loads = 4;  // of the loads, what counts as the length scale of a move
 
 }  // namespace
 
@@ -102,17 +102,18 @@ double Simulation::Walk::parameter_scale(double t) const {
   const double boundary = scene_.length_scale_mm / std::max(shell_.reach_mm() * speed, 0.1);
   const double rate = std::abs(speed * motion.load.change);
   if (rate == 0 || shell_.model().loads.empty()) return boundary;
-  return std::min(boundary, loads_ways * std::abs(motion.factor_at(motion.load, t)) / rate);
+  return std::min(boundary, fraction_of_loads * std::abs(motion.factor_at(motion.load, t)) / rate);
 }
 
 /// The branch ended: the next equilibrium a little further on, where it is far enough from the
 /// event to be found.
 bool Simulation::Walk::leave(Event& event, std::vector<TimedState>& moments) {
   const PathPoint last = shell_.followed();
-  const double way = to_ > last.t ? 1 : -1;
-  for (double beyond = 1e-3; beyond < 0.1; beyond *= 2) {
-    double there = last.t + way * beyond * parameter_scale(last.t);
-    if (way * (there - to_) > 0) there = to_;
+  const double sign = to_ > last.t ? 1 : -1;
+  const double scale = parameter_scale(last.t);
+  for (double beyond = 1e-3 * std::min(scale, 1.0); beyond < 0.1 * scale; beyond *= 2) {
+    double there = last.t + sign * beyond;
+    if (sign * (there - to_) > 0) there = to_;
     moments.clear();
     const auto rest =
         rest_after_bifurcation(shell_, scene_, last, event.kind, there, moments, watch_);

@@ -242,9 +242,9 @@ std::vector<ContactEvent> contact_events(const EquilibriumPath& path, const At& 
         events.push_back(bracket.event(s, scene.footprint, at));
       }
     }
-    const double way = segment.back ? -segment.sign() : segment.sign();
+    const double sign = segment.back ? -segment.sign() : segment.sign();
     std::ranges::stable_sort(events.begin() + long(first), events.end(), {},
-                             [way](const ContactEvent& event) { return way * event.t; });
+                             [sign](const ContactEvent& event) { return sign * event.t; });
   }
   return events;
 }

@@ -20,10 +20,10 @@ const LoadStep& load_step_after(const PathSegment& segment, double t) {
 
 /// Whether no event lies between consecutive load steps, whatever their stability.
 bool on_one_branch(const PathSegment& segment, const LoadStep& a, const LoadStep& b) {
-  const double way = segment.sign(), from = way * a.point.t, to = way * b.point.t;
+  const double sign = segment.sign(), from = sign * a.point.t, to = sign * b.point.t;
   return from < to && std::ranges::none_of(segment.report.events, [&](const Event& event) {
            const double lost = event.placed.t;
-           const auto [begin, end] = std::minmax({way * lost, way * event.to.value_or(lost)});
+           const auto [begin, end] = std::minmax({sign * lost, sign * event.to.value_or(lost)});
            return begin < to && end > from;
          });
 }
@@ -231,23 +231,23 @@ void set_limit(EquilibriumPath& path, const At& at) {
   for (const PathSegment& segment : path.segments) {
     const auto ended = limit_of(segment.report.end);
     if (ended != record::Limit::none) {
-      const bool on_its_way = segment.back && !at_limit(segment.report.end);
-      path.limit = on_its_way ? record::Limit::no_equilibrium : ended;
+      const bool going_back = segment.back && !at_limit(segment.report.end);
+      path.limit = going_back ? record::Limit::no_equilibrium : ended;
       path.limit_reason = how_it_ended(segment, path.simulation.scene().max_strain, at);
       break;
     }
-    const char* way = segment.back ? "on the path back to the flat " : "";
+    const char* on_path = segment.back ? "on the path back to the flat " : "";
     const auto branches = branch_loss_places({&segment, 1}, at, false);
     if (!branches.empty())
       reported += fmt::format(
           "{}{}the path branches {} and continues without a snap to the side that the imperfection "
           "chose",
-          reported.empty() ? "" : "; ", way, branches);
+          reported.empty() ? "" : "; ", on_path, branches);
     const auto places = branch_loss_places({&segment, 1}, at);
     if (places.empty() || path.limit != record::Limit::none) continue;
     path.limit = record::Limit::snap;
     reported += fmt::format("{}{}the path lost its stability {} and reached another equilibrium",
-                            reported.empty() ? "" : "; ", way, places);
+                            reported.empty() ? "" : "; ", on_path, places);
   }
   if (path.limit_reason.empty()) path.limit_reason = reported;
   if (path.mesh_disagreement.empty()) return;

@@ -61,13 +61,17 @@ Result<void> fits_memory(const Scene& scene, const LevelPlan& plan) {
   const double needed = memory_GB(scene.footprint, scene.rod_model, plan);
   if (given == 0 || needed <= given) return {};
   const int edges = plan.edges_per_segment.back();
+  // a drawing in metres with the spacing of a model
+  const auto& rods = scene.footprint.rods;
+  const bool many = rods.size() > 400 && rods.front().number < 0;
   return invalid(
-      "{} edges per segment, {:.3g} unknowns, take about {:.2g} GB, more than the {:.2g} "
-      "GB of {}; {} needs less",
-      edges, unknowns_of(scene.footprint, scene.rod_model, edges), needed, given,
+      "{} rods of {} edges per segment, {:.3g} unknowns, take about {:.2g} GB, more than the "
+      "{:.2g} GB of {}; {}{} needs less",
+      rods.size(), edges, unknowns_of(scene.footprint, scene.rod_model, edges), needed, given,
       limit > 0 ? "[accuracy] memory_GB"
                 : "half of the machine's memory ([accuracy] "
                   "memory_GB changes that)",
+      many ? fmt::format("a [footprint] spacing_mm above {:g} or ", scene.footprint.spacing) : "",
       scene.edges_per_segment > 0 ? "a smaller [accuracy] edges_per_segment"
                                   : "a larger [accuracy] tolerance");
 }
@@ -163,12 +167,12 @@ double expected_seconds(const Scene& scene, const preset::Preset& preset) {
     to_begin = preset.step.empty() ? 1 : 0.5;
   else if (scene.imperfection.chooses())
     to_begin = network ? 1.6 : 3;
-  const double ways = to_begin + 3 * double(moves);
+  const double paths = to_begin + 3 * double(moves);
   const std::vector<int> shares = frames_of_steps(preset.step, preset.movie.frames);
   const int frames =
       shares.empty() ? preset.movie.frames : std::accumulate(shares.begin(), shares.end(), 1);
   return start_s + frame * frames +
-         (ways * factorisations_of(scene, preset.footprint) + build * double(builds)) * all *
+         (paths * factorisations_of(scene, preset.footprint) + build * double(builds)) * all *
              (unit.assembly + unit.factorisation);
 }
 

@@ -65,11 +65,11 @@ const FramesBetween::Knot* FramesBetween::knot_at(std::size_t step, int quarter,
 std::optional<FramesBetween::Window> FramesBetween::window_at(const PathSegment& segment,
                                                               double t) {
   const auto& steps = segment.load_steps;
-  const double way = segment.sign();
+  const double sign = segment.sign();
   std::size_t k = 0;
-  while (k + 2 < steps.size() && way * (steps[k + 1].point.t - t) <= 0) ++k;
-  if (steps.size() < 2 || !(way * (t - steps[k].point.t) > 0) ||
-      !(way * (steps[k + 1].point.t - t) > 0) || !smooth(segment, k))
+  while (k + 2 < steps.size() && sign * (steps[k + 1].point.t - t) <= 0) ++k;
+  if (steps.size() < 2 || !(sign * (t - steps[k].point.t) > 0) ||
+      !(sign * (steps[k + 1].point.t - t) > 0) || !smooth(segment, k))
     return {};
   std::size_t first = k, last = k + 1;
   for (std::size_t size = 0; size != last - first;) {

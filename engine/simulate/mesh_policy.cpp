@@ -26,6 +26,11 @@ std::optional<std::string> not_confirmed(const PathSegment& segment, int compani
       return fmt::format("{} edges per segment do not have the event at path parameter {:.3f}",
                          companion, event.t);
   for (const LoadStep& step : segment.load_steps) {
+    if (!step.stability_confirmed && !near_event(segment, step.point.t))
+      return fmt::format(
+          "stability at path parameter {:.3f}: the lowest stiffness there differs by more than "
+          "itself from that of {} edges per segment",
+          step.point.t, companion);
     const bool last = &step == &segment.load_steps.back();
     if (std::isnan(step.certificate.error_estimate_mm) && step.certificate.stable() &&
         (last || !near_event(segment, step.point.t)))

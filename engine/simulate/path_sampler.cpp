@@ -134,7 +134,7 @@ Result<void> PathSampler::motions(const PathSample& sample, double past) {
 /// Events of a sample. A segment back is shown in reverse, from its end to its start.
 std::string PathSampler::events(const PathSample& sample, double past) const {
   const PathSegment& segment = path_.segments[sample.segment];
-  const double way = segment.back ? -segment.sign() : segment.sign();
+  const double sign = segment.back ? -segment.sign() : segment.sign();
   double before = segment.back ? segment.end() : segment.from;
   if (last_ && last_->segment == sample.segment) before = last_reached_t_;
   std::string text;
@@ -144,7 +144,7 @@ std::string PathSampler::events(const PathSample& sample, double past) const {
     for (const Event& event : segment.report.events) {
       if (!event.to || event.jump != jump) continue;
       const double seen = segment.back ? event.t : *event.to;
-      if (way * (seen - before) <= 0 || way * (past - seen) < 0) continue;
+      if (sign * (seen - before) <= 0 || sign * (past - seen) < 0) continue;
       places += (places.empty() ? "" : " and ") + caption_.at(event.t, {});
     }
     if (!places.empty())
@@ -152,7 +152,7 @@ std::string PathSampler::events(const PathSample& sample, double past) const {
   }
   for (const ContactEvent& event : path_.contacts) {
     if (event.segment != sample.segment) continue;
-    if (way * (event.t - before) <= 0 || way * (past - event.t) < 0) continue;
+    if (sign * (event.t - before) <= 0 || sign * (past - event.t) < 0) continue;
     text += (text.empty() ? "" : "; ") + event.text;
   }
   return text;

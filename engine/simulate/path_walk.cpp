@@ -19,6 +19,12 @@ constexpr std::size_t most_events = 8, most_events_in_contact = 64;
 void StabilityStepControl::take(const NestedState& state) {
   if (known_.size() > 1) known_.erase(known_.begin());
   known_.push_back({state.t, state.lowest_eigenvalue});
+  largest_ = std::fmax(largest_, state.lowest_eigenvalue);
+}
+
+bool StabilityStepControl::near_zero() const {
+  constexpr double low = 0.25;  // of the largest of the branch
+  return !known_.empty() && known_.back().stiffness < low * largest_;
 }
 
 double StabilityStepControl::shortened(double step) const {
@@ -45,7 +51,7 @@ Report Simulation::go(double t, const Watch& watch, const BifurcationPolicy& lea
 Report Simulation::Walk::all() {
   const CallBegin begin = of_.call_begin();
   shell_.allow_unstable(leaving_.through_unstable);
-  shell_.watch_stability(watches_stability());
+  shell_.watch_stability(watches_stability(), watch_);
   Outcome end = Outcome::reached;
   if (goes_on()) {
     end = segment_.end.value_or(end);
@@ -83,7 +89,10 @@ void Simulation::Walk::keep() {
   note();
   tell();
   keep_companion();
-  if (watches_stability()) softening_.take(shell_.state());
+  if (!watches_stability()) return;
+  softening_.take(shell_.state());
+  if (softening_.near_zero())
+    record_->load_steps.back().stability_confirmed = shell_.stability_confirmed(watch_);
 }
 
 // ---- what an earlier run kept of it ----

@@ -18,15 +18,18 @@ class StabilityStepControl {
   /// After a load step that was certified.
   void take(const NestedState& state);
   /// Clears the history of the path, which continues from another state.
-  void forget() { known_.clear(); }
+  void forget() { known_.clear(), largest_ = 0; }
   /// The load step to take instead of `step`, at least an eighth of it.
   double shortened(double step) const;
+  /// Whether the last stiffness is low enough for its error by the mesh to matter.
+  bool near_zero() const;
   /// The history, for a path that continues later.
   const std::vector<simulate::Softness>& known() const { return known_; }
   void know(std::vector<simulate::Softness> known) { known_ = std::move(known); }
 
  private:
   std::vector<simulate::Softness> known_;  // at the last two load steps
+  double largest_ = 0;                     // stiffness of this branch
 };
 
 /// One segment of the path: how it steps, what it leaves, what ends it.

@@ -20,7 +20,7 @@ using preset::StepKind;
 
 /// A finished step; its segment of the path has the same index.
 struct Done {
-  Checkpoint way_end, end;    ///< at the end of its path; the state of the shell after the step
+  Checkpoint path_end, end;   ///< at the end of its path; the state of the shell after the step
   std::string reported = {};  ///< sentence about it in addition to its certificate
 };
 
@@ -33,7 +33,7 @@ struct Work : EquilibriumPath {
 /// Whether frames are sampled along the path of a step, which a segment then stores: for a push,
 /// for a joint actuation, and for a move of the whole boundary if no edge point is displaced
 /// individually before or after it.
-bool has_way(const std::vector<preset::Step>& steps, std::size_t k) {
+bool has_path(const std::vector<preset::Step>& steps, std::size_t k) {
   if (steps[k].kind != StepKind::move)
     return steps[k].kind == StepKind::push || steps[k].kind == StepKind::open;
   const auto before = std::find_if(steps.rend() - std::ptrdiff_t(k), steps.rend(),
@@ -96,16 +96,16 @@ Result<Work> do_steps(const std::shared_ptr<const Scene>& scene,
     const StepKind kind = steps[k].kind;
     const double to = kind == StepKind::move ? parameter_at(progress_of(steps[k], *scene)) : 1;
     PathSegment& segment = work.segments.emplace_back(PathSegment{{}, 0, to, {}});
-    StepPath way;
-    auto report = apply_step(simulation, steps[k], watch, &way);
+    StepPath path;
+    auto report = apply_step(simulation, steps[k], watch, &path);
     if (watch.cancelled()) return stopped();
     if (!report)
       return fail(report.error().fault,
                   fmt::format("[[step]] {}: {}", k + 1, report.error().message));
     segment.report = std::move(*report);
-    static_cast<PathRecord&>(segment) = std::move(way);
+    static_cast<PathRecord&>(segment) = std::move(path);
     close(segment, simulation);
-    work.done.push_back({std::move(way.end), simulation.save()});
+    work.done.push_back({std::move(path.end), simulation.save()});
     if (kind == StepKind::open)
       work.done.back().reported = ", " + text_of_opened(simulation) + (k == 0 ? reported : "");
     if (segment.report.end != Outcome::reached) break;
@@ -113,7 +113,7 @@ Result<Work> do_steps(const std::shared_ptr<const Scene>& scene,
   return work;
 }
 
-std::string on_its_way(double t, std::optional<double> error) {
+std::string at_fraction(double t, std::optional<double> error) {
   auto text = fmt::format("at {:.4f}", t);
   if (error) text += fmt::format(" ± {:.1g}", *error);
   return text + " of its path";
@@ -163,7 +163,7 @@ class Show {
   /// A sample of the path of a step; what has no state is left out.
   Result<void> between(const Done& done, const PathSample& sample) {
     Simulation& simulation = work_.simulation;
-    simulation.restore(done.way_end);
+    simulation.restore(done.path_end);
     const CertifiedSample stood = certify_sample(work_, sample, watch_);
     if (watch_.cancelled()) return stopped();
     if (stood.report.end != Outcome::reached) return {};
@@ -179,21 +179,21 @@ class Show {
   std::string event(const PathSample& sample) const {
     const PathSegment& segment = work_.segments[step_];
     if (at_limit(segment.report.end)) return limit_event(work_.simulation, segment.report.end);
-    if (has_way(steps_, step_)) return sampler_->events(sample, sample.t);
+    if (has_path(steps_, step_)) return sampler_->events(sample, sample.t);
     return text_of(steps_[step_]) + (snapped(segment) ? ": snap to another state" : "");
   }
 
   Caption caption() {
-    return {on_its_way,
+    return {at_fraction,
             {},
             [this](record::Frame& frame, double t, double) { put_boundary(frame, t); },
             [this](record::Frame& frame, double, bool) { work_.simulation.put_push(frame); }};
   }
 
   void put_boundary(record::Frame& frame, double t) const {
-    const bool on_way = step_ < steps_.size() && steps_[step_].kind == StepKind::move &&
-                        has_way(steps_, step_) && boundary_[0] != boundary_[1];
-    frame.actuation = on_way ? progress_at(t) : boundary_[1];
+    const bool moving = step_ < steps_.size() && steps_[step_].kind == StepKind::move &&
+                        has_path(steps_, step_) && boundary_[0] != boundary_[1];
+    frame.actuation = moving ? progress_at(t) : boundary_[1];
     frame.boundary_radius_mm = work_.simulation.scene().radius_at(frame.actuation);
   }
 
@@ -214,7 +214,7 @@ std::string message_of(std::size_t k, const preset::Step& step, const PathSegmen
   for (const Event& event : report.events)
     if (event.to)
       text += fmt::format(", {} {}", event.jump ? "snap to another state" : "branches",
-                          on_its_way(event.t, event.error));
+                          at_fraction(event.t, event.error));
   const Certificate& certificate = report.certificate;
   text += fmt::format(", residual {:.2g} N, ", certificate.residual_N);
   text += certificate.stable()
@@ -227,7 +227,7 @@ std::string message_of(std::size_t k, const preset::Step& step, const PathSegmen
 
 /// Which step the limit belongs to, in front of its reason.
 void name_step_of_limit(Work& work, const std::vector<preset::Step>& steps) {
-  set_limit(work, on_its_way);
+  set_limit(work, at_fraction);
   if (work.limit == record::Limit::none) return;
   // the event that ended the path, else the first snap
   const auto ended = std::ranges::find_if(work.segments, [](const PathSegment& segment) {
@@ -304,11 +304,11 @@ Result<void> check_steps(const std::vector<preset::Step>& steps, const Footprint
 
 std::vector<int> frames_of_steps(const std::vector<preset::Step>& steps, int frames) {
   std::vector<int> shares(steps.size(), 1);
-  int ways = 0;
-  for (std::size_t k = 0; k < steps.size(); ++k) ways += has_way(steps, k);
-  int left = frames - 1 - int(steps.size()), to_come = ways;
+  int paths = 0;
+  for (std::size_t k = 0; k < steps.size(); ++k) paths += has_path(steps, k);
+  int left = frames - 1 - int(steps.size()), to_come = paths;
   for (std::size_t k = 0; k < steps.size() && left > 0; ++k) {
-    if (!has_way(steps, k)) continue;
+    if (!has_path(steps, k)) continue;
     const int more = (left + to_come - 1) / to_come;
     shares[k] += more;
     left -= more;
@@ -328,7 +328,7 @@ Result<StepsResult> run_steps(const std::shared_ptr<const Scene>& scene,
       watch);
   if (!work) return tl::unexpected<Error>(work.error());
   name_step_of_limit(*work, steps);
-  work->contacts = contact_events(*work, on_its_way);
+  work->contacts = contact_events(*work, at_fraction);
   for (ContactEvent& event : work->contacts)
     event.text = fmt::format("step {} ({}): {}", event.segment + 1, text_of(steps[event.segment]),
                              event.text);

@@ -105,10 +105,12 @@ void Simulation::put_push_errors(record::Frame& frame) const {
   const Eigen::VectorXd along =
       along_.size() == entries ? Eigen::VectorXd(along_.tail(own)) : Eigen::VectorXd();
   if (along.size() == 0 || along.isZero(0)) return;
-  const Eigen::VectorXd way = along.normalized();
-  frame.stiffness_N_per_mm = way.dot(state.held_stiffness.bottomRightCorner(own, own) * way);
+  const Eigen::VectorXd direction = along.normalized();
+  frame.stiffness_N_per_mm =
+      direction.dot(state.held_stiffness.bottomRightCorner(own, own) * direction);
   // the state's is that of one entry
-  frame.stiffness_error_N_per_mm = std::pow(way.lpNorm<1>(), 2) * state.stiffness_error_N_per_mm;
+  frame.stiffness_error_N_per_mm =
+      std::pow(direction.lpNorm<1>(), 2) * state.stiffness_error_N_per_mm;
 }
 
 Energies Simulation::energies() const {

@@ -96,6 +96,9 @@ struct LoadStep {
   Certificate certificate;
   /// Interpenetrations of rods, joints and table at this state (contact is not modelled there).
   record::Contacts contacts = {};
+  /// Whether a stable state is stable on finer meshes as well, judged by two meshes; where the
+  /// lowest eigenvalue comes near zero.
+  bool stability_confirmed = true;
 };
 
 /// State of the coarsest mesh at one time of a dynamic snap.

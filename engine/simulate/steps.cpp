@@ -31,14 +31,14 @@ Result<Eigen::Matrix3Xd> dragged_of(const preset::Step& step, const Scene& scene
 }
 
 Result<Report> move(Simulation& simulation, const preset::Step& step, const Watch& watch,
-                    StepPath* way) {
+                    StepPath* path) {
   const Scene& scene = simulation.scene();
   TRY(dragged, dragged_of(step, scene));
   BoundaryPosition& boundary = simulation.boundary;
   const double progress = progress_of(step, scene);
   if (dragged->isZero(0) && boundary.dragged.isZero(0)) {
-    const Report report = simulation.move_to(progress, watch, way);
-    if (way) way->end = simulation.save();
+    const Report report = simulation.move_to(progress, watch, path);
+    if (path) path->end = simulation.save();
     boundary.progress = simulation.progress();
     return report;
   }
@@ -64,8 +64,8 @@ Result<Goal> goal_of(const Simulation& simulation, const preset::Step& step) {
   TRY_DO(not_on_boundary(simulation.scene().footprint, *joint));
   const Eigen::Vector3d at = simulation.nodes().col(*joint);
   const bool holds = step.kind == preset::StepKind::hold;
-  Eigen::Vector3d way = Eigen::Vector3d::Zero();
-  if (!holds && !step.to_mm.empty()) way = vector_of(step.to_mm) - at;
+  Eigen::Vector3d displacement = Eigen::Vector3d::Zero();
+  if (!holds && !step.to_mm.empty()) displacement = vector_of(step.to_mm) - at;
   if (!holds && step.to_mm.empty()) {
     const Eigen::Vector3d normal =
         joint_normal(simulation.scene().footprint, simulation.shell(), *joint);
@@ -73,25 +73,25 @@ Result<Goal> goal_of(const Simulation& simulation, const preset::Step& step) {
       return invalid(
           "the shell has no normal at the joint, where no two rods cross, expected a target in "
           "to_mm");
-    way = -step.depth_mm * normal;
+    displacement = -step.depth_mm * normal;
   }
-  Goal goal{*joint, at + way, Eigen::Vector3d::UnitZ(), false};
+  Goal goal{*joint, at + displacement, Eigen::Vector3d::UnitZ(), false};
   goal.free = holds ? !step.along.empty() : step.lateral == preset::Lateral::free;
   if (!step.along.empty())
     goal.along = vector_of(step.along).normalized();
-  else if (way.norm() >= nearest_mm)
-    goal.along = way.normalized();
-  if (!step.along.empty()) goal.target = at + goal.along * goal.along.dot(way);
+  else if (displacement.norm() >= nearest_mm)
+    goal.along = displacement.normalized();
+  if (!step.along.empty()) goal.target = at + goal.along * goal.along.dot(displacement);
   return goal;
 }
 
 Result<Report> push(Simulation& simulation, const Goal& goal, const Watch& watch, StepPath* path) {
-  Eigen::Vector3d way = goal.target - simulation.nodes().col(goal.joint);
-  if (goal.free) way = goal.along * goal.along.dot(way);
+  Eigen::Vector3d displacement = goal.target - simulation.nodes().col(goal.joint);
+  if (goal.free) displacement = goal.along * goal.along.dot(displacement);
   // a push without displacement constrains the joint along the push direction
-  if (way.norm() < nearest_mm) way = nearest_mm * goal.along;
-  const Report report =
-      simulation.push(goal.joint, way, goal.free ? Across::free : Across::held, watch, path);
+  if (displacement.norm() < nearest_mm) displacement = nearest_mm * goal.along;
+  const Report report = simulation.push(goal.joint, displacement,
+                                        goal.free ? Across::free : Across::held, watch, path);
   if (path) path->end = simulation.save();
   return report;
 }
@@ -144,15 +144,15 @@ Result<Report> jitter(Simulation& simulation, const preset::Step& step, const Wa
 }
 
 Result<Report> take_step(Simulation& simulation, const preset::Step& step, const Watch& watch,
-                         StepPath* way) {
+                         StepPath* path) {
   switch (step.kind) {
     case preset::StepKind::move:
-      return move(simulation, step, watch, way);
+      return move(simulation, step, watch, path);
     case preset::StepKind::push:
     case preset::StepKind::hold: {
       TRY(goal, goal_of(simulation, step));
       simulation.constraint_origins.emplace(goal->joint, simulation.nodes().col(goal->joint));
-      return push(simulation, *goal, watch, way);
+      return push(simulation, *goal, watch, path);
     }
     case preset::StepKind::release:
       if (step.what != preset::Released::joints) return take_out(simulation, step.what, watch);
@@ -168,7 +168,7 @@ Result<Report> take_step(Simulation& simulation, const preset::Step& step, const
     case preset::StepKind::tighten:
       return tighten(simulation, step, watch);
     case preset::StepKind::open:
-      return open(simulation, step, watch, way);
+      return open(simulation, step, watch, path);
     case preset::StepKind::brace:
       return brace(simulation, step, watch);
   }
@@ -198,8 +198,8 @@ double progress_of(const preset::Step& step, const Scene& scene) {
 }
 
 Result<Report> apply_step(Simulation& simulation, const preset::Step& step, const Watch& watch,
-                          StepPath* way) {
-  auto report = take_step(simulation, step, watch, way);
+                          StepPath* path) {
+  auto report = take_step(simulation, step, watch, path);
   std::erase_if(simulation.constraint_origins, [&](const auto& origin) {
     return std::ranges::none_of(simulation.holds(),
                                 [&](const Constraint& hold) { return hold.node == origin.first; });

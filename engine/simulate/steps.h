@@ -33,12 +33,12 @@ Result<void> check_steps(const std::vector<preset::Step>& steps, const Footprint
 
 /// Does one step. A step that ends early leaves the simulation in its last certified state, a
 /// `release`, `rest` or `jitter` in the state before it. All steps except moves and loads are
-/// predicted on the coarsest mesh (`way.end` of a push is on that one), or on a finer one if others
-/// do not follow it: the simulation then uses finer meshes. Errors (bad_input): a joint or an edge
-/// point that does not exist, nothing to release, individual displacements of edge points whose
-/// rods' directions are prescribed.
+/// predicted on the coarsest mesh (`path.end` of a push is on that one), or on a finer one if
+/// others do not follow it: the simulation then uses finer meshes. Errors (bad_input): a joint or
+/// an edge point that does not exist, nothing to release, individual displacements of edge points
+/// whose rods' directions are prescribed.
 Result<Report> apply_step(Simulation& simulation, const preset::Step& step, const Watch& watch,
-                          StepPath* way = nullptr);
+                          StepPath* path = nullptr);
 
 // A run of a preset with steps: the shell is actuated, then the steps are applied in order.
 
@@ -84,7 +84,7 @@ Result<Bolts> bolts_as_drawn(const preset::Step& step, const Footprint& footprin
 /// Errors (bad_input): a flat shell, a joint where not two rods cross, an angle that no joint can
 /// have.
 Result<Report> open(Simulation& simulation, const preset::Step& step, const Watch& watch,
-                    StepPath* way);
+                    StepPath* path);
 
 /// Text on the crossing angles that a joint actuation reached: "joints at 62.1 degrees on average,
 /// ...".

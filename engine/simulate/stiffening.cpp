@@ -128,7 +128,7 @@ Result<Report> tighten(Simulation& simulation, const preset::Step& step, const W
 }
 
 Result<Report> open(Simulation& simulation, const preset::Step& step, const Watch& watch,
-                    StepPath* way) {
+                    StepPath* path) {
   TRY_DO(check_formed(simulation));
   const double stiffness = stiffness_of(step);
   const auto known = simulation.rods().bolts;
@@ -159,8 +159,8 @@ Result<Report> open(Simulation& simulation, const preset::Step& step, const Watc
   rods.bolts = std::make_shared<const Bolts>(bolts);
   auto report = simulation.set_rods(rods, watch);
   if (!report || report->end != Outcome::reached) return report;
-  report = simulation.open_joints(watch, way);
-  if (way) way->end = simulation.save();
+  report = simulation.open_joints(watch, path);
+  if (path) path->end = simulation.save();
   // from here on that is the joints' angle without torque
   for (std::size_t joint = 0; joint < by->size(); ++joint)
     bolts.opened[joint] += report->t * std::exchange(bolts.opening[joint], 0);

@@ -105,9 +105,9 @@ State PathFollower::predict(double t) const {
 
 Outcome PathFollower::step(double t, bool converge, NewtonReport& report, const Watch& watch) {
   PathPoint next{t, predict(t)};
-  const Eigen::Matrix3Xd way = next.state.x - now_.state.x;
-  if (system_.clear_fraction(now_.state, way) < 1) return Outcome::lost;
-  const double predicted_move = max_column_norm(way);
+  const Eigen::Matrix3Xd change = next.state.x - now_.state.x;
+  if (system_.clear_fraction(now_.state, change) < 1) return Outcome::lost;
+  const double predicted_move = max_column_norm(change);
   const ContactPairs& contact = system_.model().contact;
   // rods that begin to touch lag behind
   const double fraction = contact.any() ? 1 : 0.5;
@@ -135,7 +135,7 @@ Outcome PathFollower::step(double t, bool converge, NewtonReport& report, const 
     // err
     const MinimiseOptions down{.tolerance_mm = newton_options.tolerance_mm, .most_iterations = 60};
     if (minimise(system_, guess, down, watch).outcome == Outcome::reached &&
-        max_column_norm(guess.x - now_.state.x - way) <= allowed) {
+        max_column_norm(guess.x - now_.state.x - change) <= allowed) {
       next.state = std::move(guess);
       report = newton(system_, next.state, newton_options, watch);
     }

@@ -124,10 +124,10 @@ Result<State> leave_saddle(Linearisation& system, const State& unstable,
   double lowest = 0;
   const bool both = departure.side == BranchSide::lower && !one;
   WayDown first;
-  for (double way : {1.0, -1.0}) {
-    if (departure.side == (way > 0 ? BranchSide::against : BranchSide::along)) continue;
+  for (double sign : {1.0, -1.0}) {
+    if (departure.side == (sign > 0 ? BranchSide::against : BranchSide::along)) continue;
     const bool second = best.has_value();
-    auto state = rest_beside(system, unstable, way * unit, departure,
+    auto state = rest_beside(system, unstable, sign * unit, departure,
                              both && !second ? &first : nullptr, second ? &first : nullptr, watch);
     if (watch.cancelled())
       return fail(Fault::cancelled, "stopped while searching for an equilibrium");

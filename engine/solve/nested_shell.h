@@ -181,8 +181,12 @@ class NestedShell {
   /// Frees the memory of the matrices, most of what the shell uses; the next use allocates it
   /// again.
   void free_memory();
-  /// Sets whether certified states compute their lowest eigenvalue.
-  void watch_stability(bool watches) { watches_stability_ = watches; }
+  /// Whether the lowest eigenvalue of a stable state is larger than its error by the mesh, which is
+  /// (coarse - fine)/3 with the companion's. Needs lowest_eigenvalue; true without a companion.
+  bool stability_confirmed(const Watch& watch);
+  /// Sets whether certified states compute their lowest eigenvalue; that of the current state, if
+  /// it is stable, is computed at once.
+  void watch_stability(bool watches, const Watch& watch = unwatched);
   /// Sets whether the path continues through states with negative pivots, which the report counts.
   void allow_unstable(bool allow) { options_.allow_unstable = allow; }
 

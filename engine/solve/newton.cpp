@@ -265,11 +265,12 @@ double lowest_eigenvalue(Linearisation& system, const State& state, const Eigen:
 double lowest_eigenvalue(Linearisation& system, const Eigen::VectorXd& length, Eigen::Matrix3Xd& v,
                          const Watch& watch, double converged) {
   constexpr int most_iterations = 200;
-  if (v.size() == 0) {
-    // a start with a part along any mode
-    v.resize(3, system.model().columns());
-    for (Eigen::Index k = 0; k < v.size(); ++k) v.data()[k] = std::sin(1 + 1.7 * double(k));
-  }
+  // a start with a part along any mode: a mode that was the lowest before has none along those of
+  // another symmetry, which come up within some iterations
+  const int least_iterations = v.size() == 0 ? 0 : 5;
+  Eigen::Matrix3Xd any(3, system.model().columns());
+  for (Eigen::Index k = 0; k < any.size(); ++k) any.data()[k] = std::sin(1 + 1.7 * double(k));
+  v = v.size() == 0 ? any : Eigen::Matrix3Xd(v / v.norm() + any / any.norm());
   double lambda = std::numeric_limits<double>::infinity();
   for (int k = 0; k < most_iterations && !watch.cancelled(); ++k) {
     Eigen::Matrix3Xd next = weighted(v, length);
@@ -279,7 +280,7 @@ double lowest_eigenvalue(Linearisation& system, const Eigen::VectorXd& length, E
     const double before =
         std::exchange(lambda, product(next, force) / product(next, weighted(next, length)));
     v = next / next.norm();
-    if (std::abs(before - lambda) <= converged * lambda) break;
+    if (k >= least_iterations && std::abs(before - lambda) <= converged * lambda) break;
   }
   return lambda;
 }

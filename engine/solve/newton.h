@@ -171,7 +171,7 @@ double product(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b);
 double lowest_eigenvalue(Linearisation& system, const State& state, const Eigen::VectorXd& length,
                          const Watch& watch, double converged = 1e-7);
 /// Uses the last factorisation, which must be positive definite; `mode` is the start of the
-/// iteration (empty: any) and returns the lowest mode.
+/// iteration next to any direction (empty: that alone) and returns the lowest mode.
 double lowest_eigenvalue(Linearisation& system, const Eigen::VectorXd& length,
                          Eigen::Matrix3Xd& mode, const Watch& watch, double converged);
 

@@ -18,8 +18,8 @@ Eigen::Vector3d EndRotation::rate(double t) const {
 
 EndRotation rotation_between(int node, int about, const Eigen::Vector3d& from,
                              const Eigen::Vector3d& to) {
-  const Eigen::AngleAxisd way(turn_between(from, to));
-  return {node, about, from, way.axis(), way.angle(), to.norm() / from.norm() - 1};
+  const Eigen::AngleAxisd rotation(turn_between(from, to));
+  return {node, about, from, rotation.axis(), rotation.angle(), to.norm() / from.norm() - 1};
 }
 
 Eigen::Matrix3Xd PinnedMotion::at(double t) const {

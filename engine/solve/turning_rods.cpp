@@ -39,11 +39,12 @@ bool stays_on_line(const Footprint& footprint, std::size_t r, const std::vector<
   const double length = distance(far);
   Eigen::Vector3d line = directions.empty() ? Eigen::Vector3d(0, 0, 0) : directions.front();
   if (length > 0) line = (far - points.front()) / length;
-  const auto off = [&](const Eigen::Vector3d& way) { return line.cross(way).norm(); };
+  const auto off = [&](const Eigen::Vector3d& direction) { return line.cross(direction).norm(); };
   return std::ranges::all_of(
              points,
              [&](const auto& at) { return off(at - points.front()) <= on_line * length; }) &&
-         std::ranges::all_of(directions, [&](const auto& way) { return off(way) <= on_line; });
+         std::ranges::all_of(directions,
+                             [&](const auto& direction) { return off(direction) <= on_line; });
 }
 
 }  // namespace

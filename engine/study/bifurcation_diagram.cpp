@@ -116,15 +116,15 @@ class Diagram {
   Result<void> follow_path() {
     const NestedState& begin = shell_.state();
     Branch path;
-    for (const double way : {-1.0, 1.0}) {
-      if (way < 0 && course_.of_push) continue;
-      if (way > 0 && begin.t >= course_.to) continue;
+    for (const double sign : {-1.0, 1.0}) {
+      if (sign < 0 && course_.of_push) continue;
+      if (sign > 0 && begin.t >= course_.to) continue;
       ArcFollower follower(system_, motion_, trace_.arc);
-      const auto begun = follower.start(begin.t, begin.levels[std::size_t(level_)], way, watch_);
+      const auto begun = follower.start(begin.t, begin.levels[std::size_t(level_)], sign, watch_);
       if (begun != Outcome::reached)
         return fail(Fault::no_equilibrium, "the path cannot be followed from its first state");
       auto points = follow(follower);
-      if (way < 0)
+      if (sign < 0)
         path.points.assign(points.rbegin(), points.rend());
       else
         path.points.insert(path.points.end(), points.begin() + !path.points.empty(), points.end());

@@ -177,8 +177,8 @@ CriticalLoad critical_load(Linearisation& system, const PinnedMotion& motion, co
   // past a bifurcation the shell follows another branch
   const auto leaves = [](const TracedPoint&) { return true; };
   const auto nothing = [](const TracedPoint& point) { return point.event == BranchEvent::none; };
-  constexpr int most_ways = 3;
-  for (int way = 1;; ++way) {
+  constexpr int most_attempts = 3;
+  for (int attempt = 1;; ++attempt) {
     ArcFollower path(system, motion, how.arc);
     if (path.start(0, begin, 1, watch) != Outcome::reached) {
       found.event = BranchEvent::lost;
@@ -187,7 +187,7 @@ CriticalLoad critical_load(Linearisation& system, const PinnedMotion& motion, co
     found.points = trace(system, motion, std::move(path), how, leaves, watch);
     const bool ran_out =
         int(found.points.size()) >= how.most_steps && std::ranges::all_of(found.points, nothing);
-    if (!ran_out || way == most_ways || watch.cancelled()) break;
+    if (!ran_out || attempt == most_attempts || watch.cancelled()) break;
     // the linear estimate is far too low: once more in longer steps
     for (double* length : {&how.arc.step_mm, &how.arc.largest_mm}) *length *= 8;
   }

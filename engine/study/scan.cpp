@@ -83,9 +83,9 @@ Eigen::Vector2d disc_around(const Eigen::Matrix2Xd& points, double radius) {
       const Eigen::Vector2d out = p - middle;
       const double beyond = out.norm() - radius;
       if (beyond <= 0) continue;
-      const Eigen::Vector2d way = out.normalized();
-      normal += way * way.transpose();
-      slope += beyond * way;
+      const Eigen::Vector2d outward = out.normalized();
+      normal += outward * outward.transpose();
+      slope += beyond * outward;
     }
     const Eigen::Vector2d move = solution(normal, slope);
     middle += move;

@@ -211,7 +211,7 @@ Result<StateSearchRun> run_states(const preset::Preset& preset, int threads, rec
   const std::shared_ptr<const Scene>& scene = *made;
   const double setup = seconds_now() - begin;
   TRY(library, find_states(scene, preset.jitter, {.threads = threads}, watch));
-  TRY(ways,
+  TRY(found,
       transitions_between(*library, scene, preset.jitter, threads, measured, followed, watch));
   std::vector<record::Barrier> barriers;
   if (preset.jitter.barriers) {
@@ -226,7 +226,7 @@ Result<StateSearchRun> run_states(const preset::Preset& preset, int threads, rec
     TRY_DO(sink.take(std::move(state.frame)));
   }
   run.tables.search = library->search;
-  run.tables.transitions = std::move(*ways);
+  run.tables.transitions = std::move(*found);
   run.tables.barriers = std::move(barriers);
   run.summary.seconds_setup = setup;
   run.summary.seconds_simulation = seconds_now() - begin - setup;

@@ -109,13 +109,32 @@ struct Patch {
   const Eigen::Vector3f& at(int u, int v) const { return points[v * (steps + 1) + u]; }
 };
 
+/// Whether the nodes are as near to the straight line between the first and the last, which they
+/// divide evenly.
+bool straight(const Eigen::Matrix3Xd& nodes, const std::vector<int>& side, float tolerance) {
+  const Eigen::Vector3d from = nodes.col(side.front()), to = nodes.col(side.back());
+  const double last = double(side.size() - 1);
+  for (std::size_t k = 1; k + 1 < side.size(); ++k)
+    if ((nodes.col(side[k]) - from - double(k) / last * (to - from)).norm() > double(tolerance))
+      return false;
+  return true;
+}
+
+/// Its four corners alone where no side is further from its chord than half the tolerance.
 Patch coons_patch(const record::Layout& layout, const Eigen::Matrix3Xd& nodes,
-                  const std::vector<std::array<Place, 2>>& where, const record::Cell& cell) {
+                  const std::vector<std::array<Place, 2>>& where, const record::Cell& cell,
+                  float tolerance) {
   std::array<int, 4> corner;
   for (int k = 0; k < 4; ++k) corner[k] = layout.joints[cell.joints[k]].node;
   const std::array<std::vector<int>, 4> sides = {
       side(layout, where, corner[0], corner[1]), side(layout, where, corner[3], corner[2]),
       side(layout, where, corner[0], corner[3]), side(layout, where, corner[1], corner[2])};
+  if (std::ranges::all_of(sides,
+                          [&](const auto& s) { return straight(nodes, s, tolerance / 2); })) {
+    Patch flat{1, {}};
+    for (const int k : {0, 1, 3, 2}) flat.points.push_back(nodes.col(corner[k]).cast<float>());
+    return flat;
+  }
   std::size_t edges = 1;
   for (const auto& s : sides) edges = std::max(edges, s.size() - 1);
 
@@ -249,8 +268,9 @@ std::vector<CellPatch> add_cell_patches(Mesh& mesh, const record::Layout& layout
   std::vector<CellPatch> patches;
   for (int c = 0; c < int(layout.cells.size()); ++c)
     if (colours[c].w() > 0)
-      patches.push_back({c, add_patch(mesh, coons_patch(layout, nodes, where, layout.cells[c]),
-                                      colours[c], tolerance_mm)});
+      patches.push_back(
+          {c, add_patch(mesh, coons_patch(layout, nodes, where, layout.cells[c], tolerance_mm),
+                        colours[c], tolerance_mm)});
   return patches;
 }
 

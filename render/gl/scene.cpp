@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <map>
 #include <set>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -40,10 +42,9 @@ std::string mismatch(const Drawing& drawing) {
     return fmt::format("has {} cell colours for {} cells", drawing.cell_colours.size(),
                        layout.cells.size());
   const auto outside = [](const std::vector<std::vector<int>>& rods, std::size_t count) {
-    for (const auto& rod : rods)
-      for (int node : rod)
-        if (node < 0 || std::size_t(node) >= count) return true;
-    return false;
+    const auto missing = [&](int node) { return node < 0 || std::size_t(node) >= count; };
+    return std::ranges::any_of(rods,
+                               [&](const auto& rod) { return std::ranges::any_of(rod, missing); });
   };
   if (outside(layout.rods, nodes))
     return fmt::format("has a rod with more than its {} nodes", nodes);
@@ -72,25 +73,28 @@ Points points_of(const Eigen::Matrix3Xd& nodes, const std::vector<int>& rod) {
 /// Every joint's node, and the cells on either side of two joints' stretch.
 class Neighbours {
  public:
-  explicit Neighbours(const record::Layout& layout) {
-    for (const record::Joint& joint : layout.joints) joints_.insert(joint.node);
+  Neighbours(const record::Layout& layout, Eigen::Index nodes) : joint_(std::size_t(nodes)) {
+    for (const record::Joint& joint : layout.joints) joint_[std::size_t(joint.node)] = 1;
     for (int c = 0; c < int(layout.cells.size()); ++c)
       for (int k = 0; k < 4; ++k) {
         const auto& corners = layout.cells[c].joints;
         const int a = layout.joints[corners[k]].node, b = layout.joints[corners[(k + 1) % 4]].node;
-        beside_[std::minmax(a, b)].push_back(c);
+        sides_.push_back({std::min(a, b), std::max(a, b), c});
       }
+    std::ranges::sort(sides_);
   }
-  bool joint(int node) const { return joints_.contains(node); }
-  const std::vector<int>& cells(int a, int b) const {
-    static const std::vector<int> none;
-    const auto found = beside_.find(std::minmax(a, b));
-    return found == beside_.end() ? none : found->second;
+  bool joint(int node) const { return joint_[std::size_t(node)] != 0; }
+  /// Sides of cells between two joints: {joint, joint, cell}.
+  std::span<const std::array<int, 3>> cells(int a, int b) const {
+    const auto found =
+        std::ranges::equal_range(sides_, std::pair(std::min(a, b), std::max(a, b)), {},
+                                 [](const auto& side) { return std::pair(side[0], side[1]); });
+    return {found.begin(), found.end()};
   }
 
  private:
-  std::set<int> joints_;
-  std::map<std::pair<int, int>, std::vector<int>> beside_;
+  std::vector<char> joint_;
+  std::vector<std::array<int, 3>> sides_;
 };
 
 /// Collects the pieces, each with its depth along the view, and puts them in order.
@@ -127,12 +131,11 @@ class Weaver {
   /// A segment between joints comes with the nearer of the cells next to it, so that these do not
   /// cover half of it, and a joint with the nearest of its stretches.
   void add_rods() {
-    const Neighbours neighbours(*drawing_.layout);
+    const Neighbours neighbours(*drawing_.layout, drawing_.nodes.cols());
     Points normals;
     node_depth_.assign(std::size_t(drawing_.nodes.cols()), INFINITY);
     Colours of_node(drawing_.node_colours.size());
-    std::transform(drawing_.node_colours.begin(), drawing_.node_colours.end(), of_node.begin(),
-                   opaque);
+    std::ranges::transform(drawing_.node_colours, of_node.begin(), opaque);
     const Eigen::Vector4f plain = opaque(drawing_.rod_colour);
     for (std::size_t r = 0; r < drawing_.layout->rods.size(); ++r) {
       const auto& rod = drawing_.layout->rods[r];
@@ -153,8 +156,8 @@ class Weaver {
         while (end + 1 < rod.size() && !neighbours.joint(rod[end])) ++end;
         double depth =
             0.5 * forward_.dot(drawing_.nodes.col(rod[begin]) + drawing_.nodes.col(rod[end]));
-        for (int cell : neighbours.cells(rod[begin], rod[end]))
-          depth = std::min(depth, cell_depth_[cell]);
+        for (const auto& side : neighbours.cells(rod[begin], rod[end]))
+          depth = std::min(depth, cell_depth_[side[2]]);
         for (int node : {rod[begin], rod[end]})
           node_depth_[node] = std::min(node_depth_[node], depth);
         if (lath)
@@ -183,7 +186,8 @@ class Weaver {
   }
 
   void add_joints() {
-    if (drawing_.joint_diameter_mm <= 0) return;
+    const double least_mm = quality_.coarse ? 2 * mm_per_sample_ : 0;  // a dot that moves
+    if (drawing_.joint_diameter_mm <= least_mm) return;
     const auto normals = shell_normals(drawing_);
     const float radius = radius_of(drawing_.joint_diameter_mm, mm_per_sample_);
     const Eigen::Vector4f colour = opaque(drawing_.joint_colour);
@@ -284,9 +288,9 @@ class Weaver {
     }
   }
 
-  /// From far to near, cut into layers of equal depth.
+  /// From far to near, cut into layers of equal depth, each drawn by calls of its own.
   void finish() {
-    constexpr int most_layers = 32;
+    const int most_layers = quality_.coarse ? 8 : 32;
     double near = INFINITY, far = -INFINITY;
     for (auto* pieces : {&sheets_, &ribbons_, &beads_}) {
       std::ranges::stable_sort(*pieces,

@@ -220,11 +220,11 @@ Series strength_marks(const std::vector<LoadPoint>& points,
       return point.load_case == row.load_case && point.utilisation >= 1;
     });
     if (!std::isfinite(row.strength_factor) || beyond == points.end()) continue;
-    double way = beyond->way_mm;
+    double displacement = beyond->way_mm;
     if (beyond != points.begin() && beyond[-1].load_case == row.load_case)
-      way -= (beyond->utilisation - 1) / (beyond->utilisation - beyond[-1].utilisation) *
-             (way - beyond[-1].way_mm);
-    marks.add(way, row.strength_factor);
+      displacement -= (beyond->utilisation - 1) / (beyond->utilisation - beyond[-1].utilisation) *
+                      (displacement - beyond[-1].way_mm);
+    marks.add(displacement, row.strength_factor);
     marks.y_error.push_back(row.strength_error);
   }
   return marks;

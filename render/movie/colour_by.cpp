@@ -25,8 +25,9 @@ struct Quantity {
   const char *label = "", *words = "";
   bool cells = false;  // its values are the cells', not the nodes'
   bool may_be_missing = false;
-  double least_end = 0;  // below, round-off would have a colour
-  bool size = false;     // never below zero
+  double least_end = 0;     // below, round-off would have a colour
+  bool size = false;        // never below zero
+  bool from_least = false;  // what counts is the difference, not the distance from zero
 };
 
 const Quantity& quantity_of(ColourBy by) {
@@ -42,7 +43,9 @@ const Quantity& quantity_of(ColourBy by) {
       {ColourBy::axial_force, {"*N* (N)", "axial force", false, true, 1e-6}},
       {ColourBy::stress, {"*σ* (MPa)", "largest stress of a fibre", false, true, 1e-3, true}},
       {ColourBy::utilisation,
-       {"*σ* / strength", "utilisation of the rods", false, true, 1e-3, true}}};
+       {"*σ* / strength", "utilisation of the rods", false, true, 1e-3, true}},
+      {ColourBy::joint_angle,
+       {"*α* (°)", "angle between the rods at joints", false, true, 0.01, true, true}}};
   return quantities.at(by);
 }
 
@@ -75,6 +78,10 @@ ColourBar bar_of_sizes(const Surveys& runs, ColourBy by) {
   const double end = std::max(bar.scale.high, quantity.least_end);
   bar.scale = {quantity.size ? sequential : diverging, quantity.size ? 0 : -end, end,
                of_cells(by) ? 0 : paling};
+  if (quantity.from_least && all.any()) {
+    bar.scale.low = all.low;
+    bar.scale.high = std::max(all.high, all.low + quantity.least_end);
+  }
   bar.beyond_low = all.any() && !quantity.size && all.low < bar.scale.low;
   bar.beyond_high = all.any() && all.high > bar.scale.high;
   return bar;
@@ -113,6 +120,8 @@ Eigen::VectorXd coloured_values(ColourBy by, const record::Layout& layout,
     case ColourBy::stress:
     case ColourBy::utilisation:
       return record::stress_of_nodes_MPa(layout, frame, by == ColourBy::utilisation);
+    case ColourBy::joint_angle:
+      return record::joint_angle_of_nodes_deg(layout, frame);
   }
   return {};
 }
@@ -121,6 +130,8 @@ tl::unexpected<Error> missing_values_error(ColourBy by) {
   const std::string requested = fmt::format("[movie] colour_by = \"{}\"", word_of(by));
   if (by == ColourBy::deviation)
     return invalid(requested + ": the run has no net that its shell could lie off");
+  if (by == ColourBy::joint_angle)
+    return invalid(requested + ": no joint of the run has a law or a spring, which angles are of");
   return invalid(
       "{}: no frame of the run knows the rods' {}, as runs of an older version "
       "and of a net do not; run it again",

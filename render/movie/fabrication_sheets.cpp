@@ -264,10 +264,12 @@ void Sheets::values(const std::vector<std::pair<std::string, std::string>>& pair
   add({between, {}});
 }
 
-void Sheets::picture(const Image& image) {
-  const double height = wide * image.height / image.width;
+void Sheets::pictures(const std::vector<Image>& images) {
+  const double count = double(images.size()), each = (wide - (count - 1) * between) / count,
+               height = each * images.front().height / images.front().width;
   add({height + between, [=](Canvas& canvas, double y) {
-         canvas.picture(image, {margin, y, wide, height});
+         for (std::size_t k = 0; k < images.size(); ++k)
+           canvas.picture(images[k], {margin + double(k) * (each + between), y, each, height});
        }});
 }
 

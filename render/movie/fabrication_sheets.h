@@ -40,8 +40,8 @@ class Sheets {
   void table(const std::vector<TableColumn>& columns, const std::vector<TableRow>& rows);
   /// What something is, and how much, two pairs a line.
   void values(const std::vector<std::pair<std::string, std::string>>& pairs);
-  /// As wide as the sheet, the picture's height with it.
-  void picture(const Image& image);
+  /// Side by side, together as wide as the sheet, of the first one's proportions.
+  void pictures(const std::vector<Image>& images);
   void plot(const Plot& plot, double height = 190);
   /// What follows begins on a sheet of its own.
   void next_sheet();

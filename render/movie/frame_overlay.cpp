@@ -41,7 +41,7 @@ Box cut_right(Box& box, double width) {
 
 constexpr Colour force_ink{0.0f, 0.56f, 0.30f, 1};
 
-constexpr Colour way{0.84f, 0.84f, 0.86f, 1}, done{0.45f, 0.47f, 0.5f, 1};
+constexpr Colour track{0.84f, 0.84f, 0.86f, 1}, done{0.45f, 0.47f, 0.5f, 1};
 
 struct Sign {
   MarkKind kind;
@@ -320,7 +320,7 @@ void draw_timeline(Canvas& canvas, const Box& box, const std::vector<Mark>& mark
   const TextStyle text{.size = 0.85 * font_size, .align_y = AlignY::middle};
   const bool named = !axis.name.empty();
   const std::string first = named ? axis.name + " = " + fixed(axis.first, 1) : "",
-                    last = named ? fixed(axis.last, 1) + " mm" : "";
+                    last = named ? fixed(axis.last, 1) + axis.unit : "";
   const double before = named ? canvas.measure(first, text).width + gap : 0,
                after = named ? canvas.measure(last, text).width + gap : 0;
   const double length =
@@ -329,7 +329,7 @@ void draw_timeline(Canvas& canvas, const Box& box, const std::vector<Mark>& mark
   const Box bar{box.x + before, box.middle().y - 0.16 * font_size, length, 0.32 * font_size};
   canvas.text(first, {box.x, box.middle().y}, text);
   canvas.text(last, {bar.right() + gap, box.middle().y}, text);
-  canvas.rectangle(bar, way);
+  canvas.rectangle(bar, track);
   canvas.rectangle({bar.x, bar.y, bar.width * axis.places[std::size_t(at)], bar.height}, done);
   draw_marks(canvas, bar, marks, axis.places, at, font_size);
   double x = bar.right() + after + apart;

@@ -7,16 +7,16 @@ namespace {
 
 constexpr double gap_mm = 2.5;  // between joint and arrow
 
-/// As long as `way`, outside the shell.
+/// As long as `arrow`, outside the shell.
 LoadArrow arrow_at(const record::Layout& layout, const record::Frame& frame, int node,
-                   const Eigen::Vector3d& way, double gap) {
+                   const Eigen::Vector3d& arrow, double gap) {
   const Eigen::Vector3d middle = layout.actuated_boundary.rowwise().mean(),
                         at = frame.nodes.col(node);
-  const Eigen::Vector3d along = way.normalized();
+  const Eigen::Vector3d along = arrow.normalized();
   // clearly so: in a flat shell round-off must not choose
   const bool away = along.dot(at - middle) > 0.02 * layout.length_scale_mm;
   const Eigen::Vector3d near = at + (away ? gap : -gap) * along;
-  return away ? LoadArrow{node, near, near + way} : LoadArrow{node, near - way, near};
+  return away ? LoadArrow{node, near, near + arrow} : LoadArrow{node, near - arrow, near};
 }
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -242,10 +242,14 @@ ProgressAxis RunSummary::progress() const {
     return axis;
   };
   ProgressAxis axis;
-  if (frames > 1) axis = along(depths_mm_, "*δ*");
-  if (frames > 1 && axis.places.empty()) axis = along(radii_mm_, "*R*_{a}");
-  for (int k = 0; axis.name.empty() && k < frames; ++k)
-    axis.places.push_back(double(k) / std::max(1, frames - 1));
+  if (turn_deg > 0) {
+    axis = {"angle", 0, turn_deg, {}, "°"};
+  } else if (frames > 1) {
+    axis = along(depths_mm_, "*δ*");
+    if (axis.places.empty()) axis = along(radii_mm_, "*R*_{a}");
+  }
+  while (int(axis.places.size()) < frames)
+    axis.places.push_back(double(axis.places.size()) / std::max(1, frames - 1));
   return axis;
 }
 

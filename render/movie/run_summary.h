@@ -109,6 +109,7 @@ struct ProgressAxis {
   std::string name;  ///< marked text
   double first = 0, last = 1;
   std::vector<double> places;
+  std::string unit = " mm";  ///< with the space before it
 };
 
 class RunSummary {
@@ -121,6 +122,7 @@ class RunSummary {
 
   int frames = 0;
   record::Frame first;           ///< what later frames are compared with
+  double turn_deg = 0;           ///< angle that the camera goes around a state alone; 0: none
   double depth_mm = 0;           ///< of a push, at its deepest; 0 without one
   double lowest_z_mm = 0;        ///< of all that is drawn
   double support_z_mm = 0;       ///< of the lowest point of both boundaries
@@ -137,7 +139,8 @@ class RunSummary {
   /// alone knows.
   const ColouredRange& spread(ColourBy by) const { return spreads_[std::size_t(by)]; }
 
-  /// Along the depth of a push that only grows, or the radius of a boundary that only shrinks.
+  /// Along the angle of the camera, the depth of a push that only grows, or the radius of a
+  /// boundary that only shrinks.
   ProgressAxis progress() const;
 
   /// Points that bound all frames, what is drawn of both boundaries, and the arrows of loads: some

@@ -38,8 +38,8 @@ const std::map<std::string, Folders> may_see{
     {"render/gl", {"engine/record"}},
     {"render/canvas", {"render/gl"}},
     {"render/movie", {"render/gl", "render/canvas", "engine/record", "engine/preset"}},
-    {"app/window", {"engine", "render/gl", "render/canvas", "render/movie"}},
-    {"app/cli", {"engine", "render/gl", "render/canvas", "render/movie", "app/window"}},
+    {"app/cli", {"engine", "render/gl", "render/canvas", "render/movie"}},
+    {"app/window", {"engine", "render/gl", "render/canvas", "render/movie", "app/cli"}},
     {"app/python", {"engine", "render/gl", "render/movie", "app/cli"}},
     {"app/examples", {"engine"}},
 };

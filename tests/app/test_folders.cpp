@@ -266,6 +266,11 @@ TEST_CASE("meshes that do not fit into memory are refused with what they would t
                   Contains("2 edges per segment") && Contains("unknowns, take about") &&
                       Contains("more than the 0.0001 GB of [accuracy] memory_GB"));
   }
+  // a plan in metres with the spacing of a model
+  check_refused(
+      {"check", "small.toml", "--set", "footprint.rods=202", "--set", "footprint.radius_mm=2200",
+       "--set", "actuation.radius_mm=2000", "--set", "accuracy.memory_GB=0.0001"},
+      bench.at, Contains("a [footprint] spacing_mm above 20 or"));
   const auto fine = bench.run(
       "check small.toml --set accuracy.edges_per_segment=0 --set accuracy.tolerance=1e-300");
   CHECK(fine.code == 2);

@@ -5,6 +5,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/delivery.h"
 #include "app/cli/preset_library.h"
+#include "app/window/manual.h"
 #include "engine/core/json.h"
 #include "engine/preset/preset_file.h"
 #include "tests/app/bench.h"
@@ -73,7 +74,7 @@ TEST_CASE("bash completes commands, options, their words, presets and keys") {
 }
 
 TEST_CASE("the manual page names all commands, options, presets and keys, and roff takes it") {
-  const std::string page = app::man_page().value();
+  const std::string page = window::man_page().value();
   for (const auto& command : app::command_table()) {
     CHECK_THAT(page, Contains(".SS \"gridshell " + command.name));
     for (const auto& option : command.options)

@@ -71,10 +71,17 @@ TEST_CASE("a scan of a run shows that run, with its joints, its picture and what
   write_cloud(make_scan(shell, how).cloud, at / "high.csv");
   const auto high = gridshell_program("scan high.csv run --size 320x240 -o high", at);
   CHECK(high.code == 3);
-  CHECK_THAT(high.out, Contains("further out along the normals than [joints] height_mm = 5 says") &&
-                           Contains("with --set joints.height_mm=7.5") && Contains("it shows run"));
+  CHECK_THAT(high.out,
+             Contains("further out along the normals than [joints] height_mm = 5 assumes") &&
+                 Contains("with --set joints.height_mm=7.5") && Contains("it shows run"));
   CHECK(parsed(text_of(at / "high" / "scan.json"))["joint_height_that_fits_mm"].get<double>() ==
         Approx(7.5).margin(0.1));
+  // the joints themselves, taken for tops
+  write_cloud(shell.joints, at / "joints.csv");
+  const auto centres = gridshell_program("scan joints.csv run --size 320x240 -o centres", at);
+  CHECK(centres.code == 3);
+  CHECK_THAT(centres.out, Contains("with --centres it shows run\n"));
+  CHECK(parsed(text_of(at / "centres" / "scan.json"))["joint_height_that_fits_mm"] == 0);
 }
 
 TEST_CASE("clouds and runs that are none leave a sentence and no folder") {

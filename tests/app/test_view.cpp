@@ -274,8 +274,14 @@ TEST_CASE("a shell is saved under a name, exported, and compared with a run", "[
   for (const std::string& name : {std::string(300, 'x'), "deep/" + std::string(300, 'x')})
     CHECK_THAT(played(folder, "do save_as\n" + entered(name))["message"].get<std::string>(),
                Contains("File name too long"));
-  CHECK_THAT(played(folder, "do compare\n" + entered("deep"))["message"].get<std::string>(),
-             Contains("deep"));
+  CHECK_THAT(
+      played(folder, "do compare\n" + entered("deep/mine.toml"))["message"].get<std::string>(),
+      Contains("deep"));
+  // letters of a name open the first that has them, and Enter goes into a folder
+  CHECK(played(folder, "do open_file\n" + entered("SMA"))["preset"] == "small");
+  const json inside =
+      played(folder, "do open_file\n" + entered("deep") + "wait 0.1\ntype mine\n" + enter);
+  CHECK_THAT(inside["preset"].get<std::string>(), Contains("mine"));
 }
 
 TEST_CASE("a step of the strip along the bottom is gone back to, and on to") {
@@ -386,6 +392,16 @@ TEST_CASE("without a display the window says what to do instead") {
   CHECK(ended.code == 1);
   CHECK_THAT(ended.err, Contains("--play"));
   CHECK(std::count(ended.err.begin(), ended.err.end(), '\n') == 1);
+}
+
+TEST_CASE("where the window's program is missing it is said how to build it") {
+  const TemporaryFolder folder;
+  const fs::path alone = folder.path() / "gridshell";
+  fs::copy_file(GRIDSHELL_PROGRAM, alone);
+  const Ended ended = Running("view", folder.path(), alone.c_str()).wait();
+  CHECK(ended.code == 1);
+  CHECK_THAT(ended.err, Contains((folder.path() / "gridshell_window").string()) &&
+                            Contains("app/run.sh view"));
 }
 
 TEST_CASE("a bench drags by itself and prints its four figures") {

@@ -33,6 +33,7 @@ def test_states_and_reports_are_pickled():
     assert again.held == state.held == [(0, 0)] and again.directions == state.directions
     assert again.certificate.residual_N == state.certificate.residual_N
     assert repr(again) == repr(state) and "joints" in repr(state)
+    assert repr(state.layout).startswith(f"Layout({len(state.layout.rods)} rods, ")
     copy = pickle.loads(pickle.dumps(report))
     assert repr(copy) == repr(report) and copy.seconds == report.seconds
     assert [event.t for event in copy.events] == [event.t for event in report.events]

@@ -110,7 +110,7 @@ TEST_CASE("a push that begins with a long path reports the equilibria on it, and
     shell.drag(Push{joint, from - depth * normal, normal}, drag);
   };
   push(6, 1);
-  const std::vector<PlotPoint> way = shell.view().way;
+  const std::vector<PlotPoint> way = shell.view().push_path;
   REQUIRE(way.size() == 5);
   for (std::size_t k = 0; k < way.size(); ++k) {
     // the drag's coarse mesh begins a little elsewhere
@@ -122,8 +122,29 @@ TEST_CASE("a push that begins with a long path reports the equilibria on it, and
   CHECK(shell.view().held.at(0).moved_mm.norm() == Approx(6));
   // the same drag continues without it
   push(9, 1);
-  CHECK(shell.view().way.empty());
+  CHECK(shell.view().push_path.empty());
   CHECK(shell.view().steps.size() == 1);
+}
+
+TEST_CASE("a dragged joint resists before the rods lock, and goes back with the cursor") {
+  EditedShell shell;
+  const int joint = shell.joint(0, 0);
+  const Eigen::Vector3d normal = shell.view().normals.col(joint), from = shell.node(joint);
+  const auto pull = [&](double height) {
+    shell.drag(Push{joint, from + height * normal, normal}, 5);
+    return (shell.node(joint) - from).dot(normal);
+  };
+  double most = 0;
+  for (const double height : {5.0, 40.0, 60.0, 61.0}) most = std::max(most, pull(height));
+  CHECK(most > 5);
+  CHECK(most < 40);
+  CHECK_THAT(shell.view().message, Catch::StartsWith("the joint resists"));
+  CHECK(shell.view().held.at(0).force_N.norm() > 0);
+  // it is free to go back, and the drag is one step
+  CHECK(pull(3) == Approx(3).margin(1e-3));
+  CHECK(shell.view().message.empty());
+  shell.end_drag(5);
+  CHECK(shell.view().undo_steps == 1);
 }
 
 TEST_CASE("steps that are put aside into a file are undone and done again to the bit") {

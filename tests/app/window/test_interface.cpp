@@ -31,6 +31,14 @@ TEST_CASE("the keyboard alone reaches numbers and menus") {
   CHECK(played(folder, "down Alt\n" + press("G") + "up Alt\n")["gravity"] == false);
 }
 
+TEST_CASE("a parameter that is called as the words that are looked for is listed first") {
+  const TemporaryFolder folder;
+  const json after = played(folder, "do find_number\nwait 0.1\ntype rods\nwait 0.1\n" +
+                                        typed("@footprint.rods", "4") + enter);
+  CHECK(after["undo_steps"] == 1);
+  CHECK(number(after, "height_mm") > 5);
+}
+
 TEST_CASE("a shell of one's own is formed from the form") {
   const TemporaryFolder folder;
   const json formed =

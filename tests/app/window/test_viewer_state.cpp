@@ -184,7 +184,7 @@ TEST_CASE("a path that was left without a loss of stability is not searched for 
   viewer.shell = shell;
   viewer.go_to_loss();
   CHECK(viewer.message == "every state computed on the boundary's path is stable");
-  shell->way_left = "jitter at R_a = 94.5 mm";
+  shell->path_left = "jitter at R_a = 94.5 mm";
   viewer.go_to_loss();
   CHECK(viewer.message.find("left by jitter at R_a = 94.5 mm") != std::string::npos);
 }
@@ -237,6 +237,7 @@ TEST_CASE("a workspace kept and taken again is the same") {
   viewer.camera.azimuth_deg = 12.25;
   viewer.camera.target = {1, 2, 3};
   viewer.recent = {"s1_actuation", "/tmp/a b.toml"};
+  viewer.last_folders[0] = "/tmp/saved", viewer.last_folders[1] = "/tmp/opened";
   const std::string text = workspace_text(viewer);
   ViewerState again({});
   REQUIRE(take_workspace(again, text));
@@ -244,6 +245,7 @@ TEST_CASE("a workspace kept and taken again is the same") {
   CHECK(again.range_of == RangeOf::hand);
   CHECK((again.numbers && !again.plots));
   CHECK(again.recent == viewer.recent);
+  CHECK((again.last_folders[0] == "/tmp/saved" && again.last_folders[1] == "/tmp/opened"));
   REQUIRE(again.saved_camera);
   CHECK(again.saved_camera->camera == viewer.camera);
   CHECK(again.saved_camera->colour_by == ColourBy::energy);

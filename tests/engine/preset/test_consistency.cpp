@@ -132,6 +132,19 @@ TEST_CASE("a key that the kind does not use is refused with its position and the
                  Catch::Contains("[[block]] 2 kind = \"sphere\" does not use it"));
 }
 
+TEST_CASE("a drawing or a load in the wrong key: the message names the right one") {
+  const std::string curve = "[footprint]\nkind = \"curve\"\n";
+  CHECK_THAT(errors_of(curve + "boundary = \"plan.dxf\"\n"),
+             Catch::Contains("file = \"plan.dxf\" with boundary = \"file\""));
+  CHECK_THAT(errors_of(curve + "boundary = \"spline\"\npoints_mm = \"plan.svg\"\n"),
+             Catch::Contains("file = \"plan.svg\" with boundary = \"file\""));
+  CHECK_THAT(
+      errors_of("[footprint]\nkind = \"network\"\nfile = { points_mm = [[0, 0, 0], [9, 0, 0], "
+                "[9, 9, 0]], rods = [[0, 1, 2, 0]] }\n"),
+      Catch::Contains("one closed rod (if it is an outline: kind = \"curve\""));
+  CHECK_THAT(errors_of("[loads]\nsnow_N_m2 = 100.0\n"), Catch::Contains("such as snow = 1.0"));
+}
+
 TEST_CASE("pictures have keys that others put out of use") {
   CHECK_THAT(errors_of("[movie]\nview = \"top\"\nazimuth_deg = 10.0\n"),
              Catch::Contains("[movie] view replaces it"));

@@ -100,3 +100,17 @@ TEST_CASE("a cell deviates from its net by the mean of its joints, over the leng
   REQUIRE(of_cells.size() == 1);
   CHECK(of_cells[0] == Approx(0.025));
 }
+
+TEST_CASE("the angles of joints are linear along the rods between them") {
+  Layout layout;
+  layout.rods = {{0, 1, 2, 3, 4, 5}, {6, 7}};
+  layout.joints = {{0, 0, 0, 0, 1}, {1, 0, 0, 0, 3}};
+  Frame frame;
+  frame.nodes = Eigen::Matrix3Xd::Zero(3, 8);
+  CHECK(joint_angle_of_nodes_deg(layout, frame).size() == 0);
+  frame.angle_deg = Eigen::Vector2d(60, 70);
+  const Eigen::VectorXd angle = joint_angle_of_nodes_deg(layout, frame);
+  const double expected[] = {60, 60, 65, 70, 70, 70};
+  for (int node = 0; node < 6; ++node) CHECK(angle[node] == expected[node]);
+  CHECK(std::isnan(angle[6]));
+}

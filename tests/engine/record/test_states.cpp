@@ -56,13 +56,16 @@ TEST_CASE("state tables: what is written is read back, what is unknown stays so"
   CHECK(read.rows[0].lives_to == 0.0325);
 }
 
-TEST_CASE("states to draw: the lowest of each of the paper's classes, then those met most often") {
+TEST_CASE("states to draw: the lowest, the lowest of each class, then those met most often") {
   std::vector<record::StateRow> rows(5);
   for (int k = 0; k < 5; ++k) rows[std::size_t(k)].count = k;
   rows[0].kind = rows[1].kind = record::StateClass::ii;
   CHECK(record::states_to_draw(rows, 1) == std::vector<std::size_t>{0});
   CHECK(record::states_to_draw(rows, 3) == std::vector<std::size_t>{0, 3, 4});
   CHECK(record::states_to_draw(rows, 9).size() == 5);
+  rows[0].kind = record::StateClass::other;
+  CHECK(record::states_to_draw(rows, 3) == std::vector<std::size_t>{0, 1, 4});
+  CHECK(record::states_to_draw({}, 3).empty());
 }
 
 TEST_CASE("state tables of earlier versions: a number that has no column is unknown") {

@@ -154,6 +154,33 @@ TEST_CASE("who watches a path sees where it is and which mesh is followed") {
   CHECK(watch.place().t == path.segments.back().end());
 }
 
+TEST_CASE("where the lowest stiffness nearly vanishes a finer mesh decides whether it does",
+          "[standard]") {
+  // 8 edges per segment keep the symmetric branch, whose lowest stiffness falls to a tenth near
+  // progress 0.04; on 12 and more it falls below zero, and the shell leaves that branch for good
+  preset::Preset p = superellipse(97.549, 104.313, 4.3314, 0.954516);
+  p.accuracy.tolerance = 3.6e-3;
+  p.movie.frames = 2;
+  const auto chosen = run(p);
+  CHECK(chosen.summary.doubt.empty());
+  CHECK(chosen.summary.edges_per_segment > 8);
+  p.accuracy.edges_per_segment = 8;
+  const auto coarse = run(p);
+  CHECK(coarse.summary.doubt.find("stability at path parameter 0.19") != std::string::npos);
+  CHECK(distance(coarse, chosen) > 1);
+  p.accuracy.edges_per_segment = 24;
+  CHECK(distance(run(p), chosen) < 0.05);
+}
+
+TEST_CASE("a branch is left near its event where the boundary moves little, too") {
+  // the boundary moves by 5 mm in all, a thousandth of the size is a fiftieth of that
+  const EquilibriumPath path =
+      actuated(superellipse(97.549, 104.313, 4.3314, 0.954516), plan_of_mesh(16));
+  REQUIRE(path.segments.back().report.events.size() == 1);
+  const Event& event = path.segments.back().report.events.front();
+  CHECK(event.to.value() - event.t < 2e-3);
+}
+
 TEST_CASE("a companion that loses its stability decides nothing") {
   // 4 edges lose it on a path that those of 5 edges and more follow to its end
   const preset::Preset p = circle(8, 77.9, 63.0, 3);

@@ -175,3 +175,18 @@ TEST_CASE("lowest modes: stopped when cancelled") {
   const Eigen::Matrix3Xd mass = value_of(lumped_mass(model, {per_mm}));
   check_stops([&](const Watch& watch) { return softest_modes(system, mass, 3, 0, watch); });
 }
+
+TEST_CASE("the lowest stiffness is found from a mode of another symmetry") {
+  const RodMesh mesh = single_rod(32, L);
+  const Model model = build_model(mesh, section).value();
+  Linearisation system(model);
+  REQUIRE(system.at(start_state(model, straight(model, 1.0001)), false).positive_definite());
+  const Eigen::VectorXd length = lumped(mesh, {1.0});
+  Eigen::Matrix3Xd any;
+  const double lowest = lowest_eigenvalue(system, length, any, unwatched, 1e-7);
+  // the second mode has no part along the first
+  Eigen::Matrix3Xd second = Eigen::Matrix3Xd::Zero(3, model.columns());
+  for (int k = 0; k < model.nodes; ++k)
+    second(2, k) = std::sin(2 * M_PI * (model.flat(0, k) / L + 0.5));
+  CHECK(lowest_eigenvalue(system, length, second, unwatched, 0.02) == Approx(lowest).epsilon(0.05));
+}

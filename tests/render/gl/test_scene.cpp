@@ -123,6 +123,8 @@ TEST_CASE("what moves is drawn in fewer pieces, and without shadows nothing thro
   CHECK(coarse->ribbons.indices.size() < fine->ribbons.indices.size());
   CHECK(coarse->sheets.indices.size() <= fine->sheets.indices.size());
   CHECK(coarse->beads.indices.size() == fine->beads.indices.size());
+  CHECK(
+      make_scene(drawing, {}, drawing.joint_diameter_mm, {.coarse = true})->beads.indices.empty());
   CHECK(flat->ribbons.indices.size() == fine->ribbons.indices.size());
   CHECK(flat->casters.empty());
 }

@@ -42,6 +42,22 @@ TEST_CASE("what no frame knows cannot be what is coloured") {
   CHECK(lacks(ColourBy::utilisation).empty());
 }
 
+TEST_CASE("rods are coloured by the angles of their joints, from the least on") {
+  record::Trajectory run = synthetic::dome(3, 2);
+  const MovieStyle style = coloured(ColourBy::joint_angle);
+  CHECK(check_showable(run, style).error().message.find("no joint of the run") !=
+        std::string::npos);
+  Eigen::VectorXd& angles = run.frames.edit()[2].angle_deg;
+  angles.setLinSpaced(Eigen::Index(run.layout.joints.size()), 60, 80);
+  const Stage stage(run, style);
+  const ColourScale scale = stage.colour_bar()->scale;
+  CHECK(scale.low == 60);
+  CHECK(scale.high == 80);
+  const auto colours = stage.drawing(run.frames[2]).node_colours;
+  for (std::size_t k = 0; k < run.layout.joints.size(); ++k)
+    CHECK(colours[std::size_t(run.layout.joints[k].node)] == scale(angles[Eigen::Index(k)]));
+}
+
 TEST_CASE("rods are coloured by their forces, grey where a frame does not know them") {
   record::Trajectory run = synthetic::dome(3, 2);
   record::Frame& last = run.frames.edit()[2];

@@ -66,7 +66,7 @@ TEST_CASE("long text is broken, a picture keeps its shape") {
   std::string text;
   for (int k = 0; k < 200; ++k) text += "word" + std::to_string(k) + " ";
   sheets.text(text);
-  sheets.picture(render::Image(400, 200));
+  sheets.pictures({render::Image(400, 200)});
   const auto words = words_of(sheets);
   REQUIRE(words.size() == 1);
   CHECK(words[0].size() > 10);

@@ -140,7 +140,9 @@ TEST_CASE("an unstable frame says so once, a stable one never") {
   CHECK(event_caption(silent) == "unstable equilibrium");
 }
 
-TEST_CASE("the bar is of the radius or the depth where these are monotonic, else of frames") {
+TEST_CASE(
+    "the bar is of the radius, the depth or the camera's angle where these are monotonic, else of "
+    "frames") {
   record::Trajectory run = synthetic::dome(5, 2);
   const ProgressAxis radius = summarise_run(run).progress();
   CHECK(radius.name == "*R*_{a}");
@@ -158,6 +160,12 @@ TEST_CASE("the bar is of the radius or the depth where these are monotonic, else
   const ProgressAxis frames = summarise_run(run).progress();
   CHECK(frames.name.empty());
   CHECK(frames.places[2] == Approx(0.5));
+  // around a state alone it is the camera's angle
+  RunSummary once_around = summarise_run(run);
+  once_around.turn_deg = 288;
+  const ProgressAxis angle = once_around.progress();
+  CHECK((angle.name == "angle" && angle.first == 0 && angle.last == 288 && angle.unit == "°"));
+  CHECK(angle.places[2] == Approx(0.5));
 }
 
 TEST_CASE("a pushed shell is seen over its first state, with the push in the picture's plane") {

@@ -1,0 +1,240 @@
+#include <fmt/format.h>
+#include <algorithm>
+#include <optional>
+
+#include "app/cli/figures.h"
+#include "app/cli/paper_page.h"
+#include "app/cli/pictures.h"
+#include "app/cli/sweep_folder.h"
+#include "engine/core/try.h"
+#include "engine/gridshell.h"
+#include "render/canvas/legend.h"
+#include "render/movie/run_figures.h"
+#include "render/movie/run_summary.h"
+#include "render/movie/stage.h"
+#include "render/movie/state_charts.h"
+
+namespace gridshell::app {
+namespace {
+
+using record::StateClass;
+using record::StateRow;
+using render::Box;
+using render::Canvas;
+
+// positions on the page, mm
+constexpr double page_width = 178, page_height = 147, margin = 2;
+constexpr Box above{margin, margin, 160, 38}, diagram{margin, 42, 97, 94}, maps{101, 42, 75, 94},
+    foot{margin, 137, 97, 5};
+constexpr double points_per_mm = 72 / 25.4, caption = 12;  // points
+
+/// A state of a record.
+struct Found {
+  const Run* record = nullptr;
+  std::size_t at = 0;
+
+  const record::StateRow& row() const { return record->states.rows[at]; }
+  const record::Frame& frame() const { return record->trajectory.frames[at]; }
+};
+
+/// "state *ii* (*C*_{2v})": a page has one of each class.
+std::string page_name_of(const StateRow& row) {
+  return fmt::format("{} ({})", class_text(row.kind), group_text(row.group));
+}
+
+/// The lowest of a class.
+std::optional<Found> lowest_of(StateClass kind, const Run& record) {
+  std::optional<Found> lowest;
+  for (std::size_t k = 0; k < record.states.rows.size(); ++k) {
+    const Found one{&record, k};
+    if (one.row().kind == kind && (!lowest || one.row().energy_mJ() < lowest->row().energy_mJ()))
+      lowest = one;
+  }
+  return lowest;
+}
+
+std::optional<Found> lowest_of(StateClass kind, const Runs& records) {
+  std::optional<Found> lowest;
+  for (const Run* record : records)
+    if (!lowest) lowest = lowest_of(kind, *record);
+  return lowest;
+}
+
+/// "(*L̄*_{d}, *n*) = (0.8, 12)"; empty where the footprint is no circle.
+std::string place_of(const preset::Preset& preset) {
+  if (preset.footprint.kind != preset::FootprintKind::circle) return "";
+  const double radius = preset.original_radius_mm() / preset.footprint.spacing_mm;
+  return fmt::format("(*L̄*_{{d}}, *n*) = ({:.3g}, {})",
+                     record::longest_leg(radius, preset.footprint.rods), preset.footprint.rods);
+}
+
+/// Which of the states joints measured lie nearest to, by the mean distance to its own joints; -1:
+/// none were measured.
+int state_measured(const Eigen::Matrix3Xd& measured, const record::Trajectory& states) {
+  if (measured.cols() == 0) return -1;
+  std::vector<double> away;
+  for (const record::Frame& frame : states.frames) {
+    const auto joints = frame.nodes.leftCols(Eigen::Index(states.layout.joints.size()));
+    double sum = 0;
+    for (const auto& joint : measured.colwise())
+      sum += (joints.colwise() - joint).colwise().norm().minCoeff();
+    away.push_back(sum);
+  }
+  return int(std::ranges::min_element(away) - away.begin());
+}
+
+/// A state in space on its page.
+Result<void> add_state(Page& page, const Found& found, const render::Stage& stage,
+                       render::Drawing drawing, const std::string& letter,
+                       const std::string& caption, const Box& box, render::Renderer& renderer) {
+  const render::MovieStyle& style = stage.style();
+  const render::Camera camera = stage.camera(0);
+  TRY(picture,
+      renderer.draw(drawing, camera, render::draw_quality(style), style.width(), style.height()));
+  render::Panel panel{std::move(*picture), letter, ""};
+  if (style.vector) panel.lines = render::shell_lines(std::move(drawing), camera);
+  page.add_panel(fmt::format("{}, {}", page_name_of(found.row()), caption), box, std::move(panel));
+  return {};
+}
+
+/// How wide a shell is against another.
+double width_over(const record::Trajectory& run, const record::Trajectory& other) {
+  const auto reach = [](const record::Trajectory& one) {
+    return one.layout.actuated_boundary.topRows<2>().colwise().norm().maxCoeff();
+  };
+  return reach(run) / reach(other);
+}
+
+/// The first record's states ii, iii and iv in space and the lowest dome of any, at one scale and
+/// with one colour bar; joints measured over the one that they lie nearest to.
+Result<void> add_states(Page& page, const Runs& records, render::MovieStyle style,
+                        render::Renderer& renderer, Watch& watch) {
+  const Run& one = *records.front();
+  std::vector<std::size_t> which;
+  for (const StateClass kind : {StateClass::ii, StateClass::iii, StateClass::iv})
+    if (const auto found = lowest_of(kind, one)) which.push_back(found->at);
+  if (which.empty()) {
+    page.add_empty("A", above, "none of the states ii, iii and iv was found");
+    return {};
+  }
+  const auto dome = lowest_of(StateClass::i, records);
+  const double wider = dome ? width_over(dome->record->trajectory, one.trajectory) : 0;
+  const double width = above.width / (3 + wider), dpi = one.preset.figure.dpi,
+               height = above.height - caption / points_per_mm;
+  style.captions = style.inset = style.legends = false;
+  style.turn_deg = 0;
+  const record::Trajectory run = states_alone(one.trajectory, which);
+  const render::Stage stage(run, at_size(style, width, height, dpi));
+  const Eigen::Matrix3Xd measured = scan_of(one.preset);
+  const int over = state_measured(measured, run);
+  for (std::size_t k = 0; k < which.size(); ++k) {
+    if (watch.cancelled()) return fail(Fault::cancelled, "stopped while drawing a page");
+    const Found found{&one, which[k]};
+    render::Drawing drawing = stage.drawing(run.frames[k]);
+    // joints are drawn red too: where some are measured no others are
+    if (over >= 0) drawing.joint_diameter_mm = 0;
+    if (over == int(k)) render::show_measured_joints(measured, drawing);
+    TRY_DO(add_state(page, found, stage, std::move(drawing), "A" + std::to_string(k + 1),
+                     fmt::format("{:.2f} mJ", found.row().energy_mJ()),
+                     {above.x + double(k) * width, above.y, width, above.height}, renderer));
+    watch.report(double(k + 1) / double(which.size() + 1));
+  }
+  if (dome) {
+    const record::Trajectory alone = states_alone(dome->record->trajectory, {dome->at});
+    render::MovieStyle wide = at_size(style, wider * width, height, dpi);
+    const auto staged = [&] {
+      return render::Stage(alone.layout, render::summarise_run(alone), wide, stage.colour_bar());
+    };
+    wide.zoom *= stage.pixels_per_mm() / staged().pixels_per_mm();
+    const render::Stage beside = staged();
+    TRY_DO(add_state(page, *dome, beside, beside.drawing(alone.frames.front()), "A4",
+                     fmt::format("{:.2f} mJ", dome->row().energy_mJ()),
+                     {above.x + 3 * width, above.y, wider * width, above.height}, renderer));
+  }
+  if (const auto& bar = stage.colour_bar()) page.add_colour_bar({163, 3, 14, 28}, *bar);
+  if (over >= 0) page.add_keys({128, 1, 32, 4}, {render::scan_key()});
+  const double units = height * points_per_mm * stage.pixels_per_mm() / stage.style().height();
+  page.add_scale_bar({159, 31, 18, 8}, one.preset.figure.scale_bar_mm, units);
+  return {};
+}
+
+Result<void> add_diagram(Page& page, const std::string& named) {
+  if (named.empty()) {
+    page.add_empty("B", diagram, "phase diagram: [page] sweep names no sweep");
+    return {};
+  }
+  TRY(table, read_finished_sweep(named));
+  if (!record::makes_phase_diagram(table->axes))
+    return invalid(
+        "[page] sweep = \"{}\": goes over other keys than footprint.longest_leg and "
+        "footprint.rods",
+        named);
+  const std::string& of_case = table->rows.front().keys.case_name;
+  page.add_plot("B", diagram, render::phase_plot(record::phase_diagram_of(*table, of_case), ""));
+  return {};
+}
+
+/// What all shells of the page have in common.
+void add_foot(Page& page, const preset::Preset& preset, const std::string& dome) {
+  if (preset.footprint.kind != preset::FootprintKind::circle) return;
+  page.add_note(foot, fmt::format("A1–A3 at {}{}; *d* = {:g} mm, *R*_{{a}} = {:.3g} *R*_{{o}}",
+                                  place_of(preset), dome.empty() ? "" : ", A4 at " + dome,
+                                  preset.footprint.spacing_mm,
+                                  preset.actuated_radius_mm() / preset.original_radius_mm()));
+  page.add_note(
+      {foot.x, foot.y + 4, foot.width, foot.height},
+      "Elastic energies. B: markers are displaced from their point, grey, for legibility.");
+}
+
+/// A state of each class from above, each as large as its box.
+void add_maps(Page& page, const Runs& records) {
+  const double width = maps.width / 2, height = maps.height / 2;
+  int place = 0;
+  for (const StateClass kind : {StateClass::i, StateClass::ii, StateClass::iii, StateClass::iv}) {
+    const Box box{maps.x + width * (place % 2), maps.y + height * (place / 2), width, height};
+    const std::string letter = "C" + std::to_string(++place);
+    const auto found = lowest_of(kind, records);
+    if (!found) {
+      page.add_empty(letter, box, "no state " + std::string(word_of(kind)));
+      continue;
+    }
+    page.add(letter, page_name_of(found->row()), box,
+             [found = *found, where = place_of(found->record->preset)](Canvas& canvas,
+                                                                       const Box& inside) {
+               const record::Layout& layout = found.record->trajectory.layout;
+               const Box map{inside.x, inside.y, inside.width, inside.height - caption};
+               render::draw_state_map(canvas, map, render::state_map_scale(map, layout), layout,
+                                      found.frame(), found.row());
+               canvas.text(where, {inside.middle().x, inside.bottom() - caption / 2},
+                           {.size = page_font,
+                            .align_x = render::AlignX::centre,
+                            .align_y = render::AlignY::middle});
+             });
+  }
+  page.add_keys({maps.x, maps.y + maps.height, maps.width, 5},
+                {{render::first_order_ink, "first-mode buckling"},
+                 {render::higher_order_ink, "higher-order buckling"}});
+  page.add_keys({maps.x, maps.y + maps.height + 4, maps.width, 5},
+                {{render::mirror_ink, "symmetry element"}});
+}
+
+}  // namespace
+
+Result<Page> states_page(const Runs& records, const render::MovieStyle& style,
+                         render::Renderer& renderer, Watch& watch) {
+  const Run& first = *records.front();
+  if (first.states.rows.empty())
+    return invalid(
+        "{}: [page] kind = \"fig2\" shows states: expected [jitter] trials or "
+        "confined above 0",
+        first.preset.name);
+  Page page{page_width, page_height};
+  TRY_DO(add_states(page, records, style, renderer, watch));
+  TRY_DO(add_diagram(page, first.preset.page.sweep));
+  add_maps(page, records);
+  const auto dome = lowest_of(StateClass::i, records);
+  add_foot(page, first.preset, dome ? place_of(dome->record->preset) : "");
+  return page;
+}
+
+}  // namespace gridshell::app
