@@ -231,7 +231,9 @@ Result<void> add_loads(Sheets& sheets, study::FormedShell& shell, const ReportOp
     rows.push_back(
         {{row.load_case, parts[0], parts[1], parts[2],
           lost ? record::with_error(row.critical_factor, row.error, "") : "–",
-          std::isfinite(row.linear_factor) ? number(row.linear_factor) : "–",
+          std::isfinite(row.linear_factor)
+              ? record::with_error(row.linear_factor, row.linear_error, "")
+              : "–",
           std::isfinite(row.strength_factor)
               ? record::with_error(row.strength_factor, row.strength_error, "")
               : "–",
