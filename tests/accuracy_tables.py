@@ -191,7 +191,7 @@ def loads():
         strength = with_error(row["strength_factor"], row["strength_error"]) if row["strength_factor"] else ""
         event = {"turn": "limit point"}.get(row["event"], row["event"])
         yield [f"{row['case']}, {kN:.1f} kN", strength, with_error(row["critical_factor"], row["error"]),
-               event, number(row["linear_factor"], 3)]
+               event, with_error(row["linear_factor"], row["linear_error"])]
 
 
 def states():

@@ -93,10 +93,12 @@ void print_plan(const preset::Preset& preset, const simulate::Plan& plan) {
   fmt::print("{}: {}\n", preset.name, preset.title);
   fmt::print("  footprint       {}\n", plan.footprint);
   if (preset.footprint.kind == preset::FootprintKind::circle)
-    fmt::print("  boundary        {} mm to {} mm; longest leg L_d = {:.3g}\n",
-               preset.original_radius_mm(), preset.actuated_radius_mm(),
-               preset.original_radius_mm() / preset.footprint.spacing_mm -
-                   0.5 * (preset.footprint.rods - 1));
+    fmt::print(
+        "  boundary        {} mm to {} mm; longest leg L_d = {:.3g}, of a rod through the "
+        "middle\n",
+        preset.original_radius_mm(), preset.actuated_radius_mm(),
+        preset.original_radius_mm() / preset.footprint.spacing_mm -
+            0.5 * (preset.footprint.rods - 1));
   for (const auto& seam : plan.seams) fmt::print("  seam            {}\n", seam);
   for (const auto& sentence : plan.net) fmt::print("  net             {}\n", sentence);
   fmt::print("  model           {}\n", plan.model_reason);

@@ -140,7 +140,8 @@ std::string sentence_of(const record::LoadRow& row) {
     text += row.event == BranchEvent::locking
                 ? "the rods reach the strain limit before stability is lost"
                 : "stability is not lost on the path followed";
-  if (std::isfinite(row.linear_factor)) text += fmt::format(" (linear {:.4g})", row.linear_factor);
+  if (std::isfinite(row.linear_factor))
+    text += " (linear " + record::with_error(row.linear_factor, row.linear_error, "") + ")";
   if (row.strength_factor == 0)
     text += "; the rods BREAK already without that load";
   else if (std::isfinite(row.strength_factor))

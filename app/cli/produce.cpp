@@ -199,11 +199,8 @@ void print_forces(const record::Summary& at, const record::Layout& layout) {
   if (at.force_error_N >= at.largest_force_N && at.largest_force_N > 0)
     fmt::print("\n  no force on a support above {:.1g} N", at.largest_force_N + at.force_error_N);
   else if (at.largest_force_N > 0)
-    fmt::print("\n  largest force on a support {}{}",
-               record::with_error(at.largest_force_N, at.force_error_N, "N"),
-               std::isfinite(at.force_error_N)
-                   ? fmt::format(", {:.2g} %", 100 * at.force_error_N / at.largest_force_N)
-                   : "");
+    fmt::print("\n  largest force on a support {}",
+               record::with_error(at.largest_force_N, at.force_error_N, "N"));
 }
 
 /// What a builder wants to know: of rods without a strength the strain, where no limit is set.

@@ -1,4 +1,5 @@
-
+// What the program has, for other programs: commands, presets, tables and keys as JSON, and the
+// completion for bash.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -11,7 +12,7 @@
 namespace gridshell::app {
 namespace {
 
-/// All of a list, each as an object.
+/// The entries of a list, each as a JSON object.
 template <class List, class Object>
 Json array_of(const List& list, const Object& object) {
   Json all = Json::array();
@@ -37,7 +38,8 @@ Json json_of(const CommandEntry& command) {
           {"options", array_of(command.options, [](const auto& one) { return json_of(one); })}};
 }
 
-/// "    movie) options='--set ...' ;;"
+/// The shell's case with a command's options: "    movie) options='--set ...' ;;", and with the
+/// names of presets if it takes one.
 std::string case_of(const CommandEntry& command) {
   std::string options, names;
   for (const CommandOption& option : command.options)
@@ -48,7 +50,8 @@ std::string case_of(const CommandEntry& command) {
   return fmt::format("    {}) options='{}'{} ;;\n", command.name, options, names);
 }
 
-/// "    'render --context') words='auto ...' ;;" of every option that is one of a few words.
+/// The shell's cases of a command's options with a few values: "    'render --context') words='auto
+/// ...' ;;".
 std::string words_of(const CommandEntry& command) {
   std::string text;
   for (const CommandOption& option : command.options)

@@ -36,7 +36,7 @@ struct ReportOptions {
   bool quiet = false, no_checksum = false;
 };
 
-/// Four digits, of thousands all before the point.
+/// A number with four digits; from 1000 to 1e9 with all digits before the decimal point.
 std::string number(double value) {
   if (!std::isfinite(value)) return "not known";
   return std::abs(value) >= 1000 && std::abs(value) < 1e9 ? fmt::format("{:.0f}", value)
@@ -47,7 +47,7 @@ std::string with_unit(double value, const char* unit) {
   return std::isfinite(value) ? number(value) + " " + unit : "not known";
 }
 
-/// An error with its unit; its second digit is not known: "0.01 mm".
+/// An error with its unit, with one digit, as the second one is not known: "0.01 mm".
 std::string error_with_unit(double value, const char* unit) {
   if (!std::isfinite(value)) return "not known";
   const std::string digit = fmt::format("{:.1g}", value);
@@ -61,7 +61,7 @@ std::vector<std::string> numbers(const Eigen::Vector3d& force, double beside) {
   return texts;
 }
 
-/// A force with the decimals that its error leaves.
+/// A force with as many decimals as its error permits.
 std::string force_text(double force, double error) {
   if (!std::isfinite(error) || error <= 0) return number(force);
   const int decimals = std::clamp(int(std::ceil(-std::log10(error))), 0, 9);
@@ -69,7 +69,7 @@ std::string force_text(double force, double error) {
   return std::stod(text) == 0 ? "0" : text;
 }
 
-/// The last state, in the colours of a quantity; half as wide as the sheet.
+/// The picture of a run's last state, in the colours of a quantity, half as wide as the sheet.
 Result<render::Image> picture_of(const Run& run, preset::ColourBy colours,
                                  render::Renderer& renderer) {
   preset::Preset preset = run.preset;
@@ -77,7 +77,7 @@ Result<render::Image> picture_of(const Run& run, preset::ColourBy colours,
   preset.movie.bins = false;
   preset.style.range.clear();
   constexpr double width_mm = 88, height_mm = 66, dpi = 300;
-  // a bar that can be seen next to the shell
+  // a scale bar of at least a twentieth of the shell's length scale
   const double length = run.trajectory.layout.length_scale_mm;
   if (preset.figure.scale_bar_mm < 0.05 * length)
     preset.figure.scale_bar_mm = render::nice_ceiling(0.2 * length);
@@ -97,8 +97,10 @@ Result<render::Image> picture_of(const Run& run, preset::ColourBy colours,
   return std::move(*picture);
 }
 
-/// "timber_c24", or what is known of it: "*E* = 83 GPa".
+/// The name of a rod's material, "timber c24", or without a name its stiffness, "E = 83 GPa"; the
+/// bending stiffness where it is given.
 std::string material_text(const preset::Rod& rod) {
+  if (rod.EI_Nmm2 > 0) return fmt::format("EI = {:g} N mm²", rod.EI_Nmm2);
   if (rod.material == preset::Material::none) return fmt::format("E = {:g} GPa", rod.young_GPa);
   return render::spaced(std::string(word_of(rod.material)));
 }
@@ -106,7 +108,7 @@ std::string material_text(const preset::Rod& rod) {
 void add_geometry(Sheets& sheets, const Run& run, const exports::FabricationPlan& plan) {
   const record::Summary& summary = run.summary;
   const auto& boundary = plan.actuated_boundary;
-  // a rod that is clamped at one end has none
+  // a cantilever has no boundary
   const Eigen::Vector3d span =
       boundary.cols() > 0
           ? Eigen::Vector3d(boundary.rowwise().maxCoeff() - boundary.rowwise().minCoeff())
@@ -142,19 +144,21 @@ void add_stresses(Sheets& sheets, const record::Summary& summary) {
     sheets.text("The rods' strength is not known: [rod] strength_MPa or yield_strain says it.");
 }
 
-/// "u-3 begin", as plate and pins.csv call it, or the joint: "joint [0, 4]".
+/// The name of a support: that of a rod's end, as in the plate and pins.csv, "u-3 begin", or of a
+/// joint, "joint [0, 4]".
 std::string support_name(const record::Layout& layout, const exports::FabricationPlan& plan,
                          int node) {
+  // a rod may end on a fixed joint, which is no pin
+  for (const record::Joint& joint : layout.joints)
+    if (joint.node == node) return fmt::format("joint [{}, {}]", joint.i, joint.j);
   const auto end =
       std::size_t(std::ranges::find(layout.edge_points, node) - layout.edge_points.begin());
   if (end < 2 * plan.rods.size() && end < layout.edge_points.size())
     return exports::pin_name(plan.rods[end / 2].name, end % 2 == 1);
-  for (const record::Joint& joint : layout.joints)
-    if (joint.node == node) return fmt::format("joint [{}, {}]", joint.i, joint.j);
   return "";
 }
 
-/// The reactions, one support per line, the largest first.
+/// Adds the table of reactions, one support per line, the largest first.
 void add_reactions(Sheets& sheets, const record::Layout& layout, const record::Frame& frame,
                    const exports::FabricationPlan& plan) {
   sheets.heading("Reactions");
@@ -165,9 +169,9 @@ void add_reactions(Sheets& sheets, const record::Layout& layout, const record::F
   std::ranges::stable_sort(order, std::greater<>(),
                            [&](Eigen::Index k) { return frame.reactions_N.col(k).norm(); });
   std::vector<TableRow> rows;
-  const auto add = [&](const std::string& pin, const std::string& place,
+  const auto add = [&](const std::string& pin, const std::string& position,
                        const Eigen::Vector3d& force) {
-    rows.push_back({{pin, place}});
+    rows.push_back({{pin, position}});
     for (const double one : {force.x(), force.y(), force.z(), force.norm()})
       rows.back().cells.push_back(force_text(one, frame.force_error_N));
   };
@@ -192,7 +196,7 @@ void add_reactions(Sheets& sheets, const record::Layout& layout, const record::F
       {"pin", 48, AlignX::left}, {"position (mm)", 75, AlignX::left},
       {"*x* (N)", 32},           {"*y* (N)", 32},
       {"*z* (N)", 32},           {"size (N)", 40}};
-  // many supports, two a line without the sizes
+  // of many supports a line has two, without the magnitudes of the forces
   constexpr std::size_t most_lines = 24;
   if (rows.size() > most_lines) {
     std::vector<TableRow> pairs;
@@ -227,7 +231,9 @@ Result<void> add_loads(Sheets& sheets, study::FormedShell& shell, const ReportOp
     rows.push_back(
         {{row.load_case, parts[0], parts[1], parts[2],
           lost ? record::with_error(row.critical_factor, row.error, "") : "–",
-          std::isfinite(row.linear_factor) ? number(row.linear_factor) : "–",
+          std::isfinite(row.linear_factor)
+              ? record::with_error(row.linear_factor, row.linear_error, "")
+              : "–",
           std::isfinite(row.strength_factor)
               ? record::with_error(row.strength_factor, row.strength_error, "")
               : "–",
@@ -257,7 +263,7 @@ Result<void> add_loads(Sheets& sheets, study::FormedShell& shell, const ReportOp
   return {};
 }
 
-/// The shapes of the first modes over the state in grey.
+/// Adds the picture of the first modes' shapes, over the state in grey.
 Result<void> add_shapes(Sheets& sheets, const study::Vibrations& found, render::MovieStyle style,
                         Watch& watch) {
   constexpr std::size_t most = 6, columns = 3;
@@ -348,11 +354,13 @@ Result<void> add_run(Sheets& sheets, const Run& run, const ReportOptions& option
   else
     render::add_cut_list(sheets, rounded);
   last_cut_list = render::cut_list_text(rounded);
-  if (const auto& fault = run.trajectory.frames.fault()) return tl::unexpected(*fault);
+  // frames are read when they are used: an error of reading is known at the end
+  if (const auto& error = run.trajectory.frames.fault()) return tl::unexpected(*error);
   return {};
 }
 
-/// What following loads and finding modes takes, each.
+/// Expected time of forming the shell again, s, by which the studies of loads and modes are scaled;
+/// 1 if it is not known.
 double study_seconds(const preset::Preset& preset) {
   const auto plan = plan_of(preset);
   return plan && std::isfinite(plan->expected_seconds) ? plan->expected_seconds : 1;

@@ -181,9 +181,9 @@ void add_foot(Page& page, const preset::Preset& preset, const std::string& dome)
                                   place_of(preset), dome.empty() ? "" : ", A4 at " + dome,
                                   preset.footprint.spacing_mm,
                                   preset.actuated_radius_mm() / preset.original_radius_mm()));
-  page.add_note(
-      {foot.x, foot.y + 4, foot.width, foot.height},
-      "Elastic energies. B: markers are displaced from their point, grey, for legibility.");
+  page.add_note({foot.x, foot.y + 4, foot.width, foot.height},
+                "States of least elastic energy in their class. B: markers are displaced from "
+                "their grey points.");
 }
 
 /// A state of each class from above, each as large as its box.

@@ -15,7 +15,7 @@ namespace {
 constexpr float tip_after_s = 0.6f;
 
 constexpr float text_px = 14.f;
-// Latin, Greek, arrows, mathematical signs, □ ● ▶
+// ranges of characters that the font has: Latin, Greek, arrows, mathematical signs, □ ● ▶
 constexpr ImWchar letters[] = {0x20,   0xff,   0x391,  0x3c9,  0x2010, 0x2044, 0x2070, 0x209f,
                                0x2190, 0x21ff, 0x2200, 0x22ff, 0x25a0, 0x25ff, 0};
 
@@ -51,7 +51,7 @@ bool begin_table(const Panel& panel, const char* name, double left) {
   return true;
 }
 
-/// The keys of some menus.
+/// Table of the keys of the menus that `menus` names, separated by blanks.
 void keys(const Panel& panel, const std::string& menus) {
   if (!begin_table(panel, menus.c_str(), 104)) return;
   for (const Action& action : actions())
@@ -60,7 +60,7 @@ void keys(const Panel& panel, const std::string& menus) {
   ImGui::EndTable();
 }
 
-/// A page over the window with its title and how it closes.
+/// Begins a page over the window with its title and a hint how it closes.
 void begin_sheet(const char* name, const render::Box& box, const char* title, const char* closes) {
   begin_fixed(name, box, 0, Layer::over);
   ImGui::TextUnformatted(title);
@@ -80,11 +80,12 @@ void Panel::named(const std::string& name, const std::string& tip) const {
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   controls[name] = {low.x, low.y, high.x - low.x, high.y - low.y};
   if (tip.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
-  // not over what is about to be used
+  // a tip would cover what is about to be used: none while text is typed, none over a control
+  // before the mouse has been still on it, none while a mouse button is down
   const ImGuiContext& imgui = *ImGui::GetCurrentContext();
   if (ImGui::GetIO().WantTextInput) return;
-  const bool rests = imgui.HoveredId == 0 || imgui.HoveredIdTimer > tip_after_s;
-  if (!rests || ImGui::IsAnyMouseDown()) return;
+  const bool still = imgui.HoveredId == 0 || imgui.HoveredIdTimer > tip_after_s;
+  if (!still || ImGui::IsAnyMouseDown()) return;
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(px(320));
   ImGui::TextUnformatted(tip.c_str());
@@ -111,7 +112,8 @@ void begin_fixed(const char* name, const render::Box& box, ImGuiWindowFlags more
   const bool fixed = layer == Layer::fixed;
   ImGui::SetNextWindowPos({float(box.x), float(box.y)});
   ImGui::SetNextWindowSize({float(box.width), float(box.height)});
-  // the frame begins in the colour of panels; to fill them again would take as long as their text
+  // the frame is cleared in the colour of panels; to fill them again would take as long as their
+  // text
   if (fixed) ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4(0, 0, 0, 0));
   ImGui::Begin(name, nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
@@ -139,17 +141,18 @@ std::string help_of(const preset::Field& field) {
 
 std::string label_of(const preset::Field& field) {
   if (!field.label.empty()) return field.label;
+  // the key without the ending that is its unit
   std::size_t end = field.key.size();
-  for (std::size_t at = 0; at < field.key.size(); ++at)
-    if (!field.unit.empty() && field.key[at] == '_' &&
-        preset::unit_of(field.key.substr(at)) == field.unit)
-      end = at;
+  for (std::size_t k = 0; k < field.key.size(); ++k)
+    if (!field.unit.empty() && field.key[k] == '_' &&
+        preset::unit_of(field.key.substr(k)) == field.unit)
+      end = k;
   std::string label = field.key.substr(0, end);
   std::ranges::replace(label, '_', ' ');
   return label;
 }
 
-/// All words that are looked for, in any order.
+/// Whether `text` has all words of `sought`, in any order and in letters of either case.
 bool contains_words(std::string text, std::string sought) {
   const auto lower = [](std::string& s) {
     std::ranges::transform(s, s.begin(), [](unsigned char c) { return char(std::tolower(c)); });
@@ -162,8 +165,9 @@ bool contains_words(std::string text, std::string sought) {
 }
 
 bool text_input(const char* id, std::string& text, const char* hint, int flags) {
-  std::array<char, 1024> typed{};
-  text.copy(typed.data(), typed.size() - 1);
+  constexpr std::size_t room = 1024;  // for what is typed
+  std::vector<char> typed(text.size() + room);
+  std::ranges::copy(text, typed.begin());
   const bool entered = ImGui::InputTextWithHint(id, hint, typed.data(), typed.size(),
                                                 ImGuiInputTextFlags_EnterReturnsTrue | flags);
   text = typed.data();
@@ -208,7 +212,7 @@ void choose_colours(bool dark, double density) {
   else
     ImGui::StyleColorsLight(&style);
   style.WindowRounding = 0;
-  // such lines are drawn by a smooth texture, and the letters' is none
+  // textured lines need a texture with linear filtering, and that of the letters has none
   style.AntiAliasedLinesUseTex = false;
   style.FrameRounding = 3;
   style.GrabRounding = 3;
@@ -237,7 +241,7 @@ void choose_colours(bool dark, double density) {
   colours[ImGuiCol_HeaderActive] = dark ? rgb(0x57627a) : rgb(0xb3c8ec);
   colours[ImGuiCol_NavHighlight] = colours[ImGuiCol_CheckMark] = colours[ImGuiCol_PlotLines] =
       dark ? rgb(0x6ea2f5) : rgb(0x2f6bd0);
-  // a slider's number is above its grab
+  // a slider's number is drawn over its grab: the colour of the grab leaves it legible
   colours[ImGuiCol_SliderGrab] = dark ? rgb(0x4a6ba6) : rgb(0xa9c6f5);
   colours[ImGuiCol_SliderGrabActive] = dark ? rgb(0x5b80c4) : rgb(0x86aef0);
   ImGui::GetStyle() = style;
@@ -284,8 +288,6 @@ void menu_bar(const Panel& panel) {
   ImGui::EndMainMenuBar();
 }
 
-// Every key and mouse action, from the tables that bind them.
-
 void terms_sheet(const Panel& panel, const render::Box& box) {
   begin_sheet("terms", box, "What is this?", "(Esc closes)");
   if (begin_table(panel, "terms", 150)) {
@@ -294,6 +296,8 @@ void terms_sheet(const Panel& panel, const render::Box& box) {
   }
   ImGui::End();
 }
+
+// Every key and mouse action, from the tables that bind them.
 
 void help_sheet(const Panel& panel, const render::Box& box) {
   begin_sheet("help", box, "Keys and mouse", "(F1 or Esc closes)");

@@ -42,12 +42,19 @@ struct Control {
     const std::string words = zero ? meaning_of_zero(field) : "";
     return !words.empty() ? words : number + (field.unit.empty() ? "" : " " + field.unit);
   }
-  bool operator()(double* value) const {
+  bool operator()(double* value) const { return drag(value, format(*value == 0, "%.6g")); }
+  bool operator()(std::optional<double>* value) const {
+    double number = value->value_or(0);
+    if (!drag(&number, *value ? format(false, "%.6g") : "none")) return false;
+    *value = number;
+    return true;
+  }
+  bool drag(double* value, const std::string& text) const {
     float shown = float(*value);
     const float step = std::max(1e-6f, 0.005f * std::abs(shown));
     const auto& range = field.range;
-    if (!ImGui::DragFloat(id, &shown, step, bound(range.low), bound(range.high),
-                          format(shown == 0, "%.6g").c_str(), ImGuiSliderFlags_AlwaysClamp))
+    if (!ImGui::DragFloat(id, &shown, step, bound(range.low), bound(range.high), text.c_str(),
+                          ImGuiSliderFlags_AlwaysClamp))
       return false;
     if (!range.holds(double(shown))) {
       viewer.say(fmt::format("{}: expected {}", name_of(field), allowed(field)), true);
@@ -78,13 +85,15 @@ struct Control {
 
 /// Whether a control can change it.
 bool has_control(const Field& field, preset::Preset& preset) {
-  return field.as<double>(preset) || field.as<int>(preset) || field.as<bool>(preset) ||
-         field.as_word(preset);
+  return field.as<double>(preset) || field.as<std::optional<double>>(preset) ||
+         field.as<int>(preset) || field.as<bool>(preset) || field.as_word(preset);
 }
 
 /// Gives a key of one preset the value that it has in another.
 void take_value(const Field& field, preset::Preset& to, preset::Preset from) {
   if (double* value = field.as<double>(to)) *value = *field.as<double>(from);
+  if (auto* value = field.as<std::optional<double>>(to))
+    *value = *field.as<std::optional<double>>(from);
   if (int* value = field.as<int>(to)) *value = *field.as<int>(from);
   if (bool* value = field.as<bool>(to)) *value = *field.as<bool>(from);
   if (const auto word = field.as_word(to)) {

@@ -116,17 +116,18 @@ void add_contact_hessian(const Model& model, const EdgeContact& contact, BlockHe
     }
 }
 
-void add_bar(const ModelBar& bar, const State& state, bool with_hessian, Assembly& out) {
+void add_bar(const ModelBar& bar, const State& state, const Stiffness* how, Assembly& out) {
   const NodeBar& law = bar.law;
   const EdgeGeometry along = geometry_between(state.x, law.a, law.b);
   const double strain = law.strain(along.length), force = law.force(strain);
   out.energies[Term::stretch] += law.value(strain);
   out.gradient.col(law.a) -= force * along.tangent;
   out.gradient.col(law.b) += force * along.tangent;
-  if (!with_hessian) return;
+  if (!how) return;
   const Eigen::Matrix3d tt = along.tangent * along.tangent.transpose();
-  const Eigen::Matrix3d m = law.stiffness(strain) / law.rest_length * tt +
-                            force / along.length * (Eigen::Matrix3d::Identity() - tt);
+  const double own = how->with_own() ? law.stiffness(strain) : 0;
+  const Eigen::Matrix3d m =
+      own / law.rest_length * tt + force / along.length * (Eigen::Matrix3d::Identity() - tt);
   out.hessian.diagonal[std::size_t(law.a)].matrix() += m;
   out.hessian.diagonal[std::size_t(law.b)].matrix() += m;
   out.hessian.add(bar.slot, -m);
@@ -151,7 +152,8 @@ void add_action_hessian(const NodeAction& action, double factor, const Eigen::Ma
 
 /// What stores energy in addition to edges and bends.
 void add_others(const Model& model, const State& state, const ExternalLoads& outside,
-                bool with_hessian, Assembly& out) {
+                const Stiffness* stiffness, Assembly& out) {
+  const bool with_hessian = stiffness != nullptr;
   each_pair(model, [&]<class Law>(const Pair<Law>& pair) {
     PairEnergy energy{.with_hessian = with_hessian};
     out.energies[Law::term] += pair.law.add(pair_geometry(model, state, pair), energy);
@@ -170,7 +172,7 @@ void add_others(const Model& model, const State& state, const ExternalLoads& out
     out.hessian.diagonal[std::size_t(spring.law.b)].matrix() += m;
     out.hessian.add(spring.slot, -m);
   }
-  for (const ModelBar& bar : model.bars) add_bar(bar, state, with_hessian, out);
+  for (const ModelBar& bar : model.bars) add_bar(bar, state, stiffness, out);
   each_action(model, outside, [&](const NodeAction& action, double factor) {
     out.energies[action.term] += factor * action.value(state.x);
     if (action.pressure != 0) {
@@ -299,7 +301,7 @@ void assemble(const Model& model, const State& state, const ExternalLoads& outsi
     keep_largest(out.largest_strain, sum.largest_strain);
   }
   add_joint_angles(model, state, outside.opening, stiffness, before, out);
-  add_others(model, state, outside, with_hessian, out);
+  add_others(model, state, outside, stiffness, out);
   reduce_to_free(model, state, with_hessian, out);
 }
 

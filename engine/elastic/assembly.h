@@ -47,6 +47,9 @@ struct Stiffness {
   /// unknowns of their own, eliminated on the edge.
   bool mixed = false;
   double EA_scale = 1;  ///< multiplies EA (continuation in stiffness)
+  /// At 0 forces act alone: of bars and of joints' springs too, the part of their own stiffness in
+  /// their direction, EA/l t t^T and k (d angle)(d angle)^T, is left out.
+  bool with_own() const { return EA_scale != 0; }
 };
 
 /// Energies by term at a state.

@@ -294,7 +294,8 @@ void add_joint_angles(const Model& model, const State& state, double opening,
       out.hessian.rank_one.col(edge.to) += part;
     });
     if (!stiffness) return;
-    const PairMatrix H = pair.law.stiffness * angle.gradient * angle.gradient.transpose() +
+    const double own = stiffness->with_own() ? pair.law.stiffness : 0;
+    const PairMatrix H = own * angle.gradient * angle.gradient.transpose() +
                          (stiffness->mixed ? known : torque) * angle.hessian;
     add_vector_hessian(model, pair, H, out.hessian);
   });

@@ -12,18 +12,20 @@
 namespace gridshell {
 namespace {
 
-/// One half of the edge that is centred on a joint, of a rod's own there; the other, or -1.
+/// The halves of a rod's edge that is centred on the joint at `node`; the second is -1 where the
+/// rod has one edge there only.
 std::pair<int, int> halves_at(const Model& model, int rod, int node) {
   const std::vector<int> edges = edges_beside(model, rod, node);
   return {edges.front(), edges.size() > 1 ? edges.back() : -1};
 }
 
-/// A spin that cost nothing and was fixed does now.
+/// Frees the twist angle of a rod that was fixed because no energy depended on it: now the law of a
+/// joint does.
 void release_spin(Model& model, int rod) {
-  int& held = model.rods[std::size_t(rod)].held_spin;
-  if (held < 0) return;
-  const int place = model.spin[std::size_t(std::exchange(held, -1))];
-  model.held[std::size_t(place / 3)] &= (unsigned char)~(1 << place % 3);
+  int& fixed_spin = model.rods[std::size_t(rod)].held_spin;
+  if (fixed_spin < 0) return;
+  const int component = model.spin[std::size_t(std::exchange(fixed_spin, -1))];
+  model.held[std::size_t(component / 3)] &= (unsigned char)~(1 << component % 3);
 }
 
 double turn_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
@@ -74,11 +76,11 @@ void add_joint_shear(Model& model, const Crossing& at, const JointAngle& law) {
 void add_joint_hinge(Model& model, const Crossing& at, double stiffness, int side) {
   const auto a = halves_at(model, at.rod_a, at.node_a), b = halves_at(model, at.rod_b, at.node_b);
   const bool rigid = std::isinf(stiffness);
-  const auto add = [&](const auto& of, const auto& with, int rod, int turned) {
+  const auto add = [&](const auto& own, const auto& other, int rod, int turned) {
     model.hinges.push_back(
-        {{of.first, with.first, -1, {0, turned}}, of.second, rigid ? 0 : stiffness});
+        {{own.first, other.first, -1, {0, turned}}, own.second, rigid ? 0 : stiffness});
     release_spin(model, rod);
-    if (rigid) model.hold_spin(of.first);
+    if (rigid) model.hold_spin(own.first);
   };
   add(a, b, at.rod_a, side);
   add(b, a, at.rod_b, -side);
@@ -114,16 +116,18 @@ double Bolts::angle(int joint) const {
 }
 
 int Bolts::joints() const {
-  return int(std::ranges::count_if(rods, [](const auto& held) { return !held.empty(); }));
+  return int(std::ranges::count_if(rods, [](const auto& tangents) { return !tangents.empty(); }));
 }
 
 JointAngle Bolts::law(int joint, std::size_t k, std::size_t m, double fraction, double most) const {
-  const auto of = [&](const std::vector<double>& angles) {
+  const auto at_joint = [&](const std::vector<double>& angles) {
     return angles.empty() ? 0 : angles[std::size_t(joint)];
   };
-  const auto& held = rods[std::size_t(joint)];
-  const double turn = held.size() == 2 ? angle(joint) : turn_between(held[k], held[m]);
-  JointAngle law{fraction * std::min(stiffness_Nmm, most), of(opened) + turn, of(opening), joint};
+  const auto& tangents = rods[std::size_t(joint)];
+  const double tightened_angle =
+      tangents.size() == 2 ? angle(joint) : turn_between(tangents[k], tangents[m]);
+  JointAngle law{fraction * std::min(stiffness_Nmm, most), at_joint(opened) + tightened_angle,
+                 at_joint(opening), joint};
   if (mean) law.stiffness = 0, law.weight = 1.0 / joints();
   return law;
 }
@@ -138,11 +142,11 @@ std::vector<double> joint_torques(const RodMesh& mesh, const Model& model, const
                                   double opening, bool bolts_alone) {
   std::vector<double> torques(std::size_t(mesh.joints), 0);
   const Eigen::VectorXd of_springs = spring_torques(model, spring_excess(model, state, opening));
-  each_spring(model, [&](const auto& pair, Eigen::Index place) {
+  each_spring(model, [&](const auto& pair, Eigen::Index index) {
     double& torque = torques[std::size_t(pair.law.joint)];
-    // a bolt is added after the joint's own law
+    // the bolt's spring comes after that of the joint's own law, which it replaces
     if (bolts_alone) torque = 0;
-    torque -= of_springs[place - Eigen::Index(model.edges.size())];
+    torque -= of_springs[index - Eigen::Index(model.edges.size())];
   });
   return torques;
 }

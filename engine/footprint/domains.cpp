@@ -21,13 +21,13 @@ CurveDomain::CurveDomain(ClosedCurve curve) : curve_(std::move(curve)) {
 
 std::vector<Interval> CurveDomain::intervals(Family family, double c) const {
   const int along = family == Family::u ? 0 : 1;
-  std::vector<double> places;
+  std::vector<double> cuts;
   for (const double t : curve_.crossings(1 - along, c))
-    places.push_back(curve_.at(t).position[along]);
-  std::ranges::sort(places);
+    cuts.push_back(curve_.at(t).position[along]);
+  std::ranges::sort(cuts);
   std::vector<Interval> pieces;
-  for (std::size_t k = 0; k + 1 < places.size(); k += 2)
-    if (places[k] < places[k + 1]) pieces.push_back({places[k], places[k + 1]});
+  for (std::size_t k = 0; k + 1 < cuts.size(); k += 2)
+    if (cuts[k] < cuts[k + 1]) pieces.push_back({cuts[k], cuts[k + 1]});
   return pieces;
 }
 
@@ -58,7 +58,7 @@ Eigen::Matrix2Xd CurveDomain::boundary(int points) const {
 
 namespace {
 
-/// {u, v} |-> C(u, v) above a plane, by symmetry seen from u, v >= 0
+/// The part of Chebyshev's net of a sphere above a plane z = const; symmetric in u and v.
 class Cap final : public Domain {
  public:
   Cap(const SphereNet& net, double cut_height)
@@ -67,7 +67,7 @@ class Cap final : public Domain {
         reach_(net.radius() * std::acos(cut_height)) {}
 
   std::vector<Interval> intervals(Family, double c) const override {
-    // both families in the same manner: the net is symmetric in u and v
+    // one formula for both families: the net is symmetric in u and v
     if (std::abs(c) >= reach_) return {};
     const double guess = std::sqrt((reach_ - c) * (reach_ + c));
     const double half = crossing(Eigen::Vector2d(0, std::abs(c)), Eigen::Vector2d(1, 0), guess);
@@ -117,12 +117,12 @@ class Rectangle final : public Domain {
     const int along = family == Family::u ? 0 : 1;
     double begin = -INFINITY, end = INFINITY;
     for (const Side& side : sides_) {
-      const double slope = side.normal[along], rest = side.normal[1 - along] * c;
+      const double slope = side.normal[along], offset = side.normal[1 - along] * c;
       if (slope == 0) {
-        if (rest < side.first || rest > side.last) return {};
+        if (offset < side.first || offset > side.last) return {};
         continue;
       }
-      const double a = (side.first - rest) / slope, b = (side.last - rest) / slope;
+      const double a = (side.first - offset) / slope, b = (side.last - offset) / slope;
       begin = std::max(begin, std::min(a, b));
       end = std::min(end, std::max(a, b));
     }
@@ -131,7 +131,7 @@ class Rectangle final : public Domain {
   }
 
   Eigen::Matrix2Xd boundary(int points) const override {
-    // points shared out among the sides by length, each side from its first corner on
+    // the points are distributed over the sides by length, each side with its first corner
     const std::array<Eigen::Vector2d, 4> corners = this->corners();
     std::array<int, 5> first{};
     double perimeter = 0, so_far = 0;
@@ -171,7 +171,7 @@ class Rectangle final : public Domain {
   std::array<Side, 2> sides_;
 };
 
-/// first <= u + v <= last, half a turn around
+/// The rectangle first <= u + v <= last that covers half a turn about the axis.
 std::unique_ptr<Domain> half_between(const RevolutionNet& net, double first, double last) {
   const double quarter_turn = M_PI_2 / net.c();
   return std::make_unique<Rectangle>(
@@ -179,6 +179,7 @@ std::unique_ptr<Domain> half_between(const RevolutionNet& net, double first, dou
                                       {Eigen::Vector2d(-1, 1), -quarter_turn, quarter_turn}}});
 }
 
+/// The part of a net on a surface, around its apex, where a function of space is below zero.
 class Part final : public Domain {
  public:
   Part(std::shared_ptr<const SurfaceNet> net, Surface::Function outside)
@@ -193,12 +194,13 @@ class Part final : public Domain {
     const Line line{along_u ? Eigen::Vector2d(0, c) : Eigen::Vector2d(c, 0),
                     along_u ? Eigen::Vector2d(1, 0) : Eigen::Vector2d(0, 1)};
     std::vector<Interval> pieces;
-    bool before = false;
-    for (int k = -reach_ - 1; k <= reach_ + 1; ++k) {
-      const bool here = holds(line.at(k * step()));
-      if (here && !before) pieces.push_back({crossing(line, k, -1), 0});
-      if (before && !here) pieces.back().end = crossing(line, k - 1, 1);
-      before = here;
+    bool was_inside = false;
+    // points up to one step past the last node that is inside may be inside
+    for (int k = -reach_ - 2; k <= reach_ + 2; ++k) {
+      const bool inside = holds(line.at(k * step()));
+      if (inside && !was_inside) pieces.push_back({crossing(line, k, -1), 0});
+      if (was_inside && !inside) pieces.back().end = crossing(line, k - 1, 1);
+      was_inside = inside;
     }
     return pieces;
   }
@@ -220,12 +222,12 @@ class Part final : public Domain {
   int exits(double angle) const {
     const Line ray = ray_at(angle);
     int found = 0;
-    bool before = true;
-    // rays run along the diagonal too
+    bool was_inside = true;
+    // twice as far as along an axis: a ray may run along the diagonal
     for (int k = 1; k <= 2 * reach_ + 2; ++k) {
-      const bool here = holds(ray.at(k * step()));
-      found += int(before && !here);
-      before = here;
+      const bool inside = holds(ray.at(k * step()));
+      found += int(was_inside && !inside);
+      was_inside = inside;
     }
     return found;
   }
@@ -240,20 +242,20 @@ class Part final : public Domain {
   }
   double step() const { return net_->chord(); }
 
-  /// Above zero outside, also where there is no net.
+  /// The function that is above zero outside; 1 where there is no net.
   double outside(const Eigen::Vector2d& uv) const {
     const auto point = net_->at(uv.x(), uv.y());
     const double value = point ? outside_(point->position) : 1;
     return std::isnan(value) ? 1 : value;
   }
 
-  /// Whether a point is inside: next to a node that is.
+  /// Whether a point is inside: the function is below zero, and a node next to it is inside.
   bool holds(const Eigen::Vector2d& uv) const {
     const int i = int(std::lround(uv.x() / step())), j = int(std::lround(uv.y() / step()));
-    bool beside = false;
+    bool near_inside = false;
     for (int b = -1; b <= 1; ++b)
-      for (int a = -1; a <= 1; ++a) beside = beside || net_->inside(i + a, j + b);
-    return beside && outside(uv) < 0;
+      for (int a = -1; a <= 1; ++a) near_inside = near_inside || net_->inside(i + a, j + b);
+    return near_inside && outside(uv) < 0;
   }
 
   /// Where a line leaves the part between its sample k, which is inside, and the next one on that
@@ -269,7 +271,7 @@ class Part final : public Domain {
 
   std::shared_ptr<const SurfaceNet> net_;
   Surface::Function outside_;
-  int reach_ = 0;  // nodes
+  int reach_ = 0;  // largest |i| or |j| of a node inside
 };
 
 }  // namespace

@@ -6,27 +6,28 @@
 namespace gridshell {
 namespace {
 
-// a joint closer to the boundary than this (times d) is on it: its rods end there, apart
+// a joint closer to the boundary than this (times d) is on it: its rods end there separately
 constexpr double on_boundary = 1e-6;
 constexpr double most_joints = 1e6;
 
-/// Fills joints and marks of rods that know their line and span.
+/// Fills the joints of a square grid, and the joints and marks of its rods, from their lines and
+/// spans.
 void cross(Footprint& net) {
   // the v-rods of each line index; a line that a concave boundary cuts twice carries several rods
   std::map<int, std::vector<int>> v_rods;
   for (int r = 0; r < int(net.rods.size()); ++r)
     if (net.rods[r].family == Family::v) v_rods[net.rods[r].index].push_back(r);
 
-  const double gap = on_boundary * net.spacing;
-  const auto holds = [gap](const Interval& span, double at) {
-    return at > span.begin + gap && at < span.end - gap;
+  const double margin = on_boundary * net.spacing;
+  const auto contains = [margin](const Interval& span, double position) {
+    return position > span.begin + margin && position < span.end - margin;
   };
   for (FootprintRod& row : net.rods) {
     if (row.family != Family::u) continue;
     for (const auto& [i, candidates] : v_rods) {
       for (int r : candidates) {
         FootprintRod& column = net.rods[r];
-        if (!holds(row.span, column.line()) || !holds(column.span, row.line())) continue;
+        if (!contains(row.span, column.line()) || !contains(column.span, row.line())) continue;
         const int joint = int(net.joints.size());
         net.joints.push_back({i, row.index, column.line(), row.line()});
         row.joints.push_back(joint);
@@ -52,6 +53,7 @@ void add_rods(Footprint& net, const Domain& domain, Family family, int index) {
       net.rods.push_back(FootprintRod::of_grid(family, index, line, span));
 }
 
+/// The leg that `pick`, the smaller or the larger of two, leaves of `start` and all legs.
 template <class Pick>
 double leg(const Footprint& net, double start, Pick pick) {
   double found = start;
@@ -62,7 +64,7 @@ double leg(const Footprint& net, double start, Pick pick) {
   return found;
 }
 
-/// which piece of a polyline a position is on
+/// Index of the segment of a polyline that a position is on.
 std::size_t piece_at(const std::vector<Eigen::Vector4d>& path, double position) {
   const auto after =
       std::upper_bound(path.begin() + 1, path.end() - 1, position,
@@ -127,14 +129,16 @@ void find_cells(Footprint& net) {
   for (const FootprintRod& rod : net.rods)
     for (std::size_t k = 1; k < rod.joints.size(); ++k)
       linked[{rod.joints[k - 1], rod.joints[k]}] = true;
-  for (int a = 0; a < int(net.joints.size()); ++a) {
-    const int i = net.joints[a].i, j = net.joints[a].j;
-    const auto b = joint_at.find({i + 1, j}), c = joint_at.find({i + 1, j + 1}),
-               d = joint_at.find({i, j + 1}), none = joint_at.end();
-    if (b == none || c == none || d == none) continue;
-    if (linked.contains({a, b->second}) && linked.contains({d->second, c->second}) &&
-        linked.contains({a, d->second}) && linked.contains({b->second, c->second}))
-      net.cells.push_back({i, j, {a, b->second, c->second, d->second}});
+  for (int joint = 0; joint < int(net.joints.size()); ++joint) {
+    const int i = net.joints[joint].i, j = net.joints[joint].j;
+    const auto next_u = joint_at.find({i + 1, j}), opposite = joint_at.find({i + 1, j + 1}),
+               next_v = joint_at.find({i, j + 1}), none = joint_at.end();
+    if (next_u == none || opposite == none || next_v == none) continue;
+    if (linked.contains({joint, next_u->second}) &&
+        linked.contains({next_v->second, opposite->second}) &&
+        linked.contains({joint, next_v->second}) &&
+        linked.contains({next_u->second, opposite->second}))
+      net.cells.push_back({i, j, {joint, next_u->second, opposite->second, next_v->second}});
   }
 }
 
@@ -187,7 +191,7 @@ Result<Footprint> cut_footprint(const Domain& domain, double spacing, Placement 
   return net;
 }
 
-// of d: a leg that a user may be advised to take
+// longest leg, over d, of the radius that a message proposes
 constexpr double short_leg = 1e-3;
 
 Result<Footprint> circular_footprint(double radius, int rods, double spacing, Placement placement) {
@@ -199,13 +203,17 @@ Result<Footprint> circular_footprint(double radius, int rods, double spacing, Pl
         "{} rods per direction do not fit placement \"{}\": rods at (i + 1/2) d (\"half\") "
         "are an even number, rods at i d (\"on_axis\") an odd one",
         rods, placement == Placement::half ? "half" : "on_axis");
-  const double longest = radius / spacing - (rods - 1) / 2.0;
-  if (!(longest > on_boundary))
+  // the outermost rod crosses the one nearest to the middle inside the boundary
+  const double middle = even ? 0.5 : 0, least = std::hypot(0.5 * (rods - 1), middle) + short_leg,
+               size = radius / spacing;
+  if (!(size >= least)) {
+    const double most = std::sqrt(std::max(std::pow(size - short_leg, 2) - middle * middle, 0.0));
     return invalid(
-        "{} rods per direction at d = {:g} mm reach {:g} mm, outside the boundary: the longest leg "
-        "R_o/d - (n-1)/2: got {:.4g}, expected above 0; take R_o >= {:.7g} mm or n <= {}",
-        rods, spacing, (rods - 1) / 2.0 * spacing, longest,
-        ((rods - 1) / 2.0 + short_leg) * spacing, rods - 2 * std::max(1, int(std::ceil(-longest))));
+        "{} rods per direction at d = {:g} mm do not fit the boundary: the outermost crossing lies "
+        "at {:.7g} mm; take R_o >= {:.7g} mm or n <= {}",
+        rods, spacing, (least - short_leg) * spacing, std::ceil(1e4 * least * spacing) / 1e4,
+        2 * int(most + middle) + (even ? 0 : 1));
+  }
   Footprint net{spacing, placement, {}, {}, {}};
   const int first = even ? -rods / 2 : -(rods - 1) / 2;
   const Disk disk(radius);

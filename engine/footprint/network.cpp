@@ -15,8 +15,10 @@
 namespace gridshell {
 namespace {
 
-constexpr double straight = 1e-9;   // of its length: how far a straight rod's points are off a line
-constexpr double on_a_line = 1e-6;  // of their extent: three points that do not support a piece
+// largest distance of a straight rod's points from its chord, over the chord
+constexpr double straight = 1e-9;
+// largest distance from a line at which points count as on it, over their extent
+constexpr double on_a_line = 1e-6;
 
 /// How often rods go through a point, and how often they end there.
 struct Visits {
@@ -33,9 +35,10 @@ bool is_straight(const Eigen::Matrix3Xd& points, const std::vector<int>& rod) {
   const Eigen::Vector3d first = points.col(rod.front()), chord = points.col(rod.back()) - first;
   double reached = -1;
   return std::ranges::all_of(rod, [&](int point) {
-    const Eigen::Vector3d at = points.col(point) - first;
-    const bool onwards = at.dot(chord) > std::exchange(reached, at.dot(chord));
-    return (onwards || point == rod.front()) && area(chord, at) < straight * chord.squaredNorm();
+    const Eigen::Vector3d offset = points.col(point) - first;
+    const bool advances = offset.dot(chord) > std::exchange(reached, offset.dot(chord));
+    return (advances || point == rod.front()) &&
+           area(chord, offset) < straight * chord.squaredNorm();
   });
 }
 
@@ -97,13 +100,13 @@ class Roles {
   }
   bool is_supported(int point) const { return network_.supported[point] != 0; }
   bool is_sprung(int point) const { return network_.springs.contains(point); }
-  /// A point where rods only end.
+  /// The kind of a rod's end at this point.
   RodEnd end_at(int point) const {
     if (is_joint(point)) return RodEnd::joined;
     if (is_sprung(point)) return RodEnd::sprung;
     return network_.free[point] != 0 ? RodEnd::free : RodEnd::pinned;
   }
-  /// Whether the boundary fixes what is there.
+  /// Whether the boundary fixes the joint, or the rod ends, at this point.
   bool is_held(int point) const {
     return is_joint(point) ? is_supported(point) : gridshell::is_held(end_at(point));
   }
@@ -128,7 +131,7 @@ Result<void> check_points(const RodNetwork& network, const Roles& roles) {
   return {};
 }
 
-/// The polyline of a rod; where it is straight in the plane, its line.
+/// Sets the polyline of a rod, or its line if it is straight and in the plane.
 void lay(const Eigen::Matrix3Xd& points, const std::vector<int>& numbers, FootprintRod& rod) {
   rod.origin = points.col(numbers.front()).head<2>();
   const bool in_plane = points(2, numbers).isZero(0);
@@ -147,15 +150,15 @@ void lay(const Eigen::Matrix3Xd& points, const std::vector<int>& numbers, Footpr
 /// The constraint of a rod's start (of rod r at 2 r) or end.
 Result<RodEnd> hold_of(const RodNetwork& network, const Roles& roles, int end) {
   const std::vector<int>& rod = network.rods[std::size_t(end / 2)];
-  const RodEnd there = roles.end_at(end % 2 == 0 ? rod.front() : rod.back());
+  const RodEnd kind = roles.end_at(end % 2 == 0 ? rod.front() : rod.back());
   const auto own = network.holds.find(end);
-  if (own == network.holds.end()) return there == RodEnd::pinned ? network.hold : there;
-  if (there == RodEnd::pinned) return own->second;
+  if (own == network.holds.end()) return kind == RodEnd::pinned ? network.hold : kind;
+  if (kind == RodEnd::pinned) return own->second;
   return invalid("rods[{}]: its {} {}, a constraint is given only of an end at a support", end / 2,
                  end % 2 == 0 ? "begin" : "end",
-                 there == RodEnd::joined   ? "is joined there"
-                 : there == RodEnd::sprung ? "is on a spring"
-                                           : "is free");
+                 kind == RodEnd::joined   ? "is joined there"
+                 : kind == RodEnd::sprung ? "is on a spring"
+                                          : "is free");
 }
 
 Result<FootprintRod> rod_of(const RodNetwork& network, std::size_t r, const Roles& roles,
@@ -176,16 +179,14 @@ Result<FootprintRod> rod_of(const RodNetwork& network, std::size_t r, const Role
   }
   rod.span = {0, position};
   if (rod.joints.empty()) {
-    const auto met =
+    const auto shared_end =
         std::ranges::find_if(numbers, [&](int point) { return roles.at(point).ends > 1; });
-    if (met != numbers.end())
+    if (shared_end != numbers.end())
       return invalid(
           "rods[{}]: is joined to no other rod: where rods only end, as at point {}, each is fixed "
-          "by "
-          "itself; {{\"point\": {}, \"to_mm\": \"free\"}} among the supports joins them by a "
-          "hinge, a "
-          "law among the joints as it says",
-          r, *met, *met);
+          "by itself; {{\"point\": {}, \"to_mm\": \"free\"}} among the supports joins them by a "
+          "hinge, a law among the joints as it says",
+          r, *shared_end, *shared_end);
     return invalid(
         "rods[{}]: got a rod without a joint, expected a point shared with another rod, or one rod "
         "alone with points inside",
@@ -204,23 +205,24 @@ struct HeldPlace {
   Eigen::Vector3d along;  ///< 1 or 0 of x, y, z
 };
 
-/// The directions in which a support fixes: all, or those that its spring has.
+/// The directions in which a support fixes its point: all, or those in which its spring has a
+/// stiffness.
 Eigen::Vector3d held_along(const RodNetwork& network, int point) {
   const auto spring = network.springs.find(point);
   if (spring == network.springs.end()) return Eigen::Vector3d::Ones();
   return (spring->second.array() > 0).cast<double>();
 }
 
-/// Whether positions are off a line.
+/// Whether the supports are not all on one line.
 bool off_a_line(const std::vector<HeldPlace>& places) {
   if (places.empty()) return false;
   const Eigen::Vector3d first = places.front().at;
   Eigen::Vector3d far = first;
-  for (const HeldPlace& place : places)
-    if ((place.at - first).norm() > (far - first).norm()) far = place.at;
+  for (const HeldPlace& support : places)
+    if ((support.at - first).norm() > (far - first).norm()) far = support.at;
   const Eigen::Vector3d chord = far - first;
-  return std::ranges::any_of(places, [&](const HeldPlace& place) {
-    return area(chord, place.at - first) > on_a_line * chord.squaredNorm();
+  return std::ranges::any_of(places, [&](const HeldPlace& support) {
+    return area(chord, support.at - first) > on_a_line * chord.squaredNorm();
   });
 }
 
@@ -228,22 +230,23 @@ bool off_a_line(const std::vector<HeldPlace>& places) {
 /// (e, p x e/L) over all positions p and fixed directions e are independent.
 bool hold_all(const std::vector<HeldPlace>& places) {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (const HeldPlace& place : places) middle += place.at / double(places.size());
+  for (const HeldPlace& support : places) middle += support.at / double(places.size());
   double reach = 0;
-  for (const HeldPlace& place : places) reach = std::max(reach, (place.at - middle).norm());
-  Eigen::MatrixXd moves = Eigen::MatrixXd::Zero(3 * Eigen::Index(places.size()), 6);
+  for (const HeldPlace& support : places) reach = std::max(reach, (support.at - middle).norm());
+  Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(3 * Eigen::Index(places.size()), 6);
   for (std::size_t k = 0; k < places.size(); ++k) {
     const Eigen::Vector3d arm = (places[k].at - middle) / reach;
     for (int axis = 0; axis < 3; ++axis) {
-      const Eigen::Vector3d e = places[k].along[axis] * Eigen::Vector3d::Unit(axis);
-      moves.row(3 * Eigen::Index(k) + axis) << e.transpose(), arm.cross(e).transpose();
+      const Eigen::Vector3d direction = places[k].along[axis] * Eigen::Vector3d::Unit(axis);
+      motions.row(3 * Eigen::Index(k) + axis) << direction.transpose(),
+          arm.cross(direction).transpose();
     }
   }
-  return rank_of(moves, on_a_line) == 6;
+  return rank_of(motions, on_a_line) == 6;
 }
 
-/// The directions that a rod's ends prescribe, as fixed positions: one further out along it, and
-/// where its spin is prescribed one at its side.
+/// Adds the directions that a rod's ends prescribe, as fixed positions: a second one along the rod
+/// and, if the twist angle is prescribed too, a third one at its side.
 void add_directions(const RodNetwork& network, std::size_t r, const FootprintRod& rod,
                     std::vector<HeldPlace>& places) {
   const std::vector<int>& points = network.rods[r];
@@ -259,40 +262,42 @@ void add_directions(const RodNetwork& network, std::size_t r, const FootprintRod
   }
 }
 
-/// Whether it is fixed at two points: a rod alone may turn about the line through them, which
-/// changes nothing.
+/// Whether a piece is fixed in all directions at two points at least. A single rod may then turn
+/// about the line through them, which does not change its shape.
 bool fixed_twice(const std::vector<HeldPlace>& places) {
-  const auto fixes = [](const HeldPlace& place) { return place.along == Eigen::Vector3d::Ones(); };
+  const auto fixes = [](const HeldPlace& support) {
+    return support.along == Eigen::Vector3d::Ones();
+  };
   return std::ranges::all_of(places, fixes) &&
-         std::ranges::any_of(places, [&](const auto& one) { return one.at != places[0].at; });
+         std::ranges::any_of(places, [&](const auto& other) { return other.at != places[0].at; });
 }
 
-/// Every connected piece has supports against rotation.
+/// Checks that every connected piece has supports against translation and rotation.
 Result<void> check_held(const RodNetwork& network, const Roles& roles, const Footprint& footprint) {
   UnionFind pieces(footprint.joints.size());
   for (const FootprintRod& rod : footprint.rods)
     for (const int joint : rod.joints) pieces.join(joint, rod.joints.front());
-  std::map<int, std::vector<HeldPlace>> held;
+  std::map<int, std::vector<HeldPlace>> supports;
   std::map<int, std::size_t> first_rod, rods_of;
   for (std::size_t r = 0; r < footprint.rods.size(); ++r) {
-    const int at = pieces.find(footprint.rods[r].joints.front());
-    first_rod.try_emplace(at, r);
-    ++rods_of[at];
+    const int piece = pieces.find(footprint.rods[r].joints.front());
+    first_rod.try_emplace(piece, r);
+    ++rods_of[piece];
     for (const int point : network.rods[r])
       if (roles.is_held(point) && (roles.is_joint(point) || roles.at(point).ends > 0))
-        held[at].push_back({network.points.col(point), held_along(network, point)});
-    add_directions(network, r, footprint.rods[r], held[at]);
+        supports[piece].push_back({network.points.col(point), held_along(network, point)});
+    add_directions(network, r, footprint.rods[r], supports[piece]);
   }
-  for (const auto& [at, rod] : first_rod) {
-    if (rods_of[at] == 1 && fixed_twice(held[at])) continue;
-    if (!off_a_line(held[at]))
+  for (const auto& [piece, rod] : first_rod) {
+    if (rods_of[piece] == 1 && fixed_twice(supports[piece])) continue;
+    if (!off_a_line(supports[piece]))
       return invalid(
           "rods[{}] and what is joined to it: fixed at fewer than three points, or at points on "
           "one line, and would turn freely about it; add a support off that line, or draw it with "
           "a little sag and a weak spring across it at one of its points: "
           "{{\"point\": {}, \"spring_N_per_mm\": [0, 0.001, 0]}} among the supports",
           rod, network.rods[rod][network.rods[rod].size() / 2]);
-    if (!hold_all(held[at]))
+    if (!hold_all(supports[piece]))
       return invalid(
           "rods[{}] and what is joined to it: supported by springs along too few directions, and "
           "would move or turn freely",
@@ -301,7 +306,7 @@ Result<void> check_held(const RodNetwork& network, const Roles& roles, const Foo
   return {};
 }
 
-/// The median length between neighbouring joints; where no rod has two of them, of the legs.
+/// The median length between neighbouring joints or, if no rod has two joints, of half the rods.
 double spacing_of(const Footprint& footprint) {
   std::vector<double> segments;
   for (const FootprintRod& rod : footprint.rods)
@@ -314,7 +319,7 @@ double spacing_of(const Footprint& footprint) {
   return *middle;
 }
 
-/// The springs of the network's supports, of its ends and fixed joints as they are named.
+/// Fills the footprint's springs, at its ends and fixed joints, from those of the network's points.
 void put_springs(const RodNetwork& network, NetworkFootprint& made) {
   Footprint& footprint = made.footprint;
   for (std::size_t end = 0; end < made.ends.size(); ++end) {

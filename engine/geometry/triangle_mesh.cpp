@@ -58,15 +58,15 @@ bool runs_along(const std::array<int, 3>& triangle, const Edge& edge) {
   return false;
 }
 
-/// Vertices that are used, numbered again.
+/// The vertices that triangles have; changes the triangles to their new numbers.
 Result<Eigen::Matrix3Xd> used_vertices(const Eigen::Matrix3Xd& all, Triangles& triangles) {
-  std::vector<int> now(std::size_t(all.cols()), -1);
+  std::vector<int> new_numbers(std::size_t(all.cols()), -1);
   std::vector<int> used;
   for (auto& triangle : triangles)
     for (int& corner : triangle) {
       if (corner < 0 || corner >= all.cols())
         return invalid("got vertex {} in a triangle, expected one of {}", corner, all.cols());
-      int& number = now[std::size_t(corner)];
+      int& number = new_numbers[std::size_t(corner)];
       if (number < 0) {
         number = int(used.size());
         used.push_back(corner);
@@ -76,6 +76,7 @@ Result<Eigen::Matrix3Xd> used_vertices(const Eigen::Matrix3Xd& all, Triangles& t
   return Eigen::Matrix3Xd(all(Eigen::all, used));
 }
 
+/// The triangles at each edge. Errors: an edge of three triangles, a triangle without area.
 Result<Sides> sides_of(const Eigen::Matrix3Xd& x, const Triangles& triangles) {
   constexpr double thin = 1e-9;  // area over the square of the longest edge
   Sides sides;
@@ -84,9 +85,9 @@ Result<Sides> sides_of(const Eigen::Matrix3Xd& x, const Triangles& triangles) {
     for (int k = 0; k < 3; ++k) {
       const Edge edge = edge_of(triangles[t], k);
       longest = std::max(longest, (x.col(edge[1]) - x.col(edge[0])).norm());
-      auto& on_it = sides[edge];
-      on_it.push_back(int(t));
-      if (on_it.size() > 2)
+      auto& at_edge = sides[edge];
+      at_edge.push_back(int(t));
+      if (at_edge.size() > 2)
         return mesh_error("three triangles of the mesh share an edge", x.col(edge[0]));
     }
     if (!(area_of(x, triangles[t]).norm() > thin * longest * longest))
@@ -95,49 +96,50 @@ Result<Sides> sides_of(const Eigen::Matrix3Xd& x, const Triangles& triangles) {
   return sides;
 }
 
-/// Turns all triangles as the first is turned.
+/// Orients all triangles as the first one. Errors: a surface with one side, several pieces.
 Result<void> turn_alike(const Eigen::Matrix3Xd& x, const Sides& sides, Triangles& triangles) {
   std::vector<char> done(triangles.size(), 0);
   std::vector<int> open{0};
   done[0] = 1;
   std::size_t reached = 0;
   while (!open.empty()) {
-    const int here = open.back();
+    const int current = open.back();
     open.pop_back();
     ++reached;
     for (int k = 0; k < 3; ++k) {
-      const Edge edge = edge_of(triangles[std::size_t(here)], k);
-      for (const int there : sides.at(edge)) {
-        if (there == here) continue;
-        auto& other = triangles[std::size_t(there)];
-        const bool alike =
-            runs_along(other, edge) != runs_along(triangles[std::size_t(here)], edge);
-        if (done[std::size_t(there)] && !alike)
+      const Edge edge = edge_of(triangles[std::size_t(current)], k);
+      for (const int neighbour : sides.at(edge)) {
+        if (neighbour == current) continue;
+        auto& other = triangles[std::size_t(neighbour)];
+        const bool consistent =
+            runs_along(other, edge) != runs_along(triangles[std::size_t(current)], edge);
+        if (done[std::size_t(neighbour)] && !consistent)
           return mesh_error("the mesh has one side only, as a Moebius strip,", x.col(edge[0]));
-        if (done[std::size_t(there)]) continue;
-        if (!alike) std::swap(other[1], other[2]);
-        done[std::size_t(there)] = 1;
-        open.push_back(there);
+        if (done[std::size_t(neighbour)]) continue;
+        if (!consistent) std::swap(other[1], other[2]);
+        done[std::size_t(neighbour)] = 1;
+        open.push_back(neighbour);
       }
     }
   }
   if (reached == triangles.size()) return {};
-  const auto other = std::size_t(std::ranges::find(done, 0) - done.begin());
+  const auto unreached = std::size_t(std::ranges::find(done, 0) - done.begin());
   return mesh_error(
       fmt::format("the mesh is in several pieces ({} of its {} triangles hang together): "
                   "another begins",
                   reached, triangles.size()),
-      x.col(triangles[other][0]));
+      x.col(triangles[unreached][0]));
 }
 
+/// Checks that no two neighbouring triangles enclose an angle below 30 degrees.
 Result<void> check_folds(const Eigen::Matrix3Xd& x, const Sides& sides,
                          const Triangles& triangles) {
-  constexpr double back = -0.87;  // cosine: by more than 150 degrees
+  constexpr double folded = -0.87;  // cosine between the normals: more than 150 degrees
   for (const auto& [edge, both] : sides) {
     if (both.size() < 2) continue;
     const Eigen::Vector3d a = area_of(x, triangles[std::size_t(both[0])]),
                           b = area_of(x, triangles[std::size_t(both[1])]);
-    if (a.dot(b) < back * a.norm() * b.norm())
+    if (a.dot(b) < folded * a.norm() * b.norm())
       return mesh_error("the mesh is folded", x.col(edge[0]));
   }
   return {};

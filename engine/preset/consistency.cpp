@@ -190,7 +190,8 @@ std::vector<std::string> doubtful_values(const Preset& preset) {
   if (preset.rod_v.differs) look(preset.rod_v, "[rod_v]");
   const bool network = preset.footprint.kind == FootprintKind::network;
   const double spacing = network ? spacing_of(preset.footprint.file) : preset.footprint.spacing_mm;
-  if (const double across = preset.joints.diameter_mm.value_or(0); spacing > 0 && across > spacing)
+  // 3 mm is the least that joints without a diameter have
+  if (const double across = preset.joints.diameter_mm.value_or(3); spacing > 0 && across > spacing)
     found.push_back(fmt::format(
         "[joints] diameter_mm = {:g}: joints are larger than their usual distance of {:.3g} mm",
         across, spacing));

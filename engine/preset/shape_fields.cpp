@@ -10,7 +10,7 @@ using Kinds = FootprintKind;
 bool is_circle(const Preset& preset) { return preset.footprint.kind == Kinds::circle; }
 bool is_curve(const Preset& preset) { return preset.footprint.kind == Kinds::curve; }
 
-/// A radius of a circle that another key may give, for a message.
+/// Text of a message about a circle's radius: with its symbol if the key gives it indirectly.
 std::string radius_text(const char* key, const char* name, double radius) {
   return std::string(key).ends_with("radius_mm") ? fmt::format("{} = {}", key, radius)
                                                  : fmt::format("{} = {} by {}", name, radius, key);
@@ -22,7 +22,7 @@ std::string original_text(const Preset& preset) {
       preset.original_radius_mm());
 }
 
-/// A closed curve, where a footprint is one.
+/// The keys of a closed curve: of a footprint's boundary or of the actuated one.
 void add_curve(FieldList<Curve> curve, const std::string& meaning) {
   curve.add<&Curve::kind>(meaning).named("boundary");
   const auto ellipses = {CurveKind::ellipse, CurveKind::superellipse};
@@ -45,7 +45,8 @@ void add_curve(FieldList<Curve> curve, const std::string& meaning) {
       });
 }
 
-/// The key of a circle's radius is outside the table of the curve and also belongs to it.
+/// Rules for the key of a circle's radius, which a footprint of kind "circle" uses and a curve
+/// whose boundary is a circle; the key `label` replaces it.
 template <class Struct>
 void radius_rules(FieldList<Struct>& list, Curve Struct::*boundary, double Struct::*other,
                   const std::string& label) {
@@ -135,7 +136,7 @@ void add_footprint(std::vector<Field>& all) {
           "every joint is a hinge; false: lines in line are one rod")
       .used_by(&Footprint::kind, {Kinds::network})
       .refused({"file"}, of_a_file, [=](const Footprint& of) { return network(of) && of.linkage; });
-  list.add<&Footprint::rods>(between(1, 500), "rods per direction in a circle, n")
+  list.add<&Footprint::rods>(between(2, 500), "rods per direction in a circle, n")
       .label("rods per direction")
       .used_by(&Footprint::kind, {Kinds::circle});
   list.add<&Footprint::radius_mm>(above(0), "radius of a circle, R_o").label("radius Rₒ");

@@ -14,7 +14,7 @@ constexpr double label_height_mm = 3, joint_mark_mm = 2;
 
 Eigen::Vector3d flat(const Eigen::Vector2d& at) { return {at.x(), at.y(), 0}; }
 
-/// A closed boundary: a circle where it is one.
+/// Adds a closed boundary to a layer: a circle if it has a radius, else its polyline.
 void put_boundary(const Eigen::Matrix2Xd& polyline, double radius_mm, Layer& layer) {
   if (std::isfinite(radius_mm)) {
     layer.circles.push_back({Eigen::Vector2d::Zero(), radius_mm});
@@ -31,10 +31,11 @@ std::string space_separated(const std::vector<double>& numbers) {
   return row;
 }
 
-/// Without digits of its own where the step is a tenth, a hundredth, ...
+/// The value rounded to a multiple of `step`. Where 1/step is an integer, the division by it leaves
+/// no digits of round-off.
 double to_step(double value, double step) {
-  return step < 1 ? std::round(value / step) / std::round(1 / step)
-                  : std::round(value / step) * step;
+  const double count = std::round(value / step), whole = std::round(1 / step);
+  return std::abs(whole * step - 1) < 1e-9 ? count / whole : count * step;
 }
 
 }  // namespace
@@ -61,15 +62,17 @@ FabricationPlan rounded(FabricationPlan plan, double step_mm) {
   if (!(step_mm > 0)) return plan;
   const auto round = [&](double value) { return to_step(value, step_mm); };
   for (CutRod& rod : plan.rods) {
+    double begin = 0, end = rod.length_mm;  // positions of its edge points
+    if (!rod.joint_marks_mm.empty())
+      for (const double pin : rod.pin_marks_mm)
+        (pin < std::ranges::min(rod.joint_marks_mm) ? begin : end) = pin;
     rod.length_mm = round(rod.length_mm);
     for (auto* marks : {&rod.joint_marks_mm, &rod.pin_marks_mm, &rod.splices_mm})
       for (double& mark : *marks) mark = round(mark);
     if (rod.joint_marks_mm.empty()) continue;
     const auto [first, last] = std::ranges::minmax(rod.joint_marks_mm);
-    double begin = 0, end = rod.length_mm;  // its edge points
-    for (const double pin : rod.pin_marks_mm) (pin < first ? begin : end) = pin;
-    if (std::isfinite(rod.leg_begin_mm)) rod.leg_begin_mm = round(first - begin);
-    if (std::isfinite(rod.leg_end_mm)) rod.leg_end_mm = round(end - last);
+    if (std::isfinite(rod.leg_begin_mm)) rod.leg_begin_mm = round(first - round(begin));
+    if (std::isfinite(rod.leg_end_mm)) rod.leg_end_mm = round(round(end) - last);
   }
   return plan;
 }
@@ -77,13 +80,13 @@ FabricationPlan rounded(FabricationPlan plan, double step_mm) {
 Result<FabricationPlan> spliced(FabricationPlan plan, double stock_mm) {
   for (CutRod& rod : plan.rods) {
     if (stock_mm == 0 || rod.length_mm <= stock_mm) continue;
-    std::vector<double> places{0};  // of joints and ends, between which a splice may lie
-    places.insert(places.end(), rod.joint_marks_mm.begin(), rod.joint_marks_mm.end());
-    places.push_back(rod.length_mm);
+    std::vector<double> stops{0};  // ends and joints; a splice is in the middle between two
+    stops.insert(stops.end(), rod.joint_marks_mm.begin(), rod.joint_marks_mm.end());
+    stops.push_back(rod.length_mm);
     for (double from = 0; rod.length_mm - from > stock_mm;) {
       double to = from;
-      for (std::size_t k = 1; k < places.size(); ++k)
-        if (const double middle = 0.5 * (places[k - 1] + places[k]); middle <= from + stock_mm)
+      for (std::size_t k = 1; k < stops.size(); ++k)
+        if (const double middle = 0.5 * (stops[k - 1] + stops[k]); middle <= from + stock_mm)
           to = std::max(to, middle);
       if (to <= from)
         return invalid(
@@ -143,19 +146,19 @@ bool FabricationPlan::has_plate() const {
 Result<Drawing> plate_drawing(const FabricationPlan& work) {
   const auto [low, high] = work.heights_of_pins();
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-  int ring = 0;
+  int pins = 0;
   for (const Pin& pin : work.pins) {
     if (!pin.in_ring) continue;
     middle += pin.at.head<2>();
-    ++ring;
+    ++pins;
   }
-  if (ring == 0) return invalid("nothing is pinned, so there is no plate");
+  if (pins == 0) return invalid("nothing is pinned, so there is no plate");
   if (!work.has_plate())
     return invalid(
         "the edge points lie between z = {:.3f} and {:.3f} mm, so no flat plate carries them; "
         "'--what plate --to pins.csv' lists them",
         low, high);
-  middle /= ring;
+  middle /= pins;
   Layer boundary{"boundary", 1}, holes{"holes", 7}, labels{"labels", 5};
   put_boundary(work.actuated_boundary.topRows<2>(), work.actuated_radius_mm, boundary);
   for (const Pin& pin : work.pins) {

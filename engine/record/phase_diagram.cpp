@@ -6,7 +6,7 @@
 namespace gridshell::record {
 namespace {
 
-constexpr const char* first_order = "first_order";
+constexpr const char* first_order = "first_order";  // the kind of states of first-mode buckling
 
 void add(StateCount& count, const StateRow& row) {
   ++count.states;
@@ -24,6 +24,7 @@ constexpr double endless = std::numeric_limits<double>::infinity();
 constexpr const char* leg_key = "footprint.longest_leg";
 constexpr const char* rods_key = "footprint.rods";
 
+/// A figure as an integer; 0 if there is none.
 int whole_figure(const PointResult& result, const char* name) {
   const Figure* figure = result.figure(name);
   const double number = figure ? number_of(*figure) : std::nan("");
@@ -36,10 +37,10 @@ PhasePoint point_of(const SweepTable::Row& row, bool legs_first) {
   point.rods = std::stoi(row.keys.values[legs_first ? 1 : 0]);
   point.shortest_leg = shortest_leg(point.longest_leg + 0.5 * (point.rods - 1), point.rods);
   point.seed = row.keys.seed;
-  const auto first_order = state_count(row.result, "first_order");
-  point.found = first_order.has_value();
+  const auto first_mode = state_count(row.result, first_order);
+  point.found = first_mode.has_value();
   if (!point.found) return point;
-  point.first_order = *first_order;
+  point.first_order = *first_mode;
   point.states = whole_figure(row.result, "states");
   point.at_rest = whole_figure(row.result, "at_rest");
   for (const auto& [kind, word] : words_of<StateClass>())
@@ -48,9 +49,11 @@ PhasePoint point_of(const SweepTable::Row& row, bool legs_first) {
   return point;
 }
 
+/// Adds the states of a point to its region.
 void count(const PhasePoint& point, PhaseRegion& region) {
   ++region.points;
   region.dome_alone += point.first_order.states == point.states;
+  // classes i and iv have full symmetry
   region.broken += point.of(StateClass::i).states + point.of(StateClass::iv).states < point.states;
   region.several += point.states > 1;
   for (std::size_t k = 0; k < region.with.size(); ++k)

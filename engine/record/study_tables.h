@@ -159,6 +159,7 @@ struct LoadRow {
   double error = unknown;
   BranchEvent event = BranchEvent::none;  ///< turn (a limit point), bifurcation, or why it ended
   double linear_factor = unknown;         ///< K_0 + factor K_g singular; NaN: never
+  double linear_error = unknown;          ///< NaN on one mesh
   /// load factor at which a fibre reaches its rod's strength; NaN: none
   double strength_factor = unknown;
   double strength_error = unknown;
@@ -170,11 +171,11 @@ struct LoadRow {
 template <RecordOf<LoadRow> Row, class Visit>
 void fields(Row& row, const Visit& visit) {
   visit_each(visit, "case", row.load_case, "critical_factor", row.critical_factor, "error",
-             row.error, "event", row.event, "linear_factor", row.linear_factor, "strength_factor",
-             row.strength_factor, "strength_error", row.strength_error, "load_x_N", row.load_x_N,
-             "load_y_N", row.load_y_N, "load_z_N", row.load_z_N, "imperfections", row.imperfections,
-             "knock_down_5", row.knock_down_5, "knock_down_50", row.knock_down_50, "knock_down_95",
-             row.knock_down_95);
+             row.error, "event", row.event, "linear_factor", row.linear_factor, "linear_error",
+             row.linear_error, "strength_factor", row.strength_factor, "strength_error",
+             row.strength_error, "load_x_N", row.load_x_N, "load_y_N", row.load_y_N, "load_z_N",
+             row.load_z_N, "imperfections", row.imperfections, "knock_down_5", row.knock_down_5,
+             "knock_down_50", row.knock_down_50, "knock_down_95", row.knock_down_95);
 }
 
 }  // namespace gridshell::record

@@ -14,7 +14,7 @@
 namespace gridshell {
 namespace {
 
-/// The closed line of a drawing; of a network that is none, nothing.
+/// The points of a drawing's closed line, 2 x n; without columns if it is not a single line.
 Eigen::Matrix2Xd outline_of(const preset::NetworkData& file) {
   Eigen::Matrix2Xd line(2, 0);
   if (file.rods.size() != 1) return line;
@@ -35,6 +35,7 @@ Eigen::Vector2d middle_of(const Eigen::Matrix2Xd& line) {
     moment += cross / 3 * (a + b);
     turns += std::atan2(cross, a.dot(b));
   }
+  // the line turns once about a point inside it, and by zero about one outside
   const bool inside = std::abs(turns) > M_PI;
   return inside || twice == 0 ? middle : Eigen::Vector2d(middle + moment / twice);
 }
@@ -67,7 +68,7 @@ Eigen::Vector3d vector_of(const std::vector<double>& row, std::size_t first) {
   return {row.at(first), row.at(first + 1), row.at(first + 2)};
 }
 
-/// Middle of the floor of the bounding box of all rods; heights are measured from it.
+/// Middle of the bottom of the bounding box of all rods; heights are measured from it.
 Eigen::Vector3d origin_of(const preset::NetworkData& file) {
   Eigen::Vector3d low = Eigen::Vector3d::Constant(INFINITY), high = -low;
   for (const auto& rod : file.rods)
@@ -83,7 +84,7 @@ Eigen::Vector3d origin_of(const preset::NetworkData& file) {
 
 RodNetwork network_of(const preset::NetworkData& file, preset::EndKind ends,
                       const Eigen::Vector3d& origin) {
-  constexpr double in_plane_mm = 1e-3;  // as near as points are one
+  constexpr double in_plane_mm = 1e-3;  // also the distance within which points become one
   RodNetwork network;
   network.points.resize(3, Eigen::Index(file.points.size()));
   for (std::size_t k = 0; k < file.points.size(); ++k)
@@ -129,8 +130,7 @@ class EndMotion {
   std::map<int, Eigen::Vector3d> to_;
 };
 
-/// The motion of ends and constrained joints; `held` has the columns of what is constrained, from
-/// and to.
+/// Fills the scene's motion: first and last positions of the rods' ends and of the fixed joints.
 void put_motion(const NetworkFootprint& made, const Eigen::Matrix3Xd& points,
                 const EndMotion& motion, Scene& scene) {
   const auto fill = [&](const std::vector<int>& numbers, Eigen::Matrix3Xd& begin,
@@ -155,8 +155,8 @@ Eigen::Matrix2Xd seen_across(const Eigen::Matrix3Xd& places) {
   return axes.vectors.rightCols<2>().transpose() * about;
 }
 
-/// Boundary around the constrained points of the rods; for a planar network only the corners. Half
-/// the diagonal of the bounding box of the constrained points is the length scale.
+/// Fills the scene's boundaries around the constrained points of the rods (only corners for a
+/// planar network) and its length scale, half the diagonal of the bounding box of these points.
 void put_boundaries(const NetworkFootprint& made, const Eigen::Matrix3Xd& points, Scene& scene) {
   std::vector<int> numbers = made.joints;
   std::vector<Eigen::Vector3d> from, to;
@@ -171,9 +171,9 @@ void put_boundaries(const NetworkFootprint& made, const Eigen::Matrix3Xd& points
     from.push_back(scene.motion.begin.col(Eigen::Index(end)));
     to.push_back(scene.motion.end.col(Eigen::Index(end)));
   }
-  const Eigen::Matrix3Xd held = points(Eigen::all, numbers);
-  const std::vector<int> hull =
-      made.footprint.in_space() ? rim_of(seen_across(held)) : hull_of(held.topRows<2>());
+  const Eigen::Matrix3Xd constrained = points(Eigen::all, numbers);
+  const std::vector<int> hull = made.footprint.in_space() ? rim_of(seen_across(constrained))
+                                                          : hull_of(constrained.topRows<2>());
   scene.original_boundary.resize(3, Eigen::Index(hull.size()));
   scene.actuated_boundary.resizeLike(scene.original_boundary);
   for (std::size_t k = 0; k < hull.size(); ++k) {
@@ -181,8 +181,8 @@ void put_boundaries(const NetworkFootprint& made, const Eigen::Matrix3Xd& points
     scene.actuated_boundary.col(Eigen::Index(k)) = to[std::size_t(hull[k])];
   }
   Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& place : from) box.extend(place);
-  // constrained at a single position, as a cantilever is: around its rods
+  for (const Eigen::Vector3d& position : from) box.extend(position);
+  // a shell that is constrained at a single position, as a cantilever, has the scale of its rods
   if (box.diagonal().norm() < made.footprint.spacing)
     for (const auto& point : points.colwise()) box.extend(scene.flat.origin + point);
   scene.length_scale_mm = 0.5 * box.diagonal().norm();

@@ -106,9 +106,10 @@ bool alike(const NetStart& one, const NetStart& other, double size) {
 }
 
 std::string text_of(const NetStart& start) {
+  // what is rounded to -0 is 0
+  const Eigen::Array3d apex = (10 * start.place.apex).array().round() / 10 + 0.0;
   return fmt::format("apex_mm = [{:.1f}, {:.1f}, {:.1f}], axis = \"x\", axis_deg = {:.1f}",
-                     start.place.apex.x(), start.place.apex.y(), start.place.apex.z(),
-                     start.axis_deg);
+                     apex.x(), apex.y(), apex.z(), start.axis_deg);
 }
 
 }  // namespace

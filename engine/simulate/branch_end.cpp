@@ -105,32 +105,72 @@ double Simulation::Walk::parameter_scale(double t) const {
   return std::min(boundary, fraction_of_loads * std::abs(motion.factor_at(motion.load, t)) / rate);
 }
 
+/// The equilibrium at `there`, past the event, from which the path continues; the path is at it
+/// then, or, if there is none, where it was lost.
+bool Simulation::Walk::leave_to(double there, const PathPoint& last, Event& event,
+                                std::vector<TimedState>& moments) {
+  moments.clear();
+  const auto rest =
+      rest_after_bifurcation(shell_, scene_, last, event.kind, there, moments, watch_);
+  if (watch_.cancelled()) return false;
+  if (rest && shell_.start(there, *rest, watch_).end == Outcome::reached) {
+    event.to = there;
+    event.jump = event.kind != Event::Kind::stability_lost ||
+                 !on_branch_from(shell_, scene_, last, there, *rest, watch_);
+    shell_.apply_loads();
+    return true;
+  }
+  shell_.back_to(shell_.state());
+  shell_.place(last.t, last.state);
+  return false;
+}
+
+/// Whether the current state, past a loss of stability, lies on the branch that lost it and has
+/// regained it: between the two the shell is on another branch.
+bool Simulation::Walk::skipped_a_branch(const PathPoint& last) {
+  constexpr double same_state = 1e-3;  // of d
+  PathOptions options;
+  options.spacing_mm = scene_.footprint.spacing;
+  options.allow_unstable = true;
+  PathFollower path(shell_.system(), shell_.motion(), options);
+  const State& found = shell_.state().levels.back();
+  if (path.start(last.t, last.state, watch_).end != Outcome::reached) return false;
+  if (path.advance(now(), watch_).end != Outcome::reached) return false;
+  return max_column_norm((path.point().state.x - found.x).leftCols(shell_.model().nodes)) <
+         same_state * options.spacing_mm;
+}
+
 /// The branch ended: the next equilibrium a little further on, where it is far enough from the
 /// event to be found.
 bool Simulation::Walk::leave(Event& event, std::vector<TimedState>& moments) {
   const PathPoint last = shell_.followed();
   const double sign = to_ > last.t ? 1 : -1;
-  const double scale = parameter_scale(last.t);
-  for (double beyond = 1e-3 * std::min(scale, 1.0); beyond < 0.1 * scale; beyond *= 2) {
-    double there = last.t + sign * beyond;
-    if (sign * (there - to_) > 0) there = to_;
-    moments.clear();
-    const auto rest =
-        rest_after_bifurcation(shell_, scene_, last, event.kind, there, moments, watch_);
-    if (watch_.cancelled()) return false;
-    if (rest && shell_.start(there, *rest, watch_).end == Outcome::reached) {
-      event.to = there;
-      event.jump = event.kind != Event::Kind::stability_lost ||
-                   !on_branch_from(shell_, scene_, last, there, *rest, watch_);
-      shell_.apply_loads();
-      return true;
-    }
-    if (there == to_) break;
-    // the path is at the state where it was lost
-    shell_.back_to(shell_.state());
-    shell_.place(last.t, last.state);
+  const auto at = [&](double scales) {
+    const double there = last.t + sign * scales * parameter_scale(last.t);
+    return sign * (there - to_) > 0 ? to_ : there;
+  };
+  constexpr double nearest = 1e-3, farthest = 0.1, nearest_by_far = 1e-5;  // of the scale
+  bool found = false;
+  for (double beyond = nearest; !found && beyond < farthest && !watch_.cancelled(); beyond *= 2) {
+    found = leave_to(at(beyond), last, event, moments);
+    if (at(beyond) == to_) break;
   }
-  return false;
+  if (!found || event.kind != Event::Kind::stability_lost || scene_.snap.requested ||
+      !skipped_a_branch(last))
+    return found;
+  const NestedState far = shell_.state();
+  const Event to_far = event;
+  for (double beyond = nearest / 2; beyond > nearest_by_far; beyond /= 2) {
+    shell_.back_to(far);
+    shell_.place(last.t, last.state);
+    if (leave_to(at(beyond), last, event, moments) && !skipped_a_branch(last)) return true;
+    if (watch_.cancelled()) return false;
+  }
+  shell_.back_to(far);
+  shell_.apply_loads();
+  event = to_far;
+  moments.clear();
+  return true;
 }
 
 // ---- what ends it ----

@@ -18,26 +18,26 @@ namespace {
 
 constexpr double still_mm = 0.01;  // perturbation of an unstable equilibrium before a snap in time
 
-/// On rods that buckle between joints which stay where they are: waves drawn a rod, the same on
-/// every mesh.
+/// Adds random sine waves to `direction`, along rods that turn freely or that buckle between fixed
+/// joints. They are drawn rod by rod, so that they are equal on every mesh.
 void add_waves(const Scene& scene, const RodMesh& mesh, std::mt19937& random,
                Eigen::Matrix3Xd& direction) {
   constexpr int waves = 3;
   const Footprint& footprint = scene.footprint;
-  const std::set<int> held(footprint.fixed_joints.begin(), footprint.fixed_joints.end());
+  const std::set<int> fixed(footprint.fixed_joints.begin(), footprint.fixed_joints.end());
   const auto turning = turning_rods(footprint, scene.rods, scene.motion, scene.solved_model());
   for (std::size_t r = 0; r < footprint.rods.size(); ++r) {
     const bool turns = std::ranges::find(turning, r, &TurningRod::rod) != turning.end();
     if (!turns && !std::ranges::all_of(footprint.rods[r].joints,
-                                       [&](int joint) { return held.contains(joint); }))
+                                       [&](int joint) { return fixed.contains(joint); }))
       continue;
-    const std::vector<int>& node = mesh.rods[r];
+    const std::vector<int>& nodes = mesh.rods[r];
     for (int wave = 1; wave <= waves; ++wave)
       for (int axis = 0; axis < 3; ++axis) {
-        const double height = symmetric_uniform(random);
-        for (std::size_t k = 1; k + 1 < node.size(); ++k)
-          direction(axis, node[k]) +=
-              height * std::sin(wave * std::numbers::pi * double(k) / double(node.size() - 1));
+        const double amplitude = symmetric_uniform(random);
+        for (std::size_t k = 1; k + 1 < nodes.size(); ++k)
+          direction(axis, nodes[k]) +=
+              amplitude * std::sin(wave * std::numbers::pi * double(k) / double(nodes.size() - 1));
       }
   }
 }
@@ -62,9 +62,9 @@ BranchSwitch departure_for(Event::Kind kind, const Scene& scene, const NestedShe
   return departure;
 }
 
-/// The unstable equilibrium on the same branch, a little past the loss of stability. A push off it
-/// stays on its side; off a state that is no equilibrium the first corrections take the push back,
-/// and the side would be left to chance.
+/// The unstable equilibrium on the same branch, a little past the loss of stability; none if
+/// Newton's method does not find one. A perturbation of this equilibrium stays on its side. That of
+/// a state out of equilibrium is undone by the first corrections, and round-off chooses the side.
 std::optional<State> unstable_branch(Linearisation& system, State state, double farthest_mm,
                                      const Watch& watch) {
   NewtonOptions options;
@@ -129,7 +129,7 @@ Result<State> rest_after_bifurcation(NestedShell& shell, const Scene& scene, con
   const PinnedMotion& motion = shell.motion();
   BranchSwitch departure = departure_for(kind, scene, shell);
   departure.symmetries = symmetries_of(shell.finest(), motion.at(there));
-  // the mode that lost stability first, of several unstable modes past it
+  // the mode that lost stability first: past the event there may be several unstable modes
   motion.apply_loads(system, last.t);
   system.at(last.state, false);
   const Eigen::Matrix3Xd mode = softest_mode(system, departure.start, watch);
@@ -155,24 +155,25 @@ Result<State> rest_after_bifurcation(NestedShell& shell, const Scene& scene, con
 
 bool on_branch_from(NestedShell& shell, const Scene& scene, const PathPoint& last, double there,
                     const State& rest, const Watch& watch) {
-  constexpr double fraction =
-      1.0 / 16;  // of the path parameter, where a quarter of the distance is expected to remain
+  // of the path parameter; a quarter of the distance is expected to remain there
+  constexpr double fraction = 1.0 / 16;
   const double near = last.t + fraction * (there - last.t);
   PathOptions options;
   options.spacing_mm = scene.footprint.spacing;
-  options.allow_unstable =
-      true;  // where two modes lose stability, a branch may be unstable next to the other
+  // where two modes lose stability, a branch may be unstable next to the other
+  options.allow_unstable = true;
   PathFollower back(shell.system(), shell.motion(), options);
   if (back.start(there, rest, watch).end != Outcome::reached) return false;
-  // a second mode may end the path early, near the bifurcation
+  // a second mode may end the path early, near the bifurcation: its last state is compared
   back.advance(near, watch);
-  const auto off = [&](const State& state, double t) {
-    Eigen::Matrix3Xd path = last.state.x;
-    // it is not known at the start of a path
-    if (last.velocity.x.size() > 0) path += (t - last.t) * last.velocity.x;
-    return max_column_norm((state.x - path).leftCols(shell.model().nodes));
+  const auto distance = [&](const State& state, double t) {
+    Eigen::Matrix3Xd predicted = last.state.x;
+    // the velocity is not known at the start of a path
+    if (last.velocity.x.size() > 0) predicted += (t - last.t) * last.velocity.x;
+    return max_column_norm((state.x - predicted).leftCols(shell.model().nodes));
   };
-  return off(back.point().state, back.point().t) < 2 * std::sqrt(fraction) * off(rest, there);
+  const double found = distance(back.point().state, back.point().t);
+  return found < 2 * std::sqrt(fraction) * distance(rest, there);
 }
 
 Result<State> rest_in_time(NestedShell& shell, const Scene& scene, const State& from,

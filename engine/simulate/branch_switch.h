@@ -17,7 +17,7 @@ namespace gridshell {
 /// same on every mesh.
 BranchSwitch departure_of(const Scene& scene, const RodMesh& mesh, const Model& model);
 
-/// The equilibrium that the shell reaches on its coarsest mesh after it lost its branch at `last`,
+/// The equilibrium that the shell reaches on its finest mesh after it lost its branch at `last`,
 /// with the prescribed components at `there`: by minimising the energy, or in time if the scene
 /// requests it, with every time step in `moments`. At a loss of stability the imperfection chooses
 /// the side, at a limit point the energy. Errors: bad_input (a mass is not known), no_equilibrium,
@@ -28,11 +28,11 @@ Result<State> rest_after_bifurcation(NestedShell& shell, const Scene& scene, con
 
 /// Whether the equilibrium at `there` is on a branch that bifurcates from the path at its last
 /// state: followed back, its distance from the path falls as the square root of the remaining path
-/// parameter. If not, the shell snapped. On the coarsest mesh.
+/// parameter. If not, the shell snapped. On the finest mesh.
 bool on_branch_from(NestedShell& shell, const Scene& scene, const PathPoint& last, double there,
                     const State& rest, const Watch& watch);
 
-/// Moves in time from a state of the coarsest mesh, with the scene's damping, until equilibrium.
+/// Moves in time from a state of the finest mesh, with the scene's damping, until equilibrium.
 /// Errors: as rest_after_bifurcation().
 Result<State> rest_in_time(NestedShell& shell, const Scene& scene, const State& from,
                            const RestOptions& rest,

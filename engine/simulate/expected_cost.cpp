@@ -252,12 +252,14 @@ std::string expected_bending(const Scene& scene) {
     most = std::max(most, strain);
   }
   if (most == 0) return "";
-  std::string text = fmt::format("strain {} {:.2g}", scene.net ? "about" : "at least", most);
+  std::string text =
+      fmt::format("strain {} {:.2g} %", scene.net ? "about" : "at least", 100 * most);
   if (used > 0) text += fmt::format(", {:.2g} of the rods' strength", used);
   return text + fmt::format(", of {}, {}", name_of(scene.footprint.rods[where]),
-                            scene.net ? "as the net is curved"
-                                      : "as an elastica between its ends; a rod that goes in waves "
-                                        "bends several times as much");
+                            scene.net
+                                ? "as the net is curved"
+                                : "if it is one arc between its ends; a wavy rod bends several "
+                                  "times as much");
 }
 
 }  // namespace gridshell::simulate

@@ -14,12 +14,12 @@
 namespace gridshell::simulate {
 namespace {
 
-// A value to bytes, or back: every struct names its members once, in both directions.
+// Conversion of values to bytes and back: every struct lists its members once, for both directions.
 
 template <class T, class Of>
 concept Is = std::same_as<std::remove_const_t<T>, Of>;
 
-/// Straight into a file, as a path may be large; in ByteWriter's form.
+/// Writes values directly into a file, as a path may be large, in the format of ByteWriter.
 struct Pack {
   std::ofstream file;
   Checksum sum = Checksum(ChecksumKind::crc32);
@@ -43,6 +43,7 @@ struct Pack {
   void size_of(const auto& list) { number(std::uint64_t(list.size())); }
 };
 
+/// Reads values from bytes of that format.
 struct Unpack {
   ByteReader bytes;
   bool good() const { return bytes.good(); }
@@ -112,7 +113,7 @@ void put(auto& in, Is<KeptSegment> auto& s) {
 
 template <class T>
 void one(Unpack& in, std::vector<T>& values) {
-  // never more than there are bytes for
+  // a size that is too large ends where the bytes end
   for (std::size_t left = in.size_of(values); left > 0 && in.good(); --left)
     all(in, values.emplace_back());
 }
@@ -159,10 +160,10 @@ std::optional<KeptSegment> KeptSegments::next(const SegmentBegin& begin) {
   std::uint64_t sum = 0;
   if (!bytes || bytes->size() < sizeof sum) return std::nullopt;
   const std::size_t size = bytes->size() - sizeof sum;
-  const std::string_view all_of_it = std::string_view(*bytes).substr(0, size);
+  const std::string_view content = std::string_view(*bytes).substr(0, size);
   std::memcpy(&sum, bytes->data() + size, sizeof sum);
-  if (sum != Checksum::of(all_of_it, ChecksumKind::crc32)) return std::nullopt;
-  Unpack in{ByteReader(all_of_it)};
+  if (sum != Checksum::of(content, ChecksumKind::crc32)) return std::nullopt;
+  Unpack in{ByteReader(content)};
   KeptSegment segment;
   all(in, segment);
   if (!in.bytes.at_end() || segment.begin != begin) return std::nullopt;
@@ -175,19 +176,19 @@ bool KeptSegments::wants(bool at_its_end) const {
 }
 
 void KeptSegments::keep(const KeptSegment& segment) {
-  const double begun = seconds_now();
+  const double start_s = seconds_now();
   if (make_folder(folder_)) {
-    AtomicFile whole(file());
-    Pack out{std::ofstream(whole.temporary(), std::ios::binary)};
+    AtomicFile target(file());
+    Pack out{std::ofstream(target.temporary(), std::ios::binary)};
     all(out, segment);
     const std::uint64_t sum = out.sum.value();
     out.number(sum);
     out.file.close();
-    if (out.file) has_file_ = bool(whole.commit());
+    if (out.file) has_file_ = bool(target.commit());
   }
   written_at_ = seconds_now();
-  // large ones are written less often, unless all are requested
-  if (worth_s_ > 0) wait_s_ = std::max(worth_s_, 20 * (written_at_ - begun));
+  // a segment that takes long to write is written less often, unless all are requested
+  if (worth_s_ > 0) wait_s_ = std::max(worth_s_, 20 * (written_at_ - start_s));
 }
 
 }  // namespace gridshell::simulate

@@ -61,6 +61,9 @@ class Simulation::Walk {
   double parameter_scale(double t) const;
   void bisect(double bad, const NestedState& good, const std::function<bool()>& accepted);
   bool leave(Event& event, std::vector<TimedState>& moments);
+  bool leave_to(double there, const PathPoint& last, Event& event,
+                std::vector<TimedState>& moments);
+  bool skipped_a_branch(const PathPoint& last);
   void confirm(Event& event);
   void keep_companion();
 

@@ -45,9 +45,8 @@ struct Event {
   /// exceeded; for locked rods a text if they lock in the equilibrium after a snap, else empty.
   std::string what = {};
   /// Position of the event on one mesh.
-  /// Edges per segment of the mesh.
   struct Location {
-    int edges = 0;
+    int edges = 0;  ///< per segment
     /// Path parameter, and the width of the interval in which it was located.
     double t = 0, located = 0;
   } placed = {};  ///< on the finest mesh
@@ -101,7 +100,7 @@ struct LoadStep {
   bool stability_confirmed = true;
 };
 
-/// State of the coarsest mesh at one time of a dynamic snap.
+/// State of the finest mesh at one time of a dynamic snap.
 struct TimedState {
   double time = 0;  ///< s, from the start of the snap
   /// Nodes in mm, twist angles in rad.

@@ -13,9 +13,10 @@ namespace gridshell {
 namespace {
 
 constexpr double coarse_mm = 0.03;  // tolerance on coarse meshes
-constexpr int most_coarse = 200;    // iterations on each of them
-constexpr double push_off = 0.1;    // of d: off an equilibrium that is not stable
+constexpr int most_coarse = 200;    // most iterations on each coarse mesh
+constexpr double push_off = 0.1;    // displacement from an unstable equilibrium, over d
 
+/// Makes the positions symmetric: their mean over the images under the group.
 void confine(const Model& model, const RodMesh& mesh, const std::vector<MeshSymmetry>& group,
              State& state) {
   const Eigen::Matrix3Xd nodes = nodes_of(mesh, model, state.x);
@@ -79,7 +80,7 @@ Eigen::Matrix3Xd MultilevelRelaxation::stretched_flat(double t) const {
   for (std::size_t k = 0; k < on_boundary.size(); ++k) {
     ends.col(Eigen::Index(k)) = moved.col(on_boundary[k]);
     flat.col(Eigen::Index(k)) = mesh.flat.col(on_boundary[k]);
-    // what lies in the plane may be lifted off it by its ends; heights go with the plane
+    // the affine map is that of the plane; heights above it are added to its image
     if (mesh.height.size() > 0) ends(2, Eigen::Index(k)) -= mesh.height[on_boundary[k]];
   }
   const Eigen::MatrixXd affine = least_squares(with_one(flat), ends.transpose());
@@ -104,7 +105,7 @@ Result<State> MultilevelRelaxation::rest(double t, const Eigen::Matrix3Xd& nodes
   for (auto& level : levels_) {
     state = begin_of(*level, t, nodes, state);
     if (level == levels_.back()) break;
-    // a coarse mesh need not converge: its result is smoother in any case
+    // the outcome on a coarse mesh does not matter: its result is smoother in any case
     minimise(*level->system, state,
              {.tolerance_mm = coarse_mm, .most_iterations = most_coarse, .rough = true}, watch);
   }
@@ -115,11 +116,12 @@ Result<State> MultilevelRelaxation::rest_under(const std::vector<NodeAction>& fo
                                                State state, const Watch& watch) {
   Level& finest = *levels_.back();
   finest.motion.impose(*finest.system, t, state);
-  const SetForScope under(finest.system->outside.steady, &forces);
+  const SetForScope applied(finest.system->outside.steady, &forces);
   return rest_from_rough(*finest.system, std::move(state), watch);
 }
 
-/// Full steps to the equilibrium nearby, stable or not, if there is one.
+/// Newton's method, in full steps, to the equilibrium nearby, stable or not. Returns false and
+/// leaves the state as it is if there is none.
 bool MultilevelRelaxation::step_to_equilibrium(Level& level, State& state,
                                                const Watch& watch) const {
   State found = state;
@@ -130,8 +132,8 @@ bool MultilevelRelaxation::step_to_equilibrium(Level& level, State& state,
   return true;
 }
 
-/// Down the energy within the forms that the group leaves as they are, to their equilibrium:
-/// round-off grows along modes that break it, so it is taken away every few steps.
+/// Minimises the energy among states with the symmetries of the group. Round-off grows along modes
+/// that break a symmetry, so the state is made symmetric again every few iterations.
 void MultilevelRelaxation::down(Level& level, const std::vector<MeshSymmetry>& group, State& state,
                                 const Watch& watch) const {
   constexpr int steps = 10, most_rounds = 20;
@@ -155,13 +157,16 @@ Result<State> MultilevelRelaxation::rest_confined(double t, const Eigen::Matrix3
     down(*level, members(level->symmetries, group), state, watch);
   }
   Level& finest = *levels_.back();
-  step_to_equilibrium(finest, state, watch);
+  // a state that is no equilibrium is minimised without the symmetries
+  if (!step_to_equilibrium(finest, state, watch))
+    return rest_from_rough(*finest.system, std::move(state), watch);
   if (finest.system->at(state, false).positive_definite()) return state;
   return let_go(finest, std::move(state), watch);
 }
 
-/// Descends from an unstable equilibrium along its lowest mode. It does not matter which state it
-/// reaches, so the slow method of leave_saddle() is not needed.
+/// Descends from an unstable equilibrium along its lowest mode; the Hessian of the level's system
+/// is that of this state. Any state it reaches will do, so the slow method of leave_saddle() is not
+/// needed.
 Result<State> MultilevelRelaxation::let_go(Level& level, State state, const Watch& watch) const {
   Eigen::Matrix3Xd mode = softest_mode(*level.system, {}, watch);
   mode *= push_off * spacing_mm_ / max_column_norm(mode);

@@ -1,4 +1,4 @@
-// How a state of the finest mesh is certified, and how its companions measure it.
+// How a state of the finest mesh is certified: residual, stability, error.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,24 +13,24 @@
 namespace gridshell {
 namespace {
 
-// what the estimates are multiplied by, so that they stay on the safe side of the true error.
-// Measured on random circles (tests/engine/simulate/test_actuation.cpp): the plain estimate is
-// within 10 % of the error, the extrapolated one falls short by up to 1.7 where the meshes are not
-// quite in the asymptotic range
+// factors on the estimates, so that they are rarely below the true error. Measured on random
+// circles (tests/engine/simulate/test_actuation.cpp): the plain estimate is within 10 % of the
+// error, the extrapolated one falls short by up to 1.7 where the meshes are not quite in the
+// asymptotic range
 constexpr double margin = 1.25, margin_extrapolated = 2.2;
-// of forces and energies on two meshes, of which one sign or the other may win
+// factor for forces and energies on two meshes: their errors have parts of both signs, which may
+// cancel in the difference
 constexpr double margin_of_two = 1.4;
 
-// largest sum of the weights of an extrapolation, by size: three states one step apart, continued
-// by one step, have 7, and so have two states continued by three steps
-constexpr double most_weight = 8;
-
-// of a stiffness, whose factorisation is one correction before the state: measured up to 2e-4
+// relative error of a stiffness by the factorisation one correction before the state: measured up
+// to 2e-4
 constexpr double stale_stiffness = 1e-3;
 
-/// What extrapolation at second order leaves where three meshes show another: with steps between
-/// them whose sizes have the ratio r, r = 4 at second order, |step| (1/(r - 1) - 1/3). Within
-/// `near` of second order the difference is that of the next order, which is estimated by itself.
+/// Error that extrapolation at second order leaves where three meshes show another order, mm. With
+/// `before` the difference of the two coarser meshes, `step` that of the two finer ones and r the
+/// ratio of their sizes (4 at second order) it is |step| |1/(r - 1) - 1/3|, at most |step|. It is 0
+/// if r is within the fraction `near` of 4: the remaining error is of the next order, which is
+/// estimated separately.
 double left_by_order(const Eigen::Matrix3Xd& step, const Eigen::Matrix3Xd& before) {
   constexpr double near = 0.1;
   const double size = step.norm();
@@ -41,133 +41,13 @@ double left_by_order(const Eigen::Matrix3Xd& step, const Eigen::Matrix3Xd& befor
   return std::min(std::abs(1 / (ratio - 1) - 1.0 / 3), 1.0) * max_column_norm(step);
 }
 
-Eigen::VectorXd weights_of(std::span<const MeshDifference> known, double t) {
-  std::vector<double> at;
-  for (const MeshDifference& one : known) at.push_back(one.t);
-  return polynomial_weights(at, t);
-}
-
 }  // namespace
-
-MeshDifference NestedShell::difference(const Level& level, double t, const State& base,
-                                       const State& state) {
-  // angles are counted from frames that each carry makes new: only nodes are remembered
-  MeshDifference found{t, (state.x - base.x).cast<float>(),
-                       (state.force - base.force).cast<float>()};
-  found.x.rightCols(level.model.columns() - level.model.nodes).setZero();
-  return found;
-}
-
-bool NestedShell::correct(Level& level, const State& base, State& state, NewtonReport& report,
-                          const Watch& watch) {
-  NewtonOptions options;
-  options.tolerance_mm = options_.tolerance_mm;
-  options.widest_turn = options_.widest_turn;
-  options.trusted_mm = options_.tolerance_mm;
-  report = newton(*level.system, state, options, watch);
-  if (report.outcome != Outcome::reached) return false;
-  // a companion moves no node by a cell, or it went to another state
-  const int nodes = level.model.nodes;
-  return max_column_norm(state.x.leftCols(nodes) - base.x.leftCols(nodes)) <
-         0.5 * options_.spacing_mm;
-}
-
-/// The difference continues along the path by the polynomial through the last states; fewer of them
-/// where it would make too much of their own differences.
-State NestedShell::predicted(const Level& level, double t, const State& base) const {
-  std::span<const MeshDifference> known = level.differences;
-  while (!known.empty() && known.front().x.size() == 0) known = known.subspan(1);
-  for (std::size_t k = 1; k < known.size(); ++k)
-    if (known[k].x.size() == 0) known = known.first(k);
-  if (known.empty()) return base;
-  Eigen::VectorXd weights = weights_of(known, t);
-  while (known.size() > 1 && !(weights.cwiseAbs().sum() < most_weight)) {
-    known = known.subspan(1);
-    weights = weights_of(known, t);
-  }
-  State state = base;
-  Eigen::Matrix3Xd x = base.x;
-  for (std::size_t k = 0; k < known.size(); ++k) {
-    const double weight = weights[Eigen::Index(k)];
-    x += weight * known[k].x.cast<double>();
-    state.force += weight * known[k].force.cast<double>();
-  }
-  move_to(level.model, x, state);
-  return state;
-}
-
-/// Where rods may touch, as far from the companion's last state towards the requested one as they
-/// do not go through one another: on longer edges that one need not be clear.
-State NestedShell::clear_of_contact(Level& level, const State& before, State requested) const {
-  if (!level.model.contact.any() || before.x.cols() != requested.x.cols()) return requested;
-  State clear = before;
-  level.motion.impose(*level.system, state_.t, clear);
-  const Eigen::Matrix3Xd move = requested.x - clear.x;
-  move_to(level.model, clear.x + level.system->clear_fraction(clear, move) * move, clear);
-  return clear;
-}
-
-/// A companion's equilibrium near the finer state, whose restriction is `base`: Newton from where
-/// its difference leads, else from the restriction, else, where nothing is known yet, down the
-/// energy from there. It need not be stable where the finer one is: coarse meshes lose their
-/// stability earlier. False: it has none.
-bool NestedShell::measure_on(std::size_t k, const State& base, const NestedState& before,
-                             const Watch& watch) {
-  enum class From { difference, restricted, down };
-  Level& level = *levels_[k];
-  const bool known = !level.differences.empty();
-  for (const From from : {From::difference, From::restricted, From::down}) {
-    if (known ? from == From::down : from == From::difference) continue;
-    State trial = from == From::difference ? predicted(level, state_.t, base) : base;
-    if (k < before.levels.size())
-      trial = clear_of_contact(level, before.levels[k], std::move(trial));
-    level.motion.impose(*level.system, state_.t, trial);
-    if (from == From::down) minimise(*level.system, trial, {.most_iterations = 60}, watch);
-    NewtonReport report;
-    if (watch.cancelled()) return false;
-    if (!correct(level, base, trial, report, watch)) continue;
-    // the angle about the line is no error of a rod that turns
-    if (!level.turning.empty()) {
-      State turned = trial;
-      if (turn_towards(base.x, level.turning, level.model, turned) > options_.tolerance_mm &&
-          correct(level, base, turned, report, watch))
-        trial = std::move(turned);
-    }
-    state_.levels[k] = std::move(trial);
-    return true;
-  }
-  return false;
-}
-
-/// Solves the companions, finer ones first, as far as they have states.
-void NestedShell::measure(const Watch& watch, const NestedState& before) {
-  const bool held = !system().holds().empty();
-  std::vector<HeldForces> forces;
-  if (held) forces.push_back(held_forces(*levels_.back(), state_.levels.back()));
-  state_.measured = last();
-  for (auto k = std::size_t(last()); k-- > 0;) {
-    Level& level = *levels_[k];
-    State base = level.from_finer->carry(state_.levels[k + 1]);
-    level.motion.impose(*level.system, state_.t, base);
-    MeshDifference found{state_.t};
-    if (state_.measured == int(k) + 1 && measure_on(k, base, before, watch)) {
-      state_.measured = int(k);
-      found = difference(level, state_.t, base, state_.levels[k]);
-      if (held) forces.insert(forces.begin(), held_forces(level, state_.levels[k]));
-    } else {
-      state_.levels[k] = std::move(base);
-    }
-    level.differences.push_back(std::move(found));
-    if (level.differences.size() > 3) level.differences.erase(level.differences.begin());
-  }
-  if (held) take_reactions(forces);
-}
 
 namespace {
 
-constexpr double roughly = 0.02;  // of the lowest eigenvalue, whose trend is enough
+constexpr double roughly = 0.02;  // relative accuracy of the lowest eigenvalue: its trend is used
 
-/// Length of rod that belongs to each node, mm.
+/// Length of rod lumped at each node, mm.
 Eigen::VectorXd unit_length(const RodMesh& mesh) {
   return lumped(mesh, std::vector<double>(mesh.rods.size(), 1.0));
 }
@@ -192,7 +72,8 @@ bool NestedShell::stability_confirmed(const Watch& watch) {
   level.motion.apply_loads(*level.system, state_.t);
   const double coarse =
       lowest_eigenvalue(*level.system, state, unit_length(level.mesh), watch, roughly);
-  // where the coarser mesh is not stable, finer ones are the more so
+  // a coarse eigenvalue below the fine one confirms stability, as finer meshes have larger ones; so
+  // does NaN, that of an unstable coarse mesh
   return !(state_.lowest_eigenvalue < margin * (coarse - state_.lowest_eigenvalue) / 3);
 }
 
@@ -201,7 +82,7 @@ NestedReport NestedShell::certify(const PathFollower& path, const Watch& watch,
   const PathPoint& point = path.point();
   NestedState before = std::exchange(state_, {});
   const auto refused = [&](Outcome end) {
-    // what is not certified replaces no certified state
+    // the last certified state remains
     state_ = std::move(before);
     return NestedReport{end, state_.t};
   };
@@ -239,17 +120,18 @@ NestedReport NestedShell::certify(const PathFollower& path, const Watch& watch,
   return {Outcome::reached, state_.t};
 }
 
-/// At the end of a path, and where a force is measured, the residual goes down to what round-off
-/// leaves: corrections are cheap. Elsewhere one is made where the last correction was above the
-/// tolerance, as a soft direction may need another of its size, or where it strained the rods by a
-/// force that is seen. The assembly ends at the state found.
+/// Reduces the residual by further corrections with the factorisation at hand. At the end of a
+/// path, and where a force is measured, it is reduced to round-off. Elsewhere one correction is
+/// made, if the last one was above the tolerance (a direction of low stiffness may need another of
+/// its size) or if axial forces and strains disagree by more than `misfit`. The assembly is then
+/// that of the state found.
 void NestedShell::polish(Level& finest, State& found, const NewtonReport& last) {
-  constexpr double seen = 1e-5;  // of the largest axial force
+  constexpr double misfit = 1e-5;  // of the largest axial force
   Linearisation& system = *finest.system;
   system.gradient_at(found);
   const bool to_the_end = state_.t >= 1 || !system.holds().empty(),
              trusted = last.last_move_mm > options_.tolerance_mm;
-  if (!to_the_end && !trusted && system.forces_agree(found, seen)) return;
+  if (!to_the_end && !trusted && system.forces_agree(found, misfit)) return;
   const int most = to_the_end ? 4 : 1;
   Eigen::Matrix3Xd dx;
   for (int k = 0; k < most && state_.inertia.usable; ++k) {
@@ -271,33 +153,33 @@ void NestedShell::polish(Level& finest, State& found, const NewtonReport& last) 
   }
 }
 
-/// The path's tangent at the state itself: the velocity was solved for at the factorisation, one
-/// correction before it. States a little before and after along it are corrected once; the assembly
-/// ends at the state.
+/// Computes the path's tangent at the state itself, by a central difference: the known velocity is
+/// that of the factorisation, one correction before the state. The states before and after,
+/// predicted by that velocity, are corrected once. The assembly is then that of the state.
 void NestedShell::refine_velocity(Level& finest, const State& found) {
-  constexpr double by = 2e-4;  // of t
+  constexpr double offset = 2e-4;  // of t
   Linearisation& system = *finest.system;
   const State velocity = state_.velocity;
   state_.velocity.x.setZero();
   state_.velocity.force.setZero();
   Eigen::Matrix3Xd dx;
   for (const double sign : {-1.0, 1.0}) {
-    State beside = found;
-    beside.force += sign * by * velocity.force;
-    move_to(finest.model, found.x + sign * by * velocity.x, beside);
-    finest.motion.impose(system, state_.t + sign * by, beside);
-    system.residual_at(beside);
+    State neighbour = found;
+    neighbour.force += sign * offset * velocity.force;
+    move_to(finest.model, found.x + sign * offset * velocity.x, neighbour);
+    finest.motion.impose(system, state_.t + sign * offset, neighbour);
+    system.residual_at(neighbour);
     system.correction(dx);
-    system.apply(dx, beside);
-    state_.velocity.x += sign / (2 * by) * beside.x;
-    state_.velocity.force += sign / (2 * by) * beside.force;
+    system.apply(dx, neighbour);
+    state_.velocity.x += sign / (2 * offset) * neighbour.x;
+    state_.velocity.force += sign / (2 * offset) * neighbour.force;
   }
   finest.motion.apply_loads(system, state_.t);
   system.gradient_at(found);
 }
 
 /// Whether the factorisation of the last correction, one correction before the state, is near
-/// enough to it to say whether it is stable.
+/// enough to it to decide whether it is stable.
 bool NestedShell::vouches(const NewtonReport& report) const {
   constexpr double same_state = 1e-3;  // of d
   return report.factored_move_mm <= same_state * options_.spacing_mm &&
@@ -310,7 +192,7 @@ Inertia NestedShell::inertia_of(Level& level, const State& found,
                                 const NewtonReport& report) const {
   if (vouches(report)) return report.inertia;
   Inertia inertia = level.system->at(found, false);
-  // a direction without stiffness takes its sign from what is left of the residual
+  // the sign of a pivot along a direction without stiffness depends on the remaining residual
   if (inertia.usable && !inertia.positive_definite() && level.system->neutral_shift() > 0) {
     State exact = found;
     if (newton(*level.system, exact, {.tolerance_mm = 1e-3 * options_.tolerance_mm}, unwatched)
@@ -320,8 +202,8 @@ Inertia NestedShell::inertia_of(Level& level, const State& found,
   return inertia;
 }
 
-/// Error of all nodes, by how much companions differ at the nodes that they share, and
-/// extrapolation where it is planned.
+/// Computes the largest error of all nodes from the differences of the meshes at the nodes that
+/// they share, and extrapolates the positions if that is planned.
 void NestedShell::estimate(const Energies& energies) {
   const auto last = std::size_t(this->last());
   const Level& finest = *levels_.back();
@@ -344,7 +226,7 @@ void NestedShell::estimate(const Energies& energies) {
   const RodMesh& companion = levels_[last - 1]->mesh;
   const Eigen::Matrix3Xd step = step_to(last - 1, state_.x);
   const bool two = !extrapolates();
-  // corrections stop at the tolerance
+  // the tolerance is added, as Newton's method stops there
   if (order_unknown(energies)) {
     state_.error_estimate_mm = margin * largest(companion, step) + options_.tolerance_mm;
     return;
@@ -353,7 +235,8 @@ void NestedShell::estimate(const Energies& energies) {
     state_.error_estimate_mm = margin * largest(companion, step) / 3 + options_.tolerance_mm;
     return;
   }
-  // (4 fine - coarse)/3 of these two meshes less that of the two before, where all three have nodes
+  // the extrapolated positions (4 fine - coarse)/3 of the two finer meshes less those of the two
+  // coarser ones, at the nodes of all three
   const Eigen::Index shared = levels_[last - 2]->mesh.rod_nodes();
   Eigen::Matrix3Xd restricted;
   levels_[last - 2]->from_finer->meshes().nodes(step, restricted);
@@ -389,20 +272,20 @@ CertifiedVectors certify_vectors(const std::vector<Eigen::Matrix3Xd>& levels, bo
   return found;
 }
 
-/// The forces at prescribed joints by its last factorisation, which is one correction away from the
-/// state.
+/// Forces at the prescribed joints of a level, and their stiffness by its last factorisation, which
+/// is one correction before the state.
 NestedShell::HeldForces NestedShell::held_forces(Level& level, const State& state) const {
   Linearisation& system = *level.system;
   system.gradient_at(state);
   const std::vector<Constraint>& holds = system.holds();
-  HeldForces of{Eigen::Matrix3Xd(3, Eigen::Index(holds.size())), {}};
-  for (std::size_t h = 0; h < holds.size(); ++h)
-    of.force.col(Eigen::Index(h)) = system.reaction(holds[h]);
-  of.stiffness = system.held_stiffness();
-  return of;
+  HeldForces found{Eigen::Matrix3Xd(3, Eigen::Index(holds.size())), {}};
+  for (std::size_t k = 0; k < holds.size(); ++k)
+    found.force.col(Eigen::Index(k)) = system.reaction(holds[k]);
+  found.stiffness = system.held_stiffness();
+  return found;
 }
 
-/// `levels`: coarse to fine.
+/// Sets reactions and their stiffness, with errors, from those of `levels`, coarse to fine.
 void NestedShell::take_reactions(const std::vector<HeldForces>& levels) {
   std::vector<Eigen::Matrix3Xd> forces, stiffness;
   for (const HeldForces& level : levels) {
@@ -414,13 +297,14 @@ void NestedShell::take_reactions(const std::vector<HeldForces>& levels) {
   const bool extrapolate = extrapolates_forces();
   const bool no_order = order_unknown(finest.system->assembly().energies);
   const CertifiedVectors force = certify_vectors(forces, extrapolate, no_order),
-                         growth = certify_vectors(stiffness, extrapolate, no_order);
+                         tangent = certify_vectors(stiffness, extrapolate, no_order);
   state_.reactions.clear();
-  for (const auto& on : force.value.colwise()) state_.reactions.emplace_back(on);
+  for (const auto& reaction : force.value.colwise()) state_.reactions.emplace_back(reaction);
   state_.reaction_error_N = force.error;
   state_.held_stiffness = levels.back().stiffness;
-  state_.held_stiffness.reshaped() = growth.value.row(0).transpose();
-  state_.stiffness_error_N_per_mm = growth.error + stale_stiffness * max_column_norm(growth.value);
+  state_.held_stiffness.reshaped() = tangent.value.row(0).transpose();
+  state_.stiffness_error_N_per_mm =
+      tangent.error + stale_stiffness * max_column_norm(tangent.value);
 }
 
 }  // namespace gridshell

@@ -70,6 +70,8 @@ struct MeshDifference {
   double t = 0;
   Eigen::Matrix3Xf x = {};     ///< 3 x nodes, mm; empty if the level has no state at t
   Eigen::VectorXf force = {};  ///< axial force of the edges, N
+
+  bool known() const { return x.size() > 0; }
 };
 
 /// A point on the path of the finest mesh, with the differences of the coarser levels, coarse to

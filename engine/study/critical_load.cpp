@@ -12,7 +12,10 @@ namespace {
 
 using record::BranchEvent;
 
-/// dK/dfactor along the path's tangent, by central differences.
+/// dK/dfactor along the path's tangent, by central differences: of the forces and of bending. The
+/// change of EA t t^T, in which the directions t turn, is left out: without the square of the
+/// factor that belongs to it, it makes a shell of nearly inextensible rods unstable at a factor
+/// that falls as 1/sqrt(EA).
 BlockHessian stiffness_slope(const Linearisation& system, const State& begin,
                              const ExternalLoads& at, const ExternalLoads& growth,
                              const Eigen::Matrix3Xd& velocity) {
@@ -27,7 +30,9 @@ BlockHessian stiffness_slope(const Linearisation& system, const State& begin,
     outside.load += by * growth.load;
     outside.field_factor += by * growth.field_factor;
     Assembly out;
-    assemble_hessian(model, state, outside, {}, out);
+    assemble_gradient(model, state, outside, out);
+    state.force = out.force;
+    assemble_hessian(model, state, outside, {.mixed = true, .EA_scale = 0}, out);
     return std::move(out.hessian);
   };
   BlockHessian up = hessian(h), down = hessian(-h);

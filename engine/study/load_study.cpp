@@ -198,8 +198,8 @@ Result<void> put_case(Simulation& simulation, const LoadCase& load, int imperfec
   study.loads.push_back(loading.loads());
   const Eigen::Vector3d sum = study.loads.back().rowwise().sum();
   row.load_x_N = sum.x(), row.load_y_N = sum.y(), row.load_z_N = sum.z();
-  const int last = shell.levels() - 1, first = std::max(0, last - 1);
-  std::vector<double> critical, strength, used;
+  const int last = shell.levels() - 1, first = shell.first_of_last_three();
+  std::vector<double> critical, linear, strength, used;
   std::vector<BranchEvent> events;
   CriticalLoad found;
   for (int level = first; level <= last; ++level) {
@@ -208,20 +208,27 @@ Result<void> put_case(Simulation& simulation, const LoadCase& load, int imperfec
       return fail(Fault::no_equilibrium,
                   "case \"" + load.name + "\": the path of its loads could not be begun");
     critical.push_back(found.factor);
+    linear.push_back(found.linear);
     events.push_back(found.event);
     used = loading.utilisations(level, found);
     strength.push_back(loading.strength_factor(level, found, used));
   }
   row.event = found.event;
-  row.linear_factor = found.linear;
   const bool extrapolate = shell.plan().extrapolate_forces;
-  const CertifiedVectors lost = certified(critical, extrapolate, events.front() == events.back()),
-                         torn = certified(strength, extrapolate, true);
-  row.critical_factor = lost.value(0, 0), row.error = lost.error;
+  const CertifiedVectors torn = certified(strength, extrapolate, true),
+                         estimated = certified(linear, extrapolate, true);
   row.strength_factor = torn.value(0, 0), row.strength_error = torn.error;
-  if (imperfections > 0 && std::isfinite(critical.front()))
-    TRY_DO(
-        put_imperfections(loading, simulation, first, imperfections, critical.front(), row, watch));
+  row.linear_factor = estimated.value(0, 0), row.linear_error = estimated.error;
+  // the order shows on three meshes that have the same event
+  const bool ordered = critical.size() == 3 && std::isfinite(critical[0]) &&
+                       events[0] == events[1] && events[1] == events[2];
+  const CertifiedVectors lost = certified(critical, extrapolate, ordered);
+  row.critical_factor = lost.value(0, 0), row.error = lost.error;
+  // of the last two meshes the coarser one
+  const double perfect = critical[std::max<std::size_t>(critical.size(), 2) - 2];
+  if (imperfections > 0 && std::isfinite(perfect))
+    TRY_DO(put_imperfections(loading, simulation, std::max(0, last - 1), imperfections, perfect,
+                             row, watch));
   if (watch.cancelled()) return stopped();
   put_points(load.name, found, used, shell.finest().joints, study.points);
   study.cases.push_back(row);

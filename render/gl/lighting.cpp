@@ -5,9 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "render/gl/mesh.h"
-
 #include "engine/core/try.h"
+#include "render/gl/mesh.h"
 
 namespace gridshell::render {
 namespace {
@@ -21,7 +20,8 @@ constexpr double key_fraction = 0.55;      // of the light on ground that faces 
 constexpr double ground_fraction = 0.5;    // of the sky's light returned by the ground
 
 Eigen::Vector3d key_direction(const Camera& camera) {
-  // from straight above the picture's up is +y: the light is as for a camera in the south
+  // a camera straight above has +y upwards in the picture: its light is that of a camera in the
+  // south
   const bool straight = std::abs(camera.elevation_deg) > 90 - 1e-6;
   const double azimuth = (straight ? -pi / 2 : camera.azimuth_deg * pi / 180) + key_azimuth;
   return {std::cos(key_elevation) * std::cos(azimuth), std::cos(key_elevation) * std::sin(azimuth),
@@ -43,7 +43,8 @@ Eigen::Vector3d on_disc(const Eigen::Vector3d& axis, const Eigen::Vector2d& p) {
       .normalized();
 }
 
-/// A direction even over the upper half sphere, kept off the horizon where shadows are endless.
+/// A direction of the upper half sphere, evenly distributed; not near the horizon, where shadows
+/// are endless.
 Eigen::Vector3d on_sky(const Eigen::Vector2d& p) {
   const double z = 0.08 + 0.92 * p.x(), r = std::sqrt(1 - z * z), angle = 2 * pi * p.y();
   return {r * std::cos(angle), r * std::sin(angle), z};
@@ -72,7 +73,7 @@ std::vector<Lighting> lighting_passes(const Camera& camera, int passes) {
     const Eigen::Vector2d p = sequence(i, 0.5);
     result[i].direction = i < keys ? on_disc(key, p) : on_sky(p);
     result[i].bounce = bounce;
-    // each direction represents its part of the sky: blurred so wide, single shadows do not show
+    // a direction of the sky represents a part of it: a shadow blurred as wide is not seen singly
     result[i].spread = i < keys ? 0.01 : std::sqrt(2 * pi / (passes - keys));
     result[i].pixel_shift = sequence(i, 0.25) - Eigen::Vector2d::Constant(0.5);
   }
@@ -170,7 +171,7 @@ void ShadowMap::blur() {
   halve_.set("finer", 0);
   for (int level = 1; level < levels; ++level) {
     const int side = texels_ >> level;
-    // reads one level only, writes the next
+    // the shader reads this one level and writes the next
     gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, level - 1);
     gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, level - 1);
     gl_->FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, cover(), level);

@@ -290,7 +290,7 @@ class Weaver {
 
   /// From far to near, cut into layers of equal depth, each drawn by calls of its own.
   void finish() {
-    const int most_layers = quality_.coarse ? 8 : 32;
+    const int most_layers = quality_.coarse && beads_.empty() ? 8 : 32;
     double near = INFINITY, far = -INFINITY;
     for (auto* pieces : {&sheets_, &ribbons_, &beads_}) {
       std::ranges::stable_sort(*pieces,

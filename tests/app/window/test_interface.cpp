@@ -39,6 +39,20 @@ TEST_CASE("a parameter that is called as the words that are looked for is listed
   CHECK(number(after, "height_mm") > 5);
 }
 
+TEST_CASE("a number that may be none is typed, and its default is none again") {
+  const TemporaryFolder folder;
+  const std::string find = "do find_number\nwait 0.1\ntype joints diameter\nwait 0.1\n";
+  const std::string wide = find + typed("@joints.diameter_mm", "7") + enter;
+  const auto saved = [&](const std::string& input) {
+    played(folder, input + "do save_preset\n", {"-o", "kept"});
+    const std::string text = text_of(folder / "kept/small_1.toml");
+    fs::remove(folder / "kept/small_1.toml");
+    return text.find("diameter_mm = 7") != std::string::npos;
+  };
+  CHECK(saved(wide));
+  CHECK_FALSE(saved(wide + click("@default_joints.diameter_mm 0.5 0.5")));
+}
+
 TEST_CASE("a shell of one's own is formed from the form") {
   const TemporaryFolder folder;
   const json formed =

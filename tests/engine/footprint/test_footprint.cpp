@@ -58,13 +58,16 @@ TEST_CASE("footprint: what makes no sense is refused with its reason") {
       "11 rods per direction do not fit placement \"half\": rods at (i + 1/2) d (\"half\") are an "
       "even number, rods at i d (\"on_axis\") an odd one");
   CHECK(message(100, 12, 20, Placement::half) ==
-        "12 rods per direction at d = 20 mm reach 110 mm, outside the boundary: the longest leg "
-        "R_o/d - "
-        "(n-1)/2: got -0.5, expected above 0; take R_o >= 110.02 mm or n <= 10");
-  // the outermost rods of each family are outside the reach of all others
-  CHECK(message(50.5, 6, 20, Placement::half) ==
-        "the u-rod at v = -50 mm crosses no other rod: it would be fixed only at its two ends; "
-        "move the boundary or the spacing");
+        "12 rods per direction at d = 20 mm do not fit the boundary: the outermost crossing lies "
+        "at 110.4536 mm; take R_o >= 110.4737 mm or n <= 10");
+  CHECK(message(100, 13, 20, Placement::on_axis) ==
+        "13 rods per direction at d = 20 mm do not fit the boundary: the outermost crossing lies "
+        "at 120 mm; take R_o >= 120.02 mm or n <= 9");
+  // what is proposed is accepted
+  CHECK(circular_footprint(110.4737, 12, 20, Placement::half));
+  CHECK(circular_footprint(100, 10, 20, Placement::half));
+  CHECK(circular_footprint(120.02, 13, 20, Placement::on_axis));
+  CHECK(circular_footprint(100, 9, 20, Placement::on_axis));
   CHECK(refusal(cut_footprint(Disk(1e6), 1.0, Placement::half)) != "none");
 }
 

@@ -132,7 +132,7 @@ TEST_CASE("a key that the kind does not use is refused with its position and the
                  Catch::Contains("[[block]] 2 kind = \"sphere\" does not use it"));
 }
 
-TEST_CASE("a drawing or a load in the wrong key: the message names the right one") {
+TEST_CASE("the error of a drawing or a load in the wrong key names the right one") {
   const std::string curve = "[footprint]\nkind = \"curve\"\n";
   CHECK_THAT(errors_of(curve + "boundary = \"plan.dxf\"\n"),
              Catch::Contains("file = \"plan.dxf\" with boundary = \"file\""));

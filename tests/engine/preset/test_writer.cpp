@@ -42,7 +42,7 @@ Preset all_changed() {
     if (auto* list = field.as<std::vector<int>>(preset)) *list = {3, 2};
     if (auto* list = field.as<std::vector<double>>(preset)) *list = {87.1, 1e2 / 1.5};
     if (auto* number = field.as<std::optional<int>>(preset)) *number = -3;
-    if (auto* number = field.as<std::optional<double>>(preset)) *number = -1.5;
+    if (auto* number = field.as<std::optional<double>>(preset)) *number = 1.5;
     if (auto* points = field.as<Points>(preset))
       for (int n = 0; n < 4; ++n) {
         auto& point = points->emplace_back(field.coordinates.size(), 0.1 - 1e-7 * n);

@@ -133,3 +133,27 @@ TEST_CASE("what is cut in tenths of a millimetre adds up to its rod") {
     CHECK_FALSE((std::isdigit(csv[at + 1]) && std::isdigit(csv[at + 2])));
   CHECK(exports::cut_list_csv(exports::rounded(exact, 0)) == exports::cut_list_csv(exact));
 }
+
+TEST_CASE("what is cut in steps of any size is off by half a step at most") {
+  const FabricationPlan exact = made(paper_circle());
+  for (const double step : {0.25, 0.3, 0.4, 0.7, 0.75, 1.0, 2.5, 10.0}) {
+    const FabricationPlan work = exports::rounded(exact, step);
+    CAPTURE(step);
+    for (std::size_t r = 0; r < work.rods.size(); ++r)
+      CHECK(std::abs(work.rods[r].length_mm - exact.rods[r].length_mm) <= step / 2 + 1e-9);
+  }
+}
+
+TEST_CASE("a pin at the mark of its first joint remains the pin of the rod's start") {
+  // a tail of 20 mm and a leg of 2 mm have one mark in steps of 10 mm
+  FabricationPlan plan;
+  CutRod rod;
+  rod.length_mm = 100;
+  rod.pin_marks_mm = {20, 100};
+  rod.joint_marks_mm = {22, 60};
+  rod.leg_begin_mm = 2, rod.leg_end_mm = 40;
+  plan.rods = {rod};
+  const FabricationPlan work = exports::rounded(plan, 10);
+  CHECK(work.rods[0].leg_begin_mm == 0);
+  CHECK(work.rods[0].leg_end_mm == 40);
+}

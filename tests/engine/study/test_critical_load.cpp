@@ -138,11 +138,38 @@ TEST_CASE("what a shell carries lies within its error of finer meshes' answer", 
   CHECK(std::abs(row.critical_factor - exact.critical_factor) < 2 * row.error);
   CHECK(row.error < 0.1 * row.critical_factor);
   CHECK(exact.error < row.error);
+  // rods that hardly lengthen do not lower the linear estimate
+  CAPTURE(row.linear_factor, row.linear_error, exact.linear_factor, exact.linear_error);
+  CHECK(std::abs(row.linear_factor - exact.linear_factor) < 2 * row.linear_error);
+  CHECK(row.linear_error < 0.1 * row.linear_factor);
+  CHECK(row.linear_factor > 0.5 * row.critical_factor);
   // some of the imperfect shells have a limit point below
   CHECK(row.imperfections <= 5);
   CHECK(found.modes[0].colwise().norm().maxCoeff() == Approx(1));
   CHECK(found.points.front().factor == 0);
   CHECK(found.points.front().way_mm == 0);
+}
+
+TEST_CASE("the linear estimate does not fall with the stiffness of rods that hardly lengthen") {
+  preset::Preset p = snowed_on();
+  p.accuracy.edges_per_segment = 8;
+  p.step.emplace_back().kind = preset::StepKind::tighten;
+  p.rod.EI_Nmm2 = 17;
+  std::vector<double> factors;
+  for (const double EA : {1e4, 1e6}) {
+    p.rod.EA_N = EA;
+    factors.push_back(studied(p).cases.at(0).linear_factor);
+  }
+  CHECK(factors[1] == Approx(factors[0]).epsilon(0.02));
+}
+
+TEST_CASE("on two meshes, which do not show their order, a critical factor has their difference") {
+  preset::Preset p = snowed_on();
+  p.accuracy.edges_per_segment = 4;
+  const double coarse = studied(p).cases.at(0).critical_factor;
+  p.accuracy.edges_per_segment = 8;
+  const record::LoadRow row = studied(p).cases.at(0);
+  CHECK(row.error >= std::abs(row.critical_factor - coarse));
 }
 
 TEST_CASE("a portal frame sways and a ring turns oval where their closed forms say") {
