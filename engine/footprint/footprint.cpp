@@ -179,7 +179,10 @@ Result<Footprint> cut_footprint(const Domain& domain, double spacing, Placement 
   for (Family family : {Family::u, Family::v})
     for (int index = -last; index <= last; ++index) add_rods(net, domain, family, index);
   if (net.rods.empty())
-    return invalid("no grid line of spacing {:g} mm meets the boundary", spacing);
+    return invalid(
+        "no grid line of spacing {:g} mm meets the boundary, which reaches {:.3g} mm from its "
+        "middle; of a drawing in metres [footprint] file_unit = \"m\" is needed",
+        spacing, domain.reach());
   cross(net);
   net.lone_lines = int(std::erase_if(net.rods, crosses_none));
   if (net.rods.empty())

@@ -27,6 +27,13 @@ TEST_CASE("a circle given as a curve is the circle of Fig. 1") {
   CHECK(scene.length_scale_mm == Approx(126 * M_SQRT2).epsilon(1e-4));
 }
 
+TEST_CASE("a curve that no grid line meets may be a drawing in metres") {
+  preset::Preset p = curve(preset::CurveKind::ellipse, 7, 4, 0.75);
+  p.footprint.spacing_mm = 1000;
+  CHECK_THAT(refused(p), Catch::Contains("reaches 7 mm from its middle") &&
+                             Catch::Contains("file_unit = \"m\""));
+}
+
 TEST_CASE("edge points go to the same angle, or to the same share of the length") {
   preset::Preset p = curve(preset::CurveKind::ellipse, 120, 80, 0);
   p.actuation.boundary.kind = preset::CurveKind::superellipse;
