@@ -209,7 +209,7 @@ Result<Footprint> circular_footprint(double radius, int rods, double spacing, Pl
   // the outermost rod crosses the one nearest to the middle inside the boundary
   const double middle = even ? 0.5 : 0, least = std::hypot(0.5 * (rods - 1), middle) + short_leg,
                size = radius / spacing;
-  if (!(size >= least)) {
+  if (!(size > least - 1e-9)) {
     const double most = std::sqrt(std::max(std::pow(size - short_leg, 2) - middle * middle, 0.0));
     return invalid(
         "{} rods per direction at d = {:g} mm do not fit the boundary: the outermost crossing lies "
