@@ -207,14 +207,14 @@ Result<Footprint> circular_footprint(double radius, int rods, double spacing, Pl
         "are an even number, rods at i d (\"on_axis\") an odd one",
         rods, placement == Placement::half ? "half" : "on_axis");
   // the outermost rod crosses the one nearest to the middle inside the boundary
-  const double middle = even ? 0.5 : 0, least = std::hypot(0.5 * (rods - 1), middle) + short_leg,
+  const double middle = even ? 0.5 : 0, least = std::hypot(0.5 * (rods - 1), middle),
                size = radius / spacing;
-  if (!(size > least - 1e-9)) {
+  if (!(size - least > on_boundary)) {
     const double most = std::sqrt(std::max(std::pow(size - short_leg, 2) - middle * middle, 0.0));
     return invalid(
         "{} rods per direction at d = {:g} mm do not fit the boundary: the outermost crossing lies "
         "at {:.7g} mm; take R_o >= {:.7g} mm or n <= {}",
-        rods, spacing, (least - short_leg) * spacing, std::ceil(1e4 * least * spacing) / 1e4,
+        rods, spacing, least * spacing, std::ceil(1e4 * (least + short_leg) * spacing) / 1e4,
         2 * int(most + middle) + (even ? 0 : 1));
   }
   Footprint net{spacing, placement, {}, {}, {}};

@@ -136,7 +136,7 @@ void add_footprint(std::vector<Field>& all) {
           "every joint is a hinge; false: lines in line are one rod")
       .used_by(&Footprint::kind, {Kinds::network})
       .refused({"file"}, of_a_file, [=](const Footprint& of) { return network(of) && of.linkage; });
-  list.add<&Footprint::rods>(between(2, 500), "rods per direction in a circle, n")
+  list.add<&Footprint::rods>(between(1, 500), "rods per direction in a circle, n")
       .label("rods per direction")
       .used_by(&Footprint::kind, {Kinds::circle});
   list.add<&Footprint::radius_mm>(above(0), "radius of a circle, R_o").label("radius Rₒ");

@@ -157,9 +157,7 @@ Result<State> MultilevelRelaxation::rest_confined(double t, const Eigen::Matrix3
     down(*level, members(level->symmetries, group), state, watch);
   }
   Level& finest = *levels_.back();
-  // a state that is no equilibrium is minimised without the symmetries
-  if (!step_to_equilibrium(finest, state, watch))
-    return rest_from_rough(*finest.system, std::move(state), watch);
+  step_to_equilibrium(finest, state, watch);
   if (finest.system->at(state, false).positive_definite()) return state;
   return let_go(finest, std::move(state), watch);
 }
