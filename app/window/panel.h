@@ -100,7 +100,7 @@ std::string label_of(const preset::Field& field);
 /// Whether a text has all words that are looked for, in any order and case.
 bool contains_words(std::string text, std::string sought);
 
-/// A line of text to type into, of at most 1 kB, with flags of the library; true once it is
+/// A line of text to type into, with space for 1 kB more and flags of the library; true once it is
 /// entered.
 bool text_input(const char* id, std::string& text, const char* hint = "", int flags = 0);
 

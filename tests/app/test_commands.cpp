@@ -380,3 +380,13 @@ TEST_CASE("modes writes a table, shapes and a picture a mode", "[standard]") {
   check_refused("modes small.toml --set rod.density_kg_m3=0", bench.at,
                 Catch::Contains("[rod] density_kg_m3"));
 }
+
+TEST_CASE("where the window's program is missing it is said how to build it") {
+  const TemporaryFolder folder;
+  const fs::path alone = folder.path() / "gridshell";
+  fs::copy_file(GRIDSHELL_PROGRAM, alone);
+  const Ended ended = Running("view", folder.path(), alone.c_str()).wait();
+  CHECK(ended.code == 1);
+  CHECK_THAT(ended.err, Contains((folder.path() / "gridshell_window").string()) &&
+                            Contains("app/run.sh view"));
+}

@@ -388,16 +388,6 @@ TEST_CASE("without a display the window says what to do instead") {
   CHECK(std::count(ended.err.begin(), ended.err.end(), '\n') == 1);
 }
 
-TEST_CASE("where the window's program is missing it is said how to build it") {
-  const TemporaryFolder folder;
-  const fs::path alone = folder.path() / "gridshell";
-  fs::copy_file(GRIDSHELL_PROGRAM, alone);
-  const Ended ended = Running("view", folder.path(), alone.c_str()).wait();
-  CHECK(ended.code == 1);
-  CHECK_THAT(ended.err, Contains((folder.path() / "gridshell_window").string()) &&
-                            Contains("app/run.sh view"));
-}
-
 TEST_CASE("a bench drags by itself and prints its four figures") {
   const TemporaryFolder folder;
   REQUIRE(write_file(folder / "small.toml", shell));
