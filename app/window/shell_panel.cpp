@@ -124,7 +124,11 @@ void path(const Panel& panel) {
   // the correction of finer meshes before the push does not count as a push
   if (std::abs(part) < 5e-4f || (push && viewer.shell->steps.empty())) part = 0;
   ImGui::TextUnformatted(push ? "Push, of the preset's depth" : "Progress");
-  if (std::exchange(viewer.take_keyboard, false)) ImGui::SetKeyboardFocusHere();
+  if (std::exchange(viewer.take_keyboard, false)) {
+    // newer versions of the library focus nothing in a window that never had the focus
+    ImGui::SetWindowFocus();
+    ImGui::SetKeyboardFocusHere();
+  }
   slider(panel, "path", part, 0, std::max(1.f, part), "%.3f",
          push ? "fraction of the preset's depth"
               : "fraction of the boundary's displacement" + text_of_marks(*viewer.shell),
