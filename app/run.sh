@@ -11,6 +11,7 @@ case "${1:-}" in
 view) build gridshell_window ;; # a program of its own, which takes longer to build
 esac
 build gridshell
+finish_packages
 [ $# -gt 0 ] || set -- movie s1_actuation -o "$root/out/s1_actuation"
 # paths among the arguments are meant from the folder of the user
 cd "$start"

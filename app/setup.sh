@@ -2,15 +2,17 @@
 # that its tests take in addition, and how to get the missing ones. Expects to run in the folder of the
 # sources.
 
-program_packages="
+build_packages="
   g++ cmake make ninja-build pkg-config
   libeigen3-dev libspectra-dev libsuitesparse-dev libopenblas-serial-dev libmuparser-dev
   libexpected-dev libfmt-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libhdf5-dev
-  libpango1.0-dev libcairo2-dev libpng-dev libdeflate-dev fonts-dejavu-core fonts-dejavu-extra
-  libgl-dev libegl-dev libegl1 libgl1-mesa-dri libosmesa6-dev libosmesa6 libglfw3-dev
-  libimgui-dev libfontconfig-dev ffmpeg
+  libpango1.0-dev libcairo2-dev libpng-dev libdeflate-dev
+  libgl-dev libegl-dev libosmesa6-dev libosmesa6 libglfw3-dev libimgui-dev libfontconfig-dev
 "
-test_packages="catch2 pybind11-dev python3-dev python3-numpy python3-pytest"
+test_build_packages="catch2 pybind11-dev python3-dev"
+# building does not take these: they are installed meanwhile
+run_packages="ffmpeg fonts-dejavu-core fonts-dejavu-extra libegl1 libgl1-mesa-dri"
+test_run_packages="python3-numpy python3-pytest"
 # a test that cannot have its checker is skipped and says so
 checker_packages="parallel qemu-user clang clang-format clang-tidy similarity-tester"
 
@@ -22,24 +24,34 @@ missing_packages() {
   done
 }
 
-# install_packages [tests]: what is missing of what the program takes, and of what its tests take
+as_root=""
+apt_install() {
+  echo "Installing${as_root:+ with sudo}:$*" >&2
+  $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends $* >&2
+}
+
+# install_packages [tests]: what is missing of what building takes, the tests too. What only running
+# takes is installed in the background; finish_packages waits for it.
 install_packages() {
+  later=""
   if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
-    echo "This is no Debian: make sure that the counterparts of these are installed:" $program_packages $test_packages >&2
+    echo "This is no Debian: make sure that the counterparts of these are installed:" \
+      $build_packages $run_packages $test_build_packages $test_run_packages >&2
     return 0
   fi
-  missing=$(missing_packages $program_packages)
+  missing=$(missing_packages $build_packages)
+  runs=$(missing_packages $run_packages)
   checkers=""
   if [ "${1:-}" = tests ]; then
-    missing="$missing$(missing_packages $test_packages)"
+    missing="$missing$(missing_packages $test_build_packages)"
+    runs="$runs$(missing_packages $test_run_packages)"
     checkers=$(missing_packages $checker_packages)
   fi
-  [ -n "$missing$checkers" ] || return 0
-  as_root=""
+  [ -n "$missing$runs$checkers" ] || return 0
   if [ "$(id -u)" -ne 0 ]; then
     if ! command -v sudo >/dev/null; then
-      [ -n "$missing" ] || return 0
-      echo "As root, install these packages first: apt-get install$missing" >&2
+      [ -n "$missing$runs" ] || return 0
+      echo "As root, install these packages first: apt-get install$missing$runs" >&2
       return 1
     fi
     as_root="sudo"
@@ -47,15 +59,17 @@ install_packages() {
   $as_root apt-get update -q >&2 || return 1
   for package in $checkers; do
     if apt-cache show "$package" >/dev/null 2>&1; then
-      missing="$missing $package"
+      runs="$runs $package"
     else
       echo "This system has no package $package: the test that takes it is skipped" >&2
     fi
   done
-  [ -n "$missing" ] || return 0
-  echo "Installing${as_root:+ with sudo}:$missing" >&2
-  $as_root env DEBIAN_FRONTEND=noninteractive \
-    apt-get install -q -y --no-install-recommends $missing >&2
+  [ -z "$missing" ] || apt_install "$missing" || return 1
+  [ -z "$runs" ] || { apt_install "$runs" & later=$!; }
+}
+
+finish_packages() {
+  [ -z "$later" ] || wait "$later"
 }
 
 # build TARGET: a Release in build/, with all cores; what the tools say goes to stderr. Ninja, where it

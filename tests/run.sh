@@ -6,5 +6,6 @@ cd "$(dirname "$0")/.."
 . app/setup.sh
 install_packages tests
 build all
+finish_packages
 [ $# -gt 0 ] || set -- -LE full
 exec ctest --test-dir build --output-on-failure --no-tests=error -j "$(nproc)" "$@"
