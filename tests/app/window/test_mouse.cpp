@@ -1,4 +1,4 @@
-// What the mouse does to the camera and to what is picked.
+// Effects of the mouse on the camera and on what is picked.
 #include <catch2/catch.hpp>
 
 #include "app/window/actions.h"
@@ -73,7 +73,7 @@ TEST_CASE("a joint that the shell carries aside is pushed until it is under the 
   const Eigen::Vector2d cursor = pixel(camera, from + deeper * axis + 3 * aside);
   CHECK(pushed_under(camera, size, from, axis, at, cursor - pixel(camera, at)) ==
         Approx(deeper).margin(0.05));
-  // seen along the push nothing is known
+  // seen along the push, the cursor gives no depth, which remains
   const Eigen::Vector3d ahead = render::camera_axes(camera).forward;
   CHECK(pushed_under(camera, size, from, ahead, from + 4 * ahead, {5, 5}) == Approx(4));
 }
