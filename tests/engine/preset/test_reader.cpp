@@ -321,7 +321,7 @@ TEST_CASE("a file is read once all that says how is known, and reported") {
   };
   const auto metres = value_of(read("file_unit = \"m\"\n", "grid.obj"));
   CHECK(metres.base.footprint.file.points[1] == std::vector<double>{30, 0, 0});
-  // what was read is in mm, and reads back so
+  // the contents are stored in mm, and a written preset reads back as the same
   CHECK(metres.base.footprint.file_unit == FileUnit::file);
   CHECK(to_toml(good(to_toml(metres))) == to_toml(metres));
   REQUIRE(metres.files.size() == 1);

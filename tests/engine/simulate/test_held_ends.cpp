@@ -1,4 +1,4 @@
-// Crossed rods with pinned ends and with ends of prescribed direction, against the elastica.
+// Crossed rods with pinned ends and with ends of prescribed direction, compared with the elastica.
 #include "tests/engine/simulate/run.h"
 #include "tests/engine/solve/elastica.h"
 
