@@ -139,7 +139,7 @@ TEST_CASE("factorisations: two systems in one memory take turns, each with its o
   alone.solve(x);
   b.solve(y);
   CHECK(x == y);
-  // made again once, and counted
+  // the factor is computed again once, which is counted
   b.solve(y);
   CHECK(b.effort().factorizations == 2);
   CHECK(alone.effort().factorizations == 1);

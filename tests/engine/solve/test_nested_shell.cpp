@@ -47,7 +47,8 @@ TEST_CASE("along a path companions take one correction a state, and it is the ex
     for (std::size_t level = 0; level < 3; ++level)
       CHECK(max_column_norm(shell.state().levels[level].x - exact.state().levels[level].x) <
             tolerance_mm);
-    // nor in the forces: 1e-5 of the largest is left in an edge, and four edges meet at a joint
+    // forces agree, too: an edge has an error of 1e-5 of the largest, and four edges meet at a
+    // joint
     const double largest = exact.state().levels[2].force.cwiseAbs().maxCoeff();
     CHECK(shell.state().residual_N < 4e-5 * largest);
   }

@@ -46,7 +46,7 @@ CriticalLoad shallow_arch(int edges) {
   return loaded(std::move(model), rest);
 }
 
-/// Euler's column under its critical load times 1.
+/// Euler's column, whose load at a factor of 1 is its critical one.
 CriticalLoad column(int edges) {
   constexpr double stiff = 1e7;
   const SingleRod single(edges, L, {stiff, EI, EI, EI, {0, 0}, 0}, RodEnd::pinned, RodEnd::free);
@@ -143,7 +143,7 @@ TEST_CASE("what a shell carries lies within its error of finer meshes' answer", 
   CHECK(std::abs(row.linear_factor - exact.linear_factor) < 2 * row.linear_error);
   CHECK(row.linear_error < 0.1 * row.linear_factor);
   CHECK(row.linear_factor > 0.5 * row.critical_factor);
-  // some of the imperfect shells have a limit point below
+  // not every imperfect shell has a limit point below the critical factor
   CHECK(row.imperfections <= 5);
   CHECK(found.modes[0].colwise().norm().maxCoeff() == Approx(1));
   CHECK(found.points.front().factor == 0);
