@@ -198,7 +198,7 @@ def loads():
 def states():
     yield ["class", "group", "bend energy (mJ)", "highest, lowest point (mm)", "exists from R_a/R_o", "lowest eigenvalue (N/mm²)"]
     run(["run", "fig2_states"], "states")
-    met = set()  # the lowest of each class
+    met = set()  # states.csv is in order of energy: the first row of a class is its lowest state
     for row in rows("states/states.csv"):
         if row["class"] in ("i", "ii", "iii", "iv") and row["class"] not in met:
             met.add(row["class"])

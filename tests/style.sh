@@ -13,7 +13,7 @@
 # those of the last commit, and those not committed; of them the ten with the most changed lines
 # (LIMIT), a header by the source of its name. Without git or without a commit to compare with it
 # takes the files below, one of each kind of code there is.
-# Leaves with 77 (skipped) where the tool is missing.
+# Exits with 77 (skipped) where the tool is missing.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 build=${BUILD:-build}
@@ -27,7 +27,7 @@ need() {
   exit 77
 }
 
-sources() {  # names that end so, in the folders of sources
+sources() {  # files whose names match, in the folders of sources
   find engine render app tests -name "$1" | sort
 }
 
@@ -71,7 +71,7 @@ changed_sources() {
   done | awk '!seen[$0]++'
 }
 
-# each of the chosen files and its command, "FILE", in $scratch/built; compile commands for clang
+# writes the chosen files that this build compiles into $scratch/built, and compile commands that clang takes
 choose_files() {
   scratch=$(mktemp -d)
   trap 'rm -rf "$scratch"' EXIT
@@ -102,7 +102,7 @@ tidy() {
   echo "clang-tidy on $(wc -l <"$scratch/built") files"
   xargs -r -P "$(nproc)" -n 1 clang-tidy --quiet -p "$scratch" <"$scratch/built" 2>"$scratch/said"
   status=$?
-  # counts of what was left out of the headers of libraries say nothing
+  # how many warnings of libraries' headers were left out does not matter
   grep -vE '^[0-9]+ warnings? (generated|treated)|^Suppressed|^Use -header' "$scratch/said"
   return $status
 }
@@ -166,7 +166,7 @@ equal() {
 names() {
   list=$(mktemp)
   find engine render app tests -name '*.h' -o -name '*.cpp' >"$list"
-  # of a line what is behind its last //, or of a .md file all of it
+  # names are looked for behind the last // of a line, and in all of a .md file
   grep -rnE '[a-z0-9_]+\.(h|cpp)\>' --include='*.h' --include='*.cpp' --include='*.md' \
     engine render app shaders presets tests ./*.md |
     awk 'NR == FNR { sub(/.*\//, ""); there[$0] = 1; next }

@@ -23,7 +23,7 @@ TEST_CASE("a colour bar stays in its box and shows its scale from end to end") {
     CHECK(texts[0] == "K□ (rad)");
     CHECK(texts[1] == "−0.05");
     CHECK(texts.back() == "0.05");
-    // the pixel a quarter down the bar bears the colour of that value, not another one's
+    // colours down the middle of the bar
     const int x = int(box.x + 0.45 * font);
     std::vector<int> red, blue;
     for (int y = int(box.y + 4 * font); y < int(room.bottom() - 2 * font); ++y) {

@@ -14,7 +14,7 @@ namespace {
 
 test::Studio open_studio() { return value_of(test::studio()); }
 
-/// The made-up shell, drawn as it is at the end of so many frames.
+/// The made-up shell at the end of its path, with so many edges per segment.
 struct Dome {
   explicit Dome(int frames) : run(synthetic::dome(2, frames)) {}
 

@@ -16,7 +16,7 @@ record::Trajectory of_K(double first, double last) {
   return run;
 }
 
-// two frames whose rods all bear these forces and energies, whose joints lie that far off a net
+// two frames whose rods have this force and energy; the first edge has another force
 record::Trajectory of_rods(double force_N, double other_N, double energy = 0) {
   record::Trajectory run = synthetic::dome(2, 1);
   for (record::Frame& frame : run.frames.edit()) {
