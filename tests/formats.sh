@@ -84,7 +84,7 @@ END
 try 'PVD and XDMF' pvpython pvpython open.py
 cat > blender.py << 'END'
 import bpy, numpy
-numpy.bool = bool  # of Debian 12: its Blender asks for what its NumPy no longer has
+numpy.bool = bool  # of Debian 12: its Blender needs what its NumPy no longer has
 bpy.ops.wm.read_factory_settings(use_empty=True)
 bpy.ops.import_scene.gltf(filepath="a.glb")
 meshes = [thing for thing in bpy.data.objects if thing.type == "MESH"]

@@ -82,7 +82,7 @@ if(GRIDSHELL_PICTURES)
 endif()
 
 gridshell_tests(engine gridshell_engine)
-# where methods hold and fail: tests/stability -> test_stability
+# limits of the stability of methods: tests/stability -> test_stability
 gridshell_tests(stability gridshell_engine)
 # random scenes and judgements of their runs, shared with bench_trust: tests/bench -> test_bench
 set(trust_study tests/bench/random_network.cpp tests/bench/random_scenes.cpp
@@ -163,7 +163,7 @@ foreach(check format tidy clang warnings equal names pages words)
 endforeach()
 # it keeps all cores busy for minutes
 set_tests_properties("style: tidy" PROPERTIES LABELS "style;full" RUN_SERIAL ON)
-# of the files that changed the four that changed most; `tests/style.sh clang` takes ten
+# only the four changed files with the most changed lines; `tests/style.sh clang` checks ten
 set_tests_properties("style: clang" PROPERTIES ENVIRONMENT "BUILD=${PROJECT_BINARY_DIR};LIMIT=4")
 
 # The manual: every code block of every page is run (tests/manual.sh).
@@ -189,7 +189,7 @@ foreach(source IN LISTS examples)
   add_executable(example_${example} ${source})
   target_link_libraries(example_${example} PRIVATE gridshell::gridshell)
   gridshell_compile_lightly(example_${example})
-  # a precompiled header is taken only with what it was made with
+  # a precompiled header is used only with the definitions that it was compiled with
   target_compile_definitions(example_${example} PRIVATE GRIDSHELL_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   gridshell_read_once(example_${example} test_engine)
   add_test(NAME "example: ${example}" COMMAND example_${example})

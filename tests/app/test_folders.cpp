@@ -325,7 +325,7 @@ TEST_CASE("a run folder of version 0.1 is drawn, and replaced as a run") {
   CHECK(files_under(bench.at / "drawn/frames", ".png").size() == 2);
   const auto summary = nlohmann::json::parse(text_of(bench.at / "drawn/summary.json"));
   CHECK(summary["energy_bend_mJ"] > 1.8);
-  // what version 0.1 did not write is unknown
+  // values that version 0.1 did not write are unknown
   CHECK(summary["energy_load_mJ"].is_null());
   CHECK(summary["finished"] == true);
   check_refused("render old --set movie.colour_by=axial_force", bench.at,

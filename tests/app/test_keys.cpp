@@ -1,4 +1,4 @@
-// Every key of the field table is read by something: a key that does nothing is a lie to its user.
+// Every key of the field table must have an effect: one without would mislead its user.
 #include <map>
 #include <regex>
 #include <set>

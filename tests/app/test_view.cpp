@@ -271,7 +271,7 @@ TEST_CASE("a shell is saved under a name, exported, and compared with a run", "[
   // an existing file is replaced only after a second request
   const json requested = played(folder, "do save_as\n" + entered("deep/mine"));
   CHECK(requested["message"] == "it is there already: once more replaces it");
-  // a name that no file system takes is a sentence too, bare and in a folder
+  // a name that no file system accepts is refused in a sentence, with and without a folder
   for (const std::string& name : {std::string(300, 'x'), "deep/" + std::string(300, 'x')})
     CHECK_THAT(played(folder, "do save_as\n" + entered(name))["message"].get<std::string>(),
                Contains("File name too long"));

@@ -64,7 +64,7 @@ void fields(Row& row, const Visit& visit) {
 }
 
 struct TrustOptions {
-  int scenes = 600;                 ///< of all kinds in turn, networks left out
+  int scenes = 600;                 ///< of all kinds in turn, except networks
   std::optional<SceneKind> kind{};  ///< if given, the only kind of scenes
   int seed = 1;
   double seconds = 20;  ///< a longer run is too slow

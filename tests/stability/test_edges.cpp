@@ -112,7 +112,7 @@ TEST_CASE("stability: the default promises the tolerance of the joints, and keep
     CHECK(at.right(default_solver, tolerance, 3));
     wrong += !at.right("full steps", tolerance, 3);
   }
-  // which of them depends on how sums round
+  // which of them are wrong depends on how sums round
   CHECK(wrong > 0);
 }
 

@@ -8,7 +8,7 @@ using namespace gridshell;
 using namespace gridshell::window;
 
 TEST_CASE("a change that is refused leaves what was undone to be done again") {
-  // also where older states are put aside into a file
+  // also where older states are moved to a file
   EditedShell shell(small_shell(), GENERATE(0, 1 << 20));
   shell.act(Move{0.4});
   const ShellView moved = shell.view();

@@ -58,7 +58,7 @@ TEST_CASE("switches switch, and back") {
   ViewerState viewer({});
   for (const Action& action : actions()) {
     const std::string name = action.name;
-    // those need a shell, or another one
+    // actions that need a shell, or a second one
     if (!action.on || name == "play" || name == "gravity" || name == "beside" ||
         name.starts_with("colour_") || name.starts_with("range_"))
       continue;

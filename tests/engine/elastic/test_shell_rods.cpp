@@ -170,7 +170,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a rod on two springs sinks by P/(2 k) and bends by P L^3/(48 EI)") {
-  // so little that it does not stretch
+  // a load so small that the rod does not stretch
   const double load = 1e-6;
   const double bent = load * std::pow(length, 3) / (48 * section.EI), sunk = load / (2 * k.z());
   for (const RodModel rod_model : {RodModel::bend, RodModel::twist}) {

@@ -242,7 +242,7 @@ TEST_CASE("rods in space are as long as their polyline there, and laid where the
     for (std::size_t k = 1; k < mesh.rods[r].size(); ++k)
       CHECK((nodes.col(mesh.rods[r][k]) - nodes.col(mesh.rods[r][k - 1])).norm() ==
             Approx(mesh.position[r][k] - mesh.position[r][k - 1]).epsilon(1e-12));
-  // what is level lies in the plane, whatever its height
+  // a level network counts as plane at any height
   net.points.row(2).setZero();
   CHECK_FALSE(network_footprint(net)->footprint.in_space());
   // supported at points of one vertical plane it is stable, on one line it is not

@@ -97,7 +97,7 @@ TEST_CASE("Chao1: known values, and an interval that contains what was seen") {
   CHECK(complete.estimate == 3);
   CHECK(complete.low == 3);
   CHECK(complete.high == 3);
-  // none twice: the bias-corrected form
+  // no state was found exactly twice: the bias-corrected form
   CHECK(chao1({1, 1, 1, 5}).estimate == Approx(4 + 3));
   CHECK(chao1({}).estimate == 0);
   // a state with a count of 0 was not met at random

@@ -157,7 +157,7 @@ TEST_CASE("a rod that is closed keeps the twist of its natural shape") {
     CAPTURE(fraction, outcome.summary.model_reason, outcome.summary.limit_reason);
     CHECK(outcome.summary.model == "twist");
     CHECK_THAT(outcome.summary.model_reason, Catch::Contains("closed"));
-    // Michell's ring leaves its plane above this, and nothing keeps it off itself
+    // Michell's ring leaves its plane above this twist; contact with itself is not modelled
     CHECK(outcome.summary.contact.empty() == (fraction < 1));
     if (fraction > 1) {
       CHECK_THAT(outcome.summary.contact, Catch::StartsWith("rod 0 passed through itself"));

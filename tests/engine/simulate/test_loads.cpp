@@ -240,7 +240,7 @@ TEST_CASE("a grillage shares the force at its joint as its beams are stiff, at a
   };
   const auto beam = [](double length) { return 48 * EI / std::pow(length, 3); };
   CHECK(sag_of(200, 160, 1e-5) == Approx(1e-5 / (beam(200) + beam(160))).epsilon(1e-3));
-  // of two equal rods each carries a half, and each support a quarter
+  // each of two equal rods carries a half of the load, and each support a quarter
   constexpr double P = 8e-3;
   const double sag = sag_of_half(0.1, [](double, double theta) { return P / 4 * std::sin(theta); });
   CHECK(sag_of(L, L, P) == Approx(sag).epsilon(1e-3));

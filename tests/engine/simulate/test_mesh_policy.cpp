@@ -174,8 +174,8 @@ TEST_CASE("where the lowest stiffness nearly vanishes a finer mesh decides wheth
 }
 
 TEST_CASE("a branch that is stable again further on is left for the one in between") {
-  // the boundary moves by 5 mm in all: a thousandth of the size further on the symmetric branch,
-  // which loses its stability at 0.183, has regained it
+  // the boundary moves by 5 mm in all: the symmetric branch loses its stability at 0.183 and has
+  // regained it a thousandth of the size later
   const EquilibriumPath path =
       actuated(superellipse(97.549, 104.313, 4.3314, 0.954516), plan_of_mesh(16));
   REQUIRE(path.segments.back().report.events.size() == 1);

@@ -82,7 +82,7 @@ TEST_CASE("forces of springs are k times what the ends stay behind, and balance"
   CHECK(sum.norm() < 1e-6 * largest);
   CHECK(moment.norm() < 1e-4 * largest);
   CHECK(frame.energies[Term::support] == Approx(energy).epsilon(1e-6));
-  // what is recorded sums to what the solver minimises
+  // the recorded energies sum to the energy that the solver minimises
   NestedShell& shell = session.shell();
   CHECK(frame.energies.total() ==
         Approx(shell.system(1).energy_at(shell.state().levels[1])).epsilon(1e-12));

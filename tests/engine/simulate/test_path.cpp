@@ -212,7 +212,7 @@ TEST_CASE("a saddle from flat loses its branch where two coarse meshes do", "[st
 
 TEST_CASE("the frame after a jump is the one that reports it, and it jumps where that is reported",
           "[standard]") {
-  // of two snaps the second is a limit point of the path, which a mesh of twice the edges has later
+  // the second of two snaps is a limit point, which a mesh of twice as many edges reaches later
   preset::Preset p = ellipse(60);
   p.footprint.placement = Placement::on_axis;
   p.accuracy.tolerance = 0.02;

@@ -150,7 +150,7 @@ TEST_CASE("a step that ends early ends the run, and both say so") {
   const auto outcome = run(preset);
   CHECK(outcome.summary.limit == record::Limit::locking);
   CHECK_THAT(outcome.summary.limit_reason, Catch::StartsWith("step 1 (push [0, 0]): "));
-  // which of the two limits of a push it met
+  // the push ended at one of two limits
   const bool strained = std::abs(outcome.summary.largest_strain) > 0.9 * preset.limits.max_strain;
   CHECK_THAT(
       outcome.summary.limit_reason,
@@ -170,7 +170,7 @@ TEST_CASE("steps on what is not there are errors with their number") {
                                           Catch::Contains("joint: got [40, 0], expected a joint"));
   CHECK_THAT(refused(of(StepKind::release)),
              Catch::Contains("[[step]] 2: got no prescribed joint"));
-  // which `check` says as well
+  // `check` reports it as well
   CHECK_THAT(refusal(simulate::plan(preset)),
              Catch::StartsWith("[[step]] 2: got no prescribed joint"));
   preset::Step edge = of(StepKind::move);

@@ -117,7 +117,7 @@ TEST_CASE("factorisations: large ones have the same bits on any number of thread
         REQUIRE(x == y);
       }
     }
-    // what stops at the first negative pivot counts the same, too
+    // factorisations that stop at the first negative pivot report the same number, too
     solver->most_negative = alone->most_negative = 0;
     CHECK(solver->factor(system.assembly.hessian, 0).negative_pivots ==
           alone->factor(system.assembly.hessian, 0).negative_pivots);

@@ -93,7 +93,7 @@ TEST_CASE("a state between two points of a path is found in one step, whichever 
   const State found = shell.state().levels[2];
   REQUIRE(shell.sample(t, after, watch).end == Outcome::reached);
   CHECK(max_column_norm(shell.state().levels[2].x - found.x) < 2 * tolerance_mm);
-  // the state of a point itself takes no factorisation of its mesh
+  // the state of a point of the path needs no factorisation of its mesh
   const Effort there = shell.system().effort();
   REQUIRE(shell.sample(first, before, watch).end == Outcome::reached);
   CHECK((shell.system().effort() - there).factorizations == 0);

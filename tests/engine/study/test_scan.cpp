@@ -132,7 +132,7 @@ TEST_CASE("a dent is no noise: the misfit is compared with how much the points s
 
 TEST_CASE("half a shell over a table is found, and one seen from one side") {
   const MadeScan whole = make_scan(circle(), {});
-  // in the frame of the scan, whatever that is: what lies on one side of a plane through its middle
+  // the points on one side of a plane through the middle of the scan, in the scan's own frame
   const Eigen::Vector3d middle = whole.cloud.rowwise().mean();
   const Eigen::Vector3d low = whole.cloud.rowwise().minCoeff(),
                         high = whole.cloud.rowwise().maxCoeff();

@@ -101,7 +101,7 @@ TEST_CASE("colour keys are in the middle of their row, all of them, smaller wher
     INFO("room of " << width << ", ink of " << ink.width);
     CHECK(Box{4, 4, width - 8, 32}.inset(-1).contains(ink));
     CHECK(ink.middle().x == Approx(width / 2).margin(2));
-    // each dash bears its colour, the first one on the left
+    // each dash has its colour, the first one on the left
     int red = 0, blue = 0;
     for (int x = 0; x < image.width; ++x) {
       const std::uint8_t* pixel = image.pixel(x, 20);

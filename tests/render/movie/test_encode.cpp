@@ -92,7 +92,7 @@ TEST_CASE("without ffmpeg the command line is printed instead, ready for a shell
 }
 
 TEST_CASE("with ffmpeg the movie appears whole, under its name") {
-  // the last argument is the file; everything it was given goes into it
+  // a program that writes all its arguments to the file that the last one names
   const FakeFfmpeg ffmpeg("for last; do :; done\nprintf '%s\\n' \"$@\" > \"${last#file:}\"\n");
   const TemporaryFolder folder;
   preset::Movie slow;

@@ -283,7 +283,7 @@ TEST_CASE("a push of a step has its arrow only in the frames in which it acts") 
   CHECK(stage.drawing(frame).arrows.empty());
   frame.reactions_N(2, 1) = -1e-12;
   CHECK(stage.drawing(frame).arrows.size() == 1);
-  // what the frame does not know it does not hide
+  // without reactions in the frame no arrow is hidden
   frame.reactions_N.resize(3, 0);
   CHECK(stage.drawing(frame).arrows.size() == 1);
 }

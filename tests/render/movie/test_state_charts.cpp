@@ -61,7 +61,7 @@ TEST_CASE("load factors are marked where the rods reach their strength, with the
 TEST_CASE("stable parts are full, others dashed, and parts meet where something happens") {
   const Plot plot = branches_plot(points(), BranchAxis::amplitude);
   CHECK(plot.x.label.starts_with("*R*_{a} (mm)"));
-  // a branch bears its number
+  // a branch is labelled with its number
   REQUIRE(plot.notes.size() == 1);
   CHECK(plot.notes[0].text == "1");
   std::vector<Series> path, branch;
