@@ -3,7 +3,8 @@
 
 Runs the commands that each table names and writes the table between its marks in the page,
 <!-- table: NAME --> and <!-- end -->. --check writes nothing and fails where a table differs in more
-than its times (columns that end in " s" or "GB"). Without names it makes all of them but `trust`, which takes a quarter of an hour.
+than its times (columns that end in " s" or "GB"). Without names it makes all of them but `trust`,
+which takes a quarter of an hour.
 """
 import csv
 import json
@@ -23,7 +24,7 @@ commands = []
 
 
 def run(arguments, folder):
-    """Runs `gridshell ARGUMENTS -o FOLDER`; CPU seconds and the largest memory, GB."""
+    """Runs `gridshell ARGUMENTS -o FOLDER`; returns its CPU time in seconds."""
     command = ["gridshell"] + arguments
     commands.append(" ".join(f"'{a}'" if re.search(r"[{}\[\]*]", a) else a for a in command))
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -49,7 +50,7 @@ def joints(folder):
 
 
 def number(x, digits=2):
-    """As 2.6e-3, or shorter."""
+    """x with so many significant digits: 2.6e-4, 0.013, 12; nothing for None and ''."""
     if x is None or x == "":
         return ""
     x = float(x)
@@ -60,7 +61,7 @@ def number(x, digits=2):
 
 
 def with_error(x, error):
-    """As 4.13 ± 0.04: as many digits as the error's first."""
+    """4.13 ± 0.04: both are rounded to the first significant digit of the error."""
     x, error = float(x), float(error)
     digits = max(0, -math.floor(math.log10(error)))
     return f"{x:.{digits}f} ± {error:.{digits}f}"
@@ -197,7 +198,7 @@ def loads():
 def states():
     yield ["class", "group", "bend energy (mJ)", "highest, lowest point (mm)", "exists from R_a/R_o", "lowest eigenvalue (N/mm²)"]
     run(["run", "fig2_states"], "states")
-    met = set()  # the lowest of each class
+    met = set()  # states.csv is in order of energy: the first row of a class is its lowest state
     for row in rows("states/states.csv"):
         if row["class"] in ("i", "ii", "iii", "iv") and row["class"] not in met:
             met.add(row["class"])

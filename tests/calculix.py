@@ -1,11 +1,11 @@
 """tests/calculix.py PROGRAM: shells and their loads and frequencies against CalculiX (Debian's
 calculix-ccx; left out where it is not installed, exit code 77).
 
-CalculiX forms the same shells by itself: its beams (B32R) lie straight in the flat, their ends held
-level; lifted by forces on the joints, their ends are moved in and the forces taken away. Then a load
-is applied, and about that state both find the natural frequencies: of rods with all the forces that
-they were bent by. Joints pass forces alone, in both. Shapes, displacements and frequencies must agree
-within 1 %.
+CalculiX forms the same shells by itself. Its beams (B32R) are straight in a plane at first, with
+clamped ends. Forces on the joints lift them, their ends are moved inwards, and the forces are removed.
+Then a load is applied, and both programs compute the natural frequencies of the loaded shell, with the
+stresses in its rods. In both, joints transmit forces but no moments. Shapes, displacements and
+frequencies must agree within 1 %.
 """
 
 import csv
@@ -17,7 +17,8 @@ import tempfile
 from pathlib import Path
 
 SPACING, DIAMETER, YOUNG, DENSITY = 20.0, 0.8, 83000.0, 6450e-12
-# a square of the rod's EI and EA, with modulus and density instead of its area; its torsion
+# A square section has the rod's EI, EA and mass if modulus and density are multiplied by SHARE. With
+# SHEAR, the round rod has the torsional stiffness of the square (Poisson's ratio 0).
 SIDE, SHARE = DIAMETER * math.sqrt(3) / 2, math.pi / 3
 SHEAR = YOUNG * SHARE / 2 * 0.140577 * SIDE**4 / (math.pi * DIAMETER**4 / 32)
 SHELLS = {"two rods a direction": (2, 40.0, 0.95), "three": (3, 50.0, 0.95),
@@ -98,7 +99,7 @@ class Beams:
         step += ["*CONTROLS,PARAMETERS=TIME INCREMENTATION", "30,40,9,60,10,40,,20,,"]
         told = ["*NODE PRINT,NSET=ALL,FREQUENCY=1000", "U", "*END STEP"]
 
-        # to the side that the shell goes to
+        # the forces lift the joints to the side to which the shell buckles
         highest = max(map(abs, heights.values()))
 
         def forces(size):

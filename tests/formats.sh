@@ -1,7 +1,7 @@
 #!/bin/sh
-# tests/formats.sh PROGRAM: opens what `gridshell export` writes with programs that are not ours, as
-# far as they are installed (python3-ezdxf, python3-vtk9, paraview, librsvg2-bin, libxml2-utils,
-# poppler-utils, chromium, blender; glTF: npm's gltf-validator); says what was left out. Exit code 1 where one fails.
+# tests/formats.sh PROGRAM: opens the files that `gridshell export` writes with other programs, as far
+# as they are installed (python3-ezdxf, python3-vtk9, paraview, librsvg2-bin, libxml2-utils,
+# poppler-utils, chromium, blender); prints what was left out. Exit code 1 if one fails.
 set -e
 program=$1
 work=$(mktemp -d)
@@ -18,7 +18,7 @@ done
 "$program" export run --what cutlist --to cutlist.pdf > /dev/null
 
 failed=0
-# try NAME PROGRAM COMMAND...: the command, where the program is there
+# try NAME PROGRAM COMMAND...: runs the command if the program is installed
 try() {
   name=$1
   if ! command -v "$2" > /dev/null; then
@@ -34,7 +34,7 @@ try() {
     failed=1
   fi
 }
-# python NAME MODULE: the script on stdin, where the module is there
+# python NAME MODULE: runs the script on stdin if the module is installed
 python() {
   cat > script.py
   if /usr/bin/python3 -c "import $2" 2> /dev/null; then
@@ -84,7 +84,7 @@ END
 try 'PVD and XDMF' pvpython pvpython open.py
 cat > blender.py << 'END'
 import bpy, numpy
-numpy.bool = bool  # of Debian 12: its Blender asks for what its NumPy no longer has
+numpy.bool = bool  # of Debian 12: its Blender needs what its NumPy no longer has
 bpy.ops.wm.read_factory_settings(use_empty=True)
 bpy.ops.import_scene.gltf(filepath="a.glb")
 meshes = [thing for thing in bpy.data.objects if thing.type == "MESH"]

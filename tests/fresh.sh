@@ -1,9 +1,9 @@
 #!/bin/sh
 # tests/fresh.sh bookworm|trixie [MIRROR]: the two commands of the README on a fresh Debian of that name,
 # made by debootstrap in a temporary folder ($TMPDIR) and removed afterwards; prints how long each took.
-# MIRROR: where packages come from; else the first of the sources that apt has on this machine.
-# The fresh system knows nothing of this one but how it reaches the mirror ($TMPDIR is no folder there).
-# As root. Leaves with 77 (skipped) where debootstrap is missing or whoever runs it is not root.
+# MIRROR: the source of packages; by default the first of the sources that apt has on this machine.
+# The fresh system only knows of this one how it reaches the mirror ($TMPDIR does not exist there).
+# Must run as root. Exits with 77 (skipped) if debootstrap is missing or the user is not root.
 set -e
 cd "$(dirname "$0")/.."
 suite=${1:?bookworm or trixie}
@@ -27,7 +27,7 @@ minutes() { # minutes WHAT COMMAND...
   printf '%s: %s took %d min %02d s\n' "$suite" "$what" $((took / 60)) $((took % 60))
 }
 minutes debootstrap debootstrap --variant=minbase "$suite" "$root" "${mirror:?no mirror of Debian known}"
-# how this machine reaches the mirror
+# settings by which this machine reaches the mirror
 cp /etc/resolv.conf "$root/etc/"
 apt-config dump | grep '^Acquire::\(http\|https\|ftp\|Check-\)' >"$root/etc/apt/apt.conf.d/90host" || :
 mount --bind /dev "$root/dev"

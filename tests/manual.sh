@@ -6,7 +6,7 @@
 #   ```toml, ```python, ... whose first line is `# NAME`, or ```json NAME: the file NAME
 #   ```python         without a name: a script; ```bibtex and ```math are not run
 #
-# PYTHONPATH leads to the Python module; scripts whose imports are missing are left out, with a word.
+# PYTHONPATH leads to the Python module; scripts whose imports are missing are left out, with a message.
 set -u
 program=$1 python=$2
 shift 2

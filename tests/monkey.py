@@ -27,11 +27,11 @@ radius_mm = 54.0
 KEYS = ("j g h r space Left Right Home 1 2 3 n i d c s o p Tab ctrl+z ctrl+y ctrl+s ctrl+p ctrl+d "
         "ctrl+c Escape F1 Return plus minus b w v Prior Next 4 8 ctrl+Left ctrl+f ctrl+e").split()
 EVERY_S, LONGEST_S = 0.05, 5
-MOST_MB = 2000 if "TSAN_OPTIONS" in os.environ else 600  # what threads share has a shadow
+MOST_MB = 2000 if "TSAN_OPTIONS" in os.environ else 600  # the thread sanitizer has memory of its own
 
 
 def commands(seed):
-    """What xdotool is to do, without end; a button is released before it is pressed again."""
+    """Commands for xdotool, without end; a button is released before it is pressed again."""
     draw, down = random.Random(seed), False
     while True:
         kind = draw.randrange(10)

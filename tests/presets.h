@@ -1,4 +1,4 @@
-// Presets that many tests begin with.
+// Presets that many tests start from.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace gridshell {
 
-/// One that comes with the program.
+/// The preset of that name that comes with the program.
 inline preset::Preset shipped(const std::string& name) {
   const auto file = std::filesystem::path(GRIDSHELL_SOURCE_DIR) / "presets" / (name + ".toml");
   return value_of(preset::read_preset_file(file)).base;
@@ -15,12 +15,12 @@ inline preset::Preset shipped(const std::string& name) {
 
 namespace preset {
 
-/// What is written in good.toml.
+/// Reads the text as good.toml, which must be valid.
 inline Presets good(const std::string& text, const std::vector<Override>& overrides = {}) {
   return value_of(read_preset_text(text, "good.toml", "good", overrides));
 }
 
-/// What is wrong with bad.toml; "none" where nothing is.
+/// The errors of the text, read as bad.toml; "none" if there are none.
 inline std::string errors_of(const std::string& text, const std::vector<Override>& overrides = {}) {
   return refusal(read_preset_text(text, "bad.toml", "bad", overrides));
 }
@@ -45,7 +45,7 @@ inline preset::Preset paper_circle(int rods, double ratio = 0.75) {
   return circle(rods, radius, ratio * radius);
 }
 
-/// A closed curve that is drawn in to so much of its size.
+/// A closed curve that is contracted to `scale` of its size.
 inline preset::Preset curve(preset::CurveKind kind, double half_x_mm, double half_y_mm,
                             double scale) {
   preset::Preset p;
@@ -57,14 +57,14 @@ inline preset::Preset curve(preset::CurveKind kind, double half_x_mm, double hal
   return p;
 }
 
-/// A superellipse |x/a|^n + |y/b|^n = 1 that is drawn in to so much of its size.
+/// A superellipse |x/a|^n + |y/b|^n = 1 that is contracted to `scale` of its size.
 inline preset::Preset superellipse(double a_mm, double b_mm, double n, double scale) {
   preset::Preset p = curve(preset::CurveKind::superellipse, a_mm, b_mm, scale);
   p.footprint.boundary.exponent = n;
   return p;
 }
 
-/// A shell that begins on its net, with rods on the axes.
+/// A shell that starts on its net, with rods on the axes.
 inline preset::Preset on_net(preset::NetKind kind = preset::NetKind::sphere, double radius_mm = 120,
                              double length_mm = 0) {
   preset::Preset p;
@@ -78,7 +78,7 @@ inline preset::Preset on_net(preset::NetKind kind = preset::NetKind::sphere, dou
   return p;
 }
 
-/// The part of a sphere of 120 mm above that height over its radius.
+/// The cap of a sphere of 120 mm radius above `cut_height` times the radius.
 inline preset::Preset cap(double cut_height) {
   preset::Preset p = on_net();
   p.net.cut_height = cut_height;
@@ -101,7 +101,7 @@ inline preset::Preset small_shell() {
   return preset;
 }
 
-/// A network, on meshes chosen by the tolerance where no edges are said.
+/// A network, on meshes chosen by the tolerance if `edges` is 0.
 inline preset::Preset network(preset::NetworkData file, int edges = 0, int frames = 2) {
   preset::Preset p;
   p.footprint.kind = preset::FootprintKind::network;
@@ -111,8 +111,8 @@ inline preset::Preset network(preset::NetworkData file, int edges = 0, int frame
   return p;
 }
 
-/// Two rods along x and y that cross in their middles, point 4, ends 0 to 3 so far from there and
-/// so far below.
+/// Two rods along x and y that cross in their middles, at point 4; their ends, points 0 to 3, are
+/// at these distances from there and `height` below it.
 inline preset::NetworkData cross(double half_x, double half_y, double height = 0) {
   preset::NetworkData file;
   file.points = {{-half_x, 0, 0}, {half_x, 0, 0}, {0, -half_y, 0}, {0, half_y, 0}, {0, 0, height}};

@@ -2,7 +2,7 @@
 # tests/processors.sh PROGRAM: runs the program on a processor without AVX, on the first with AVX2
 # and on one with AVX-512, all emulated by qemu-user. Every run must succeed, and all must give
 # the same states: joints to 1e-9 of the footprint's radius, energies to 1e-9 of themselves.
-# Leaves with 77 (skipped) where the emulator is missing.
+# Exits with 77 (skipped) where the emulator is missing.
 #
 # What differs is in the last digits (joints 2e-15, energies 4e-14): where the processor has fused
 # multiply-adds the factorisation and the assembly use them, the two files that may contract a*b+c
@@ -24,7 +24,7 @@ processors="Nehalem Haswell Skylake-Client"
 first=${processors%% *}
 
 for processor in $processors; do
-  # the emulator lacks some features that these models have; it says so, and that does not matter
+  # the emulator lacks some features of these models; it prints messages about them, which do not matter
   # emulated vectors are slow: half as many rods as the paper's
   qemu-x86_64 -cpu "$processor" "$program" run s1_actuation --frames 3 --quiet \
     --set accuracy.edges_per_segment=4 --set footprint.rods=6 --set footprint.radius_mm=66 \

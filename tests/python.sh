@@ -1,5 +1,5 @@
 #!/bin/sh
-# tests/python.sh PYTHON: the tests of the Python module, which PYTHONPATH leads to. Leaves with 77
+# tests/python.sh PYTHON: the tests of the Python module, which PYTHONPATH leads to. Exits with 77
 # (skipped) where pytest or numpy is missing.
 cd "$(dirname "$0")/.." || exit 1
 for package in pytest numpy; do

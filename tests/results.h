@@ -1,4 +1,4 @@
-// Results of calls that may fail: the value, or the error; and the library in one header, which the
+// Helpers for results of calls that may fail. It includes the library in one header, which the
 // tests' precompiled header includes.
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace gridshell {
 
-/// Its value; where it has none the test fails with the reason.
+/// The value of a result; the test fails with the error's message if it has none.
 template <class T>
 T value_of(Result<T> result) {
   if (!result) FAIL(result.error().message);
@@ -22,7 +22,7 @@ T value_of(std::optional<T> result) {
   return std::move(*result);
 }
 
-/// The message of an error of that kind; "none" without an error.
+/// The message of an error, whose kind is checked; "none" without an error.
 template <class T>
 std::string refusal(const Result<T>& result, Fault fault = Fault::bad_input) {
   if (result) return "none";
@@ -30,7 +30,7 @@ std::string refusal(const Result<T>& result, Fault fault = Fault::bad_input) {
   return result.error().message;
 }
 
-/// Work that is cancelled before it starts returns at once.
+/// Checks that work which is cancelled before it starts ends as cancelled.
 template <class Work>
 void check_stops(const Work& work) {
   Watch watch;

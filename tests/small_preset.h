@@ -1,15 +1,15 @@
-// Text of a preset small enough to run in a moment, for tests of the whole program.
+// Text of a preset small enough to run in a moment, for tests of the complete program.
 #pragma once
 
 #include <fmt/format.h>
 
 #include <string>
 
-/// A circle, and what a test asks of it.
+/// A circle, with the values that a test chooses.
 struct SmallPreset {
-  int rods = 4;  ///< a direction
+  int rods = 4;  ///< per direction
   double radius_mm = 45, actuated_mm = 40;
-  int edges = 2;  ///< a segment; 0: chosen from the tolerance
+  int edges = 2;  ///< per segment; 0: chosen from the tolerance
   int frames = 3;
   int width = 160, height = 120;  ///< of a picture
   const char* quality = "draft";

@@ -9,11 +9,11 @@
 # tests/style.sh words           pages, comments and strings use the words of the glossary, not those of tests/words.txt
 #
 # BUILD (default build) is a folder that cmake has configured. `tidy` and `clang` take the files that differ
-# from the merge base with the main branch (BASE, default main), where that is this commit itself
-# those of the last commit, and those not committed; of them the ten with the most changed lines
-# (LIMIT), a header by the source of its name. Without git or without a commit to compare with it
-# takes the files below, one of each kind of code there is.
-# Leaves with 77 (skipped) where the tool is missing.
+# from the merge base with the main branch (BASE, default main), also by changes that are not committed.
+# If the merge base is this commit itself, they take the files of the last commit. They check the ten with
+# the most changed lines (LIMIT); for a header, the .cpp of its name. Without git or without a commit to
+# compare with, they check the files below, one of each kind of code there is.
+# Exits with 77 (skipped) where the tool is missing.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 build=${BUILD:-build}
@@ -27,7 +27,7 @@ need() {
   exit 77
 }
 
-sources() {  # names that end so, in the folders of sources
+sources() {  # files whose names match, in the folders of sources
   find engine render app tests -name "$1" | sort
 }
 
@@ -71,7 +71,7 @@ changed_sources() {
   done | awk '!seen[$0]++'
 }
 
-# each of the chosen files and its command, "FILE", in $scratch/built; compile commands for clang
+# writes the chosen files that this build compiles into $scratch/built, and compile commands that clang takes
 choose_files() {
   scratch=$(mktemp -d)
   trap 'rm -rf "$scratch"' EXIT
@@ -102,7 +102,7 @@ tidy() {
   echo "clang-tidy on $(wc -l <"$scratch/built") files"
   xargs -r -P "$(nproc)" -n 1 clang-tidy --quiet -p "$scratch" <"$scratch/built" 2>"$scratch/said"
   status=$?
-  # counts of what was left out of the headers of libraries say nothing
+  # how many warnings of libraries' headers were left out does not matter
   grep -vE '^[0-9]+ warnings? (generated|treated)|^Suppressed|^Use -header' "$scratch/said"
   return $status
 }
@@ -166,7 +166,7 @@ equal() {
 names() {
   list=$(mktemp)
   find engine render app tests -name '*.h' -o -name '*.cpp' >"$list"
-  # of a line what is behind its last //, or of a .md file all of it
+  # names are looked for behind the last // of a line, and in all of a .md file
   grep -rnE '[a-z0-9_]+\.(h|cpp)\>' --include='*.h' --include='*.cpp' --include='*.md' \
     engine render app shaders presets tests ./*.md |
     awk 'NR == FNR { sub(/.*\//, ""); there[$0] = 1; next }
@@ -254,7 +254,7 @@ words() {
         printf "%s:%d: \"%s\": write %s\n", FILENAME, FNR, substr(text, RSTART + 1, RLENGTH - 2), good[k]; ++errors } }
     END { printf "%d pages, %d words to replace\n", files, errors; exit !(files > 10 && n > 20 && !errors) }' \
     tests/words.txt $(pages) || pages_status=1
-  # of comments, lines may be a distance apart, exceptions are thrown, and vectors are in place
+  # comments may contain "apart" (a distance), "thrown" (an exception) and "in place" (of vectors)
   { comments; strings; } | awk 'NR == FNR { if ($0 !~ /^#|^apart|^thrown/) { split($0, part, "\t"); bad[++n] = part[1]; good[n] = part[2] } next }
     { ++lines; split($0, at, ":"); where = at[1] ":" at[2]; text = $0; sub(/^[^ ]* /, "", text)
       if (at[3] == 1 && text ~ /^(Of |And |The same(\.|,|;|:| (of|for|with|without|in|by|on|to|from|as|where|when|but|along|within) ))/) {

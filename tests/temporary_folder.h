@@ -1,4 +1,4 @@
-// For tests that write: a folder of their own, and a disk that fills up.
+// For tests that write: a temporary folder, an environment variable, and a disk that fills up.
 #pragma once
 
 #include <sys/resource.h>
@@ -15,7 +15,7 @@
 
 #include "engine/core/file_io.h"
 
-/// Names of what lies in a folder, hidden files too, sorted.
+/// Names of all entries of a folder, also hidden ones, sorted.
 inline std::vector<std::string> names_in(const std::filesystem::path& folder) {
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(folder))
@@ -24,7 +24,8 @@ inline std::vector<std::string> names_in(const std::filesystem::path& folder) {
   return names;
 }
 
-/// Every file's bytes, by its path in the folder; of folders, links and pipes their kind.
+/// The bytes of every file, by its path in the folder; for folders, links and pipes the number of
+/// their std::filesystem::file_type.
 inline std::map<std::string, std::string> contents(const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
   std::map<std::string, std::string> all;
@@ -64,7 +65,7 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// While it lives, a variable of the environment has that value.
+/// During its lifetime, an environment variable has that value.
 class Environment {
  public:
   Environment(const char* name, const std::string& value) : name_(name) {

@@ -1,7 +1,7 @@
 # Tests mirror the source: tests/engine -> test_engine, tests/render -> test_render, tests/app -> test_app.
 # Their tags are CTest labels: untagged tests are `quick`, [standard] those that take over a second,
-# [full] what a release needs besides. tests/run.sh runs all but `full`.
-# [shared] reads all of build/shared_runs, [s1] that of s1_actuation; both are made before.
+# [full] what a release needs in addition. tests/run.sh runs all but `full`.
+# [shared] tests read all runs of build/shared_runs, [s1] tests that of s1_actuation; both are made before.
 find_package(Catch2 QUIET)
 if(NOT Catch2_FOUND)
   message(STATUS "No tests: they need the package catch2")
@@ -9,12 +9,12 @@ if(NOT Catch2_FOUND)
 endif()
 include(Catch)
 find_package(nlohmann_json REQUIRED)
-# the tests use the names of version 2, which has to be told that no test is an error
+# the tests use the names of version 2, for which it is an error only on request that no test matches
 set(catch_names "")
 set(catch_arguments EXTRA_ARGS --warn NoTests)
 if(Catch2_VERSION VERSION_GREATER_EQUAL 3)
   set(catch_names ${PROJECT_SOURCE_DIR}/tests/catch3)
-  # it leaves with the number of failures, of which 4 is no test skipped
+  # version 3 exits with the number of failures, and 4 must not count as a skipped test
   set(catch_arguments SKIP_IS_FAILURE)
 endif()
 
@@ -24,7 +24,7 @@ if(CMAKE_BUILD_TYPE STREQUAL "Debug")
   set(quick_seconds 900)
 endif()
 
-# gridshell_tier(LABEL SPEC PROPERTIES...): those tests of `target` under that label
+# gridshell_tier(LABEL SPEC PROPERTIES...): registers the tests of `target` that match SPEC under that label
 function(gridshell_tier label spec)
   string(MAKE_C_IDENTIFIER "${target}_${label}${spec}" list)
   catch_discover_tests(${target} TEST_SPEC ${spec} TEST_LIST ${list} ${catch_arguments}
@@ -66,8 +66,8 @@ function(gridshell_tests folder)
   endif()
 endfunction()
 
-# What many tests look at is run once: each line of tests/images/list.txt, and the recorded visits of
-# the window, into build/shared_runs.
+# Runs that many tests look at are made once, in build/shared_runs: each line of tests/images/list.txt, and
+# the recorded visits of the window.
 if(GRIDSHELL_PICTURES)
   set(list ${PROJECT_SOURCE_DIR}/tests/images/list.txt)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${list})
@@ -82,9 +82,9 @@ if(GRIDSHELL_PICTURES)
 endif()
 
 gridshell_tests(engine gridshell_engine)
-# where methods hold and fail: tests/stability -> test_stability
+# limits of the stability of methods: tests/stability -> test_stability
 gridshell_tests(stability gridshell_engine)
-# random scenes and what a run says of them, shared with bench_trust: tests/bench -> test_bench
+# random scenes and judgements of their runs, shared with bench_trust: tests/bench -> test_bench
 set(trust_study tests/bench/random_network.cpp tests/bench/random_scenes.cpp
   tests/bench/trust_study.cpp)
 gridshell_tests(bench gridshell_engine)
@@ -97,7 +97,7 @@ if(GRIDSHELL_PICTURES)
   gridshell_tests(faults gridshell_view gridshell_app gridshell_render gridshell_engine ${CMAKE_DL_LIBS})
   if(TARGET test_faults)
     target_sources(test_faults PRIVATE tests/faults/faults.cpp)
-    # solves fail as well: faults.cpp stands between the engine and its linear solver
+    # solves fail as well: faults.cpp is between the engine and its linear solver
     target_link_options(test_faults PRIVATE
       "LINKER:--wrap=_ZN9gridshell18make_linear_solverERKNS_5ModelE")
   endif()
@@ -107,7 +107,7 @@ if(GRIDSHELL_PICTURES)
     target_compile_definitions(test_app PRIVATE GRIDSHELL_PROGRAM="$<TARGET_FILE:gridshell>"
       GRIDSHELL_SHARED_RUNS="${PROJECT_BINARY_DIR}/shared_runs" GRIDSHELL_IMGUI="${IMGUI_VERSION}"
       GRIDSHELL_BUILT_WITH="${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION} ${CMAKE_BUILD_TYPE}")
-    # the program with the plain one of all clones, which no processor of today would choose
+    # the program with those clones of functions that are for the oldest processors (baseline_processor.cpp)
     if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
       add_executable(gridshell_baseline app/cli/main.cpp tests/app/baseline_processor.cpp)
       target_link_libraries(gridshell_baseline PRIVATE gridshell_app)
@@ -122,7 +122,7 @@ if(GRIDSHELL_PICTURES)
   if(TARGET test_attack)
     target_sources(test_attack PRIVATE tests/attack/hostile_preset.cpp)
     add_dependencies(test_attack gridshell gridshell_window)
-    # the few of every run of the tests, and more
+    # more trials than in every run of the tests
     foreach(kind damage presets signals)
       add_test(NAME "attacks: ${kind}" COMMAND test_attack "[${kind}]")
       set_tests_properties("attacks: ${kind}" PROPERTIES LABELS full TIMEOUT 1200
@@ -163,10 +163,10 @@ foreach(check format tidy clang warnings equal names pages words)
 endforeach()
 # it keeps all cores busy for minutes
 set_tests_properties("style: tidy" PROPERTIES LABELS "style;full" RUN_SERIAL ON)
-# of the files that changed the four that changed most; `tests/style.sh clang` takes ten
+# only the four changed files with the most changed lines; `tests/style.sh clang` checks ten
 set_tests_properties("style: clang" PROPERTIES ENVIRONMENT "BUILD=${PROJECT_BINARY_DIR};LIMIT=4")
 
-# The manual: every code block of every page is run (tests/manual.sh), no sentence is too long.
+# The manual: every code block of every page is run (tests/manual.sh).
 if(GRIDSHELL_PICTURES)
   set(python python3)
   if(TARGET gridshell_python)
@@ -189,7 +189,7 @@ foreach(source IN LISTS examples)
   add_executable(example_${example} ${source})
   target_link_libraries(example_${example} PRIVATE gridshell::gridshell)
   gridshell_compile_lightly(example_${example})
-  # a precompiled header is taken only with what it was made with
+  # a precompiled header is used only with the definitions that it was compiled with
   target_compile_definitions(example_${example} PRIVATE GRIDSHELL_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   gridshell_read_once(example_${example} test_engine)
   add_test(NAME "example: ${example}" COMMAND example_${example})
@@ -201,7 +201,7 @@ add_test(NAME "an installed library is found by CMake and pkg-config"
 set_tests_properties("an installed library is found by CMake and pkg-config"
   PROPERTIES LABELS standard TIMEOUT 600)
 
-# The Python module: tests/app/python, by pytest where it is there.
+# The Python module: tests/app/python, by pytest where it is installed.
 if(TARGET gridshell_python)
   add_test(NAME "python module" COMMAND ${PROJECT_SOURCE_DIR}/tests/python.sh ${Python3_EXECUTABLE})
   set_tests_properties("python module" PROPERTIES LABELS quick TIMEOUT 300 SKIP_RETURN_CODE 77

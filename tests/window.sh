@@ -1,7 +1,7 @@
 #!/bin/sh
 # A visit to the real window under Xvfb, by xdotool: plays Movie S1, scrubs, changes R_a, pushes a joint,
-# takes it back, pushes again, keeps a picture and the preset, closes. The preset kept must run to
-# the state that the recording of the visit plays to. Exit code 77 where Xvfb or xdotool is missing.
+# undoes the push, saves a picture and the preset, closes. The saved preset must run to the state to
+# which the recording of the visit plays. Exits with 77 (skipped) where Xvfb or xdotool is missing.
 # usage: tests/window.sh build/gridshell
 program=$(realpath "$1")
 for tool in Xvfb xdotool; do
@@ -20,7 +20,7 @@ cleanup() {
 trap cleanup EXIT
 fail() { echo "$1" >&2; exit 1; }
 
-# until FILE COMMAND...: up to 20 seconds
+# until_true COMMAND...: repeats the command until it succeeds, at most 20 seconds
 until_true() {
   for _ in $(seq 200); do
     "$@" && return 0
@@ -37,7 +37,7 @@ window=$(xdotool search --sync --onlyvisible --name '^gridshell$' | head -1)
 xdotool windowfocus "$window"
 sleep 3
 
-# a button is held for longer than a frame
+# the button is down for longer than a frame
 drag() {
   xdotool mousemove "$1" "$2"; sleep 0.4
   xdotool mousedown 1; sleep 0.4

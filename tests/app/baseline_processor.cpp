@@ -1,6 +1,6 @@
-// Linked into gridshell_baseline: a processor that has nothing but plain x86-64, so that of every
-// function with clones (engine/core/block3.h) the plain one runs. The compiler's own look at the
-// processor (libgcc's cpuinfo) has these names.
+// This file is linked into gridshell_baseline. It defines the symbols by which libgcc reports the
+// features of the processor, with those of plain x86-64, so that the plain version of every
+// function with clones (engine/core/block3.h) runs.
 extern "C" {
 
 struct ProcessorModel {

@@ -1,5 +1,4 @@
-// Runs to look at: those that all tests share, and a folder in which the program is run on a small
-// preset.
+// For tests of the program: the shared runs, and a folder in which it runs on a small preset.
 #pragma once
 
 #include <catch2/catch.hpp>
@@ -17,8 +16,8 @@ using gridshell::write_file;
 
 inline std::string text_of(const fs::path& file) { return read_file(file).value(); }
 
-/// The run of that line of tests/images/list.txt, which ctest makes before the tests tagged
-/// [shared] (and [s1], for s1_actuation alone).
+/// Folder of the run that the line `name` of tests/images/list.txt describes. ctest makes these
+/// runs before the tests tagged [shared]; tests tagged [s1] use s1_actuation alone.
 inline fs::path shared_run(const std::string& name) {
   auto run = fs::path(GRIDSHELL_SHARED_RUNS) / name;
   INFO("made by: ctest -R 'shared run: " << name << "'");
@@ -26,13 +25,13 @@ inline fs::path shared_run(const std::string& name) {
   return run;
 }
 
-/// A copy of it that may be changed.
+/// Copies a shared run to `to`, where a test may change it.
 inline void copy_shared_run(const std::string& name, const fs::path& to) {
   fs::create_directories(to.parent_path());
   fs::copy(shared_run(name), to, fs::copy_options::recursive);
 }
 
-/// The program refuses that, with exit code 2 and such a sentence.
+/// Checks that the program refuses the arguments: exit code 2 and a message that `why` matches.
 template <class Matcher>
 void check_refused(const Arguments& arguments, const fs::path& at, const Matcher& why) {
   const auto ended = gridshell_program(arguments, at);
@@ -41,7 +40,7 @@ void check_refused(const Arguments& arguments, const fs::path& at, const Matcher
   CHECK_THAT(ended.err, why);
 }
 
-/// A signal that it answers at once, as one that was stopped.
+/// Sends a signal and checks that the program ends promptly, with exit code 130 (stopped).
 inline Ended interrupted(const Running& running, int number) {
   const auto ended = running.interrupt(number);
   CAPTURE(ended.wall_seconds, ended.cpu_seconds, ended.err);
@@ -50,7 +49,7 @@ inline Ended interrupted(const Running& running, int number) {
   return ended;
 }
 
-/// Runs the program there, and shows why when it does not end well.
+/// Runs the program in the folder `at` and requires exit code 0; prints its output otherwise.
 inline Ended good(const Arguments& arguments, const fs::path& at) {
   const auto ended = gridshell_program(arguments, at);
   INFO(ended.out << ended.err);

@@ -19,15 +19,15 @@
 struct Ended {
   int code = 0;  ///< exit code; 128 + n when signal n ended it
   std::string out, err;
-  double peak_MB = 0;                        ///< of memory
+  double peak_MB = 0;                        ///< largest resident memory
   double wall_seconds = 0, cpu_seconds = 0;  ///< from the signal of interrupt() to the end
 
-  /// Whether a signal was answered within a second: of the clock, or, on a machine that others keep
-  /// busy, of the processor.
+  /// Whether the program ended within a second of the signal: of wall time, or, on a busy machine,
+  /// of processor time.
   bool prompt() const { return wall_seconds < 1 || (cpu_seconds < 1 && wall_seconds < 10); }
 };
 
-/// What the program is given: a list, or a line that is cut at its blanks.
+/// Arguments of the program: a list, or a line that is split at its blanks.
 struct Arguments : std::vector<std::string> {
   using std::vector<std::string>::vector;
   Arguments(const std::vector<std::string>& words) : std::vector<std::string>(words) {}
@@ -37,7 +37,7 @@ struct Arguments : std::vector<std::string> {
   }
 };
 
-/// A run of `gridshell ARGUMENTS` that has begun, with `folder` as its working directory.
+/// A process that runs `gridshell ARGUMENTS`, with `folder` as its working directory.
 class Running {
  public:
   Running(const Arguments& arguments, const std::filesystem::path& folder,
@@ -68,7 +68,7 @@ class Running {
     return ended;
   }
 
-  /// Stops it (SIGSTOP); returns whether it still exists.
+  /// Stops the process (SIGSTOP); returns whether it still exists.
   bool hold() const {
     signal(SIGSTOP);
     siginfo_t about{};
@@ -76,12 +76,13 @@ class Running {
     return about.si_code == CLD_STOPPED;
   }
 
-  /// Waits until it has taken signals into its own hands: before its first line nobody can.
+  /// Waits until the program handles SIGINT, at most about a second; before that a signal ends it
+  /// without a message.
   void until_it_listens() const {
     const auto about = std::filesystem::path("/proc") / std::to_string(pid_);
     for (int k = 0; k < 1000; ++k) {
       std::ifstream lines;
-      // before that it is still this test, whose handlers are its own
+      // between fork and exec the process is a copy of this test, with the test's handlers
       std::error_code error;
       if (std::filesystem::equivalent(about / "exe", GRIDSHELL_PROGRAM, error))
         lines.open(about / "status");
@@ -92,7 +93,7 @@ class Running {
     }
   }
 
-  /// Whether it ends within so many seconds; it is not waited for by that.
+  /// Whether the process ends within so many seconds; wait() has still to be called.
   bool ends_within(double seconds) const {
     const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
     for (;;) {
@@ -119,11 +120,11 @@ class Running {
   }
 
  private:
-  /// Processor time, in seconds, without that of programs that it started.
+  /// Processor time of the process so far, in seconds, without that of programs that it started.
   double cpu_so_far() const {
     std::ifstream file("/proc/" + std::to_string(pid_) + "/stat");
     std::string word;
-    // its name, in brackets, is the second word; utime and stime are the fourteenth and fifteenth
+    // the second word is the program's name in brackets, the 14th and 15th are utime and stime
     std::getline(file, word, ')');
     for (int k = 3; k < 14; ++k) file >> word;
     double user = 0, system = 0;
@@ -136,7 +137,7 @@ class Running {
     return from >= 0 && dup2(from, to) >= 0 && close(from) == 0;
   }
 
-  // what was printed; the file is removed, and the folder contains what the program left
+  /// Returns what was printed and removes the file, so that only the program's files remain.
   std::string take(const char* file) const {
     std::ostringstream text;
     text << std::ifstream(folder_ / file).rdbuf();
@@ -153,7 +154,7 @@ inline Ended gridshell_program(const Arguments& arguments, const std::filesystem
   return Running(arguments, folder).wait();
 }
 
-/// All files under a folder whose name ends so, sorted.
+/// All files and folders under `folder`, at any depth, whose names end with `ending`, sorted.
 inline std::vector<std::filesystem::path> files_under(const std::filesystem::path& folder,
                                                       const std::string& ending) {
   std::vector<std::filesystem::path> found;
@@ -165,7 +166,7 @@ inline std::vector<std::filesystem::path> files_under(const std::filesystem::pat
   return found;
 }
 
-/// Waits until `ready`, at most 50 seconds; whether it came.
+/// Waits until `ready()` is true, at most 50 seconds; returns its last value.
 template <class Ready>
 bool wait_until(Ready ready) {
   for (int k = 0; k < 5000; ++k) {

@@ -33,8 +33,7 @@ const std::map<std::string, Folders> may_see{
     {"engine",
      {"engine/footprint", "engine/solve", "engine/formats", "engine/preset", "engine/record",
       "engine/scene", "engine/simulate", "engine/study", "engine/design"}},
-    // the renderer knows pictures of a run, not how it was computed; canvas uses only images of gl
-    // gl
+    // the renderer reads the record of a run, not how it was computed; canvas uses images of gl
     {"render/gl", {"engine/record"}},
     {"render/canvas", {"render/gl"}},
     {"render/movie", {"render/gl", "render/canvas", "engine/record", "engine/preset"}},
@@ -78,7 +77,7 @@ TEST_CASE("the table of arrows has no cycle") {
   int arrows = 0;
   for (const auto& [folder, seen] : may_see) {
     height_of(height_of, folder, 0);
-    // all include core, and gridshell.h represents the engine
+    // includes of engine/core, and those in and of gridshell.h, are not counted
     if (folder != "engine") arrows += int(seen.size() - seen.count("engine"));
   }
   CHECK(arrows <= most_arrows);

@@ -1,4 +1,4 @@
-// What a user gets wrong: the exact sentence, exit code 2, and nothing left behind.
+// Wrong input: the program prints the exact message, ends with exit code 2 and writes no file.
 #include <iterator>
 
 #include "tests/app/bench.h"
@@ -68,7 +68,7 @@ TEST_CASE("a folder that is no run is not replaced") {
   const fs::path thesis = folder / "thesis";
   fs::create_directory(thesis);
   REQUIRE(write_file(thesis / "chapter.tex", "years of work"));
-  // and `check` says the same beforehand
+  // `check` reports the same error before anything runs
   for (const char* command : {"run", "check"}) {
     const auto ended = gridshell_program({command, "s1_actuation", "-o", "thesis"}, folder);
     CHECK(ended.code == 2);

@@ -1,4 +1,4 @@
-// What `gridshell check` says before anything runs.
+// Reports of `gridshell check`, before anything runs.
 
 #include "tests/app/bench.h"
 #include "tests/small_preset.h"

@@ -1,4 +1,4 @@
-// The commands from end to end on a shell small enough for seconds.
+// Complete runs of the commands, on a shell so small that they take seconds.
 #include <nlohmann/json.hpp>
 
 #include "render/gl/image.h"
@@ -15,14 +15,14 @@ const std::vector<std::string> data_files{"bins.csv",     "cells.csv",   "frames
                                           "joints.csv",   "preset.toml", "summary.json",
                                           "trajectory.h5"};
 
-// with a manifest, as the folder of a command has it
+// adds manifest.txt, which every folder of a command has, to names of files
 std::vector<std::string> listed(std::vector<std::string> names) {
   names.push_back("manifest.txt");
   std::sort(names.begin(), names.end());
   return names;
 }
 
-// but for movie.mp4, which is there where ffmpeg is
+// names in the folder, without movie.mp4, which exists only if ffmpeg is installed
 std::vector<std::string> files_in(const fs::path& folder) {
   auto names = names_in(folder);
   std::erase(names, "movie.mp4");
@@ -51,7 +51,7 @@ TEST_CASE("run writes a complete run folder and replaces the one before") {
   CHECK(frames_of(run).size() == 3);
   CHECK(json_of(run / "summary.json")["kind"] == "run");
   CHECK(json_of(run / "summary.json")["finished"] == true);
-  // what is not of the new run does not stay
+  // a movie replaces the run; a run does not replace the movie
   bench.good("movie small.toml");
   CHECK(json_of(run / "summary.json")["kind"] == "movie");
   CHECK(fs::exists(run / "frames"));
@@ -122,7 +122,7 @@ TEST_CASE("a turntable is the last state of a run, seen once around") {
   CHECK(text_of(frames[0]) != text_of(frames[2]));
   check_refused("movie out/run", bench.at,
                 Contains("the folder of a run") && Contains("gridshell render out/run"));
-  // again into the same folder, which is one of ours, and not into the run
+  // a turntable replaces the folder of a turntable, but not that of the run
   bench.good("movie out/run --turntable --frames 2 --size 160x120 --quiet");
   check_refused("movie out/run --turntable -o out/run", bench.at, Contains("out/run"));
   check_refused("movie out/run --turntable --frames 1", bench.at, Contains("expected 2 to"));
@@ -147,7 +147,7 @@ TEST_CASE("figure draws a still a radius and all in one", "[standard]") {
   const auto states = frames_of(bench.at / "run");
   REQUIRE(states.size() == 2);
   CHECK(states[1].boundary_radius_mm == Approx(42.0));
-  // its stills are drawn again as stills
+  // render draws the stills of a figure again as stills
   bench.good("render run -o again");
   CHECK(fs::exists(bench.at / "again/small_2.png"));
   CHECK_FALSE(fs::exists(bench.at / "again/frames"));
@@ -202,7 +202,7 @@ TEST_CASE("cases are shown side by side in one movie, drawn again by render") {
   bench.good({"movie", "small.toml", "-o", "run", "--set", "title=Two shells"});
   CHECK(files_in(bench.at / "run") ==
         listed({"far", "frames", "near", "preset.toml", "summary.json"}));
-  // the title over all of them too
+  // render draws the common title again, too
   bench.good("render run -o again");
   CHECK(text_of(bench.at / "run/frames/frame_00002.png") ==
         text_of(bench.at / "again/frames/frame_00002.png"));
@@ -242,7 +242,7 @@ TEST_CASE("check says what came of each file, and what may not be meant") {
                  Contains("stiffer than any material"));
   const auto joined = bench.good("check net.toml --set footprint.join_mm=0.01");
   CHECK_THAT(joined.out, Contains("4 rods, 4 joints, 8 supports") && !Contains("note"));
-  // what is refused may be so because of it
+  // the hint is part of a refusal as well, because the small gap may be its cause
   REQUIRE(write_file(bench.at / "net.obj", rods));
   check_refused("check net.toml", bench.at,
                 Contains("got a rod without a joint") && Contains("join_mm = 0.0088 joins them"));
@@ -292,7 +292,7 @@ TEST_CASE("compare reports equal or different by its exit code") {
   CHECK(gridshell_program("compare a.png a.png", folder).code == 0);
   const auto said = gridshell_program("compare a.png b.png --difference d.png", folder);
   CHECK(said.code == 3);
-  // one row of eight differs by 200
+  // one of eight rows differs by 200, so the mean of a block of eight differs by 25
   CHECK_THAT(said.out, Catch::StartsWith("different: ") && Contains("differs by 25.00"));
   CHECK(gridshell::render::read_png(folder / "d.png"));
   CHECK(gridshell_program("compare a.png b.png --threshold 26", folder).code == 0);
@@ -337,7 +337,7 @@ TEST_CASE("chart accuracy writes tables and pictures and reports how auto does",
                 "scaling.csv", "scaling.pdf", "scaling.png", "scaling.svg", "summary.json",
                 "unknowns.pdf", "unknowns.png", "unknowns.svg"}));
   CHECK(json_of(folder / "summary.json")["chart"] == "accuracy");
-  // maps are written next to it, and the next chart replaces them
+  // the folder of stability maps is next to that of accuracy; the next chart replaces it
   const auto maps = bench.good("chart stability small.toml --limit 0.05");
   CHECK_THAT(maps.out, Contains("default: ") && Contains(" 0 silently wrong"));
   CHECK(files_in(bench.at / "out/small_stability") ==
@@ -355,7 +355,7 @@ TEST_CASE("report puts a run into one PDF, with what it carries and how it sways
   const std::string pdf = text_of(bench.at / "out/small_report.pdf");
   CHECK_THAT(pdf, Catch::StartsWith("%PDF"));
   CHECK(pdf.size() > 20000);
-  // what is not known is said in it, and is no failure
+  // a report without frequencies, as the density is unknown, is no failure
   bench.good("run small.toml --set rod.density_kg_m3=0 -o out/light");
   bench.good("report out/light --to light.pdf");
   check_refused("report out/small --to out/small/report.pdf", bench.at,

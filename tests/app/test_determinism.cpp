@@ -9,7 +9,7 @@ namespace {
 struct Scene {
   const char *kind, *preset;
 };
-// one of each kind, on coarse meshes
+// a preset of each kind, run on coarse meshes
 constexpr Scene scenes[] = {{"circle", "s1_actuation"},    {"curve", "curve_ellipse"},
                             {"cap", "fig3_hemisphere"},    {"revolution", "net_barrel"},
                             {"assemblage", "fig5_peanut"}, {"push", "s3_pole_inward"},
@@ -23,7 +23,7 @@ fs::path run(const Scene& scene, const fs::path& at, const std::string& name,
   arguments.insert(arguments.end(), more.begin(), more.end());
   const auto ended = Running(arguments, at, program).wait();
   INFO(scene.kind << ": " << ended.err);
-  // a path that ends early, as one back to the flat may, has frames up to there
+  // a path that ends early (exit code 1) has frames up to its end
   REQUIRE(ended.code <= 1);
   return at / name;
 }
@@ -71,8 +71,8 @@ struct Figures {
   }
 };
 
-// comparison with this line of the table: other compilers and libraries round differently, so
-// hashes are not comparable
+// compares with the line of `kind` in the table to 1e-8: other compilers and libraries round
+// differently, so their hashes are not comparable
 void check_near(const Figures& now, const std::string& kept, const std::string& kind) {
   const std::string before = "\n" + kind + " height_mm energy_mJ ";
   const auto at = kept.find(before);
@@ -83,7 +83,7 @@ void check_near(const Figures& now, const std::string& kept, const std::string& 
   CHECK(now.energy_mJ == Approx(energy_mJ).epsilon(1e-8));
 }
 
-// joints and energies of two runs to 1e-9 of themselves
+// compares two runs: nodes to 1e-9 of the length scale, energies to 1e-9 of themselves
 void check_near(const fs::path& a, const fs::path& b) {
   const auto one = gridshell::record::read_trajectory(a / "trajectory.h5"),
              two = gridshell::record::read_trajectory(b / "trajectory.h5");
@@ -125,7 +125,7 @@ TEST_CASE("pictures have the same bits in every context", "[standard]") {
 
 TEST_CASE("golden hashes of all kinds of runs, the same on any number of threads", "[standard]") {
   const TemporaryFolder at;
-  // the C library's functions as they are on every x86-64, whichever this is
+  // on every processor the C library uses its functions for plain x86-64
   const Environment library("GLIBC_TUNABLES", "glibc.cpu.hwcaps=-AVX2,-AVX512F,-FMA,-FMA4");
   const bool again = std::getenv("GRIDSHELL_GOLDEN");
   const auto kept = text_of(table);
@@ -143,7 +143,7 @@ TEST_CASE("golden hashes of all kinds of runs, the same on any number of threads
     now += kind + " x86-64 " + hash_of(plain) + "\n";
     if (!has_clones || !runs_fast_clones()) continue;
     now += kind + " x86-64-v3 " + first + "\n";
-    // else it is one clone that ran twice
+    // equal hashes would mean that the same clone ran twice
     CHECK(first != hash_of(plain));
     check_near(fast, plain);
   }

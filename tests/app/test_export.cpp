@@ -1,4 +1,4 @@
-// `gridshell export`: every format of every thing, and what is refused.
+// `gridshell export`: every format of everything that it writes, and what it refuses.
 #include "tests/app/bench.h"
 
 TEST_CASE("export writes a run in every format, and what is for the workshop", "[s1]") {

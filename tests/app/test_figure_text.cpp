@@ -1,4 +1,5 @@
-// Limits for words and numbers of pictures: sizes, contrast, positions, the files of their run.
+// Texts of pictures: their size, contrast and position; every number in them is in a file of the
+// run.
 #include <cmath>
 #include <regex>
 #include <set>
@@ -18,13 +19,13 @@ namespace {
 
 constexpr double page_mm = 178;
 
-/// A line of words of an SVG.
+/// A line of text of an SVG.
 struct Words {
-  std::string text;     ///< what is raised or lowered is a space
+  std::string text;     ///< with a space instead of superscripts and subscripts
   std::string fill;     ///< "#1a1a1f"
   double size = 0;      ///< of its largest letters, in units of the picture
-  double x = 0, y = 0;  ///< where it begins
-  bool raised = false;  ///< some of it is raised or lowered
+  double x = 0, y = 0;  ///< where the text starts
+  bool raised = false;  ///< whether it has a superscript or a subscript
 };
 
 double number_after(const std::string& text, const std::string& before) {
@@ -132,7 +133,8 @@ std::vector<Printed> numbers_of(std::string text) {
   return found;
 }
 
-/// Sizes of all numbers of a run's files, but of its shapes, in which any number would be found.
+/// Absolute values of all numbers in a run's files, except joints.csv and cells.csv, whose numbers
+/// are so many that any number would be found.
 std::set<double> numbers_in_files(const fs::path& run) {
   std::set<double> all;
   for (const char* kind : {".csv", ".json", ".toml"})
@@ -153,8 +155,8 @@ std::set<double> numbers_in_files(const fs::path& run) {
   return all;
 }
 
-/// What a picture works out of frames.csv by a difference: the change of the total of K since the
-/// first frame in per cent, and what it lacks of 2 pi there.
+/// Numbers that pictures compute from total_K in frames.csv: its change since the first frame in
+/// per cent, and how much its first value differs from 2 pi.
 std::set<double> changes_of_K(const fs::path& run) {
   std::set<double> all;
   for (const fs::path& file : files_under(run, ".csv")) {
@@ -172,8 +174,8 @@ std::set<double> changes_of_K(const fs::path& run) {
   return all;
 }
 
-/// Largest distances from the net, of the joints and of the rods between them, in the unit of the
-/// picture: worked out of trajectory.h5.
+/// Largest deviations from the net, of all nodes and of the joints alone, in the unit of the
+/// picture, computed from trajectory.h5.
 std::set<double> deviations(const fs::path& run) {
   std::set<double> all;
   for (const fs::path& file : files_under(run, ".h5")) {
@@ -205,15 +207,15 @@ bool is_round_step(double step) {
                              [&](double one) { return std::abs(leading - one) < 1e-6; });
 }
 
-/// Whether a bare number is a tick's: with two others it is in a row or a column in which positions
-/// and values are in proportion, or with one other a round step away.
+/// Whether a bare number is the label of a tick: for two other numbers in its row or column,
+/// distance and difference of the values are in proportion, or one other is a round step away.
 bool is_tick(const Words& one, const std::vector<Words>& bare) {
   const auto value = [](const Words& words) {
     const double size = numbers_of(words.text).front().value;
     return std::isdigit((unsigned char)words.text.front()) ? size : -size;
   };
   for (const bool row : {true, false}) {
-    std::vector<double> units;  // of the picture a unit of the axis
+    std::vector<double> units;  // lengths in the picture per unit of the axis
     for (const Words& other : bare) {
       const bool aligned = row ? std::abs(other.y - one.y) < 0.5 : std::abs(other.x - one.x) < 30;
       const double step = value(other) - value(one);
@@ -246,7 +248,7 @@ TEST_CASE("every number in a figure is in a file of its run, to the digits print
         for (const Printed& number : numbers_of(words.text)) {
           INFO(file.filename() << ": " << words.text << ": " << number.text);
           const auto [value, half] = std::pair(number.value, number.half);
-          // in per cent of what the file says too
+          // a fraction in a file may be shown in per cent
           const bool found = holds(files, value, half) || holds(files, value / 100, half / 100) ||
                              holds(changes, value, half) || holds(off, value, half);
           CHECK((found || (is_bare(words) && is_tick(words, bare))));
@@ -275,7 +277,7 @@ TEST_CASE("a number that no file has is not found") {
 
 namespace {
 
-/// How many of the pixels around a box are not as white as paper.
+/// Fraction of the pixels on the outline of a box that are darker than paper.
 double ink_around(const render::Image& picture, const render::Box& box) {
   int inked = 0, all = 0;
   const auto look = [&](double x, double y) {
@@ -297,7 +299,7 @@ TEST_CASE("on a page no words lie over others, nor over what is drawn", "[shared
   for (int k = 1; k <= 5; ++k) {
     const TemporaryFolder folder;
     const fs::path stem = folder / page_of(k);
-    // as it is printed
+    // the page at its print size
     const std::vector<preset::Override> print{{"--width", "figure.width_mm", "178"},
                                               {"--dpi", "figure.dpi", "200"}};
     auto records = value_of(app::read_runs(shared_run(page_of(k)), print, false));

@@ -1,4 +1,5 @@
-// What a user would lose: folders that are no runs, links, closed streams, runs cut short.
+// Cases in which users could lose data: folders that are no runs, links, closed streams, unfinished
+// runs.
 #include <sys/stat.h>
 
 #include <nlohmann/json.hpp>
@@ -11,7 +12,7 @@ namespace {
 
 const std::string small = small_preset({.frames = 4});
 
-// runs a line of the shell, with `gridshell` as the program
+// runs a command line in the shell, in which `gridshell` is the program; returns its exit code
 int shell(const Bench& bench, const std::string& line) {
   const auto whole = "cd '" + bench.at.string() + "' && gridshell() { '" + GRIDSHELL_PROGRAM +
                      "' \"$@\"; } && " + line;
@@ -70,7 +71,7 @@ TEST_CASE("where memory is short a command ends with a sentence, wherever it run
     // GLib ends the process by itself, with a sentence of its own, where it cannot make a thread
     const bool by_glib = said.find("GLib-ERROR") != std::string::npos;
     CHECK((code <= 1 || by_glib));
-    // the last are the words of the loader, of a library that has no room
+    // "failed to map segment" is the message of the loader if a library does not fit
     if (code == 1)
       CHECK_THAT(said,
                  Contains("memory") || Contains("cannot") || Contains("failed to map segment"));
@@ -88,7 +89,8 @@ TEST_CASE("on a disk that is full commands say so and leave what was there") {
   REQUIRE(write_file(bench.at / "visit", "do save_preset\n"));
   REQUIRE(write_file(bench.at / "sweep.toml",
                      shown + "[sweep]\nover = {footprint.radius_mm = [100, 101]}\n"));
-  // what differs from what is expected, a line each; 60 kB are enough for pictures, not for data
+  // the script prints a line for everything that is not as expected; 60 kB are enough for pictures,
+  // not for data
   REQUIRE(write_file(bench.at / "full.sh", R"sh(
 gridshell() { "$PROGRAM" "$@"; }
 mount -t tmpfs -o size=8m tmpfs disk && cd disk && cp ../small.toml . &&
@@ -175,7 +177,7 @@ TEST_CASE("frames of a run that was cut short are drawn, and it says that it is 
   CHECK(summary["kind"] == "movie");
   CHECK(summary["preset"] == "small");
   CHECK(summary["energy_bend_mJ"] > 0);
-  // all of a run's files are there now, of the frames found
+  // all files of a run are written now, with the frames that were found
   const auto frames = text_of(bench.at / "r.partial-7/frames.csv");
   CHECK(std::count(frames.begin(), frames.end(), '\n') == 4);
   CHECK_FALSE(fs::exists(bench.at / "r.partial-7/frames.journal"));
@@ -266,7 +268,7 @@ TEST_CASE("meshes that do not fit into memory are refused with what they would t
                   Contains("2 edges per segment") && Contains("unknowns, take about") &&
                       Contains("more than the 0.0001 GB of [accuracy] memory_GB"));
   }
-  // a plan in metres with the spacing of a model
+  // the radius is that of a building, the spacing that of a model
   check_refused(
       {"check", "small.toml", "--set", "footprint.rods=202", "--set", "footprint.radius_mm=2200",
        "--set", "actuation.radius_mm=2000", "--set", "accuracy.memory_GB=0.0001"},
@@ -290,7 +292,7 @@ TEST_CASE("a picture larger than any of ours is not read") {
   }
   sum = ~sum;
   for (int shift = 24; shift >= 0; shift -= 8) bytes += char(sum >> shift);
-  // and the beginning of its pixels, at which a header ends
+  // the start of the pixel data, at which a reader of the header ends
   bytes += std::string("\0\0\0\4IDAT", 8);
   REQUIRE(write_file(bench.at / "bomb.png", bytes));
   check_refused("compare bomb.png bomb.png", bench.at,
@@ -323,7 +325,7 @@ TEST_CASE("a run folder of version 0.1 is drawn, and replaced as a run") {
   CHECK(files_under(bench.at / "drawn/frames", ".png").size() == 2);
   const auto summary = nlohmann::json::parse(text_of(bench.at / "drawn/summary.json"));
   CHECK(summary["energy_bend_mJ"] > 1.8);
-  // what it did not say is unknown
+  // values that version 0.1 did not write are unknown
   CHECK(summary["energy_load_mJ"].is_null());
   CHECK(summary["finished"] == true);
   check_refused("render old --set movie.colour_by=axial_force", bench.at,

@@ -1,4 +1,4 @@
-// The program's pictures against those that were looked at and kept in tests/images.
+// The program's pictures compared with those in tests/images, which were looked at and saved.
 #include <map>
 
 #include "render/gl/image.h"
@@ -37,7 +37,7 @@ void check_kept(const std::string& name, const fs::path& drawn) {
   CHECK(ended.code == 0);
 }
 
-/// What lies between the window's panels.
+/// The part of a picture between the window's panels.
 render::Image middle(const render::Image& all) {
   const int left = all.width * 9 / 20, top = all.height / 10;
   render::Image part(all.width * 3 / 10, all.height * 3 / 4);
@@ -46,9 +46,10 @@ render::Image middle(const render::Image& all) {
   return part;
 }
 
-/// Another ImGui has other widgets, by pixels, and its sliders go elsewhere under the same mouse.
+/// Compares pictures of the window with the saved ones. Other versions of ImGui draw other widgets
+/// and move a slider to another value under the same mouse.
 void check_kept_window(const fs::path& drawn) {
-  const std::string imgui = "1.86";  // of the kept pictures
+  const std::string imgui = "1.86";  // version that drew the saved pictures
   if (imgui == GRIDSHELL_IMGUI) return check_kept("window", drawn);
   WARN("ImGui " << GRIDSHELL_IMGUI << ", kept pictures are of " << imgui
                 << ": only what lies between the panels is compared, after no slider was dragged");
@@ -96,7 +97,7 @@ TEST_CASE("every kind of picture and visit of the window looks as kept", "[share
 
 TEST_CASE("every picture is the same in either context", "[full][shared]") {
   const TemporaryFolder at;
-  // by the processor too
+  // EGL draws by the processor, too, as OSMesa does
   setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
   for (const std::string context : {"osmesa", "egl"}) {
     for (const auto& [name, arguments] : list()) {
@@ -117,7 +118,8 @@ TEST_CASE("every picture is the same in either context", "[full][shared]") {
 
 TEST_CASE("another rasteriser's width, another processor, a finer tolerance look the same",
           "[full]") {
-  // not LP_NATIVE_VECTOR_WIDTH=128: with AVX Mesa 22 then frees memory twice; sse2 has it
+  // LP_NATIVE_VECTOR_WIDTH=128 is left out: with AVX Mesa 22 then frees memory twice; the variation
+  // sse2 has that width
   for (const char* variation :
        {"LP_NATIVE_VECTOR_WIDTH=256", "LP_NUM_THREADS=0", "GALLIUM_OVERRIDE_CPU_CAPS=nosse",
         "GALLIUM_OVERRIDE_CPU_CAPS=sse2", "GALLIUM_OVERRIDE_CPU_CAPS=sse4.1",

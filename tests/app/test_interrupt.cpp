@@ -1,4 +1,4 @@
-// Ctrl-C, SIGTERM, SIGKILL and a full disk in the middle of a real movie: what is left is whole.
+// Ctrl-C, SIGTERM, SIGKILL and a full disk during a real movie: the files that remain are complete.
 #include <fmt/format.h>
 
 #include "engine/core/json.h"
@@ -57,7 +57,7 @@ TEST_CASE("a picture that takes long does not delay Ctrl-C", "[alone]") {
 
 TEST_CASE("Ctrl-C before anything is finished leaves nothing", "[alone]") {
   const TemporaryFolder folder;
-  // its path alone, before the first frame, takes a second and more
+  // the path, which is computed before the first frame, takes more than a second
   const Running running(
       "run s1_actuation --set accuracy.edges_per_segment=64 --set footprint.rods=20 --set "
       "footprint.radius_mm=206 --set actuation.radius_mm=155 --frames 5000",
@@ -137,7 +137,7 @@ TEST_CASE("a run that another build began is not continued") {
   const auto begun_by = [&](const std::string& build) {
     REQUIRE(write_file(left / "segments/version", build));
   };
-  // of the same version
+  // the version alone is not enough, and another build of the same version is refused
   begun_by(gridshell::version());
   check_refused("run small.toml --resume", bench.at, Contains("begun by another build"));
   begun_by(gridshell::version() + std::string(" 0123456789abcdef"));
@@ -187,7 +187,7 @@ fs::path killed_with(std::size_t least, std::size_t most, const std::vector<std:
 TEST_CASE("of a run that is killed near its end nearly all frames are drawn", "[standard]") {
   const TemporaryFolder folder;
   fs::path partial;
-  // where the machine leaves this test no time while the last frames are written, it is run again
+  // on a busy machine the run may pass the range before it is stopped; then it is started again
   for (int k = 0; k < 20 && partial.empty(); ++k) {
     for (const auto& left : fs::directory_iterator(folder.path())) fs::remove_all(left);
     partial = killed_with(216, 239,
@@ -212,7 +212,7 @@ TEST_CASE("a full disk fails with 1 and leaves nothing half-written under a fina
   const TemporaryFolder folder;
   Ended ended;
   {
-    // the program inherits it: not one frame fits
+    // the program inherits this limit, into which not one frame fits
     const FileSizeLimit disk(100000);
     ended = gridshell_program("run s1_actuation", folder);
   }

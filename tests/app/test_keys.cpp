@@ -1,4 +1,4 @@
-// Every key of the field table is read by something: a key that does nothing is a lie to its user.
+// Every key of the field table must have an effect: one without would mislead its user.
 #include <map>
 #include <regex>
 #include <set>
@@ -13,7 +13,7 @@ using namespace gridshell::preset;
 
 namespace {
 
-// what a person reads in the file itself
+// keys that only people read, in the file itself
 const std::set<std::string> for_people{"description"};
 
 // where the member has another name than the key, or is computed from it
@@ -28,8 +28,8 @@ const std::map<std::string, std::string> member_names{{"points_mm", "points"},
                                                       {"material", "young_GPa"},
                                                       {"ratio", "actuated_radius_mm"}};
 
-// the members that are reached for in sources that work with presets, but for those that read,
-// check and write the keys themselves
+// names of the members that are used in sources that work with presets, without engine/preset,
+// which reads, checks and writes the keys themselves
 std::set<std::string> members_read() {
   static const std::regex member("(?:\\.|->)([A-Za-z_]\\w*)");
   std::set<std::string> found;
@@ -45,7 +45,7 @@ std::set<std::string> members_read() {
   return found;
 }
 
-// another value than the default
+// gives the field another value than its default
 void change(const Field& field, Preset& preset) {
   if (auto* real = field.as<double>(preset)) *real += 1;
   if (auto* number = field.as<int>(preset)) *number += 1;
@@ -91,7 +91,7 @@ bool same(const render::MovieStyle& a, const render::MovieStyle& b) {
                       l.range, l.cells, l.rings, l.floor, l.shadow, l.loads, l.braces, l.ghost,
                       l.sheen, l.far_fade, l.letters);
   };
-  // what counts with bins alone is not written without them
+  // to_toml writes bins_range only if there are bins
   return movie(a) == movie(b) && a.bins_range == b.bins_range && beside(a) == beside(b) &&
          look(a.look) == look(b.look);
 }
@@ -99,8 +99,8 @@ bool same(const render::MovieStyle& a, const render::MovieStyle& b) {
 }  // namespace
 
 TEST_CASE("every key of [movie] and [style] changes how a movie looks, those of [figure] a still") {
-  // the number of frames, whether cases are in one picture and what more files are made belong to
-  // the movie, not to its style; the font is that of the whole process
+  // the number of frames, whether cases are in one picture and which other files are made belong to
+  // the movie, not to its style; the font is that of the process
   const std::set<std::string> elsewhere{"frames", "beside", "webm", "gif", "poster", "font"};
   const std::set<std::string> stills{"quality", "scale_bar_mm", "width_mm", "vector"};
   for (const auto& field : field_table()) {
@@ -119,7 +119,7 @@ TEST_CASE("every key of [movie] and [style] changes how a movie looks, those of 
 TEST_CASE("every member of a preset has a key") {
   const fs::path folder = fs::path(GRIDSHELL_SOURCE_DIR) / "engine/preset";
   const std::string header = text_of(folder / "preset.h") + text_of(folder / "pictures.h");
-  // what follows :: or . in the tables
+  // names that follow :: or . in the tables
   std::set<std::string> named;
   const std::regex member("(?:::|\\.)(\\w+)");
   for (const char* ending : {".cpp", ".h"})
@@ -146,8 +146,8 @@ TEST_CASE("every member of a preset has a key") {
 }
 
 TEST_CASE("every key of joints, ends and loads excludes the model net, which has none of them") {
-  // the first counts for spring joints alone, the second for surfaces with rings, the next two for
-  // scans, then one with gravity and in motion, the others for load cases
+  // the first matters for spring joints alone, the second for surfaces with rings, the next two for
+  // scans, the fifth with gravity and in motion, the others for load cases
   const std::set<std::string> harmless{"stiffness_N_per_mm", "rings",          "diameter_mm",
                                        "height_mm",          "mass_g",         "snow_N_m2",
                                        "wind_N_m2",          "pressure_N_m2",  "wind_deg",

@@ -1,4 +1,4 @@
-// The words of every preset's pictures: none leaves its panel or meets another, at any size or
+// Texts in the pictures of every preset: none leaves its panel or overlaps another, at any size or
 // zoom.
 #include <mutex>
 #include <utility>
@@ -22,7 +22,7 @@ using namespace gridshell::render;
 
 namespace {
 
-// a run with all that a caption can speak of
+// a run with everything that a caption can name: bins, a push, an unstable frame, events
 record::Trajectory eventful(bool pushed) {
   record::Trajectory run = synthetic::dome(9, 1);
   for (std::size_t k = 0; k < run.frames.size(); ++k) {
@@ -40,7 +40,7 @@ record::Trajectory eventful(bool pushed) {
   return run;
 }
 
-/// Draws, and checks that texts are separate from each other and from markers, and on the picture.
+/// Draws, and checks that no text overlaps another or a marker, or leaves the picture.
 void check_words(double width, double height, const DrawOn& draw) {
   draw_picture(width, height, 1, {}, [&](Canvas& canvas) {
     draw(canvas);
@@ -50,7 +50,7 @@ void check_words(double width, double height, const DrawOn& draw) {
 
 using Sizes = std::vector<std::pair<int, int>>;
 
-/// The words of every preset's frames and stills, in its own size and others.
+/// Checks the texts of every preset's frames and stills, in the preset's size and in others.
 void check_words_of_all(const Sizes& sizes, const std::vector<double>& zooms,
                         const std::vector<int>& frames) {
   for (const auto& embedded : app::embedded_presets()) {
@@ -118,7 +118,7 @@ TEST_CASE("in what `figure` and `movie` make of every preset no text meets anoth
   for (const auto& embedded : app::embedded_presets())
     for (const auto pictures : {app::Pictures::stills, app::Pictures::movie}) {
       const bool states = app::load_preset(embedded.name, {})->base.jitter.requested();
-      if (states && pictures == app::Pictures::movie) continue;  // there is none of it
+      if (states && pictures == app::Pictures::movie) continue;  // states have no movie
       const TemporaryFolder folder;
       app::Options options;
       options.input = embedded.name;
@@ -142,7 +142,7 @@ TEST_CASE("in what `figure` and `movie` make of every preset no text meets anoth
           words += canvas.texts().size();
         });
         const int code = app::report(app::produce(options, pictures));
-        // some end early, which is not what is looked at here
+        // some paths end early on this coarse mesh, which does not matter for their texts
         CHECK(code <= app::ExitCode::failed);
       }
       CHECK(words > 5);

@@ -1,4 +1,4 @@
-// What the program says of itself: JSON, completion, manual page, the bar of its progress.
+// Descriptions of the program by itself: JSON, completion, manual page; the bar of its progress.
 #include <cmath>
 #include <set>
 
@@ -14,7 +14,7 @@ using namespace gridshell;
 
 namespace {
 
-/// What bash would offer for the last of these words.
+/// Completions that bash offers for the last of these words.
 std::set<std::string> offered(const std::vector<std::string>& words, const fs::path& at) {
   std::ofstream(at / "completion") << app::bash_completion();
   std::ofstream script(at / "try.sh");

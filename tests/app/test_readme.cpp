@@ -1,4 +1,4 @@
-// What the READMEs say is what the program does.
+// The pages agree with the program, and their links lead to something.
 #include <set>
 
 #include "engine/preset/preset_file.h"
@@ -8,7 +8,7 @@ namespace {
 
 const fs::path root = GRIDSHELL_SOURCE_DIR;
 
-// All pages, by their names from the top on.
+// Paths of all pages, relative to the top folder.
 std::vector<fs::path> documents() {
   std::vector<fs::path> found{"README.md", "CONTRIBUTING.md", "CHANGELOG.md"};
   for (const char* folder : {"app", "engine", "presets", "render"})
@@ -17,7 +17,7 @@ std::vector<fs::path> documents() {
   return found;
 }
 
-// What GitHub calls the section of that title.
+// The anchor that GitHub gives to a section of that title.
 std::string anchor_of(const std::string& title) {
   std::string anchor;
   for (const char c : title)

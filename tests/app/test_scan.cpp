@@ -57,11 +57,11 @@ TEST_CASE("a scan of a run shows that run, with its joints, its picture and what
   CHECK(std::ranges::count(csv, '\n') == 1 + shell.joints.cols());
   for (const char* name : {"scan.png", "measured.csv", "manifest.txt"})
     CHECK(fs::exists(out / name));
-  // once more into the same folder, which is one of ours
+  // a scan replaces the folder of a scan
   CHECK(gridshell_program("scan cloud.csv run --quiet --size 320x240", at).code == 0);
   CHECK(gridshell_program("check s1_actuation --set figure.scan=out/cloud_scan/measured.csv", at)
             .code == 0);
-  // another state alone is none
+  // a cloud of another state than the only given one fits nothing
   const auto other = gridshell_program("scan cloud.csv wide --size 320x240 -o other", at);
   CHECK(other.code == 3);
   CHECK_THAT(other.out, Contains("other: does not show wide\n"));
@@ -76,7 +76,7 @@ TEST_CASE("a scan of a run shows that run, with its joints, its picture and what
                  Contains("with --set joints.height_mm=7.5") && Contains("it shows run"));
   CHECK(parsed(text_of(at / "high" / "scan.json"))["joint_height_that_fits_mm"].get<double>() ==
         Approx(7.5).margin(0.1));
-  // the joints themselves, taken for tops
+  // centres of the joints, which are taken for the tops of their cylinders
   write_cloud(shell.joints, at / "joints.csv");
   const auto centres = gridshell_program("scan joints.csv run --size 320x240 -o centres", at);
   CHECK(centres.code == 3);

@@ -13,7 +13,7 @@ namespace {
 
 StagedFolder staged_at(const fs::path& run) { return value_of(StagedFolder::create(run, "run")); }
 
-// what a finished run leaves: its files, and the list of them
+// makes the folder of a finished run: its files and their list, the manifest
 void make_run(const fs::path& run) {
   REQUIRE(make_folder(run / "frames"));
   REQUIRE(write_file(run / "summary.json", "old"));
@@ -85,7 +85,7 @@ TEST_CASE("what is kept stays under its partial name, without half-written files
 }
 
 TEST_CASE("only a run or an empty folder may be replaced, and what prevents it is named") {
-  // what lies in the folder, over a run where `whole`; a name that ends in / is a folder
+  // files of the folder, added to those of a run if `whole`; a name that ends in / is a folder
   struct Standing {
     bool whole;
     std::vector<std::pair<std::string, std::string>> files;
@@ -203,7 +203,7 @@ TEST_CASE("what appears under the final name meanwhile is not destroyed") {
 TEST_CASE("a folder that was left behind is neither taken over nor lost") {
   const TemporaryFolder folder;
   const auto run = folder / "run";
-  // process ids come again
+  // an earlier process may have had the same id
   auto before = run;
   before += ".partial-" + std::to_string(getpid());
   REQUIRE(make_folder(before / "frames"));
@@ -211,7 +211,7 @@ TEST_CASE("a folder that was left behind is neither taken over nor lost") {
   auto staged = staged_at(run);
   CHECK(staged.path() != before);
   CHECK(fs::is_empty(staged.path()));
-  // its own is being written, so it is not one of those left behind
+  // the folder of `staged` is being written, so it is not left behind
   CHECK(app::left_behind(run) == std::vector<fs::path>{before});
   REQUIRE(staged.commit());
   CHECK_FALSE(fs::exists(run / "frames"));
@@ -222,7 +222,7 @@ TEST_CASE("an old run that cannot be removed is named, and the new one is comple
   const TemporaryFolder folder;
   const auto run = folder / "run";
   make_run(run);
-  // root may remove everything: as somebody else, who owns it all
+  // root may remove everything, so the test acts as another user, who owns all of it
   const bool root = geteuid() == 0;
   const uid_t nobody = 65534;
   if (root) {

@@ -1,4 +1,4 @@
-// A search for states from end to end, on a shell small enough for seconds.
+// Complete searches for states, on shells so small that they take seconds.
 #include "app/cli/preset_library.h"
 #include "tests/app/bench.h"
 #include "tests/results.h"
@@ -62,7 +62,7 @@ TEST_CASE("states and a finished sweep's phase diagram are on one page", "[stand
   CHECK_THAT(page, Contains("longest leg") && !Contains("names no sweep"));
   CHECK(fs::exists(at / "again/page_page.pdf"));
   CHECK(fs::exists(at / "again/page_page_drawn.svg"));
-  // a folder without one, and one that is not finished
+  // a folder without a sweep, and a sweep that is not finished
   const auto refused = [&](const std::string& named) {
     const Ended ended = gridshell_program(
         {"render", "out/page_figure", "-o", "not", "--quiet", "--set", "page.sweep=" + named}, at);

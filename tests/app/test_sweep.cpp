@@ -1,4 +1,4 @@
-// `gridshell sweep` as a user runs it: killed, spread, gathered, attacked.
+// `gridshell sweep`: with several jobs, killed, in shards that are merged, with wrong requests.
 #include <random>
 
 #include "tests/app/bench.h"
@@ -24,7 +24,7 @@ std::size_t lines_in(const fs::path& file) {
   return std::size_t(std::count(text.begin(), text.end(), '\n'));
 }
 
-/// What must be the same however a sweep was computed.
+/// Contents of the files that must be equal however a sweep was computed; empty if one is missing.
 std::vector<std::string> products(const fs::path& folder, std::vector<std::string> names = {
                                                               "sweep.csv", "preset.toml",
                                                               "height_mm.png", "height_mm.svg"}) {
@@ -37,15 +37,15 @@ Ended sweep(const TemporaryFolder& folder, std::vector<std::string> arguments) {
   return gridshell_program(arguments, folder);
 }
 
-/// It ends well.
+/// Runs the sweep and requires exit code 0.
 void done(const TemporaryFolder& folder, const std::vector<std::string>& arguments) {
   const Ended ended = sweep(folder, arguments);
   INFO(ended.err);
   REQUIRE(ended.code == 0);
 }
 
-/// Kills the sweep into cut/ `kills` times, each after `least` to `least` + `range` milliseconds;
-/// complete lines of its log do not move. Returns the final log.
+/// Kills the sweep into cut/ `kills` times, each after `least` to `least` + `range` milliseconds,
+/// and requires that complete lines of its log remain. Returns the final log.
 std::string killed_at_random(const fs::path& folder, int kills, unsigned seed, unsigned least,
                              unsigned range) {
   std::mt19937 random(seed);
@@ -104,7 +104,7 @@ TEST_CASE("shards merge to the same bytes as the whole") {
   done(folder, {"-o", "parts", "--shard", "2/3"});
   done(folder, {"-o", "parts", "--merge"});
   CHECK(products(folder / "parts") == products(folder / "whole"));
-  // gathered twice is gathered once
+  // a second merge changes nothing
   done(folder, {"-o", "parts", "--merge"});
   CHECK(lines_in(folder / "parts/sweep.jsonl") == 8);
 }
@@ -133,7 +133,7 @@ footprint.rods = [4, 6]
   };
   done(at, {"-o", "whole", "--jobs", "1"});
   for (const auto& text : found("whole")) CHECK_FALSE(text.empty());
-  // four times -9 at random moments, then Ctrl-C once a point is there
+  // killed four times at random moments, then stopped by Ctrl-C after one more point
   const auto log = at / "cut/sweep.jsonl";
   killed_at_random(at, 4, 2, 50, 200);
   const std::size_t there = std::max<std::size_t>(1, lines_in(log));

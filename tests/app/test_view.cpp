@@ -1,5 +1,5 @@
-// The interface driven off-screen by recorded input: what happened in the engine, and what was
-// drawn.
+// The interface driven off-screen by recorded input: the state of the engine afterwards, and what
+// was drawn.
 #include <fmt/format.h>
 
 #include <random>
@@ -14,13 +14,14 @@ using gridshell::words_in;
 
 namespace {
 
-/// A key of both has one value, to that fraction of it.
+/// Checks that a key has the same value in both, to that fraction of it.
 void check_same(const json& a, const json& b, const char* key, double fraction = 1e-9) {
   INFO(key);
   CHECK(number(a, key) == Approx(number(b, key)).epsilon(fraction));
 }
 
-/// Result of `run` on the saved preset, which has the energy that was reported of the shell.
+/// Runs the preset that the window saved, checks that its energy is the reported one, and returns
+/// the summary of the run.
 json run_of_kept(const TemporaryFolder& folder, const json& reported) {
   const Ended ran = good("run kept/small_1.toml -o ran", folder);
   json summary = json::parse(text_of(folder / "ran/summary.json"));
@@ -102,7 +103,7 @@ TEST_CASE("an edge point dragged by the mouse, a key and a menu's action do what
       played(folder, "do view_top\n" + drag({"@edge:3 0 0", "@edge:3 8 6", "@edge:3 5 4"}));
   CHECK(dragged["undo_steps"] == 1);
   CHECK(dragged["held"] == 0);
-  // its steps are a preset that does it again
+  // the saved preset has these steps, and a run of it repeats them
   const json saved =
       played(folder,
              "do view_top\n" + drag({"@edge:3 0 0", "@edge:3 8 6"}) + "do jitter\ndo save_preset\n",
@@ -162,7 +163,7 @@ TEST_CASE(
       "[net]\nkind = \"sphere\"\nradius_mm = 80.0\ncut_height = 0.5\n"
       "[actuation]\nstart = \"net\"\n[inverse]\nvary = [\"pins\"]\n";
   const TemporaryFolder folder;
-  // a panel that comes up with the preset; diameters too
+  // the panel appears with the preset; diameters are varied, too
   const std::string design =
       click("@vary_diameters 0.05 0.5") + "down Ctrl\ndown D\nup D\nup Ctrl\n";
   const json begin = played(folder, "wait 0.1\n", {}, cap);
@@ -241,7 +242,7 @@ TEST_CASE("a shell is saved under a name, exported, and compared with a run", "[
   REQUIRE(write_file(folder / "small.toml", shell));
   fs::create_directory(folder / "scanned");
   good("run small.toml -o ran", folder);
-  // a path where a file is requested
+  // types a path into the prompt for a file and enters it
   const auto entered = [](const std::string& path) {
     return "wait 0.1\n" + click("@file_path 0.5 0.5") + "down Ctrl\ndown A\nup A\nup Ctrl\ntype " +
            path + "\n" + enter;
@@ -263,14 +264,14 @@ TEST_CASE("a shell is saved under a name, exported, and compared with a run", "[
                      "i,j,x_mm,y_mm,z_mm,distance_mm,distance_radii\n0,0,0,0,99,,\n1,0,,,,,\n"));
   CHECK_THAT(played(folder, "do compare\n" + entered("scanned"))["message"].get<std::string>(),
              Contains("compared with scanned: largest distance") && Contains("joint (0, 0)"));
-  // both are of the shell as it was pushed
+  // the OBJ and the preset are of the pushed shell
   CHECK(text_of(folder / "deep/mine.obj").find("\nv ") != std::string::npos);
   good("run deep/mine.toml -o again", folder);
   check_same(json::parse(text_of(folder / "again/summary.json")), reported, "height_mm");
   // an existing file is replaced only after a second request
   const json requested = played(folder, "do save_as\n" + entered("deep/mine"));
   CHECK(requested["message"] == "it is there already: once more replaces it");
-  // a name that no file system takes is a sentence too, bare and in a folder
+  // a name that no file system accepts is refused in a sentence, with and without a folder
   for (const std::string& name : {std::string(300, 'x'), "deep/" + std::string(300, 'x')})
     CHECK_THAT(played(folder, "do save_as\n" + entered(name))["message"].get<std::string>(),
                Contains("File name too long"));
@@ -296,7 +297,7 @@ TEST_CASE("a click on a step with an event that is in sight shows the state befo
   CHECK(lost["negative_pivots"].get<int>() > 0);
   const json before = played(folder, lose + click("@step_1 0.5 0.5"));
   CHECK((before["negative_pivots"] == 0 && before["redo_steps"] == 1));
-  // and the key goes to where it is lost from anywhere
+  // the key B goes to the loss of stability from any state
   const json found = played(folder, "open s1_actuation\ndown B\nup B\n");
   CHECK(found["negative_pivots"].get<int>() > 0);
 }
@@ -349,7 +350,7 @@ TEST_CASE("a movie of what was done is made in the background, and a picture of 
   CHECK(fs::exists(folder / "kept/small_1/frames/frame_00001.png"));
   const json made = json::parse(text_of(folder / "kept/small_1/summary.json"));
   check_same(made, reported, "energy_bend_mJ");
-  // the preset that it is of runs by itself
+  // the preset of the movie is a valid preset of its own
   CHECK(gridshell_program("check kept/small_1.toml", folder).code == 0);
 }
 
@@ -380,7 +381,7 @@ TEST_CASE("the shell alone is drawn off-screen, with its legend or bare") {
 
 TEST_CASE("without a display the window says what to do instead") {
   const TemporaryFolder folder;
-  // whatever display there is, it is none of this
+  // no display has this name
   const Environment display("DISPLAY", ":nowhere");
   const Ended ended = gridshell_program("view", folder);
   CHECK(ended.code == 1);

@@ -1,4 +1,4 @@
-// A run as it lies there when it was killed.
+// Makes the folder of a run that was killed.
 #pragma once
 
 #include <catch2/catch.hpp>

@@ -12,7 +12,7 @@ using nlohmann::json;
 inline const std::string shell =
     small_preset({.rods = 6, .radius_mm = 66, .actuated_mm = 54, .edges = 0, .frames = 2});
 
-/// What the program says at the end of a recording played on a small shell.
+/// Plays a recording on a small shell; returns the report that the program prints at its end.
 inline json played(const TemporaryFolder& folder, const std::string& input,
                    const std::vector<std::string>& more = {}, const std::string& preset = shell) {
   REQUIRE(write_file(folder / "small.toml", preset));
@@ -23,8 +23,8 @@ inline json played(const TemporaryFolder& folder, const std::string& input,
   return json::parse(ended.out);
 }
 
-// Lines of a recording: a press of the left button at a position, a drag between two positions, a
-// text that replaces a field's and is entered.
+// Lines of a recording: a click of the left button at a position, a drag over several positions,
+// the key Enter, a text that is typed instead of that of a field (without Enter).
 inline std::string click(const std::string& place) {
   return "mouse " + place + "\npress left\nrelease left\n";
 }

@@ -1,4 +1,4 @@
-// What the program may say when it is attacked.
+// Checks of the program's messages and files after an attack.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,8 @@
 #include "tests/app/program.h"
 #include "tests/temporary_folder.h"
 
-/// A sentence of the program's, not of a library's, that steers no terminal.
+/// Checks that the error message is the program's own, not a library's, and has no control
+/// characters.
 inline void check_told(const Ended& ended) {
   INFO(ended.err.substr(0, 2000));
   CHECK_FALSE(ended.err.empty());
@@ -18,7 +19,8 @@ inline void check_told(const Ended& ended) {
   CHECK(std::ranges::all_of(ended.err, [](unsigned char c) { return c == '\n' || c >= 0x20; }));
 }
 
-/// Ends what does not end by itself by that signal, and if need be by force.
+/// Waits so many seconds for the end of the process. Then sends the signal, checks that it is
+/// answered within 5 s (SIGKILL counts as not answered), and kills the process if not.
 inline Ended ended_within(const Running& running, double seconds, int signal) {
   if (!running.ends_within(seconds)) {
     running.signal(signal);
@@ -32,7 +34,7 @@ inline Ended ended_within(const Running& running, double seconds, int signal) {
   return running.wait();
 }
 
-/// Removes what an attack left in the folder: `may` says what it may leave.
+/// Removes everything from the folder but the names `there`; checks that `may` allows each name.
 template <class May>
 void clear(const TemporaryFolder& folder, std::initializer_list<const char*> there,
            const May& may) {

@@ -37,7 +37,7 @@ std::string repeated(const std::string& word, std::size_t count) {
   return text;
 }
 
-// what a number, a word or a list should never be
+// a value that is extreme, of a wrong type, malformed or very long
 std::string hostile_value(Draw& draw) {
   static const auto values = listed(
       R"(0 | -0.0 | 1 | -1 | 2 | 3 | 7.5 | 1e-320 | 5e-324 | 1e-300 | 1e-160 | 1e-12 | 1e-5 | )"
@@ -85,7 +85,7 @@ void change_value(Lines& lines, Draw& draw) {
   }
 }
 
-// a number of it, a little or far from what it was
+// multiplies the first number of a line by a factor from 0.01 to 10
 void scale_value(Lines& lines, Draw& draw) {
   for (int tries = 0; tries < 20; ++tries) {
     std::string& line = lines[some_line(lines, draw)];
@@ -105,7 +105,7 @@ void scale_value(Lines& lines, Draw& draw) {
   }
 }
 
-// a key under its own table, which may exist already
+// sets a key in its table, which is added if it is missing
 void add_key(Lines& lines, Draw& draw) {
   const Field& field = draw.of(gridshell::preset::field_table());
   const auto value = draw.one_in(2) ? fitting_value(field, draw) : hostile_value(draw);
@@ -157,7 +157,7 @@ void add_tables(Lines& lines, Draw& draw) {
        }});
 }
 
-// what is no TOML any more, and perhaps no text
+// damages the text, so that it may be neither TOML nor UTF-8
 void damage(std::string& text, Draw& draw) {
   const auto put_in = [&](const std::string& what) {
     text.insert(draw.below(text.size() + 1), what);

@@ -1,5 +1,5 @@
-// Run folders from somebody else, with every kind of damage, through `render` and `compare`: an
-// answer in time, nothing written but the requested files, memory within bounds.
+// Damaged run folders, as somebody else may have made them, through `render` and `compare`: these
+// must end in time, write only the requested files and use little memory.
 #include <fmt/format.h>
 #include <sys/stat.h>
 
@@ -23,7 +23,7 @@ namespace {
 const std::string small =
     small_preset({.rods = 2, .radius_mm = 25, .actuated_mm = 22, .width = 48, .height = 32});
 
-// adds the checksum as trajectory_file.cpp does: the damage is intended
+// adds the checksum as trajectory_file.cpp does, so that the reader gets past it to the damage
 std::string sealed(const std::string& hdf5) {
   const auto sum = gridshell::Checksum::of(hdf5, gridshell::ChecksumKind::crc32);
   auto checksum =
@@ -32,7 +32,7 @@ std::string sealed(const std::string& hdf5) {
   return checksum + hdf5;
 }
 
-// a link that leads in a circle is no file that one could ask about
+// symlink_status, because a link that leads in a circle has no status
 bool is_plain(const fs::path& file) {
   return fs::symlink_status(file).type() == fs::file_type::regular;
 }
@@ -42,9 +42,9 @@ fs::path some_file(const fs::path& run, Draw& draw) {
   std::vector<fs::path> plain;
   for (const auto& file : files)
     if (is_plain(file)) plain.push_back(file);
-  // half of the attacks on what is read
-  // an earlier damage may have left nothing of its own kind
+  // an earlier damage may have left no regular file
   if (plain.empty()) return run / "preset.toml";
+  // half of the attacks are on the files that the program reads
   for (const char* name : {"trajectory.h5", "summary.json", "preset.toml", "frames.journal"})
     if (draw.one_in(6) && is_plain(run / name)) return run / name;
   return draw.of(plain);

@@ -1,5 +1,5 @@
-// Hostile presets through `check` and `run`: an answer in time, an exit code of the table, a
-// sentence that names the file, memory under its budget, nothing left behind.
+// Hostile presets through `check` and `run`: these must end in time, with a documented exit code
+// and a message that names the file, use little memory and leave nothing behind.
 #include <sys/stat.h>
 
 #include <map>
@@ -13,8 +13,8 @@ using gridshell::write_file;
 
 namespace {
 
-// what takes too long answers a signal, within a second where the machine is its own
-// (tests/app/test_interrupt.cpp)
+// a command that takes too long must answer a signal; that it does so within a second is tested in
+// tests/app/test_interrupt.cpp
 Ended run_and_stop(const std::vector<std::string>& arguments, const fs::path& folder,
                    double seconds) {
   return ended_within(Running(arguments, folder), seconds, SIGINT);
@@ -33,7 +33,7 @@ TEST_CASE("hostile presets are answered", "[standard][presets]") {
     const auto preset = hostile_preset(draw);
     INFO("trial " << trial);
     REQUIRE(write_file(at / "hostile.toml", preset));
-    // to look at one that fails
+    // saves the presets, so that one that fails can be looked at
     if (const char* keep = std::getenv("GRIDSHELL_KEEP"))
       REQUIRE(write_file(fs::path(keep) / (std::to_string(trial) + ".toml"), preset));
     const auto seen = run_and_stop({"check", "hostile.toml"}, at, 20);
@@ -45,7 +45,7 @@ TEST_CASE("hostile presets are answered", "[standard][presets]") {
       check_told(seen);
       CHECK(seen.err.find("hostile") != std::string::npos);
     }
-    // all that may run, and some of what may not
+    // runs all presets that `check` accepts, and some that it refuses
     if (seen.code != 0 && !draw.one_in(20)) continue;
     const auto run = run_and_stop({"run", "hostile.toml", "--frames", "2", "--quiet", "-o", "out",
                                    "--set", "accuracy.memory_GB=0.4"},
@@ -55,7 +55,7 @@ TEST_CASE("hostile presets are answered", "[standard][presets]") {
     CHECK((run.code == 0 || run.code == 1 || run.code == 2 || run.code == 130));
     CHECK(run.peak_MB < allowed_MB);
     if (run.code != 0) check_told(run);
-    // whatever `run` refuses, `check` refuses
+    // both refuse the same presets, but `run` has less memory
     if (seen.code == 2) CHECK(run.code == 2);
     if (seen.code == 0 && run.code == 2) CHECK(run.err.find("memory_GB") != std::string::npos);
     CHECK((run.code == 0 || run.code == 1 || !fs::exists(at / "out")));

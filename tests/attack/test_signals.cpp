@@ -1,4 +1,4 @@
-// Signals at any moment of every command: an answer, an exit code of the table, and nothing lost.
+// Signals at any moment of every command: it must end with a documented exit code and lose nothing.
 #include <algorithm>
 #include <map>
 
@@ -18,7 +18,7 @@ namespace {
 const std::string small =
     small_preset({.edges = 0, .frames = 24, .width = 320, .height = 180, .quality = "movie"});
 
-// what was finished is whole, and what was not bears a partial name
+// checks that files with final names are complete
 void check_left(const fs::path& folder, bool killed) {
   for (const auto& file : files_under(folder, "")) {
     INFO(file);
@@ -67,7 +67,7 @@ TEST_CASE("signals at any moment are answered, and nothing is lost", "[standard]
     ++codes[ended.code];
     const bool killed = number == SIGKILL;
     CHECK((ended.code == 0 || ended.code == (killed ? 128 + SIGKILL : 130)));
-    // done, or as it was
+    // the old folder is replaced by a complete one, or unchanged
     CHECK(gridshell::app::why_not_a_run(at / "old").empty());
     if (ended.code != 0 && !killed) CHECK(contents(at / "old") == before);
     check_left(at, killed);

@@ -1,4 +1,4 @@
-// How many attacks a test draws, and from which seed: few in the suite, any number by a variable.
+// Random attacks: their number (few in the suite, any by a variable) and their seed.
 #pragma once
 
 #include <cstdio>
@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-/// The words between " | ".
+/// The parts of the text between " | ".
 inline std::vector<std::string> listed(const std::string& text) {
   std::vector<std::string> words;
   for (std::size_t at = 0, end = 0; end != text.npos; at = end + 3) {
@@ -25,8 +25,8 @@ inline int trials(int few) {
   return requested ? std::atoi(requested) : few;
 }
 
-/// Draws, the same ones from the same seed (GRIDSHELL_SEED, or 1) and number of the trial: one that
-/// fails is drawn again alone.
+/// Random numbers that depend only on the seed (GRIDSHELL_SEED, or 1) and the number of the trial,
+/// so that a trial that fails can be repeated alone.
 class Draw {
  public:
   explicit Draw(int trial) {
@@ -46,7 +46,7 @@ class Draw {
   const T& of(const std::vector<T>& all) {
     return all[below(all.size())];
   }
-  /// Does one of them; one that is listed twice is drawn twice as often.
+  /// Calls one of the functions; one that is listed twice is chosen twice as often.
   void one_of(std::initializer_list<std::function<void()>> ways) {
     ways.begin()[below(ways.size())]();
   }
@@ -55,7 +55,7 @@ class Draw {
   std::mt19937_64 random_;
 };
 
-/// Reports exit codes and their counts, if more than the few attacks were requested.
+/// Prints exit codes and their counts, if GRIDSHELL_TRIALS is set.
 inline void tell(const std::map<int, int>& codes, const std::string& whose) {
   if (!std::getenv("GRIDSHELL_TRIALS")) return;
   std::printf("%s:", whose.c_str());

@@ -22,7 +22,7 @@ struct Case {
   const char* name;
   DrawQuality quality;
   std::vector<double> ms = {};
-  std::unique_ptr<Renderer> renderer = nullptr;  // of its own: a movie keeps its targets
+  std::unique_ptr<Renderer> renderer = nullptr;  // one per case, as each movie has its own
 };
 
 void measure(Context& context, int width, int height, int frames, Figures& figures) {

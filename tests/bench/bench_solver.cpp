@@ -205,8 +205,8 @@ void growth(Figures& figures) {
   }
 }
 
-/// A hand that draws the boundary in from 0.95 to 0.76 R_o by one per cent a time, each state on
-/// meshes of 4, 8, 16 edges.
+/// An interactive drag of the boundary from 0.95 to 0.76 R_o in steps of one per cent, each state
+/// on meshes of 4, 8, 16 edges.
 void drag(Figures& figures) {
   for (int n : {12, 24}) {
     const Case c = circle(n);

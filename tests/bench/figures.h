@@ -1,4 +1,4 @@
-// What a bench measures: CPU time; lines for a reader, or with --json an object for
+// CPU time that a bench measures, and its output: lines for a reader, or with --json an object for
 // tests/bench/compare.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace gridshell {
 
-/// CPU time of this process, of all its threads, s.
+/// CPU time of all threads of this process, s.
 inline double cpu_now() {
   timespec t{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
@@ -40,14 +40,14 @@ class Figures {
   Figures(const Figures&) = delete;
   Figures& operator=(const Figures&) = delete;
 
-  /// The other arguments.
+  /// The arguments except --json.
   const std::vector<std::string>& words() const { return words_; }
   std::FILE* lines() const { return json_ ? stderr : stdout; }
   template <class... Values>
   void say(fmt::format_string<Values...> line, Values&&... values) const {
     fmt::print(lines(), line, std::forward<Values>(values)...);
   }
-  /// A line for a figure, with a remark on it.
+  /// Adds a figure and prints a line for it, with a remark.
   void tell(const std::string& name, double value, const char* remark) {
     say("{:40} {:8.2f} ({})\n", name, value, remark);
     add(name, value);

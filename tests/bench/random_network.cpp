@@ -9,7 +9,7 @@
 namespace gridshell::bench {
 namespace {
 
-/// A line of a family: x . normal = offset, and its joints by how far along it they lie.
+/// A line of a family, x . normal = offset, and its joints with their positions along it.
 struct Line {
   Eigen::Vector2d normal;
   double offset = 0;
@@ -32,8 +32,9 @@ std::vector<Line> random_lines(RandomDraw& draw, double spacing) {
   return lines;
 }
 
-/// Rods along lines that cross inside an ellipse, each with a leg outside its outer joints, with
-/// heights of a dome; returns how many of the points are joints.
+/// Adds rods along random lines to the file. Joints are the crossings inside an ellipse, at the
+/// heights of a dome; each rod has a leg outside its outer joints. The first points of the file are
+/// the joints; returns their number.
 int lay_rods(RandomDraw& draw, double spacing, double rise, preset::NetworkData& file) {
   std::vector<Line> lines = random_lines(draw, spacing);
   const Eigen::Array2d half(spacing * draw.between(1.6, 3.2), spacing * draw.between(1.6, 3.2));

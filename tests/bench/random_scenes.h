@@ -9,15 +9,15 @@
 
 namespace gridshell::bench {
 
-/// Values drawn at random, the same ones from the same generator on every machine: the standard
-/// library's distributions differ from one to another.
+/// Random values that depend on the generator alone and are the same on every machine, unlike those
+/// of the standard library's distributions.
 class RandomDraw {
  public:
   explicit RandomDraw(std::mt19937& random) : random_(random) {}
   double between(double low, double high) {
     return low + (high - low) * double(random_() >> 5) / double(1 << 27);
   }
-  /// From `low` to `high`, both among them.
+  /// An integer from `low` to `high`, both included.
   int integer(int low, int high) { return std::min(int(between(low, high + 1)), high); }
   bool once_in(int n) { return integer(1, n) == 1; }
 
@@ -43,7 +43,7 @@ constexpr auto words(SceneKind) {
       {{SceneKind::revolution, "cylinder and saddle"}, {SceneKind::rods, "rods and ends"}});
 }
 
-/// A network, flat or in space, its joints and ends of one kind or of several.
+/// Makes `p` a random network, flat or in space, with joints and ends of one kind or of several.
 void random_network(RandomDraw& draw, preset::Preset& p);
 
 /// A preset of that kind, with 4 to 14 rods per direction and a tolerance of 1e-2 to 1e-4; the same

@@ -1,4 +1,4 @@
-// Random scenes of every kind: what a run says is true.
+// Random scenes of every kind: none of their runs reports a wrong result as right.
 #include "tests/bench/trust_study.h"
 
 #include <set>

@@ -16,10 +16,10 @@ using simulate::ExperimentResult;
 
 constexpr int frames = 5, fine_frames = 9, other_frames = 8;
 
-/// One run, and what the program would exit with.
+/// A run, and the exit code that the program would have.
 struct Trial {
   std::optional<ExperimentResult> outcome;
-  std::string refused;  ///< why there is none
+  std::string refused;  ///< why there is no outcome
   int exit = 0;
   bool too_slow = false;
 
@@ -61,22 +61,22 @@ Trial try_scene(preset::Preset preset, int count, bool fine, const TrustOptions&
   return trial;
 }
 
-/// A frame that is no shell and does not say so: rods that stretch where they should bend, or a
-/// state that is not stable without a word.
+/// Whether a frame cannot be that of a shell and does not report it: its rods stretch instead of
+/// bending, or the state is not stable and the frame has no event.
 bool unphysical(const record::Frame& frame) {
   if (frame.negative_pivots > 0 && frame.event.empty()) return true;
   const double bend = frame.energies[Term::bend], stretch = frame.energies[Term::stretch];
   return stretch > 0.2 * bend + 1e-3;
 }
 
-/// Largest distance of the joints of two frames over the length scale.
+/// Largest distance between equal joints of two frames, over the length scale.
 double distance(const ExperimentResult& a, const record::Frame& in_a, const record::Frame& in_b) {
   const Eigen::Index joints = Eigen::Index(a.trajectory.layout.joints.size());
   return (in_a.nodes.leftCols(joints) - in_b.nodes.leftCols(joints)).colwise().norm().maxCoeff() /
          a.trajectory.layout.length_scale_mm;
 }
 
-/// The error that is the most times its estimate.
+/// Finds the error that is largest relative to its estimate.
 class WorstError {
  public:
   WorstError(double& error, double& estimate, double least)
@@ -107,15 +107,16 @@ double off_energies(const record::Frame& a, const record::Frame& b) {
   return largest;
 }
 
-constexpr double least_error = 1e-5;  // of forces and energies: below is what a residual leaves
+constexpr double least_error = 1e-5;  // of forces and energies: smaller ones are residuals
 
-/// The frame of both runs whose error is largest relative to its estimate.
+/// Stores in the row the errors that are largest relative to their estimates, over all frames that
+/// both runs have.
 void compare(const ExperimentResult& requested, const ExperimentResult& fine, TrustRow& row) {
   WorstError joints(row.error, row.estimate, 1e-9);
   WorstError forces(row.force_error, row.force_estimate, least_error);
   WorstError energies(row.energy_error, row.energy_estimate, least_error);
   const double scale_mm = requested.trajectory.layout.length_scale_mm;
-  // flat rods store no energy: forces and energies are over the largest of the run
+  // forces and energies are relative to the largest of the run, because those of flat rods are 0
   double force = 0, energy = 0;
   for (const record::Frame& other : fine.trajectory.frames) {
     if (other.largest_force_N > force) force = other.largest_force_N;
@@ -126,7 +127,7 @@ void compare(const ExperimentResult& requested, const ExperimentResult& fine, Tr
       if (std::abs(frame.progress - other.progress) > 1e-9) continue;
       // where the path ended early the frames are of other states
       if (frame.event == "locking" || other.event == "locking") continue;
-      // the finer one, by which it is judged, is not exact either
+      // the finer run is not exact either, so half of its estimate is added
       joints.take(distance(requested, frame, other),
                   (frame.error_estimate_mm + 0.5 * other.error_estimate_mm) / scale_mm);
       forces.take(off_forces(frame, other) / force,
@@ -164,7 +165,7 @@ TrustClass judge(const Trial& requested, const Trial& fine, const Trial& other, 
 
 TrustScene judged(int index, const TrustOptions& options, const Watch& watch) {
   const auto kind = options.kind.value_or(SceneKind(index % int(SceneKind::network)));
-  // a generator a scene, so that any scene can be drawn by itself
+  // one generator per scene, so that any scene can be made alone
   std::mt19937 random{std::uint32_t(options.seed) * 100003u + std::uint32_t(index)};
   TrustScene scene;
   scene.preset = random_preset(kind, random);
@@ -182,7 +183,7 @@ TrustScene judged(int index, const TrustOptions& options, const Watch& watch) {
   scene.row.doubt = requested.doubted();
   scene.row.found = judge(requested, fine, other, scene.row);
   scene.preset.movie.frames = frames;
-  // why, for whoever opens the preset
+  // the description is the reason why the run ended
   scene.preset.description =
       requested.outcome ? requested.outcome->summary.limit_reason : requested.refused;
   return scene;

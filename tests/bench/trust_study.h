@@ -1,6 +1,6 @@
-// How reliable the reports of a run are: random scenes of every kind, solved with defaults and on
-// meshes of another family (5, 10, 20 edges per segment instead of 4, 8, 16), with load steps of
-// half the size, an eighth of the tolerance and other numbers of frames.
+// How reliable the reports of a run are: random scenes of every kind are solved by default, again
+// with another number of frames, and finer: on meshes of another family (5, 10, 20 edges per
+// segment instead of 4, 8, 16), with load steps of half the size and an eighth of the tolerance.
 #pragma once
 
 #include <optional>
@@ -15,17 +15,17 @@
 
 namespace gridshell::bench {
 
-/// Comparison of the default's result with the finer one.
+/// Outcome of the comparison of the default run with the finer one.
 enum class TrustClass {
   right,                 ///< the same states, within twice the estimate
   estimate_small,        ///< the same states, their distance more than twice the estimate
   other_branch,          ///< another state without a reported event: silently wrong
   after_snap,            ///< another state after a reported snap
   doubted,               ///< another state, with a report that its coarsest meshes disagree
-  limited,               ///< both ended before their end, and said so
-  limited_only_default,  ///< only the default did
-  inner_unphysical,      ///< a frame that is no shell, and does not say so
-  frame_dependent,       ///< another number of frames ended elsewhere
+  limited,               ///< both paths ended early, with a message
+  limited_only_default,  ///< only the path of the default run ended early
+  inner_unphysical,      ///< a frame cannot be that of a shell, and does not report it
+  frame_dependent,       ///< with another number of frames the last state is another
   refused,               ///< the scene was refused with a reason
   too_slow,              ///< stopped at the time limit
 };
@@ -40,8 +40,9 @@ struct TrustRow {
   TrustClass found = TrustClass::right;
   double error =
       record::unknown;  ///< largest distance of a joint in a frame of both, over the length scale
-  double estimate = record::unknown;  ///< what that frame said of it
-  /// likewise of the reactions, over the largest, and of the energies, over their sum
+  double estimate = record::unknown;  ///< error estimate of that frame
+  /// error and estimate of reactions, over the largest of the run, and of energies, over the
+  /// largest bending energy of the run
   double force_error = record::unknown, force_estimate = record::unknown;
   double energy_error = record::unknown, energy_estimate = record::unknown;
   int exit_default = 0, exit_fine = 0;
@@ -63,20 +64,20 @@ void fields(Row& row, const Visit& visit) {
 }
 
 struct TrustOptions {
-  int scenes = 600;                 ///< of all kinds in turn, networks left out
-  std::optional<SceneKind> kind{};  ///< of this one alone
+  int scenes = 600;                 ///< of all kinds in turn, except networks
+  std::optional<SceneKind> kind{};  ///< if given, the only kind of scenes
   int seed = 1;
   double seconds = 20;  ///< a longer run is too slow
   int threads = 2;
 };
 
-/// A scene judged, and the preset that runs it again.
+/// The outcome of a scene, and the preset that runs it again.
 struct TrustScene {
   TrustRow row;
   preset::Preset preset;
 };
 
-/// Errors: cancelled.
+/// Makes, runs and judges the scenes, in parallel. Errors: cancelled.
 Result<std::vector<TrustScene>> trust_study(const TrustOptions& options, Watch& watch);
 
 }  // namespace gridshell::bench

@@ -1,4 +1,4 @@
-// Calls of the system, allocations and solves that fail on order, in this program alone.
+// Makes system calls, allocations, factorisations and solves of this program fail on request.
 #pragma once
 
 #include <string>
@@ -6,10 +6,10 @@
 /// What can be made to fail.
 enum class Call { write, rename, mkdir, allocation, factorisation, solve };
 
-/// From now on counts calls of this kind, and fails the k-th of them (from 1): a write as on a full
-/// disk, a factorisation with a pivot that is zero, a solve with numbers that are none, the others
-/// as they fail. The calls after it succeed again; 0 fails none.
+/// Counts calls of this kind from now on, and makes the k-th of them (from 1) fail: a write as on a
+/// full disk, a factorisation as one that is not usable, a solve with NaN as its result. The calls
+/// after it succeed again; with k = 0 none fails.
 void fail_call(Call kind, long k);
 
-/// How many calls of the kind there were since fail_call.
+/// The number of calls of the kind since fail_call.
 long calls_counted();

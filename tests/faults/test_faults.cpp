@@ -1,5 +1,5 @@
-// Every write, rename, mkdir, solve and allocation of a small run fails once: the old run is
-// complete, or the new one is there, and whatever else is left is complete too.
+// Every write, rename, mkdir and solve of a small run fails once, and a thousand allocations: then
+// the old run is unchanged or the new one is complete, and so is whatever else is left.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -31,8 +31,8 @@ namespace {
 const std::string small = small_preset(
     {.rods = 2, .radius_mm = 25, .actuated_mm = 22, .frames = 2, .width = 48, .height = 32});
 
-/// what the program does, in a process of its own; its exit code, or 128 + the signal that ended
-/// it, and how many calls it made
+/// result of the program in a process of its own: its exit code, or 128 + the signal that ended it,
+/// and the number of calls that it made
 struct Outcome {
   int code = 0;
   long calls = 0;
@@ -52,7 +52,7 @@ Outcome produce_failing(const fs::path& folder, app::Pictures pictures, Call kin
     options.output = "run";
     options.threads = 1;
     int code = 99;
-    // as the program does first of all
+    // the program does this first, too
     app::install_terminate_handler();
     fail_call(kind, k);
     try {
@@ -75,7 +75,7 @@ Outcome produce_failing(const fs::path& folder, app::Pictures pictures, Call kin
   return outcome;
 }
 
-/// no file under a final name is half-written
+/// checks that no file with a final name is half-written
 void check_whole(const fs::path& folder) {
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     const auto& path = entry.path();
@@ -105,7 +105,7 @@ class Bench {
     return all.calls;
   }
 
-  /// fails the k-th, and looks at what is left
+  /// makes the k-th call fail, and checks the files that are left
   void try_out(Call kind, long k) const {
     INFO("kind " << int(kind) << ", call " << k);
     // the old run has another title, which distinguishes the two
@@ -147,7 +147,7 @@ class Bench {
     const auto state = record::read_summary(at_ / "run/summary.json").value();
     CHECK(state.finished);
     CHECK(state.stable);
-    // the last corrections, which take off round-off alone, may be what failed
+    // the last corrections, which remove round-off alone, may have failed
     CHECK(state.residual_N < 1e-5);
     CHECK(state.energies.total() == Approx(state_.energies.total()).epsilon(1e-9));
   }

@@ -1,12 +1,12 @@
-# The fuzz targets: with libFuzzer where the compiler is clang and GRIDSHELL_FUZZ is on (the CMake
-# preset `fuzz`), a program each; else as tests over the kept corpus.
+# The fuzz targets: with GRIDSHELL_FUZZ (the CMake preset `fuzz`, which needs clang) a program with
+# libFuzzer for each; otherwise tests over the saved corpus.
 #   cmake --preset fuzz && cmake --build --preset fuzz
 #   build-fuzz/fuzz_preset -max_total_time=300 corpus tests/fuzz/corpus/preset
 file(GLOB fuzz_sources CONFIGURE_DEPENDS tests/fuzz/*.cpp tests/fuzz/*.h)
 list(FILTER fuzz_sources EXCLUDE REGEX "/(libfuzzer|test_replay)\\.cpp$")
 
 if(GRIDSHELL_FUZZ)
-  # what reads, and no more of the engine
+  # the sources that read files, and no more of the engine
   find_package(tomlplusplus REQUIRED)
   find_package(nlohmann_json REQUIRED)
   pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5-serial)

@@ -17,14 +17,14 @@ namespace {
   std::abort();
 }
 
-/// Refused, with its reason.
+/// Whether the result is an error; aborts if the error has no message.
 template <class T>
 bool refused(const Result<T>& result, const std::string& text) {
   if (!result && result.error().message.empty()) complain("refused without a word", text);
   return !result;
 }
 
-/// The first line, which is taken off.
+/// Removes the first line from the bytes and returns it.
 std::string name_before(std::string_view& bytes) {
   const auto end = bytes.find('\n');
   std::string name(bytes.substr(0, end));
@@ -32,7 +32,7 @@ std::string name_before(std::string_view& bytes) {
   return name;
 }
 
-/// As columns.
+/// Points as the columns of a matrix.
 template <class Points>
 Eigen::Matrix3Xd columns(const Points& points) {
   Eigen::Matrix3Xd all(3, Eigen::Index(points.size()));
@@ -76,7 +76,7 @@ void cloud(std::string_view bytes) {
 }
 
 void surface(std::string_view bytes) {
-  constexpr std::size_t largest = 50;  // vertices: what comes after is tried by tests
+  constexpr std::size_t largest = 50;  // vertices; larger surfaces are slow, and fitted by tests
   const std::string name = name_before(bytes);
   const auto read = preset::read_surface(bytes, name);
   if (refused(read, name)) return;

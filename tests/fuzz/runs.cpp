@@ -19,7 +19,7 @@ namespace {
 
 using namespace gridshell::record;
 
-/// Takes directions from the input until it ends; zeros after that.
+/// Takes numbers from the input until it ends, and zeros after that.
 class Directions {
  public:
   explicit Directions(std::string_view bytes) : left_(bytes) {}
@@ -76,7 +76,7 @@ hid_t some_type(Directions& in) {
   return compound;
 }
 
-/// numbers of the file's own kind, or of another, in another shape
+/// replaces a dataset by one of a random type and shape
 void replace(hid_t file, const char* name, Directions& in) {
   H5Ldelete(file, name, H5P_DEFAULT);
   const hid_t type = some_type(in);
@@ -99,13 +99,13 @@ void replace(hid_t file, const char* name, Directions& in) {
   H5Tclose(type);
 }
 
-/// some bytes of a dataset of numbers
+/// overwrites some bytes of a dataset of numbers
 void overwrite(hid_t file, const char* name, Directions& in) {
   const hid_t set = H5Dopen2(file, name, H5P_DEFAULT);
   if (set < 0) return;
   const hid_t type = H5Dget_type(set), space = H5Dget_space(set);
   const auto kind = H5Tget_class(type);
-  // none of a dataset that an earlier change has broken
+  // an earlier change may have made the dataset huge; then no bytes are read
   const hssize_t there = H5Sget_simple_extent_npoints(space), count = there < 100000 ? there : 0;
   std::vector<std::uint8_t> bytes(count > 0 ? std::size_t(count) * H5Tget_size(type) : 0);
   const bool plain = kind == H5T_INTEGER || kind == H5T_FLOAT || kind == H5T_COMPOUND;
@@ -133,7 +133,7 @@ void look_at(const Trajectory& run) {
     if (frame.nodes.size() > 0 && frame.nodes(0, 0) == 0.125) std::fputs("", stderr);
 }
 
-/// the sample, as a file that can be changed
+/// the bytes of the sample trajectory without its checksum
 const std::string& sample_file() {
   static const std::string bytes = [] {
     const TemporaryFolder folder;

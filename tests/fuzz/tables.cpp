@@ -1,4 +1,4 @@
-// The tables of searches, the logs of sweeps, and pictures.
+// Targets of the tables of searches, the logs of sweeps, and pictures.
 #include <fmt/format.h>
 
 #include <array>
@@ -15,7 +15,7 @@ namespace {
 
 using namespace gridshell::record;
 
-/// Removes the text before the next `end`, and `end` with it.
+/// Removes the text before the next `end`, and `end` with it; returns the text.
 std::string_view taken(std::string_view& bytes, std::string_view end) {
   const auto at = bytes.find(end);
   const auto part = bytes.substr(0, at);
@@ -39,7 +39,8 @@ void states(std::string_view bytes) {
 }
 
 void sweep_log(std::string_view bytes) {
-  // a checksum that nobody guesses would keep all out: it is put under each line that has none
+  // a fuzzer cannot guess checksums, without which every line is refused: lines that have none get
+  // theirs
   std::string text;
   while (!bytes.empty()) {
     std::string line(taken(bytes, "\n"));

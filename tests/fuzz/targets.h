@@ -1,6 +1,6 @@
-// Fuzz targets: each reads untrusted bytes, and must neither crash nor take more than little memory
-// and time. Built in two forms: with libFuzzer (`cmake --preset fuzz`), and as tests that replay
-// the corpus in tests/fuzz/corpus/<name>.
+// Fuzz targets: each reads untrusted bytes, and must neither crash nor take much memory or time.
+// Built in two forms: with libFuzzer (`cmake --preset fuzz`), and as tests that replay the corpus
+// in tests/fuzz/corpus/<name>.
 #pragma once
 
 #include <unistd.h>
@@ -14,7 +14,7 @@
 
 namespace gridshell::fuzz {
 
-/// One input; what it is called in the corpus.
+/// A fuzz target, and its name in the corpus.
 struct Target {
   const char* name;
   void (*read)(std::string_view bytes);
@@ -27,8 +27,8 @@ void preset(std::string_view bytes);
 void points(std::string_view bytes);
 /// A surface in a file whose name is the first line; a mesh that is read is checked and fitted.
 void surface(std::string_view bytes);
-/// A network of rods in a file whose name is the first line; one that is read must read again from
-/// its own text.
+/// A network of rods in a file whose name is the first line; one that is read must pass its own
+/// check, and is made a footprint if it can be.
 void network(std::string_view bytes);
 /// A cloud of points in a file whose name is the first line.
 void cloud(std::string_view bytes);
@@ -36,8 +36,8 @@ void cloud(std::string_view bytes);
 void summary(std::string_view bytes);
 /// frames.journal, all of its frames
 void journal(std::string_view bytes);
-/// Directions for changing a trajectory.h5 object by object, then read. The library's own parser is
-/// not for us to harden: damaged structures are tried in a process of their own.
+/// Changes of a trajectory.h5 object by object, which is then read. HDF5's own parser is not tested
+/// here: the program reads damaged files in a process of their own.
 void trajectory(std::string_view bytes);
 /// states.csv, states.json, transitions.csv and barriers.csv of one folder, separated by lines of
 /// =====.

@@ -1,4 +1,4 @@
-// Every input that a fuzzer kept, and every one that once did harm, is read again.
+// Every input that a fuzzer saved, and every one that once did harm, is read again.
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <filesystem>

@@ -1,8 +1,9 @@
 #!/bin/sh
-# tests/images/draw.sh PROGRAM FOLDER [NAME...]: makes what list.txt says of each NAME anew, a whole run with
-# its pictures in FOLDER/NAME and what the program says of it in FOLDER/NAME.txt. The name `window` stands for
-# what the window shows at the end of each visit that is recorded in visits: FOLDER/window/VISIT.png. Without
-# names all of them, with $OPTIONS for the program. To keep the pictures:
+# tests/images/draw.sh PROGRAM FOLDER [NAME...]: runs the program with the arguments that list.txt has for
+# each NAME. The run with its pictures is written to FOLDER/NAME, what the program prints to FOLDER/NAME.txt.
+# For the name `window` it draws what the window shows at the end of each visit recorded in visits:
+# FOLDER/window/VISIT.png. Without names it makes all of them. The program also gets the options of $OPTIONS.
+# To make the pictures the new references:
 #   PROGRAM compare tests/images FOLDER --selected --update --why "..."
 set -e
 program=$1 folder=$2 here=$(dirname "$0")

@@ -1,6 +1,6 @@
 // A made-up actuation for tests of pictures: the paper's circular footprint (R_o 126 mm, 12 + 12
-// rods, d 20 mm) drawn in to 94.5 mm as a smooth dome with two dimples. Geometry alone: no
-// equilibrium.
+// rods, d 20 mm) contracted to 94.5 mm as a smooth dome with two dimples. It is geometry alone, not
+// an equilibrium.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ inline double height(double u, double v, double scale) {
   return h * (1 - r2) * (1 - 1.6 * dimple);
 }
 
-/// Gauss curvature of a cell, integrated, by differences of the height over the drawn-in plane.
+/// Gauss curvature of a cell, integrated, by differences of the height over the contracted plane.
 inline double cell_curvature(double u, double v, double scale) {
   const double e = 0.5, s = scale;
   const auto z = [&](double du, double dv) { return height(u + du, v + dv, s); };
@@ -34,11 +34,11 @@ inline double cell_curvature(double u, double v, double scale) {
   return (zxx * zyy - zxy * zxy) / std::pow(metric, 1.5) * spacing * spacing * s * s;
 }
 
-/// The trajectory, `frames` evenly spaced states from flat to drawn in; frame 2/3 of the path names
-/// an event.
+/// The trajectory, `frames` evenly spaced states from flat to contracted; the frame at two thirds
+/// of them names an event.
 inline record::Trajectory dome(int frames = 24, int edges_per_segment = 8) {
   record::Trajectory run;
-  // that of the default preset; of what a run contains in addition, it has nothing
+  // the layout of the default preset, without sizes of joints, families and supports
   const Scene scene = scene_of(preset::Preset{}).value();
   const RodMesh mesh = mesh_rods(scene.footprint, edges_per_segment);
   run.layout = simulate::layout_of(scene, mesh).value();

@@ -1,5 +1,5 @@
-// Every method on either side of the edge of its stability, as the maps draw it, on a shell small
-// enough for every build.
+// Every method at parameters on both sides of its limit of stability, as in the maps, on a shell
+// small enough for every build.
 #include "engine/study/benchmark_methods.h"
 #include "engine/study/method_studies.h"
 #include "tests/presets.h"
@@ -112,7 +112,7 @@ TEST_CASE("stability: the default promises the tolerance of the joints, and keep
     CHECK(at.right(default_solver, tolerance, 3));
     wrong += !at.right("full steps", tolerance, 3);
   }
-  // which of them depends on how sums round
+  // which of them are wrong depends on how sums round
   CHECK(wrong > 0);
 }
 
@@ -145,7 +145,7 @@ TEST_CASE("stability: the judge distinguishes states, whatever a method says") {
   Eigen::Matrix3Xd broken = problem.end.x;
   broken(0, 0) = NAN;
   CHECK(verdict_at_end(*study, problem, broken, near) == RunOutcome::silent_wrong);
-  // what a method admits is believed
+  // an outcome that a method itself reports is accepted
   MethodResult admitted;
   admitted.claim = RunOutcome::blow_up;
   admitted.x = problem.end.x;

@@ -1,4 +1,4 @@
-"""What other processes take, and pictures after a fork."""
+"""Changes as tables, states and reports that other processes receive, pictures after a fork."""
 import os
 import pickle
 import runpy

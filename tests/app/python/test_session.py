@@ -1,4 +1,4 @@
-"""Shells held in Python: their states are the program's, their arrays stay what they are."""
+"""Sessions: their states are those of the program, and arrays of a state never change."""
 import gc
 import os
 import signal
@@ -21,7 +21,7 @@ def small(**more):
 
 @pytest.fixture(scope="module")
 def formed():
-    """One formed shell for all tests that only look, or go back."""
+    """One formed shell for all tests that only read it, or restore its state."""
     session = small()
     session.actuate()
     return session
@@ -55,7 +55,7 @@ def test_a_network_in_space_begins_at_rest_as_it_is_drawn():
     assert drawn > 1 and np.ptp(session.nodes[:, 2]) > 50
     session.push((17, 0), 5)
     assert session.energy_mJ > drawn
-    # actuated, first or later, it comes to the state that `gridshell run` ends in
+    # actuated at once or after a push, the network reaches the same state
     session.release((17, 0))
     session.actuate()
     first = gs.Session("network_space")
@@ -77,7 +77,7 @@ def test_a_push_resists_and_comes_back(formed):
         energies.append(formed.energy_mJ)
         if depth == 2:
             force = formed.force_N
-    # the force is how the energy grows with the depth
+    # the force is the derivative of the energy with respect to the depth
     assert force > 0 and force == pytest.approx((energies[2] - energies[0]) / 0.02, rel=1e-3)
     formed.release()
     assert formed.held == [] and np.isnan(formed.force_N)
@@ -152,7 +152,7 @@ def test_shapes_fit_each_other(formed):
     assert state.reactions_N.shape == (layout.supports.size, 3)
     assert state.cell_K.size == len(layout.cells)
     assert state.total_K == pytest.approx(state.cell_K.sum())
-    # what is pinned holds all that there is
+    # nothing is loaded, so the reactions of the supports are in balance
     np.testing.assert_allclose(state.reactions_N.sum(axis=0), 0, atol=1e-6)
     radius = np.linalg.norm(state.nodes[layout.edge_points], axis=1)
     np.testing.assert_allclose(radius, 50, atol=1e-9)
@@ -271,7 +271,7 @@ def test_the_example_draws_a_picture_in_moments(python, example, tmp_path):
     head = picture.read_bytes()[:24]
     assert head[:8] == b"\x89PNG\r\n\x1a\n"
     assert [int.from_bytes(head[k:k + 4], "big") for k in (16, 20)] == [1280, 720]
-    # two seconds from import on a machine that does nothing else; a crowded one waits
+    # the example takes two seconds on an idle machine, and longer on a busy one
     assert seconds < 30
 
 

@@ -24,7 +24,7 @@ def test_stubs_are_the_module():
             continue
         members = {n.name for n in node.body if isinstance(n, ast.FunctionDef)}
         there = public(vars(getattr(gs, node.name)))
-        # what cannot be made by hand has pybind11's own __init__
+        # a class without a constructor has pybind11's own __init__
         assert members | {"__init__"} == there | {"__init__"}, node.name
 
 

@@ -1,4 +1,4 @@
-// A shell that commands are tried on, without a window and without a thread.
+// A shell on which tests execute commands, without a window and without a thread.
 #pragma once
 
 #include <catch2/catch.hpp>
@@ -28,7 +28,7 @@ struct EditedShell {
     return -1;
   }
 
-  /// A command that may fail: why it did.
+  /// Executes a command and returns its error, which is empty if it succeeded.
   std::string attempt(const Edit& edit) {
     session.execute({edit}, unwatched);
     return view().error;

@@ -1,4 +1,4 @@
-// A shell that is designed: seen step by step, stopped, kept, put back.
+// Design of a shell in the window: shown step by step, stopped, accepted, discarded.
 #include <chrono>
 #include <thread>
 
@@ -88,9 +88,9 @@ TEST_CASE("a design that is stopped leaves the step in the window that was seen 
   CHECK(seen == 2);
   REQUIRE(shell.view().design);
   CHECK(shell.view().design->stopped);
-  // to the bit but for one more correction of Newton's
+  // the states are equal, except for one more correction of Newton's method
   CHECK((shell.nodes() - last.frame.nodes).cwiseAbs().maxCoeff() < 1e-6);
-  // a user who continues has accepted it
+  // another command accepts the design
   const Eigen::Vector3d up(0, 0, 1);
   shell.attempt(Push{0, shell.node(0) - up});
   CHECK(shell.view().design->kept);

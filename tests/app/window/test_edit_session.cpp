@@ -1,4 +1,4 @@
-// What commands do to a shell.
+// Effects of commands on the shell of an edit session.
 #include "app/window/viewer_state.h"
 #include "tests/app/window/edited_shell.h"
 #include "tests/results.h"
@@ -8,7 +8,7 @@ using namespace gridshell::window;
 
 namespace {
 
-/// What a run of a preset ends in.
+/// The last frame of a run of the preset.
 record::Frame end_of_run(const preset::Preset& preset) {
   REQUIRE(check_preset(preset));
   Watch watch;
@@ -16,7 +16,7 @@ record::Frame end_of_run(const preset::Preset& preset) {
   return run.trajectory.frames.back();
 }
 
-/// The largest distance of the joints of two states, on any meshes.
+/// The largest distance between equal joints of two states, whose meshes may differ.
 double apart(const EditedShell& shell, const record::Frame& other) {
   const auto joints = Eigen::Index(shell.view().layout->joints.size());
   return (other.nodes.leftCols(joints) - shell.nodes().leftCols(joints))
@@ -113,21 +113,21 @@ TEST_CASE("a push that begins with a long path reports the equilibria on it, and
   const std::vector<PlotPoint> way = shell.view().push_path;
   REQUIRE(way.size() == 5);
   for (std::size_t k = 0; k < way.size(); ++k) {
-    // the drag's coarse mesh begins a little elsewhere
+    // on the coarse mesh of the drag the path starts from a slightly different state
     CHECK(way[k].depth_mm == Approx(double(k + 1)).margin(0.2));
     CHECK(way[k].force_N > (k == 0 ? 0 : way[k - 1].force_N));
   }
   CHECK(shell.view().steps.size() == 1);
   CHECK(shell.view().undo_steps == 1);
   CHECK(shell.view().held.at(0).moved_mm.norm() == Approx(6));
-  // the same drag continues without it
+  // a short push in the same drag has no path to report
   push(9, 1);
   CHECK(shell.view().push_path.empty());
   CHECK(shell.view().steps.size() == 1);
 }
 
 TEST_CASE("steps that are put aside into a file are undone and done again to the bit") {
-  // no memory for more than the latest
+  // with 0 bytes only the latest state is in memory
   EditedShell shell(small_shell(), 0);
   std::vector<ShellView> seen{shell.view()};
   const auto act = [&](const Edit& edit) {
@@ -177,7 +177,7 @@ TEST_CASE(
     const preset::Preset kept = viewer.preset_to_save();
     const double energy = shell.bending_mJ();
     elsewhere += std::abs(energy - unshaken) > 1e-2 * unshaken;
-    // each on the meshes that it took to meet the tolerance
+    // each is computed on the meshes that meet the tolerance, so both errors count
     const record::Frame ran = end_of_run(kept);
     CAPTURE(seed, kept.accuracy.edges_per_segment);
     CHECK(apart(shell, ran) < ran.error_estimate_mm + shell.view().certificate.error_estimate_mm);
@@ -219,7 +219,7 @@ TEST_CASE("what was done is kept as steps, and a run of them ends in the same st
   CHECK((a.nodes - b.nodes).cwiseAbs().maxCoeff() < 1e-9 * 66);
   CHECK(b.energies[Term::bend] == Approx(a.energies[Term::bend]).epsilon(1e-9));
 
-  // and opened again it is in that state
+  // opened again, the preset gives the same state
   const EditedShell again(preset);
   CHECK((again.view().frame.nodes - a.nodes).cwiseAbs().maxCoeff() < 1e-9 * 66);
   CHECK(again.view().steps.size() == 6);
@@ -266,7 +266,7 @@ TEST_CASE(
   CHECK(kind_of_change(shell.view().preset, stiffer) == ChangeKind::rods);
   shell.act(Change{stiffer});
   CHECK(shell.bending_mJ() == Approx(2 * energy).epsilon(1e-3));
-  // gravity pulls all nodes, which lie evenly along the rods
+  // gravity lowers the nodes in the mean
   const double height = shell.nodes().row(2).mean();
   preset::Preset heavy = shell.view().preset;
   heavy.rod.density_kg_m3 = 6450;
@@ -279,7 +279,7 @@ TEST_CASE(
   larger.actuation.radius_mm = 40;
   shell.act(Change{larger});
   CHECK(shell.view().layout->rods.size() == 8);
-  // undone, the first shell is back, on its rods
+  // after undoing everything the first shell is shown, with its rods
   shell.act(Undo{true});
   CHECK(shell.view().layout->rods.size() == 12);
   CHECK(shell.bending_mJ() == Approx(energy));
@@ -288,7 +288,7 @@ TEST_CASE(
 TEST_CASE(
     "a path past states that are not stable marks them, and reports them though its end is "
     "stable") {
-  // near the flat the symmetric branch of the shell of Movie S1 is not stable
+  // near the flat state the symmetric branch of the shell of Movie S1 is not stable
   preset::Preset preset = small_shell();
   preset.footprint.rods = 12;
   preset.footprint.radius_mm = 126;
@@ -296,7 +296,7 @@ TEST_CASE(
   EditedShell shell(preset);
   const auto unstable = [&] {
     std::vector<PathMark> marks = shell.view().marks;
-    // one of the load steps from the flat is not stable either
+    // one of the first load steps from the flat state is not stable either
     std::erase_if(marks, [](const PathMark& mark) { return !mark.unstable || mark.to < 0.03; });
     return marks;
   };
@@ -306,7 +306,7 @@ TEST_CASE(
   REQUIRE(unstable().size() == 1);
   const PathMark there = unstable().front();
   CHECK((there.joint == -1 && there.from <= 0.03 && there.to > 0.03 && there.to < 0.9));
-  // further on along states that are not stable nothing is lost
+  // a move between states that are not stable is no loss of stability
   shell.act(Move{0.031});
   CHECK(shell.view().event.empty());
   shell.act(Move{1});

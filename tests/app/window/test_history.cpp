@@ -1,4 +1,4 @@
-// Numbers stored for steps to undo, and work in the background.
+// The scratch file that stores states to undo, and work in the background.
 #include <chrono>
 #include <cmath>
 

@@ -17,10 +17,10 @@ TEST_CASE("a click on a number types it, and its digits never turn the view") {
 TEST_CASE("the keyboard alone reaches numbers and menus") {
   const TemporaryFolder folder;
   const auto press = [](const std::string& key) { return "down " + key + "\nup " + key + "\n"; };
-  // Tab types into the path; the next one into its number, then the radius
+  // the first Tab goes to the slider of the path, whose number is then typed
   const json moved = played(folder, press("Tab") + "type 0.5\n" + enter);
   CHECK(number(moved, "progress") == Approx(0.5));
-  // Alt+S opens the menu Shell, whose second entry is the one below the first
+  // Alt+H opens the menu Help, in which the arrow keys move
   const json menu = played(
       folder,
       "down Alt\n" + press("H") + "up Alt\n" + press("Down") + press("Down") + press("Space"),

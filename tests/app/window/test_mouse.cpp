@@ -1,4 +1,4 @@
-// What the mouse does to the camera and to what is picked.
+// Effects of the mouse on the camera and on what is picked.
 #include <catch2/catch.hpp>
 
 #include "app/window/actions.h"
@@ -67,13 +67,13 @@ TEST_CASE("all points lie in the picture that was fitted to them") {
 TEST_CASE("a joint that the shell carries aside is pushed until it is under the cursor") {
   const render::Camera camera;
   const Eigen::Vector3d from(20, 10, 30), axis = Eigen::Vector3d(0.3, -0.2, 0.9).normalized();
-  // 4 mm along the push and 3 mm aside
+  // 4 mm along the push and 3 mm across it
   const Eigen::Vector3d aside = axis.unitOrthogonal(), at = from + 4 * axis + 3 * aside;
   const double deeper = 7;
   const Eigen::Vector2d cursor = pixel(camera, from + deeper * axis + 3 * aside);
   CHECK(pushed_under(camera, size, from, axis, at, cursor - pixel(camera, at)) ==
         Approx(deeper).margin(0.05));
-  // seen along the push nothing is known
+  // seen along the push, the cursor gives no depth, which remains
   const Eigen::Vector3d ahead = render::camera_axes(camera).forward;
   CHECK(pushed_under(camera, size, from, ahead, from + 4 * ahead, {5, 5}) == Approx(4));
 }
@@ -139,7 +139,7 @@ TEST_CASE("a click shows a joint, a rod with the nearest of its nodes, or a cell
   CHECK(viewer.picked_joint == -1);
   CHECK(viewer.picked_rod.rod == -1);
   CHECK(viewer.picked_cell == 0);
-  // what is next to the view cannot be picked
+  // a shell outside of the view cannot be picked
   viewer.view.width = 1;
   picker.hover(2, 400);
   CHECK(viewer.joint_under == -1);

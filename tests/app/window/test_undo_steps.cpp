@@ -1,4 +1,4 @@
-// What can be undone and done again after a command that was refused, or that threw.
+// Undo and redo after a command that was refused, or that threw an exception.
 #include <new>
 
 #include "tests/app/window/edited_shell.h"
@@ -8,7 +8,7 @@ using namespace gridshell;
 using namespace gridshell::window;
 
 TEST_CASE("a change that is refused leaves what was undone to be done again") {
-  // also where older states are put aside into a file
+  // also where older states are moved to a file
   EditedShell shell(small_shell(), GENERATE(0, 1 << 20));
   shell.act(Move{0.4});
   const ShellView moved = shell.view();
@@ -22,7 +22,7 @@ TEST_CASE("a change that is refused leaves what was undone to be done again") {
   CHECK(shell.view().undo_steps == before.undo_steps);
   shell.act(Redo{});
   CHECK(difference(shell, moved) == 0);
-  // another step is what makes it impossible
+  // only another step makes redoing impossible
   shell.act(Undo{});
   shell.act(Move{0.3});
   CHECK(shell.view().redo_steps == 0);

@@ -58,7 +58,7 @@ TEST_CASE("switches switch, and back") {
   ViewerState viewer({});
   for (const Action& action : actions()) {
     const std::string name = action.name;
-    // those need a shell, or another one
+    // actions that need a shell, or a second one
     if (!action.on || name == "play" || name == "gravity" || name == "beside" ||
         name.starts_with("colour_") || name.starts_with("range_"))
       continue;
@@ -136,10 +136,10 @@ TEST_CASE("two shells are side by side, each in half of the view") {
   find_action("beside")->act(viewer);
   CHECK(viewer.show.shells() == 2);
   CHECK(viewer.view.width == 400);
-  // the right one's edge is the legend's
+  // the legend is at the right edge of the picture, which the shell leaves free
   for (const auto& node : shell->frame.nodes.colwise())
     CHECK(render::to_pixel(viewer.camera, 400, 600, node).x() < 0.83 * 400);
-  // over it the other one is a ghost, next to it there is none
+  // the other shell is a ghost if it is drawn over this one, but not side by side
   const auto ghosts = [&] { return drawing_of(*shell, viewer.show, 0.1).ghosts.size(); };
   CHECK(ghosts() == 0);
   find_action("beside")->act(viewer);

@@ -18,7 +18,7 @@ TEST_CASE("the thread executes every command, and the latest of a drag") {
   CHECK(engine.shell()->progress == Approx(0.8));
   CHECK(engine.shell()->refined);
   CHECK(engine.shell()->undo_steps == 1);
-  // fewer equilibria than commands, or as many on a machine that is quick
+  // at most one equilibrium per command, fewer on a slow machine
   CHECK(engine.shell()->equilibria <= 60);
 }
 

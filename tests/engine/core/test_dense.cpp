@@ -1,4 +1,4 @@
-// Polynomials through what is known of a curve.
+// Weights of polynomials through known values and slopes.
 #include "engine/core/dense.h"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-// What is near what: every pair of boxes, whatever their sizes.
+// Pairs of boxes that are near each other, whatever their sizes.
 #include "engine/core/proximity.h"
 
 #include <catch2/catch.hpp>
@@ -11,7 +11,8 @@ namespace {
 
 using Boxes = std::vector<Eigen::AlignedBox3d>;
 
-/// Boxes about points of a cube of 100 mm, most of some `mm`, one in ten up to fifty times that.
+/// Boxes at points of a cube of 100 mm, most with sides up to `mm`, one in ten up to fifty times
+/// that.
 Boxes random_boxes(int count, double mm, unsigned seed) {
   std::mt19937 random{seed};
   const auto uniform = [&](double most) { return most * double(random()) / double(random.max()); };

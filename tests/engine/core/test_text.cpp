@@ -24,7 +24,7 @@ TEST_CASE("only a near name is suggested") {
   CHECK(nearest("radius", known) == "radius_mm");
   CHECK(nearest("elephant", known).empty());
   CHECK(nearest("x", known).empty());
-  // at once, and in no memory
+  // a long word must not cost time or memory
   CHECK(nearest(std::string(std::size_t(16) << 20, 'x'), known).empty());
   CHECK(did_you_mean("rdos", known) == "; did you mean 'rods'?");
   CHECK(did_you_mean("elephant", known).empty());

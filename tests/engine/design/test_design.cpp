@@ -45,7 +45,8 @@ Eigen::VectorXd some_change(Eigen::Index count) {
   return change / change.norm();
 }
 
-/// look(0) where the variables are q - step, look(1) where they are q + step; then back.
+/// Calls look(0) where the variables are q - step and look(1) where they are q + step, and moves
+/// the shell back.
 template <class Look>
 void both_sides(DesignShell& shell, const DesignVariables& variables, const Eigen::VectorXd& q,
                 const Eigen::VectorXd& step, const Look& look) {
@@ -179,7 +180,6 @@ TEST_CASE("the nearest point of a surface is found from anywhere near") {
   }
   const Distances found = target.distances(joints);
   const Eigen::VectorXd exact = (joints.colwise().norm().array() - 120).abs().matrix().transpose();
-  // near the rim the net ends before; its tangent plane is 1/240 mm off at 1 mm
   CHECK((found.size() - exact).cwiseAbs().maxCoeff() < 1e-8);
 }
 
@@ -279,7 +279,8 @@ struct Handed {
   std::vector<preset::Points> ends;
 };
 
-/// All that is handed over; `after` each.
+/// Designs a shell on 8 edges per segment and stores all that is handed over; calls `after` after
+/// each step.
 Result<LiveDesignResult> live(const preset::Preset& preset, const Watch& watch, Handed& handed,
                               const std::function<void()>& after = {}) {
   const auto scene = shared_scene(preset);

@@ -26,7 +26,7 @@ inline BentDome bent_dome(double radius, int rods, int edges) {
   return dome;
 }
 
-/// By the free columns of the model.
+/// The Hessian as a full matrix over the components of the model's free columns, in their order.
 inline Eigen::MatrixXd dense(const Model& model, const BlockHessian& hessian) {
   const int n = model.dof();
   Eigen::MatrixXd full(n, n);

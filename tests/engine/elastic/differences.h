@@ -1,4 +1,5 @@
-// Gradient and Hessian of a model against central differences, frames carried along.
+// Gradient and Hessian of a model compared with central differences, for which the frames of edges
+// are transported with them.
 #pragma once
 
 #include <algorithm>

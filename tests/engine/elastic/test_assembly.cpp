@@ -1,4 +1,4 @@
-// The assembly of both rod models against differences of the energy.
+// The assembly of both rod models compared with differences of the energy.
 #include "engine/elastic/assembly.h"
 
 #include <Eigen/Geometry>
@@ -111,7 +111,7 @@ TEST_CASE("joints: a hinge's rods keep to the common normal, edges stay centred,
     for (const int half : {hinge.pair.e, hinge.other_half, model.hinges[1].pair.e})
       CHECK((state.director.col(half) - normal).norm() < 1e-13);
     if (!std::isinf(stiffness)) continue;
-    // its spin is no unknown
+    // the twist angle of the hinge's edge is no unknown
     const int place = model.spin[std::size_t(hinge.pair.e)];
     CHECK((model.held[std::size_t(place / 3)] >> place % 3 & 1) == 1);
     // rotated rigidly, with the terms of rods and joints alone

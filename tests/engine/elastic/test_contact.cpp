@@ -49,8 +49,8 @@ TEST_CASE("contact: the barrier is zero from the gap on, smooth, and rises witho
   CHECK(at(S + gap).energy == Approx(0).margin(1e-20));
   CHECK(at(S + 1).energy == 0);
   CHECK(std::abs(at(S + (1 - 1e-6) * gap).curvature) < 1e-4 * at(S + 0.5 * gap).curvature);
-  // halfway through a gap that is thin compared with the rods 1.193 k gap, and more through
-  // others: x then is (S + gap/4)/(2 S + gap)
+  // the force halfway through the gap is 1.193 k gap if the gap is thin compared with the rods, and
+  // larger otherwise: x is (S + gap/4)/(2 S + gap) there
   const auto pressed = [&](double wide) {
     const double half = S + 0.5 * wide;
     const auto value = ContactBarrier{wide, stiffness}.at(half * half, S);
@@ -144,7 +144,7 @@ TEST_CASE("contact: a move goes as far as edges keep clear of one another, and n
     CHECK(distance(x + fraction * dx) < 1.01 * least);
   }
   CHECK(stopped > 100);
-  // nor do many moves lead through
+  // many moves in a row do not lead through the other edge, either
   Matrix3Xd crossed = edges({-2, 0, 0}, {2, 0, 0}, {0, -2, 1}, {0, 2, 1});
   const Matrix3Xd down = edges({0, 0, 0}, {0, 0, 0}, {0, 0, -2}, {0, 0, -2});
   for (int move = 0; move < 200; ++move) crossed += clear_fraction(model, crossed, down) * down;

@@ -44,7 +44,7 @@ V transported(const V& v, const V& a, const V& b) {
   return c * v + cross(axis, v) + (dot(axis, v) / (T(1) + c)) * axis;
 }
 
-/// two edges with their frames, and what the energies are to be
+/// two edges with their frames, and the constants of the energies
 struct Sample {
   Eigen::Vector3d e, f, director_e, director_f;
   double theta_e, theta_f, GJ_l, tau_0;

@@ -23,7 +23,7 @@ const Scene& fig1() {
   return scene;
 }
 
-/// The circle drawn in to 0.9 of its size, begun at t.
+/// A shell whose boundary is contracted to 0.9 of its size, with its path started at t.
 NestedShell formed(const ShellRods& of, double t, const std::vector<int>& edges) {
   NestedShell shell =
       NestedShell::make(fig1().footprint, of, RodModel::bend, fig1().motion, {edges, false}, {})
@@ -51,7 +51,8 @@ Footprint rod_on_springs() {
   return net;
 }
 
-/// Its equilibrium, with supports at the end of `motion`.
+/// The equilibrium of rod_on_springs(): its supports are moved outwards by `apart` each, and its
+/// joint is loaded.
 struct Rested {
   RodMesh mesh = mesh_rods(rod_on_springs(), 20);
   Model model;
@@ -78,7 +79,7 @@ struct Rested {
     at = system.assembly();
     potential = system.energy_at(state);
   }
-  /// What the support of an end's spring takes.
+  /// Force by the support on the spring of an end, N.
   Eigen::Vector3d reaction(int end) const {
     return at.gradient.col(mesh.springs[std::size_t(end)].support);
   }
@@ -169,7 +170,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a rod on two springs sinks by P/(2 k) and bends by P L^3/(48 EI)") {
-  // so little that it does not stretch
+  // a load so small that the rod does not stretch
   const double load = 1e-6;
   const double bent = load * std::pow(length, 3) / (48 * section.EI), sunk = load / (2 * k.z());
   for (const RodModel rod_model : {RodModel::bend, RodModel::twist}) {
@@ -195,7 +196,7 @@ TEST_CASE(
   const RodMesh mesh = mesh_rods(net, 3);
   for (const RodModel rod_model : {RodModel::bend, RodModel::twist}) {
     const Model model = build_model(mesh, rods, rod_model).value();
-    // the supports and the fixed joint, not what is on springs
+    // the supports and the fixed joint are pinned, the nodes on springs are not
     for (const MeshSpring& spring : mesh.springs) {
       CHECK(model.pinned(spring.support));
       CHECK_FALSE(model.pinned(spring.node));

@@ -1,4 +1,5 @@
-// Bars between joints and bolts that keep an angle, against differences of their energy.
+// Bars between joints, and bolts that fix the angle of a joint, compared with differences of their
+// energy.
 #include <limits>
 #include <random>
 

@@ -156,7 +156,7 @@ TEST_CASE("blocks that cannot be joined are refused, naming their sides") {
   wrong("d = 20 mm and 25 mm", coarse, in_a_row);
   beside[0].placement = Placement::on_axis;
   wrong("on the axes", beside, in_a_row);
-  // two pairs that know nothing of one another
+  // two pairs of blocks that are not joined to one another
   wrong("no join connects block \"c\"",
         {quarter_sphere("a", Side::east), quarter_sphere("c", Side::east),
          quarter_sphere("b", Side::west), quarter_sphere("e", Side::west)},

@@ -11,8 +11,8 @@ TEST_CASE("footprint: the circle of Fig. 1") {
   CHECK(net.rods.size() == 24);
   CHECK(net.joints.size() == 120);
   CHECK(net.cells.size() == 97);
-  // the longest leg on the circle's axis: R_o/d - (n-1)/2 = 0.8 there would be a rod through the
-  // middle; with half placement the legs are cut exactly where the circle meets the rods
+  // R_o/d - (n-1)/2 = 0.8 is the length of a leg on the circle's axis, over d; with half placement
+  // no rod is there, and each leg ends exactly where its rod meets the circle
   for (const FootprintRod& rod : net.rods) {
     CHECK(std::hypot(rod.span.end, rod.line()) == Approx(126.0).epsilon(1e-15));
     CHECK(rod.span.begin == -rod.span.end);
@@ -63,7 +63,7 @@ TEST_CASE("footprint: what makes no sense is refused with its reason") {
   CHECK(message(100, 13, 20, Placement::on_axis) ==
         "13 rods per direction at d = 20 mm do not fit the boundary: the outermost crossing lies "
         "at 120 mm; take R_o >= 120.02 mm or n <= 9");
-  // what is proposed is accepted
+  // the proposed values are accepted
   CHECK(circular_footprint(110.4737, 12, 20, Placement::half));
   CHECK(circular_footprint(100, 10, 20, Placement::half));
   CHECK(circular_footprint(120.02, 13, 20, Placement::on_axis));
@@ -134,7 +134,7 @@ TEST_CASE("mesh transfer: exact at shared nodes, fourth order between") {
     Eigen::Matrix3Xd carried;
     MeshTransfer(coarse, fine).nodes(curved(coarse), carried);
     CHECK((carried - curved(fine)).leftCols(fine.joints + fine.edge_points).norm() < 1e-11);
-    // within the rods; one-sided slopes at their ends are a order lower
+    // the order is four within the rods; one-sided slopes at their ends are one order lower
     const double error = (carried - curved(fine)).colwise().norm().maxCoeff();
     if (before > 0) CHECK(before / error > 6);
     before = error;

@@ -1,4 +1,5 @@
-// Footprints from networks of rods: what points become, and what does not hang together.
+// Footprints from networks of rods: what points become, and networks that are not connected or not
+// supported.
 #include "engine/footprint/network.h"
 
 #include <cmath>
@@ -11,7 +12,7 @@ using namespace gridshell;
 
 namespace {
 
-/// Rods between numbered positions; points that are supported, and free.
+/// A network of rods through numbered points, some of which are supported or free.
 RodNetwork network(const std::vector<Eigen::Vector2d>& points,
                    const std::vector<std::vector<int>>& rods,
                    const std::vector<int>& supported = {}, const std::vector<int>& free = {}) {
@@ -183,12 +184,12 @@ TEST_CASE("springs along too few directions leave a network free") {
   refused(net, free);
   on({1, 1, 0});
   refused(net, free);
-  // sliding along x on one line and along y on others fixes all but nothing free
+  // three points on springs along z and three on springs in the plane leave nothing free
   net.springs[1] = net.springs[2] = net.springs[3] = {0, 0, 1};
   CHECK(network_footprint(net));
   on({0, 0, 1});
   refused(net, free);
-  // fixed at one point it still rotates about it
+  // fixed at one point and on springs along z, it still rotates about that point
   net.springs.erase(1);
   refused(net, free);
   net.springs[3] = {1, 0, 1};
@@ -209,7 +210,8 @@ TEST_CASE("networks that do not make a shell are refused") {
   refused(network(star, {{1, 0, 2}, {3, 0, 4}}, {}, {0}), "point 0 is free, and inside a rod");
   refused(network(star, {{1, 0, 2}, {3, 0, 4}}, {1}, {1}), "point 1 is a support and free");
   refused(network(star, {{1, 0, 2}, {3, 0, 4}}, {}, {3, 4}), "fewer than three points");
-  // a rod alone may turn about the line of what fixes it; a spring along one direction does not
+  // a single straight rod may rotate about its own line, but not swing: a spring along x alone does
+  // not prevent that
   RodNetwork rope = network({{0, 0}, {9, 0}, {18, 0}}, {{0, 1, 2}});
   CHECK(network_footprint(rope));
   rope.springs[2] = {1, 0, 0};
@@ -240,7 +242,7 @@ TEST_CASE("rods in space are as long as their polyline there, and laid where the
     for (std::size_t k = 1; k < mesh.rods[r].size(); ++k)
       CHECK((nodes.col(mesh.rods[r][k]) - nodes.col(mesh.rods[r][k - 1])).norm() ==
             Approx(mesh.position[r][k] - mesh.position[r][k - 1]).epsilon(1e-12));
-  // what is level lies in the plane, whatever its height
+  // a level network counts as plane at any height
   net.points.row(2).setZero();
   CHECK_FALSE(network_footprint(net)->footprint.in_space());
   // supported at points of one vertical plane it is stable, on one line it is not

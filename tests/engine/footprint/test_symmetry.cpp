@@ -24,7 +24,7 @@ TEST_CASE("mesh symmetries: a circle has all sixteen, on every mesh, the identit
     REQUIRE(all.size() == 16);
     CHECK(all.front().map.isIdentity(0));
     for (const MeshSymmetry& one : all) {
-      // each is a permutation that comes back
+      // each is a permutation of the nodes
       std::vector<int> met(one.image.size(), 0);
       for (const int node : one.image) ++met[std::size_t(node)];
       CHECK(std::count(met.begin(), met.end(), 1) == long(met.size()));
@@ -50,6 +50,6 @@ TEST_CASE("mesh symmetries: the symmetric part is what all of them leave") {
     CHECK(distance_under(one, one.of(rough), rough) < 1e-12);
   }
   CHECK((symmetric_part(part, all) - part).norm() < 1e-12);
-  // nothing is left of z where up and down are one
+  // symmetry under z -> -z leaves no z
   CHECK(part.row(2).cwiseAbs().maxCoeff() < 1e-12);
 }

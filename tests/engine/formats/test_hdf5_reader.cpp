@@ -1,4 +1,4 @@
-// Trajectories whose datasets another program made, lost or led elsewhere.
+// Trajectories whose datasets are missing, links to elsewhere, or made by another program.
 #include <algorithm>
 #include <cstdlib>
 #include <new>

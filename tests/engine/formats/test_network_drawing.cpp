@@ -1,4 +1,4 @@
-// Networks as drawings: what of them is a rod, where rods are joined, and in which unit.
+// Networks as drawings: which lines are rods, where rods are joined, and in which unit they are.
 #include "engine/formats/network_file.h"
 #include "tests/engine/formats/drawn_dxf.h"
 #include "tests/results.h"
@@ -36,7 +36,7 @@ std::string refused(const std::string& entities) {
   return refusal(read_network(drawn_dxf(entities), "d.dxf"));
 }
 
-/// The positions of a rod's points.
+/// The coordinates of a rod's points.
 Points places(const NetworkData& network, std::size_t rod) {
   Points all;
   for (const int point : network.rods[rod]) all.push_back(network.points[std::size_t(point)]);

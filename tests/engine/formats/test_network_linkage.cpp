@@ -1,4 +1,4 @@
-// Linkages stored as one line per segment: rods by direction at each joint.
+// Linkages stored as one line per segment, which are joined to rods by their directions.
 #include <numbers>
 
 #include "engine/formats/network_file.h"
@@ -24,8 +24,8 @@ std::string vertex(double x, double y, double z = 0) {
   return fmt::format("v {} {} {}\n", x, y, z);
 }
 
-/// Rhombi of n x m segments, whose sides cross at `degrees` and turn by `bend` from one to the
-/// next, a line per segment, begins and ends in no order.
+/// Rhombi of n x m segments, whose sides cross at `degrees` and turn by `bend` degrees from one to
+/// the next; a line per segment, in either direction.
 std::string rhombi(int n, int m, double degrees, double bend = 0) {
   const double half = 0.5 * degrees * std::numbers::pi / 180;
   std::string text;

@@ -1,4 +1,4 @@
-// What came of a network's file, counted.
+// The report on a network's file: counts of what was read, and notes.
 #include "engine/formats/network_file.h"
 #include "tests/results.h"
 

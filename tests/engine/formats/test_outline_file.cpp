@@ -17,7 +17,7 @@ struct Outline {
   std::string text;
 };
 
-/// An outline that is read, and what is said of it.
+/// Reads an outline: its extent, its area and the text of the report.
 Outline outline(const std::string& text, const std::string& name,
                 const NetworkOptions& options = {}) {
   FileReport report;

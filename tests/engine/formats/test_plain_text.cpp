@@ -34,7 +34,7 @@ TEST_CASE("a text is the same with a mark, in UTF-16 and with old ends of lines"
   CHECK(plain("x,y\r1,2\r") == text);
   CHECK(plain("x,y\r\n1,2\r\n") == "x,y\r\n1,2\r\n");
   CHECK(plain(std::string("\xFF\xFE\xE9\0\x3D\xD8\0\xDE", 8)) == "\xC3\xA9\xF0\x9F\x98\x80");
-  // what is cut within a letter does not end in a number
+  // half a letter at the end becomes '?', not a digit
   CHECK(plain(wide("1,2", false, true) + "3") == "1,2?");
   CHECK(plain("") == "");
 }

@@ -20,7 +20,7 @@ inline double integral(const std::function<double(double)>& f, double a, double 
   return Antiderivative(f, {a, b}, a)(b);
 }
 
-/// | |C_u| - 1 |, | |C_v| - 1 | and the angle between them against omega: the largest
+/// largest of | |C_u| - 1 |, | |C_v| - 1 | and | angle between C_u and C_v - omega |
 inline double unit_residual(const ChebyshevNet& net, double u, double v) {
   const NetPoint p = point_of(net, u, v);
   const double angle =

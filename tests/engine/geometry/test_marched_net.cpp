@@ -1,4 +1,4 @@
-// Nets that are marched over meshes, against the nets of the surfaces that these were taken from.
+// Nets that are marched over meshes, compared with nets of the surfaces on which the vertices are.
 #include "engine/geometry/marched_net.h"
 
 #include <cmath>
@@ -57,7 +57,8 @@ DomeMesh mesh_of(double radius, double edge_mm, const Height& height) {
   return mesh;
 }
 
-/// Largest distance of a net from another, where that is.
+/// Largest distance of a net from another, over the points that both reach and whose z is at least
+/// `least_z`.
 template <class Net>
 double off(const MarchedNet& net, const Net& exact, double least_z) {
   double largest = 0;
@@ -192,7 +193,7 @@ TEST_CASE("rods end at a hole and continue next to it") {
       if ((p.head<2>() - Eigen::Vector2d(72, 36)).norm() < 30) around.push_back({i, j});
     }
   CHECK(behind > 20);
-  // what comes around the hole from both sides does not overlap
+  // the parts of the net that pass the hole on both sides do not overlap behind it
   for (const auto& [i, j] : around)
     for (const auto& [a, b] : around)
       if (std::max(std::abs(a - i), std::abs(b - j)) > 2)
@@ -229,7 +230,7 @@ TEST_CASE("rods end at a crease, whose two sides keep their surfaces, and pass i
         const Eigen::Vector3d &p = grid.at(i, j).p, &q = grid.at(i + a, j + b).p;
         if ((p.x() < 0) == (q.x() < 0)) continue;
         across = true;
-        // slopes of tan 10 degrees to both sides: from there on it is no crease
+        // the fold becomes flatter along y; where it turns by about 20 degrees the crease ends
         CHECK(p.y() > -6);
       }
   CHECK(across);

@@ -1,4 +1,4 @@
-// Meshes as programs write them, of which one sheet is taken.
+// Meshes with the errors that programs write, of which one sheet is taken.
 #include "engine/geometry/mesh_repair.h"
 
 #include <fmt/format.h>
@@ -34,7 +34,8 @@ int add(DomeMesh& mesh, const Eigen::Vector3d& p) {
   return int(mesh.vertices.cols()) - 1;
 }
 
-/// What is taken of a mesh that TriangleMesh refuses; `said` is in what was done.
+/// The sheet that is taken of a mesh which TriangleMesh refuses; checks that the list of what was
+/// done contains `said`.
 TriangleMesh sheet_of(const DomeMesh& mesh, const std::string& said) {
   CHECK(!TriangleMesh::make(mesh.vertices, mesh.triangles));
   MendedMesh mend = mended(mesh.vertices, mesh.triangles);
@@ -105,7 +106,7 @@ TEST_CASE("parts that touch in one vertex have vertices of their own") {
   const auto taken = value_of(TriangleMesh::make(mend.vertices, mend.triangles));
   CHECK(taken.triangles().size() == 284);
   CHECK(taken.vertices().cols() == 13 * 13 + 1);
-  // by less than a thousandth of its triangles' size
+  // the vertices are separated by less than a thousandth of their triangles' size
   CHECK((taken.vertices().colwise() - Eigen::Vector3d(0, 0, 30)).colwise().norm().minCoeff() <
         0.01);
 }
@@ -140,7 +141,7 @@ TEST_CASE("a vertex at which a sheet is folded onto itself is moved back") {
   mesh.vertices.col(61 * 30 + 30) += Eigen::Vector3d(2.6, 1.2, -0.02);
   const TriangleMesh taken = sheet_of(mesh, "to unfold it");
   CHECK(taken.triangles().size() == 7200);
-  // where its neighbours are
+  // the vertex is between its neighbours, which are at distances of 2 mm
   const Eigen::RowVectorXd from_there =
       (taken.vertices().colwise() - Eigen::Vector3d(0, 0, 30)).colwise().norm();
   CHECK(from_there.minCoeff() < 2);

@@ -1,4 +1,4 @@
-// Surfaces through heights and meshes, against the surfaces that these were taken from.
+// Surfaces through heights and meshes, compared with the surfaces on which their points are.
 #include <cmath>
 
 #include "engine/geometry/spline.h"
@@ -74,7 +74,7 @@ TEST_CASE("the surface of a mesh is found at its highest, and extends slightly p
   const auto surface = value_of(MeshSurface::fit(mesh, 20));
   CHECK(std::abs(surface.at({119.83, 0, -6.4})) < 0.01);
   CHECK(std::isnan(surface.at({100, 0, -66})));
-  // along its normal it is the distance
+  // near the surface the value is the distance along its normal
   CHECK(std::abs(surface.at({0, 0, 123})) == Approx(3).margin(1e-2));
 }
 
@@ -85,7 +85,7 @@ TEST_CASE("what is no smooth sheet is refused with the position") {
     change(dome);
     return dome;
   };
-  // a hole, or a vertex off the others, is none
+  // a hole or a vertex away from the others is no error
   CHECK(error_of(changed([](DomeMesh& d) { d.triangles.erase(d.triangles.begin() + 3); })) ==
         "none");
   const DomeMesh bumped = changed([](DomeMesh& d) { d.vertices.col(0).z() += 5; });
@@ -113,7 +113,7 @@ TEST_CASE("what is no smooth sheet is refused with the position") {
 }
 
 TEST_CASE("a sheet that runs through itself is refused, one with a single side too") {
-  // a ribbon that comes back through its own begin
+  // a ribbon that runs through its own start
   const auto ribbon = [](auto place, int around, bool closed, bool turned) {
     DomeMesh mesh{Eigen::Matrix3Xd(3, 4 * around), {}};
     for (int k = 0; k < around; ++k)

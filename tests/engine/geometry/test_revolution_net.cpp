@@ -95,7 +95,7 @@ TEST_CASE("pseudosphere net: K = -1/rho^2, r falls off as exp(-s/rho)") {
 }
 
 TEST_CASE("tabulated profile: residuals as for the others, fourth order in the points' distance") {
-  // a bulging profile, against itself on ever finer points
+  // a bulging profile, compared with itself on many more points
   const auto table = [](int n) {
     Eigen::Matrix2Xd r_z(2, n + 1);
     for (int k = 0; k <= n; ++k) {

@@ -1,4 +1,4 @@
-// Nets on surfaces that are given by an expression, against nets that are known.
+// Nets on surfaces that are given by an expression, compared with known nets.
 #include <cmath>
 
 #include "engine/geometry/chebyshev_net.h"

@@ -1,5 +1,5 @@
-// Which rod model a preset runs on, what is refused with its reason, and keys that a kind does not
-// use: refused where they are set, and left out where a preset is written.
+// The rod model of a preset, values that contradict each other, and keys that a kind does not use:
+// these are refused if they are set, and left out if a preset is written.
 #include "engine/preset/consistency.h"
 #include "tests/presets.h"
 

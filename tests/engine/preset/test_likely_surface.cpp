@@ -1,4 +1,4 @@
-// What a mesh of a surface is taken for where its file does not say.
+// The unit and the upward direction that are assumed for a mesh if its file does not name them.
 #include "engine/preset/likely_surface.h"
 
 #include "tests/results.h"
@@ -26,7 +26,7 @@ TEST_CASE("a mesh in metres is a model of 1 : 100 or as large as it is, by the r
     CHECK(mesh.vertices[1][0] == width);
     CHECK(notes.size() == (width == 30 ? 0 : 1));
   }
-  // it is as the user says
+  // a unit that the user gives is used
   auto mesh = sheet(1, false);
   CHECK(make_likely(mesh, 20, true).empty());
   CHECK(mesh.vertices[1][0] == 30);

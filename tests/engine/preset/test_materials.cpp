@@ -13,7 +13,7 @@ preset::Preset read(const std::string& text, const std::vector<preset::Override>
   return value_of(preset::read_preset_text(text, "own.toml", "own", more)).base;
 }
 
-/// The first rod of a circle.
+/// The material of the first rod of a circle with these keys of [rod].
 RodMaterial made(const std::string& rod) {
   return value_of(scene_of(read("[rod]\n" + rod))).rods.materials.front();
 }
@@ -24,14 +24,14 @@ TEST_CASE("a material gives what is not given, and says so in the preset that is
   const preset::Preset gfrp = read("[rod]\nmaterial = \"gfrp\"\n");
   CHECK(gfrp.rod.young_GPa == 25);
   CHECK(gfrp.rod.strength_MPa == 400);
-  // what the same file gives stays, whatever the order
+  // other keys of the same file count more than the material, whatever their order
   const preset::Preset own =
       read("[rod]\nyoung_GPa = 40\nmaterial = \"gfrp\"\ndensity_kg_m3 = 1900\n");
   CHECK(own.rod.young_GPa == 40);
   CHECK(own.rod.density_kg_m3 == 1900);
   CHECK(own.rod.shear_GPa == 3);
   CHECK(read(preset::to_toml(own)).rod == own.rod);
-  // one that is laid over a file counts more than what is in it
+  // a material given by --set counts more than the keys of the file
   const preset::Preset over = read(preset::to_toml(own), {{"--set", "rod.material", "\"spruce\""}});
   CHECK(over.rod.young_GPa == 11);
   CHECK(over.rod.density_kg_m3 == 420);

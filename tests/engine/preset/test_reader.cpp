@@ -173,7 +173,7 @@ title = "the thin one"
   CHECK(thin.preset.actuation.radius_mm == 100.0);
   CHECK(thin.preset.rod.diameter_mm == 0.1);
   CHECK(thin.preset.title == "the thin one");
-  // the command line lies over every case
+  // overrides of the command line apply to every case
   CHECK(far.preset.movie.frames == 7);
   CHECK(thin.preset.movie.frames == 7);
 }
@@ -267,7 +267,7 @@ TEST_CASE("a case's list of tables replaces the file's") {
   const Preset& one = presets.cases[1].preset;
   REQUIRE(one.block.size() == 1);
   CHECK(one.block[0].name == "c");
-  // nothing is left of the file's
+  // the table of the case replaces that of the file
   CHECK(one.block[0].net.radius_mm == default_items().block[0].net.radius_mm);
   CHECK(one.join.size() == 1);
   // written again it is the same, and only where it differs
@@ -321,7 +321,7 @@ TEST_CASE("a file is read once all that says how is known, and reported") {
   };
   const auto metres = value_of(read("file_unit = \"m\"\n", "grid.obj"));
   CHECK(metres.base.footprint.file.points[1] == std::vector<double>{30, 0, 0});
-  // what was read is in mm, and reads back so
+  // the contents are stored in mm, and a written preset reads back as the same
   CHECK(metres.base.footprint.file_unit == FileUnit::file);
   CHECK(to_toml(good(to_toml(metres))) == to_toml(metres));
   REQUIRE(metres.files.size() == 1);

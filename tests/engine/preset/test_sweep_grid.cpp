@@ -27,7 +27,7 @@ footprint.rods = 10
 )");
   const SweepGrid grid(presets);
   REQUIRE(grid.size() == 2u * 2 * 3 * 2);
-  // written first changes slower, whatever the alphabet says
+  // the key that is written first changes slowest, whatever its name
   CHECK(grid.sweep().over[0].key == "rod.young_GPa");
   CHECK(grid.sweep().over[1].values == std::vector<std::string>{"90.0", "100.0", "110.0"});
   const SweepPoint second = grid.at(1), last = grid.at(grid.size() - 1);
@@ -73,7 +73,7 @@ TEST_CASE("searches for states perturb differently at every point, and equally w
   // the largest seed there is
   CHECK(seeds_of("[jitter]\ntrials = 3\nseed = 1073741824\n" + over("rod.young_GPa = [70, 80]")) ==
         std::vector<int>{1073741824, 0});
-  // what looks for no states has the seed that it says
+  // without a search for states all points have the seed of the preset
   CHECK(seeds_of(over("rod.young_GPa = [70, 80]")) == std::vector<int>{1, 1});
 }
 
@@ -96,7 +96,7 @@ TEST_CASE("a sweep is printed as a preset that sweeps the same") {
   const auto again = good(to_toml(presets));
   CHECK(to_toml(again) == to_toml(presets));
   CHECK(again.base.sweep.over[0].values == presets.base.sweep.over[0].values);
-  // what sweeps nothing says nothing about it
+  // a preset without a sweep is written without the table
   CHECK_THAT(to_toml(Preset{}), !Contains("sweep"));
 }
 

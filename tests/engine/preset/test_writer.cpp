@@ -8,7 +8,8 @@ using namespace gridshell::preset;
 
 namespace {
 
-// lists of tables speak of their last item
+// adds an item to every empty list of tables, because a field of such a list is that of its last
+// item
 Preset with_items(Preset preset = {}) {
   each_list([&](const char*, auto member) {
     if ((preset.*member).empty()) (preset.*member).emplace_back();
@@ -16,7 +17,7 @@ Preset with_items(Preset preset = {}) {
   return preset;
 }
 
-// every field that counts as text, by name; of lists of tables the last item
+// texts of all fields that have an effect, by name; of lists of tables those of the last item
 std::map<std::string, std::string> values_of(const Preset& given) {
   const auto preset = with_items(given);
   std::set<std::string> idle;
@@ -64,13 +65,12 @@ Preset all_changed() {
   preset.indentation.depth = preset.indentation.depth_mm = 0;
   preset.dynamics.snap = false;
   preset.contact.model = ContactModel::none;
-  // a strength is said once; stiffnesses of their own are of rods that are no laths, tubes have a
-  // hollow
+  // a strength is given by one key alone; laths have no given stiffnesses; a wall needs a hollow
   for (Rod* rod : {&preset.rod, static_cast<Rod*>(&preset.rod_v)}) {
     rod->yield_strain = rod->wall_mm = 0;
     rod->EA_N = rod->EI_Nmm2 = rod->GJ_Nmm2 = rod->mass_g_per_m = rod->modulus_mm3 = 0;
   }
-  // axes at a distance are connected by bolts
+  // eccentric joints need bolts
   preset.joints.eccentricity_mm = 0;
   // only pinned ends have tails
   preset.ends.second_ring_mm = 0;
@@ -98,7 +98,7 @@ Preset of_curve(CurveKind kind, double scale) {
   preset.footprint.kind = FootprintKind::curve;
   preset.actuation.start = Start::flat;
   preset.inverse = {};
-  // wind as [loads] has it, where others have their own
+  // this load case has the wind direction of [loads], those of other samples their own
   preset.load_case.front().wind_deg.reset();
   preset.footprint.boundary.kind = preset.actuation.boundary.kind = kind;
   preset.actuation.scale = scale;
@@ -150,7 +150,7 @@ Preset pushed(bool joint) {
   preset.sweep = changed.sweep;
   preset.sweep.over = {{"rod.young_GPa", {"70.0", "83.5"}}, {"actuation.seed", {"\"down\""}}};
   preset.sweep.plot = {"total_K", "force_N"};
-  // for a free view
+  // angles count only if no view is named
   preset.movie.azimuth_deg = 12.5;
   preset.movie.elevation_deg = -3.5;
   return preset;
@@ -213,17 +213,17 @@ std::vector<Preset> samples() {
   all.back().ends = {.second_ring_mm = 7.5, .table = {}};
   for (const auto& [kind, word] : words_of<CurveKind>()) all.push_back(of_curve(kind, 0));
   for (const auto& [kind, word] : words_of<NetKind>()) {
-    if (kind == NetKind::surface) continue;  // below, and no block
+    if (kind == NetKind::surface) continue;  // these follow below; they cannot be blocks
     all.push_back(of_net(kind));
     all.push_back(of_blocks(kind));
   }
-  // by either expression, cut by either boundary
+  // surfaces by either expression, cut by either boundary
   all.push_back(of_net(NetKind::surface));
   all.back().net.height.clear();
   all.push_back(of_net(NetKind::surface));
   all.back().net.implicit.clear();
   all.back().net.within.clear();
-  // by heights and by a mesh
+  // surfaces by heights and by a mesh
   for (const SurfaceData& file :
        {SurfaceData{
             {0, 0.1, 3, 1e2 / 3}, {-2, 1e-12, 3, 4}, Points(4, {1, 2.5, -1e-11, 0}), {}, {}},

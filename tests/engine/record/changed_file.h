@@ -1,4 +1,4 @@
-// Trajectories changed behind the program's back, and how they are refused.
+// Trajectory files that were changed after they were written, and the messages that refuse them.
 #pragma once
 
 #include <hdf5.h>

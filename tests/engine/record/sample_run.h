@@ -1,4 +1,4 @@
-// A small trajectory with every field set to something of its own.
+// A small trajectory and a summary whose fields have distinct values.
 #pragma once
 
 #include <cmath>
@@ -65,7 +65,7 @@ inline Trajectory sample_trajectory() {
     frame.K_bins = Eigen::MatrixX3d::Constant(5, 3, 0.5 * k);
     run.frames.push_back(frame);
   }
-  // the frame between does not know them
+  // in the frame between them these are unknown
   for (Frame* frame : {&run.frames.edit()[0], &run.frames.edit()[2]}) {
     frame->axial_force_N = Eigen::VectorXd::Random(12);
     frame->curvature_per_mm = Eigen::VectorXd::Random(16);

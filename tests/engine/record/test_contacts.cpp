@@ -100,7 +100,7 @@ TEST_CASE("contacts are those that every pair of edges has, in 200 random states
   int rods = 0, joints = 0, table = 0, itself = 0;
   for (int trial = 0; trial < 200; ++trial) {
     Eigen::Matrix3Xd x = grid.sheared((2 + 60 * draw(random) * draw(random)) * degree);
-    // waves, folds and, of every fourth, noise
+    // waves, in every second state a fold, in every fourth noise
     const double size = 6 * draw(random), fold = 0.06 * draw(random);
     const Eigen::Array3d way(draw(random), draw(random), draw(random));
     for (long k = 0; k < x.cols(); ++k) {
@@ -214,7 +214,7 @@ TEST_CASE("rods that are fixed at one point of the boundary are near there, and 
 TEST_CASE("a rod touches itself where a loop closes, not where it only bends") {
   constexpr int points = 200;
   Eigen::Matrix3Xd x(3, points);
-  // of a diameter of 1 mm: windings of a helix at a distance of one pitch
+  // a helix of a rod of 1 mm, whose windings are at a distance of one pitch
   const auto helix = [&](double radius, double pitch) {
     for (int k = 0; k < points; ++k) {
       const double turn = 4 * std::numbers::pi * k / points;
@@ -244,7 +244,7 @@ TEST_CASE("a rod touches itself where a loop closes, not where it only bends") {
 }
 
 TEST_CASE("neighbours along a rod do not touch where its points are closer than its thickness") {
-  // each point one that the rod is drawn through, as those of a polyline are
+  // every point is a joint, as the points of a polyline are
   constexpr int points = 300;
   Layout layout = lone_rod(points);
   layout.joint_diameter_mm = 3;
@@ -258,7 +258,7 @@ TEST_CASE("neighbours along a rod do not touch where its points are closer than 
   }
   CHECK(ContactSearch(layout).in(x).places.empty());
   CHECK(ContactSearch(layout).by_all_pairs(x).places.empty());
-  // where it comes back to itself it does
+  // windings of a helix do touch
   for (int k = 0; k < points; ++k) {
     const double angle = 4 * std::numbers::pi * k / points;
     x.col(k) << 5 * std::cos(angle), 5 * std::sin(angle), 0.9 * angle / (2 * std::numbers::pi);

@@ -63,7 +63,7 @@ TEST_CASE("a node bears the mean force of its edges, and the energy of what goes
   CHECK(force[4] == 0);  // on no rod
   const Eigen::VectorXd bending = bending_of_nodes_mJ_per_m(tee(), tee_frame());
   CHECK(bending[1] == 6);  // the end on it does not bend
-  CHECK(bending[2] == 4);  // an end of prescribed direction has one
+  CHECK(bending[2] == 4);  // an end of prescribed direction bends
   CHECK(bending[3] == 0);
   Frame old = tee_frame();
   old.axial_force_N.resize(0);

@@ -25,11 +25,11 @@ Shape shape(double radius, int rods, int edges, Position position) {
   return s;
 }
 
-/// Total K from the joints alone: with one tangent a rod at a joint its angles sum to 2 pi around,
-/// so inner joints cancel, and what is left is, with alpha the angle of the cells that are there:
-/// pi/2 - alpha at a joint of one cell, beta - pi/2 at one of three (beta that of the missing
-/// cell), 2 (pi/2 - alpha) at one of two opposite cells, 0 else. Computed from the four outgoing
-/// directions of the rods, not from cell_curvature.
+/// Total of K from the joints alone. A rod has one tangent at a joint, so the four angles at a
+/// joint add up to 2 pi, and joints with four cells contribute nothing. With alpha the angle of a
+/// cell, the others contribute pi/2 - alpha with one cell, beta - pi/2 with three (beta: the angle
+/// without a cell), 2 (pi/2 - alpha) with two opposite cells, and otherwise 0. Computed from the
+/// directions of the rods, not by cell_curvature.
 double total_curvature_from_corners(const Footprint& footprint, const JointTangents& tangents) {
   // which of the four quadrants around a joint contain a cell, counter-clockwise from (+u, +v)
   std::vector<std::array<bool, 4>> holds(footprint.joints.size(), {false, false, false, false});

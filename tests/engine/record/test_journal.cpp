@@ -1,4 +1,5 @@
-// Frames on the disk as soon as they are found: what a killed run leaves can be read.
+// Journals have every frame on the disk as soon as it is found, so that those of a killed run can
+// be read.
 #include <random>
 
 #include "engine/core/file_io.h"
@@ -105,7 +106,7 @@ TEST_CASE("a frame of an older version, which kept no forces, is read without th
   // nine empty matrices, each its rows and columns
   const std::string packed = packed_frame(frame);
   const auto old = value_of(unpacked_frame(packed.substr(0, packed.size() - 144), columns));
-  // the last six came later, one after the other
+  // the last six were added later, one after the other
   for (const int bytes : {16, 32, 48, 64, 80, 96})
     CHECK(unpacked_frame(packed.substr(0, packed.size() - std::size_t(bytes)), columns));
   CHECK(same_bits(old.nodes, frame.nodes));
@@ -123,7 +124,7 @@ TEST_CASE("a sink becomes the files of a run, whatever the order of the frames")
   REQUIRE(sink.begin(run.layout));
   for (const std::size_t k : {1, 2, 0}) REQUIRE(sink.take(run.frames[k]));
   const auto finished = value_of(sink.finish(sample_summary()));
-  // its frames are read from a journal that has no name any more
+  // the frames are read from the journal, whose name is removed already
   CHECK(same_bits(finished.frames[1].nodes, run.frames[1].nodes));
   for (const char* name : {"frames.csv", "joints.csv", "cells.csv", "bins.csv", "seams.csv",
                            "trajectory.h5", "summary.json"}) {

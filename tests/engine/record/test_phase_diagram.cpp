@@ -79,7 +79,7 @@ TEST_CASE("a diagram shows by the shortest leg where domes are alone and where m
   CHECK(regions[0].several == 1);
   CHECK(regions[0].met_first_order == 39);
   CHECK(regions[1].points == 0);
-  // (0.8, 12) lies at l_d = -2.4, and so does all that is deeper; what has no state counts nowhere
+  // (0.8, 12) has l_d = -2.4; a point without a result is in no region
   CHECK(regions[2].points + regions[3].points == 2);
   CHECK(regions[3].with[std::size_t(StateClass::iii)] == 1);
   CHECK(regions[3].more_states == 3);

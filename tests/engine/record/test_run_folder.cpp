@@ -19,7 +19,7 @@ namespace {
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
-/// as a reader cuts them that knows no quotes
+/// The parts of the text between separators `at`, as for a reader that knows no quotes.
 std::vector<std::string> cut(const std::string& text, char at) {
   std::vector<std::string> parts(1);
   for (const char c : text)
@@ -30,7 +30,7 @@ std::vector<std::string> cut(const std::string& text, char at) {
   return parts;
 }
 
-/// text before `key` replaced in summary.json, as read back
+/// The message that refuses a summary.json in which the text `from` is replaced by `to`.
 std::string refusal(const std::string& from, const std::string& to) {
   TemporaryFolder folder;
   const fs::path path = folder / "summary.json";

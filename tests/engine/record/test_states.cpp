@@ -74,7 +74,7 @@ TEST_CASE("state tables of earlier versions: a number that has no column is unkn
   written.barriers.clear();
   written.transitions.clear();
   REQUIRE(record::write_state_tables(folder, written));
-  // as it was before there were barriers
+  // the tables of a version that computed no barriers
   std::string table = record::csv_table(written.rows), older;
   for (std::size_t from = 0; from < table.size();) {
     const std::size_t end = table.find('\n', from);
@@ -106,7 +106,7 @@ TEST_CASE("state tables of earlier versions: a number that has no column is unkn
   CHECK(older_words.transitions[0].by == record::Disturbance::released);
   CHECK(older_words.transitions[1].by == record::Disturbance::pushed);
   CHECK(older_words.transitions[1].to == 0);
-  // what cannot be unknown, and what is of no version
+  // a column that must not be missing, and tables that no version wrote
   for (const char* heading : {"state,group\n", "state,state\n", "from,to\n"}) {
     REQUIRE(write_file(folder / "states.csv", heading));
     CHECK_THAT(refusal(record::read_state_tables(folder)), Catch::Contains("first line"));

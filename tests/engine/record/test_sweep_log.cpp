@@ -37,7 +37,7 @@ void write(const std::filesystem::path& file, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;
 }
 
-/// Checks that the file has the first three points.
+/// Writes the first three points to the log.
 void three_points(const std::filesystem::path& file) {
   auto log = value_of(open(file));
   for (std::size_t point = 0; point < 3; ++point) REQUIRE(log.append(result(point)));
@@ -110,7 +110,7 @@ TEST_CASE("a log is of one sweep and in one hand") {
   SweepIdentity other = name;
   other.config = 1;
   CHECK_THAT(refusal(open(file, other)), Contains("of another preset"));
-  // what is none is left as it is
+  // a file that is no log is left as it is
   for (const char* text : {"my notes", "my notes\n", "{\"sweep\":1}\n"}) {
     write(file, text);
     REQUIRE_FALSE(open(file));
@@ -152,7 +152,7 @@ TEST_CASE("a power law of a table is found with its exponents, where all is abov
   for (const double a : {1.0, 2.0, 4.0})
     for (const double b : {1.0, 3.0, 9.0}) {
       PointResult result;
-      // off by a tenth, by turns
+      // a tenth too large or too small, in turn
       const double off = table.rows.size() % 2 ? 1.1 : 1 / 1.1;
       result.figures = {{"exact", 5 * a * a / std::sqrt(b)}, {"rough", off * a}, {"low", -a}};
       table.rows.push_back({{"", {std::to_string(a), std::to_string(b)}, 0}, result});
@@ -168,7 +168,7 @@ TEST_CASE("a power law of a table is found with its exponents, where all is abov
   CHECK(rough.scatter == Approx(std::log(1.1)).epsilon(0.1));
   CHECK(exact->holds());
   CHECK(!power_law(table, "", "low"));
-  // over a range in which anything is nearly a line none is looked for
+  // no law is fitted over a range so small that anything is nearly a line in it
   for (SweepTable::Row& row : table.rows)
     if (row.keys.values[0] == std::to_string(4.0)) row.keys.values[0] = std::to_string(1.4);
   for (SweepTable::Row& row : table.rows)
@@ -183,7 +183,8 @@ TEST_CASE("a plateau that bends at its end has no exponent, nor count shells thr
   for (int k = 0; k < 21; ++k) {
     const double d = std::pow(10, -2 + 0.12 * k);
     PointResult result;
-    // flat over two decades, then down by a third; the law that it is near is within a tenth
+    // constant over two decades, then a fall by a third, so that a power law is within a tenth of
+    // it
     const double fall = d > 1.5 ? 1 - 0.35 * (std::log10(d) - std::log10(1.5)) / 0.22 : 1;
     result.figures = {{"plateau", 0.03 * std::max(fall, 0.6)},
                       {"law", 3 * std::pow(d, -1.0)},
@@ -196,7 +197,7 @@ TEST_CASE("a plateau that bends at its end has no exponent, nor count shells thr
   CHECK_FALSE(plateau.holds());
   CHECK(value_of(power_law(table, "", "law")).holds());
   CHECK(value_of(power_law(table, "", "noisy")).holds());
-  // other points near it that overlap change nothing
+  // points whose shells run through themselves change nothing
   const std::size_t points = plateau.law.size();
   PointResult overlaps;
   overlaps.figures = {{"plateau", 1.0}, {"law", 99.0}, {"noisy", 99.0}, {"contacts", 48.0}};

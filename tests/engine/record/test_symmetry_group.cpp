@@ -1,4 +1,4 @@
-// Names of groups, modes of rods, and how many kinds there are.
+// Names of symmetry groups, modes of rods, and estimates of the number of states.
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -97,10 +97,10 @@ TEST_CASE("Chao1: known values, and an interval that contains what was seen") {
   CHECK(complete.estimate == 3);
   CHECK(complete.low == 3);
   CHECK(complete.high == 3);
-  // none twice: the bias-corrected form
+  // no state was found exactly twice: the bias-corrected form
   CHECK(chao1({1, 1, 1, 5}).estimate == Approx(4 + 3));
   CHECK(chao1({}).estimate == 0);
-  // what only symmetric forms led to was not met
+  // a state with a count of 0 was not met at random
   CHECK(chao1({0, 0, 3}).seen == 1);
 }
 
@@ -148,7 +148,7 @@ TEST_CASE("what breaks a symmetry") {
   const Eigen::Matrix3Xd broken = symmetry.broken(tilted);
   // the tilt alone is left, whose mean square over the six columns is 0.0625 * 35 / 12
   CHECK(root_mean_square(broken) == Approx(std::sqrt(0.0625 * 35 / 12)));
-  // the other side of the same
+  // a tilt to the other side has the opposite sign
   grid([](double x, double y) { return 9 - x * x - y * y - 0.25 * x; }, flat, tilted);
   CHECK((symmetry.broken(tilted) + broken).norm() < 1e-9);
 }

@@ -22,7 +22,7 @@ std::string bytes_of(const Trajectory& run) {
   return read_file(folder / "a.h5").value();
 }
 
-/// Bit for bit, by every member.
+/// Checks that two layouts are equal bit for bit in the members that sample_trajectory() sets.
 void check_same(const Layout& a, const Layout& b) {
   const auto numbers = [](const Layout& of) {
     Eigen::VectorXd all(6);
@@ -224,7 +224,7 @@ TEST_CASE("a trajectory that cannot be written says why and leaves the old one")
   }
   CHECK(read_file(path).value() == before);
   CHECK(folder.entries() == std::vector<std::string>{"trajectory.h5"});
-  // and the library is fit for the next run
+  // HDF5 works as before after the failures
   CHECK(write_trajectory(path, large));
   CHECK(read_trajectory(path));
 }

@@ -135,7 +135,7 @@ TEST_CASE("an outline of a drawing is a boundary, about its middle") {
   const auto scaled = value_of(read("[actuation]\nscale = 0.9\n"));
   CHECK(value_of(scene_of(scaled.base)).motion.end.row(0).maxCoeff() == Approx(90));
   CHECK_THAT(scaled.files.at(0), Catch::Contains("an outline of 4 points, 200 x 120 mm, in mm"));
-  // the preset that a run keeps has the outline itself
+  // the preset that a run writes contains the outline itself
   const auto again = value_of(preset::read_preset_text(preset::to_toml(scaled.base), "a", "a"));
   CHECK(value_of(scene_of(again.base)).motion.end.row(0).maxCoeff() == Approx(90));
   CHECK_THAT(refusal(read("[actuation]\nboundary = \"file\"\n")),

@@ -1,4 +1,4 @@
-// What a net reaches of a mesh, and where it is best begun.
+// How much of a mesh a net reaches, and the point where it is best started.
 #include "engine/scene/mesh_net.h"
 
 #include <fmt/ranges.h>
@@ -82,7 +82,7 @@ TEST_CASE("a net on an L goes around its corner, and says what it reaches", "[st
   CHECK(ends.row(0).maxCoeff() == Approx(240).margin(2));
   CHECK(ends.row(1).maxCoeff() == Approx(240).margin(2));
   CHECK((ends.topRows<2>().array() > 122).colwise().all().count() == 0);
-  // rods are as long as their nets' curves
+  // flat rods are as long as their curves on the net
   const auto lines = value_of(rods_on_net(scene, 0.5));
   REQUIRE(lines.size() == scene.footprint.rods.size());
   for (std::size_t r = 0; r < lines.size(); ++r) {

@@ -25,7 +25,7 @@ const std::string whole = R"({
   ]
 })";
 
-/// What the program says of a file; "none" where nothing.
+/// The error that the program reports for a file, or "none".
 std::string reported(const std::string& text) {
   const auto file = preset::read_network(text, "n.json");
   if (!file) return refusal(file);

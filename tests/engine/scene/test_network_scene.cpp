@@ -15,7 +15,8 @@ preset::Preset fig1() {
   return p;
 }
 
-/// The same rods as in a file, rotated, in another order, every other one reversed.
+/// The rods of a scene as the contents of a file: rotated, in reverse order, every other rod
+/// reversed; their ends move to `scale` times their positions.
 preset::NetworkData as_file(const Scene& scene, double turn, double scale) {
   const Eigen::Rotation2Dd by(turn);
   preset::NetworkData file;
@@ -70,7 +71,7 @@ TEST_CASE("the circle of Fig. 1 as a network reaches the circle's states", "[sta
     Simulation network = open(p);
     const Footprint& net = network.scene().footprint;
     CHECK(net.joints.size() == circle.scene().footprint.joints.size());
-    // turned it is no grid any more, and nothing but its rods counts
+    // a rotated network is no grid: it has rods and no cells
     CHECK((net.rods[0].family == Family::other) == (turn != 0));
     CHECK(net.cells.size() == (turn == 0 ? circle.scene().footprint.cells.size() : 0));
     CHECK(net.spacing == Approx(20).epsilon(1e-12));

@@ -17,7 +17,7 @@ TEST_CASE("joints without a size of their own are the paper's, or as large as th
   p.joints.height_mm = 0;
   CHECK(size() == std::pair(15.0, 0.0));
   p.joints.height_mm.reset();
-  // of laths the smaller side
+  // joints of laths follow the smaller side of the section
   p.rod.width_mm = 8, p.rod.thickness_mm = 4, p.rod.shear_GPa = 30;
   CHECK(size() == std::pair(6.0, 6.0));
 }

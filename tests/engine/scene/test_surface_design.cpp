@@ -90,7 +90,7 @@ TEST_CASE("heights and meshes of a cap have the sphere's own footprint and bound
     p.net.file.vertices.push_back({v.x(), v.y(), v.z()});
   p.net.file.triangles = dome.triangles;
   same_scene(value_of(scene_of(p)), there);
-  // down to its own rim, where the surface is gone
+  // without a cut the cap ends at the rim of the mesh
   p.net.cut_mm.reset();
   const auto whole = value_of(scene_of(p));
   const double rim = 120 * std::cos(1.3);
@@ -98,7 +98,7 @@ TEST_CASE("heights and meshes of a cap have the sphere's own footprint and bound
   CHECK(whole.motion.end.row(2).maxCoeff() < rim + 1.5);
   p.net.apex_mm = {130, 0};
   refused(p, "no point at (130, 0)");
-  // 4 mm, and without the steep parts
+  // heights every 3.6 mm, without the steep parts
   p.net.file = {};
   p.net.apex_mm = {0, 0};
   p.net.cut_mm = 84;

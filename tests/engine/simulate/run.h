@@ -6,13 +6,13 @@
 
 namespace gridshell {
 
-/// With the frames of a movie.
+/// Runs a preset, with the frames of a movie or of a figure.
 inline simulate::ExperimentResult run(const preset::Preset& preset, bool stills = false) {
   Watch watch;
   return value_of(simulate::run(preset, stills, watch));
 }
 
-/// To its end, in a stable state.
+/// Runs a preset, and checks that its path is complete and ends in a stable state.
 inline simulate::ExperimentResult run_to_end(const preset::Preset& preset, bool stills = false) {
   auto outcome = run(preset, stills);
   INFO(outcome.summary.limit_reason);
@@ -21,12 +21,12 @@ inline simulate::ExperimentResult run_to_end(const preset::Preset& preset, bool 
   return outcome;
 }
 
-/// With the frames of a figure.
+/// Runs a preset with the frames of a figure.
 inline simulate::ExperimentResult run_stills(const preset::Preset& preset) {
   return run(preset, true);
 }
 
-/// Why the run is refused.
+/// The message with which the run is refused.
 inline std::string refused_run(const preset::Preset& preset, Fault fault = Fault::bad_input) {
   Watch watch;
   return refusal(simulate::run(preset, false, watch), fault);
@@ -36,12 +36,12 @@ inline const record::Frame& last_frame(const simulate::ExperimentResult& outcome
   return outcome.trajectory.frames.back();
 }
 
-/// Where the joints are at the end.
+/// Positions of the joints in the last frame, 3 x joints, mm.
 inline Eigen::Matrix3Xd joints_of(const record::Trajectory& trajectory) {
   return trajectory.frames.back().nodes.leftCols(Eigen::Index(trajectory.layout.joints.size()));
 }
 
-/// The largest distance of a joint at the end of two runs, mm.
+/// The largest distance between equal joints in the last frames of two runs, mm.
 inline double distance(const simulate::ExperimentResult& a, const simulate::ExperimentResult& b) {
   return max_column_norm(joints_of(a.trajectory) - joints_of(b.trajectory));
 }
@@ -50,7 +50,8 @@ inline std::shared_ptr<const Scene> shared_scene(const preset::Preset& preset) {
   return std::make_shared<const Scene>(value_of(scene_of(preset)));
 }
 
-/// At the end of its actuation, on these meshes, begun at that shortening.
+/// A simulation at the end of the actuation, on the meshes of `plan`, whose first buckled state is
+/// computed at the relative shortening `shortening`.
 inline Simulation formed(const preset::Preset& preset, const LevelPlan& plan,
                          double shortening = 0.02) {
   Simulation simulation = value_of(Simulation::open(shared_scene(preset), plan));

@@ -1,4 +1,4 @@
-// The shell of Fig. 1 along its whole path: the state it ends in is part of the result.
+// The shell of Fig. 1 along its complete path, and the state in which it ends.
 #include <cmath>
 #include <cstdlib>
 #include <map>

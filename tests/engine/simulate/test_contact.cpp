@@ -6,7 +6,7 @@ using namespace gridshell;
 
 namespace {
 
-/// Drawn in so far that rods and joints come into contact.
+/// A small shell, contracted to a radius at which rods and joints may be in contact.
 preset::Preset crowded(double radius_mm) {
   preset::Preset preset = small_shell();
   preset.actuation.radius_mm = radius_mm;
@@ -46,13 +46,13 @@ TEST_CASE(
   for (const record::Frame& frame : six.trajectory.frames) {
     INFO(frame.progress);
     CHECK((frame.contacts > 0) == (frame.progress > rods));
-    // they part again and touch once more before 0.9
+    // they separate again and touch once more before 0.9
     CHECK((frame.event.find("rods ") != std::string::npos) == (frame.progress > 0.75));
   }
   auto other = crowded(12);
   other.movie.frames = 2;
   CHECK(run(other).summary.contact == s.contact);
-  // reported, nothing else: the same states
+  // contact is reported without any effect on the states
   other.limits.table = true;
   const auto with_table = run(other);
   CHECK(distance(with_table, six) == 0);
@@ -121,7 +121,7 @@ TEST_CASE("a shell that begins in contact goes no deeper into it, and may leave 
   const auto stopped = run(preset);
   INFO(stopped.summary.limit_reason);
   CHECK(stopped.summary.limit == record::Limit::contact);
-  // not where the first buckled state was looked for
+  // the run stops at the first contact, not where the first buckled state was computed
   CHECK(last_frame(stopped).progress ==
         Approx(number_after(reported.summary.contact, "at progress ")).margin(1e-3));
   CHECK(last_frame(stopped).contacts == 0);

@@ -33,7 +33,7 @@ preset::NetworkData bracket(double first_piece) {
   return file;
 }
 
-/// How far the tip goes along z (across the plane) or y under P there.
+/// The equilibrium of a bracket with a force on point 4, the last joint, at its tip.
 simulate::ExperimentResult loaded(preset::Preset p, const Eigen::Vector3d& force) {
   p.loads.points = {{4, 0, force.x(), force.y(), force.z()}};
   p.movie.frames = 2;
@@ -78,7 +78,7 @@ TEST_CASE("a bracket cut with a corner bends and twists as its legs do, at secon
       errors.push_back(plane ? tip.x() - 200 - inside : -tip.z() - across);
     }
     CAPTURE(first_piece, plane, errors, across, inside);
-    // by what the mesh changes: the load itself leaves the linear form a little
+    // the order follows from differences of meshes, as the closed form is linear in the load
     CHECK(std::abs(errors[2]) < 3e-4 * (plane ? inside : across));
     CHECK((errors[0] - errors[1]) / (errors[1] - errors[2]) == Approx(4).epsilon(0.05));
   }
@@ -91,7 +91,7 @@ TEST_CASE("the error that a rod cut with a corner reports is a bound") {
   const Eigen::Vector3d tip = last_frame(outcome).nodes.col(layout.joints.back().node);
   const double error = std::abs(-tip.z() - (2 * P * L * L * L / (3 * EI) + P * L * L * L / GJ));
   CAPTURE(error, outcome.summary.error_estimate_mm);
-  // the load leaves the linear form by some 1e-5 of it
+  // the closed form is linear in the load, which is an error of some 1e-5
   CHECK(error < outcome.summary.error_estimate_mm + 5e-5);
 }
 
@@ -157,7 +157,7 @@ TEST_CASE("a rod that is closed keeps the twist of its natural shape") {
     CAPTURE(fraction, outcome.summary.model_reason, outcome.summary.limit_reason);
     CHECK(outcome.summary.model == "twist");
     CHECK_THAT(outcome.summary.model_reason, Catch::Contains("closed"));
-    // Michell's ring leaves its plane above this, and nothing keeps it off itself
+    // Michell's ring leaves its plane above this twist; contact with itself is not modelled
     CHECK(outcome.summary.contact.empty() == (fraction < 1));
     if (fraction > 1) {
       CHECK_THAT(outcome.summary.contact, Catch::StartsWith("rod 0 passed through itself"));

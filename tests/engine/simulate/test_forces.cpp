@@ -295,7 +295,7 @@ TEST_CASE(
              used = ended(1.2, 0.5, "[limits] max_utilisation = 0.5 allows"),
              first = ended(0.8, 0.5, "[limits] max_bending_strain = ");
   for (const auto* outcome : {&bent, &used}) {
-    // as far as the rods' shortening has come
+    // the limit is met at the shortening of the elastica
     double progress = 0;
     REQUIRE(std::sscanf(outcome->summary.limit_reason.c_str(), "at progress %lf", &progress) == 1);
     CHECK(progress == Approx(limit.shortening / exact.shortening).epsilon(0.01));

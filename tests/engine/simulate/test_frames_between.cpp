@@ -16,8 +16,8 @@ double largest(const Energies& a) {
   return most;
 }
 
-/// How many samples of a segment are interpolated; each is compared with all meshes, on the same
-/// path with a smaller tolerance of convergence.
+/// The number of samples of a segment that are interpolated. Each is compared with the state that
+/// is solved for on all meshes, on the same path with a smaller tolerance.
 int read_off(EquilibriumPath& path, EquilibriumPath& closely, int samples) {
   constexpr std::size_t segment = 0;
   Watch watch;
@@ -56,7 +56,7 @@ int read_off(EquilibriumPath& path, EquilibriumPath& closely, int samples) {
   return read;
 }
 
-/// On the meshes of its tolerance, converged as usual or more closely.
+/// The scene of a preset, with its own tolerance or, `closely`, with one of 1e-6.
 std::shared_ptr<const Scene> scene_at_rest(preset::Preset preset, bool closely) {
   if (closely) preset.accuracy.tolerance = 1e-6;
   return shared_scene(preset);

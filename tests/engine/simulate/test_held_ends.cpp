@@ -1,4 +1,4 @@
-// Crossed rods with pinned ends and with ends of prescribed direction, against the elastica.
+// Crossed rods with pinned ends and with ends of prescribed direction, compared with the elastica.
 #include "tests/engine/simulate/run.h"
 #include "tests/engine/solve/elastica.h"
 
@@ -78,7 +78,7 @@ TEST_CASE("ends of prescribed direction: errors fall as even powers of the edge 
       CHECK(coarser_force / off_force == Approx(4).epsilon(0.02));
     }
     if (edges > 16) {
-      // of third order it would be 8
+      // a method of third order would give 8
       CHECK(before / left > 12);
       CHECK(before_force / left_force > 12);
     }

@@ -1,4 +1,5 @@
-// An X-shell whose laths are hinged, against energies written down and solved by themselves.
+// An X-shell whose laths are hinged, compared with a separate implementation of its energy, which
+// Eigen's solver minimises.
 #include <numeric>
 #include <random>
 #include <unsupported/Eigen/AutoDiff>
@@ -32,8 +33,7 @@ struct Laths {
   double spring = 0;         ///< N mm/rad
   std::vector<double> rest;  ///< natural angles, of every joint
 
-  /// Where a joint is on a rod: before and after it lie the ends of the edge that it is in the
-  /// middle of.
+  /// A joint on a rod, with the ends of the edge in whose middle it is.
   struct Centre {
     int before, joint, after;
   };
@@ -137,14 +137,14 @@ struct Laths {
     return energy(x, angle);
   }
 
-  /// Its slopes, as the solver of equations asks for them.
+  /// The derivatives of the energy, as Eigen's solver of equations needs them.
   struct Slopes {
     const Laths& laths;
     const Eigen::Matrix3Xd& nodes;
 
     int operator()(const Eigen::VectorXd& by, Eigen::VectorXd& slopes) const {
       slopes = laths.at_place(nodes, by).derivatives();
-      // what no energy has: angles at joints
+      // the energy does not depend on the angles at joints, which are set to 0
       for (Eigen::Index k = 0; k < slopes.size(); ++k)
         if (slopes[k] == 0 && k >= 3 * Eigen::Index(laths.free().size())) slopes[k] = by[k];
       return 0;
@@ -166,7 +166,7 @@ struct Laths {
   }
 };
 
-/// Four laths that cross at angles of 60 degrees and about, ends drawn in to 0.97.
+/// Four laths that cross at angles of about 60 degrees, with their ends moved inwards to 0.97.
 preset::Preset hinged() {
   preset::NetworkData file;
   file.points = {{-22, -2, 0},  {0, -14, 0},  {23, 1, 0},    {1, 13, 0},  // joints

@@ -15,14 +15,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Leaves at progress 0.02 for a branch with one mirror.
+/// A shell whose path changes to a branch with one mirror plane at progress 0.02.
 preset::Preset imperfect() {
   preset::Preset p = circle(12, 126, 94.5, 4);
   p.accuracy.tolerance = 1e-3;
   return p;
 }
 
-/// In order.
+/// The files of a folder, sorted.
 std::vector<fs::path> files_in(const fs::path& folder) {
   std::vector<fs::path> files(fs::directory_iterator(folder), {});
   std::ranges::sort(files);
@@ -34,7 +34,8 @@ struct Run {
   record::Trajectory trajectory;
 };
 
-/// Every load step is kept; `stop_at`: the path parameter at which the run is stopped.
+/// Runs imperfect(), saves every load step in `folder` if it is given, and cancels the run once the
+/// path parameter is above `stop_at`.
 Run run_with(const fs::path& folder, double stop_at = 2) {
   const preset::Preset p = imperfect();
   RunContext context;
@@ -74,10 +75,10 @@ TEST_CASE("a run that is stopped on its path continues from there, to the same s
   const TemporaryFolder folder;
   const Run whole = run_with({});
   const Run stopped = run_with(folder, 0.3);
-  if (stopped.summary) return;  // it was over before anybody looked
+  if (stopped.summary) return;  // the run ended before it was cancelled
   const auto kept = files_in(folder);
   REQUIRE(kept.size() >= 2);
-  // as near as corrections go
+  // equal to a thousandth of the tolerance
   check_same(whole, run_with(folder), 1e-3 * 1e-3 * 126);
 }
 

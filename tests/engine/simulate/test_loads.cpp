@@ -24,8 +24,8 @@ preset::NetworkData rod_on_cross(const std::vector<double>& tip, const Eigen::Ve
   return file;
 }
 
-/// So many times its critical weight, 18.568 EI/L^3 a length, on a column of which the top may only
-/// move up and down.
+/// A column whose top can only move up and down, under `times` its critical weight per length,
+/// 18.568 EI/L^3.
 preset::Preset column(double times) {
   preset::Preset p = network(rod_on_cross({0, 0, L}, {stiff, stiff, 0}));
   p.loads.field_N_per_mm = times * 18.568 * EI / (L * L * L);
@@ -43,8 +43,9 @@ Eigen::Vector4d elastica(double angle, double length, const Turn& turn) {
   return shot(angle, 0, length, [&](double s, double theta) { return turn(s, theta) / EI; });
 }
 
-/// How far half a beam sags that ends at right angles to the vertical in its middle, where `turn`
-/// is the moment's slope; its angle at the end lies between `least` and a right one.
+/// The deflection of a beam in its middle, where it is horizontal, from the elastica of one half;
+/// `turn` is the derivative of the moment by the arc length. The angle at the end of the beam is
+/// searched for between `least` and a right angle.
 template <class Turn>
 double sag_of_half(double least, const Turn& turn) {
   const auto half = [&](double angle) { return elastica(angle, L / 2, turn); };
@@ -239,7 +240,7 @@ TEST_CASE("a grillage shares the force at its joint as its beams are stiff, at a
   };
   const auto beam = [](double length) { return 48 * EI / std::pow(length, 3); };
   CHECK(sag_of(200, 160, 1e-5) == Approx(1e-5 / (beam(200) + beam(160))).epsilon(1e-3));
-  // of two equal rods each carries a half, and each support a quarter
+  // each of two equal rods carries a half of the load, and each support a quarter
   constexpr double P = 8e-3;
   const double sag = sag_of_half(0.1, [](double, double theta) { return P / 4 * std::sin(theta); });
   CHECK(sag_of(L, L, P) == Approx(sag).epsilon(1e-3));

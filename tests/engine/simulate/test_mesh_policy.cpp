@@ -1,5 +1,5 @@
-// Which mesh a path is followed on: what its companion confirms, what is doubled, what stays in
-// doubt.
+// The choice of the meshes on which a path is followed: what the companion mesh confirms, when the
+// edges are doubled, and what is reported as not confirmed.
 #include "engine/simulate/mesh_policy.h"
 
 #include <cmath>
@@ -19,14 +19,15 @@ EquilibriumPath actuated(const preset::Preset& preset, const LevelPlan& plan) {
   return path;
 }
 
-/// A path that says what a test wants of each mesh.
+/// What a test prescribes of the path on one mesh.
 struct Said {
-  bool too_coarse = false;         ///< and so far from the tolerance
+  bool too_coarse = false;         ///< whether its estimate misses the tolerance
   std::optional<bool> event = {};  ///< whether the companion has it
   double event_t = 0.5;
 };
 
-/// The policy on paths that are not followed: `said(edges)`; `tried` gets the meshes in order.
+/// Applies the policy to prescribed paths, said(edges), which are not followed; `tried` gets the
+/// edges of the meshes in order.
 template <class Say>
 Result<SharedPath> policy(const Scene& scene, const Say& said, std::vector<int>& tried) {
   const auto shared = std::make_shared<const Scene>(scene);
@@ -173,8 +174,8 @@ TEST_CASE("where the lowest stiffness nearly vanishes a finer mesh decides wheth
 }
 
 TEST_CASE("a branch that is stable again further on is left for the one in between") {
-  // the boundary moves by 5 mm in all: a thousandth of the size further on the symmetric branch,
-  // which loses its stability at 0.183, has regained it
+  // the boundary moves by 5 mm in all: the symmetric branch loses its stability at 0.183 and has
+  // regained it a thousandth of the size later
   const EquilibriumPath path =
       actuated(superellipse(97.549, 104.313, 4.3314, 0.954516), plan_of_mesh(16));
   REQUIRE(path.segments.back().report.events.size() == 1);
@@ -190,7 +191,7 @@ TEST_CASE("a companion that loses its stability decides nothing") {
   const EquilibriumPath path = actuated(p, {{4, 8}, false});
   CHECK(path.segments.back().report.events.empty());
   CHECK(path.segments.back().report.end == Outcome::reached);
-  // but no state of theirs is next to it then
+  // the path is not confirmed, as 4 edges have no state next to its end
   CHECK(not_confirmed(path));
   CHECK_FALSE(not_confirmed(actuated(p, {{8, 16}, false})));
 }

@@ -19,15 +19,15 @@ preset::Preset four_rods() {
   return p;
 }
 
-/// Drawn in a little, without an imperfection.
+/// The shell of Fig. 1, contracted to 0.9 of its radius, without an imperfection.
 preset::Preset twelve_rods() {
   preset::Preset p = circle(12, 126, 0.9 * 126);
   p.imperfection.size = 0;
   return p;
 }
 
-/// The largest joint distance between the two models in equilibrium, over the shell's scale: with
-/// the twist model from random edge angles.
+/// The largest distance of a joint between the equilibria of the bend and of the twist model, over
+/// the length scale. The twist model starts from random edge angles.
 double distance_of_rungs(preset::Preset preset, int edges) {
   preset.accuracy.tolerance = 1e-6;
   const auto scene = shared_scene(preset);
@@ -200,7 +200,7 @@ TEST_CASE("a strip lies flat or upright, and an arched rod rises by itself") {
   p.rod.curvature_per_mm = 0.005;
   const auto arched = run(p);
   CHECK(arched.summary.stable);
-  // curved as the dome is, it bends less; in the flat it is not straight in equilibrium
+  // rods with natural curvature are not straight in equilibrium, even in the flat grid
   CHECK(arched.trajectory.frames.front().height_mm > 0.01);
   CHECK(arched.trajectory.frames.front().residual_N < 1e-6);
   // inverted, its rods roll over, as their ends rotate freely, and reach the same state

@@ -8,7 +8,7 @@ namespace {
 
 enum Hold { pinned, tangent, clamped, let_go };
 
-/// Two beams of 200 mm that cross in their middles, pushed down there by a trace.
+/// Two beams of 200 mm that cross in their middles, where a very small force pushes them down.
 struct Cross {
   static constexpr double length = 200, push_N = 1e-5;
   std::array<Hold, 4> ends;  ///< begin and end of the first, of the second
@@ -27,7 +27,7 @@ struct Cross {
     p.loads.points = {{4, 0, 0, 0, -push_N}};
     return p;
   }
-  /// What a beam bears in its middle over EI/L^3 [beam theory].
+  /// Stiffness of a beam against a force in its middle, over EI/L^3 [beam theory].
   static double stiffness(Hold begin, Hold end) {
     if (begin == pinned && end == pinned) return 48;
     if (begin == let_go || end == let_go) return 24;
@@ -46,7 +46,7 @@ double sunk(const preset::Preset& p) {
   return -joints_of(outcome.trajectory)(2, 0);
 }
 
-/// The energies of its equilibrium.
+/// The energies of a network of laths in equilibrium.
 Energies at_rest(const preset::NetworkData& file) {
   preset::Preset p = network(file, 2);
   p.rod.width_mm = 2, p.rod.thickness_mm = 1, p.rod.young_GPa = 10, p.rod.shear_GPa = 4;

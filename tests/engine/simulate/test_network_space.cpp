@@ -41,7 +41,7 @@ TEST_CASE(
 
 TEST_CASE("a vault drawn in space is the same however it is turned, moved supports and all") {
   const auto upright = run_to_end(network(vault(0.92), 4, 3));
-  // from the equilibrium of the drawn shape on: every frame is certified
+  // the path starts from the equilibrium of the drawn shape, so every frame is certified
   REQUIRE(upright.trajectory.frames.size() == 3);
   for (std::size_t k = 0; k < 3; ++k) {
     const record::Frame& frame = upright.trajectory.frames[k];
@@ -90,7 +90,7 @@ TEST_CASE("straight strips laid flat by their geodesic lengths reach the sphere"
       (joints_of(outcome.trajectory).colwise() - middle).colwise().norm().array() - 240;
   CHECK(off.cwiseAbs().maxCoeff() < 0.01 * 240);
   CHECK(off.cwiseAbs().mean() < 0.004 * 240);
-  // 54.617 mm is what 4 to 64 edges go to, at first order
+  // 54.617 mm is the limit of meshes of 4 to 64 edges, at first order
   CHECK(outcome.summary.height_mm ==
         Approx(54.617).margin(1.1 * outcome.summary.error_estimate_mm));
   CHECK(outcome.summary.error_estimate_mm < 0.2);

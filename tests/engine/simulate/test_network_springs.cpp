@@ -10,7 +10,7 @@ namespace {
 
 preset::Preset triaxial() { return shipped("network_triaxial"); }
 
-/// Every end of the triaxial dome on a spring; what a file says nothing of is a support.
+/// The triaxial dome with a spring at every end.
 preset::Preset on_springs(const Eigen::Vector3d& k) {
   preset::Preset p = triaxial();
   auto& file = p.footprint.file;
@@ -29,7 +29,7 @@ Eigen::Matrix3Xd joints_of(const Simulation& session) {
 }  // namespace
 
 TEST_CASE("stiff springs converge to fixed supports, the distance falling as 1/k", "[standard]") {
-  // so little that the path leaves no branch
+  // the supports move so little that the path has no event
   constexpr double scale = 0.99, shortening = 0.005;
   for (const auto rod_model : {RodModel::bend, RodModel::twist}) {
     const auto joints = [&](preset::Preset p) {
@@ -82,7 +82,7 @@ TEST_CASE("forces of springs are k times what the ends stay behind, and balance"
   CHECK(sum.norm() < 1e-6 * largest);
   CHECK(moment.norm() < 1e-4 * largest);
   CHECK(frame.energies[Term::support] == Approx(energy).epsilon(1e-6));
-  // what is recorded sums to what the solver minimises
+  // the recorded energies sum to the energy that the solver minimises
   NestedShell& shell = session.shell();
   CHECK(frame.energies.total() ==
         Approx(shell.system(1).energy_at(shell.state().levels[1])).epsilon(1e-12));
@@ -127,7 +127,7 @@ TEST_CASE("symmetries of a mesh keep its supports, and how stiff they are") {
   const std::size_t all = count(triaxial());
   CHECK(all > 1);
   CHECK(count(on_springs({2, 2, 1})) == all);
-  // one end softer, or free: only what leaves it where it is
+  // with one end softer, or free, only symmetries that map it to itself remain
   preset::Preset p = on_springs({2, 2, 1});
   p.footprint.file.springs[0][3] = 0.5;
   CHECK(count(p) < all);

@@ -1,4 +1,4 @@
-// The states of shells that are no square grid: perturbed, pushed and judged as those of grids.
+// Searches for states of shells that are no square grid.
 #include <algorithm>
 #include <set>
 
@@ -34,7 +34,7 @@ void check(const study::StateLibrary& library, int trials) {
     CHECK(before == state.frame.energies.total());
     met += state.row.count;
   }
-  // no trial is lost: each met a state, or says why it met none
+  // some trials met a state
   CHECK(met > 0);
   CHECK(met <= trials);
 }

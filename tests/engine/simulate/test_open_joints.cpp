@@ -47,7 +47,7 @@ preset::Step opened(double degrees, double stiffness) {
   return step;
 }
 
-/// These as a shell that is no mechanism: hinges, and a trace of resistance to shear.
+/// The rhombi as a shell that is no mechanism: with hinges and a very small stiffness in shear.
 preset::Preset linkage() {
   preset::Preset p = network_of_rods(rhombi(50 * degree), 2);
   p.joints.twist_Nmm = 1e3, p.joints.shear_Nmm = 1e-3;
@@ -184,7 +184,8 @@ TEST_CASE("bolts of another stiffness are replaced with their torque before they
   const double first = (shear * 50 + hard * 80) / (shear + hard);
   p.step = {opened(80, hard)};
   CHECK(angle_of(run(p)) == Approx(first).epsilon(1e-4));
-  // the softer ones strive for more; that of one joint is driven on
+  // the softer bolts have larger target angles, so that their torque is the same; one of them gets
+  // another target
   const double strives = first + hard / soft * (80 - first);
   preset::Step one = opened(0, soft);
   one.angles = {{12, 0, 120}};
@@ -234,7 +235,7 @@ TEST_CASE("stiff springs cost a path no more steps than soft ones") {
   p.step[0].stiffness_Nmm *= 100;
   const auto outcome = run_to_end(p);
   CHECK(outcome.summary.stable);
-  // 6 364 where torques follow from angles that a step predicts
+  // 6364 if torques were computed from the angles that a step predicts
   CHECK(outcome.summary.factorizations < 400);
 }
 

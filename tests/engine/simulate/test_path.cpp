@@ -28,8 +28,8 @@ preset::Preset drawn_ellipse(double half_x_mm, double half_y_mm, double scale, d
   return p;
 }
 
-/// On meshes of so many edges per segment times a power of two, in load steps of so many of the
-/// usual ones.
+/// Runs a preset on meshes of `edges` times a power of two edges per segment, in load steps of
+/// `load_step` times the usual size.
 simulate::ExperimentResult led_by(int edges, const preset::Preset& preset, double load_step = 1) {
   Scene scene = scene_of(preset).value();
   scene.base_edges = edges;
@@ -82,12 +82,12 @@ TEST_CASE("every requested frame is there and in equilibrium, or the run says wh
     CHECK(last_frame(outcome).progress == 1);
   else
     CHECK_FALSE(outcome.summary.limit_reason.empty());
-  // drawn in by less than two per cent
+  // contracted by less than two per cent
   barely.accuracy.tolerance = 1e-3;
   const auto little = run(barely);
   check_frames(little, 3);
   CHECK(little.summary.error_estimate_mm < 1e-3 * 77.9);
-  // inner frames of a shell begun on its net
+  // inner frames of a shell that starts on its net
   pipe.movie.frames = 3;
   const auto on_its_way = run(pipe);
   check_frames(on_its_way, 3);
@@ -212,7 +212,7 @@ TEST_CASE("a saddle from flat loses its branch where two coarse meshes do", "[st
 
 TEST_CASE("the frame after a jump is the one that reports it, and it jumps where that is reported",
           "[standard]") {
-  // of two snaps the second is a limit point of the path, which a mesh of twice the edges has later
+  // the second of two snaps is a limit point, which a mesh of twice as many edges reaches later
   preset::Preset p = ellipse(60);
   p.footprint.placement = Placement::on_axis;
   p.accuracy.tolerance = 0.02;
@@ -264,7 +264,7 @@ TEST_CASE("the last frame is the state that the path reached, no leg flipped bet
   const auto outcome = run(p);
   CHECK(last_frame(outcome).progress == 1);
   CHECK(last_frame(outcome).negative_pivots == 0);
-  // between those of the 4 edges, 42.92 mJ, and of the 16, 43.32 mJ
+  // the energy is between those of 4 edges, 42.92 mJ, and of 16 edges, 43.32 mJ
   CHECK(last_frame(outcome).energies[Term::bend] == Approx(43.24).margin(0.02));
 }
 

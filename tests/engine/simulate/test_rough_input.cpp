@@ -1,4 +1,5 @@
-// What broke earlier solvers: each ends in the right answer or in a reason, never in a wrong state.
+// Inputs on which earlier solvers failed: each run ends in the right state or with a reason, never
+// in a wrong state.
 #include <cmath>
 
 #include "tests/engine/simulate/run.h"
@@ -31,7 +32,8 @@ Result<Run> run(std::shared_ptr<const Scene> scene, const std::vector<double>& p
 
 Result<Run> end_of(std::shared_ptr<const Scene> scene) { return run(std::move(scene), {1.0}); }
 
-/// Certified, or a reason; returns whether it was certified.
+/// Checks that a run ended in a certified state or with a reason; returns whether the state is
+/// certified.
 bool certified_or_named(const Result<Run>& outcome, double residual_N = 1e-8) {
   if (!outcome) {
     CHECK(outcome.error().fault == Fault::no_equilibrium);
@@ -68,9 +70,9 @@ TEST_CASE("EA from a hundredth to ten thousand times: the same state, or a reaso
     scene.max_strain = 1;
     INFO("EA x " << scale);
     const auto outcome = end_of(std::make_shared<const Scene>(scene));
-    // round-off in EA x strain
+    // residuals are due to round-off in EA x strain
     if (!certified_or_named(outcome, std::max(1e-8, 1e-9 * scale))) continue;
-    // stretch shares the work: with N of about 1e-3 EA x scale the energies differ by as much
+    // rods stretch as well as bend: with strains of about 1e-3/scale the energies differ by as much
     const double softness = std::max(1e-3, 2e-3 / scale);
     CHECK(outcome->trajectory.frames.back().energies[Term::bend] ==
           Approx(reference).epsilon(softness));

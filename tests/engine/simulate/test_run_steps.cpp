@@ -77,7 +77,7 @@ TEST_CASE("a released push gives the shell before, and every step reports its re
   CHECK_THAT(outcome.summary.steps[0],
              Catch::StartsWith("1 push [0, 0]: reached, residual ") && Catch::Contains("stable"));
   CHECK_THAT(outcome.summary.steps[1], Catch::StartsWith("2 release: reached"));
-  // and its reaction is known only while the constraint exists
+  // the reaction of the joint is known only while the constraint exists
   const record::Layout& layout = outcome.trajectory.layout;
   REQUIRE(layout.loaded_joints.size() == 1);
   CHECK(layout.loaded_joints[0].at_times);
@@ -150,7 +150,7 @@ TEST_CASE("a step that ends early ends the run, and both say so") {
   const auto outcome = run(preset);
   CHECK(outcome.summary.limit == record::Limit::locking);
   CHECK_THAT(outcome.summary.limit_reason, Catch::StartsWith("step 1 (push [0, 0]): "));
-  // which of the two limits of a push it met
+  // the push ended at one of two limits
   const bool strained = std::abs(outcome.summary.largest_strain) > 0.9 * preset.limits.max_strain;
   CHECK_THAT(
       outcome.summary.limit_reason,
@@ -170,7 +170,7 @@ TEST_CASE("steps on what is not there are errors with their number") {
                                           Catch::Contains("joint: got [40, 0], expected a joint"));
   CHECK_THAT(refused(of(StepKind::release)),
              Catch::Contains("[[step]] 2: got no prescribed joint"));
-  // which `check` says as well
+  // `check` reports it as well
   CHECK_THAT(refusal(simulate::plan(preset)),
              Catch::StartsWith("[[step]] 2: got no prescribed joint"));
   preset::Step edge = of(StepKind::move);
@@ -196,7 +196,7 @@ TEST_CASE("a push that no mesh follows ends the run with its reason, and draws n
   const auto outcome = run(p);
   CHECK(outcome.summary.steps.size() == 2);
   CHECK_FALSE(outcome.trajectory.frames.empty());
-  if (outcome.summary.limit == record::Limit::none) return;  // it is followed then
+  if (outcome.summary.limit == record::Limit::none) return;  // a mesh follows the push
   CHECK_THAT(outcome.summary.limit_reason, Catch::StartsWith("step 2 (push [1, 1]): "));
   CHECK(outcome.trajectory.layout.loaded_joints.size() <= 1);
 }

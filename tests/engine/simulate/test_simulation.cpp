@@ -1,4 +1,4 @@
-// One shell under all commands of a user.
+// A session: one shell under all commands of a user.
 #include "engine/simulate/simulation.h"
 
 #include <pthread.h>
@@ -76,7 +76,7 @@ TEST_CASE("a session goes through all that a user does, and back by its checkpoi
   CHECK(session.holds().size() == 1);
   keep(session.release(12, unwatched));
   CHECK(session.holds().empty());
-  // let go, it is where it was before it was pushed
+  // after both releases the shell is as it was before the pushes
   CHECK(max_column_norm(session.nodes() - nodes[2]) < 1e-3);
   std::vector<NodeAction> field;
   for (int joint = 0; joint < 12; ++joint) field.push_back({joint, {0, 2e-5, -1e-4}});
@@ -95,7 +95,7 @@ TEST_CASE("a session goes through all that a user does, and back by its checkpoi
     CHECK(session.energies().total() == energies[k]);
     CHECK(session.save().state.levels[0].x == kept[k].state.levels[0].x);
   }
-  // and on from there as before
+  // from a restored checkpoint the same command gives the same state
   session.restore(kept[1]);
   certified(session, session.move_edge_points(ellipse(*shell), unwatched));
   CHECK(max_column_norm(session.nodes() - nodes[2]) < 1e-6);
@@ -124,14 +124,13 @@ TEST_CASE("what fails leaves the last certified state, what is cancelled says so
   watch.cancel();
   CHECK(session.push(7, {0, 0, -5}, Across::free, watch).end == Outcome::cancelled);
   CHECK(max_column_norm(session.nodes() - before) < 1e-6);
-  // nothing is half changed: what did not begin prescribes nothing
+  // a push that did not start prescribes nothing
   CHECK(session.holds().empty());
   CHECK(session.move_to(0.9, watch).end == Outcome::cancelled);
   CHECK(session.load(2, watch).end == Outcome::cancelled);
   CHECK(session.move_to(1, unwatched).end == Outcome::reached);
   CHECK(max_column_norm(session.nodes() - before) < 1e-6);
-  // outwards the rods reach the strain limit: it stops there, certified
-
+  // pulled outwards, the rods reach the strain limit, and the push stops there, certified
   const Report pulled = session.push(0, {0, 0, 60}, Across::free, unwatched);
   CHECK(pulled.end == Outcome::locked);
   CHECK(pulled.t < 1);

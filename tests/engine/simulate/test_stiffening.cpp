@@ -1,5 +1,5 @@
-// A formed shell made stiff and loaded: bolts and braces free of stress, loads and reactions in
-// balance, all of it taken away again.
+// A formed shell that is stiffened and loaded: bolts and braces are added free of stress, loads and
+// reactions are in balance, and all of them are removed again.
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@ namespace {
 
 preset::Preset loaded_shell() {
   preset::Preset p = small_shell();
-  p.rod.diameter_mm = 2.5;  // its load is far above round-off
+  p.rod.diameter_mm = 2.5;  // so stiff that the loads are far above round-off
   p.limits.max_strain = 0.05;
   p.rod.density_kg_m3 = 6450;
   p.loads.gravity_m_s2 = 9.81;
@@ -117,7 +117,7 @@ TEST_CASE("load cases: what is applied is what the supports bear, to 1e-9 of it"
     const Eigen::Vector3d left = reactions(simulation) + all;
     CAPTURE(left.norm() / all.norm());
     CHECK(left.norm() < 1e-9 * all.norm());
-    // as frames have it, extrapolated
+    // the extrapolated loads and reactions of frames are in balance, too
     const record::Frame frame = frame_of(simulation);
     CHECK((frame.loads_N.rowwise().sum() - all).norm() < 1e-9 * all.norm());
     CHECK((frame.loads_N + frame.reactions_N).rowwise().sum().norm() < 1e-9 * all.norm());

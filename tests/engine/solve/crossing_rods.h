@@ -15,7 +15,7 @@ inline RodMesh crossing_rods(int edges_per_half) {
   return mesh_rods(value_of(scene_of(network(cross(50, 50)))).footprint, edges_per_half);
 }
 
-/// About the arch that these rods rise to when their ends come 2 % together.
+/// An approximation of the arch to which these rods rise if their ends approach by 2 %.
 inline State crossing_arch(const Model& model) {
   State state;
   state.x = Eigen::Matrix3Xd::Zero(3, model.nodes);

@@ -39,8 +39,8 @@ double zero_of(const Function& f, double low, double high) {
   return low;
 }
 
-/// A rod of one arch consists of equal quarters, each from a point without curvature to one where
-/// it is level: two if its ends are pinned, four if they are clamped level.
+/// The arch of a rod, which consists of equal quarters, each from a point without curvature to one
+/// where the rod is level: two if the ends are pinned, four if they are clamped level.
 struct Elastica {
   double height = 0;  ///< of the middle above the ends, mm
   double thrust = 0;  ///< N

@@ -47,7 +47,7 @@ double critical(double low, double high, Stable stable) {
   return high;
 }
 
-/// The angle of an edge, rad.
+/// Sets the angle of an edge, rad.
 inline void set_angle(const Model& model, State& state, int edge, double angle) {
   state.x.data()[model.spin[std::size_t(edge)]] = angle * model.spin_length;
 }

@@ -22,7 +22,7 @@ inline RodMesh single_rod(int edges, double length) {
   return mesh;
 }
 
-/// Its nodes on a line, `stretch` times the natural length, with a bump of this height in z.
+/// Nodes of a rod on a line, `stretch` times the natural length, with a bump of height `bump` in z.
 inline Eigen::Matrix3Xd straight(const Model& rod, double stretch = 1, double bump = 0) {
   Eigen::Matrix3Xd x = Eigen::Matrix3Xd::Zero(3, rod.nodes);
   const Eigen::RowVectorXd u = rod.flat.row(0);

@@ -10,7 +10,7 @@ using namespace gridshell;
 
 namespace {
 
-/// The force that a displacement takes which lowers the joint from `state` to `height`.
+/// The force on the joint at `height`, to which a prescribed displacement moves it from `state`.
 double force_at(const Model& unloaded, State state, double height) {
   Linearisation system(unloaded);
   const Constraint held{0, Eigen::Vector3d::UnitZ()};

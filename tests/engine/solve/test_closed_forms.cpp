@@ -1,5 +1,5 @@
-// Rods with closed-form solutions: each on two meshes, which must converge with second order, and
-// extrapolated from both with a smaller error.
+// Rods with closed-form solutions: each on three meshes, which must converge with second order, and
+// extrapolated from the finer two with a smaller error.
 #include <functional>
 #include <string>
 
@@ -147,7 +147,7 @@ double arch(int edges) {
   double before = 0, here = 0;
   Eigen::Matrix3Xd last = state.x;
   for (int k = 1; k < 160; ++k) {
-    // on as it went
+    // the prediction continues the last step
     const Eigen::Matrix3Xd at = std::exchange(last, state.x);
     Eigen::Matrix3Xd on = 2 * state.x - at;
     on(2, crown.node) = R - k * step;
@@ -168,9 +168,9 @@ double arch(int edges) {
 struct ClosedForm {
   std::string name;
   double exact;
-  std::function<double(int)> found;  ///< on so many edges
-  int edges;                         ///< of the coarser mesh
-  double left;                       ///< relative, after extrapolation
+  std::function<double(int)> found;  ///< the value on a mesh of so many edges
+  int edges;                         ///< of the coarsest mesh
+  double left;                       ///< largest relative error after extrapolation
 };
 
 }  // namespace

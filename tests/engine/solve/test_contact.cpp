@@ -93,7 +93,7 @@ TEST_CASE("contact: two crossed rods press with the load, at the distance of the
   const double distance = (middle(edges + 1) - middle(0)).z();
   CHECK(distance > diameter);
   CHECK(distance < diameter + gap);
-  // the law, at a distance that parallel edges are kept smooth by: a twentieth of the range less
+  // the law is applied to the mollified distance, whose square is less by a twentieth of the range
   const double range = gap * (2 * diameter + gap);
   const auto law = model.contact.barrier.at(distance * distance - 0.05 * range, diameter);
   CHECK(-2 * distance * law.slope == Approx(force).epsilon(1e-3));

@@ -52,7 +52,7 @@ TEST_CASE("dynamics: a pinned beam's first frequency") {
 TEST_CASE("damped motion: second order in the step, a slow vibration dies as its damping says") {
   const double length = 100;
   RodSection section = circular_section(diameter, 83);
-  section.EA = 5;  // its waves are resolved too
+  section.EA = 5;  // so soft that the steps resolve longitudinal waves, too
   const Model model = build_model(single_rod(12, length), section).value();
   const Eigen::Matrix3Xd mass = mass_of(model).value();
   const double period =
@@ -73,7 +73,7 @@ TEST_CASE("damped motion: second order in the step, a slow vibration dies as its
                fine = max_column_norm(after(0.7, 80, 0) - exact);
   CAPTURE(coarse, fine);
   CHECK(std::log2(coarse / fine) == Approx(2).margin(0.2));
-  // after a period it is at its start, reduced by exp(-c T/2)
+  // after a period the rod is as at the start, reduced by exp(-c T/2)
   const double c = 0.4 / period;
   const int middle = 7;
   REQUIRE(model.flat(0, middle) == Approx(length / 2));

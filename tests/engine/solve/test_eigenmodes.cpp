@@ -21,7 +21,7 @@ const RodSection section = circular_section(0.254, 83);
 /// (2 pi f)^2 of a pinned beam's first mode
 const double first = std::pow(M_PI / L, 4) * section.EI / per_mm;
 
-/// lambda of a state, an equilibrium or near one.
+/// The lowest eigenvalues (2 pi f)^2 of a state that is an equilibrium or near one, 1/s^2.
 Eigen::VectorXd lambdas(Linearisation& system, const State& state, int count) {
   const Model& model = system.model();
   const Inertia inertia = system.at(state, false);

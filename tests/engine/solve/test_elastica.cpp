@@ -1,4 +1,4 @@
-// A single pinned rod against the exact elastica: a/L = 2E(m)/K(m) - 1, h/L = sqrt(m)/K,
+// A single pinned rod compared with the exact elastica: a/L = 2E(m)/K(m) - 1, h/L = sqrt(m)/K,
 // P = 4 K^2 EI/L^2.
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -25,7 +25,7 @@ Found elastica(int edges, double shortening, double stretch_scale) {
   State state =
       start_state(model, straight(model, 1 - shortening, 0.6 * std::sqrt(shortening) * length));
   state.force.setZero();
-  // what round-off in EA x strain leaves
+  // round-off in EA x strain leaves corrections of this size
   const NewtonReport report = minimise(system, state, {.tolerance_mm = 1e-5}, unwatched);
   REQUIRE(report.outcome == Outcome::reached);
   system.gradient_at(state);

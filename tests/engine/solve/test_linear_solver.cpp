@@ -117,7 +117,7 @@ TEST_CASE("factorisations: large ones have the same bits on any number of thread
         REQUIRE(x == y);
       }
     }
-    // what stops at the first negative pivot counts the same, too
+    // factorisations that stop at the first negative pivot report the same number, too
     solver->most_negative = alone->most_negative = 0;
     CHECK(solver->factor(system.assembly.hessian, 0).negative_pivots ==
           alone->factor(system.assembly.hessian, 0).negative_pivots);
@@ -139,7 +139,7 @@ TEST_CASE("factorisations: two systems in one memory take turns, each with its o
   alone.solve(x);
   b.solve(y);
   CHECK(x == y);
-  // made again once, and counted
+  // the factor is computed again once, which is counted
   b.solve(y);
   CHECK(b.effort().factorizations == 2);
   CHECK(alone.effort().factorizations == 1);

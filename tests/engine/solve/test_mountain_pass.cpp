@@ -8,7 +8,8 @@ using namespace gridshell;
 
 namespace {
 
-/// A rod between pins nearer to one another than it is long, kept to the xz-plane by the ground.
+/// A rod between pins nearer to one another than it is long, confined to the xz-plane by the
+/// ground.
 struct Arch {
   SingleRod rod;
   Model model;

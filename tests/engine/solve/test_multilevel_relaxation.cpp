@@ -79,6 +79,6 @@ TEST_CASE("eigenvalue: a straight pinned rod has EI (pi/L)^4, on two meshes at s
   CHECK(coarse == Approx(exact).epsilon(5.0 / 400));
   CHECK(fine == Approx(exact).epsilon(5.0 / 1600));
   CHECK((coarse - exact) / (fine - exact) == Approx(4).epsilon(0.1));
-  // what is not stable has none
+  // an unstable state has no such eigenvalue
   CHECK(std::isnan(found(20, 0.98)));
 }

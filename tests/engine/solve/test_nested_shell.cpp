@@ -47,7 +47,8 @@ TEST_CASE("along a path companions take one correction a state, and it is the ex
     for (std::size_t level = 0; level < 3; ++level)
       CHECK(max_column_norm(shell.state().levels[level].x - exact.state().levels[level].x) <
             tolerance_mm);
-    // nor in the forces: 1e-5 of the largest is left in an edge, and four edges meet at a joint
+    // forces agree, too: an edge has an error of 1e-5 of the largest, and four edges meet at a
+    // joint
     const double largest = exact.state().levels[2].force.cwiseAbs().maxCoeff();
     CHECK(shell.state().residual_N < 4e-5 * largest);
   }
@@ -92,7 +93,7 @@ TEST_CASE("a state between two points of a path is found in one step, whichever 
   const State found = shell.state().levels[2];
   REQUIRE(shell.sample(t, after, watch).end == Outcome::reached);
   CHECK(max_column_norm(shell.state().levels[2].x - found.x) < 2 * tolerance_mm);
-  // the state of a point itself takes no factorisation of its mesh
+  // the state of a point of the path needs no factorisation of its mesh
   const Effort there = shell.system().effort();
   REQUIRE(shell.sample(first, before, watch).end == Outcome::reached);
   CHECK((shell.system().effort() - there).factorizations == 0);

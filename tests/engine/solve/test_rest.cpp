@@ -1,4 +1,4 @@
-// Leaving an unstable state: which descents are computed.
+// Descents from an unstable state: which of them are computed.
 #include "engine/elastic/model.h"
 #include "tests/engine/solve/crossing_rods.h"
 #include "tests/results.h"

@@ -13,7 +13,7 @@ namespace {
 constexpr double L = 200;  // mm
 const RodSection wire = circular_section(0.254, 83);
 
-/// A rod along x over these points, of which the last is drawn in.
+/// A rod along x through these points, of which the last is moved inwards to x = `drawn_to`.
 preset::Preset rod(const std::vector<double>& points, double drawn_to) {
   preset::NetworkData file;
   file.rods.resize(1);

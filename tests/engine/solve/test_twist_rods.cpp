@@ -13,8 +13,8 @@ constexpr double EI = 16.95832, EA = 4205.672, GJ = 12.667659, length = 252;
 const RodMaterial wire{EA, EI, EI, GJ, {0, 0}, 0};
 const RodMaterial stiff_wire{10 * EA, EI, EI, GJ, {0, 0}, 0};
 
-/// Height over L of a pinned rod whose ends come together; starts with its edges
-/// turned at random.
+/// Height over L of a pinned rod whose ends approach each other, from an initial state in which the
+/// angles of its edges are random.
 double elastica_height(int edges, double shortening) {
   const SingleRod single(edges, length, stiff_wire, RodEnd::pinned, RodEnd::pinned);
   const Model model = single.model();
@@ -115,14 +115,15 @@ double michell(int edges, double ratio) {
                std::get<std::vector<Pair<Torsion>>>(model.pairs).back().law.rest = -twist;
                for (int k = 0; k < edges; ++k) set_angle(model, state, k, twist * k / edges);
                REQUIRE(newton(system, state, {.tolerance_mm = 1e-6}).outcome == Outcome::reached);
-               // with 40 mm: still plane
+               // the ring of radius 40 mm is still plane
                REQUIRE(state.x.row(2).leftCols(edges).cwiseAbs().maxCoeff() < 1e-4);
                return system.at(state, false).positive_definite();
              }) /
          expected;
 }
 
-/// What comes near to `exact` on a mesh of twice the edges, at second order.
+/// Checks that a value on twice the edges is near to `exact`, and that its error falls with second
+/// order.
 template <class Found>
 void check_second_order(const Found& found, int edges, double exact, double near, double margin) {
   const double coarse = std::abs(found(edges) - exact), fine = std::abs(found(2 * edges) - exact);

@@ -12,14 +12,14 @@ namespace gridshell::study {
 struct ScanMaking {
   unsigned seed = 1;
   double noise_mm = 0.1;  ///< standard deviation of each coordinate
-  int points = 100;       ///< a top
+  int points = 100;       ///< per top
   double missing = 0;     ///< fraction of the joints that the scanner does not see
   int spurious = 0;       ///< discs elsewhere
   bool mirrored = false;  ///< the shell is in its mirror image
   JointCylinder cylinder = {};
 };
 
-/// What was seen of which joint, and from where.
+/// A scan that was made, with its pose and the joints that it shows.
 struct MadeScan {
   Eigen::Matrix3Xd cloud;
   Pose pose;                ///< from the run's frame to the scanner's

@@ -1,4 +1,4 @@
-// Speed against accuracy on a small shell: what the chart promises.
+// The study of speed and accuracy on a small shell: its methods agree, and its errors fall.
 #include "engine/study/method_studies.h"
 
 #include <set>
@@ -58,7 +58,7 @@ TEST_CASE("every method reaches the same state of its mesh, the error falls with
       CHECK(row.cpu_min_s <= row.cpu_s);
       CHECK(row.cpu_s <= row.cpu_max_s);
     }
-    // one mesh, one error, whatever the method: but for joints of springs
+    // the error depends on the mesh, not on the method, except for joints that are springs
     const auto* bend = find(study, "bend", row.edges_per_segment);
     const bool of_mesh = !row.method.starts_with("springs") && !row.method.starts_with("auto");
     if (bend && of_mesh && row.outcome == RunOutcome::right)

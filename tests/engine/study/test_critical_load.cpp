@@ -46,7 +46,7 @@ CriticalLoad shallow_arch(int edges) {
   return loaded(std::move(model), rest);
 }
 
-/// Euler's column under its critical load times 1.
+/// Euler's column, whose load at a factor of 1 is its critical one.
 CriticalLoad column(int edges) {
   constexpr double stiff = 1e7;
   const SingleRod single(edges, L, {stiff, EI, EI, EI, {0, 0}, 0}, RodEnd::pinned, RodEnd::free);
@@ -58,9 +58,9 @@ CriticalLoad column(int edges) {
   return loaded(model, start_state(model, single.line()));
 }
 
-/// A rod that buckled to a half wave of amplitude a between its hinges, under a half wave of load
-/// that is 1 where its thrust reaches four times Euler's load and the full wave loses stability: an
-/// inextensible rod has this amplitude until then, so that q = 3 EI k^4 a.
+/// A rod that buckled to a half wave of amplitude a between its hinges, under a half wave of load.
+/// At load factor 1 its thrust reaches four times Euler's load, and the full wave loses stability.
+/// An inextensible rod has this amplitude until then, so that q = 3 EI k^4 a.
 CriticalLoad buckled_arch(int edges) {
   constexpr double thin = 4e3, a = 5;
   const SingleRod single(edges, L, {1e7, thin, thin, thin, {0, 0}, 0}, RodEnd::pinned,
@@ -96,7 +96,7 @@ TEST_CASE("a shallow sinusoidal arch has a limit point") {
   CHECK(fine.event == BranchEvent::turn);
   CHECK((4 * fine.factor - coarse.factor) / 3 == Approx(1).epsilon(1e-3));
   CHECK(std::abs(fine.factor - 1) < std::abs(coarse.factor - 1));
-  // it goes down, most in its middle
+  // it moves down, most in its middle
   REQUIRE(fine.mode.size() > 0);
   CHECK(std::abs(fine.mode(2, 32)) == Approx(1));
   // and continues past the limit point, unstable
@@ -143,7 +143,7 @@ TEST_CASE("what a shell carries lies within its error of finer meshes' answer", 
   CHECK(std::abs(row.linear_factor - exact.linear_factor) < 2 * row.linear_error);
   CHECK(row.linear_error < 0.1 * row.linear_factor);
   CHECK(row.linear_factor > 0.5 * row.critical_factor);
-  // some of the imperfect shells have a limit point below
+  // not every imperfect shell has a limit point below the critical factor
   CHECK(row.imperfections <= 5);
   CHECK(found.modes[0].colwise().norm().maxCoeff() == Approx(1));
   CHECK(found.points.front().factor == 0);

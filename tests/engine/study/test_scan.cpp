@@ -103,7 +103,7 @@ TEST_CASE("a scan of another shell shows none") {
   const MadeScan made = make_scan(hemisphere(), {});
   const auto scan = laid(made, circle());
   if (scan) CHECK_FALSE(scan_matches(*scan, 1.5));
-  // nor does a shell pushed aside by more than the bar at every third joint
+  // a shell with every third joint displaced by more than the tolerance is another one, too
   ScanTarget bent = circle();
   for (Eigen::Index k = 0; k < bent.joints.cols(); k += 3) bent.joints(2, k) += 5;
   const auto other = laid(make_scan(bent, {}), circle());
@@ -132,7 +132,7 @@ TEST_CASE("a dent is no noise: the misfit is compared with how much the points s
 
 TEST_CASE("half a shell over a table is found, and one seen from one side") {
   const MadeScan whole = make_scan(circle(), {});
-  // in the frame of the scan, whatever that is: what lies on one side of a plane through its middle
+  // the points on one side of a plane through the middle of the scan, in the scan's own frame
   const Eigen::Vector3d middle = whole.cloud.rowwise().mean();
   const Eigen::Vector3d low = whole.cloud.rowwise().minCoeff(),
                         high = whole.cloud.rowwise().maxCoeff();
@@ -149,7 +149,7 @@ TEST_CASE("half a shell over a table is found, and one seen from one side") {
                             low.y() + share(draw) * (high.y() - low.y()), low.z() - 40);
   CHECK(shows(matrix_of(over_table), circle()));
   CHECK_FALSE(shows(matrix_of(over_table), hemisphere()));
-  // other discs that lie about, away from the shell
+  // other discs, away from the shell
   std::vector<Eigen::Vector3d> among = half;
   for (int k = 0; k < 40; ++k)
     add_disc({high.x() + 60 + 15 * (k % 8), low.y() + 15 * (k / 8), high.z() + 30}, 1.5, 60,

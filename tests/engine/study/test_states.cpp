@@ -1,4 +1,4 @@
-// The states that a shell is found in.
+// Searches for the states of a shell.
 #include "engine/study/state_library.h"
 
 #include "tests/presets.h"

@@ -40,7 +40,7 @@ TEST_CASE("points are the same however many are computed at a time") {
   const auto one = figures_with(1), three = figures_with(3);
   REQUIRE(one.size() == 6);
   CHECK(one == three);
-  // and they are those of the values that they bear: thicker rods store more
+  // the results belong to the values of their points: thicker rods store more energy
   const auto bend = [&](std::size_t point) {
     for (const auto& [name, figure] : one.at(point))
       if (name == "energy_bend_mJ") return record::number_of(figure);
@@ -86,7 +86,7 @@ TEST_CASE(
   CHECK(figure(1, "corner_leg") > 2);
   CHECK(figure(1, "states_i") == 1);
   CHECK(figure(1, "met_first_order") == 4);
-  // every figure that comes is one that can be drawn
+  // every figure of a result can be drawn
   const auto names = figure_names(true);
   for (const auto& [name, value] : one.at(0).figures)
     CHECK(std::ranges::find(names, name) != names.end());

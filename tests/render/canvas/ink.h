@@ -11,7 +11,7 @@
 
 namespace gridshell::test {
 
-/// While it lives, it gets every canvas that is finished.
+/// While it exists, `reported` gets every finished canvas.
 struct CanvasObserver {
   explicit CanvasObserver(std::function<void(const render::Canvas&)> reported) {
     render::Canvas::on_finished = std::move(reported);
@@ -21,8 +21,8 @@ struct CanvasObserver {
   CanvasObserver& operator=(const CanvasObserver&) = delete;
 };
 
-/// All words lie on the canvas, and no two over one another, nor, where that is requested, over a
-/// marker.
+/// Checks that all texts are on the canvas and that none overlaps another, nor, with
+/// `off_markers`, a marker.
 inline void check_apart(const render::Canvas& canvas, bool off_markers = false) {
   const std::vector<render::Box>& boxes = canvas.text_boxes();
   for (std::size_t a = 0; a < boxes.size(); ++a) {

@@ -109,6 +109,6 @@ TEST_CASE("words have a contrast of 4.5 to 1 with white in every theme") {
     for (const Colour& colour : {ink, pale_ink, event_ink, contact_ink})
       CHECK(contrast_to_white(colour) / contrast_to_white(theme.background) >= 4.5);
   for (std::size_t k = 0; k < 10; ++k) CHECK(contrast_to_white(readable(series_colour(k))) >= 4.5);
-  // what is dark enough stays as it is
+  // a colour that is dark enough is not changed
   CHECK(readable(ink).r == ink.r);
 }

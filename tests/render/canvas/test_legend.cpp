@@ -23,7 +23,7 @@ TEST_CASE("a colour bar stays in its box and shows its scale from end to end") {
     CHECK(texts[0] == "K□ (rad)");
     CHECK(texts[1] == "−0.05");
     CHECK(texts.back() == "0.05");
-    // the pixel a quarter down the bar bears the colour of that value, not another one's
+    // colours down the middle of the bar
     const int x = int(box.x + 0.45 * font);
     std::vector<int> red, blue;
     for (int y = int(box.y + 4 * font); y < int(room.bottom() - 2 * font); ++y) {
@@ -101,7 +101,7 @@ TEST_CASE("colour keys are in the middle of their row, all of them, smaller wher
     INFO("room of " << width << ", ink of " << ink.width);
     CHECK(Box{4, 4, width - 8, 32}.inset(-1).contains(ink));
     CHECK(ink.middle().x == Approx(width / 2).margin(2));
-    // each dash bears its colour, the first one on the left
+    // each dash has its colour, the first one on the left
     int red = 0, blue = 0;
     for (int x = 0; x < image.width; ++x) {
       const std::uint8_t* pixel = image.pixel(x, 20);

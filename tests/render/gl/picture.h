@@ -1,4 +1,4 @@
-// What the tests of pictures share.
+// Helpers of tests of pictures.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace gridshell::render::test {
 
-/// A context and a renderer in it, which goes first.
+/// A context and a renderer in it, which is destroyed before it.
 struct Studio {
   std::unique_ptr<Context> context;
   std::unique_ptr<Renderer> renderer;

@@ -1,5 +1,5 @@
-// The metric on real pictures: it must see everything that a person would call broken, and nothing
-// that another machine does to a good picture.
+// The metric on real pictures: it must report everything that a person would call broken, and no
+// differences that another machine makes to a good picture.
 #include <algorithm>
 #include <functional>
 #include <map>

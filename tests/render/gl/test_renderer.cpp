@@ -14,7 +14,7 @@ namespace {
 
 test::Studio open_studio() { return value_of(test::studio()); }
 
-/// The made-up shell, drawn as it is at the end of so many frames.
+/// The made-up shell at the end of its path, with so many edges per segment.
 struct Dome {
   explicit Dome(int frames) : run(synthetic::dome(2, frames)) {}
 
@@ -56,7 +56,7 @@ TEST_CASE("background, ground and cells show the colours they were given", "[dra
   above.elevation_deg = 90;
   const Image image = drawn(studio, drawing, above);
   CHECK(off(image, {2, 2}, drawing.background) <= 1);
-  // without light or shadow: what a bar says of a colour is true of a cell
+  // without light or shadow: a cell has exactly the colour that the legend shows
   double worst = 0;
   for (const auto& cell : run.layout.cells) {
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();

@@ -74,7 +74,7 @@ TEST_CASE("rods are coloured by their forces, grey where a frame does not know t
   CHECK(pressed.b > pressed.r);
   for (const Colour& grey : unknown.node_colours) CHECK(grey == stage.colour_bar()->scale(NAN));
   CHECK(unknown.rod_diameter_mm == known.rod_diameter_mm);
-  // joints are not as red as tension, unless they are wished so
+  // joints are not as red as tension, unless that is requested
   CHECK(known.joint_colour == style.look.rod);
 }
 

@@ -16,7 +16,7 @@ record::Trajectory of_K(double first, double last) {
   return run;
 }
 
-// two frames whose rods all bear these forces and energies, whose joints lie that far off a net
+// two frames whose rods have this force and energy; the first edge has another force
 record::Trajectory of_rods(double force_N, double other_N, double energy = 0) {
   record::Trajectory run = synthetic::dome(2, 1);
   for (record::Frame& frame : run.frames.edit()) {
@@ -102,7 +102,7 @@ TEST_CASE("axial forces diverge about zero over all runs, of one sign too") {
   CHECK(pressed->scale.map == diverging);
   CHECK(pressed->scale.low <= -0.2);
   CHECK(pressed->scale.high == -pressed->scale.low);
-  // few that bear more than the scale has
+  // a few rods bear more than the scale contains
   CHECK(bar({of_rods(0.2, -3)}, by(ColourBy::axial_force))->beyond_low);
 }
 
@@ -132,6 +132,6 @@ TEST_CASE("the deviation's scale is that of the shell at the end of its boundary
   CHECK(near.scale.high == Approx(0.01));
   CHECK(near.beyond_high);
   CHECK_FALSE(near.beyond_low);
-  // none without a net
+  // there is no deviation without a net
   CHECK_FALSE(bar({synthetic::dome(3, 1)}, by(ColourBy::deviation)));
 }

@@ -48,7 +48,8 @@ fs::path six_frames(const fs::path& folder, const std::string& title = "") {
   return folder / "frames";
 }
 
-/// Cancels what `work` waits for after a moment; it must not take as long as it would have.
+/// Cancels `work` after 150 ms; it must end as cancelled within 10 s, and would take 30 s
+/// otherwise.
 template <class Work>
 void check_cancelled(Work work) {
   Watch watch;
@@ -91,7 +92,7 @@ TEST_CASE("without ffmpeg the command line is printed instead, ready for a shell
 }
 
 TEST_CASE("with ffmpeg the movie appears whole, under its name") {
-  // the last argument is the file; everything it was given goes into it
+  // a program that writes all its arguments to the file that the last one names
   const FakeFfmpeg ffmpeg("for last; do :; done\nprintf '%s\\n' \"$@\" > \"${last#file:}\"\n");
   const TemporaryFolder folder;
   preset::Movie slow;
@@ -204,7 +205,7 @@ TEST_CASE("a movie made while its frames are drawn is that of the frames, to the
 
 TEST_CASE("without ffmpeg no movie is in the making, and one that stops reading is an error") {
   const TemporaryFolder folder;
-  const Image large(800, 600);  // more than a socket contains
+  const Image large(800, 600);  // more than the buffer of a socket
   {
     const FakeFfmpeg none("");
     const auto movie = value_of(MovieEncoder::begin("frames", of_size(800, 600), folder / "m.mp4"));

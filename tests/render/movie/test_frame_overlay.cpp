@@ -32,7 +32,7 @@ TEST_CASE("parts of a frame lie inside it and never overlap, at any size and asp
         CHECK(Box{0, 0, double(width), double(height)}.contains(parts[a]));
         for (std::size_t b = a + 1; b < parts.size(); ++b) CHECK_FALSE(parts[a].overlaps(parts[b]));
       }
-      // most of the picture is the shell's
+      // at least three tenths of the picture are for the shell
       if (width >= 320 && height >= 240)
         CHECK(layout.view.width * layout.view.height > 0.3 * width * height);
       else

@@ -34,7 +34,7 @@ TEST_CASE("the whole run stays within the view over the whole turn, and fills it
               y0 = std::min(y0, p.y()), y1 = std::max(y1, p.y());
             }
         }
-        // round points are met to within a hundredth
+        // the fit to round points is exact to a hundredth
         const double slack = 0.01 * std::max(view.width, view.height);
         CHECK(view.inset(-slack).contains({x0, y0, x1 - x0, y1 - y0}));
         CHECK(std::max((x1 - x0) / view.width, (y1 - y0) / view.height) > 0.93);

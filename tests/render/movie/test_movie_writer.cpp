@@ -20,7 +20,7 @@ MovieStyle small(int width = 160, int height = 120) {
   return style;
 }
 
-/// The frames of a run in memory.
+/// Writes the frames of a run in memory.
 Result<void> write(const record::Trajectory& run, Renderer& renderer,
                    const std::filesystem::path& folder, Watch& watch,
                    const FrameCallback& on_frame = {}) {
@@ -106,7 +106,7 @@ TEST_CASE("a movie is drawn from one frame at a time, and is that of the run in 
     REQUIRE((a && b));
     CHECK(a->rgba == b->rgba);
   }
-  // what the source says goes through
+  // an error of the source is passed on
   const FrameSource broken{&run.layout, 4, [](int) -> Result<record::Frame> {
                              return fail(Fault::io, "the file is gone");
                            }};
@@ -134,7 +134,7 @@ TEST_CASE("nothing to show next to one another is refused, a stopped movie keeps
 
 TEST_CASE("a worker does its jobs on one thread of its own and says how each ended") {
   Worker worker;
-  REQUIRE(worker.wait());  // of none
+  REQUIRE(worker.wait());  // there is no job
   std::vector<std::thread::id> threads;
   for (int k = 0; k < 3; ++k) {
     worker.begin([&]() -> Result<void> {
@@ -144,7 +144,7 @@ TEST_CASE("a worker does its jobs on one thread of its own and says how each end
     });
     const auto ended = worker.wait();
     CHECK(ended.has_value() == (k != 1));
-    CHECK(worker.wait());  // said once
+    CHECK(worker.wait());  // reported once
   }
   REQUIRE(threads.size() == 3);
   CHECK(threads[0] == threads[2]);

@@ -168,7 +168,7 @@ TEST_CASE("a snap is straight down at the depth where it is, with its name once"
   CHECK(snap.dash.size() == 2);
   REQUIRE(snap.x.size() >= 4);
   CHECK((snap.x[0] == 2 && snap.x[1] == Approx(3.1) && snap.x[2] == Approx(3.1) && snap.x[3] == 4));
-  // as far as forces and stiffnesses on both sides say
+  // extrapolated from the forces and stiffnesses on both sides
   CHECK((snap.y[0] == Approx(0.1) && snap.y[1] == Approx(0.1 - 1.1 * 0.05)));
   CHECK((snap.y[2] == Approx(0.4 - 0.9 * 0.1) && snap.y[3] == Approx(0.4)));
   CHECK(snap.name == "snap to another state");

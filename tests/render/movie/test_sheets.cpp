@@ -7,7 +7,7 @@ using namespace gridshell;
 
 namespace {
 
-/// The words of every sheet; what is too small for a sheet is the one that text is measured on.
+/// The texts of every sheet; canvases too small for a sheet are those on which text is measured.
 std::vector<std::vector<std::string>> words_of(const render::Sheets& sheets) {
   std::vector<std::vector<std::string>> words;
   const test::CanvasObserver observer([&](const render::Canvas& canvas) {

@@ -34,7 +34,7 @@ MovieStyle coloured(ColourBy by) {
   return style;
 }
 
-/// The words over frame k.
+/// The texts drawn over frame k.
 std::vector<std::string> texts_of(const Stage& stage, const record::Trajectory& run, int k) {
   std::vector<std::string> texts;
   draw_picture(1280, 720, 1, {}, [&](Canvas& canvas) {
@@ -108,7 +108,7 @@ TEST_CASE("captions name only what is known") {
   frame.boundary_radius_mm = 115.9;
   frame.depth_mm = 7.5;
   frame.force_N = 0.2137;
-  // of a pushed shell the depth says more than the boundary where it does not move
+  // if the boundary does not move, captions of a push name the depth instead of the radius
   frame.actuation = 0.8;
   CHECK(state_captions(frame)[2] == "*R*_{a} = 115.9 mm");
   frame.actuation = 1;
@@ -156,7 +156,7 @@ TEST_CASE(
   const ProgressAxis depth = summarise_run(run).progress();
   CHECK(depth.name == "*δ*");
   CHECK(depth.places[2] == Approx(0.25));
-  run.frames.edit()[4].depth_mm = 1;  // let go again
+  run.frames.edit()[4].depth_mm = 1;  // released again
   const ProgressAxis frames = summarise_run(run).progress();
   CHECK(frames.name.empty());
   CHECK(frames.places[2] == Approx(0.5));
@@ -176,7 +176,7 @@ TEST_CASE("a pushed shell is seen over its first state, with the push in the pic
   const auto drawing = Stage(run, style).drawing(run.frames[2]);
   REQUIRE(drawing.ghosts.size() == 1);
   CHECK(drawing.ghosts[0].nodes == run.frames[0].nodes);
-  // from above it does not cover the colours of what went down below it
+  // seen from above, the ghost does not cover the colours of parts that moved down
   CHECK(drawing.ghosts[0].behind_mm >= summarise_run(run).largest_move_mm);
   CHECK(Stage(run, style).drawing(run.frames[0]).ghosts.empty());
   style.look.ghost = false;
@@ -209,7 +209,7 @@ TEST_CASE("what touches has a mark, and words next to the bar and as the event")
     const auto texts = texts_of(stage, run, k);
     CHECK(std::ranges::count(texts, "interpenetration") == (k >= 2));
     CHECK(std::ranges::count(texts, "1 interpenetration (contact not modelled)") == (k >= 2));
-    // pins aside
+    // without the marks of supports
     REQUIRE(std::ranges::none_of(drawing.marks, &PointMark::over) == (k < 2));
     if (k < 2) continue;
     const Eigen::Vector3d at = run.frames[std::size_t(k)].nodes.col(run.layout.joints[1].node);
@@ -283,7 +283,7 @@ TEST_CASE("a push of a step has its arrow only in the frames in which it acts") 
   CHECK(stage.drawing(frame).arrows.empty());
   frame.reactions_N(2, 1) = -1e-12;
   CHECK(stage.drawing(frame).arrows.size() == 1);
-  // what the frame does not know it does not hide
+  // without reactions in the frame no arrow is hidden
   frame.reactions_N.resize(3, 0);
   CHECK(stage.drawing(frame).arrows.size() == 1);
 }

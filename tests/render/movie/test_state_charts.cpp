@@ -61,7 +61,7 @@ TEST_CASE("load factors are marked where the rods reach their strength, with the
 TEST_CASE("stable parts are full, others dashed, and parts meet where something happens") {
   const Plot plot = branches_plot(points(), BranchAxis::amplitude);
   CHECK(plot.x.label.starts_with("*R*_{a} (mm)"));
-  // a branch bears its number
+  // a branch is labelled with its number
   REQUIRE(plot.notes.size() == 1);
   CHECK(plot.notes[0].text == "1");
   std::vector<Series> path, branch;
@@ -241,7 +241,8 @@ TEST_CASE("barriers are drawn between known states, as high as they are") {
   states.barriers = {{{1}, {2}, 41, 1, 0.5}, {{2}, {}, 44, 4, 3}, {{1}, {1}, 43, 3, 3}};
   const Plot plot = barrier_plot(states);
   REQUIRE(plot.series.size() == 3);  // a curve and two bars
-  // states at their own energy, which is that of all pictures, the pass as high above both as found
+  // the curve starts at the state's energy in all other pictures; its highest point is the mean of
+  // both states' energies plus their barriers
   const double from = states.rows[0].energy_mJ(), to = states.rows[1].energy_mJ();
   CHECK(plot.series[0].y.front() == Approx(from));
   CHECK(plot.series[0].y.back() == Approx(to));
