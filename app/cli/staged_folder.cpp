@@ -129,8 +129,8 @@ int take_free_name(const fs::path& from, const fs::path& to) {
   return ::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
 }
 
-// exchanges the names of two folders in one step, or, where the file system cannot, by way of
-// `aside`, the name of an empty folder; returns 0 or the error number
+// exchanges the names of two folders in one step; where the file system cannot do that, in three
+// steps with the name `aside` of an empty folder. Returns 0 or the error number.
 int exchange(const fs::path& a, const fs::path& b, const fs::path& aside) {
   const int code = rename_how(a, b, RENAME_EXCHANGE);
   if (code == 0 || (code != EINVAL && code != ENOSYS)) return code;
