@@ -1,6 +1,5 @@
-# Sourced by app/run.sh and tests/run.sh: the packages of Debian 12 and 13 that the program takes, those
-# that its tests take in addition, and how to get the missing ones. Expects to run in the folder of the
-# sources.
+# Sourced by app/run.sh and tests/run.sh, in the folder of the sources: the packages of Debian 12 and 13 that
+# the program and its tests need, and functions that install missing ones and build.
 
 program_packages="
   g++ cmake make ninja-build pkg-config
@@ -11,10 +10,10 @@ program_packages="
   libimgui-dev libfontconfig-dev ffmpeg
 "
 test_packages="catch2 pybind11-dev python3-dev python3-numpy python3-pytest"
-# a test that cannot have its checker is skipped and says so
+# programs of some tests; a test whose program is missing is skipped with a message
 checker_packages="parallel qemu-user clang clang-format clang-tidy similarity-tester"
 
-# what is not installed of PACKAGE...
+# missing_packages PACKAGE...: prints those that are not installed
 missing_packages() {
   for package in "$@"; do
     status=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null) || status=""
@@ -22,7 +21,7 @@ missing_packages() {
   done
 }
 
-# install_packages [tests]: what is missing of what the program takes, and of what its tests take
+# install_packages [tests]: installs missing packages of the program, and with `tests` those of its tests
 install_packages() {
   if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
     echo "This is no Debian: make sure that the counterparts of these are installed:" $program_packages $test_packages >&2
@@ -58,8 +57,8 @@ install_packages() {
     apt-get install -q -y --no-install-recommends $missing >&2
 }
 
-# build TARGET: a Release in build/, with all cores; what the tools say goes to stderr. Ninja, where it
-# is, keeps them all busy; a folder that was begun with make continues with it.
+# build TARGET: builds it as Release in build/, on all cores; the output of the tools goes to stderr. Uses Ninja
+# if it is installed and the folder was not configured for make before.
 build() {
   generator=""
   [ -e build/CMakeCache.txt ] || ! command -v ninja >/dev/null || generator="-GNinja"
