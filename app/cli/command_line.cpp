@@ -118,7 +118,7 @@ int CommandLine::run(int argc, char** argv) {
   try {
     program_->parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    // help and version come as errors too, with code 0
+    // CLI11 reports help and version as errors with code 0
     return program_->exit(error) == 0 ? ExitCode::done : ExitCode::bad_input;
   }
   return report(action_());

@@ -120,9 +120,9 @@ class CommandLine {
   char** given_ = nullptr;
 };
 
-// The options that the commands share, declared once.
+// Options that several commands have.
 
-/// What was given on the command line; empty or zero where nothing was.
+/// What was given on the command line; empty or zero if nothing was.
 struct Options {
   std::string input;  ///< PRESET or RUN
   std::filesystem::path output;

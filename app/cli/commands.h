@@ -11,7 +11,7 @@
 
 namespace gridshell::app {
 
-/// What `gridshell view` was given; empty or zero where nothing was.
+/// What `gridshell view` was given; empty or zero if nothing was.
 struct ViewOptions {
   std::string input, record, play, shot, picture, size, quality = "movie", context = "auto";
   std::filesystem::path output = "out", workspace;

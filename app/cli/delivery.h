@@ -30,7 +30,7 @@ inline Phase drawing(std::string label, double expected_seconds) {
 /// How far the work is, for a bar or a line.
 struct ProgressState {
   double fraction = 0;      ///< of all phases
-  double seconds_left = 0;  ///< NaN while too little is done to say
+  double seconds_left = 0;  ///< NaN while too little is done for an estimate
 };
 
 /// Progress of work in `phases`: `current` is `fraction` done after `elapsed` seconds. Later phases

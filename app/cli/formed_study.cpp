@@ -40,7 +40,7 @@ struct FormedStudy {
   std::function<Result<void>(render::Renderer&, const fs::path& folder, Progress&)> draw_more = {};
 };
 
-/// One of these commands.
+/// How `load` or `modes` studies a formed shell.
 struct FormedCommand {
   std::string folder_end, finds;  ///< "_modes", "natural frequencies"
   std::function<Result<FormedStudy>(const preset::Preset&, Watch&)> find;

@@ -48,7 +48,7 @@ render::MovieStyle style_of(const preset::Preset& preset, Pictures pictures);
 /// The joints that were measured on a real shell, [figure] scan: 3 x n, mm.
 Eigen::Matrix3Xd scan_of(const preset::Preset& preset);
 
-/// Owns the OpenGL context, so it stays on the thread that made it.
+/// Owns the OpenGL context, so only the thread that made it may use it.
 class PictureMaker {
  public:
   /// `context` as in --context; `font`: that of all text, empty: the default. Errors: io if no
