@@ -141,8 +141,7 @@ struct Options {
 void add_preset_options(CommandArguments command, Options& options);
 
 /// Adds the options that change a preset or the pictures of a run: --set, --size, --quality,
-/// --width,
-/// --dpi, --pdf.
+/// --width, --dpi, --pdf.
 void add_changes(CommandArguments command, Options& options);
 
 /// Adds -o, --threads and --quiet, for commands that compute for long.

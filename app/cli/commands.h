@@ -75,8 +75,7 @@ int run_program(int argc, char** argv, const WindowProgram& window = {});
 /// All commands as data.
 std::vector<CommandEntry> command_table();
 
-// Commands, presets and keys of the program as text. Errors: a preset of the program cannot be
-// read.
+// Commands, presets and keys as text. Errors: a preset of the program cannot be read.
 
 /// One object: `version`; `commands`, each with its options; `presets` with title, description and
 /// source; `tables` and `keys`, each with table, unit, default (as TOML), allowed and meaning.

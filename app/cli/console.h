@@ -23,15 +23,14 @@ inline int report(const Result<int>& outcome) {
   return outcome ? *outcome : report(outcome.error());
 }
 
-/// The error that an exception means: if memory ran out, a message with what helps, else the
-/// text of the exception.
+/// An exception as an error: if memory ran out, with a message about what helps, else with the text
+/// of the exception.
 Error error_of(const std::exception& thrown);
 inline int report_exception(const std::exception& thrown) { return report(error_of(thrown)); }
 
 /// Makes std::terminate() print a message and end the program with the exit code of a failure: for
-/// memory that runs out in a function that is noexcept. If the address space is limited (ulimit
-/// -v), SIGSEGV, SIGTRAP and SIGABRT do the same, since libraries do not check whether they got
-/// memory.
+/// memory that runs out in a function that is noexcept. Under `ulimit -v`, SIGSEGV, SIGTRAP and
+/// SIGABRT do the same, since libraries do not check whether they got memory.
 void install_terminate_handler();
 
 /// Turns an io error into bad_input: for files that the user names and that cannot be read.
@@ -69,8 +68,7 @@ void open_standard_streams() noexcept;
 /// stderr. `failed_before`: error number of an earlier write that failed, 0 if none did.
 bool flush_stdout(int failed_before = 0);
 
-/// The exit code of a command that only prints. Errors: io if stdout was closed when the program
-/// started.
+/// The exit code of a command that only prints. Errors: io if stdout was closed from the start.
 Result<int> printed();
 
 /// "1 frame", "2 frames"

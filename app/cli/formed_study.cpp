@@ -46,8 +46,7 @@ struct FormedCommand {
   std::function<Result<FormedStudy>(const preset::Preset&, Watch&)> find;
   double paths = 1;  ///< its time, as a multiple of that of forming the shell
   std::function<int(const preset::Preset&)> stills;  ///< the most that it draws
-  std::function<std::vector<Phase>(const preset::Preset&)> drawn_more =
-      {};  ///< phases of draw_more
+  std::function<std::vector<Phase>(const preset::Preset&)> drawn_more = {};  ///< for draw_more
 };
 
 Result<void> draw(preset::Preset preset, const FormedStudy& found, const std::string& context,
@@ -219,8 +218,7 @@ std::string frequency_text(const record::ModeRow& mode) {
                      -1 / (2 * M_PI * mode.frequency_Hz));
 }
 
-/// "mode 3: 12.35 ± 0.01 Hz"; for an unstable mode, whose frequency is imaginary, "mode 1: 0.82*i*
-/// Hz".
+/// "mode 3: 12.35 ± 0.01 Hz"; for an unstable mode an imaginary frequency, "mode 1: 0.82*i* Hz".
 std::string caption_of(const record::ModeRow& mode) {
   if (mode.frequency_Hz >= 0) return fmt::format("mode {}: {}", mode.mode, frequency_text(mode));
   return fmt::format("mode {}: {:.4g}*i* Hz", mode.mode, -mode.frequency_Hz);

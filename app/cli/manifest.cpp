@@ -89,8 +89,7 @@ std::optional<LegacyRunFiles> named(const fs::path& folder) {
 }
 
 // the names of the files of a run, or of a folder of unfinished cases, which has neither summary
-// nor journal. Only its direct folders are searched, since a user may give any folder of the
-// machine.
+// nor journal. Deeper folders are not searched, since a user may give any folder of the machine.
 std::optional<LegacyRunFiles> unlisted(const fs::path& folder) {
   if (auto run = named(folder)) return run;
   LegacyRunFiles run;

@@ -166,8 +166,7 @@ class PageMaker {
     return page;
   }
 
-  /// A note on the hemisphere that the page shows: its deviation depends on the position of the
-  /// rods.
+  /// A note on the hemisphere of the page: its deviation depends on the position of the rods.
   void note_shell(Page& page, double y) const {
     const Run& one = *records_.front();
     if (one.preset.net.cut_height != 0 || !render::on_sphere(one.trajectory.layout)) return;
@@ -190,8 +189,7 @@ class PageMaker {
         2 * M_PI - run.frames.front().total_K);
   }
 
-  /// Panels A: shells over their nets. B: K□ of their cells. C, D: pushed shells and K□ of their
-  /// cells.
+  /// Panels A: shells over their nets. B: K□ of the cells. C, D: the same for pushed shells.
   Result<Page> fig4() {
     Page page{178, 199, {}};
     const Box above{2, 2, 174, 44}, middle{2, 94, 174, 50};
@@ -268,8 +266,7 @@ class PageMaker {
     return page;
   }
 
-  /// Shells in equilibrium, three per row. Each fills its box and has a scale bar, its name and its
-  /// author.
+  /// Shells in equilibrium, three per row. Each fills its box and has scale bar, name and author.
   Result<Page> literature() {
     constexpr int columns = 3;
     constexpr double width = 57, high = 36, pitch = 51;  // mm

@@ -46,8 +46,7 @@ Result<preset::Presets> load(const Options& options);
 /// Prints a preset with its defaults and the changes of `--set`; returns the exit code.
 Result<int> print_config(const preset::Presets& presets);
 
-/// The text of preset.toml in a run's folder: a comment with the version of the program, then
-/// `toml`.
+/// The text of preset.toml in a run's folder: a comment with the program's version, then `toml`.
 std::string saved_preset(const std::string& toml);
 /// The saved preset without the comment with the version; older versions did not write one.
 std::string without_version(const std::string& saved);

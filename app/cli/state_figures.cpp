@@ -54,8 +54,7 @@ std::string completeness_text(const record::StateTables& states) {
       states.search.at_rest, all.estimate, all.low, all.high);
 }
 
-/// A series for each class, with `value` over the elastic energy, in the reverse order of the
-/// paper.
+/// A series for each class, the last first, with `value` over the elastic energy.
 template <class Value>
 std::vector<render::Series> by_class(const std::vector<StateRow>& rows, const Value& value) {
   std::vector<render::Series> all;

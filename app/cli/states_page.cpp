@@ -62,8 +62,7 @@ std::optional<Found> lowest_of(StateClass kind, const Runs& records) {
   return lowest;
 }
 
-/// Longest leg and number of rods, "(*L̄*_{d}, *n*) = (0.8, 12)"; empty if the footprint is no
-/// circle.
+/// Longest leg and number of rods of a circle, "(*L̄*_{d}, *n*) = (0.8, 12)"; else empty.
 std::string place_of(const preset::Preset& preset) {
   if (preset.footprint.kind != preset::FootprintKind::circle) return "";
   const double radius = preset.original_radius_mm() / preset.footprint.spacing_mm;

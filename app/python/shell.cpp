@@ -27,7 +27,7 @@ Result<Shell> Shell::open(const preset::Preset& preset) {
   return shell;
 }
 
-/// The result of a step; an error if it ended early, which leaves the shell in its last certified
+/// The result of a step. Errors: cancelled; no_equilibrium if it ended early, in its last certified
 /// state.
 Result<Done> Shell::ended(const std::string& what, Report report) const {
   if (report.end == Outcome::cancelled) return stopped();

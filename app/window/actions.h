@@ -31,8 +31,7 @@ struct Action {
   Shortcut key;
   const char* help;  ///< one sentence
   void (*act)(ViewerState&);
-  bool (*on)(const ViewerState&) =
-      nullptr;  ///< of an action that switches something: whether that is on
+  bool (*on)(const ViewerState&) = nullptr;    ///< of a switch: whether it is on
   bool (*able)(const ViewerState&) = nullptr;  ///< whether it has an effect now; null: always
   bool below_line = false;                     ///< a line above it begins a group of the menu
 };
@@ -94,8 +93,7 @@ class Picker {
   bool holding_ = false, moved_ = false;
   Gesture gesture_ = Gesture::orbit;
   double begin_x_ = 0, begin_y_ = 0, last_x_ = 0, last_y_ = 0;
-  Eigen::Vector2d grip_ =
-      Eigen::Vector2d::Zero();  // offset of the mouse from the joint's picture at the press, pixels
+  Eigen::Vector2d grip_ = Eigen::Vector2d::Zero();  // press minus the joint's picture, pixels
   Eigen::Vector3d place_ = Eigen::Vector3d::Zero(), along_ = Eigen::Vector3d::UnitZ();
 };
 

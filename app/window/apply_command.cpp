@@ -194,8 +194,7 @@ Result<void> EditSession::act(const Push& command, const Watch& watch) {
   const bool still =
       (free ? std::abs(displacement.dot(command.along)) : displacement.norm()) < nearest_mm;
   if (still && session_->constraint_origins.contains(command.joint)) return {};
-  // a long push that was typed is done in parts, so that its equilibria are shown as those of a
-  // drag
+  // a long push that was typed is done in parts, so that it shows equilibria as a drag does
   const bool dragged = this_drag_ == 0 || this_drag_ == steps_drag_;
   const int parts =
       dragged || !looks_between()

@@ -123,8 +123,7 @@ void EditSession::coarsen(const Watch& watch) {
   (void)session_->remesh(drag_plan(*now_.scene, session_->shell().plan()), watch);
 }
 
-/// Stores the events of a step as the message. Errors: no_equilibrium if the step ended early,
-/// cancelled.
+/// Stores the events of a step as the message. Errors: cancelled; no_equilibrium if it ended early.
 Result<void> EditSession::note_events(const Report& report) {
   const std::string text = text_of_events(report.events);
   if (!text.empty()) view_.message = text;

@@ -52,11 +52,9 @@ class EditSession {
   explicit EditSession(std::int64_t most_bytes = std::int64_t(100) << 20)
       : most_bytes_(most_bytes) {}
 
-  /// Executes a command as far as possible. An exception, as of memory, becomes an error in the
-  /// view.
+  /// Executes a command as far as possible. An exception becomes an error in the view.
   void execute(const Command& command, const Watch& watch);
-  /// Refines the meshes to those that the preset's accuracy requires, if the current ones are
-  /// coarser.
+  /// Refines the meshes to those that the preset's accuracy requires.
   void refine(const Watch& watch);
 
   /// The current state of the shell.
@@ -75,9 +73,8 @@ class EditSession {
   struct UndoStep {
     EditState state;
     Checkpoint checkpoint;
-    bool before_design = false;  ///< the next command was a design
-    std::optional<ScratchFile::Place> saved =
-        {};  ///< where the checkpoint's arrays are if they are in the file
+    bool before_design = false;                    ///< the next command was a design
+    std::optional<ScratchFile::Place> saved = {};  ///< the checkpoint's arrays, if in the file
   };
 
   Result<void> act(const Open& command, const Watch& watch);
@@ -164,9 +161,8 @@ class EditSession {
   bool passing_ = false;  // the current command is one of a drag that continues
   std::optional<Simulation> session_;
   std::deque<UndoStep> undo_, redo_;
-  std::deque<UndoStep>
-      redo_aside_;       // redo_ before the current command, until that is known to be a step
-  ScratchFile scratch_;  // the arrays of older steps
+  std::deque<UndoStep> redo_aside_;  // redo_ until the current command is known to be a step
+  ScratchFile scratch_;              // the arrays of older steps
   std::int64_t most_bytes_;
   int drag_ = 0;  // drag of the last step to undo
   int this_drag_ = 0,

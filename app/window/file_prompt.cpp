@@ -188,8 +188,8 @@ void FilePrompt::places(const Panel& panel, FileRequest& request) const {
   ImGui::NewLine();
 }
 
-/// The list of folders and files; a click chooses one. Returns true for a double click on a file or
-/// run.
+/// The list of folders and files; a click chooses one. Returns true for a double click on a file
+/// or run, which opens it.
 bool FilePrompt::list(const Panel& panel, FileRequest& request) {
   const fs::path path = request.path;
   std::error_code error;

@@ -107,8 +107,7 @@ std::string text_of_place(const PathMark& mark, const std::function<double(doubl
                        : fmt::format("{:.5g}", a);
 }
 
-/// The distance of the joint that a step pushes from the position in which its constraint was set,
-/// mm.
+/// The distance, mm, of a pushed joint from the position in which its constraint was set.
 double EditSession::pushed_mm(const preset::Step& step) const {
   if (step.kind != preset::StepKind::push) return 0;
   const auto joint = simulate::joint_of(step, now_.scene->footprint);

@@ -67,8 +67,7 @@ class ShellPicture {
 Result<render::Image> view_picture(const PictureRequest& shown, Resolution sharpness,
                                    render::Renderer& renderer);
 
-/// Draws the picture for a file, with a legend of the colours if requested. Errors: those of the
-/// renderer.
+/// Draws the picture for a file, with a legend if requested. Errors: those of the renderer.
 Result<render::Image> picture_of(const PictureRequest& request, render::Renderer& renderer);
 
 }  // namespace gridshell::window

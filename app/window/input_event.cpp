@@ -42,8 +42,7 @@ void each_member(Event& event, const Visit& visit) {
   }
 }
 
-/// Reads the members of an event from a line, one after the other; `right` becomes false at an
-/// error.
+/// Reads the members of an event from a line, one by one; `right` becomes false at an error.
 struct Reader {
   std::istringstream words;
   bool right = true;

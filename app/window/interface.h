@@ -113,8 +113,7 @@ class Interface {
 // The interface in a window of the desktop.
 
 /// Opens the window and returns when it is closed or `stopped` returns true. Calls `seen` with
-/// every event. Errors: io if there is no GLFW, no display or no OpenGL, with what can be used
-/// instead.
+/// every event. Errors: io, with what helps, if there is no GLFW, no display or no OpenGL.
 Result<void> run_desktop(ViewerState& viewer, const std::function<void(const InputEvent&)>& seen,
                          const std::function<bool()>& stopped);
 

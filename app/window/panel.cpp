@@ -112,8 +112,7 @@ void begin_fixed(const char* name, const render::Box& box, ImGuiWindowFlags more
   const bool fixed = layer == Layer::fixed;
   ImGui::SetNextWindowPos({float(box.x), float(box.y)});
   ImGui::SetNextWindowSize({float(box.width), float(box.height)});
-  // transparent, since the frame is cleared in this colour; filling it takes as long as drawing
-  // text
+  // transparent, since the frame is cleared in this colour, and filling takes as long as text
   if (fixed) ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4(0, 0, 0, 0));
   ImGui::Begin(name, nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |

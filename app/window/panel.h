@@ -81,16 +81,15 @@ void picked_figures(const Panel& panel);
 void plots_panel(const Panel& panel, const render::Box& box);
 void design_panel(const Panel& panel, const render::Box& box);
 void status_line(const Panel& panel, const render::Box& box);
-/// The steps that were done, to which a click returns, and the states that were found, as small
-/// pictures.
+/// The steps that were done, to which a click returns, and pictures of the states that were found.
 void timeline_panel(const Panel& panel, const render::Box& box);
 /// Explains the certificate of the state.
 void why_popup(const Panel& panel);
 void help_sheet(const Panel& panel, const render::Box& box);
 void terms_sheet(const Panel& panel, const render::Box& box);
 void colour_legend(const Panel& panel, const render::Box& view);
-/// Over the picture of the shell: what is picked, measured and under the mouse, forces, scale bar,
-/// axes.
+/// Draws over the picture of the shell: what is picked, measured or under the mouse, forces, scale
+/// bar and axes.
 void view_overlay(const Panel& panel, const render::Box& view);
 /// Position of a node, pixels of the window.
 Eigen::Vector2d in_view(const ViewerState& viewer, const render::Box& view, int node);
@@ -182,8 +181,7 @@ struct Curve {
 /// Draws a curve in the rectangle between two corners, pixels.
 void draw_curve(const Panel& panel, ImVec2 low, ImVec2 high, const Curve& curve);
 
-/// The prompt for the file of viewer.file_request. It stores the contents of the folder that it
-/// shows.
+/// The prompt for the file of viewer.file_request. It stores the contents of the shown folder.
 class FilePrompt {
  public:
   void draw(const Panel& panel, const render::Box& box);
@@ -249,8 +247,7 @@ class PresetPicker {
 
   const render::Gl* gl_;
   std::string sought_;
-  std::vector<std::optional<render::Texture>>
-      pictures_;  // one per card, loaded when it is first shown
+  std::vector<std::optional<render::Texture>> pictures_;  // one per card, loaded when shown
 };
 
 }  // namespace gridshell::window

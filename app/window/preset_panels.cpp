@@ -354,8 +354,7 @@ void NumbersPanel::draw(const Panel& panel, const render::Box& box) {
   ImGui::End();
 }
 
-// The panel of inverse design: what may change so that the shell meets its surface, and the
-// progress.
+// The panel of inverse design: what may change, and the progress.
 
 void design_panel(const Panel& panel, const render::Box& box) {
   const ShellView& shell = *panel.viewer.shell;

@@ -22,8 +22,7 @@ struct PictureSize {
 /// Millimetres per pixel in the plane through the camera's target.
 double mm_per_pixel(const render::Camera& camera, const PictureSize& size);
 
-/// Turns the camera around its target by a drag in pixels; its elevation stays from -90 to 90
-/// degrees.
+/// Turns the camera around its target by a drag in pixels; the elevation is at most ±90 degrees.
 void orbit(render::Camera& camera, double right_px, double down_px);
 /// Shifts the camera so that the picture follows a drag in pixels.
 void pan(render::Camera& camera, const PictureSize& size, double right_px, double down_px);
@@ -37,7 +36,7 @@ void look_from(render::Camera& camera, const render::ViewDirection& view);
 /// Moves the camera, without turning it, so that all points (3 x n, mm) are in the picture.
 void fit(render::Camera& camera, const PictureSize& size, const Eigen::Matrix3Xd& points);
 
-/// The displacement, mm, of a point at `place` in the plane facing the camera, for a drag in
+/// The displacement of a point at `place`, mm, in the plane facing the camera, for a drag in
 /// pixels.
 Eigen::Vector3d dragged_in_plane(const render::Camera& camera, const PictureSize& size,
                                  const Eigen::Vector3d& place, double right_px, double down_px);

@@ -13,8 +13,7 @@ namespace {
 constexpr double same_shape = 2e-3;        // of the length scale
 constexpr double least_shortening = 1e-3;  // nearer to the flat state no path is followed
 
-/// The least progress of the boundary to which a path is followed; 0 if the shell has no flat
-/// state.
+/// The least progress of the boundary to which a path is followed.
 double least_progress_of(const Simulation& session) {
   if (session.scene().drawn_in_space) return 0;
   const NestedShell& shell = session.shell();
@@ -160,8 +159,8 @@ void EditSession::update_layout() {
                                            symmetries_of(coarsest, shell.motion(0).at(1)));
 }
 
-/// Finds the symmetry of the shape, regardless of constraints; empty for a footprint without
-/// symmetry.
+/// Finds the symmetry of the shape, regardless of constraints. It is not named if the footprint has
+/// none.
 void EditSession::update_symmetry() {
   view_.symmetry.clear();
   if (!now_.refined || symmetries_.size() < 2) return;
@@ -187,8 +186,7 @@ void EditSession::update_normals() {
   }
 }
 
-/// Computes the values that colours show; the deviation of a designed shell is that from its
-/// target.
+/// Computes the values that colours show; the deviation of a designed shell is from its target.
 void EditSession::update_rods() {
   put_values(view_);
   if (!now_.design || !now_.target) return;

@@ -21,8 +21,7 @@ namespace gridshell::window {
 struct PathMark {
   double from = 0, to = 0;  ///< from <= to
   int joint = -1;           ///< the joint that is pushed; -1: the boundary moves
-  bool unstable =
-      false;  ///< the states from `from` to `to` are unstable; else an event is at `from`
+  bool unstable = false;    ///< states `from` to `to` are unstable; else an event is at `from`
   std::string what = {};
 };
 
@@ -79,8 +78,7 @@ struct DesignProgress {
   std::vector<DesignPoint> points;
   int iterations = 0;  ///< including refused ones
   bool under_way = true, stopped = false, kept = false;
-  std::optional<double>
-      rounded_max_mm;  ///< largest distance of the rounded shell, if that is stable
+  std::optional<double> rounded_max_mm;  ///< of the rounded shell, if that is stable
 };
 
 /// The values of an equilibrium that can be plotted.
@@ -97,10 +95,9 @@ struct PlotPoint {
 struct ViewedState {
   preset::Preset preset;  ///< in a ShellView it has the current radius of the boundary
   PresetPush push;
-  std::shared_ptr<const record::Frame>
-      first;                       ///< the first state of the shell; null before it is formed
-  StepHistory steps;               ///< of the user, since the shell was formed
-  std::vector<PathMark> marks;     ///< of the paths that led to the current state
+  std::shared_ptr<const record::Frame> first;  ///< first state; null before the shell is formed
+  StepHistory steps;                           ///< of the user, since the shell was formed
+  std::vector<PathMark> marks;                 ///< of the paths that led to the current state
   bool refined = false;            ///< to the preset's tolerance; else coarse, as in a drag
   bool rods_changed_late = false;  ///< keys of its rods were changed after steps
   bool snapped = false;            ///< it snapped to another equilibrium

@@ -145,8 +145,7 @@ std::string error_text(const std::exception& thrown) {
   return dynamic_cast<const std::bad_alloc*>(&thrown) ? "memory ran out" : thrown.what();
 }
 
-/// After an exception: restores the state before the command, or before the drag that it belongs
-/// to.
+/// After an exception: restores the state before the command, or before its drag.
 void EditSession::recover(const Command& command, const std::exception& thrown) {
   try {
     const std::string why = error_text(thrown);
@@ -166,8 +165,7 @@ void EditSession::recover(const Command& command, const std::exception& thrown) 
   }
 }
 
-/// Discards the step that was stored before the current command; undone steps can be repeated
-/// again.
+/// Discards the step that was stored before the current command; Redo is possible again.
 void EditSession::take_back_step() {
   undo_.pop_back();
   redo_ = std::exchange(redo_aside_, {});

@@ -64,9 +64,8 @@ Result<void> make_movie(const fs::path& preset, const fs::path& folder,
   return run_this_program({"movie", preset.string(), "-o", folder.string()}, watch, listener);
 }
 
-/// Forms and exports the shell with `run` and `export` of this program, in a temporary folder that
-/// is removed. For an .xdmf, which reads its numbers from the run, the folder is FILE_run and
-/// remains.
+/// Forms and exports the shell with `run` and `export` of this program, in a temporary folder. For
+/// an .xdmf, which reads its numbers from the run, that folder is FILE_run and remains.
 Result<void> export_shell(const preset::Preset& preset, const fs::path& file,
                           const ProgressListener& listener, const Watch& watch) {
   TRY(scratch, ScratchFolder::make());

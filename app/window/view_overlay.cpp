@@ -130,8 +130,7 @@ void Overlay::write_measure() {
   if (joints.size() > 1) label(text_of_measure(shell_, joints), point_of(right));
 }
 
-/// Writes the name of the shell that is compared (green, or at the right), and the distances of
-/// joints.
+/// Writes the name of the other shell (green, or at the right), and the distances of joints.
 void Overlay::tell_other() {
   if (!viewer_.show.other) return;
   const bool beside = viewer_.show.shells() > 1;
@@ -321,8 +320,7 @@ void colour_legend(const Panel& panel, const render::Box& view) {
   const float low = top + 1.6f * line, left = right - width;
   bar(scale, {left, low}, {right, low + height});
   ground.reach(low + height);
-  const float apart =
-      1.2f * line / height;  // least distance between two texts, as a fraction of the bar
+  const float apart = 1.2f * line / height;  // least distance of two texts, over that of the bar
   for (const render::Tick& tick : render::linear_ticks(scale.low, scale.high, 4)) {
     const auto down = float((scale.high - tick.value) / (scale.high - scale.low));
     if (tick.major && down > apart && down < 1 - apart)

@@ -16,8 +16,7 @@ constexpr std::size_t most_points = 4000;
 constexpr std::size_t most_recent = 8;
 constexpr double look_every_s = 0.5;  // interval of checking the preset's file
 constexpr double most_number = 1e9;   // largest number that is read from a workspace
-constexpr double other_size =
-    0.02;  // relative change of size after which the camera is fitted again
+constexpr double other_size = 0.02;   // relative change of size that fits the camera again
 constexpr double earth_m_s2 = 9.81, nitinol_kg_m3 = 6450;
 
 /// Calls visit(key, value) for each flag of the workspace.
@@ -48,8 +47,7 @@ void each_number(AnyCamera& camera, const Visit& visit) {
   visit("target_z_mm", camera.target.z());
 }
 
-/// Reads a member of an object; returns false, and leaves `value`, if it is missing or of another
-/// type.
+/// Reads a member of an object; returns false, and leaves `value`, if it is missing or no Value.
 template <class Value>
 bool take(const Json& object, const char* key, Value& value) {
   if (!object.is_object() || !object.contains(key)) return false;
@@ -313,8 +311,7 @@ void ViewerState::add_plot_point() {
     plot_points.erase(plot_points.begin(), plot_points.begin() + most_points / 4);
 }
 
-/// Reads the preset again if its file changed. Errors in it are reported, and the last valid preset
-/// remains.
+/// Reads the preset again if its file changed; if that has errors, the last valid preset remains.
 void ViewerState::watch_file(double seconds) {
   since_look_ += seconds;
   if (file_.empty() || since_look_ < look_every_s) return;

@@ -199,8 +199,7 @@ class ViewerState {
     return {&picture_task, &movie_task, &export_task, &manual_task};
   }
   std::optional<FileRequest> file_request;
-  std::string
-      last_folders[2];  ///< of the last file that was saved, and of the last that was opened
+  std::string last_folders[2];      ///< of the last saved file, and of the last opened one
   std::vector<std::string> recent;  ///< presets and runs that were opened, the last first
   std::string copied;               ///< text for the clipboard
   bool timed = true;                ///< whether times are shown
@@ -231,8 +230,7 @@ class ViewerState {
   void recall(int state);
   /// The index of the found state that is shown; -1: none is.
   int state_in_sight() const;
-  /// Moves the boundary to the middle of the next unstable interval on the path to the current
-  /// state.
+  /// Moves the boundary to the middle of the next unstable interval on its path.
   void go_to_loss();
   /// Stops the engine; the last step of a design remains.
   void stop();
@@ -250,8 +248,7 @@ class ViewerState {
 
   // ---- what is saved ----
 
-  /// The preset of the current shell, with its radius or the steps that were done, camera and
-  /// colours.
+  /// The preset of the current shell, with its radius or its steps, camera and colours.
   preset::Preset preset_to_save() const;
   void save_preset();
   void save_picture();

@@ -60,8 +60,8 @@ class BackgroundTask {
   std::optional<Watch> watch_;  // of the current task or the last one
   std::filesystem::path target_;
   std::string said_;
-  std::future<Result<void>>
-      ended_;  // last member, so that its destructor, which waits for the task, runs first
+  // last, so that its destructor, which waits for the task, runs first
+  std::future<Result<void>> ended_;
 };
 
 /// The engine on a thread of its own: takes commands and returns views of the shell.
