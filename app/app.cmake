@@ -1,6 +1,7 @@
-# The programs: gridshell_app holds the commands (testable), gridshell is main.cpp over it;
-# gridshell_view holds the window, gridshell_window is both. `gridshell view` starts that one, so that
-# whoever makes movies need not wait for the window to be compiled.
+# The programs. The library gridshell_app contains the commands, so that tests can use them; gridshell is
+# main.cpp with it. The library gridshell_view contains the window; gridshell_window has both. `gridshell
+# view` starts gridshell_window, so that users who only make movies need not wait for the window to be
+# compiled.
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(Threads REQUIRED)
@@ -34,7 +35,7 @@ target_link_libraries(gridshell_app PUBLIC gridshell_engine gridshell_render
 target_include_directories(gridshell_app SYSTEM PUBLIC ${GL_CORE_INCLUDE_DIR})
 gridshell_position_independent(gridshell_app)
 gridshell_compile_lightly(gridshell_app)
-# its files read the whole library
+# headers that most of its files include
 gridshell_read_once(gridshell_app ${read_by_all} ${PROJECT_SOURCE_DIR}/engine/gridshell.h
   ${PROJECT_SOURCE_DIR}/engine/core/json.h)
 gridshell_in_batches(gridshell_app 8)

@@ -1,6 +1,5 @@
-# Sourced by app/run.sh and tests/run.sh: the packages of Debian 12 and 13 that the program takes, those
-# that its tests take in addition, and how to get the missing ones. Expects to run in the folder of the
-# sources.
+# Sourced by app/run.sh and tests/run.sh, in the folder of the sources: the packages of Debian 12 and 13 that
+# the program and its tests need, and functions that install missing ones and build.
 
 build_packages="
   g++ cmake make ninja-build pkg-config
@@ -10,13 +9,13 @@ build_packages="
   libgl-dev libegl-dev libosmesa6-dev libosmesa6 libglfw3-dev libimgui-dev libfontconfig-dev
 "
 test_build_packages="catch2 pybind11-dev python3-dev"
-# building does not take these: they are installed meanwhile
+# the build does not need these, so they are installed while it runs
 run_packages="ffmpeg fonts-dejavu-core fonts-dejavu-extra libegl1 libgl1-mesa-dri"
 test_run_packages="python3-numpy python3-pytest"
-# a test that cannot have its checker is skipped and says so
+# programs of some tests; a test whose program is missing is skipped with a message
 checker_packages="parallel qemu-user clang clang-format clang-tidy similarity-tester"
 
-# what is not installed of PACKAGE...
+# missing_packages PACKAGE...: prints those that are not installed
 missing_packages() {
   for package in "$@"; do
     status=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null) || status=""
@@ -30,8 +29,8 @@ apt_install() {
   $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends $* >&2
 }
 
-# install_packages [tests]: what is missing of what building takes, the tests too. What only running
-# takes is installed in the background; finish_packages waits for it.
+# install_packages [tests]: installs missing packages of the program, and with `tests` those of its tests;
+# those that the build does not need in the background, until finish_packages
 install_packages() {
   later=""
   if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
@@ -72,8 +71,8 @@ finish_packages() {
   [ -z "$later" ] || wait "$later"
 }
 
-# build TARGET: a Release in build/, with all cores; what the tools say goes to stderr. Ninja, where it
-# is, keeps them all busy; a folder that was begun with make continues with it.
+# build TARGET: builds it as Release in build/, on all cores; the output of the tools goes to stderr. Uses Ninja
+# if it is installed and the folder was not configured for make before.
 build() {
   generator=""
   [ -e build/CMakeCache.txt ] || ! command -v ninja >/dev/null || generator="-GNinja"

@@ -27,8 +27,8 @@ using record::BranchPoint;
 struct ChartOptions {
   Options common;
   std::string kind;    ///< "accuracy", "stability" or "branches"
-  double limit_s = 0;  ///< of one run; 0: as the study has it
-  int edges = 32;      ///< a segment of the finest mesh that methods are given
+  double limit_s = 0;  ///< seconds after which a run is too slow; 0: the default of the study
+  int edges = 32;      ///< edges per segment of the finest mesh of the methods
   std::string sizes;   ///< for `accuracy`: rods per direction, "12,24,48"
 };
 
@@ -44,7 +44,7 @@ std::string place_of(const BranchPoint& point, double original_radius_mm) {
   return fmt::format("R_a = {:.4f} R_o", point.boundary_radius_mm / original_radius_mm);
 }
 
-/// "branch 1: 88 points, 80 of them stable; bifurcation at ...", a line a branch.
+/// Appends a line for each branch: "branch 1: 88 points, 80 of them stable; bifurcation at ...".
 void tell(const study::BranchDiagram& diagram, ChartReport& findings) {
   const auto& points = diagram.points;
   const int last = points.empty() ? -1 : points.back().branch;
@@ -65,7 +65,7 @@ void tell(const study::BranchDiagram& diagram, ChartReport& findings) {
   }
 }
 
-/// branches.csv and branches.png, .svg, .pdf.
+/// Writes branches.csv and branches.png, .svg, .pdf.
 Result<ChartReport> draw_branches(const preset::Preset& preset, const fs::path& folder,
                                   Watch& watch) {
   TRY(found, study::branches_study(preset, {}, watch));
@@ -85,7 +85,7 @@ Result<ChartReport> draw_branches(const preset::Preset& preset, const fs::path& 
   return findings;
 }
 
-/// What all studies of methods may spend.
+/// The options of a study of methods, with the time and threads that the user allows.
 template <class StudyOptions>
 StudyOptions limited(const ChartOptions& options) {
   StudyOptions how;
@@ -94,7 +94,8 @@ StudyOptions limited(const ChartOptions& options) {
   return how;
 }
 
-constexpr double wide_mm = 178, high = 105 / wide_mm, low = 80 / wide_mm;  // of a page
+// width of the plots, and heights as fractions of it
+constexpr double wide_mm = 178, high = 105 / wide_mm, low = 80 / wide_mm;
 
 /// "12,24,48" as numbers of rods. Errors: bad_input.
 Result<std::vector<int>> sizes_in(const std::string& text) {
@@ -108,7 +109,7 @@ Result<std::vector<int>> sizes_in(const std::string& text) {
   return sizes;
 }
 
-/// accuracy.csv and .png, .svg, .pdf, a curve a size.
+/// Writes accuracy.csv, .png, .svg and .pdf, with one curve for each size of the shell.
 Result<ChartReport> draw_sizes(const preset::Preset& preset, const ChartOptions& options,
                                const fs::path& folder, Watch& watch) {
   auto how = limited<study::AccuracyOptions>(options);
@@ -166,7 +167,7 @@ Result<ChartReport> draw_accuracy(const preset::Preset& preset, const ChartOptio
   return findings;
 }
 
-/// "shifted: 40 cells, 36 right, 4 silently wrong (4 other_state)", a line a method.
+/// Appends a line for each method: "shifted: 40 cells, 4 silently wrong (36 right, 4 other_state)".
 void count_silent(const std::vector<record::StabilityRow>& rows, ChartReport& findings) {
   const auto methods = render::distinct(rows, &record::StabilityRow::method);
   for (const auto& method : methods) {

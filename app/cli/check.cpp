@@ -74,7 +74,8 @@ std::vector<std::string> what_is_done(const preset::Preset& preset, const Scene&
   return lines;
 }
 
-/// "11 points over actuation.ratio, of each of 2 cases; some 6 s one after the other"
+/// "11 runs over actuation.ratio, 2 cases; 6 s one after the other, ..."; `seconds`: expected time
+/// of one run of each case.
 std::string sweep_text(const preset::Presets& presets, const preset::SweepGrid& grid,
                        double seconds) {
   std::vector<std::string> keys;
@@ -127,7 +128,7 @@ void print_plan(const preset::Preset& preset, const simulate::Plan& plan) {
 Result<int> check(const Options& options) {
   TRY(presets, load(options));
   if (options.print_config) return print_config(*presets);
-  // what `run` and `movie` would say after it
+  // `run` and `movie` would refuse this folder, too
   const auto folder = output_of(options, presets->base);
   if (const auto because = refusal_to_write(folder, ""); !because.empty())
     return invalid("cannot write the folder '{}': {}", folder.string(), because);

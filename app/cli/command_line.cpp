@@ -15,7 +15,8 @@
 namespace gridshell::app {
 namespace {
 
-/// Empty when `word` is a command; a mistyped one deserves a better answer than "not expected".
+/// An error with similar names if `word` is no command; else empty. CLI11 would only report that it
+/// was "not expected".
 std::string no_such_command(const CLI::App& program, const std::string& word) {
   std::vector<std::string> names;
   for (const auto* command : program.get_subcommands({})) names.push_back(command->get_name());
@@ -24,7 +25,7 @@ std::string no_such_command(const CLI::App& program, const std::string& word) {
          " ('gridshell --help' lists them)";
 }
 
-/// "TEXT:{auto,osmesa}" names the words of a choice.
+/// The words of a choice, from the name of its type: "TEXT:{auto,osmesa}".
 std::vector<std::string> words_in(const std::string& type) {
   const auto begin = type.find('{'), end = type.find('}');
   if (begin == type.npos || end == type.npos || end < begin) return {};
@@ -117,7 +118,7 @@ int CommandLine::run(int argc, char** argv) {
   try {
     program_->parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    // help and version come as errors too, with code 0
+    // CLI11 reports help and version as errors with code 0
     return program_->exit(error) == 0 ? ExitCode::done : ExitCode::bad_input;
   }
   return report(action_());
@@ -179,7 +180,7 @@ Result<std::vector<preset::Override>> overrides_of(const Options& options) {
     overrides.push_back(*change);
   }
   if (!options.frames.empty()) overrides.push_back({"--frames", "movie.frames", options.frames});
-  // one word for two keys is wrong once
+  // checked here, as it sets two keys and would be reported twice
   if (!options.quality.empty() && !find_word<preset::Quality>(options.quality))
     return invalid("--quality {}: expected draft, movie or figure", options.quality);
   if (!options.quality.empty())

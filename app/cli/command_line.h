@@ -1,5 +1,5 @@
-// The command line: what commands declare of their arguments, read by CLI11 in command_line.cpp
-// alone, as reading its header takes longer than compiling a command.
+// The command line: how commands declare their arguments. Only command_line.cpp includes CLI11,
+// since its header takes longer to compile than a command.
 #pragma once
 
 #include <filesystem>
@@ -32,21 +32,22 @@ class Argument {
   Argument in_range(int least, int most);
   Argument in_range(double least, double most);
   Argument one_of(const std::vector<std::string>& words);
-  /// Not an empty text: `message` says what it must be.
+  /// Refuses an empty text with `message`.
   Argument not_empty(const std::string& message);
-  /// Called with each text that is given.
+  /// Calls `act` with each text that is given.
   Argument each(std::function<void(const std::string&)> act);
   Argument excludes(Argument other);
   /// Shows its default value in the help.
   Argument show_default();
-  /// One value each time that it is given, any number of times.
+  /// May be given any number of times, with one value each time.
   Argument one_each_time();
 
  private:
   CLI::Option* option_;
 };
 
-/// What a command takes. Names are "-o,--output" of an option, "PRESET" of an argument.
+/// Declares arguments and options of a command; `names` is "-o,--output" for an option, "PRESET"
+/// for an argument.
 class CommandArguments {
  public:
   CommandArguments(CLI::App* command) : command_(command) {}
@@ -58,27 +59,27 @@ class CommandArguments {
   Argument option(const std::string& names, int& value, const std::string& meaning);
   Argument option(const std::string& names, double& value, const std::string& meaning);
   Argument flag(const std::string& names, bool& value, const std::string& meaning);
-  /// One that was declared before.
+  /// Returns the option `name`, which was declared before.
   Argument declared(const std::string& name);
-  /// What its help ends with.
+  /// Sets the last paragraph of the help.
   void footer(const std::string& text);
 
  private:
   CLI::App* command_;
 };
 
-// The commands as data, read off what they declare: for whatever lists them.
+// The commands as data, for everything that lists them.
 
 /// An argument or an option of a command.
 struct CommandOption {
   std::string name;        ///< "--to"; of an argument "PRESET"
   std::string short_name;  ///< "-o", or empty
   std::string meaning;
-  std::vector<std::string> words;  ///< that it can be; empty: anything
+  std::vector<std::string> words;  ///< its allowed values; empty: any text
   bool argument = false;           ///< has no option name
   bool flag = false;               ///< takes no value
   bool required = false;
-  bool many = false;  ///< any number of times
+  bool many = false;  ///< may be given any number of times
 };
 
 struct CommandEntry {
@@ -107,7 +108,7 @@ class CommandLine {
 
   /// Executes the command line and returns the exit code; errors are reported.
   int run(int argc, char** argv);
-  /// The words that run() was given, ended by a null pointer.
+  /// The arguments of the program, as run() was given them, ended by a null pointer.
   char** given() const { return given_; }
 
   /// All commands, in the order of the help.
@@ -119,9 +120,9 @@ class CommandLine {
   char** given_ = nullptr;
 };
 
-// The options that the commands share, declared once.
+// Options that several commands have.
 
-/// What was given on the command line; empty or zero where nothing was.
+/// What was given on the command line; empty or zero if nothing was.
 struct Options {
   std::string input;  ///< PRESET or RUN
   std::filesystem::path output;
@@ -136,24 +137,26 @@ struct Options {
   bool turntable = false;
 };
 
-/// PRESET and everything that changes it: --set, --frames, --size, --quality, --print-config.
+/// Adds PRESET, the options of add_changes(), --frames and --print-config.
 void add_preset_options(CommandArguments command, Options& options);
 
-/// What changes a preset or the pictures of a run: --set, --size, --quality, --width, --dpi, --pdf.
+/// Adds the options that change a preset or the pictures of a run: --set, --size, --quality,
+/// --width, --dpi, --pdf.
 void add_changes(CommandArguments command, Options& options);
 
-/// -o, --threads, --quiet: of commands that work for a while.
+/// Adds -o, --threads and --quiet, for commands that compute for long.
 void add_work_options(CommandArguments command, Options& options,
                       const std::string& output = "folder to write, by default out/<preset>");
 
-/// --context: of commands that draw.
+/// Adds --context, for commands that draw.
 void add_picture_options(CommandArguments command, Options& options);
 
-/// `--no-checksum` (once `--unsealed`): for commands that read a run's trajectory.
+/// Adds `--no-checksum` (formerly `--unsealed`), for commands that read the trajectory of a run.
 void add_no_checksum(CommandArguments command, bool& no_checksum);
 
-/// The options that change the preset, in the order in which they are laid over it. Errors:
-/// bad_input for a --set without key or value, a --size that is not WxH.
+/// The options that change the preset, in the order in which they are applied. Errors: bad_input
+/// for a --set without key or value, an unknown --quality, a --width that is no length, a --size
+/// that is not WxH.
 Result<std::vector<preset::Override>> overrides_of(const Options& options);
 
 /// The overrides for a finished run, of which only the presentation and the keys `also` may change.
@@ -164,11 +167,11 @@ Result<std::vector<preset::Override>> overrides_of_run(const Options& options,
 /// The width and height that --size names. Errors (bad_input): not WxH.
 Result<std::pair<int, int>> size_of(const std::string& text);
 
-/// Writes a file of the user's choice; the folder that it lies in is made. Errors: io.
+/// Writes a file, after creating its folder if that is missing. Errors: io.
 Result<void> write_with_folder(const std::filesystem::path& file, const std::string& text);
 
-/// The whole numbers of at most six digits in "1280x720", 'x' between them; nothing for other
-/// texts.
+/// The two whole numbers, of at most six digits each, that `between` separates in a text: 1280 and
+/// 720 in "1280x720" if it is "x". Nothing for other texts.
 std::optional<std::pair<int, int>> two_numbers(std::string_view text, std::string_view between);
 
 }  // namespace gridshell::app

@@ -71,7 +71,7 @@ void add_list(CommandLine& program, Result<std::string> (*man_page)()) {
   command.flag("--man", options.man, "instead, the manual page");
 }
 
-/// Those that take a preset, what changes it, where to write and how to draw, and nothing else.
+/// Adds a command whose arguments are a preset and the options that change it, write and draw.
 std::pair<CommandArguments, Options&> add_preset_command(
     CommandLine& program, const char* name, const char* meaning, Result<int> (*act)(const Options&),
     const char* output = "folder to write, by default out/<preset>") {
@@ -116,7 +116,7 @@ void add_commands(CommandLine& program, const WindowProgram& window) {
   add_modes(program);
   add_report(program);
   add_scan(program);
-  // the command line of a movie can also be checked without changes
+  // takes the options of `movie`, whose command line can so be checked by changing one word
   add_preset_command(program, "check", "validate a preset and say what would run", check);
   add_compare(program);
   add_list(program, window.man_page);
@@ -142,7 +142,7 @@ int run_program(int argc, char** argv, const WindowProgram& window) {
   } catch (const std::exception& error) {
     code = report_exception(error);
   }
-  // what could not be printed was not done
+  // a command whose output is lost has failed
   if (!flush_stdout(not_printed) && code == ExitCode::done) code = ExitCode::failed;
   return code;
 }

@@ -11,7 +11,7 @@
 
 namespace gridshell::app {
 
-/// What `gridshell view` was given; empty or zero where nothing was.
+/// What `gridshell view` was given; empty or zero if nothing was.
 struct ViewOptions {
   std::string input, record, play, shot, picture, size, quality = "movie", context = "auto";
   std::filesystem::path output = "out", workspace;
@@ -19,14 +19,15 @@ struct ViewOptions {
   double bench = 0;
 };
 
-/// What only the program with the window in it can do; a program without starts that one instead.
+/// Functions that only gridshell_window has; in `gridshell` they are null, and it starts
+/// gridshell_window instead.
 struct WindowProgram {
   Result<int> (*view)(ViewOptions options) = nullptr;
   Result<std::string> (*man_page)() = nullptr;
 };
 
-/// Starts gridshell_window, which lies in the folder of this program, in place of this program with
-/// the same arguments. Returns only if that fails. Errors (io): it is missing.
+/// Replaces this process by gridshell_window, from the same folder, with the same arguments.
+/// Returns only if that fails. Errors: io.
 Result<int> start_window_program(const CommandLine& program);
 
 void add_render(CommandLine& program);
@@ -40,7 +41,7 @@ void add_report(CommandLine& program);
 void add_scan(CommandLine& program);
 void add_compare(CommandLine& program);
 
-/// Validates a preset and prints what would run; the exit code.
+/// Validates a preset and prints what would run; returns the exit code.
 Result<int> check(const Options& options);
 
 /// Checks that the results requested from a sweep are results of a run. Errors (bad_input), with
@@ -62,10 +63,10 @@ struct ExportFormat {
   std::string read_by;  ///< "ParaView"
 };
 
-/// What `export` writes by a file's ending alone.
+/// The formats that `export` chooses by the ending of a file, without --what.
 std::vector<ExportFormat> usual_exports();
 
-/// All of them, in the order of the help.
+/// Adds all commands, in the order of the help.
 void add_commands(CommandLine& program, const WindowProgram& window = {});
 
 /// main() of a program: reads the command line, runs one command, returns its exit code.
@@ -74,7 +75,7 @@ int run_program(int argc, char** argv, const WindowProgram& window = {});
 /// All commands as data.
 std::vector<CommandEntry> command_table();
 
-// What the program has, as text. Errors: a preset that came with the program does not read.
+// Commands, presets and keys as text. Errors: a preset of the program cannot be read.
 
 /// One object: `version`; `commands`, each with its options; `presets` with title, description and
 /// source; `tables` and `keys`, each with table, unit, default (as TOML), allowed and meaning.

@@ -28,7 +28,7 @@ int report(const Error& error) {
 
 Error error_of(const std::exception& thrown) {
   if (!dynamic_cast<const std::bad_alloc*>(&thrown)) return {Fault::io, thrown.what()};
-  // few bytes: there may be none left
+  // a short text, since little memory may be left
   return {
       Fault::io,
       "memory ran out; 'gridshell check' says what a preset's meshes take, and fewer [accuracy] "
@@ -40,13 +40,13 @@ namespace {
 constexpr const char* out_of_memory =
     "memory ran out; what was finished stays under its partial name\n";
 
-/// Also for signal handlers: if this text cannot be written there is nothing left to do.
+/// Safe in signal handlers. It ends the program even if the text cannot be written.
 [[noreturn]] void end_at_once(const char* words, ExitCode code) {
   if (::write(STDERR_FILENO, words, std::strlen(words)) < 0) _exit(code);
   _exit(code);
 }
 
-// a signal handler can reach nothing but what is static, and other threads read what it writes
+// static, since a signal handler has no arguments; atomic, since other threads read them
 std::atomic<int> came{0}, guarded{0};
 static_assert(std::atomic<int>::is_always_lock_free);
 
@@ -68,8 +68,8 @@ void install_terminate_handler() {
     }
     end_at_once(words, ExitCode::failed);
   });
-  // under `ulimit -v` OpenGL's libraries use memory that they were refused, and GLib stops where it
-  // is refused a thread
+  // under `ulimit -v` OpenGL's libraries use memory that they did not get, and GLib aborts if it
+  // cannot start a thread
   rlimit space{};
   if (getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur != RLIM_INFINITY)
     for (const int refused : {SIGSEGV, SIGTRAP, SIGABRT})
@@ -89,7 +89,7 @@ void install_signal_handlers() {
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
-  // what nohup started is to survive its terminal
+  // a program that nohup started ignores the end of its terminal
   struct sigaction before {};
   sigaction(SIGHUP, nullptr, &before);
   if (before.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);

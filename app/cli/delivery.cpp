@@ -30,9 +30,11 @@ std::string left_text(const ProgressState& at) {
              : fmt::format(", {} left", time_text(at.seconds_left));
 }
 
-constexpr double place_every_s = 5, first_place_s = 1;  // of a path that is followed, on lines
+// seconds between the lines about the path that is followed, and before the first of them
+constexpr double place_every_s = 5, first_place_s = 1;
 
-/// Parameter of a path that is being followed, and the time left on these meshes.
+/// Text with the parameter of the path that is being followed, and the time left on these meshes;
+/// empty if none is followed.
 std::string place_text(const Watch& watch, PathPace& pace) {
   const Watch::Place place = watch.place();
   if (place.edges == 0 || watch.progress() >= 0.5) return "";
@@ -41,10 +43,10 @@ std::string place_text(const Watch& watch, PathPace& pace) {
                      place.edges, std::isnan(left) ? "unknown" : time_text(left));
 }
 
-// what is whole in a folder that was not finished
+// complete files in a folder that was not finished
 struct Left {
-  std::size_t pictures = 0, runs = 0, frames = 0;  // frames: of runs cut short
-  bool path = false;                               // what was followed of one
+  std::size_t pictures = 0, runs = 0, frames = 0;  // frames: those of interrupted runs
+  bool path = false;                               // whether segments of a path were saved
 };
 
 constexpr const char* goes_on = "the same command with --resume continues from there";
@@ -68,7 +70,7 @@ std::string near_name(const fs::path& folder) {
   return fs::proximate(folder, error).string();
 }
 
-// reports temporary folders of other runs, and what may be done with them
+// reports temporary folders that other runs left, and the commands that draw or remove them
 void report_left_behind(const fs::path& final_folder) {
   for (const auto& folder : left_behind(final_folder)) {
     const auto name = near_name(folder);
@@ -94,7 +96,7 @@ Result<void> attempt(const Work& work, const fs::path& partial, Progress& progre
   }
 }
 
-/// What of a folder is whole.
+/// A text that lists the complete files of a folder.
 std::string whole_files(const Left& left, const std::string& name) {
   const auto whole = count_text(left.runs, "run") + " and " + count_text(left.pictures, "picture");
   if (left.frames == 0) return fmt::format("{}, each whole, are in '{}'", whole, name);
@@ -105,8 +107,8 @@ std::string whole_files(const Left& left, const std::string& name) {
                      render::shell_line({"gridshell", "render", name}));
 }
 
-/// Cleans a folder that will not be finished: half-written files go, whole pictures and runs stay;
-/// without any the folder goes too. A sentence that says what is left.
+/// Cleans a folder that will not be finished: removes half-written files, and the folder itself if
+/// it has no complete picture, run, frame or segment of a path. Returns a text about what is left.
 std::string keep_finished_files(const fs::path& partial) {
   remove_unfinished(partial);
   const auto left = left_in(partial);
@@ -133,7 +135,7 @@ ProgressState standing(const std::vector<Phase>& phases, std::size_t current, do
     if (k > current) after += phases[k].expected_seconds;
   }
   const double own = phases[current].expected_seconds;
-  // frames of motions in time are not in the planned number
+  // a motion in time adds frames that were not planned
   fraction = std::min(fraction, 1.0);
   ProgressState at{all > 0 ? (before + own * fraction) / all : 0,
                    std::numeric_limits<double>::quiet_NaN()};
@@ -179,14 +181,14 @@ Progress::~Progress() {
   }
   wake_.notify_all();
   thread_.join();
-  // the line of the bar is free again
+  // clears the line of the bar
   if (bar_open_) std::fputs("\r\033[K", stderr);
 }
 
 Watch& Progress::next_phase() {
   const std::lock_guard lock(mutex_);
   watches_.push_back(std::make_unique<Watch>());
-  // one that was not announced is a part of the last that was
+  // a phase that was not announced counts as another one like the last
   if (watches_.size() > phases_.size())
     phases_.push_back(phases_.empty() ? Phase{"working"} : phases_.back());
   phase_began_ = seconds_now();
@@ -202,7 +204,7 @@ void Progress::loop() {
     try {
       if (!watches_.empty() && !interrupted_) show_now();
     } catch (const std::exception&) {
-      // a line that does not fit into memory is not worth the work
+      // no memory for this line: the work continues without it
     }
     wake_.wait_for(lock, std::chrono::milliseconds(50));
   }
@@ -214,14 +216,14 @@ void Progress::stop_if_asked() {
     interrupted_at_ = seconds_now();
     if (!watches_.empty()) watches_.back()->cancel();
   }
-  // what is finished is whole, so the program may end
+  // every finished file is complete, so the program may end
   const bool draws = !watches_.empty() && phases_[watches_.size() - 1].draws;
   if (interrupted_ && draws && seconds_now() - interrupted_at_ > 0.5) {
     if (bar_open_) std::fputs("\r\033[K", stderr);
     try {
       last_words_();
     } catch (const std::exception&) {
-      // the folder itself lists its contents
+      // no memory for the message: the folder shows what is left
     }
     _exit(ExitCode::interrupted);
   }
@@ -267,7 +269,7 @@ Result<void> deliver(const Delivery& made, const std::vector<Phase>& phases, boo
     });
   if (outcome) return {};
   const auto left = keep_finished_files(staged->path());
-  // an empty staged folder is gone already; its parents go with it
+  // an empty staged folder was removed above; without keep() its new parents are removed, too
   if (fs::exists(staged->path())) staged->keep();
   Error& error = outcome.error();
   if (error.fault == Fault::cancelled) error.message = "stopped";

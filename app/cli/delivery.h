@@ -1,5 +1,5 @@
-// Long work under watch: one bar that counts evenly over all phases, with the time left, and the
-// stop within a second of Ctrl-C.
+// Long work in phases: one progress bar for all of them, with the time left, and a stop within a
+// second of Ctrl-C.
 #pragma once
 
 #include <condition_variable>
@@ -15,11 +15,11 @@
 
 namespace gridshell::app {
 
-/// A part of the work: its fraction of the bar is its expected time.
+/// A part of the work, with a length in the progress bar that is proportional to its expected time.
 struct Phase {
   std::string label;
   double expected_seconds = 1;
-  /// pictures: one is drawn in a piece and does not listen, so the program may end in its middle
+  /// whether it draws pictures: drawing one cannot be stopped, so Ctrl-C may end the program in it
   bool draws = false;
 };
 
@@ -30,7 +30,7 @@ inline Phase drawing(std::string label, double expected_seconds) {
 /// How far the work is, for a bar or a line.
 struct ProgressState {
   double fraction = 0;      ///< of all phases
-  double seconds_left = 0;  ///< NaN while too little is done to say
+  double seconds_left = 0;  ///< NaN while too little is done for an estimate
 };
 
 /// Progress of work in `phases`: `current` is `fraction` done after `elapsed` seconds. Later phases
@@ -41,8 +41,8 @@ ProgressState standing(const std::vector<Phase>& phases, std::size_t current, do
 /// Speed at which a path is followed on its current mesh.
 class PathPace {
  public:
-  /// Seconds to the end of the path, parameter 1; NaN while too little is done for an estimate, and
-  /// on a segment back.
+  /// Seconds to the end of the path, parameter 1; NaN while too little is done for an estimate. It
+  /// starts again on another mesh and where the parameter decreases.
   double seconds_left(const Watch::Place& at, double now);
 
  private:
@@ -54,8 +54,8 @@ class PathPace {
 std::string bar_text(const ProgressState& standing, const std::string& label, int width);
 
 /// Watches phases from a thread of its own: shows progress on stderr (a bar on a terminal, a line a
-/// tenth elsewhere), and passes an interrupt on to the current phase's Watch. Where a picture takes
-/// longer than that may wait, it ends the program.
+/// tenth elsewhere), and passes an interrupt on to the current phase's Watch. It ends the program
+/// if a phase that draws has not stopped half a second later.
 class Progress {
  public:
   enum class Show { nothing, lines, bar };
@@ -68,7 +68,8 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Ends the phase before and begins the next; valid until the one after it begins.
+  /// Ends the current phase and begins the next one, of which it returns the Watch; that is valid
+  /// as long as this object.
   Watch& next_phase();
 
  private:
@@ -92,10 +93,10 @@ class Progress {
   std::thread thread_;
 };
 
-// Long work that delivers a folder: staged, under one progress bar, stopped by Ctrl-C, and whole
-// under its final name or not there at all.
+// Long work that writes a folder, with a progress bar and stopped by Ctrl-C. The folder is written
+// under a temporary name and gets its final name only when it is complete.
 
-/// Writes into `partial`; begins every phase it was announced with.
+/// The work: writes into `partial` and begins each of the announced phases.
 using Work = std::function<Result<void>(const std::filesystem::path& partial, Progress& progress)>;
 
 /// What is delivered: the folder, and the command that makes it ("run").
@@ -104,13 +105,14 @@ struct Delivery {
   std::string command;
 };
 
-/// Runs `work` into a staged folder and gives it its final name; `left`: in that of a run that was
-/// not finished. On failure, what was finished stays under the partial name. Errors: those
-/// of `work`, with what is left.
+/// Runs `work` in a new staged folder, or continues in `left`, the folder of an unfinished run;
+/// then gives the folder its final name. On failure the finished files remain under the partial
+/// name. Errors: those of `work` and of StagedFolder; the message names what remains.
 Result<void> deliver(const Delivery& made, const std::vector<Phase>& phases, bool quiet,
                      const Work& work, const std::filesystem::path& left = {});
 
-/// In a partial folder: what of a run's path was followed, and the build (build_id()) that did.
+/// Names in a partial folder: the folder with the segments of the path that were followed, and the
+/// file in it that names the build (build_id()) that followed them.
 inline constexpr const char *segments_name = "segments", *version_name = "version";
 
 }  // namespace gridshell::app

@@ -17,12 +17,11 @@ namespace gridshell::app {
 namespace fs = std::filesystem;
 namespace {
 
-/// Whether the designed shell is also reached from the flat: how far its joints are from there
-/// then.
+/// Whether the path from the flat state ends in the designed shell, too.
 struct FlatStartCheck {
   bool reached = false;
-  double off_mm = 0;
-  std::string why;  ///< it was not
+  double off_mm = 0;  ///< largest distance of joints between that end and the designed shell
+  std::string why;    ///< why it was not reached
 };
 
 Json json_of(const DesignedState& state, double scale) {
@@ -38,7 +37,7 @@ Json json_of(const DesignedState& state, double scale) {
   return json;
 }
 
-/// `target`: "surface" or "net", of [inverse] target.
+/// The text of design.json; `target`: "surface" or "net", of [inverse] target.
 std::string design_json(const DesignResult& found, std::string_view target,
                         const FlatStartCheck& from_flat) {
   const double scale = found.length_scale_mm;
@@ -58,7 +57,7 @@ std::string design_json(const DesignResult& found, std::string_view target,
             {"thickest_mm", found.thickest_mm},
             {"iterations", int(found.steps.size()) - 1},
             {"cpu_s", found.cpu_s},
-            {"stable", true},  // nothing else is ever delivered
+            {"stable", true},  // design() returns no other shell
             {"symmetries", found.symmetries},
             {"variables", found.q.size()},
             {"free_variables", found.free_variables}};
@@ -92,7 +91,7 @@ std::string design_json(const DesignResult& found, std::string_view target,
   return text_of(json);
 }
 
-/// A line an end, as `[ends] table` reads it.
+/// The text of ends.csv: a line for each end of a rod, as `[ends] table` reads it.
 std::string ends_csv(const preset::Points& table) {
   record::CsvWriter csv;
   csv.line("family", "rod", "end", "x_mm", "y_mm", "z_mm", "leg_mm", "tx", "ty", "tz");
@@ -106,7 +105,7 @@ std::string ends_csv(const preset::Points& table) {
   return std::move(csv).text();
 }
 
-/// A line a rod, as `[rod] table` reads it.
+/// The text of rods.csv: a line for each rod, as `[rod] table` reads it.
 std::string rods_csv(const preset::Points& table) {
   record::CsvWriter csv;
   csv.line("family", "rod", "diameter_mm");
@@ -114,8 +113,8 @@ std::string rods_csv(const preset::Points& table) {
   return std::move(csv).text();
 }
 
-/// A line a variable; legs and diameters before and after are lengths, pins and directions
-/// coordinates along the variable's own axis.
+/// The text of design.csv: a line for each variable, before and after the design. Legs and
+/// diameters are lengths (mm); pins and directions are coordinates along the axis of the variable.
 std::string design_csv(const DesignResult& found, const preset::Points& table) {
   record::CsvWriter csv;
   csv.line("kind", "family", "rod", "end", "component", "before", "after");
@@ -140,7 +139,7 @@ std::string design_csv(const DesignResult& found, const preset::Points& table) {
   return std::move(csv).text();
 }
 
-/// The text of a preset whose empty `table` in a section is a file's name instead.
+/// Replaces the empty `table` of a section, in the text of a preset, by the name of a file.
 void put_name(std::string& text, const std::string& section, const std::string& file) {
   const std::string none = "\ntable = []";
   const auto at = text.find(none, text.find("\n[" + section + "]"));
@@ -152,7 +151,7 @@ void put_name(std::string& text, const std::string& section, const std::string& 
   text.replace(at, none.size(), "\ntable = \"" + name + "\"");
 }
 
-/// The preset with its tables in separate files.
+/// The text of a preset whose tables are in separate files.
 std::string preset_text(preset::Preset designed, const std::string& ends_file,
                         const std::string& rods_file) {
   const bool ends = !designed.ends.table.empty(), rods = !designed.rod_table.empty();
@@ -164,8 +163,8 @@ std::string preset_text(preset::Preset designed, const std::string& ends_file,
   return text;
 }
 
-/// design.json, design.csv, ends.csv, ends_rounded.csv, rods.csv where diameters were varied, and
-/// preset.toml, which reads them.
+/// Writes design.json, design.csv, ends.csv, ends_rounded.csv, rods.csv if diameters were varied,
+/// and preset.toml, which reads ends.csv and rods.csv.
 Result<void> write_design(const fs::path& folder, const preset::Preset& designed,
                           const DesignResult& found, const FlatStartCheck& from_flat) {
   const auto write = [&](const char* name, const std::string& text) {
@@ -219,7 +218,8 @@ std::string design_text(const DesignResult& found, const FlatStartCheck& from_fl
   return text;
 }
 
-/// Distances of the joints over the iterations, per cent of the length scale; crosses: refused.
+/// Distances of the joints from the target over the iterations, per cent of the length scale;
+/// crosses are refused steps.
 render::Plot convergence_plot(const DesignResult& found, const std::string& title) {
   render::Series largest{"largest"}, mean{"mean"}, refused{"step refused"};
   largest.colour = render::series_colour(0);
@@ -254,8 +254,8 @@ render::Plot convergence_plot(const DesignResult& found, const std::string& titl
   return plot;
 }
 
-/// `<stem>_net.png`, `<stem>_deviation.png` and the plots of shells on nets, with the target
-/// instead of the net: the nearest point of every node; `<stem>_convergence`.
+/// Writes the pictures of draw_net_pictures(), with the target instead of the net (for each node
+/// the nearest point of the target), and `<stem>_convergence`.
 Result<void> draw_design(Run before, Run after, const DesignResult& found, const fs::path& stem,
                          Watch& watch) {
   for (Run* run : {&before, &after}) {
@@ -269,10 +269,10 @@ Result<void> draw_design(Run before, Run after, const DesignResult& found, const
                             convergence_plot(found, render::plain(style.title)), style.print);
 }
 
-constexpr double same_state =
-    4;  // in tolerances of the run: largest distance of two runs of one state
+// joints of two runs that end in the same state differ by less than this many tolerances
+constexpr double same_state = 4;
 
-/// The one run that is designed. Errors: a preset of several cases.
+/// The preset of the shell to be designed. Errors: bad_input for a preset of several cases.
 Result<preset::Preset> one_of(const Options& options) {
   TRY(presets, load(options));
   if (presets->cases.empty()) return presets->base;
@@ -300,7 +300,8 @@ FlatStartCheck from_flat(preset::Preset preset, const record::Trajectory& design
   return found;
 }
 
-/// Everything between the preset and its folder.
+/// Designs the shell, simulates it before and after the design, writes and draws the result.
+/// `summary`: that of the designed shell; `text`: lines for the terminal.
 Result<void> work(const preset::Preset& preset, const fs::path& folder, Progress& progress,
                   record::Summary& summary, std::string& text) {
   TRY(found, design(preset, progress.next_phase()));
@@ -331,7 +332,7 @@ Result<void> write_preset_with_tables(const preset::Preset& preset, const fs::pa
   const std::string stem = file.stem().string(), ends = stem + "_ends.csv",
                     rods = stem + "_rods.csv";
   const fs::path folder = file.parent_path();
-  // the tables first: the preset is whole once it is there
+  // the tables first, so that a preset that exists is complete
   if (!preset.ends.table.empty()) TRY_DO(write_file(folder / ends, ends_csv(preset.ends.table)));
   if (!preset.rod_table.empty()) TRY_DO(write_file(folder / rods, rods_csv(preset.rod_table)));
   return write_file(file, preset_text(preset, ends, rods));

@@ -1,9 +1,9 @@
-# Writes a .cpp that holds every presets/*.toml as text, so that the program stands alone, and the
-# files that they name. Arguments: PRESETS and FILES (lists of files), OUTPUT.
+# Writes a .cpp that contains every presets/*.toml, and the files that they name, as text, so that the
+# program needs no other files. Arguments: PRESETS and FILES (lists of files), OUTPUT.
 set(text "// Generated from presets/*.toml.\n#include \"app/cli/preset_library.h\"\n\n")
 string(APPEND text "namespace gridshell::app {\n\n")
 
-# embed(FUNCTION TYPE NAME_PART FILES...): the function that returns the files by their names
+# embed(FUNCTION TYPE NAME_PART FILES...): appends a C++ function that returns the files with their names
 function(embed function type part)
   string(APPEND text "const ${type}& ${function}() {\n  static const ${type} all = {\n")
   foreach(file IN LISTS ARGN)

@@ -20,12 +20,12 @@ namespace fs = std::filesystem;
 namespace {
 
 struct ExportOptions {
-  std::string input;  ///< RUN; for what is not a shape PRESET too
+  std::string input;  ///< RUN; for anything but a shape also PRESET
   fs::path to;
-  std::string what;       ///< empty: what the extension of `to` is for
-  std::string frame;      ///< its index; empty: the last
-  std::string case_name;  ///< of a run of several cases
-  double seconds = 6;     ///< of an animation
+  std::string what;       ///< shape, footprint ...; empty: the extension of `to` decides
+  std::string frame;      ///< index of the frame; empty: the last
+  std::string case_name;  ///< which of several cases
+  double seconds = 6;     ///< duration of an animation
   bool no_checksum = false;
 };
 
@@ -42,7 +42,7 @@ struct Source {
   const std::string& title() const { return preset::title_or_name(run.preset); }
 };
 
-/// NAME.pvd; writes its frames into the folder NAME_frames.
+/// Writes the frames into the folder NAME_frames; returns the text of NAME.pvd, which lists them.
 Result<std::string> write_series(const Source& source, const ExportOptions& options) {
   const fs::path& to = options.to;
   const fs::path name = to.stem().string() + "_frames", folder = to.parent_path() / name;
@@ -70,7 +70,7 @@ Result<std::string> xdmf_of(const Source& source, const ExportOptions& options) 
                           trajectory.string());
 }
 
-/// Which of several runs or presets.
+/// The requested case of several runs or presets.
 template <class One>
 Result<One> chosen(std::vector<One> cases, const ExportOptions& options) {
   std::string names;
@@ -100,7 +100,7 @@ Result<Source> source_of(const ExportOptions& options) {
   return Source{std::move(*run), *frame, folder};
 }
 
-/// The preset of a run or by itself, of the requested case.
+/// The preset that is given, or that of the given run; of several cases the requested one.
 Result<preset::Preset> preset_of(const ExportOptions& options) {
   TRY(presets, load_preset_or_run(options.input));
   return chosen(runs_of(*presets), options).map([](preset::Case&& one) {
@@ -108,7 +108,7 @@ Result<preset::Preset> preset_of(const ExportOptions& options) {
   });
 }
 
-/// The text of a file.
+/// A function that makes the text of a file.
 using TextOf = std::function<Result<std::string>(const ExportOptions&)>;
 
 /// Text made from a run; `text` takes it and the options.
@@ -129,7 +129,7 @@ TextOf of_shape(auto text) {
   });
 }
 
-/// Text for fabrication, for which a preset is enough.
+/// Text made from the fabrication plan, for which a preset is enough.
 TextOf of_plan(auto text) {
   return [text](const ExportOptions& options) -> Result<std::string> {
     TRY(preset, preset_of(options));
@@ -138,7 +138,7 @@ TextOf of_plan(auto text) {
   };
 }
 
-/// Text made from a planar footprint.
+/// Text made from the fabrication plan of a planar footprint.
 TextOf of_flat(auto text) {
   return of_plan([text](const exports::FabricationPlan& plan) -> Result<std::string> {
     if (plan.in_space)
@@ -204,7 +204,7 @@ const std::vector<std::pair<std::string, FormatsByEnding>>& formats() {
   return all;
 }
 
-/// What an extension is for where --what does not say.
+/// What is exported to a file with this extension if --what is not given.
 std::string usual_thing(const std::string& extension) {
   return extension == ".svg" ? "footprint" : extension == ".pdf" ? "sheet" : "shape";
 }
@@ -215,7 +215,7 @@ std::string extensions_of(const FormatsByEnding& texts) {
   return list;
 }
 
-/// "shape: .csv .dxf ...\n" a line for each thing that can be exported.
+/// A line for each thing that can be exported: "  shape      .csv .dxf ...".
 std::string exported_formats() {
   std::string text;
   for (const auto& [what, texts] : formats())
@@ -236,7 +236,7 @@ Result<std::string> text_of(const ExportOptions& options) {
   return invalid("--what {}: expected one of\n{}", what, exported_formats());
 }
 
-/// Writes the file, whole or not at all, and says so.
+/// Writes the file, complete or not at all, and prints its size.
 Result<int> export_file(const ExportOptions& options) {
   TRY_DO(check_beside_runs(options.to));
   TRY(text, text_of(options));

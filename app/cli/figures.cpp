@@ -22,7 +22,7 @@ namespace gridshell::app {
 namespace fs = std::filesystem;
 namespace {
 
-/// Whether a preset is one for `gridshell design`, and not what that made of it.
+/// Whether `gridshell design` can design this preset and has not done so yet.
 bool to_be_designed(const preset::Preset& preset) {
   return !preset.inverse.vary.empty() && preset.ends.table.empty() && preset.rod_table.empty();
 }
@@ -55,8 +55,8 @@ Result<void> draw_block_pictures(const record::Trajectory& run, const render::Mo
                              "Seams of the blocks", style.print);
 }
 
-/// "hemisphere: max 3.1 %", of the joints; with the rods where they lie further off between them,
-/// which the colours show too. The number is in a line of its own where panels are narrow.
+/// Name and largest deviation of the joints, "hemisphere: max 3.1 %". That of the rods follows if
+/// it is more than 1.2 times as large, since the colours show it. `narrow`: on two lines.
 std::string caption_of(const record::Trajectory& run, const std::string& name, bool narrow) {
   constexpr double further = 1.2;
   const Eigen::VectorXd deviation = render::last_deviation(run);
@@ -70,29 +70,30 @@ std::string caption_of(const record::Trajectory& run, const std::string& name, b
   return fmt::format("{}max {} (rods {}) {}", first, text(joints), text(rods), word);
 }
 
-/// What a picture of several calls one, marked text: by its own title, else as its case.
+/// The name of a run in a picture of several runs, marked text: its own title, or the name of its
+/// case if it has the common title.
 std::string title_among(const Run& run, const std::string& of_all) {
   return run.preset.title == of_all && !run.name.empty() ? run.name : run.preset.title;
 }
-/// What a picture of one run calls it, marked text.
+/// The title of a picture of one run, marked text: the common title and its own.
 std::string title_alone(const Run& run, const std::string& of_all) {
   const std::string title = title_among(run, of_all);
   return of_all.empty() || title == run.preset.title ? title : of_all + ": " + title;
 }
 
 bool is_still(const Run& run) { return run.pictures == Pictures::stills; }
-/// Whether its movie shows it next to the other cases.
+/// Whether the run is shown in one movie together with the other cases.
 bool drawn_beside(const Run& run) {
   return run.pictures == Pictures::movie && run.preset.movie.beside && !run.name.empty();
 }
-/// A shell that was designed on a net is shown next to it, a pushed one by itself.
+/// Whether the shell is drawn over its net; not if it is pushed, searched for states or has steps.
 bool shows_net(const Run& run) {
   const preset::Preset& preset = run.preset;
   return is_still(run) && preset.on_net() && !preset.indentation.requested() &&
          !preset.jitter.requested() && preset.step.empty();
 }
 bool shows_push(const Run& run) { return is_still(run) && run.preset.indentation.requested(); }
-/// One of several that no other picture shows next to one another.
+/// Whether draw_cases() shows the run next to the other cases: no other picture does.
 bool shows_case(const Run& run) {
   return is_still(run) && !run.name.empty() && !shows_net(run) && !shows_push(run) &&
          !run.preset.jitter.requested();
@@ -101,7 +102,7 @@ bool has_net(const Run& run) {
   return shows_net(run) && run.trajectory.layout.net_nodes.size() > 0;
 }
 
-/// folder/frames/frame_00000.png ... and folder/movie.mp4 where ffmpeg is on the PATH.
+/// Writes folder/frames/frame_00000.png ... and, if ffmpeg is on the PATH, folder/movie.mp4.
 Result<void> draw_beside(const Runs& runs, const std::string& title, render::Renderer& renderer,
                          const fs::path& folder, Watch& watch) {
   auto style = style_of(runs.front()->preset, Pictures::movie);
@@ -119,11 +120,11 @@ Result<void> draw_beside(const Runs& runs, const std::string& title, render::Ren
                     });
 }
 
-/// `<stem>_loads.png` and, each as PNG and SVG, `<stem>_force` and `<stem>_bins`.
+/// Writes `<stem>_loads.png` and, each as PNG and SVG, `<stem>_force` and `<stem>_bins`.
 Result<void> draw_push_pictures(const Runs& runs, const std::string& title, const fs::path& stem,
                                 Watch& watch) {
   auto style = style_of(runs.front()->preset, Pictures::stills);
-  // several are the preset's, and each bears its own title
+  // with several runs the figure has the title of the preset, and each shell its own
   const bool several = runs.size() > 1;
   const std::string above = runs.front()->preset.figure.title ? title : "";
   if (several) style.title = above;
@@ -138,12 +139,12 @@ Result<void> draw_push_pictures(const Runs& runs, const std::string& title, cons
   TRY_DO(save_panels(render::draw_pushes(shells, style, watch), with_suffix(stem, "_loads.png"),
                      style.print.dpi));
   TRY_DO(render::write_plot(with_suffix(stem, "_force"), force, style.print));
-  // one by itself has its title over its own plot
+  // a single run has its title above its plot
   return render::write_push_bins(with_suffix(stem, "_bins"), named, several ? above : "",
                                  style.print);
 }
 
-/// `<stem>.png`: where the cases end.
+/// Writes `<stem>.png`: the last states of the cases side by side.
 Result<void> draw_cases(const Runs& runs, const std::string& title, const SharedColourBar& bar,
                         render::Renderer& renderer, const fs::path& stem, Watch& watch) {
   auto style = render::still_style(style_of(runs.front()->preset, Pictures::stills));
@@ -165,7 +166,7 @@ Result<void> draw_cases(const Runs& runs, const std::string& title, const Shared
                      style.print.width_mm > 0 ? style.print.dpi : 0);
 }
 
-/// What shows several runs; `bar`: the first one's.
+/// Draws every picture that shows several runs; `bar`: the colour bar of the first one.
 Result<void> draw_together(const std::vector<Run>& runs, const std::string& title,
                            const SharedColourBar& bar, render::Renderer& renderer,
                            const fs::path& stem, Progress& progress) {
@@ -185,7 +186,7 @@ Result<void> draw_together(const std::vector<Run>& runs, const std::string& titl
     TRY_DO(draw_net_pictures(nets, stem, progress.next_phase()));
   if (const Runs pushes = those(shows_push); !pushes.empty())
     TRY_DO(draw_push_pictures(pushes, title, stem, progress.next_phase()));
-  // under one colour bar
+  // they have one colour bar, so all must show the same quantity
   const bool alike = std::ranges::all_of(stills, [&](const Run* run) {
     return run->preset.movie.colour_by == stills.front()->preset.movie.colour_by;
   });

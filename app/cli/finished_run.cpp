@@ -32,7 +32,7 @@ bool holds_run(const fs::path& folder) {
   return fs::exists(folder / "summary.json", error) || record::preset_of_journal(folder);
 }
 
-// of several interrupted cases: those that were started
+// the cases of an interrupted run that were started
 std::vector<std::string> cases_begun(const fs::path& folder) {
   std::vector<std::string> names;
   if (const auto presets = preset::read_preset_file(folder / "preset.toml"))
@@ -41,13 +41,13 @@ std::vector<std::string> cases_begun(const fs::path& folder) {
   return names;
 }
 
-// a word of somebody else's, safe to print
+// text from a file of unknown origin, quoted and shortened so that it can be printed
 std::string shown(const std::string& word) {
   const auto text = line_of(Json(word), true);
   return text.size() <= 80 ? text : text.substr(0, 77) + "...";
 }
 
-// the folders of the cases, or the run itself as one case without a name
+// the names of the cases, which are their folders; without cases one empty name
 Result<std::vector<std::string>> case_names(const fs::path& folder) {
   std::error_code error;
   if (!fs::is_directory(folder, error))
@@ -76,7 +76,7 @@ Result<std::vector<std::string>> case_names(const fs::path& folder) {
   return names;
 }
 
-// the name becomes that of pictures
+// refuses a preset's name that cannot be the name of a picture
 Result<void> check_name(const fs::path& file, const std::string& name) {
   const auto plain = [](unsigned char c) { return c >= 0x20 && c != 0x7f; };
   const auto stem = fs::path(name).filename().string();
@@ -86,7 +86,7 @@ Result<void> check_name(const fs::path& file, const std::string& name) {
   return invalid("'{}': its preset's name cannot be the name of a picture", file.string());
 }
 
-// version 0.1 did not say: what has its stills came from `figure`
+// version 0.1 did not save the kind of a run: one that has stills was made by `figure`
 Pictures pictures_of(const Run& run, const fs::path& folder) {
   const auto still = fs::path(run.preset.name).filename().string() + ".png";
   std::error_code error;
@@ -96,7 +96,7 @@ Pictures pictures_of(const Run& run, const fs::path& folder) {
   return stills ? Pictures::stills : Pictures::movie;
 }
 
-// what is known of a run whose end never came
+// the summary of an interrupted run, from its last frame
 record::Summary summary_of(const record::Journal& journal, const preset::Preset& preset) {
   const record::Trajectory& run = journal.trajectory;
   record::Summary s;
@@ -133,7 +133,7 @@ Result<void> read_files(const fs::path& folder, bool no_checksum, Run& run) {
   return {};
 }
 
-// triangles of the tubes, measured: the most that drawing asks for
+// measured; most of it is for the triangles of the tubes
 constexpr double bytes_to_draw_a_node = 2000;
 
 Result<void> check_memory(const fs::path& folder, const Run& run) {
@@ -186,7 +186,7 @@ bool is_picture(const fs::path& path) {
          kind == ".mp4" || kind == ".webm" || kind == ".gif";
 }
 
-// everything of a run but its pictures; hidden files are someone's half-written ones
+// copies everything of a run except pictures and hidden files, which may be half-written
 Result<void> copy_data(const fs::path& from, const fs::path& to) {
   std::error_code error;
   for (fs::directory_iterator at(from, error), end; !error && at != end; at.increment(error)) {
@@ -196,7 +196,7 @@ Result<void> copy_data(const fs::path& from, const fs::path& to) {
       continue;
     fs::copy_file(at->path(), to / name, fs::copy_options::overwrite_existing, error);
     if (!error) continue;
-    // the library calls a full disk an error of input
+    // the library reports a full disk as an input/output error
     std::error_code other;
     if (error == std::errc::io_error && fs::space(to, other).available < at->file_size(other))
       error = std::make_error_code(std::errc::no_space_on_device);
@@ -207,7 +207,7 @@ Result<void> copy_data(const fs::path& from, const fs::path& to) {
               error.message());
 }
 
-// files in the run's folder except its pictures
+// writes the files of a run's folder except the pictures
 Result<void> write_data(Run& run, const fs::path& from, const fs::path& to) {
   if (run.in_journal) {
     TRY(text, read_file(from / "preset.toml"));
@@ -226,7 +226,7 @@ Result<void> render_runs(std::vector<Run>& runs, const Options& options, const f
   const bool cases = !runs.front().name.empty();
   auto stem = cases ? name.parent_path().filename() : name.filename();
   if (stem.empty()) stem = from.filename();
-  // all cases together are called by the preset that lists them, else by their folder
+  // pictures of all cases have the title of the preset that lists them, else the name of the folder
   const auto listing = preset::read_preset_file(from / "preset.toml", {});
   const bool titled = listing && !listing->base.title.empty();
   TRY(maker, PictureMaker::create(options.context, runs.front().preset.style.font));
@@ -237,7 +237,8 @@ Result<void> render_runs(std::vector<Run>& runs, const Options& options, const f
   return cases ? copy_data(from, to) : Result<void>{};
 }
 
-/// Camera once around the last state; the last frame is one before the first.
+/// Draws a movie in which the camera turns once around the last state. The last frame is one step
+/// before the first, so that the movie can be repeated.
 Result<void> draw_turntable(const Run& run, int frames, render::Renderer& renderer,
                             const fs::path& folder, Watch& watch) {
   record::Trajectory last{run.trajectory.layout, {}};
@@ -268,7 +269,8 @@ Result<int> render(const Options& options, bool no_checksum) {
       fmt::print(stderr, "'{}' is not finished: {}\n", folder_of(options.input, run.name).string(),
                  progress_text(run));
   const fs::path folder = options.output.empty() ? fs::path(options.input) : options.output;
-  // it remains what it was made by: pictures can be drawn again, frames cannot
+  // the manifest still names the command that computed the run, so that `run` or `movie` may
+  // replace it
   std::string maker = maker_of(options.input);
   if (maker.empty()) maker = word_of(runs->front().summary.kind);
   TRY_DO(deliver({folder, maker}, drawing_phases(*runs), options.quiet,

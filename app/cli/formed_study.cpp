@@ -1,4 +1,4 @@
-// Commands that find something out about a formed shell and show how it moves: `load`, `modes`.
+// Commands that study a formed shell and draw displacements from it: `load`, `modes`.
 
 #include <fmt/format.h>
 #include <cmath>
@@ -28,24 +28,25 @@ namespace gridshell::app {
 namespace fs = std::filesystem;
 namespace {
 
-/// What was found about one run's shell.
+/// Result of the study of one run's shell.
 struct FormedStudy {
   std::vector<std::pair<std::string, std::string>> files;  ///< names and texts
   std::string text;                                        ///< for the terminal, indented lines
   record::Trajectory state;                                ///< the shell, one frame
   record::Summary summary;
-  record::FrameList moves;            ///< how it moves (moved_by), a still each
-  std::vector<std::string> captions;  ///< of these, marked text
-  /// Pictures more; may be empty.
+  record::FrameList moves;            ///< displaced shells (moved_by()), a still for each
+  std::vector<std::string> captions;  ///< of the stills, marked text
+  /// Draws further pictures; may be empty.
   std::function<Result<void>(render::Renderer&, const fs::path& folder, Progress&)> draw_more = {};
 };
 
+/// How `load` or `modes` studies a formed shell.
 struct FormedCommand {
   std::string folder_end, finds;  ///< "_modes", "natural frequencies"
   std::function<Result<FormedStudy>(const preset::Preset&, Watch&)> find;
-  double paths = 1;                                  ///< it takes as long as so many
-  std::function<int(const preset::Preset&)> stills;  ///< that it may draw
-  std::function<std::vector<Phase>(const preset::Preset&)> drawn_more = {};  ///< phases of these
+  double paths = 1;  ///< its time, as a multiple of that of forming the shell
+  std::function<int(const preset::Preset&)> stills;  ///< the most that it draws
+  std::function<std::vector<Phase>(const preset::Preset&)> drawn_more = {};  ///< for draw_more
 };
 
 Result<void> draw(preset::Preset preset, const FormedStudy& found, const std::string& context,
@@ -66,8 +67,8 @@ Result<void> draw(preset::Preset preset, const FormedStudy& found, const std::st
   return found.draw_more(maker->renderer(), folder, progress);
 }
 
-/// Studies one run's folder. The text for the terminal is appended to `text`, an unmet request to
-/// `fault`.
+/// Studies one run and writes its folder. Appends lines for the terminal to `text`, and to `fault`
+/// why the shell is not the requested one (failure_of()).
 Result<void> study_one(const preset::Case& run, const FormedCommand& command,
                        const std::string& context, const fs::path& folder, Progress& progress,
                        std::string& text, std::string& fault) {
@@ -88,8 +89,8 @@ Result<void> study_one(const preset::Case& run, const FormedCommand& command,
   return draw(run.preset, *found, context, folder, progress);
 }
 
-/// Does so for every run of a preset: its tables, preset and summary, then stills of its moves in
-/// OUT/<preset>_1.png ... Prints what was found; the exit code.
+/// Studies every run of a preset: writes its tables, preset and summary, then stills of the
+/// displaced shells, OUT/<preset>_1.png ... Prints the results; returns the exit code.
 Result<int> study_formed(const Options& options, const FormedCommand& command) {
   TRY(presets, load(options));
   if (options.print_config) return print_config(*presets);
@@ -118,7 +119,7 @@ Result<int> study_formed(const Options& options, const FormedCommand& command) {
   return fault.empty() ? ExitCode::done : ExitCode::failed;
 }
 
-// `gridshell load PRESET`: what a formed shell carries, case by case, as tables and pictures.
+// `gridshell load PRESET`: the load factors that a formed shell carries, as tables and pictures.
 
 using record::BranchEvent;
 using study::LoadStudy;
@@ -128,8 +129,8 @@ struct LoadOptions {
   int imperfections = 0;
 };
 
-/// "full snow: limit point at 3.42 ± 0.02 (linear 5.1); at its strength at 1.2 ± 0.01; 20 that are
-/// not perfect: 0.84 of it (0.71 to 0.93)"
+/// "full snow: limit point at a factor of 3.42 ± 0.02 (linear 5.1 ± 0.1); a rod breaks at a factor
+/// of 1.2 ± 0.01; 20 that are not perfect: 0.84 of it (0.71 to 0.93)"
 std::string sentence_of(const record::LoadRow& row) {
   std::string text = row.load_case + ": ";
   if (std::isfinite(row.critical_factor))
@@ -217,13 +218,14 @@ std::string frequency_text(const record::ModeRow& mode) {
                      -1 / (2 * M_PI * mode.frequency_Hz));
 }
 
-/// "mode 3: 12.35 ± 0.01 Hz", of a state that is not stable "mode 1: 0.82*i* Hz".
+/// "mode 3: 12.35 ± 0.01 Hz"; for an unstable mode an imaginary frequency, "mode 1: 0.82*i* Hz".
 std::string caption_of(const record::ModeRow& mode) {
   if (mode.frequency_Hz >= 0) return fmt::format("mode {}: {}", mode.mode, frequency_text(mode));
   return fmt::format("mode {}: {:.4g}*i* Hz", mode.mode, -mode.frequency_Hz);
 }
 
-/// A line a joint and mode: how it moves, the node that moves furthest by 1.
+/// The text of shapes.csv: a line for each mode and joint with its displacement; the largest
+/// displacement of a node is 1.
 std::string shapes_csv(const Vibrations& found) {
   record::CsvWriter csv;
   csv.line("mode", "i", "j", "dx", "dy", "dz");
@@ -235,7 +237,7 @@ std::string shapes_csv(const Vibrations& found) {
   return std::move(csv).text();
 }
 
-/// One period of a vibration, starting and ending at zero velocity.
+/// Draws one period of a vibration, which starts in the undisplaced state.
 Result<void> draw_movie(const preset::Preset& preset, const Vibrations& found, std::size_t k,
                         render::Renderer& renderer, const fs::path& folder, Watch& watch) {
   Run run{.preset = preset, .pictures = Pictures::movie};

@@ -17,7 +17,7 @@ namespace gridshell::app {
 namespace fs = std::filesystem;
 namespace {
 
-// followed by the command that made the folder; version 0.2.0 named none
+// the first line of a manifest: the command that made the folder follows; version 0.2.0 named none
 const std::string first_line = "gridshell run 1", made_by = ", made by ";
 
 // all files and empty folders under a folder, relative to it, sorted
@@ -25,7 +25,7 @@ std::vector<std::string> contents(const fs::path& folder, std::error_code& error
   std::vector<std::string> found;
   for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end;
        at.increment(error)) {
-    // a link is a file of its own, also one that leads in a circle
+    // a link counts as a file, so that a circle of links is not followed
     const bool inner =
         !at->is_symlink(error) && at->is_directory(error) && !fs::is_empty(at->path(), error);
     if (!inner) found.push_back(at->path().lexically_relative(folder).generic_string());
@@ -39,7 +39,7 @@ struct Manifest {
   std::set<std::string> names;
 };
 
-// what a manifest says, or nothing where there is none
+// the manifest of a folder; nothing if it has none
 std::optional<Manifest> manifest_of(const fs::path& folder) {
   const auto text = read_file(folder / manifest_name, largest_text);
   if (!text) return std::nullopt;
@@ -53,13 +53,13 @@ std::optional<Manifest> manifest_of(const fs::path& folder) {
   return manifest;
 }
 
-// a run or chart without a manifest: which names its files may have
+// the names that files of a run or chart without a manifest may have
 struct LegacyRunFiles {
-  std::set<std::string> stems;  // that names of pictures begin with
-  std::set<std::string> cases;  // folders, each a run
+  std::set<std::string> stems;  // names of pictures begin with these
+  std::set<std::string> cases;  // folders that are runs
 };
 
-// what the summary or the journal of a folder says that it is
+// the names of a run's files, from the summary or the journal of its folder; nothing if it has none
 std::optional<LegacyRunFiles> named(const fs::path& folder) {
   LegacyRunFiles run;
   const auto name_pictures = [&](const fs::path& preset) {
@@ -88,8 +88,8 @@ std::optional<LegacyRunFiles> named(const fs::path& folder) {
   return run;
 }
 
-// the same, or for several cases none of which finished the runs in the folder; not deeper, since
-// any folder of the machine may be given
+// the names of the files of a run, or of a folder of unfinished cases, which has neither summary
+// nor journal. Deeper folders are not searched, since a user may give any folder of the machine.
 std::optional<LegacyRunFiles> unlisted(const fs::path& folder) {
   if (auto run = named(folder)) return run;
   LegacyRunFiles run;
@@ -111,7 +111,8 @@ bool is_frame(const std::string& name) {
   return digits.size() >= 5 && digits.find_first_not_of("0123456789") == digits.npos;
 }
 
-/// "segments/version", "segments/CASE/segment_0003": of the path of a run that was cut short
+/// Whether a file belongs to the saved path of an interrupted run: "segments/version",
+/// "segments/CASE/segment_0003".
 bool is_of_path(const std::string& name) {
   if (!name.starts_with(std::string(segments_name) + "/")) return false;
   const auto file = fs::path(name).filename().string();
@@ -134,7 +135,7 @@ bool may_be_of(const LegacyRunFiles& run, const std::string& name) {
   return std::ranges::any_of(run.stems, [&](const auto& stem) { return name.starts_with(stem); });
 }
 
-// the names in a folder without a manifest that no run gives
+// appends the names in a folder without a manifest that no run gives its files
 void gather_foreign(const fs::path& folder, const LegacyRunFiles& run, const std::string& before,
                     std::vector<std::string>& foreign) {
   std::error_code error;

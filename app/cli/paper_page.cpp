@@ -29,10 +29,10 @@ class PageMaker {
     style_.look.letters = false;
     style_.scale_bar_mm = 0;
     style_.title.clear();
-    // lines take no light
+    // vector graphics, which have no light and shadow
     style_.vector = true;
     if (!records.front()->preset.page.drawn) style_.quality = preset::Quality::draft;
-    // a floor would end at every panel's edge
+    // the edge of a panel would cut off a floor
     if (records.front()->preset.style.floor == preset::Visibility::automatic)
       style_.look.floor = false;
     for (const Run* one : records) {
@@ -68,8 +68,8 @@ class PageMaker {
   }
 
  private:
-  /// The style of a figure of some panels side by side, with captions below and perhaps a colour
-  /// bar, that fills its box: its text then has the size of the page's.
+  /// The style of a figure that fills its box: `columns` panels side by side, captions below, and
+  /// perhaps a colour bar. Its text then has the size of other text on the page.
   render::MovieStyle filling(const Box& box_mm, int columns, bool colour_bar = false) const {
     constexpr double letter = 3.5, bar = 14, around = 11, between = 1.5;  // mm
     const double width =
@@ -81,7 +81,7 @@ class PageMaker {
   }
 
   render::MovieStyle sized(render::MovieStyle style, double width_mm, double height_mm) const {
-    // widths of lines are no less than a pixel: of print, whatever the PNG has
+    // no line is thinner than a pixel, so a low resolution of the PNG would thicken those in print
     constexpr double least_dpi = 300;
     return at_size(std::move(style), width_mm, height_mm,
                    std::max(least_dpi, records_.front()->preset.figure.dpi));
@@ -94,8 +94,8 @@ class PageMaker {
     return {};
   }
 
-  /// A photograph, and next to it the shell along its path, all at one scale; without one the
-  /// states are side by side.
+  /// Photograph and states of the shell along its path, all at one scale. With a photograph the
+  /// states are next to it, one below the other; without one they are side by side.
   Result<Page> fig1() {
     const record::Trajectory& run = records_.front()->trajectory;
     const bool photo = has_photo();
@@ -108,7 +108,7 @@ class PageMaker {
     style.captions = style.inset = style.legends = false;
     style.turn_deg = 0;
     const render::Stage stage(run, style);
-    // what pictures show of a millimetre is the same for all, points
+    // points on the page per millimetre of the shell, the same for all pictures
     const double units = (height - caption) * 72 / 25.4 * stage.pixels_per_mm() / style.height();
     for (int k = 0; k < count; ++k) {
       const record::Frame& frame = run.frames[std::size_t(k)];
@@ -127,8 +127,9 @@ class PageMaker {
     return page;
   }
 
-  /// Domains, shell over its net, distances from the centre with what was scanned, caps; the shell
-  /// of a strainer and its flat domain. The photograph has a row of its own.
+  /// Panels A: photograph, in a row of its own. B: domains. C: the first shell over its net, and
+  /// distances from the centre with scanned joints. D: deviations of the caps. E, F: the shell of
+  /// the strainer and its domain.
   Result<Page> fig3() {
     Page page{178, 134, {}};
     const double top = has_photo() ? 54 : 0;
@@ -143,7 +144,7 @@ class PageMaker {
     });
     const Box over_box{87, 2 + top, 44, 46}, below{2, 50 + top, 174, 32};
     TRY(over, render::draw_over_nets({shells_.front()}, filling(over_box, 1), watch_));
-    // E has the keys in more room
+    // E has the same keys and more room for them
     if (caps < shells_.size()) over->keys.clear();
     page.add_figure("C1", over_box, std::move(*over));
     page.add_plot("C2", {132, 2 + top, 44, 46},
@@ -165,7 +166,7 @@ class PageMaker {
     return page;
   }
 
-  /// Which of the hemispheres a page shows: their deviation depends on where the rods lie.
+  /// A note on the hemisphere of the page: its deviation depends on the position of the rods.
   void note_shell(Page& page, double y) const {
     const Run& one = *records_.front();
     if (one.preset.net.cut_height != 0 || !render::on_sphere(one.trajectory.layout)) return;
@@ -180,7 +181,7 @@ class PageMaker {
             one.trajectory.layout.joints.size(), 100 * one.summary.max_deviation));
   }
 
-  /// Why the totals of K change.
+  /// A note on why the sum of K□ over all cells changes under load.
   static std::string total_text(const record::Trajectory& run) {
     return fmt::format(
         "D: Σ*K*_{{□}} = 2*π* minus the integrated geodesic curvature ({:.3f} rad unloaded) of the "
@@ -188,7 +189,7 @@ class PageMaker {
         2 * M_PI - run.frames.front().total_K);
   }
 
-  /// Shells over their nets, K of their cells, and one of them under point loads.
+  /// Panels A: shells over their nets. B: K□ of the cells. C, D: the same for pushed shells.
   Result<Page> fig4() {
     Page page{178, 199, {}};
     const Box above{2, 2, 174, 44}, middle{2, 94, 174, 50};
@@ -198,8 +199,7 @@ class PageMaker {
         render::draw_over_nets(shells_, filling(above, std::min(3, int(shells_.size()))), watch_));
     page.add_figure("A", above, std::move(*over));
     page.add_plot("B", {2, 48, 174, 44}, render::curvature_plot(named_shells_));
-    // from where their own preset looks
-    // narrower, as the colour bar has words: what is set smaller to fit is no longer readable
+    // narrower, since the colour bar has words, which would be too small if the figure were scaled
     Box shells = middle;
     shells.width -= 14;
     render::MovieStyle push_style = filling(shells, std::min(3, int(pushes_.size())), true);
@@ -226,8 +226,8 @@ class PageMaker {
     return page;
   }
 
-  /// Blocks, their footprints, and the assemblages over them; the photograph and what was measured
-  /// of one, where they are there.
+  /// Panels A: blocks. B: their footprints. C: the assembled shells over their nets. D and E, if
+  /// the preset has them: photograph and measured joints.
   Result<Page> fig5() {
     Page page{178, 107, {}};
     const Box left{2, 2, 86, 54}, below{2, 58, 112, 48};
@@ -245,7 +245,7 @@ class PageMaker {
     for (int k = 0; k < count; ++k)
       page.add(numbered("B", k, count), "", {92 + k * 84.0 / count, 2, 84.0 / count, 49},
                [=, runs = named_shells_](Canvas& canvas, const Box& box) {
-                 // all at the scale of the largest
+                 // one scale for all, that of the largest
                  double scale = INFINITY;
                  for (const render::NamedRun& one : runs)
                    scale = std::min(scale, render::block_footprint_scale(inner(box), *one.run));
@@ -257,17 +257,16 @@ class PageMaker {
     TRY(over, render::draw_over_nets(shells_, filling(below, std::min(2, count)), watch_, 2));
     for (int k = 0; k < count && count > 1; ++k)
       over->panels[std::size_t(k)].letter = numbered("C", k, count);
-    // the blocks' colours are above
+    // panel A has the colours of the blocks
     over->keys = {{over->keys.front().colour, "equilibrium, over the Chebyshev nets of A"}};
     page.add_figure(count > 1 ? "" : "C", below, std::move(*over));
     TRY_DO(add_experiment(page));
-    // the paper has none of it, and so no letter
+    // no letter, since the paper has no such panel
     page.add_plot("", {116, 58, 60, 48}, render::curvature_plot(named_shells_));
     return page;
   }
 
-  /// Shells in equilibrium, three per row, each seen from the common direction and as large as its
-  /// box, with a scale bar, its name and its author.
+  /// Shells in equilibrium, three per row. Each fills its box and has scale bar, name and author.
   Result<Page> literature() {
     constexpr int columns = 3;
     constexpr double width = 57, high = 36, pitch = 51;  // mm
@@ -277,7 +276,7 @@ class PageMaker {
       const Run& run = *records_[std::size_t(k)];
       record::Frame frame = run.trajectory.frames.back();
       record::Trajectory last{run.trajectory.layout, {std::move(frame)}};
-      // the shell alone fills its box
+      // a point instead of the boundaries, so that the shell alone fills its box
       last.layout.original_boundary = last.layout.actuated_boundary =
           last.frames.front().nodes.leftCols(1);
       render::MovieStyle style = style_of(run.preset, Pictures::stills);
@@ -315,7 +314,8 @@ class PageMaker {
     return count > 1 ? fmt::format("{}{}", letter, k + 1) : letter;
   }
 
-  /// D, a photograph, and E, the shell of which joints were measured, in a row of their own.
+  /// Adds a row with D, the photograph, and E, the shell whose joints were measured, if the preset
+  /// has them.
   Result<void> add_experiment(Page& page) {
     const auto measured =
         std::ranges::find_if(shells_, [](const auto& one) { return one.scanned.cols() > 0; });
@@ -342,7 +342,7 @@ class PageMaker {
   render::Renderer& renderer_;
   Watch& watch_;
   render::MovieStyle style_;
-  const Run* push_ = nullptr;  // the first
+  const Run* push_ = nullptr;  // the first run with a push
   std::vector<render::NetRun> shells_, pushes_;
   std::vector<render::NamedRun> named_shells_, named_pushes_;
 };

@@ -22,7 +22,7 @@ namespace gridshell::app {
 
 inline constexpr double page_font = 7;  // points, of plots and legends on a page
 
-/// A style whose pictures are so large on the page, pixel by pixel as it is printed.
+/// A style whose pictures have as many pixels as a box of this size has at `dpi`.
 inline render::MovieStyle at_size(render::MovieStyle style, double width_mm, double height_mm,
                                   double dpi) {
   style.size[0] = std::max(16, int(width_mm * dpi / 25.4));
@@ -30,7 +30,8 @@ inline render::MovieStyle at_size(render::MovieStyle style, double width_mm, dou
   return style;
 }
 
-/// The pictures that panels draw; they must outlive the panels.
+/// The panels of a page. Each owns the pictures and plots that it draws, but runs that they point
+/// to must outlive the page.
 struct Page {
   double width_mm = 178, height_mm = 100;
   std::vector<render::PagePanel> panels = {};
@@ -39,13 +40,13 @@ struct Page {
            std::function<void(render::Canvas&, const render::Box&)> draw) {
     panels.push_back({letter, caption, box_mm, std::move(draw)});
   }
-  /// A frame that says what is missing.
+  /// Adds a frame with a text about what is missing.
   void add_empty(const std::string& letter, const render::Box& box_mm, const std::string& text) {
     add(letter, "", box_mm, [text](render::Canvas& canvas, const render::Box& box) {
       render::draw_empty_frame(canvas, box, text);
     });
   }
-  /// Words from the left.
+  /// Adds a line of text, aligned left.
   void add_note(const render::Box& box_mm, const std::string& text) {
     add("", "", box_mm, [text](render::Canvas& canvas, const render::Box& box) {
       canvas.text(text, {box.x, box.middle().y},
@@ -64,7 +65,7 @@ struct Page {
       render::draw_colour_keys(canvas, box, keys, page_font);
     });
   }
-  /// `units`: points per millimetre of the picture that it belongs to.
+  /// Adds a scale bar; `units`: points on the page per millimetre of the shell.
   void add_scale_bar(const render::Box& box_mm, double length_mm, double units) {
     add("", "", box_mm, [=](render::Canvas& canvas, const render::Box& box) {
       render::draw_scale_bar(canvas, box, length_mm, units, page_font);
@@ -77,7 +78,7 @@ struct Page {
           render::draw_fitted(canvas, box, image);
         });
   }
-  /// A picture that lines may replace.
+  /// Adds a picture, which the lines of the panel replace in vector graphics if it has any.
   void add_panel(const std::string& caption, const render::Box& box_mm, render::Panel panel) {
     const double aspect = double(panel.picture.width) / panel.picture.height;
     add_image(panel.letter, caption, box_mm, std::move(panel.picture));
@@ -99,7 +100,8 @@ struct Page {
     add(letter, "", box_mm, with(false));
     if (has_lines) panels.back().draw_lines = with(true);
   }
-  /// Adds the colour bar of pictures; lines have no colours.
+  /// Adds the colour bar of pictures. It is left out where lines replace the pictures, since they
+  /// have no colours.
   void add_colour_bar(const render::Box& box_mm, const render::ColourBar& bar) {
     add("", "", box_mm, [bar](render::Canvas& canvas, const render::Box& box) {
       render::draw_colour_bar(canvas, box, bar, page_font);
@@ -118,11 +120,11 @@ struct Page {
 // Fig. 2 of [Baek 2018] on one page: states of one footprint, the phase diagram, and a state of
 // each class from above.
 
-/// A: the states ii, iii and iv of the first record, and the dome (state i) of lowest energy that
-/// any has, which the paper shows within B. B: the sweep that the preset names, or an
-/// empty frame. C: of each class the state of lowest energy that any record has, or an empty frame.
-/// Errors: bad_input where no record is a search or the sweep cannot be read; the renderer's;
-/// cancelled.
+/// Panels A: the states ii, iii and iv of the first record, and a dome (state i), which the paper
+/// shows within B. B: the phase diagram of the sweep that the preset names, or an empty frame. C: a
+/// state of each class, or an empty frame. A state is the one of lowest energy of its class in the
+/// first record that has any. Errors: bad_input if the first record is no search or the sweep
+/// cannot be read; those of the renderer; cancelled.
 Result<Page> states_page(const Runs& records, const render::MovieStyle& style,
                          render::Renderer& renderer, Watch& watch);
 

@@ -41,7 +41,7 @@ Result<PictureMaker> PictureMaker::create(const std::string& context) {
 
 namespace {
 
-/// What a step did, as the captions of its still has it: "joint (1, −2) pushed".
+/// What a step did, as text for the caption of its still: "joint (1, −2) pushed".
 std::string done_by(const preset::Step& step) {
   using enum preset::StepKind;
   const auto joint = [&](const char* done) {
@@ -76,7 +76,7 @@ std::string done_by(const preset::Step& step) {
   return "";
 }
 
-/// Captions of stills that each show the end of a step: which step; else those of the stills.
+/// Captions that name the step whose end a still shows; empty if the stills are not ends of steps.
 std::vector<std::string> captions_of(const preset::Preset& preset, const record::Trajectory& run) {
   std::vector<std::string> captions;
   if (preset.step.empty() || run.frames.size() != preset.step.size() + 1) return captions;
@@ -126,7 +126,7 @@ Result<void> draw_movie(const Run& run, const SharedColourBar& bar, render::Rend
 
 Result<void> draw_run(const Run& run, const SharedColourBar& bar, render::Renderer& renderer,
                       const fs::path& folder, Watch& watch) {
-  // the other frames of a push are for the curve of its force
+  // the frames between them are for the curve of the force
   constexpr std::size_t most_steps = 8;
   const bool ends = run.preset.indentation.requested() || run.preset.step.size() > most_steps;
   if (run.pictures == Pictures::movie)
@@ -187,7 +187,7 @@ std::vector<SharedColourBar> shared_bars(const std::vector<Run>& runs) {
   for (const Run& run : runs) surveys.push_back(render::summarise_run(run.trajectory));
   std::vector<SharedColourBar> bars;
   for (const Run& run : runs) {
-    // what is coloured by something else has a bar of its own
+    // the runs that are coloured by the same quantity
     std::vector<const render::RunSummary*> alike;
     for (std::size_t k = 0; k < runs.size(); ++k)
       if (runs[k].preset.movie.colour_by == run.preset.movie.colour_by)
@@ -202,13 +202,13 @@ double expected_seconds(Pictures pictures, const preset::Preset& preset) {
   const auto& movie = preset.movie;
   const bool stills = pictures == Pictures::stills;
   const auto quality = stills ? preset.figure.quality : movie.quality;
-  // a megapixel on two cores of a software rasteriser; captions and PNG are in it
+  // measured with a software rasteriser on two cores, including captions and PNG
   const double megapixel_seconds = quality == preset::Quality::draft   ? 0.05
                                    : quality == preset::Quality::movie ? 0.085
                                                                        : 1.4;
   double count = movie.frames;
   if (stills) {
-    // the stills, and what is shown next to nets and loads
+    // the stills, and the pictures of nets and pushes
     const bool push = preset.indentation.requested();
     count = std::max(push ? 2.0 : 1.0, double(preset.figure.radii_mm.size()));
     if (preset.jitter.requested()) count = preset.jitter.drawn;

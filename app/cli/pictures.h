@@ -1,4 +1,4 @@
-// Pictures of a run as its preset wants them: what joins the renderer to the commands.
+// Draws the pictures that a preset describes of a run: the connection of commands and renderer.
 #pragma once
 
 #include <filesystem>
@@ -22,39 +22,39 @@ enum class Pictures { none, movie, stills };
 
 /// One run of a preset or of one of its cases: planned, done, or read back from its folder.
 struct Run {
-  std::string name = {};  ///< of the case, and of its folder; empty without cases
+  std::string name = {};  ///< name of the case and its folder; empty without cases
   preset::Preset preset = {};
-  Pictures pictures = Pictures::movie;      ///< that are drawn of it
-  std::shared_ptr<const Scene> scene = {};  ///< of its plan, until it is simulated
+  Pictures pictures = Pictures::movie;      ///< those that the command draws
+  std::shared_ptr<const Scene> scene = {};  ///< made by plan(); null after the simulation
   record::Trajectory trajectory = {};
   record::Summary summary = {};
-  record::StateTables states = {};  ///< of a search for states
-  std::string label = {};           ///< what pictures call it; empty: after its net
-  bool in_journal = false;          ///< it was cut short: its files are still to be made
+  record::StateTables states = {};  ///< results of a search for states
+  std::string label = {};           ///< its name in pictures; empty: that of its net
+  bool in_journal = false;          ///< read from the journal of an interrupted run
 };
 
-/// Some runs that one picture shows.
+/// Runs that one picture shows.
 using Runs = std::vector<const Run*>;
 
-/// A colour bar of several runs; none where each has its own.
+/// The common colour bar of several runs; none if each has its own.
 using SharedColourBar = std::optional<render::ColourBar>;
 
-/// One per run: the bar that it shares with all others that are coloured by the same quantity.
+/// For each run the common colour bar of all runs that are coloured by the same quantity.
 std::vector<SharedColourBar> shared_bars(const std::vector<Run>& runs);
 
-/// How the preset wants its run shown.
+/// The style of the stills or of the movie of a preset.
 render::MovieStyle style_of(const preset::Preset& preset, Pictures pictures);
 
-/// The joints that were measured on a real shell, 3 x n, mm.
+/// The joints that were measured on a real shell, [figure] scan: 3 x n, mm.
 Eigen::Matrix3Xd scan_of(const preset::Preset& preset);
 
-/// Owns the OpenGL context, so it stays on the thread that made it.
+/// Owns the OpenGL context, so only the thread that made it may use it.
 class PictureMaker {
  public:
-  /// `context` as in --context; `font` of all text, empty: the usual one. Errors: io when no
-  /// context can be had, naming what was tried; bad_input for a font that is not there.
+  /// `context` as in --context; `font`: that of all text, empty: the default. Errors: io if no
+  /// context can be created, with what was tried; bad_input for a font that is not installed.
   static Result<PictureMaker> create(const std::string& context, const std::string& font);
-  /// With the font that is in use. Errors: io, bad_input for no such context.
+  /// Does not change the font. Errors: io; bad_input for an unknown context.
   static Result<PictureMaker> create(const std::string& context);
 
   render::Context& context() { return *context_; }
@@ -68,39 +68,41 @@ class PictureMaker {
   std::unique_ptr<render::Renderer> renderer_;
 };
 
-/// Movie: folder/frames/frame_00000.png ... and folder/movie.mp4 where ffmpeg is on the PATH.
-/// Stills: folder/<preset>_1.png ... and all in one, folder/<preset>.png; of a push and of very
-/// many steps of their ends alone. Each file is whole or absent. Errors: io, cancelled, bad_input
-/// when a picture cannot be that size.
+/// Draws a run as `run.pictures` says. Movie: folder/frames/frame_00000.png ... and, if ffmpeg is
+/// on the PATH, folder/movie.mp4. Stills: folder/<preset>_1.png ... and all in one,
+/// folder/<preset>.png; for a push or more than eight steps only the first and last frame. Each
+/// file is complete or absent. Errors: io, cancelled, bad_input when a picture cannot be that size.
 Result<void> draw_run(const Run& run, const SharedColourBar& bar, render::Renderer& renderer,
                       const std::filesystem::path& folder, Watch& watch);
 
-// A shell that moves as a mode says, which is no state.
+// Displacements along a mode, which are drawn like states but are none.
 
-/// How far the node that moves furthest is drawn: a shape has no size of its own.
+/// The largest displacement of a node as drawn; a mode has no size of its own.
 inline double drawn_move_mm(const record::Layout& layout) { return 0.12 * layout.length_scale_mm; }
 
-/// The one of `state`'s last frame, moved by `part` of a shape whose largest move is 1:
-/// drawn_move_mm(). It knows nothing but its shape.
+/// The last frame of `state` with its nodes displaced by `part` times `shape` times
+/// drawn_move_mm(); `shape`: 3 x nodes, its largest displacement is 1. The frame has no energies
+/// and forces.
 record::Frame moved_by(const record::Trajectory& state, const Eigen::Matrix3Xd& shape, double part,
                        int index);
 
-/// How its moves are coloured.
+/// The colour bar of these displacements.
 extern const render::ColourBar bar_of_moves;
 
-/// Writes the frames of a movie, and shows each to whoever wants to see it.
+/// Writes the frames of a movie and calls `seen` with each of them.
 using DrawFrames = std::function<Result<void>(const render::FrameCallback& seen)>;
 
-/// Draws so many frames into folder/frames and makes of them, where ffmpeg is on the PATH,
-/// movie.mp4 and what else the preset asks for; poster.png. Errors: those of `draw`, io, cancelled.
+/// Writes the movie of `frames` frames that `draw` writes into folder/frames: if ffmpeg is on the
+/// PATH movie.mp4, and if the preset requests them movie.webm, movie.gif, poster.png and a title
+/// card. Errors: those of `draw`, io, cancelled.
 Result<void> make_movie(const std::filesystem::path& folder, const preset::Preset& preset,
                         render::MovieStyle style, int frames, Watch& watch, const DrawFrames& draw);
 
-/// What drawing will take about, for the progress bar and `check`.
+/// Estimated time of drawing, s, for the progress bar and `check`.
 double expected_seconds(Pictures pictures, const preset::Preset& preset);
 
-/// Two lines that say how to make a movie of the frames in a run's folder, where there are frames
-/// and no movie because ffmpeg is not on the PATH; else empty.
+/// Two lines with the command that makes a movie of the frames in a run's folder, if it has frames
+/// and no movie, since ffmpeg is not on the PATH; else empty.
 std::string how_to_make_movie(const std::filesystem::path& folder, const preset::Preset& preset);
 
 }  // namespace gridshell::app

@@ -23,8 +23,7 @@ Result<preset::Presets> load_preset(const std::string& argument,
   const std::filesystem::path path(argument);
   if (std::filesystem::is_regular_file(path, error))
     return preset::read_preset_file(path, overrides);
-  // what comes through a pipe that is open has no folder: its files are looked for where the
-  // program runs
+  // a preset from an open pipe has no folder: files that it names are searched in the current one
   const bool opened = argument.starts_with("/dev/") || argument.starts_with("/proc/");
   if (argument == "-" || (opened && std::filesystem::is_fifo(path, error))) {
     TRY(text, read_pipe(argument == "-" ? "/dev/stdin" : argument, largest_text));

@@ -1,4 +1,4 @@
-// Where a PRESET argument leads: a file, or one of the presets that come with the program.
+// Finds the preset that a PRESET argument names: a file, or one that comes with the program.
 #pragma once
 
 #include <map>
@@ -11,53 +11,53 @@
 
 namespace gridshell::app {
 
-/// One of presets/*.toml, as text, embedded at build time.
+/// The text of one of presets/*.toml, embedded at build time.
 struct EmbeddedPreset {
   std::string name;  ///< of the file, without ".toml"
   std::string text;
 };
 
-/// All of them, sorted by name.
+/// All embedded presets, sorted by name.
 const std::vector<EmbeddedPreset>& embedded_presets();
 
-/// "Title (source)" of one. Errors: it does not read.
+/// "Title (source)" of an embedded preset. Errors: bad_input if it cannot be read.
 Result<std::string> title_of(const EmbeddedPreset& embedded);
 
-/// The files that they name, as text, by name.
+/// The text of the files that embedded presets name, by their names.
 const std::map<std::string, std::string>& embedded_files();
 
-/// The picture of a preset's shell, presets/pictures/cards/NAME.png; empty where there is none.
+/// The picture of an embedded preset, presets/pictures/cards/NAME.png; empty if it has none.
 std::string_view embedded_card(const std::string& name);
 
-/// The preset at the path `argument`, else the embedded one of that name. Errors: bad_input, with
-/// every error of the preset, or the nearest name if there is none.
+/// The preset in the file `argument`, from standard input if that is "-", else the embedded preset
+/// of that name. Errors: bad_input, with every error of the preset, or with the nearest name if
+/// there is no such preset.
 Result<preset::Presets> load_preset(const std::string& argument,
                                     const std::vector<preset::Override>& overrides);
 
-/// The preset as above; for a run's folder the preset of the run, with the name of the folder.
+/// Like load_preset(); for the folder of a run the preset of the run, with the name of the folder.
 Result<preset::Presets> load_preset_or_run(const std::string& argument);
 
-// From the command line to the runs it asks for.
+// The runs that a command line requests.
 
-/// The preset that the options name, with what they lay over it. Errors: bad_input.
+/// The preset that the options name, with the changes that they make. Errors: bad_input.
 Result<preset::Presets> load(const Options& options);
 
-/// Prints the result of default < preset < `--set` as a preset; returns the exit code.
+/// Prints a preset with its defaults and the changes of `--set`; returns the exit code.
 Result<int> print_config(const preset::Presets& presets);
 
-/// What a folder keeps as preset.toml: the program's version in a first line of comment, and
-/// `toml`.
+/// The text of preset.toml in a run's folder: a comment with the program's version, then `toml`.
 std::string saved_preset(const std::string& toml);
-/// The saved preset without its line of the version; text of older versions has none.
+/// The saved preset without the comment with the version; older versions did not write one.
 std::string without_version(const std::string& saved);
 
 /// The cases of a preset, or the preset itself as one run without a name.
 std::vector<preset::Case> runs_of(const preset::Presets& presets);
 
-/// What would run; an error names the preset.
+/// simulate::plan(), with the name of the preset in errors.
 Result<simulate::Plan> plan_of(const preset::Preset& preset);
 
-/// The folder of a run: that of the command, or the one of its case in it.
+/// The folder of a run: `folder`, or in it that of the case `name` if there are cases.
 inline std::filesystem::path folder_of(const std::filesystem::path& folder,
                                        const std::string& name) {
   return name.empty() ? folder : folder / name;

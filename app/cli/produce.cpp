@@ -21,7 +21,7 @@ namespace gridshell::app {
 namespace fs = std::filesystem;
 namespace {
 
-// The runs of a preset, and a phase for the simulation of each.
+// the runs of a preset; appends to `phases` one for the simulation of each
 Result<std::vector<Run>> planned(const preset::Presets& presets, Pictures pictures,
                                  std::vector<Phase>& phases) {
   std::vector<Run> runs;
@@ -34,7 +34,7 @@ Result<std::vector<Run>> planned(const preset::Presets& presets, Pictures pictur
           "the actuation's movie",
           preset.name);
     TRY(plan, plan_of(preset));
-    // where the engine does not say: the first equilibrium and some milliseconds a frame
+    // if the engine gives no estimate: the first equilibrium, and some milliseconds per frame
     const double guess = std::isnan(plan->expected_seconds) ? 0.5 + 0.01 * preset.movie.frames
                                                             : plan->expected_seconds;
     phases.push_back({"simulating" + (one.name.empty() ? "" : " " + one.name), guess});
@@ -58,8 +58,7 @@ record::Kind kind_of(Pictures pictures) {
   return record::Kind::unknown;
 }
 
-// what may bring a run further that ended before its end, or ends it before; empty where nothing
-// is known
+// what a user may change if a run ended before the end of its path; empty if nothing is known
 std::string help_for(const preset::Preset& preset, record::Limit limit, double largest_strain) {
   const bool pushes = preset.indentation.requested() || !preset.step.empty();
   const std::string less = preset.indentation.requested() ? "less [indentation] depth"
@@ -70,7 +69,7 @@ std::string help_for(const preset::Preset& preset, record::Limit limit, double l
     case record::Limit::snap:
       return "";
     case record::Limit::locking:
-      // a push may have met its stiffness instead
+      // a push may also end where the shell becomes too stiff
       if (pushes && !locked_by_strain(largest_strain, preset.limits.max_strain))
         return less + " ends before that";
       return less + " ends before that, more [limits] max_strain after it";
@@ -91,7 +90,7 @@ std::string help_for(const preset::Preset& preset, record::Limit limit, double l
                      edges == 0 ? ", which asks for no tolerance" : "");
 }
 
-// one run, a path's or a search for states
+// computes one run: a path, or a search for states
 Result<record::Summary> computed(Run& run, int threads, const fs::path& segments,
                                  record::Sink& sink, Watch& watch) {
   if (!run.preset.jitter.requested()) {
@@ -105,7 +104,8 @@ Result<record::Summary> computed(Run& run, int threads, const fs::path& segments
   return search->summary;
 }
 
-// every frame is on the disk as soon as it is found, and all runs before a picture of one is drawn
+// simulates one run; every frame is written as soon as it is found, and pictures are drawn only
+// when all runs are complete
 Result<void> simulate(Run& run, int threads, const fs::path& folder, const fs::path& segments,
                       Watch& watch) {
   TRY_DO(make_folder(folder));
@@ -125,7 +125,8 @@ Result<void> simulate(Run& run, int threads, const fs::path& folder, const fs::p
   return {};
 }
 
-// for several cases: the preset's name, and each summary after its `name`, which is its folder
+// summary.json of several cases: the preset's name, and for each case its name (that of its folder)
+// and its summary
 std::string summary_of_cases(const std::string& preset, const std::vector<Run>& runs) {
   Json all{{"preset", preset}, {"cases", Json::array()}};
   for (const Run& run : runs) {
@@ -140,7 +141,7 @@ Result<void> write_runs(std::vector<Run>& runs, const preset::Presets& presets,
                         const Options& options, const fs::path& partial, Progress& progress) {
   const preset::Preset& base = presets.base;
   const bool cases = !runs.front().name.empty();
-  // an interrupted run is read with its cases from this file
+  // written first: from this file an interrupted run is read with its cases
   if (cases) TRY_DO(write_file(partial / "preset.toml", saved_preset(preset::to_toml(presets))));
   std::optional<PictureMaker> maker;
   if (runs.front().pictures != Pictures::none) {
@@ -179,7 +180,8 @@ std::string state_text(const record::Summary& at) {
       at.stable ? "stable" : fmt::format("{} negative pivots", at.negative_pivots), at.residual_N);
 }
 
-/// "[-1, -1], 14.1 mm from the middle of the footprint": no joint may lie where "pole" points.
+/// "[-1, -1], 14.1 mm from the middle of the footprint": the joint nearest to the requested point
+/// may be far from it.
 std::string pushed_text(const record::Summary& at, const record::Layout& layout) {
   for (const record::Joint& joint : layout.joints)
     if (at.pushed_joint == fmt::format("[{}, {}]", joint.i, joint.j))
@@ -203,7 +205,8 @@ void print_forces(const record::Summary& at, const record::Layout& layout) {
                record::with_error(at.largest_force_N, at.force_error_N, "N"));
 }
 
-/// What a builder wants to know: of rods without a strength the strain, where no limit is set.
+/// Prints the largest stress; for rods without a strength the largest bending strain, if no limit
+/// for it is set.
 void print_strength(const record::Summary& at, const preset::Limits& limits) {
   constexpr double worth_telling = 0.01;
   if (std::isfinite(at.utilisation))
@@ -237,7 +240,7 @@ void print_result(const Run& run, const fs::path& folder) {
                at.max_deviation * scale_mm, at.max_seam_gap_mm, at.max_seam_kink_deg);
   print_forces(at, run.trajectory.layout);
   print_strength(at, run.preset.limits);
-  // why it ended early is said as the error that it is
+  // if the path ended early, the reason is printed as an error
   if (!at.limit_reason.empty() && failure_of(at, true).empty())
     fmt::print("\n  on its path: {}", at.limit_reason);
   if (!at.contact.empty()) fmt::print("\n  contact: {}", at.contact);
@@ -257,7 +260,7 @@ bool is_of(const fs::path& folder, const std::string& presets) {
   return text && without_version(*text) == presets;
 }
 
-/// The exit code of a run of these presets that is finished; nothing where `folder` is none.
+/// The exit code of the finished run of these presets in `folder`; nothing if it is no such run.
 std::optional<int> finished(const fs::path& folder, const std::string& presets,
                             const std::vector<Run>& runs) {
   if (!is_of(folder, presets)) return std::nullopt;
@@ -271,8 +274,8 @@ std::optional<int> finished(const fs::path& folder, const std::string& presets,
   return whole ? ExitCode::done : ExitCode::failed;
 }
 
-/// The folder that an ended run of these presets left; empty: nothing is there yet. Errors
-/// (bad_input): what is there is another's.
+/// The folder that an interrupted run of these presets left; empty if there is no run yet. Errors
+/// (bad_input): there is only a run of another preset, of other keys or by another build.
 Result<fs::path> unfinished_run(const fs::path& folder, const std::string& presets) {
   std::string why;
   if (fs::exists(folder / "summary.json"))
@@ -297,7 +300,7 @@ Result<fs::path> unfinished_run(const fs::path& folder, const std::string& prese
 }  // namespace
 
 std::string failure_of(const record::Summary& summary, bool allow_unstable) {
-  // a shell that snapped to another equilibrium continued to the end
+  // after a snap-through the path continued to its end
   if (summary.limit != record::Limit::none && summary.limit != record::Limit::snap)
     return fmt::format("the path ended early, limit \"{}\": {}", word_of(summary.limit),
                        summary.limit_reason);
@@ -314,7 +317,7 @@ Result<int> produce(const Options& options, Pictures pictures) {
   TRY(presets, load(options));
   if (options.print_config) return print_config(*presets);
   const std::string command(word_of(kind_of(pictures)));
-  // next to the run and the movie, whose frames it does not have
+  // a folder of its own, so that it does not replace the run or movie, which has more frames
   const auto folder =
       output_of(options, presets->base, pictures == Pictures::stills ? "_figure" : "");
   for (const std::string& note : presets->notes)

@@ -1,5 +1,5 @@
-// What the program has, for other programs: commands, presets, tables and keys as JSON, and the
-// completion for bash.
+// Lists for other programs: commands, presets, tables and keys as JSON, and the completion for
+// bash.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -38,8 +38,8 @@ Json json_of(const CommandEntry& command) {
           {"options", array_of(command.options, [](const auto& one) { return json_of(one); })}};
 }
 
-/// The shell's case with a command's options: "    movie) options='--set ...' ;;", and with the
-/// names of presets if it takes one.
+/// The line of a `case` in bash with the options of a command, and with the names of presets if it
+/// takes one: "    movie) options='--set ...' names=$presets ;;".
 std::string case_of(const CommandEntry& command) {
   std::string options, names;
   for (const CommandOption& option : command.options)
@@ -50,8 +50,8 @@ std::string case_of(const CommandEntry& command) {
   return fmt::format("    {}) options='{}'{} ;;\n", command.name, options, names);
 }
 
-/// The shell's cases of a command's options with a few values: "    'render --context') words='auto
-/// ...' ;;".
+/// The lines of a `case` in bash for the options of a command that have a few values:
+/// "    'render --context') words='auto ...' ;;".
 std::string words_of(const CommandEntry& command) {
   std::string text;
   for (const CommandOption& option : command.options)

@@ -1,4 +1,4 @@
-// `gridshell report RUN`: what an engineer asks of a formed shell, as one PDF.
+// `gridshell report RUN`: one PDF with what an engineer needs to know about a formed shell.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -47,14 +47,14 @@ std::string with_unit(double value, const char* unit) {
   return std::isfinite(value) ? number(value) + " " + unit : "not known";
 }
 
-/// An error with its unit, with one digit, as the second one is not known: "0.01 mm".
+/// An error and its unit, "0.01 mm": one digit, as the second one is not known.
 std::string error_with_unit(double value, const char* unit) {
   if (!std::isfinite(value)) return "not known";
   const std::string digit = fmt::format("{:.1g}", value);
   return (value < 1 ? digit : fmt::format("{:.0f}", std::stod(digit))) + " " + unit;
 }
 
-/// The components of a force; those that are round-off compared with `beside` are left out.
+/// The components of a force; those below 1e-9 `beside` are round-off and written as 0.
 std::vector<std::string> numbers(const Eigen::Vector3d& force, double beside) {
   std::vector<std::string> texts;
   for (const double one : force) texts.push_back(number(std::abs(one) < 1e-9 * beside ? 0 : one));
@@ -69,7 +69,7 @@ std::string force_text(double force, double error) {
   return std::stod(text) == 0 ? "0" : text;
 }
 
-/// The picture of a run's last state, in the colours of a quantity, half as wide as the sheet.
+/// A picture of the last state of a run, coloured by a quantity, half as wide as the sheet.
 Result<render::Image> picture_of(const Run& run, preset::ColourBy colours,
                                  render::Renderer& renderer) {
   preset::Preset preset = run.preset;
@@ -97,8 +97,8 @@ Result<render::Image> picture_of(const Run& run, preset::ColourBy colours,
   return std::move(*picture);
 }
 
-/// The name of a rod's material, "timber c24", or without a name its stiffness, "E = 83 GPa"; the
-/// bending stiffness where it is given.
+/// The material of the rods: the bending stiffness if it is given, else the name, "timber c24", or
+/// without a name Young's modulus, "E = 83 GPa".
 std::string material_text(const preset::Rod& rod) {
   if (rod.EI_Nmm2 > 0) return fmt::format("EI = {:g} N mm²", rod.EI_Nmm2);
   if (rod.material == preset::Material::none) return fmt::format("E = {:g} GPa", rod.young_GPa);
@@ -148,7 +148,7 @@ void add_stresses(Sheets& sheets, const record::Summary& summary) {
 /// joint, "joint [0, 4]".
 std::string support_name(const record::Layout& layout, const exports::FabricationPlan& plan,
                          int node) {
-  // a rod may end on a fixed joint, which is no pin
+  // first the joints, since a rod may end on a fixed joint, which is no pin
   for (const record::Joint& joint : layout.joints)
     if (joint.node == node) return fmt::format("joint [{}, {}]", joint.i, joint.j);
   const auto end =
@@ -196,7 +196,7 @@ void add_reactions(Sheets& sheets, const record::Layout& layout, const record::F
       {"pin", 48, AlignX::left}, {"position (mm)", 75, AlignX::left},
       {"*x* (N)", 32},           {"*y* (N)", 32},
       {"*z* (N)", 32},           {"size (N)", 40}};
-  // of many supports a line has two, without the magnitudes of the forces
+  // many supports: two in each line, without the magnitudes of the forces
   constexpr std::size_t most_lines = 24;
   if (rows.size() > most_lines) {
     std::vector<TableRow> pairs;

@@ -1,4 +1,4 @@
-// `gridshell scan`: a cloud of points of a 3D scanner against the joints of runs.
+// `gridshell scan`: compares a cloud of points from a 3D scanner with the joints of runs.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -30,23 +30,23 @@ using study::JointCylinder;
 using study::Pose;
 using study::RegisteredScan;
 
-/// One state that a scan is compared with, and how it lies on it.
+/// One state that a scan is compared with.
 struct ComparedState {
-  std::string name;  ///< of the run, its case, its state: "out/fig2_states, state 3"
-  std::optional<RegisteredScan> scan;
-  bool shown = false;  ///< scan_matches()
+  std::string name;                    ///< run, case and state: "out/fig2_states, state 3"
+  std::optional<RegisteredScan> scan;  ///< the scan moved onto this state; none if that failed
+  bool shown = false;                  ///< scan_matches(): the scan shows this state
 };
 
-/// A scan compared with all of them.
+/// A scan and all states that it is compared with.
 struct ComparedScan {
   std::string points;  ///< the file
   Clusters clusters;
   JointCylinder cylinder;
   std::vector<ComparedState> states;
-  std::size_t best = 0;     ///< the one that it lies on best
-  double tolerance_mm = 0;  ///< of match_tolerance_mm(), or the requested one
-  /// If it shows none: the height of the joints' cylinders, mm, at which it would show a state, and
-  /// that state.
+  std::size_t best = 0;     ///< index of the state that fits best
+  double tolerance_mm = 0;  ///< the requested one, else match_tolerance_mm()
+  /// If the scan shows none of the states: a height of the joints' cylinders, mm, with which it
+  /// would show one, and the name of that state.
   std::optional<std::pair<double, std::string>> with_height = {};
 
   const ComparedState& of_best() const { return states[best]; }
@@ -72,8 +72,8 @@ Json json_of(const Pose& pose) {
   return json;
 }
 
-/// scan.json: the joints of the nearest state; `state`, null where it is none; the pose from the
-/// scan's frame to the run's; every state that was compared.
+/// The text of scan.json: `state`, that the scan shows, or null; its joints compared with those of
+/// the nearest state; the pose from the scan's frame to that of the run; all compared states.
 std::string scan_json(const ComparedScan& scan) {
   const ComparedState& best = scan.of_best();
   Json json{{"points", scan.points},
@@ -97,7 +97,8 @@ std::string scan_json(const ComparedScan& scan) {
   return text_of(json);
 }
 
-/// scan.csv: every joint in the run's frame, empty where it is missing.
+/// The text of scan.csv: a line for each joint with its measured position in the frame of the run,
+/// empty if it is missing.
 std::string scan_csv(const ComparedScan& scan, const record::Layout& layout) {
   record::CsvWriter csv;
   csv.line("i", "j", "x_mm", "y_mm", "z_mm", "distance_mm", "distance_radii");
@@ -110,7 +111,7 @@ std::string scan_csv(const ComparedScan& scan, const record::Layout& layout) {
   return std::move(csv).text();
 }
 
-/// measured.csv: the joints found, as [figure] scan takes them.
+/// The text of measured.csv: the joints that were found, as [figure] scan reads them.
 std::string measured_csv(const RegisteredScan& scan) {
   record::CsvWriter csv;
   csv.line("x_mm", "y_mm", "z_mm");
@@ -119,7 +120,7 @@ std::string measured_csv(const RegisteredScan& scan) {
   return std::move(csv).text();
 }
 
-/// For the terminal.
+/// The result as lines for the terminal.
 std::string scan_text(const ComparedScan& scan) {
   const ComparedState& best = scan.of_best();
   const RegisteredScan& laid = *best.scan;
@@ -161,12 +162,12 @@ struct ScanOptions {
   std::string unit = "mm";
   bool no_checksum = false;
   bool centres = false;     ///< the points are joints, not tops of cylinders
-  double tolerance_mm = 0;  ///< 0: by the noise
+  double tolerance_mm = 0;  ///< 0: match_tolerance_mm() of the noise
 };
 
 constexpr long most_clusters_a_joint = 20;
 
-/// A state of a run: one of a search, or the last of a path.
+/// A state of a run that the scan may show: each of a search, or the last of a path.
 struct Candidate {
   const Run* run = nullptr;
   std::size_t frame = 0;
@@ -188,14 +189,14 @@ std::vector<Candidate> candidates_of(const std::vector<Run>& runs, const fs::pat
   return all;
 }
 
-/// Everything that is read before anything is written.
+/// Everything that the command reads.
 struct Scanned {
   Eigen::Matrix3Xd cloud;
-  std::size_t empty_rows = 0;  ///< of its file, without a point
+  std::size_t empty_rows = 0;  ///< rows of its file without a point
   std::vector<std::vector<Run>> runs;
   std::vector<Candidate> candidates;
   JointCylinder cylinder;
-  double tolerance_mm = 0;  ///< 0: by the noise
+  double tolerance_mm = 0;  ///< as in ScanOptions
 };
 
 Result<Scanned> read_all(const ScanOptions& options) {
@@ -224,8 +225,8 @@ Result<Scanned> read_all(const ScanOptions& options) {
   return scanned;
 }
 
-/// Whether a scan shows a state once the tops lie higher or lower: that height of the cylinders and
-/// the state, of several the one on which it lies best.
+/// The height of the joints' cylinders, mm, with which the scan shows a state, and the name of that
+/// state; the one that fits best if there are several. Nothing if no height does.
 std::optional<std::pair<double, std::string>> height_that_fits(const Scanned& scanned,
                                                                const ComparedScan& scan) {
   std::optional<std::pair<double, std::string>> fits;
@@ -235,9 +236,9 @@ std::optional<std::pair<double, std::string>> height_that_fits(const Scanned& sc
     const auto form = study::form_of(run.layout, run.frames[scanned.candidates[k].frame]);
     JointCylinder cylinder = scan.cylinder;
     std::optional<RegisteredScan> laid = scan.states[k].scan;
-    // other tops may belong to its joints with the first height found
+    // twice, since with the first height other tops may belong to the joints
     for (int turn = 0; turn < 2 && laid; ++turn) {
-      // tops do not lie below their joints; a fit of few may say so
+      // no top is below its joint, though a fit of few joints may give that
       cylinder.height_mm = std::max(0.0, cylinder.height_mm + study::beyond_height(*laid, form));
       laid = study::register_points(scan.clusters, form, cylinder);
     }
@@ -245,7 +246,7 @@ std::optional<std::pair<double, std::string>> height_that_fits(const Scanned& sc
     const double cost = laid ? laid->cost / double(run.layout.joints.size()) : least;
     if (!shown || !(cost < least)) continue;
     least = cost;
-    // no scan is as fine as the last digits; joints that were measured themselves have 0
+    // rounded to a micrometre; 0 if the joints themselves were measured
     fits = {std::round(1e3 * cylinder.height_mm) / 1e3, scan.states[k].name};
   }
   return fits;
@@ -255,7 +256,7 @@ double extent_of(const Eigen::Matrix3Xd& points) {
   return (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).maxCoeff();
 }
 
-/// Errors: bad_input when the cloud is far smaller than any shell, as one in metres is.
+/// Errors: bad_input if the cloud is far smaller than every shell, as one in metres is.
 Result<void> check_size(const Scanned& scanned, const std::string& file) {
   constexpr double far_smaller = 50;
   double least = std::numeric_limits<double>::infinity();
@@ -272,8 +273,8 @@ Result<void> check_size(const Scanned& scanned, const std::string& file) {
       file, extent, least);
 }
 
-/// Errors: bad_input if the cloud has no joints or far too many, or cannot be registered with any
-/// state.
+/// Compares the cloud with all candidates. Errors: bad_input if it has no joints or far too many,
+/// or cannot be registered with any state.
 Result<ComparedScan> compared(const Scanned& scanned, const std::string& file, Watch& watch) {
   if (auto sized = check_size(scanned, file); !sized) return tl::unexpected(sized.error());
   auto clusters = study::cluster_joint_tops(scanned.cloud, scanned.cylinder.diameter_mm);
@@ -300,7 +301,7 @@ Result<ComparedScan> compared(const Scanned& scanned, const std::string& file, W
         one.name,
         study::register_points(scan.clusters, study::form_of(run.layout, frame), scan.cylinder),
         false};
-    // states of shells of other sizes count by their joints
+    // per joint, so that shells of different sizes can be compared
     if (state.scan) {
       state.shown = scan_matches(*state.scan, scan.tolerance_mm);
       const double cost = state.scan->cost / double(run.layout.joints.size());
@@ -321,7 +322,7 @@ Result<ComparedScan> compared(const Scanned& scanned, const std::string& file, W
       scan.clusters.others);
 }
 
-/// Red joints over the black shell [Baek 2018, Figs. 2A, 3C, 5E].
+/// Draws scan.png: measured joints in red over the shell in black [Baek 2018, Figs. 2A, 3C, 5E].
 Result<void> draw(const ComparedScan& scan, const Candidate& one, const fs::path& folder,
                   Watch& watch) {
   TRY_DO(render::use_font(one.run->preset.style.font));
@@ -336,9 +337,8 @@ Result<void> draw(const ComparedScan& scan, const Candidate& one, const fs::path
                      folder / "scan.png", style.print.dpi);
 }
 
-/// scan.json, scan.csv (a line a joint), measured.csv (the joints found, for [figure] scan) and
-/// scan.png (red joints over the black shell). The exit code; a scan that shows none of the states
-/// is `different`.
+/// Writes the folder with scan.json, scan.csv, measured.csv and scan.png. Returns the exit code,
+/// which is `different` if the scan shows none of the states.
 Result<int> produce_scan(const ScanOptions& options) {
   TRY(scanned, read_all(options));
   const Options& common = options.common;

@@ -22,7 +22,7 @@ namespace {
 
 std::string reason(int code) { return std::generic_category().message(code); }
 
-// out/x and out/x/ are one folder, and a link is replaced by its target
+// the absolute path of a folder, without a slash at the end; for a link that of its target
 fs::path target_of(const fs::path& folder) {
   auto normal = fs::absolute(folder).lexically_normal();
   if (!normal.has_filename()) normal = normal.parent_path();
@@ -59,7 +59,7 @@ long lines_of(const fs::path& file) {
   return std::count(std::istreambuf_iterator<char>(text), {}, '\n');
 }
 
-// the table of frames of `old` that has more frames than the one with its name in `made`, or empty
+// the name of a frames.csv in `old` that has more frames than the same file in `made`; else empty
 fs::path longer_frames(const fs::path& old, const fs::path& made) {
   std::error_code error;
   for (fs::recursive_directory_iterator at(old, error), end; !error && at != end;
@@ -91,7 +91,7 @@ void remove_empty(fs::path folder, const fs::path& outermost) {
   }
 }
 
-// makes a folder of a name that nothing has: process ids come again
+// makes a folder with a new name; the process id alone may have been used before
 Result<fs::path> make_new(const fs::path& target, const char* kind) {
   for (int k = 1;; ++k) {
     auto folder = target;
@@ -102,8 +102,8 @@ Result<fs::path> make_new(const fs::path& target, const char* kind) {
   }
 }
 
-// a descriptor with the folder's lock, or why it is not available: EWOULDBLOCK if another program
-// has it
+// a descriptor with the lock of a folder, or -1 and the error number: EWOULDBLOCK if another
+// program has the lock
 struct Lock {
   int descriptor = -1, failure = 0;
 };
@@ -121,15 +121,16 @@ int rename_how(const fs::path& from, const fs::path& to, unsigned flags) {
   return ::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), flags) == 0 ? 0 : errno;
 }
 
-// 0, or why `from` cannot take a name that nothing but an empty folder has; a plain rename of a
-// folder replaces nothing else, so it serves where the file system knows no better
+// renames `from` to a name that is free or that of an empty folder; returns 0 or the error number.
+// Where the file system has no RENAME_NOREPLACE, a plain rename replaces nothing but empty folders.
 int take_free_name(const fs::path& from, const fs::path& to) {
   const int code = rename_how(from, to, RENAME_NOREPLACE);
   if (code == 0 || code == EEXIST) return code;
   return ::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
 }
 
-// exchanges the names of both folders at once; else by a third name, `aside`, an empty folder
+// exchanges the names of two folders in one step; where the file system cannot do that, in three
+// steps with the name `aside` of an empty folder. Returns 0 or the error number.
 int exchange(const fs::path& a, const fs::path& b, const fs::path& aside) {
   const int code = rename_how(a, b, RENAME_EXCHANGE);
   if (code == 0 || (code != EINVAL && code != ENOSYS)) return code;
@@ -178,7 +179,7 @@ Result<StagedFolder> StagedFolder::create(const fs::path& final_folder,
     return refuse(partial.error().message);
   }
   Lock lock = lock_of(*partial);
-  // another program that searches for remains has the lock for an instant
+  // left_behind() in another program has the lock for an instant
   for (int k = 0; k < 100 && lock.failure == EWOULDBLOCK; ++k) {
     ::usleep(1000);
     lock = lock_of(*partial);
@@ -227,7 +228,7 @@ void StagedFolder::remove() noexcept {
     fs::remove_all(partial_, error);
     remove_empty(partial_.parent_path(), first_made_);
   } catch (const std::exception&) {
-    // what stays bears a partial name
+    // the remains have a partial name
   }
 }
 
@@ -242,7 +243,7 @@ Result<std::string> StagedFolder::commit() {
     return std::string();
   }
   if (code != EEXIST && code != ENOTEMPTY && code != ENOTDIR) return refuse(reason(code));
-  // what is there now need not be what was there at the start
+  // another program may have changed the folder since create()
   if (const auto because = refusal(final_, command_); !because.empty()) return refuse(because);
   if (const auto lost = longer_frames(final_, partial_);
       command_ == "movie" && maker_of(final_) == "run" && !lost.empty())
@@ -258,14 +259,14 @@ Result<std::string> StagedFolder::commit() {
   };
   if (const int failed = exchange(partial_, final_, *old); failed) return give_up(reason(failed));
   if (const auto because = refusal(partial_, command_); !because.empty()) {
-    // it changed under our hands
+    // it was changed between the check and the exchange
     if (const int failed = exchange(partial_, final_, *old); failed)
       return give_up(
           fmt::format("{}, and what was there is now in '{}', as it could not be put back: {}",
                       because, partial_.string(), reason(failed)));
     return give_up(because);
   }
-  // a name that says what it is, should the removal be cut short
+  // under this name the old run can be recognised if its removal is interrupted
   ::rmdir(old->c_str());
   settled_ = true;
   if (rename_how(partial_, *old, 0) != 0) old = partial_;
@@ -296,7 +297,7 @@ std::vector<fs::path> left_behind(const fs::path& final_folder) {
        at.increment(error)) {
     const auto other = at->path().filename().string();
     if (!other.starts_with(name + ".partial-") && !other.starts_with(name + ".old-")) continue;
-    // where locks cannot be had nobody knows whether it is being written
+    // without its lock it may be one that another program is writing
     const int lock = lock_of(at->path()).descriptor;
     if (lock < 0) continue;
     ::close(lock);

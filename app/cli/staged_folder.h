@@ -1,5 +1,5 @@
-// Proof that a folder is a run: the list of what was written into it. Whoever replaces or removes a
-// folder asks here first.
+// Which folders are runs of this program, so that they may be replaced; writing a folder under a
+// temporary name until it is complete.
 #pragma once
 
 #include <filesystem>
@@ -10,55 +10,57 @@
 
 namespace gridshell::app {
 
-/// File of a finished folder that lists all others, a path a line after the line that names it and
-/// the command that made the folder.
+/// File in a finished folder that lists all other files in it. Its first line names the format and
+/// the command that made the folder; then follows one path per line.
 inline constexpr const char* manifest_name = "manifest.txt";
 
-/// Lists what is in `folder` in its manifest, as made by `command` ("run"). Errors: io.
+/// Writes the manifest of `folder`, which `command` ("run") made. Errors: io.
 Result<void> write_manifest(const std::filesystem::path& folder, const std::string& command);
 
-/// The command that made a run's folder ("run", "figure", "sweep"), as its manifest says, else its
-/// summary; empty where neither says it.
+/// The command that made a run's folder ("run", "figure", "sweep"), from its manifest, else from
+/// its summary; empty if neither names it.
 std::string maker_of(const std::filesystem::path& folder);
 
-/// Why a folder is not a run whose every file this program wrote, naming what is foreign; empty
-/// when it is one. Without a manifest (an unfinished run, or one of version 0.1) the summary or the
-/// journal is the proof, and the names that a run gives its files decide.
+/// Why a folder is not a run, or which of its files this program did not write; empty if it is a
+/// run without foreign files. A folder without a manifest (an unfinished run, or one of version
+/// 0.1) is a run if it has a summary or journal; files with other names than those of a run are
+/// foreign.
 std::string why_not_a_run(const std::filesystem::path& folder);
 
-/// Whether a file may be written there: in a run's folder it would be taken for one of the run, or
-/// keep it from being replaced. Errors: bad_input.
+/// Checks that the file `to` may be written: it must not be in the folder of a run, which could
+/// then no longer be replaced. Errors: bad_input.
 Result<void> check_beside_runs(const std::filesystem::path& to);
 
 // A run's folder while it is written: under a temporary name, exchanged with the final one only
 // when it is complete, so that a run that is stopped, killed or out of disk leaves the old folder
 // unchanged.
 
-/// The folder `DIR.partial-<pid>`, of no other program's, which becomes DIR on commit(). Where DIR
-/// is a link to a folder, that folder is what is written. Locked while it lives.
+/// The folder `DIR.partial-<pid>`, which commit() renames to DIR. If DIR is a link to a folder,
+/// that folder is replaced. It is locked as long as this object exists, so that no other program
+/// uses it.
 class StagedFolder {
  public:
-  /// Errors: bad_input when DIR exists and is neither empty nor a run without foreign files that
-  /// `command` may replace, or cannot be written.
+  /// Makes the folder. Errors: bad_input if it cannot be made, or if DIR exists and is neither
+  /// empty nor a run without foreign files that `command` may replace.
   static Result<StagedFolder> create(const std::filesystem::path& final_folder,
                                      const std::string& command);
 
-  /// Takes up one of left_behind(). Errors: io where another program has taken it meanwhile.
+  /// Continues in `partial`, one of left_behind(). Errors: io if another program uses it now.
   static Result<StagedFolder> resume(const std::filesystem::path& final_folder,
                                      const std::string& command,
                                      const std::filesystem::path& partial);
 
   StagedFolder(StagedFolder&& other) noexcept;
   StagedFolder& operator=(StagedFolder&&) = delete;
-  /// Without a commit or keep() the folder goes, and with it the parents made for it.
+  /// Removes the folder and the parents made for it, unless commit() or keep() was called.
   ~StagedFolder();
 
   const std::filesystem::path& path() const { return partial_; }
 
-  /// Lists its files and takes the final name at once; the old run is removed after that. Returns a
-  /// sentence with the remains if that fails; else nothing. Errors: io, also if something that must
-  /// not be replaced has the final name now, or a run of which a movie would not retain every
-  /// frame.
+  /// Writes the manifest, gives the folder its final name and removes the run that had it. Returns
+  /// a message if that run could not be removed completely, else an empty text. Errors: io, also if
+  /// the final name now belongs to something that must not be replaced, or to a run with more
+  /// frames than this movie.
   Result<std::string> commit();
 
   /// Leaves the folder under its partial name, without half-written files.
@@ -74,18 +76,17 @@ class StagedFolder {
   std::string command_;
   std::filesystem::path first_made_;  // the outermost parent that was made, or empty
   int lock_ = -1;                     // descriptor of the folder, locked
-  bool settled_ = false;              // committed, kept or moved from
+  bool settled_ = false;              // commit() or keep() was called, or it was moved from
 };
 
-/// Why a command must not write to this folder; empty when it may. A command replaces only what the
-/// same command made, and `movie` a `run` of which it keeps the frames; an empty one replaces any
-/// run.
+/// Why a command must not write to this folder; empty if it may. A command replaces only folders
+/// that the same command made, and `movie` also those of `run`; an empty command replaces any run.
 std::string refusal_to_write(const std::filesystem::path& folder, const std::string& command);
 
-/// Folders that unfinished runs to `final_folder` left behind and nobody is working in, sorted.
+/// Temporary folders that unfinished runs to `final_folder` left and no program uses, sorted.
 std::vector<std::filesystem::path> left_behind(const std::filesystem::path& final_folder);
 
-/// Removes what writers had not finished (hidden temporaries) under `folder`.
+/// Removes half-written files (their names begin with a dot) under `folder`.
 void remove_unfinished(const std::filesystem::path& folder);
 
 }  // namespace gridshell::app

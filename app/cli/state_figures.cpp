@@ -26,7 +26,7 @@ namespace {
 using record::StateClass;
 using record::StateRow;
 
-/// What a state is that the paper has no class for, where that can be said in words.
+/// A name for a state that is in none of the classes of the paper: a leaning dome; else empty.
 std::string dome_text(const StateRow& row) {
   return row.kind == StateClass::other && row.first_order() ? ", leaning dome" : "";
 }
@@ -46,7 +46,7 @@ std::string caption_of(std::size_t at, const record::StateTables& states) {
                      reason_of(at, states.rows), row.count, states.search.at_rest);
 }
 
-/// "153 states in 900 trials; about 214 in all (186 to 262)"
+/// "153 states in 900 random trials; Chao1 estimates 214 (95 %: 186 to 262)"
 std::string completeness_text(const record::StateTables& states) {
   const RichnessEstimate& all = states.search.completeness;
   return fmt::format(
@@ -54,7 +54,7 @@ std::string completeness_text(const record::StateTables& states) {
       states.search.at_rest, all.estimate, all.low, all.high);
 }
 
-/// One series a class, in the order of the paper.
+/// A series for each class, the last first, with `value` over the elastic energy.
 template <class Value>
 std::vector<render::Series> by_class(const std::vector<StateRow>& rows, const Value& value) {
   std::vector<render::Series> all;
@@ -68,7 +68,7 @@ std::vector<render::Series> by_class(const std::vector<StateRow>& rows, const Va
     }
     if (!series.x.empty()) all.push_back(std::move(series));
   }
-  // the many others lie below the paper's few
+  // reversed, so that the many others are drawn first, below the few of the paper
   std::ranges::reverse(all);
   return all;
 }
@@ -85,7 +85,7 @@ render::Plot energies_plot(const record::StateTables& states) {
       met.push_back(row);
     else
       left_out.insert(row.kind);
-  // these cannot be shown on a logarithmic axis
+  // a count of 0 has no position on a logarithmic axis
   if (const std::size_t others = states.rows.size() - met.size(); others > 0) {
     std::vector<std::string_view> words;
     for (const StateClass kind : left_out) words.push_back(word_of(kind));

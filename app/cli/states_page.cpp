@@ -26,9 +26,9 @@ using render::Canvas;
 constexpr double page_width = 178, page_height = 147, margin = 2;
 constexpr Box above{margin, margin, 160, 38}, diagram{margin, 42, 97, 94}, maps{101, 42, 75, 94},
     foot{margin, 137, 97, 5};
-constexpr double points_per_mm = 72 / 25.4, caption = 12;  // points
+constexpr double points_per_mm = 72 / 25.4, caption = 12;  // height of a caption, points
 
-/// A state of a record.
+/// A state of a run.
 struct Found {
   const Run* record = nullptr;
   std::size_t at = 0;
@@ -37,12 +37,12 @@ struct Found {
   const record::Frame& frame() const { return record->trajectory.frames[at]; }
 };
 
-/// "state *ii* (*C*_{2v})": a page has one of each class.
+/// "state *ii* (*C*_{2v})": class and symmetry group, as the page has one state of each class.
 std::string page_name_of(const StateRow& row) {
   return fmt::format("{} ({})", class_text(row.kind), group_text(row.group));
 }
 
-/// The lowest of a class.
+/// The state of a class that has the lowest energy.
 std::optional<Found> lowest_of(StateClass kind, const Run& record) {
   std::optional<Found> lowest;
   for (std::size_t k = 0; k < record.states.rows.size(); ++k) {
@@ -53,6 +53,8 @@ std::optional<Found> lowest_of(StateClass kind, const Run& record) {
   return lowest;
 }
 
+/// The state of lowest energy of a class in the first run that has one; energies of different
+/// footprints are not compared.
 std::optional<Found> lowest_of(StateClass kind, const Runs& records) {
   std::optional<Found> lowest;
   for (const Run* record : records)
@@ -60,7 +62,7 @@ std::optional<Found> lowest_of(StateClass kind, const Runs& records) {
   return lowest;
 }
 
-/// "(*L̄*_{d}, *n*) = (0.8, 12)"; empty where the footprint is no circle.
+/// Longest leg and number of rods of a circle, "(*L̄*_{d}, *n*) = (0.8, 12)"; else empty.
 std::string place_of(const preset::Preset& preset) {
   if (preset.footprint.kind != preset::FootprintKind::circle) return "";
   const double radius = preset.original_radius_mm() / preset.footprint.spacing_mm;
@@ -68,8 +70,8 @@ std::string place_of(const preset::Preset& preset) {
                      record::longest_leg(radius, preset.footprint.rods), preset.footprint.rods);
 }
 
-/// Which of the states joints measured lie nearest to, by the mean distance to its own joints; -1:
-/// none were measured.
+/// The index of the state with the smallest mean distance from the measured joints to its own; -1
+/// if none were measured.
 int state_measured(const Eigen::Matrix3Xd& measured, const record::Trajectory& states) {
   if (measured.cols() == 0) return -1;
   std::vector<double> away;
@@ -83,7 +85,7 @@ int state_measured(const Eigen::Matrix3Xd& measured, const record::Trajectory& s
   return int(std::ranges::min_element(away) - away.begin());
 }
 
-/// A state in space on its page.
+/// Adds a picture of a state in space.
 Result<void> add_state(Page& page, const Found& found, const render::Stage& stage,
                        render::Drawing drawing, const std::string& letter,
                        const std::string& caption, const Box& box, render::Renderer& renderer) {
@@ -97,7 +99,7 @@ Result<void> add_state(Page& page, const Found& found, const render::Stage& stag
   return {};
 }
 
-/// How wide a shell is against another.
+/// The ratio of the radii of two shells.
 double width_over(const record::Trajectory& run, const record::Trajectory& other) {
   const auto reach = [](const record::Trajectory& one) {
     return one.layout.actuated_boundary.topRows<2>().colwise().norm().maxCoeff();
@@ -105,8 +107,8 @@ double width_over(const record::Trajectory& run, const record::Trajectory& other
   return reach(run) / reach(other);
 }
 
-/// The first record's states ii, iii and iv in space and the lowest dome of any, at one scale and
-/// with one colour bar; joints measured over the one that they lie nearest to.
+/// Adds panels A: the states ii, iii and iv of the first record and a dome, in space, at one scale
+/// and with one colour bar. Measured joints are drawn over the state that they are nearest to.
 Result<void> add_states(Page& page, const Runs& records, render::MovieStyle style,
                         render::Renderer& renderer, Watch& watch) {
   const Run& one = *records.front();
@@ -131,7 +133,7 @@ Result<void> add_states(Page& page, const Runs& records, render::MovieStyle styl
     if (watch.cancelled()) return fail(Fault::cancelled, "stopped while drawing a page");
     const Found found{&one, which[k]};
     render::Drawing drawing = stage.drawing(run.frames[k]);
-    // joints are drawn red too: where some are measured no others are
+    // computed joints are red, too, so they are not drawn if some were measured
     if (over >= 0) drawing.joint_diameter_mm = 0;
     if (over == int(k)) render::show_measured_joints(measured, drawing);
     TRY_DO(add_state(page, found, stage, std::move(drawing), "A" + std::to_string(k + 1),
@@ -174,7 +176,7 @@ Result<void> add_diagram(Page& page, const std::string& named) {
   return {};
 }
 
-/// What all shells of the page have in common.
+/// Adds a note on what all shells of the page have in common.
 void add_foot(Page& page, const preset::Preset& preset, const std::string& dome) {
   if (preset.footprint.kind != preset::FootprintKind::circle) return;
   page.add_note(foot, fmt::format("A1–A3 at {}{}; *d* = {:g} mm, *R*_{{a}} = {:.3g} *R*_{{o}}",
@@ -186,7 +188,7 @@ void add_foot(Page& page, const preset::Preset& preset, const std::string& dome)
                 "their grey points.");
 }
 
-/// A state of each class from above, each as large as its box.
+/// Adds panels C: a state of each class from above, each as large as its box.
 void add_maps(Page& page, const Runs& records) {
   const double width = maps.width / 2, height = maps.height / 2;
   int place = 0;

@@ -1,4 +1,5 @@
-// The work behind `sweep`: many runs of one preset, kept a line a point, gathered, drawn.
+// `gridshell sweep`: many runs of one preset. A log has a line for each point; results are gathered
+// and drawn.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -33,8 +34,8 @@ struct SweepOptions {
   bool merge = false;  ///< gather the shards in DIR instead of computing
 };
 
-constexpr double chart_width_mm = 130, chart_height = 0.62;  // of a line chart
-constexpr const char* classes = "classes";  // the picture of which states were found
+constexpr double chart_width_mm = 130, chart_height = 0.62;  // height over width
+constexpr const char* classes = "classes";  // the picture of the classes of states that were found
 
 /// A sweep that is running.
 struct SweepJob {
@@ -56,8 +57,8 @@ std::vector<std::string> plots_of(const preset::SweepGrid& grid) {
   return plots.empty() ? std::vector<std::string>{"height_mm"} : plots;
 }
 
-/// What can be drawn: the figures that a point has in any case, and of searches for states over leg
-/// and rods which classes were found.
+/// The names of what can be drawn: the figures of a point, and `classes` for searches for states
+/// over leg and rods.
 std::vector<std::string> drawable(const preset::Presets& presets, const preset::SweepGrid& grid) {
   std::set<std::string> names;
   for (const auto& run : runs_of(presets)) {
@@ -68,7 +69,7 @@ std::vector<std::string> drawable(const preset::Presets& presets, const preset::
   return {names.begin(), names.end()};
 }
 
-/// Checks that there is something to sweep, and that the requested results are results of a run.
+/// Checks that there is something to sweep and that the requested figures exist. Errors: bad_input.
 Result<void> check_asked(const preset::Presets& presets, const preset::SweepGrid& grid) {
   if (grid.size() == 0)
     return invalid(
@@ -88,7 +89,7 @@ Result<void> check_asked(const preset::Presets& presets, const preset::SweepGrid
   return {};
 }
 
-/// Pictures of results that are no longer requested would not belong to the sweep.
+/// Removes pictures of figures that an earlier call drew and that are no longer requested.
 void remove_other_pictures(const SweepJob& work, const std::vector<std::string>& drawn) {
   std::error_code error;
   for (const auto& name : drawable(work.presets, work.grid)) {
@@ -98,7 +99,7 @@ void remove_other_pictures(const SweepJob& work, const std::vector<std::string>&
   }
 }
 
-/// A diagram per case, and next to it the comparison with the paper's statements.
+/// Writes for each case the phase diagram and a table of its regions, to compare with the paper.
 Result<void> draw_classes(const SweepJob& work, const record::SweepTable& table,
                           const render::Print& print) {
   for (const auto& run : runs_of(work.presets)) {
@@ -130,7 +131,8 @@ Result<void> draw(const SweepJob& work, const record::SweepTable& table) {
   return {};
 }
 
-/// The power laws of the figures that are drawn, as laws.csv, a picture and lines of text.
+/// Writes the power laws of the figures that are drawn, as laws.csv and pictures; returns them as
+/// lines of text.
 Result<std::string> tell_laws(const SweepJob& work, const record::SweepTable& table) {
   std::string text;
   std::vector<record::LawRow> rows;
@@ -157,7 +159,8 @@ Result<std::string> tell_laws(const SweepJob& work, const record::SweepTable& ta
   return text;
 }
 
-/// "20 points: 18 done (2 ended early: locking; 1 not stable), 2 no_equilibrium"
+/// "20 points: 18 done, 2 of them ended early (locking), 1 of them not stable; 2 without an
+/// equilibrium"
 std::string reported(const record::SweepTable& table) {
   int done = 0, limited = 0, unstable = 0, none = 0, refused = 0;
   std::set<std::string> limits;
@@ -184,7 +187,7 @@ std::string reported(const record::SweepTable& table) {
   return text;
 }
 
-/// "  l_d > 1: 24 points; first order alone at 20, ..." a line a region of the diagram.
+/// A line for each region of the phase diagram: "  l_d > 1: 24 points; domes ...".
 std::string regions_text(const SweepJob& work, const record::SweepTable& table) {
   using record::StateClass;
   std::string text;
@@ -208,7 +211,7 @@ Result<std::string> finish(const SweepJob& work, const record::SweepLog& log) {
   const auto table = table_of(work.grid, work.points(), log.found());
   TRY_DO(write_file(work.folder / sweep_table_name, record::sweep_csv(table)));
   TRY_DO(write_file(work.folder / "preset.toml", saved_preset(preset::to_toml(work.presets))));
-  // a part of the points makes no picture
+  // a shard has too few points for a picture
   if (!work.shard && table.axes.size() <= 2) TRY_DO(draw(work, table));
   std::string laws;
   if (!work.shard) {
@@ -247,7 +250,7 @@ std::string standing_of(const SweepJob& work, const record::SweepLog& log) {
                      work.folder.string());
 }
 
-/// Computes what is missing.
+/// Computes the points that the log does not have.
 Result<void> compute(const SweepJob& work, record::SweepLog& log) {
   const auto todo = missing(work, log);
   if (todo.empty()) return {};
@@ -256,7 +259,7 @@ Result<void> compute(const SweepJob& work, record::SweepLog& log) {
   const int jobs = thread_count(work.options.jobs);
   Result<void> done;
   {
-    // what is logged is whole whenever the program ends
+    // nothing to clean up: the log is complete whenever the program ends
     Progress progress({{"sweeping", 100}}, Progress::show_for(work.quiet()), [] {
       std::fputs("stopped: what was finished is in the log; the same command continues it\n",
                  stderr);

@@ -1,4 +1,4 @@
-// `gridshell view`: its options; the window itself is a program of its own, so that who makes
+// `gridshell view`: its options. The window is a program of its own, so that users who only make
 // movies need not wait for it to be compiled.
 #include <unistd.h>
 

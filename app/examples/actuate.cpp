@@ -1,4 +1,5 @@
-// A circle of 12 x 12 rods, drawn in to three quarters of its radius; its frames go to a folder.
+// Forms a circular shell of 12 x 12 rods at three quarters of its radius, and writes its frames
+// into a folder.
 #include <cstdio>
 
 #include "engine/gridshell.h"

@@ -1,4 +1,4 @@
-// Inverse design: the pins of a cap are moved until its joints lie on the sphere.
+// Inverse design: moves the pins of a cap until its joints are on the sphere.
 #include <cstdio>
 
 #include "engine/gridshell.h"

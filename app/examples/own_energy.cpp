@@ -1,4 +1,4 @@
-// An energy of one's own: a bed of springs under every joint, put on as a field of a session.
+// An energy of one's own: a bed of springs under the joints, applied as loads of a simulation.
 #include <cstdio>
 
 #include "engine/gridshell.h"
@@ -19,7 +19,7 @@ int main() {
     return session->nodes().row(2).leftCols(session->shell().finest().joints).maxCoeff();
   };
   const double before = height();
-  // E = k/2 z^2 at every joint: value, gradient and stiffness are NodeAction's
+  // E = k/2 z^2 at every joint; NodeAction computes value, gradient and Hessian
   std::vector<NodeAction> bed;
   for (int joint = 0; joint < session->shell().finest().joints; ++joint)
     bed.push_back({.node = joint, .stiffness = {0, 0, 1e-4}});

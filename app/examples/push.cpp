@@ -1,5 +1,5 @@
-// An interactive shell: formed, pushed at a joint, released; the force and its certificate at each
-// step.
+// Forms a shell, pushes a joint in three steps and releases it; prints the force and the
+// certificate of each step.
 #include <cstdio>
 
 #include "engine/gridshell.h"

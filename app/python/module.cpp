@@ -8,7 +8,8 @@
 namespace gridshell::python {
 namespace {
 
-/// An error kind in Python: a class below Error and a built-in one.
+/// The exception class of a kind of error: derived from Error and, if `also` is given, from a
+/// built-in class.
 struct FaultClass {
   Fault fault;
   const char* name;
@@ -46,7 +47,7 @@ std::string toml_of(const py::handle& value) {
   if (PyFloat_Check(value.ptr())) return py::str(py::float_(value.cast<double>()));
   if (py::isinstance<py::str>(value))
     return py::str(py::module_::import("json").attr("dumps")(value));
-  // from numpy, a number or a list of them
+  // numbers and arrays of numpy
   if (py::hasattr(value, "tolist")) return toml_of(value.attr("tolist")());
   if (py::hasattr(value, "__fspath__")) return toml_of(value.attr("__fspath__")());
   if (!py::isinstance<py::sequence>(value) || py::isinstance<py::bytes>(value))
@@ -100,7 +101,7 @@ preset::Step step_of(const preset::Preset& preset, const char* kind, const py::d
   for (const auto& [key, value] : keys)
     if (!value.is_none())
       text.append(", ").append(key.cast<std::string>()).append(" = ").append(toml_of(value));
-  // what the preset itself would do to the shell is not done here
+  // without the steps, the push and the search of the preset itself
   preset::Preset alone = preset;
   alone.step.clear();
   alone.indentation = {};

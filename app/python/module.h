@@ -1,4 +1,4 @@
-// What the module is made of: exceptions, arguments, arrays, classes.
+// The parts of the Python module: exceptions, arguments, arrays, classes.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -23,10 +23,10 @@ namespace py = pybind11;
 /// Adds the classes to the module: Error and, below it, BadInput, NoEquilibrium, IOFailure.
 void add_errors(py::module_& module);
 
-/// Raises the exception of an error, its message that of the program.
+/// Raises the exception that belongs to an error, with the error's message.
 [[noreturn]] void raise(const Error& error);
 
-/// The value, or the exception.
+/// The value of a result; raises the exception of its error.
 template <class T>
 T value_of(Result<T> result) {
   if (!result) raise(result.error());
@@ -37,7 +37,7 @@ T value_of(Result<T> result) {
 
 /// Calls work(watch) on a new thread without the GIL, while the caller waits and lets Python handle
 /// its signals every 20 ms. An exception of a handler (KeyboardInterrupt) cancels the watch and is
-/// raised again once the work has ended. Signals are handled by Python's main thread alone.
+/// raised again once the work has ended. Python handles signals only in its main thread.
 template <class Work>
 auto interruptible(const Work& work) {
   Watch watch;
@@ -58,16 +58,16 @@ auto interruptible(const Work& work) {
   return result;
 }
 
-// What Python passes as a value of a preset, as TOML: the preset's reader then judges it.
+// Values of keys from Python. They are converted to TOML, which the reader of presets then checks.
 
-/// The name of a type in Python.
+/// The name of a type in Python, as a template argument.
 template <std::size_t size>
 struct TypeName {
   char text[size];
   constexpr TypeName(const char (&from)[size]) { std::copy_n(from, size, text); }
 };
 
-/// Any object, which signatures call by that name: its reader judges what it is.
+/// An argument of any type, whose name in signatures is `name`; the code that uses it checks it.
 template <TypeName name>
 struct Judged {
   py::object value = py::none();
@@ -76,13 +76,13 @@ struct Judged {
 /// {"footprint.rods": 14} or {"footprint": {"rods": 14}} as changes to a preset. Raises TypeError.
 std::vector<preset::Override> overrides_of(const py::dict& changes);
 
-/// A step with the keys of [[step]], those that are None left out, judged together with
-/// the preset. Raises BadInput, TypeError.
+/// A step with the keys of [[step]], without those that are None, checked together with the preset.
+/// Raises BadInput, TypeError.
 preset::Step step_of(const preset::Preset& preset, const char* kind, const py::dict& keys);
 
-// Numbers as numpy arrays that look into them: nothing is copied, and nothing can be written.
+// Numpy arrays as read-only views of numbers, which are not copied.
 
-/// An array over memory that `owner` keeps for as long as the array lives.
+/// An array over memory of `owner`, which exists at least as long as the array.
 template <class Number>
 py::array_t<Number> view(const Number* data, const std::vector<py::ssize_t>& shape,
                          const std::vector<py::ssize_t>& strides, const py::object& owner) {
@@ -91,11 +91,12 @@ py::array_t<Number> view(const Number* data, const std::vector<py::ssize_t>& sha
   return array;
 }
 
+/// A view of n numbers.
 inline py::array_t<double> view(const Eigen::VectorXd& numbers, const py::object& owner) {
   return view(numbers.data(), {numbers.size()}, {sizeof(double)}, owner);
 }
 
-/// A row a point.
+/// A view of n points, n x 3: one row per point.
 inline py::array_t<double> view(const Eigen::Matrix3Xd& points, const py::object& owner) {
   return view(points.data(), {points.cols(), 3}, {3 * sizeof(double), sizeof(double)}, owner);
 }
@@ -110,7 +111,8 @@ void add_session(py::module_& module);
 /// Adds the class Run and the function load to the module.
 void add_run(py::module_& module);
 
-/// The case of a name, or the preset itself where it has none. Raises BadInput, naming the cases.
+/// The case with this name; without a name the preset itself, if it has no cases. Raises BadInput,
+/// with the names of the cases.
 preset::Preset chosen(const preset::Presets& presets, const std::optional<std::string>& name);
 
 /// A number of a state: a property of State, and a column of Run.
@@ -162,12 +164,12 @@ inline constexpr std::array numbers{
 /// Adds the classes State, Layout, Certificate, Report and Event to the module.
 void add_values(py::module_& module);
 
-/// Draws a state into a PNG as the program draws a frame of a movie, in the size (width, height)
-/// or its preset's. Raises IOFailure, BadInput.
+/// Draws a state into a PNG, as the program draws a frame of a movie; `size`: (width, height) in
+/// pixels, by default that of its preset. Raises IOFailure, BadInput.
 void draw(const State& state, const std::filesystem::path& path,
           const std::optional<std::pair<int, int>>& size, const std::string& context);
 
-/// What `picture` takes and does, for the methods of that name.
+/// The docstring of the methods `picture`.
 inline constexpr const char* picture_doc =
     "Draws the shell into a PNG, as the program draws a frame of a movie, with [movie] and [style] "
     "of the preset.\n\nsize: (width, height) in pixels, else the preset's. context: where OpenGL "

@@ -1,4 +1,4 @@
-// gridshell.load: what a run left in its folder, as numpy arrays.
+// gridshell.load: reads the folder of a run as numpy arrays.
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -13,7 +13,7 @@ namespace gridshell::python {
 using namespace py::literals;
 namespace {
 
-/// A run that was read; its frames are read from the file on demand.
+/// A run. The nodes of its frames are read from the file when they are needed.
 class Run {
  public:
   explicit Run(app::Run run)
@@ -45,7 +45,7 @@ class Run {
     return std::make_shared<State>(State{preset_, layout_, found, known});
   }
 
-  /// Positions in all frames, read once.
+  /// Positions in all frames, frames x nodes x 3, mm; read once.
   const py::array_t<double>& nodes() {
     if (nodes_) return *nodes_;
     const auto count = frame(0).nodes.cols();
@@ -64,7 +64,7 @@ class Run {
   std::optional<py::array_t<double>> nodes_;
 };
 
-/// A number of each frame.
+/// An array with one number per frame.
 template <class Value, class Find>
 py::array_t<Value> column(const Run& run, const Find& find) {
   py::array_t<Value> all(py::ssize_t(run.size()));

@@ -23,7 +23,7 @@ preset::Preset chosen(const preset::Presets& presets, const std::optional<std::s
 
 namespace {
 
-/// A shell with its current state, for one thread at a time.
+/// A shell and its current state; it is used by one thread at a time.
 class Session {
  public:
   Session(const std::filesystem::path& preset, const py::dict& changes,
@@ -34,7 +34,7 @@ class Session {
     look();
   }
 
-  /// Does `work` on the shell, and looks at what became of it, however it ended.
+  /// Calls work(shell, watch), which Ctrl-C stops, and updates the state, also after an error.
   template <class Work>
   auto at_work(const Work& work) {
     const Turn turn(*this);
@@ -50,6 +50,7 @@ class Session {
     return value_of(std::move(done));
   }
 
+  /// Calls work(shell), which takes no time.
   template <class Work>
   auto in_hand(const Work& work) {
     const Turn turn(*this);
@@ -72,7 +73,8 @@ class Session {
   const std::shared_ptr<State>& state() const { return state_; }
 
  private:
-  /// Reports an error to another thread that calls in between. Taken and released under the GIL.
+  /// The use of the session by one thread: another thread that calls in between gets an exception.
+  /// Made and destroyed under the GIL.
   class Turn {
    public:
     explicit Turn(Session& of) : of_(of) {
@@ -207,7 +209,7 @@ void add_looks(const py::module_& module, py::class_<Session>& type) {
             draw(*state, path, size, context);
           },
           "path"_a, py::kw_only(), "size"_a = py::none(), "context"_a = "auto", picture_doc);
-  // what the state knows, without the detour
+  // properties of the state as properties of the session, too
   const py::object state = module.attr("State");
   for (const char* name :
        {"nodes", "layout", "certificate", "energies", "energy_mJ", "force_N", "depth_mm",

@@ -27,7 +27,8 @@ Result<Shell> Shell::open(const preset::Preset& preset) {
   return shell;
 }
 
-/// A step that ended early is an error; the shell is in the last certified state.
+/// The result of a step. Errors: cancelled; no_equilibrium if it ended early, in its last certified
+/// state.
 Result<Done> Shell::ended(const std::string& what, Report report) const {
   if (report.end == Outcome::cancelled) return stopped();
   if (report.end == Outcome::reached) return Done{std::move(report)};
@@ -37,7 +38,7 @@ Result<Done> Shell::ended(const std::string& what, Report report) const {
 }
 
 Result<Done> Shell::form(double progress, const Watch& watch) {
-  if (progress == 0 && (formed_ || !scene_->drawn_in_space))  // the current one
+  if (progress == 0 && (formed_ || !scene_->drawn_in_space))  // the current state
     return Done{{.certificate = session_->certificate(), .events = {}, .effort = {}}};
   auto course = simulate::converged_path(
       *scene_,
@@ -66,7 +67,8 @@ Result<Done> Shell::move(const preset::Step& step, const Watch& watch) {
   if (formed_ && !as_drawn_) return take(step, watch);
   auto formed = form(progress, watch);
   if (!formed || !formed_) return formed;
-  // a net's shell begins at progress 1, one from the flat at its first buckled state
+  // form() may end elsewhere: a shell on a net starts at progress 1, a flat one at its first
+  // buckled state
   auto moved = take(step, watch);
   if (!moved) return moved;
   formed->report.events.insert(formed->report.events.end(), moved->report.events.begin(),
@@ -82,8 +84,8 @@ Result<Done> Shell::take(const preset::Step& step, const Watch& watch) {
   as_drawn_ = false;
   Checkpoint before = session_->save();
   TRY(report, simulate::apply_step(*session_, step, watch));
-  // where the error passes the tolerance it is made on finer meshes, or reported where there is
-  // none
+  // if the error exceeds the tolerance, the step is repeated on finer meshes; if there are none
+  // that fit into memory, it is accepted with its error
   while (report->end == Outcome::too_coarse) {
     session_->restore(before);
     LevelPlan plan = session_->shell().plan();

@@ -1,6 +1,5 @@
-// The shell of a Python program: formed as its preset says, then moved step by step. It does not
+// The shell of a Session: formed as its preset says, then moved step by step. This file does not
 // depend on Python.
-// no Python.
 #pragma once
 
 #include <array>
@@ -13,57 +12,57 @@
 
 namespace gridshell::python {
 
-/// One state, of a session or of a run, which never changes: what arrays look into.
+/// A state of a session or of a run, which never changes. Arrays in Python are views of it.
 struct State {
-  std::shared_ptr<const preset::Preset> preset;  ///< how its pictures look
+  std::shared_ptr<const preset::Preset> preset;  ///< for the style of its pictures
   std::shared_ptr<const record::Layout> layout;
   record::Frame frame;
   Certificate certificate;
   std::vector<std::array<int, 2>> held = {};  ///< (i, j) of the constrained joints
-  /// The unit vector along which each of them is constrained and was first pushed; NaN: in all
-  /// directions.
+  /// For each of them the unit vector along which it is constrained; NaN: in all directions.
   std::vector<std::array<double, 3>> directions = {};
-  std::vector<record::LoadedJoint> pushed =
-      {};  ///< those of them that were moved, as pictures show
+  std::vector<record::LoadedJoint> pushed = {};  ///< those that were moved, which pictures mark
 };
 
 /// Result of a step.
 struct Done {
   Report report;
-  std::string reported =
-      {};  ///< of the forming: what a run would report as its limit; empty: nothing
+  std::string reported = {};  ///< for the first actuation: the limit_reason that a run would report
 };
 
-/// A state to go back to, of one shell.
+/// A saved state of a shell, to return to.
 struct Kept {
   std::shared_ptr<const Scene> scene;
   Checkpoint checkpoint;
   bool formed = false;
 };
 
+/// A shell that is moved step by step.
 class Shell {
  public:
-  /// Flat. Errors (bad_input): as scene_of(); a preset that asks for the net alone.
+  /// The flat shell of a preset; a network drawn in space is in its drawn shape. Errors
+  /// (bad_input): those of scene_of(); a preset with the model "net".
   static Result<Shell> open(const preset::Preset& preset);
 
-  /// Forms the shell along the path that a run of its preset follows, with meshes chosen and events
-  /// confirmed, to a progress; for a formed shell this is an ordinary step. Errors: bad_input,
-  /// no_equilibrium (also if the path ends early), cancelled; the shell is in the last certified
-  /// state.
+  /// Moves the boundary. The first call forms the shell as a run of its preset does: it follows the
+  /// same path, chooses the meshes by the tolerance and confirms events on finer ones. Errors:
+  /// bad_input, no_equilibrium (also if the path ends early), cancelled; the shell is then in its
+  /// last certified state.
   Result<Done> move(const preset::Step& step, const Watch& watch);
-  /// Does a step. Errors as move().
+  /// Does a step with a shell that is formed. Errors: as move().
   Result<Done> take(const preset::Step& step, const Watch& watch);
-  /// Finer meshes until the error estimate is below `tolerance_mm`; not a number: as the preset has
-  /// it. Errors: bad_input, no_equilibrium (the tolerance is not met), cancelled.
+  /// Refines the meshes until the error estimate is at most `tolerance_mm`; NaN: the tolerance of
+  /// the preset. Errors: bad_input, no_equilibrium (the tolerance is not met), cancelled.
   Result<Done> refine(double tolerance_mm, const Watch& watch);
 
+  /// The current state, to return to.
   Kept save() const;
-  /// Errors (bad_input): a state of another shell.
+  /// Returns to a saved state. Errors (bad_input): it is of another shell.
   Result<void> restore(const Kept& kept);
 
   const preset::Preset& preset() const { return *preset_; }
   const std::vector<int>& meshes() const { return session_->shell().plan().edges_per_segment; }
-  /// The current state.
+  /// The current state with its layout. Errors: those of layout_of().
   Result<State> look();
 
  private:
@@ -78,7 +77,7 @@ class Shell {
   std::shared_ptr<const record::Layout> layout_;
   int layout_nodes_ = 0;
   bool formed_ = false;
-  bool as_drawn_ = false;  // a network in space to which nothing was done yet
+  bool as_drawn_ = false;  // a network drawn in space to which nothing was done yet
 };
 
 }  // namespace gridshell::python

@@ -1,4 +1,4 @@
-"""stubs.py FOLDER: writes gridshell.pyi next to the module there, from its own signatures."""
+"""stubs.py FOLDER: writes FOLDER/gridshell.pyi from the signatures of the module in FOLDER."""
 import inspect
 import os
 import re
@@ -30,7 +30,7 @@ def typed(text):
 
 
 def documented(head, doc, indent):
-    """A class or function of that head, with nothing in it but its words."""
+    """A class or function with this head, which contains only its docstring."""
     words = textwrap.indent(f'"""{doc.strip()}"""', indent + "    ", lambda line: line.strip())
     return f"{indent}{head}:\n{words}\n"
 
@@ -42,7 +42,7 @@ def function(name, doc, indent=""):
 
 def property_of(owner, name, what):
     made = what.fget.__doc__.split("->")[-1].strip()
-    # what a session hands on is of the type that its state has
+    # a property that Session takes from its State has the type that it has there
     if made == "object" and owner is gs.Session:
         made = getattr(gs.State, name).fget.__doc__.split("->")[-1].strip()
     return "    @property\n" + documented(f"def {name}(self) -> {typed(made)}", what.__doc__, "    ")

@@ -24,7 +24,7 @@ using record::Layout;
 const Layout& arrays_of(const Layout& layout) { return layout; }
 const record::Frame& arrays_of(const State& state) { return state.frame; }
 
-/// A property whose array looks into the object that it is read from.
+/// Adds a property with an array that is a view of the object.
 template <class Class, class Member>
 void add_view(py::class_<Class, std::shared_ptr<Class>>& type, const char* name, Member member,
               const char* doc) {
@@ -231,7 +231,7 @@ void add_state(py::module_& module) {
 
 Result<void> draw_on(const State& state, const render::MovieStyle& style,
                      const std::filesystem::path& path, const std::string& context) {
-  // OpenGL stays on the thread that began it, which is that of this call
+  // an OpenGL context is used by the thread that made it, so each call makes its own
   TRY(artist, app::PictureMaker::create(context, state.preset->style.font));
   record::Layout layout = *state.layout;
   std::ranges::copy(state.pushed, std::back_inserter(layout.loaded_joints));
@@ -253,7 +253,7 @@ void add_values(py::module_& module) {
 
 void draw(const State& state, const std::filesystem::path& path,
           const std::optional<std::pair<int, int>>& size, const std::string& context) {
-  // OpenGL has threads that a forked process does not have: there it would wait for them for ever
+  // a forked process does not have the threads of OpenGL, and would wait for them for ever
   static std::atomic<pid_t> drawn_by = 0;
   pid_t none = 0;
   if (!drawn_by.compare_exchange_strong(none, getpid()) && none != getpid())

@@ -6,7 +6,7 @@
 namespace gridshell::window {
 namespace {
 
-/// A member of the viewer, or of what it shows.
+/// A member of ViewerState, or of its `show`.
 template <auto flag>
 auto& member_of(auto& viewer) {
   if constexpr (requires { viewer.*flag; })
@@ -15,7 +15,7 @@ auto& member_of(auto& viewer) {
     return viewer.show.*flag;
 }
 
-/// An action that switches it.
+/// An action that switches a flag.
 template <auto flag>
 constexpr Action toggle(const char* name, const char* menu, const char* label, Shortcut key,
                         const char* help) {
@@ -45,7 +45,7 @@ constexpr Action range(const char* name, const char* label, Shortcut key, const 
   return {name, "Colour", label, key, help, act, on};
 }
 
-/// What a drag of so many pixels to the right and down does to the view.
+/// An action that turns the view as a drag by so many pixels to the right and down does.
 template <int right, int down>
 constexpr Action turn(const char* name, const char* label, Key key, const char* help) {
   constexpr auto act = [](ViewerState& viewer) { orbit(viewer.camera, right, down); };
@@ -65,7 +65,7 @@ constexpr Action look(const char* name, const char* label, Shortcut key, const c
   return {name, "View", label, key, help, [](ViewerState& viewer) { viewer.look(from); }};
 }
 
-/// The first action of a group.
+/// Makes an action the first of a group.
 constexpr Action below_line(Action action) {
   action.below_line = true;
   return action;

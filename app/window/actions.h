@@ -1,5 +1,5 @@
-// The one table of what can be done by a key, a menu or a line of a recording, and that of what the
-// mouse does in the view. They bind, they fill the menus and the help sheet.
+// The table of actions, which keys, menus and lines of a recording call, and the table of what the
+// mouse does in the view. Key bindings, menus and help sheet are made from these two tables.
 #pragma once
 
 #include <optional>
@@ -23,29 +23,32 @@ struct Shortcut {
 /// "Ctrl+Z"; empty without a key.
 std::string name_of(const Shortcut& shortcut);
 
+/// What a key, a menu or a line of a recording does.
 struct Action {
-  const char* name;   ///< as `do NAME` calls it
-  const char* menu;   ///< the menu that it belongs to
-  const char* label;  ///< there
+  const char* name;   ///< in a recording: `do NAME`
+  const char* menu;   ///< the menu that has it
+  const char* label;  ///< its text in the menu
   Shortcut key;
   const char* help;  ///< one sentence
   void (*act)(ViewerState&);
-  bool (*on)(const ViewerState&) = nullptr;    ///< of those that switch: whether it is on
+  bool (*on)(const ViewerState&) = nullptr;    ///< of a switch: whether it is on
   bool (*able)(const ViewerState&) = nullptr;  ///< whether it has an effect now; null: always
-  bool below_line = false;                     ///< it begins a group of its menu
+  bool below_line = false;                     ///< a line above it begins a group of the menu
 };
 
-/// In the order of the menus.
+/// All actions, in the order of the menus.
 std::span<const Action> actions();
+/// The action with this name, or with this key; null if there is none.
 const Action* find_action(const std::string& name);
 const Action* action_of(const Shortcut& shortcut);
 
-/// What lies under the mouse in the view.
+/// What is under the mouse in the view.
 enum class Over { nothing, joint, edge_point };
 
 /// What a drag does.
 enum class Gesture { orbit, pan, push, pull_freely, drag_edge, let_go_joint, zoom, pick };
 
+/// A row of the table of the mouse.
 struct MouseAction {
   Gesture gesture;
   const char* how;  ///< "left drag"
@@ -55,15 +58,16 @@ struct MouseAction {
   bool shift = false;
 };
 
-/// The words of the panels, one sentence each.
+/// The terms that the panels use, with a sentence that explains each.
 std::span<const std::pair<const char*, const char*>> terms();
 
+/// The table of the mouse.
 std::span<const MouseAction> mouse_actions();
-/// What a press does there.
+/// What a drag does that begins with this button on this object.
 Gesture gesture_of(Button button, Over over, bool shift);
 
-/// The mouse in the view of the shell: what is under it, what it drags, and where to. Positions are
-/// pixels from the top left of the view.
+/// The mouse in the view of the shell: finds what is under it and moves what it drags. Positions
+/// are pixels from the top left of the view.
 class Picker {
  public:
   explicit Picker(ViewerState& viewer) : viewer_(viewer) {}
@@ -89,7 +93,7 @@ class Picker {
   bool holding_ = false, moved_ = false;
   Gesture gesture_ = Gesture::orbit;
   double begin_x_ = 0, begin_y_ = 0, last_x_ = 0, last_y_ = 0;
-  Eigen::Vector2d grip_ = Eigen::Vector2d::Zero();  // of the mouse, off the joint's picture
+  Eigen::Vector2d grip_ = Eigen::Vector2d::Zero();  // press minus the joint's picture, pixels
   Eigen::Vector3d place_ = Eigen::Vector3d::Zero(), along_ = Eigen::Vector3d::UnitZ();
 };
 

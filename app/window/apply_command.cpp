@@ -1,4 +1,4 @@
-// Edits as steps of a preset: done, and kept so that a preset can do them again.
+// Does edits as steps of a preset, and stores the steps, so that a preset can repeat them.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -13,14 +13,14 @@
 namespace gridshell::window {
 namespace {
 
-/// As a preset takes it: what round-off left of a zero is none.
+/// A vector for a preset; components that are only round-off become 0.
 std::vector<double> xyz_of(const Eigen::Vector3d& vector) {
   std::vector<double> xyz;
   for (const double value : vector) xyz.push_back(std::abs(value) < nearest_mm ? 0 : value);
   return xyz;
 }
 
-/// The edge points that lie off the boundary's motion.
+/// The dragged edge points, as [[step]] edge_points has them: index and displacement.
 preset::Points rows_of(const Eigen::Matrix3Xd& dragged) {
   preset::Points rows;
   for (Eigen::Index k = 0; k < dragged.cols(); ++k)
@@ -29,11 +29,11 @@ preset::Points rows_of(const Eigen::Matrix3Xd& dragged) {
   return rows;
 }
 
-constexpr Eigen::Index most_nodes_marked =
-    8000;                                       // of the coarsest mesh: some 30 rods per direction
+// coarsest meshes with fewer nodes (some 30 rods per direction) are solved at positions in between
+constexpr Eigen::Index most_nodes_marked = 8000;
 constexpr double same_shape = 2e-3;             // of the length scale
-constexpr double part_mm = 1, most_parts = 12;  // of a long push
-constexpr double free_fraction = 0.8;           // of a drag's last step to the strain limit
+constexpr double part_mm = 1, most_parts = 12;  // parts in which a long push is done
+constexpr double free_fraction = 0.8;           // of the last step of a drag to the strain limit
 constexpr const char* resisting = "the joint resists: the rods are near their strain limit";
 
 preset::Step step_of(preset::StepKind kind) {
@@ -48,7 +48,7 @@ preset::Step step_of(preset::StepKind kind, const FootprintJoint& joint) {
   return step;
 }
 
-/// Whether a step continues the one before in its direction, so that its end alone counts.
+/// Whether a step continues the one before, so that it can replace it.
 bool goes_on(const preset::Step& before, const preset::Step& step) {
   if (before.kind != step.kind) return false;
   if (step.kind == preset::StepKind::move)
@@ -59,25 +59,25 @@ bool goes_on(const preset::Step& before, const preset::Step& step) {
 
 }  // namespace
 
-/// One step, as a preset would have it done.
+/// Does one step, as a run of a preset does it, and stores it.
 Result<void> EditSession::do_step(preset::Step step, const Watch& watch) {
   const bool holds = step.kind == preset::StepKind::push || step.kind == preset::StepKind::hold;
   if (holds)
     if (const auto joint = simulate::joint_of(step, now_.scene->footprint))
-      // as it was seen, which the coarse mesh of a drag does not change
+      // the position in the view, which the coarse mesh of a drag has not changed yet
       session_->constraint_origins.emplace(*joint,
                                            view_.frame.nodes.cols() > *joint
                                                ? Eigen::Vector3d(view_.frame.nodes.col(*joint))
                                                : Eigen::Vector3d(session_->nodes().col(*joint)));
-  // a snap starts from an equilibrium on all meshes, as in a run
+  // before a snap the shell is solved on all meshes, as in a run
   const bool leaps = step.kind == preset::StepKind::jitter || step.kind == preset::StepKind::rest ||
                      step.kind == preset::StepKind::release;
-  // if finer meshes do not have it, the snap starts on the coarse one
+  // ... unless finer meshes do not have this state
   if (leaps && session_->shell().levels() == 1)
     (void)session_->remesh(simulate::initial_levels(*now_.scene), watch);
   const bool began_stable = view_.stable();
   const double began_mm = pushed_mm(step);
-  // a drag past the limit of strain or stiffness would leave a shell that no step moves
+  // a drag past the limit of strain or stiffness would leave a shell that no further step can move
   std::optional<Checkpoint> before;
   if (passing_ && step.kind == preset::StepKind::push) before = session_->save();
   simulate::StepPath path;
@@ -90,7 +90,7 @@ Result<void> EditSession::do_step(preset::Step step, const Watch& watch) {
   add_step(std::move(step), *report);
   const auto done = note_events(*report);
   if (!event_at.empty()) view_.event = view_.message += " at " + event_at;
-  // stability that was lost may have been regained
+  // stability may have been lost and regained on the path
   const auto lost = [](const Event& e) { return e.kind == Event::Kind::stability_lost && !e.to; };
   if (!event_at.empty() && report->end == Outcome::reached && report->certificate.stable() &&
       std::ranges::all_of(report->events, lost))
@@ -98,8 +98,8 @@ Result<void> EditSession::do_step(preset::Step step, const Watch& watch) {
   return done;
 }
 
-/// Moves a dragged joint a fraction of the distance to where the rods reached their strain limit;
-/// it remains there until it is dragged back.
+/// Moves a dragged joint by a fraction of the distance to the position in which the rods reached
+/// their strain limit. It remains there until it is dragged back.
 Result<void> EditSession::resist(preset::Step step, const Checkpoint& before,
                                  const Eigen::Vector3d& reached, const Watch& watch) {
   const auto joint = simulate::joint_of(step, now_.scene->footprint);
@@ -119,7 +119,7 @@ Result<void> EditSession::resist(preset::Step step, const Checkpoint& before,
   return {};
 }
 
-/// Whether the drag continues past where it was stopped.
+/// Whether a drag that was stopped at the strain limit continues in that direction.
 bool EditSession::resists(const Eigen::Vector3d& to) {
   if (!passing_ || stop_.drag != this_drag_) return false;
   if ((to - stop_.at).dot(stop_.at - stop_.from) >= 0) return true;
@@ -127,7 +127,7 @@ bool EditSession::resists(const Eigen::Vector3d& to) {
   return false;
 }
 
-/// Notes a step as far as it came.
+/// Stores a step; one that ended early is stored up to its last state.
 void EditSession::add_step(preset::Step step, const Report& report) {
   if (report.end != Outcome::reached) {
     if (step.kind != preset::StepKind::move && step.kind != preset::StepKind::push) return;
@@ -194,7 +194,7 @@ Result<void> EditSession::act(const Push& command, const Watch& watch) {
   const bool still =
       (free ? std::abs(displacement.dot(command.along)) : displacement.norm()) < nearest_mm;
   if (still && session_->constraint_origins.contains(command.joint)) return {};
-  // a long displacement that was typed shows its equilibria as a dragged one does
+  // a long push that was typed is done in parts, so that it shows equilibria as a drag does
   const bool dragged = this_drag_ == 0 || this_drag_ == steps_drag_;
   const int parts =
       dragged || !looks_between()
@@ -212,7 +212,8 @@ Result<void> EditSession::act(const Push& command, const Watch& watch) {
   return do_step(std::move(step), watch);
 }
 
-/// Where one equilibrium takes long already, what lies between is not looked at.
+/// Whether equilibria between the ends of a step are computed and marked: not for a large shell,
+/// where a single one takes long.
 bool EditSession::looks_between() const {
   return session_->shell().mesh(0).rod_nodes() < most_nodes_marked;
 }
@@ -237,8 +238,8 @@ Result<void> EditSession::act(const Rest& command, const Watch& watch) {
 }
 
 Result<void> EditSession::act(const Jitter& command, const Watch& watch) {
-  // the state that a perturbed shell reaches depends on round-off: on the meshes of a run both
-  // reach the same one
+  // the state that a perturbed shell reaches depends on round-off; on the meshes of a run it is the
+  // one that the run reaches
   refine(watch);
   preset::Step step = step_of(preset::StepKind::jitter);
   step.seed = command.seed;
@@ -247,7 +248,7 @@ Result<void> EditSession::act(const Jitter& command, const Watch& watch) {
   const Eigen::Matrix3Xd before = session_->nodes().leftCols(joints);
   const bool snapped = now_.snapped;
   TRY_DO(do_step(std::move(step), watch));
-  // its events on the path were no path to another state
+  // the shell is in the same state again, so the events on the path are not reported
   const Eigen::Matrix3Xd moved = session_->nodes().leftCols(joints) - before;
   if (moved.colwise().norm().maxCoeff() > same_shape * now_.scene->length_scale_mm) return {};
   view_.message = "perturbed, and in the same state again";

@@ -20,7 +20,7 @@ ChangeKind kind_of_key(const preset::Preset& preset, const preset::Field& field)
   if (among({"", "movie", "style", "figure", "page", "sweep", "jitter", "inverse"}))
     return ChangeKind::looks;
   if (among({"rod", "rod_v", "joints", "loads"})) return ChangeKind::rods;
-  // the rod model decides which state a shell reaches, the other keys how accurately it is known
+  // the rod model determines the state that a shell reaches, the other keys only its accuracy
   if (field.table == "accuracy" && field.key != "model") return ChangeKind::accuracy;
   const bool circle = preset.footprint.kind == preset::FootprintKind::circle;
   if (circle && field.table == "actuation" && (field.key == "radius_mm" || field.key == "ratio"))
@@ -34,7 +34,7 @@ bool is_list(const preset::Field& field) {
       all, [&](const preset::Table& table) { return table.list && table.name == field.table; });
 }
 
-/// The tables that are lists of items: building blocks, their seams, steps.
+/// The text of the tables that are lists: building blocks, their seams, steps.
 std::string lists_of(const preset::Preset& preset) {
   bool any = false;
   preset::each_list([&](const char*, auto member) { any |= !(preset.*member).empty(); });

@@ -1,4 +1,4 @@
-// What was done to a shell, step by step.
+// Commands on the edited shell, and the kinds of changes that they are.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,34 +10,34 @@
 
 namespace gridshell::window {
 
-/// In order; copies share the steps.
+/// The steps that were done to a shell, in order. Copies point to the same steps.
 using StepHistory = std::vector<std::shared_ptr<const preset::Step>>;
 
-/// As a preset has them.
+/// The steps as a preset has them.
 std::vector<preset::Step> steps_of(const StepHistory& history);
 
-// What can be done to the shell. The engine's thread executes one command after the other.
+// The edits of a shell. The engine's thread executes one command after the other.
 
-/// Another shell, formed along its path.
+/// Opens another shell, which is formed along its path.
 struct Open {
   preset::Preset preset;
 };
-/// Some keys of the preset are something else now.
+/// Replaces the preset by one with other values of some keys.
 struct Change {
   preset::Preset preset;
 };
-/// The boundary to a progress of its motion.
+/// Moves the boundary to a progress of its motion.
 struct Move {
   double progress = 1;
 };
-/// Moves a joint to a position, with a constraint from then on: along a fixed direction, or (zero)
-/// in every one.
+/// Moves a joint to a position and constrains it: along the direction `along`, or, if that is zero,
+/// in every direction.
 struct Push {
   int joint = 0;
   Eigen::Vector3d to = Eigen::Vector3d::Zero();
   Eigen::Vector3d along = Eigen::Vector3d::Zero();
 };
-/// Lets go of a joint; of all (-1).
+/// Releases a joint, or all of them (-1).
 struct Release {
   int joint = -1;
 };
@@ -46,11 +46,11 @@ struct DragEdge {
   int edge_point = 0;
   Eigen::Vector3d to = Eigen::Vector3d::Zero();
 };
-/// One edge point back onto the boundary's motion; every one (-1).
+/// Moves a dragged edge point, or all of them (-1), back onto the boundary's motion.
 struct ResetEdgePoint {
   int edge_point = -1;
 };
-/// Minimises the energy to an equilibrium, from a saddle to a side.
+/// Minimises the energy to a stable equilibrium; from an unstable one it starts towards `side`.
 struct Rest {
   BranchSide side = BranchSide::lower;
 };
@@ -58,60 +58,63 @@ struct Rest {
 struct Jitter {
   int seed = 1;
 };
-/// The last step, or every one.
+/// Undoes the last step, or all of them.
 struct Undo {
   bool all = false;
 };
+/// Does the last undone step again.
 struct Redo {};
-/// Moves the ends or rods of the shell until it meets its surface; the steps are shown, and a
-/// cancel leaves it in the last of them.
+/// Changes the ends or rods of the shell until it meets its surface. The steps are shown; if it is
+/// cancelled, the last of them remains.
 struct Design {
   preset::Inverse inverse;
   int most_iterations = 25;
 };
-/// What was designed is the shell now.
+/// Continues with the designed shell.
 struct AcceptDesign {};
-/// The shell before the design, to the bit.
+/// Restores the shell before the design, bit for bit.
 struct DiscardDesign {};
-/// One of the states that were found, to the bit.
+/// Restores one of the states that were found, bit for bit.
 struct Recall {
   int state = 0;
 };
-/// Nothing but the finer meshes that follow a drag.
+/// Ends a drag: no edit, but finer meshes follow.
 struct RefineAfterDrag {};
 
 using Edit = std::variant<Open, Change, Move, Push, Release, DragEdge, ResetEdgePoint, Rest, Jitter,
                           Undo, Redo, Design, AcceptDesign, DiscardDesign, Recall, RefineAfterDrag>;
 
-/// Whether it is one of some kinds.
+/// Whether an edit is of one of these kinds.
 template <class... Kinds>
 bool is_any(const Edit& edit) {
   return (std::holds_alternative<Kinds>(edit) || ...);
 }
 
-/// Commands of one drag (`drag`) are one step to undo. During a drag the shell is followed on its
-/// coarsest mesh, and a newer command of the drag replaces one that is waiting.
+/// An edit and the drag that it belongs to. Commands of one drag are one step to undo. A `passing`
+/// command is one of a drag that continues: a large shell is then followed on its coarsest mesh,
+/// and a newer command of the drag replaces a waiting one.
 struct Command {
   Edit edit;
-  int drag = 0;  ///< 0: a step of its own
+  int drag = 0;  ///< number of the drag; 0: none
   bool passing = false;
 };
 
-// What a change of a preset's keys means for the edited shell.
+// Changes of the preset's keys, and what they require of the edited shell.
 
 /// What a change affects: pictures alone, the meshes, the position of the boundary, the rods and
 /// their loads, or the complete shape, which is formed again.
 enum class ChangeKind { none, looks, accuracy, boundary, rods, shape };
 
+/// The kind of the change between two presets; changes of two kinds at once form the shell again.
 ChangeKind kind_of_change(const preset::Preset& before, const preset::Preset& after);
 
-/// For a circle that has no room for its rods, the same rods in one whose radii are as large as
-/// they need, with the longest leg over d and the ratio of the radii of `before`; null: not that,
-/// or no circle helps.
+/// A preset that works instead of a refused one: a circle too small for its rods gets radii with
+/// the longest leg over d and the ratio of radii of `before`. Null if either footprint is no
+/// circle, or if that preset is refused, too.
 std::shared_ptr<const preset::Preset> nearest_that_works(const preset::Preset& before,
                                                          preset::Preset refused);
 
-/// Whether the keys agree with one another. Errors: bad_input, as of a file that says the same.
+/// Checks that the keys agree with one another. Errors: bad_input, as for a file with these keys.
 Result<void> check_preset(const preset::Preset& preset);
 
 }  // namespace gridshell::window

@@ -1,5 +1,5 @@
-// Inverse design as a command of the window: steps are seen as they come, the last certified one
-// stays.
+// Inverse design as a command of the window: each certified step is shown, and the last one
+// remains.
 #include <fmt/format.h>
 #include <algorithm>
 #include <limits>
@@ -78,7 +78,7 @@ Result<void> EditSession::act(const Design& command, const Watch& watch) {
   const int last = shell.levels() - 1;
   const DesignStart from{scene, shell.mesh(last), shell.model(last),
                          shell.state().levels[std::size_t(last)]};
-  // the steps are seen on a mesh of their own
+  // the steps are shown on a mesh of their own
   view_.layout.reset();
   const auto ended =
       design_live(preset, from, command.most_iterations, watch, [&](const CertifiedStep& now) {
@@ -104,7 +104,7 @@ Result<void> EditSession::act(const Design& command, const Watch& watch) {
   return {};
 }
 
-/// The designed shell, as a preset of it has it, in the state that was designed.
+/// Makes the designed shell, in the designed state, the edited one.
 Result<void> EditSession::show_designed(const preset::Preset& designed, const State& state) {
   TRY(made, shared_scene_of(designed));
   const std::shared_ptr<const Scene>& scene = *made;
@@ -116,7 +116,7 @@ Result<void> EditSession::show_designed(const preset::Preset& designed, const St
   return set_preset_push();
 }
 
-/// Shows a step while the next one is looked for.
+/// Shows a step while the next one is computed.
 void EditSession::show_design_step(const Scene& scene, const CertifiedStep& now,
                                    DesignProgress& course) {
   ShellView& s = view_;
@@ -152,7 +152,7 @@ void EditSession::show_design_step(const Scene& scene, const CertifiedStep& now,
   if (listener_) listener_(s);
 }
 
-/// A designed shell that something else is done to is kept.
+/// Accepts the designed shell. Every command except Undo, Redo and DiscardDesign does so first.
 void EditSession::accept_design() {
   if (!now_.design || now_.design->kept) return;
   auto kept = std::make_shared<DesignProgress>(*now_.design);

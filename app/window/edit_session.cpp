@@ -9,7 +9,7 @@ namespace gridshell::window {
 
 namespace {
 
-/// To the bit, on the same mesh.
+/// Whether positions are equal bit for bit, on the same mesh.
 bool same_nodes(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) {
   return a.cols() == b.cols() && a == b;
 }
@@ -17,8 +17,8 @@ bool same_nodes(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) {
 }  // namespace
 
 LevelPlan drag_plan(const Scene& scene, const LevelPlan& now) {
-  // of joints and edges per segment: solved on all meshes within a frame of the window. Constraints
-  // have the same displacement on each of them, so that a run reaches the same state
+  // joints times edges per segment: smaller shells are solved on all meshes within a frame of the
+  // window, and a run then reaches the same state
   constexpr std::size_t small = 4800;
   if (scene.footprint.joints.size() * std::size_t(now.edges_per_segment.back()) <= small)
     return now;
@@ -37,14 +37,14 @@ void EditSession::execute(const Command& command, const Watch& watch) {
 
 void EditSession::run_command(const Command& command, const Watch& watch) {
   const double begin = seconds_now();
-  // what a drag came past stays said at its end
+  // the end of a drag leaves the message about its events
   const bool settles = is_any<RefineAfterDrag>(command.edit);
   const bool travels = is_any<Undo, Redo, AcceptDesign, DiscardDesign>(command.edit);
   if (!settles) {
     view_.error.clear();
     view_.offer.reset();
     view_.event.clear();
-    // nor is it cleared by what the drag does next
+    // so do further commands of the drag
     if (command.drag == 0 || command.drag != this_drag_) view_.message.clear();
   }
   if (!settles) view_.push_path.clear();
@@ -61,15 +61,15 @@ void EditSession::run_command(const Command& command, const Watch& watch) {
           : std::visit([&](const auto& edit) { return act(edit, watch); }, command.edit);
   if (!done)
     view_.error = done.error().fault == Fault::cancelled ? "stopped" : done.error().message;
-  // what moved nothing is no step
+  // a command that moved nothing is no step to undo
   const bool refused = !done && done.error().fault == Fault::bad_input;
   if (!done && remembered_ && undo_.back().state.scene == now_.scene &&
       (refused || same_nodes(undo_.back().checkpoint.state.x, session_->nodes()))) {
-    // on the meshes of before, too
+    // the meshes, too, are those of before
     if (refused) session_->restore(undo_.back().checkpoint);
     take_back_step();
   }
-  // whether these meshes still meet the tolerance is for refine() to find out
+  // refine() finds out whether these meshes still meet the tolerance
   if (!travels) now_.refined = false;
   only_coarse_mesh_ = false;
   update_view();
@@ -94,7 +94,7 @@ void EditSession::refine(const Watch& watch) {
 
 void EditSession::refine_meshes(const Watch& watch) {
   const double begin = seconds_now();
-  // a shell that nothing happened to since it was formed
+  // whether nothing was done to the shell since it was formed
   const bool untouched = now_.first && same_nodes(now_.first->nodes, view_.frame.nodes);
   const LevelPlan plan = simulate::initial_levels(*now_.scene);
   const std::vector<int>& now = session_->shell().plan().edges_per_segment;
@@ -123,7 +123,7 @@ void EditSession::coarsen(const Watch& watch) {
   (void)session_->remesh(drag_plan(*now_.scene, session_->shell().plan()), watch);
 }
 
-/// Notes what a step came past; an end before its end is the error.
+/// Stores the events of a step as the message. Errors: cancelled; no_equilibrium if it ended early.
 Result<void> EditSession::note_events(const Report& report) {
   const std::string text = text_of_events(report.events);
   if (!text.empty()) view_.message = text;
@@ -141,7 +141,7 @@ Result<void> EditSession::form(const preset::Preset& preset, const Watch& watch)
   const std::shared_ptr<const Scene>& scene = *made;
   if (scene->rod_model == RodModel::net)
     return invalid("the model 'net' is geometry alone: there is nothing to push");
-  // on the mesh that a run follows, so that both reach the same states
+  // on the mesh on which a run follows the path, so that both reach the same states
   const LevelPlan plan{{simulate::initial_levels(*scene).edges_per_segment.back()}, false};
   TRY(course, simulate::follow_actuation(scene, plan, false, 1, watch));
   std::vector<PathMark> marks;
@@ -154,16 +154,16 @@ Result<void> EditSession::form(const preset::Preset& preset, const Watch& watch)
   now_.snapped = snapped;
   now_.first.reset();
   view_.message = view_.event = course->limit_reason;
-  if (!preset.step.empty()) refine(watch);  // its steps begin on the meshes of a run
+  if (!preset.step.empty()) refine(watch);  // as a run does before its steps
   for (const preset::Step& step : preset.step) {
-    // the state before a step is the one that it is compared with
+    // do_step() compares with the state in the view
     update_view();
     TRY_DO(do_step(step, watch));
   }
   return set_preset_push();
 }
 
-/// Another shell, to which nothing was done.
+/// Replaces the shell by another one without steps.
 void EditSession::set_shell(const preset::Preset& preset, std::shared_ptr<const Scene> scene,
                             Simulation session) {
   const auto first = now_.first;
@@ -177,7 +177,7 @@ void EditSession::set_shell(const preset::Preset& preset, std::shared_ptr<const 
   view_.layout.reset();
 }
 
-/// The push of the preset itself, from the current state.
+/// Stores the push of [indentation], which starts at the current state.
 Result<void> EditSession::set_preset_push() {
   if (!now_.preset.indentation.requested()) return {};
   TRY(push, simulate::push_of(now_.preset.indentation, *now_.scene, session_->shell()));
@@ -230,7 +230,7 @@ Result<void> EditSession::change_preset(const preset::Preset& preset, const Watc
   return {};
 }
 
-/// A shell of another preset, to which nothing that was done before is done again.
+/// Forms a shell of another preset; the steps that were done are not repeated.
 Result<void> EditSession::rebuild_shell(const preset::Preset& preset, const Watch& watch) {
   const bool untouched = now_.steps.empty() && session_->constraint_origins.empty();
   return form(preset, watch).map([&] {
@@ -250,7 +250,7 @@ Result<void> EditSession::change_rods(const preset::Preset& preset, const Watch&
   return {};
 }
 
-/// All but where the boundary's motion ends, which the scene has.
+/// Takes all keys of a preset except the end of the boundary's motion, which the scene determines.
 void EditSession::take_over_keys(const preset::Preset& preset) {
   const double radius = now_.preset.actuation.radius_mm, ratio = now_.preset.actuation.ratio;
   now_.preset = preset;

@@ -19,19 +19,19 @@
 
 namespace gridshell::window {
 
-/// A file without a name, which goes with the program.
+/// A temporary file without a name, which is removed when the program ends.
 class ScratchFile {
  public:
-  /// Where bytes lie in it.
+  /// A range of bytes in the file.
   struct Place {
     std::int64_t at = 0;
     std::size_t size = 0;
   };
-  /// How much of it is in use, bytes.
+  /// Size of the file, bytes.
   std::int64_t bytes() const { return end_; }
-  /// Nothing where there is no room.
+  /// Appends bytes and returns their range; nothing if they cannot be written.
   std::optional<Place> put(std::string_view bytes);
-  /// Read again; empty where the file does not give it.
+  /// Reads a range of bytes; empty if it cannot be read.
   std::string take(const Place& place) const;
 
  private:
@@ -42,39 +42,39 @@ class ScratchFile {
   std::int64_t end_ = 0;
 };
 
-// EditSession executes commands on the shell of a window and stores the steps; for one thread.
+// The engine's side of the window. It is used by one thread.
 
-/// A failed command leaves the shell in its last certified state and says why in the view.
+/// Executes commands on the edited shell and stores the steps to undo. A failed command leaves the
+/// shell in its last certified state; the view has the error.
 class EditSession {
  public:
-  /// Memory of the steps to undo, bytes; older ones are in a file.
+  /// `most_bytes`: memory for the steps to undo; older ones are stored in a file.
   explicit EditSession(std::int64_t most_bytes = std::int64_t(100) << 20)
       : most_bytes_(most_bytes) {}
 
-  /// Executes a command as far as possible. An exception (memory) becomes an error too.
+  /// Executes a command as far as possible. An exception becomes an error in the view.
   void execute(const Command& command, const Watch& watch);
-  /// Refines the meshes to those that the preset's accuracy requires, if the current ones are
-  /// coarser.
+  /// Refines the meshes to those that the preset's accuracy requires.
   void refine(const Watch& watch);
 
-  /// The current state.
+  /// The current state of the shell.
   const ShellView& shell() const { return view_; }
-  /// Calls it while a command is at work, each time that there is something to see.
+  /// Sets a function that is called during a command with each state that may be shown.
   void tell(std::function<void(const ShellView&)> message) { listener_ = std::move(message); }
 
  private:
-  /// All that a command can change but the state of the rods.
+  /// What a command can change in addition to the state of the rods.
   struct EditState : ViewedState {
     std::shared_ptr<const Scene> scene;
-    std::shared_ptr<DesignTarget> target;  ///< that the design aims at
+    std::shared_ptr<DesignTarget> target;  ///< the surface or net that the design approaches
   };
 
-  /// To go back to.
+  /// A state to return to.
   struct UndoStep {
     EditState state;
     Checkpoint checkpoint;
-    bool before_design = false;                    ///< a design was requested then
-    std::optional<ScratchFile::Place> saved = {};  ///< the checkpoint's arrays, if not in it
+    bool before_design = false;                    ///< the next command was a design
+    std::optional<ScratchFile::Place> saved = {};  ///< the checkpoint's arrays, if in the file
   };
 
   Result<void> act(const Open& command, const Watch& watch);
@@ -94,7 +94,7 @@ class EditSession {
   Result<void> act(const Recall& command, const Watch&);
   Result<void> act(const RefineAfterDrag&, const Watch&) { return {}; }
 
-  /// An equilibrium without constraints, to return to.
+  /// A stable equilibrium without constrained joints, to return to.
   struct RestState {
     EditState state;
     Checkpoint checkpoint;
@@ -149,7 +149,8 @@ class EditSession {
   void update_soft_mode();
   void update_deviation(const Eigen::VectorXd& of_joints_mm);
 
-  /// Where a dragged joint was stopped before the rods' strain limit, and from where it came.
+  /// Position in which a dragged joint was stopped before the rods' strain limit, and one that it
+  /// came from.
   struct DragStop {
     int drag = 0;
     Eigen::Vector3d at = Eigen::Vector3d::Zero(), from = Eigen::Vector3d::Zero();
@@ -157,30 +158,31 @@ class EditSession {
 
   EditState now_;
   DragStop stop_;
-  bool passing_ = false;  // the command at hand is of a drag that continues
+  bool passing_ = false;  // the current command is one of a drag that continues
   std::optional<Simulation> session_;
   std::deque<UndoStep> undo_, redo_;
-  std::deque<UndoStep> redo_aside_;  // until the command at hand is known to be a step
-  ScratchFile scratch_;              // the arrays of older ones
+  std::deque<UndoStep> redo_aside_;  // redo_ until the current command is known to be a step
+  ScratchFile scratch_;              // the arrays of older steps
   std::int64_t most_bytes_;
-  int drag_ = 0;                          // that the last step to undo belongs to
-  int this_drag_ = 0, steps_drag_ = 0;    // of the command at hand, and of the last of the steps
-  bool last_eventful_ = false;            // whether that came past something
-  bool remembered_ = false;               // the command at hand, as a step
-  bool only_coarse_mesh_ = false;         // finer meshes do not have this state
-  int nodes_shown_ = 0;                   // of the layout in the view
-  std::vector<MeshSymmetry> symmetries_;  // that a state of this shell may have
-  std::vector<RestState> found_;          // states of one boundary that were met
-  std::optional<RestState> at_rest_;      // the last one
+  int drag_ = 0;  // drag of the last step to undo
+  int this_drag_ = 0,
+      steps_drag_ = 0;             // of the current command, and of the last step of now_.steps
+  bool last_eventful_ = false;     // whether that last step had events
+  bool remembered_ = false;        // whether the current command was added to undo_
+  bool only_coarse_mesh_ = false;  // finer meshes do not have this state
+  int nodes_shown_ = 0;            // nodes of the layout in the view
+  std::vector<MeshSymmetry> symmetries_;  // symmetries that a state of this shell may have
+  std::vector<RestState> found_;          // states found on one boundary
+  std::optional<RestState> at_rest_;      // the last such state
   std::function<void(const ShellView&)> listener_;
   ShellView view_;
 };
 
-/// Why an exception was thrown, as a text that fits into the line of errors.
+/// The reason of an exception, as a text that fits into the line of errors.
 std::string error_text(const std::exception& thrown);
 
-/// The meshes that follow a drag: those of now where the shell is small, else the coarsest of those
-/// that the scene asks for, alone.
+/// The meshes for a drag: the current ones if the shell is small, else only the coarsest mesh of
+/// the scene.
 LevelPlan drag_plan(const Scene& scene, const LevelPlan& now);
 
 }  // namespace gridshell::window

@@ -1,4 +1,4 @@
-// Asks for a preset by pictures of all, and for a file by its path and what lies in its folder.
+// The prompts for a preset, with pictures of all, and for a file, with the contents of its folder.
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 struct FileText {
   const char *title, *button, *hint;
 };
-/// In the order of the enum.
+/// The texts of the prompt, in the order of FileUse.
 constexpr FileText file_texts[] = {
     {"Open", "Open", "a preset's file (.toml), or the folder of a run"},
     {"Compare with a run or scan", "Compare", "the folder of a run, or of a scan"},
@@ -30,13 +30,14 @@ constexpr FileText file_texts[] = {
     {"Save picture as", "Save", "a PNG of the view"},
     {"Export", "Export", "a file whose ending is the format"}};
 
+/// Whether a file can be chosen for this purpose.
 bool requested(FileUse use, const fs::path& file) {
   if (use == FileUse::open || use == FileUse::save_preset) return file.extension() == ".toml";
   if (use == FileUse::save_picture) return file.extension() == ".png";
   return use == FileUse::export_shell;
 }
 
-/// A run's folder is picked, and a scan's; others are gone into.
+/// Whether a folder is a run or a scan, which can be chosen; other folders are opened.
 bool is_run(const fs::path& folder) {
   std::error_code error;
   return std::ranges::any_of(std::array{"summary.json", "scan.json", "scan.csv"},
@@ -58,21 +59,21 @@ std::string date_text(const fs::file_time_type& time) {
   return fmt::format("{:%Y-%m-%d %H:%M}", fmt::localtime(std::time_t(seconds.count())));
 }
 
-/// The path that is typed, of which a bare name is in the folder that is shown.
+/// The typed path; a name without a folder is in the folder that is shown.
 fs::path place_of(const FileRequest& request) {
   const fs::path path = request.path;
   std::error_code error;
   return path.has_parent_path() || fs::exists(path, error) ? path : request.folder / path;
 }
 
-/// A name that is not there yet filters what is there; empty: all is shown.
+/// The filter for the list of files: the typed name if no such file exists, else empty.
 std::string filter_of(const FileRequest& request) {
   std::error_code error;
   if (!is_read(request.use) || fs::exists(place_of(request), error)) return "";
   return fs::path(request.path).filename().string();
 }
 
-/// Its size in print, and what that is in pixels.
+/// Controls for the size of a picture in print, and that size in pixels.
 void picture_size(const Panel& panel, FileRequest& request, const PictureSize& view) {
   auto width = float(request.width_mm), dpi = float(request.dpi);
   ImGui::SetNextItemWidth(panel.px(110));
@@ -90,7 +91,7 @@ void picture_size(const Panel& panel, FileRequest& request, const PictureSize& v
   ImGui::TextDisabled("%.0f x %.0f pixels", pixels, pixels * view.height / view.width);
 }
 
-/// The endings to choose from, which the path then has.
+/// Buttons for the endings of exported files; one that is pressed replaces the ending of the path.
 void endings(const Panel& panel, FileRequest& request) {
   const float right = ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x;
   for (const app::ExportFormat& format : panel.viewer.library.export_formats) {
@@ -107,7 +108,7 @@ void endings(const Panel& panel, FileRequest& request) {
   }
 }
 
-/// What presets are about, by how their names begin; the last has all others.
+/// A group of presets, by the beginnings of their names; the last group has all others.
 struct CardGroup {
   const char* title;
   std::vector<std::string_view> begins;
@@ -130,13 +131,13 @@ const CardGroup& group_of(const std::string& name) {
 constexpr double card_points = 216;             // the least width of a card
 constexpr float height_of_width = 160 / 256.f;  // of the pictures in presets/pictures/cards
 
-/// A title that is too long for its card ends in dots.
+/// A title; one that is wider than its card ends in dots.
 std::string shortened(const std::string& title, float width) {
   if (ImGui::CalcTextSize(title.c_str()).x <= width) return title;
   std::string begin = title;
   const auto too_long = [&] { return ImGui::CalcTextSize((begin + "…").c_str()).x > width; };
   while (!begin.empty() && too_long()) {
-    // a letter is one byte or more, all but the first 10xxxxxx
+    // UTF-8: all bytes of a letter except the first are 10xxxxxx
     while (begin.size() > 1 && (begin.back() & 0xc0) == 0x80) begin.pop_back();
     begin.pop_back();
   }
@@ -145,7 +146,7 @@ std::string shortened(const std::string& title, float width) {
 
 }  // namespace
 
-/// Looks into the folder where another one is shown, or where something came or went.
+/// Reads the folder again if another one is shown or if it changed.
 void FilePrompt::look(FileUse use, const std::string& folder) {
   std::error_code error;
   const fs::path at = folder.empty() ? "." : folder;
@@ -169,7 +170,7 @@ void FilePrompt::look(FileUse use, const std::string& folder) {
   });
 }
 
-/// Buttons for folders that many files are in.
+/// Buttons for folders that are often used.
 void FilePrompt::places(const Panel& panel, FileRequest& request) const {
   const char* home = std::getenv("HOME");
   std::error_code error;
@@ -187,7 +188,8 @@ void FilePrompt::places(const Panel& panel, FileRequest& request) const {
   ImGui::NewLine();
 }
 
-/// Folders and files, of which a click picks one. Returns whether a double click takes it.
+/// The list of folders and files; a click chooses one. Returns true for a double click on a file
+/// or run, which opens it.
 bool FilePrompt::list(const Panel& panel, FileRequest& request) {
   const fs::path path = request.path;
   std::error_code error;
@@ -227,8 +229,8 @@ bool FilePrompt::list(const Panel& panel, FileRequest& request) {
   return taken;
 }
 
-/// What Enter makes of the name: the first entry that has its letters; whether that is to be
-/// opened, and no folder to be shown.
+/// Completes the typed name to that of the first entry that contains it. Returns whether the path
+/// can be opened; false if it is a folder, which is shown instead.
 bool FilePrompt::complete(FileRequest& request) const {
   if (!is_read(request.use)) return true;
   const std::string filter = filter_of(request);
@@ -278,13 +280,13 @@ void FilePrompt::draw(const Panel& panel, const render::Box& box) {
   if (cancelled) viewer.file_request.reset();
 }
 
-// All presets to choose from, as pictures.
+// The picker of presets.
 
 void PresetPicker::load(const std::vector<PresetCard>& cards) {
   for (std::size_t k = pictures_.size(); k < cards.size(); ++k) {
     auto& picture = pictures_.emplace_back();
     const auto image = render::decode_png(cards[k].picture, cards[k].name);
-    if (!image) continue;  // a preset without one is a card of words
+    if (!image) continue;  // a card without a picture
     picture.emplace(*gl_);
     fill_texture(*gl_, picture->id(), image->width, image->height, image->rgba.data());
   }

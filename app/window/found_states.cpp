@@ -1,4 +1,4 @@
-// What the paths of a shell showed: marks on them, and states to return to.
+// Marks on the paths of a shell, and the states that were found, to return to.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -13,8 +13,8 @@
 namespace gridshell::window {
 namespace {
 
-/// Where between a load step that is not stable and one that is an event says that stability ends,
-/// else the first: of what lies between nothing is known.
+/// The path parameter of the loss of stability between an unstable and a stable load step: that of
+/// an event between them; without one that of the unstable step.
 double edge_between(double unstable, double stable, const std::vector<Event>& events) {
   for (const Event& event : events)
     if (event.kind == Event::Kind::stability_lost && (event.t - unstable) * (event.t - stable) <= 0)
@@ -107,7 +107,7 @@ std::string text_of_place(const PathMark& mark, const std::function<double(doubl
                        : fmt::format("{:.5g}", a);
 }
 
-/// How far the joint that a step pushes is from where it was taken.
+/// The distance, mm, of a pushed joint from the position in which its constraint was set.
 double EditSession::pushed_mm(const preset::Step& step) const {
   if (step.kind != preset::StepKind::push) return 0;
   const auto joint = simulate::joint_of(step, now_.scene->footprint);
@@ -126,10 +126,11 @@ std::string EditSession::place_text(const PathMark& mark) const {
          " mm";
 }
 
-/// Marks a path. Returns where its first event is, and whether stability was regained.
+/// Adds the marks of a path, and a message if stability was lost and regained on it. Returns the
+/// position of its first event, as text; empty if it has none.
 std::string EditSession::note_path(const preset::Step& step, const simulate::StepPath& path,
                                    double began_mm, bool began_stable, Report& report) {
-  // a path that starts at an unstable state does not lose its stability there
+  // a path that starts in an unstable state does not lose its stability
   if (!began_stable)
     std::erase_if(report.events, [](const Event& event) {
       return event.kind == Event::Kind::stability_lost && !event.to;
@@ -169,7 +170,7 @@ bool EditSession::RestState::beside(const RestState& other) const {
          kind_of_change(state.preset, other.state.preset) <= ChangeKind::accuracy;
 }
 
-/// Or its mirror image.
+/// Whether two states are the same or mirror images.
 bool EditSession::RestState::same_as(const RestState& other) const {
   return beside(other) &&
          nearly(seen->frame.energies.total(), other.seen->frame.energies.total(), 1e-4) &&
@@ -183,7 +184,7 @@ void EditSession::note_state() {
     return;
   RestState here{now_, session_->save(), std::make_shared<const ShellView>(view_)};
   const auto is_here = [&](const RestState& one) { return one.same_as(here); };
-  // a copy for which no memory is left leaves the last one as it is
+  // copied first: if memory runs out, at_rest_ remains as it is
   std::optional<RestState> before = here;
   before.swap(at_rest_);
   if (std::ranges::any_of(found_, is_here) || found_.size() >= most_states) return;

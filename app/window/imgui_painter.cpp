@@ -52,7 +52,7 @@ void InterfacePainter::take_fonts(ImFontAtlas& atlas) {
   int width = 0, height = 0;
   atlas.GetTexDataAsRGBA32(&rgba, &width, &height);
   fill_texture(*gl_, letters_.id(), width, height, rgba);
-  // letters are on whole pixels, and areas have one colour: no pixel needs its neighbours
+  // letters are at whole pixels and areas have one colour, so nothing is interpolated
   gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   atlas.SetTexID(texture_id(letters_.id()));
@@ -89,7 +89,7 @@ void InterfacePainter::draw(const ImDrawData& data, bool upwards) {
       gl_->Scissor(x, upwards ? height - bottom : y, right - x, bottom - y);
       const auto texture = GLuint(reinterpret_cast<intptr_t>(command.GetTexID()));
       gl_->BindTexture(GL_TEXTURE_2D, texture);
-      // the view of the shell hides what is behind it
+      // pictures, which have no letters, are opaque
       if (texture == letters_.id())
         gl_->Enable(GL_BLEND);
       else
@@ -104,9 +104,9 @@ void InterfacePainter::draw(const ImDrawData& data, bool upwards) {
 
 namespace {
 
-constexpr double least_px = 1.5;  // width of a rod
+constexpr double least_px = 1.5;  // least width of a rod
 
-/// Two shells side by side have this width each.
+/// Draws the shell, or two shells side by side, each of this width.
 Result<render::Image> draw_shells(render::Renderer& renderer, const PictureRequest& request,
                                   const render::DrawQuality& quality, int width, int height,
                                   double rod_px) {
@@ -116,7 +116,7 @@ Result<render::Image> draw_shells(render::Renderer& renderer, const PictureReque
   };
   auto image = draw(*request.shell, request.show);
   if (!image || request.show.shells() < 2) return image;
-  // the distance of the shells has the same colours in both
+  // so that colours by distance are those of the distance from one another in both
   Show theirs = request.show;
   theirs.mode_mm = 0;
   theirs.other = std::make_shared<const OtherShell>(OtherShell{"", request.shell});
@@ -162,7 +162,7 @@ Result<render::Image> picture_of(const PictureRequest& requested, render::Render
   const int width =
                 sized ? request.kept.width / request.show.shells() : 2 * int(request.view.width),
             height = sized ? request.kept.height : 2 * int(request.view.height);
-  // what the view shows from side to side is in the picture too
+  // the picture shows at least the width that the view shows
   const double wide = request.view.width / request.view.height, now = double(width) / height;
   request.camera.half_extent_mm *= std::max(1.0, wide / now);
   auto image = draw_shells(renderer, request, render::draw_quality(request.kept.quality), width,

@@ -1,5 +1,5 @@
-// Draws the lists that the interface library makes, in any context: its own backend loads OpenGL by
-// a loader that fails under OSMesa.
+// Draws the draw lists of Dear ImGui with OpenGL. ImGui's own backend is not used, since its loader
+// of OpenGL fails under OSMesa.
 #pragma once
 
 #include <imgui.h>
@@ -13,19 +13,20 @@
 
 namespace gridshell::window {
 
-/// A texture that the interface shows, by its number.
+/// The identifier of a texture for ImGui.
 inline ImTextureID texture_id(GLuint id) { return reinterpret_cast<ImTextureID>(intptr_t(id)); }
 
-/// Puts a picture into a texture, smooth between its pixels.
+/// Fills a texture with a picture, interpolated linearly between its pixels.
 void fill_texture(const render::Gl& gl, GLuint texture, int width, int height,
                   const std::uint8_t* rgba);
 
+/// Draws the interface.
 class InterfacePainter {
  public:
-  /// `gl` outlives it. Errors: io, as of Program.
+  /// `gl` must outlive it. Errors: io, as for Program.
   static Result<InterfacePainter> create(const render::Gl& gl);
 
-  /// The letters of the fonts in use, after they changed.
+  /// Takes the letters of the fonts; to be called after fonts were loaded.
   void take_fonts(ImFontAtlas& atlas);
   /// Draws over the framebuffer that is bound. `upwards`: its first row is the lowest.
   void draw(const ImDrawData& data, bool upwards);
@@ -40,20 +41,19 @@ class InterfacePainter {
   render::Texture letters_;
 };
 
-// The shell's picture in the window: drawn by the renderer of movies, kept as a texture.
-
+/// The shell's picture in the window: a texture that the renderer of movies draws.
 class ShellPicture {
  public:
   ShellPicture(const render::Gl& gl, render::Renderer& renderer)
       : gl_(&gl), renderer_(&renderer), texture_(gl) {}
 
-  /// Draws it in the view's size, at half the resolution while it moves. Errors: those of the
-  /// renderer.
+  /// Draws the shell in the size of the view, at half the resolution if `sharpness` is `moving`.
+  /// Errors: those of the renderer.
   Result<void> draw(const PictureRequest& shown, Resolution sharpness);
-  /// One that was drawn elsewhere.
+  /// Takes a picture that was drawn elsewhere.
   void show(const render::Image& image);
   GLuint texture() const { return texture_.id(); }
-  /// What the last one took in that resolution; 0: none yet.
+  /// Seconds that the last picture in this resolution took; 0: none was drawn yet.
   double took_s(Resolution sharpness) const { return took_s_[std::size_t(sharpness)]; }
 
  private:
@@ -63,11 +63,11 @@ class ShellPicture {
   render::Texture texture_;
 };
 
-/// The view's picture. Errors: those of the renderer.
+/// Draws the view. Errors: those of the renderer.
 Result<render::Image> view_picture(const PictureRequest& shown, Resolution sharpness,
                                    render::Renderer& renderer);
 
-/// The picture for a file, with the colours' legend if requested.
+/// Draws the picture for a file, with a legend if requested. Errors: those of the renderer.
 Result<render::Image> picture_of(const PictureRequest& request, render::Renderer& renderer);
 
 }  // namespace gridshell::window

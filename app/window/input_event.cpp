@@ -42,7 +42,7 @@ void each_member(Event& event, const Visit& visit) {
   }
 }
 
-/// Reads a line's members one by one, as long as each is right.
+/// Reads the members of an event from a line, one by one; `right` becomes false at an error.
 struct Reader {
   std::istringstream words;
   bool right = true;
@@ -73,7 +73,7 @@ bool in_range(const InputEvent& event) {
   return event.kind != InputKind::wait || within(event.x, 0, 60);
 }
 
-/// What a line must be, in the order of its kinds.
+/// The expected form of a line, in the order of InputKind.
 constexpr const char* forms[] = {
     "size WIDTH HEIGHT DENSITY, as 'size 1280 720 1'",
     "mouse X Y, or mouse @NAME X Y",
@@ -102,7 +102,7 @@ Result<InputEvent> read_event(const std::string& line) {
       reader(member);
     } else if (event.kind != InputKind::mouse) {
       reader.right = !(member = reader.rest()).empty();
-      // what is typed may be a space, which a line does not end in
+      // a space is written as "Space", since spaces at the end of a line are removed
       if (event.kind == InputKind::type && member == "Space") member = " ";
     } else if ((reader.words >> std::ws).peek() == '@') {
       reader.words.get();
@@ -138,7 +138,7 @@ Result<std::vector<InputEvent>> read_events(const std::string& text, const std::
     ++number;
     const auto begin = line.find_first_not_of(" \t\r");
     if (begin == std::string::npos || line[begin] == '#') continue;
-    // what is typed or opened may have one
+    // removes a comment; the text of `type` and `open` may contain " #"
     if (!line.starts_with("type") && !line.starts_with("open"))
       line.erase(std::min(line.find(" #"), line.size()));
     line.erase(line.find_last_not_of(" \t\r") + 1);

@@ -1,5 +1,4 @@
-// What the user does with mouse and keys, as plain data: from a window, or from the lines of a
-// file.
+// Input of the user as plain data, from a window or from the lines of a recording.
 #pragma once
 
 #include <string>
@@ -43,14 +42,15 @@ constexpr auto words(InputKind) { return names_except<InputKind>({{InputKind::ac
 
 /// One event, a line of a recording:
 ///   size WIDTH HEIGHT DENSITY     the window, pixels, and pixels per point of text
-///   mouse X Y                     to there, pixels from the top left
-///   mouse @NAME X Y               to a fraction of a control, "mouse @R_a 0.5 0.5"; or to X, Y
-///                                 pixels from "@joint:I,J" or "@edge:K"
+///   mouse X Y                     to this position, pixels from the top left of the window
+///   mouse @NAME X Y               to a position in a control, as fractions of its size,
+///                                 "mouse @R_a 0.5 0.5"; or to X, Y pixels from "@joint:I,J" or
+///                                 "@edge:K"
 ///   press|release left|right|middle
 ///   wheel STEPS                   above 0: away from the user
-///   down|up KEY                   a key as F1 names it
-///   type TEXT                     Space: one
-///   do ACTION                     by its name
+///   down|up KEY                   a key, named as in the help sheet (F1)
+///   type TEXT                     "Space" types one space
+///   do ACTION                     by its name in the table of actions
 ///   open PRESET
 ///   wait SECONDS
 struct InputEvent {
@@ -58,14 +58,16 @@ struct InputEvent {
   double x = 0, y = 0, density = 1;
   Button button = Button::left;
   Key key = Key::a;
-  std::string text = {};  ///< typed; or the name of an action, a preset, a position
+  std::string text = {};  ///< what is typed; or the name of an action, a preset or a control
 };
 
-/// A line without its end. Errors: bad_input with what would be right.
+/// Reads a line without its end. Errors: bad_input with what was expected.
 Result<InputEvent> read_event(const std::string& line);
+/// The line of an event, without its end.
 std::string write_event(const InputEvent& event);
 
-/// All lines of a recording but empty ones and comments (#). Errors: bad_input naming the line.
+/// Reads all lines of a recording except empty ones and comments (#). Errors: bad_input with the
+/// number of the line.
 Result<std::vector<InputEvent>> read_events(const std::string& text, const std::string& source);
 
 }  // namespace gridshell::window

@@ -14,9 +14,9 @@
 namespace gridshell::window {
 namespace {
 
-constexpr double least_view = 400;  // px of a view next to plots
+constexpr double least_view = 400;  // width of the view, points, if plots are next to it
 
-/// What the interface library does with keys of its own.
+/// Connects keys that ImGui itself uses.
 void map_keys(ImGuiIO& io) {
   const auto map = [&](ImGuiKey to, Key from) { io.KeyMap[to] = int(from); };
   map(ImGuiKey_LeftArrow, Key::left), map(ImGuiKey_RightArrow, Key::right);
@@ -36,7 +36,8 @@ struct Column {
   bool any() const { return numbers + design + plots > 0; }
 };
 
-/// The design has its own plot; the others are next to it if there is space.
+/// Distributes the height over the panels. The design has its own plot; other plots are shown with
+/// it only if there is space.
 Column column_of(const ViewerState& viewer, double height, double density) {
   const double least = 300 * density;
   Column column;
@@ -53,20 +54,20 @@ Column column_of(const ViewerState& viewer, double height, double density) {
   return column;
 }
 
-/// Whether a menu or a list was open.
+/// Closes menus and lists; returns whether one was open.
 bool close_popups() {
   const bool open = is_popup_open();
   if (open) ImGui::ClosePopupToLevel(0, true);
   return open;
 }
 
-/// Keys that go from control to control and press them.
+/// Whether a key moves between controls or presses them.
 bool moves(Key key) {
   return (key >= Key::left && key <= Key::page_down) || key == Key::space || key == Key::enter ||
          key == Key::tab;
 }
 
-/// Keys that a number is typed with.
+/// Whether a number is typed with this key.
 bool is_of_a_number(Key key) {
   return (key >= Key::n0 && key <= Key::n9) || (key >= Key::comma && key <= Key::plus);
 }
@@ -156,7 +157,8 @@ Result<void> Interface::take(const InputEvent& event) {
   return {};
 }
 
-/// All that waits up to the second press or release: a click within a frame would be none.
+/// Passes the queued events on, up to the second press or release: ImGui would not see a press and
+/// a release in one frame.
 void Interface::feed() {
   int turns = 0;
   const auto turns_one = [](const InputEvent& event) {
@@ -166,7 +168,7 @@ void Interface::feed() {
   while (!events_.empty()) {
     const InputEvent event = events_.front();
     if (turns_one(event) && turns++ > 0) return;
-    // a position that the mouse passes before a press must be shown before it
+    // a motion after a press or release belongs to the next frame
     if (turns > 0 && event.kind == InputKind::mouse) return;
     events_.pop_front();
     feed(event);
@@ -212,7 +214,7 @@ void Interface::feed(const InputEvent& event) {
   }
 }
 
-/// Closes the top panel; false: there is none.
+/// Closes menus and lists, or else panels over the window; returns whether there were any.
 bool Interface::close_top() {
   if (close_popups()) return true;
   const bool any = viewer_.file_request || viewer_.help || viewer_.terms || viewer_.new_shell;
@@ -221,13 +223,13 @@ bool Interface::close_top() {
   return any;
 }
 
-/// Whether the interface library gets a key: those that go from control to control only while the
-/// keyboard does so, and in menus and texts.
+/// Whether ImGui gets a key. Those that move between controls it gets only if the keyboard is used
+/// for that, or in menus and text fields.
 bool Interface::reaches_controls(Key key) const {
   return !moves(key) || keyboard_ || ImGui::GetIO().WantTextInput || is_popup_open();
 }
 
-/// The menu whose name begins with the letter; F10: the first.
+/// Opens the menu whose name begins with the letter; F10 opens the first one.
 void Interface::open_menu(Key key) {
   const std::string_view letter = word_of(key);
   for (const Action& action : actions()) {
@@ -249,7 +251,7 @@ void Interface::press_key(Key key) {
     keyboard_ = viewer_.take_keyboard = true;
     return;
   }
-  // digits over a number are not meant for the camera
+  // digits typed over a number do not turn the camera
   const bool over_control =
       ImGui::GetCurrentContext()->HoveredIdPreviousFrame != 0 && !mouse_over_view_;
   if ((keyboard_ || is_popup_open()) && (moves(key) || is_of_a_number(key))) return;
@@ -257,7 +259,7 @@ void Interface::press_key(Key key) {
   if (key == Key::escape && viewer_.picking && viewer_.shell->any()) viewer_.picking = false;
   const Action* action = action_of({key, io.KeyCtrl, io.KeyShift});
   if (!action) return;
-  // nothing happens to a shell that is not seen
+  // a shell that is hidden is not changed
   const bool hidden =
       viewer_.help || viewer_.terms || viewer_.picking || viewer_.file_request || viewer_.new_shell;
   const std::string menu = action->menu;
@@ -268,7 +270,7 @@ void Interface::press_key(Key key) {
 // ---- a frame ----
 
 void Interface::view_panel(const Panel& panel, const render::Box& box) {
-  // of two side by side the left one is edited
+  // if two are side by side, the left one is edited
   view_ = box;
   view_.width /= viewer_.show.shells();
   viewer_.view = {view_.width, view_.height};
@@ -316,7 +318,7 @@ void Interface::lay_out() {
   viewer_.small_window = width_ - left - right < least_view * density_;
   const render::Box first{0, top, left, height};
   if (viewer_.small_window) {
-    // one column, for the last request
+    // a single column, for the panel that was requested
     if (viewer_.plots_when_small)
       plots_panel(panel, first);
     else if (viewer_.design_panel)

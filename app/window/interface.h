@@ -1,5 +1,4 @@
-// The whole interface, frame by frame: takes events, lays out the panels, draws into whatever
-// framebuffer is bound.
+// The complete interface, frame by frame: takes events, lays out the panels and draws them.
 #pragma once
 
 #include <deque>
@@ -25,38 +24,38 @@ namespace gridshell::window {
 
 class Interface {
  public:
-  /// Context and viewer outlive it. Errors: io, of OpenGL or without a font.
+  /// Context, renderer and viewer must outlive it. Errors: io if OpenGL fails or there is no font.
   static Result<std::unique_ptr<Interface>> create(const render::Context& context,
                                                    render::Renderer& renderer, ViewerState& viewer);
   ~Interface();
   Interface(const Interface&) = delete;
   Interface& operator=(const Interface&) = delete;
 
-  /// Pixels, and pixels a point of text. Errors: as create().
+  /// Sets the size in pixels, and `density`, pixels per point of text. Errors: as create().
   Result<void> resize(int width, int height, double density);
-  /// Comes with one of the next frames: one press or release of a button a frame. Errors: bad_input
-  /// for the name of something that is not there.
+  /// Queues an event for one of the next frames; a frame takes at most one press or release of a
+  /// button. Errors: bad_input for the name of an action or control that does not exist.
   Result<void> take(const InputEvent& event);
 
-  /// One frame after so many seconds, into framebuffer 0; false: it would be as the last one, and
-  /// nothing was drawn. Errors: the renderer's.
+  /// Makes one frame, `seconds` after the last one, in framebuffer 0. Returns false, and draws
+  /// nothing, if it would look like the last one. Errors: those of the renderer.
   Result<bool> frame(double seconds);
-  /// One frame into a picture of its own, which read() gives.
+  /// Makes one frame in a framebuffer of its own, from which read() takes the picture.
   Result<void> frame_aside(double seconds);
-  /// The next frame is drawn whatever it shows.
+  /// Makes frame() draw the next frame in any case.
   void draw_anew() { drawn_.clear(); }
   render::Image read();
 
-  /// Whether events wait or the picture is still to become sharp.
+  /// Whether events are queued, or the picture is not drawn at full resolution yet.
   bool busy() const;
   bool events_wait() const { return !events_.empty(); }
-  /// What a press would do where the mouse is.
+  /// The shape of the cursor for what is under the mouse.
   render::Cursor cursor() const;
   int width() const { return width_; }
   int height() const { return height_; }
 
  private:
-  /// What a picture of the shell depends on, in addition to the view.
+  /// What a picture of the shell depends on, in addition to the ShellView.
   struct ShownShell {
     render::Camera camera;
     PictureSize view;
@@ -81,7 +80,7 @@ class Interface {
   bool is_new();
   void paint(bool upwards);
 
-  render::Gl gl_;  // others point to it
+  render::Gl gl_;  // other members point to it
   ImGuiContext* imgui_;
   std::optional<InterfacePainter> painter_;
   ViewerState& viewer_;
@@ -95,7 +94,7 @@ class Interface {
   FilePrompt files_;
   NewShellForm new_shell_;
   render::Target target_;
-  bool keyboard_ = false;  // moves between the controls
+  bool keyboard_ = false;  // whether keys move between the controls
   bool alt_ = false, mouse_over_view_ = false;
   std::deque<InputEvent> events_;
   std::map<std::string, render::Box> controls_;
@@ -104,31 +103,31 @@ class Interface {
   double density_ = 1;
   double still_seconds_ = 0;
   bool shell_anew_ = true, sharp_ = false, dark_ = false;
-  std::optional<ShownShell> shown_;           // the last picture
+  std::optional<ShownShell> shown_;           // what the last picture of the shell shows
   std::uint64_t pictures_ = 0;                // drawn so far
-  std::vector<char> drawn_;                   // what the last frame was drawn from
-  std::future<Result<render::Image>> still_;  // being drawn on a thread of its own
-  std::uint64_t still_of_ = 0;                // the picture that it makes sharp
+  std::vector<char> drawn_;                   // the draw lists of the last frame
+  std::future<Result<render::Image>> still_;  // a sharp picture that another thread draws
+  std::uint64_t still_of_ = 0;                // number of the picture that it replaces
 };
 
 // The interface in a window of the desktop.
 
-/// Opens the window and stays until it is closed or `stopped`. Every event goes to `seen` as well.
-/// Errors: io where there is no GLFW, no display or no OpenGL, saying what to use instead.
+/// Opens the window and returns when it is closed or `stopped` returns true. Calls `seen` with
+/// every event. Errors: io, with what helps, if there is no GLFW, no display or no OpenGL.
 Result<void> run_desktop(ViewerState& viewer, const std::function<void(const InputEvent&)>& seen,
                          const std::function<bool()>& stopped);
 
 // The interface without a user: a recording played off-screen, and the bench that drags by itself.
 
-/// Plays events one by one, each with the equilibrium that it asks for awaited: the same states on
-/// every machine. Ends with the view sharp. Errors: those of the events and the renderer, naming
-/// the event.
+/// Plays events one by one and waits after each for the equilibrium that it requests, so that every
+/// machine reaches the same states. Returns when the view is sharp. Errors: those of the events and
+/// the renderer, with the event.
 Result<void> play(Interface& interface, ViewerState& viewer, const std::vector<InputEvent>& events);
 
 /// What a bench measured.
 struct BenchFigures {
   double interface_fps = 0, equilibria_per_s = 0, worst_frame_ms = 0, cancel_ms = 0;
-  /// of the processor time of this process, also on a machine with other load
+  /// processor time of this process per frame, which other load on the machine does not change
   double frame_cpu_ms = 0;
 };
 

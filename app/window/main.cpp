@@ -1,4 +1,5 @@
-// The program `gridshell_window`: all commands, and the window, which `gridshell` leaves to it.
+// The program `gridshell_window`: all commands, with `view` and `list --man`, which `gridshell`
+// does not have itself.
 #include "app/window/manual.h"
 #include "app/window/view.h"
 

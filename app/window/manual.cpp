@@ -1,5 +1,5 @@
-// The manual: commands, presets and keys, and what the window does, each from the table that the
-// program itself goes by; as roff, and as a page for a browser.
+// The manual, as roff and as HTML: commands, presets, keys and the window, each from the table that
+// the program itself uses.
 #include "app/window/manual.h"
 
 #include <fmt/format.h>
@@ -24,7 +24,7 @@ std::string plain(const std::string& text) {
   std::string safe;
   bool begins = true;
   for (const char c : text) {
-    // a line that begins with one of these would be a request
+    // a line that begins with . or ' would be a command of roff
     if (begins && (c == '.' || c == '\'')) safe += "\\&";
     begins = c == '\n';
     if (c == '\\')
@@ -90,7 +90,7 @@ std::string keys_section() {
   return text;
 }
 
-/// Keys, mouse and words of the window, from the tables that it goes by.
+/// Actions, mouse and terms of the window.
 std::string window_section() {
   std::string text = ".SH THE WINDOW\n.SS \"Actions\"\n";
   for (const Action& action : actions()) {

@@ -1,4 +1,4 @@
-// The manual of the program as text: from the tables that the program itself goes by.
+// The manual of the program, made from the tables of commands, keys and actions.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 namespace gridshell::window {
 
 /// gridshell(1) in roff: commands with their options, presets, what the window does, all keys.
-/// Errors: a preset that came with the program does not read.
+/// Errors: a preset of the program cannot be read.
 Result<std::string> man_page();
 
-/// The manual as a page for a browser, which needs no network.
+/// The manual as an HTML page that needs no network. Errors: as man_page().
 Result<std::string> manual_html();
 
 }  // namespace gridshell::window

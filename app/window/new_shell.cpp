@@ -1,4 +1,4 @@
-// A shell of one's own by a form, whose flat grid is seen in plan while its numbers change.
+// The form for a new shell, which shows the flat grid in plan.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,12 +9,12 @@
 namespace gridshell::window {
 namespace {
 
-/// As the presets' keys name them.
+/// The kinds of boundary, named as in presets.
 const std::vector<std::string> boundaries{"circle", "ellipse", "superellipse", "file"};
 const std::vector<std::string> boundary_texts{"circle", "ellipse", "rounded rectangle",
                                               "outline in a drawing"};
 
-/// Rods and boundaries of a scene, as wide as there is room.
+/// Draws rods and boundaries of a scene in plan, as large as the rectangle permits.
 void draw_plan(const Panel& panel, const Scene& scene, ImVec2 low, ImVec2 high) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(low, high, ImGui::GetColorU32(ImGuiCol_FrameBg));
@@ -105,12 +105,12 @@ void NewShellForm::fields(const Panel& panel) {
   number(panel, "rod diameter", "new_diameter", diameter_mm_, 0.01f, 1000, "%.6g mm");
 }
 
-/// Why there is no such shell, and a radius that has room for the rods.
+/// Shows why there is no such shell, and a button for a radius with room for the rods.
 void NewShellForm::refusal(const Panel& panel) {
   ImGui::PushStyleColor(ImGuiCol_Text, text_colours(panel.viewer.show.dark).error);
   ImGui::TextWrapped("%s", scene_.error().message.c_str());
   ImGui::PopStyleColor();
-  // 0.8 of the spacing is left for the longest leg, as in the paper
+  // the longest leg is 0.8 times the spacing, as in the paper
   const double fits = (0.5 * (rods_ - 1) + 0.8) * spacing_mm_;
   if (boundaries[boundary_] != "circle" || std::abs(fits - radius_mm_) < 1e-9) return;
   if (ImGui::Button(fmt::format("Rₒ = {:.5g} mm: do it", fits).c_str())) radius_mm_ = fits;

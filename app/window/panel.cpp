@@ -51,7 +51,7 @@ bool begin_table(const Panel& panel, const char* name, double left) {
   return true;
 }
 
-/// Table of the keys of the menus that `menus` names, separated by blanks.
+/// A table of the keys of the actions in some menus; `menus`: their names, separated by blanks.
 void keys(const Panel& panel, const std::string& menus) {
   if (!begin_table(panel, menus.c_str(), 104)) return;
   for (const Action& action : actions())
@@ -60,7 +60,7 @@ void keys(const Panel& panel, const std::string& menus) {
   ImGui::EndTable();
 }
 
-/// Begins a page over the window with its title and a hint how it closes.
+/// Begins a panel over the window, with its title and a hint on how to close it.
 void begin_sheet(const char* name, const render::Box& box, const char* title, const char* closes) {
   begin_fixed(name, box, 0, Layer::over);
   ImGui::TextUnformatted(title);
@@ -80,8 +80,8 @@ void Panel::named(const std::string& name, const std::string& tip) const {
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   controls[name] = {low.x, low.y, high.x - low.x, high.y - low.y};
   if (tip.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
-  // a tip would cover what is about to be used: none while text is typed, none over a control
-  // before the mouse has been still on it, none while a mouse button is down
+  // a tip may cover what the user needs: none while text is typed or a mouse button is down, and
+  // over a control only after some time
   const ImGuiContext& imgui = *ImGui::GetCurrentContext();
   if (ImGui::GetIO().WantTextInput) return;
   const bool still = imgui.HoveredId == 0 || imgui.HoveredIdTimer > tip_after_s;
@@ -112,8 +112,7 @@ void begin_fixed(const char* name, const render::Box& box, ImGuiWindowFlags more
   const bool fixed = layer == Layer::fixed;
   ImGui::SetNextWindowPos({float(box.x), float(box.y)});
   ImGui::SetNextWindowSize({float(box.width), float(box.height)});
-  // the frame is cleared in the colour of panels; to fill them again would take as long as their
-  // text
+  // transparent, since the frame is cleared in this colour, and filling takes as long as text
   if (fixed) ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4(0, 0, 0, 0));
   ImGui::Begin(name, nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
@@ -152,7 +151,6 @@ std::string label_of(const preset::Field& field) {
   return label;
 }
 
-/// Whether `text` has all words of `sought`, in any order and in letters of either case.
 bool contains_words(std::string text, std::string sought) {
   const auto lower = [](std::string& s) {
     std::ranges::transform(s, s.begin(), [](unsigned char c) { return char(std::tolower(c)); });
@@ -165,7 +163,7 @@ bool contains_words(std::string text, std::string sought) {
 }
 
 bool text_input(const char* id, std::string& text, const char* hint, int flags) {
-  constexpr std::size_t room = 1024;  // for what is typed
+  constexpr std::size_t room = 1024;  // bytes that can be typed
   std::vector<char> typed(text.size() + room);
   std::ranges::copy(text, typed.begin());
   const bool entered = ImGui::InputTextWithHint(id, hint, typed.data(), typed.size(),
@@ -241,7 +239,7 @@ void choose_colours(bool dark, double density) {
   colours[ImGuiCol_HeaderActive] = dark ? rgb(0x57627a) : rgb(0xb3c8ec);
   colours[ImGuiCol_NavHighlight] = colours[ImGuiCol_CheckMark] = colours[ImGuiCol_PlotLines] =
       dark ? rgb(0x6ea2f5) : rgb(0x2f6bd0);
-  // a slider's number is drawn over its grab: the colour of the grab leaves it legible
+  // pale, since the number of a slider is drawn over its grab
   colours[ImGuiCol_SliderGrab] = dark ? rgb(0x4a6ba6) : rgb(0xa9c6f5);
   colours[ImGuiCol_SliderGrabActive] = dark ? rgb(0x5b80c4) : rgb(0x86aef0);
   ImGui::GetStyle() = style;

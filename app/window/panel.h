@@ -1,4 +1,4 @@
-// What panels share: their positions, the names of controls, and tooltips.
+// The panels of the interface, and what they have in common: named controls, tooltips, small plots.
 #pragma once
 
 #include <imgui.h>
@@ -19,15 +19,15 @@
 
 namespace gridshell::window {
 
-/// One frame of the interface: what panels draw into.
+/// What the panels of one frame read and write.
 struct Panel {
   ViewerState& viewer;
   double density = 1;                            ///< pixels a point of text
   std::map<std::string, render::Box>& controls;  ///< position of each control, by its name
-  std::vector<ImTextureID> states = {};          ///< one picture each of viewer.shell->found
+  std::vector<ImTextureID> states = {};          ///< a picture for each of viewer.shell->found
 
   float px(double points) const { return float(points * density); }
-  /// Notes where the last control is, and gives it a tooltip.
+  /// Stores the position of the last control under a name, and gives it a tooltip.
   void named(const std::string& name, const std::string& tip) const;
   /// A button or a tick of an action, with its help and key. A button may have another text if the
   /// panel names the action, and is pale if it has no effect now.
@@ -44,17 +44,17 @@ void begin_fixed(const char* name, const render::Box& box, ImGuiWindowFlags more
 /// Whether the user is typing into the last control: its value is not complete yet.
 bool is_typed_into();
 
-/// A list that opens to choose from; returns the index of the chosen text, if one was chosen.
+/// A drop-down list; returns the index of the chosen text, if one was chosen.
 std::optional<std::size_t> choose(const std::string& id, const std::string& shown,
                                   const std::vector<std::string>& texts);
 
-/// A list of all names of an enum.
+/// A drop-down list of all names of an enum.
 template <class Enum>
 void choose_word(const std::string& id, Enum& value) {
   if (const auto k = choose(id, std::string(word_of(value)), all_words<Enum>())) value = Enum(*k);
 }
 
-/// What an action does, with its key.
+/// The help of an action, with its key.
 std::string help_of(const Action& action);
 /// The meaning of a key, with its unit and what is allowed.
 std::string help_of(const preset::Field& field);
@@ -65,15 +65,15 @@ bool is_popup_open();
 void label(const Panel& panel, const char* text);
 /// A small heading within a panel.
 void heading(const Panel& panel, const char* text);
-/// A slider over the panel's width with its number, which a click types, as the control
-/// NAME_number. Calls `set` while the mouse changes the value and once it was typed; then the drag
-/// ends.
+/// A slider as wide as the panel, and its number, the control NAME_number, which can be clicked and
+/// typed. Calls `set` while the mouse changes the value, and once when a number was typed; then
+/// ends the drag.
 void slider(const Panel& panel, const char* name, float value, float low, float high,
             const char* format, const std::string& tip, const std::function<void(float)>& set);
-/// Without what a float adds.
+/// Rounded to four decimals, which removes the digits that a float adds to a typed number.
 inline double four_digits(float value) { return std::round(1e4 * double(value)) / 1e4; }
 
-// ---- the panels, by position ----
+// ---- the panels ----
 
 void menu_bar(const Panel& panel);
 void shell_panel(const Panel& panel, const render::Box& box);
@@ -81,31 +81,31 @@ void picked_figures(const Panel& panel);
 void plots_panel(const Panel& panel, const render::Box& box);
 void design_panel(const Panel& panel, const render::Box& box);
 void status_line(const Panel& panel, const render::Box& box);
-/// The steps, to go back to; the reason for the certificate of the state; and the states found, as
-/// small pictures.
+/// The steps that were done, to which a click returns, and pictures of the states that were found.
 void timeline_panel(const Panel& panel, const render::Box& box);
+/// Explains the certificate of the state.
 void why_popup(const Panel& panel);
 void help_sheet(const Panel& panel, const render::Box& box);
 void terms_sheet(const Panel& panel, const render::Box& box);
 void colour_legend(const Panel& panel, const render::Box& view);
-/// Over the picture of the shell: what is picked, measured and under the mouse, forces, scale bar,
-/// axes.
+/// Draws over the picture of the shell: what is picked, measured or under the mouse, forces, scale
+/// bar and axes.
 void view_overlay(const Panel& panel, const render::Box& view);
-/// Where a node is drawn, pixels of the window.
+/// Position of a node, pixels of the window.
 Eigen::Vector2d in_view(const ViewerState& viewer, const render::Box& view, int node);
 
-/// "diameter" of diameter_mm.
+/// The label of a key, without its unit: "diameter" for diameter_mm.
 std::string label_of(const preset::Field& field);
 
-/// Whether a text has all words that are looked for, in any order and case.
+/// Whether a text contains all words of `sought`, in any order and case.
 bool contains_words(std::string text, std::string sought);
 
-/// A line of text to type into, with space for 1 kB more and flags of the library; true once it is
-/// entered.
+/// A text field, which takes up to 1 kB more than `text` has; `flags`: ImGuiInputTextFlags. Returns
+/// true when the text is entered.
 bool text_input(const char* id, std::string& text, const char* hint = "", int flags = 0);
 
-/// Every number of the preset, from the field table; remembers what is being changed, and what it
-/// says of each as long as none changes.
+/// The panel of all numbers of the preset, made from the field table. It stores the value that is
+/// being edited, and the texts of the rows until a value changes.
 class NumbersPanel {
  public:
   void draw(const Panel& panel, const render::Box& box);
@@ -115,7 +115,7 @@ class NumbersPanel {
   struct Row {
     const preset::Field* field;
     std::string name, label, text, standard, help;
-    bool by_name;  ///< the words that are looked for are in its name, not in what it means
+    bool by_name;  ///< the search found its name, not only its meaning
   };
 
   bool is_shown(const preset::Field& field);
@@ -126,24 +126,24 @@ class NumbersPanel {
   void list_rows();
   void list_tables(const Panel& panel, bool by_name);
 
-  std::shared_ptr<const ShellView> seen_;  // that the numbers are of
+  std::shared_ptr<const ShellView> seen_;  // the shell whose numbers these are
   preset::Preset edited_;
-  std::vector<Row> rows_;       // those that are shown, as long as listed_
-  std::set<std::string> idle_;  // keys that count for nothing in it
+  std::vector<Row> rows_;       // the rows that are shown, valid if listed_
+  std::set<std::string> idle_;  // keys that have no effect in this preset
   std::string active_;          // the key under the mouse
-  std::string sought_;          // what is looked for
-  bool typed_ = false;          // digits that are not meant yet
-  bool all_ = false;            // those that count for nothing are shown, too
+  std::string sought_;          // the text of the search
+  bool typed_ = false;          // a number is being typed
+  bool all_ = false;            // whether keys without effect are shown, too
   bool listed_ = false;
 };
 
 // Fonts, colours and distances of the interface.
 
-/// Loads the text font (DejaVu Sans: it has □, ρ, δ and Δ) at so many pixels a point of text.
-/// Errors: io when the system has none.
+/// Loads the text font (DejaVu Sans, which has □, ρ, δ and Δ) with `density` pixels per point of
+/// text. Errors: io if the system has no such font.
 Result<void> load_fonts(double density);
 
-/// Light or dark.
+/// Sets light or dark colours, and distances for this density.
 void choose_colours(bool dark, double density);
 
 /// Colours of texts: errors and unstable states, valid states, missing parts, and remarks.
@@ -158,7 +158,7 @@ void coloured_text(ImU32 colour, const std::string& text);
 /// A position on the abscissa, or an interval of it.
 struct CurveMark {
   float from, to;
-  bool unstable;  ///< no shell stays there; else something happened
+  bool unstable;  ///< there is no stable state; else an event happened there
   std::string what;
 };
 
@@ -166,32 +166,32 @@ struct CurveMark {
 struct Curve {
   const char* y_label;
   const char* x_label;
-  const char* without;  ///< said where there is nothing to plot
+  const char* without;  ///< text that is shown if there is nothing to plot
   std::vector<float> x, y;
   bool bars = false;
-  std::vector<std::size_t> jumps = {};     ///< points that no line leads to
-  std::vector<float> second = {};          ///< another one, paler
+  std::vector<std::size_t> jumps = {};     ///< points without a line from the one before
+  std::vector<float> second = {};          ///< y of a second curve, which is paler
   bool logarithmic = false;                ///< y, which is above 0
-  std::vector<std::size_t> unstable = {};  ///< points
-  std::vector<std::size_t> coarse = {};    ///< points of a drag's coarse mesh: pale
+  std::vector<std::size_t> unstable = {};  ///< points of unstable states
+  std::vector<std::size_t> coarse = {};    ///< points on the coarse mesh of a drag, which are pale
   std::vector<CurveMark> marks = {};
-  bool whole = false;  ///< x counts something
+  bool whole = false;  ///< x are whole numbers
 };
 
-/// Draws it between two corners, pixels.
+/// Draws a curve in the rectangle between two corners, pixels.
 void draw_curve(const Panel& panel, ImVec2 low, ImVec2 high, const Curve& curve);
 
-/// Asks for the file of viewer.file_request; remembers what lies in the folder that is shown.
+/// The prompt for the file of viewer.file_request. It stores the contents of the shown folder.
 class FilePrompt {
  public:
   void draw(const Panel& panel, const render::Box& box);
 
  private:
-  /// What of a folder can be picked: folders, and files that the use is for.
+  /// An entry of a folder that can be picked: a folder, or a file that suits the purpose.
   struct Entry {
     std::string name;
     bool folder = false, run = false;
-    std::string size = {}, changed = {};  ///< as shown
+    std::string size = {}, changed = {};  ///< as texts
   };
 
   void look(FileUse use, const std::string& folder);
@@ -201,12 +201,12 @@ class FilePrompt {
 
   std::vector<Entry> entries_;
   FileUse use_ = FileUse::open;
-  bool refocus_ = false;  // the path is typed on
+  bool refocus_ = false;  // the path gets the keyboard again
   std::string folder_;
   std::optional<std::filesystem::file_time_type> changed_;
 };
 
-// A shell of one's own.
+// A new shell.
 
 /// A form for boundary, rods, spacing and material, and the flat grid that they give.
 class NewShellForm {
@@ -227,16 +227,15 @@ class NewShellForm {
          diameter_mm_ = 0.254;
   std::string file_;
   preset::Material material_ = preset::Material::none;
-  std::string built_;  // the text that the next two are of
+  std::string built_;  // the text of the preset from which the next two were made
   Result<preset::Presets> presets_ = invalid("");
   Result<Scene> scene_ = invalid("");
 };
 
-// All presets to choose from, as pictures.
-
+/// All presets as pictures, to choose from.
 class PresetPicker {
  public:
-  /// `gl` outlives it.
+  /// `gl` must outlive it.
   explicit PresetPicker(const render::Gl& gl) : gl_(&gl) {}
 
   void draw(const Panel& panel, const render::Box& box);
@@ -248,7 +247,7 @@ class PresetPicker {
 
   const render::Gl* gl_;
   std::string sought_;
-  std::vector<std::optional<render::Texture>> pictures_;  // one per card, from the first sight on
+  std::vector<std::optional<render::Texture>> pictures_;  // one per card, loaded when shown
 };
 
 }  // namespace gridshell::window

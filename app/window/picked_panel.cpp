@@ -1,4 +1,4 @@
-// The figures of what was clicked: a joint, a rod and the point on it, a cell.
+// The values of what was clicked: a joint, a point of a rod, a cell.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 namespace gridshell::window {
 namespace {
 
-/// "u-rod 3", by the index that its joints have in common; of networks, whose joints are named by
-/// points, "Rod 12".
+/// "u-rod 3", with the index that its joints have in common; "Rod 12" in a network, whose joints
+/// have a single index.
 std::string rod_name(const record::Layout& layout, int rod) {
   if (std::ranges::all_of(layout.joints, [](const record::Joint& joint) { return joint.j == 0; }))
     return fmt::format("Rod {}", rod);
@@ -26,7 +26,7 @@ std::string rod_name(const record::Layout& layout, int rod) {
   return fmt::format("Rod {}", rod);
 }
 
-/// "stress 120 MPa, 0.48 of the strength" of a node, as far as they are known.
+/// Writes the stress at a node, "stress 120 MPa, 0.48 of the strength", if it is known.
 void stress_text(const ShellView& shell, int node) {
   const auto of = [&](bool utilisation) {
     const Eigen::VectorXd all =
@@ -60,7 +60,7 @@ void picked_rod(const Panel& panel, const PointOnRod& at) {
   stress_text(shell, nodes[k]);
 }
 
-/// How far the joint that was clicked is pushed inwards, to drag or to type.
+/// A slider for the depth to which the joint is pushed inwards.
 void push_depth(const Panel& panel, int joint) {
   ViewerState& viewer = panel.viewer;
   const ShellView& shell = *viewer.shell;
@@ -84,7 +84,7 @@ void picked_figures(const Panel& panel) {
   const record::Layout& layout = *shell.layout;
   if (viewer.picked_joint >= 0 && viewer.picked_joint < int(layout.joints.size())) {
     const record::Joint& joint = layout.joints[std::size_t(viewer.picked_joint)];
-    // round-off is no -0.00
+    // prevents -0.00
     const Eigen::Vector3d at = shell.frame.nodes.col(viewer.picked_joint).unaryExpr([](double x) {
       return std::abs(x) < 5e-3 ? 0.0 : x;
     });

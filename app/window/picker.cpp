@@ -10,12 +10,12 @@
 namespace gridshell::window {
 namespace {
 
-constexpr double near_px = 12;        // of a joint or an edge point, at 1280 x 720
-constexpr double rod_px = 5;          // of a rod
-constexpr double bulge_spacings = 3;  // of d: through which edge points may be taken
+constexpr double near_px = 12;        // at 1280 x 720, to a joint or an edge point
+constexpr double rod_px = 5;          // to a rod
+constexpr double bulge_spacings = 3;  // depth, in spacings d, below which edge points are covered
 constexpr double click_px = 3;        // a press that moves less is a click
 
-/// Fraction, 0 to 1, between two positions at which a point's nearest point is.
+/// The position of the point of a segment that is nearest to `at`, as a fraction, 0 to 1.
 double fraction_along(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
                       const Eigen::Vector2d& at) {
   const Eigen::Vector2d segment = to - from;
@@ -29,10 +29,10 @@ Eigen::Vector2d Picker::pixel_of(int node) const {
                           place_of(*viewer_.shell, viewer_.show, node));
 }
 
-/// The joint or edge point under the mouse; of several near ones the nearest to the eye.
+/// Finds the joint or edge point under the mouse; of several near ones that nearest to the camera.
 void Picker::find(double x, double y) {
   joint_ = edge_ = -1;
-  // another shell is next to it, which cannot be edited
+  // the shell at the right, if there are two, cannot be edited
   if (!viewer_.shell->any() || x > viewer_.view.width) return;
   const record::Layout& layout = *viewer_.shell->layout;
   const Eigen::Vector3d forward = render::camera_axes(viewer_.camera).forward;
@@ -46,7 +46,7 @@ void Picker::find(double x, double y) {
     const double depth = forward.dot(viewer_.shell->frame.nodes.col(node));
     return off + 0.05 * depth / mm_per_pixel(viewer_.camera, viewer_.view);
   };
-  // from above a shell that bulges hides its boundary, which may be meant all the same
+  // a shell that bulges hides its boundary from above, but the user may want to drag that
   const double under_mm = bulge_spacings * layout.spacing_mm;
   for (int k = 0; k < int(layout.joints.size()); ++k)
     if (const double s = score(k, 0); s < best) best = s, joint_ = k;
@@ -55,7 +55,7 @@ void Picker::find(double x, double y) {
       best = s, joint_ = -1, edge_ = k;
 }
 
-/// Whether a cell lies before a node, all of it nearer to the eye by so much.
+/// Whether a cell covers a node: all of it is nearer to the camera by more than `by_mm`.
 bool Picker::is_covered(int node, double by_mm) const {
   const Eigen::Vector2d at = pixel_of(node);
   const int cell = cell_at(at.x(), at.y());
@@ -96,7 +96,7 @@ void Picker::press(Button button, bool shift, double x, double y) {
     place_ = viewer_.shell->frame.nodes.col(joint_);
     grip_ = Eigen::Vector2d(x, y) - pixel_of(joint_);
     along_ = viewer_.shell->normals.col(joint_);
-    // pushed before, it continues along the direction of its constraint
+    // a constrained joint is pushed along the direction of its constraint
     for (const HeldJoint& held : viewer_.shell->held)
       if (held.joint == joint_ && !held.along.isZero(0)) along_ = held.along;
   }
@@ -120,7 +120,8 @@ void Picker::drag(double x, double y) {
       return pan(camera, viewer_.view, dx, dy);
     case Gesture::push: {
       double depth = dragged_along(camera, viewer_.view, place_, along_, from_x, from_y);
-      // the shell may carry it aside: where it is now counts, unless it is seen along the push
+      // the joint may move sideways, so its current position counts, except if the camera looks
+      // along the push
       const Eigen::Vector3d at = viewer_.shell->frame.nodes.col(joint_);
       const double under = pushed_under(camera, viewer_.view, place_, along_, at,
                                         Eigen::Vector2d(x, y) - grip_ - pixel_of(joint_));
@@ -161,8 +162,7 @@ void Picker::wheel(double steps, double x, double y) {
   zoom(viewer_.camera, viewer_.view, steps, x, y);
 }
 
-/// The rod under the mouse, and which of its points is next to it; of several near ones the nearest
-/// to the eye.
+/// The rod under the mouse and its nearest node; of several near rods that nearest to the camera.
 PointOnRod Picker::rod_at(double x, double y) const {
   PointOnRod found;
   if (!viewer_.shell->any()) return found;
@@ -188,7 +188,7 @@ PointOnRod Picker::rod_at(double x, double y) const {
   return found;
 }
 
-/// The cell whose picture contains the pixel; of several the nearest to the eye.
+/// The cell whose picture contains the pixel; of several that nearest to the camera.
 int Picker::cell_at(double x, double y) const {
   if (!viewer_.shell->any()) return -1;
   const record::Layout& layout = *viewer_.shell->layout;

@@ -31,7 +31,7 @@ struct Span {
   float at(float value) const { return (value - low) / (high - low); }
 };
 
-/// Position of a plot, and how it writes.
+/// A plot in a rectangle of the panel.
 class PlotBox {
  public:
   PlotBox(const Panel& panel, ImVec2 low, ImVec2 high)
@@ -114,7 +114,7 @@ class PlotBox {
     }
     list_.AddCircleFilled(points.back(), panel_.px(3), colour);
   }
-  /// Those of a piece that are known, with a gap where one is not.
+  /// Draws a line through the points from `from` to before `end`, with gaps at unknown ones.
   void draw_known(const std::vector<ImVec2>& points, std::size_t from, std::size_t end,
                   ImU32 shade) {
     const auto known = [&](std::size_t k) {
@@ -130,7 +130,7 @@ class PlotBox {
       from = to;
     }
   }
-  /// Where no shell stays, as bands, and what happened, as lines.
+  /// Draws unstable intervals as bands, and events as lines.
   void draw_marks(const Curve& curve, const Span& x) {
     const TextColours& colours = text_colours(panel_.viewer.show.dark);
     const auto at = [&](float value) {
@@ -144,10 +144,10 @@ class PlotBox {
                           mark.unstable ? (colour & 0xffffff) | 0x38000000 : colour);
     }
   }
-  /// Labels at round values, the lines of a grid through them.
+  /// Draws labels at round values, and lines of a grid at them.
   void ticks_y(const Span& y, bool logarithmic) {
     const int count = std::max(1, int((to_.y - from_.y) / (2.2f * line_)));
-    float last = to_.y + line_;  // the label below
+    float last = to_.y + line_;  // height of the label below
     const std::vector<render::Tick> ticks =
         logarithmic ? render::log_ticks(std::pow(10., y.low), std::pow(10., y.high), count)
                     : render::linear_ticks(double(y.low), double(y.high), count);
@@ -166,21 +166,21 @@ class PlotBox {
   void ticks_x(const Span& x, bool whole) {
     const float y = to_.y + panel_.px(2);
     const int count = std::max(1, int((to_.x - from_.x) / (3.2f * line_)));
-    float last = from_.x - panel_.px(6);  // where the label before ends
+    float last = from_.x - panel_.px(6);  // right end of the label before
     for (const render::Tick& tick : render::linear_ticks(double(x.low), double(x.high), count)) {
       if (!tick.major || (whole && tick.value != std::round(tick.value))) continue;
       const float at = from_.x + x.at(float(tick.value)) * (to_.x - from_.x);
       const std::string text = fmt::format("{:.6g}", tick.value);
       const float wide = ImGui::CalcTextSize(text.c_str()).x;
       list_.AddLine({at, from_.y}, {at, to_.y}, grid());
-      // next to the lowest label at the left, and within the panel
+      // within the plot
       const float left = std::clamp(at - 0.5f * wide, from_.x, to_.x - wide);
       if (left < last + panel_.px(6)) continue;
       last = left + wide;
       list_.AddText({left, y}, pale(), text.c_str());
     }
   }
-  /// The values of the point next to the mouse.
+  /// Shows the values of the point nearest to the mouse.
   void tell_nearest(const Curve& curve, const std::vector<ImVec2>& points) {
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     const bool menu = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
@@ -205,7 +205,7 @@ class PlotBox {
   ImVec2 from_, to_;
 };
 
-constexpr double jump = 0.2;  // of the boundary's motion, between two equilibria
+constexpr double jump = 0.2;  // progress between two equilibria that no line connects
 
 /// Abscissa of the curves if none was chosen: the depth of the last push, else the motion of the
 /// boundary, else, if it does not move, the number of the equilibrium.
@@ -227,7 +227,7 @@ std::span<const PlotPoint> last_points(const ViewerState& viewer) {
   return all.subspan(since);
 }
 
-/// Marks of the paths, if the curve has their abscissa.
+/// Adds the marks of the paths to a curve over the position on the path.
 void put_marks(const ShellView& shell, const Quantity& over, Curve& curve) {
   const std::string_view name = over.name;
   const int pushed = shell.held.empty() ? -1 : shell.held.back().joint;
@@ -252,7 +252,7 @@ Curve curve_of(const ViewerState& viewer, const PlotAxes& axes) {
       (points.empty() || points.back().joint < 0))
     return curve.without = "no joint is fixed", curve;
   for (std::size_t k = 0; k < points.size(); ++k) {
-    // the boundary was put elsewhere, not drawn there; and a drag's coarse mesh has other numbers
+    // no line where the boundary jumped, or to the coarse mesh of a drag, which has other values
     const bool put = k > 0 && points[k].joint < 0 &&
                      std::abs(points[k].progress - points[k - 1].progress) > jump;
     if (put || (k > 0 && points[k].coarse != points[k - 1].coarse)) curve.jumps.push_back(k);
@@ -283,7 +283,7 @@ PlottedCurve plotted(const Curve& curve) {
           {curve.y.begin(), curve.y.end()}};
 }
 
-/// What a click on a plot opens: other quantities, and the plot as files.
+/// The menu of a plot: other quantities, and saving the plot.
 void plot_menu(const Panel& panel, PlotAxes& axes, const Curve& curve, const std::string& name) {
   if (!ImGui::BeginPopupContextItem(name.c_str())) return;
   const auto choose_quantity = [](const char* label, int& chosen) {
@@ -306,7 +306,7 @@ void draw_curve(const Panel& panel, ImVec2 low, ImVec2 high, const Curve& curve)
   PlotBox(panel, low, high).draw(curve);
 }
 
-// Curves of what was done so far: height and energy over the radius, force over depth, K in bins.
+// The panel of plots: three curves of the states so far, and K□ in bins.
 
 void ViewerState::save_plots() {
   for (const PlotAxes& axes : plot_axes)

@@ -9,14 +9,14 @@
 #include "app/window/panel.h"
 #include "engine/gridshell.h"
 
-// Every number of the preset, as the field table has it: name, unit, range, meaning.
+// The panel of all numbers of the preset, made from the field table; the panel of inverse design.
 
 namespace gridshell::window {
 namespace {
 
 using preset::Field;
 
-/// Tables that determine the shell; its pictures have their own controls.
+/// The tables that determine the shell. Those of its pictures have other controls.
 constexpr std::string_view shown_tables[] = {"rod",          "rod_v",  "joints",    "ends",
                                              "footprint",    "net",    "actuation", "loads",
                                              "imperfection", "limits", "accuracy",  "dynamics"};
@@ -32,7 +32,7 @@ std::string meaning_of_zero(const Field& field) {
   return rest.substr(0, rest.find_first_of(",;(%"));
 }
 
-/// A control for the member of a key; whether it was changed.
+/// Draws the control for the member of a key; returns whether it was changed.
 struct Control {
   ViewerState& viewer;
   const Field& field;
@@ -60,7 +60,7 @@ struct Control {
       viewer.say(fmt::format("{}: expected {}", name_of(field), allowed(field)), true);
       return false;
     }
-    // the digits that are seen, without those that a float adds
+    // only the digits that are shown, without those that a float adds
     *value = std::stod(fmt::format("{:.7g}", shown));
     return true;
   }
@@ -83,7 +83,7 @@ struct Control {
   }
 };
 
-/// Whether a control can change it.
+/// Whether a control can change the key.
 bool has_control(const Field& field, preset::Preset& preset) {
   return field.as<double>(preset) || field.as<std::optional<double>>(preset) ||
          field.as<int>(preset) || field.as<bool>(preset) || field.as_word(preset);
@@ -102,14 +102,14 @@ void take_value(const Field& field, preset::Preset& to, preset::Preset from) {
   }
 }
 
-/// What a key of [inverse] means, with unit and range.
+/// The help of a key of [inverse], with unit and range.
 std::string tip_of(const char* key) {
   for (const preset::Field& field : preset::field_table())
     if (field.table == "inverse" && field.key == key) return help_of(field);
   return "";
 }
 
-/// What one of the words of `vary` moves; why it cannot here, if so.
+/// A value of [inverse] vary, with its texts.
 struct Variable {
   preset::Vary kind;
   const char* label;
@@ -124,6 +124,7 @@ constexpr Variable variables[] = {
     {preset::Vary::diameters, "diameters", "of every rod, by a factor of two at most"},
 };
 
+/// Why a preset cannot vary this; null if it can.
 const char* why_not(const preset::Preset& preset, preset::Vary kind) {
   if (kind == preset::Vary::directions && preset.ends.kind != preset::EndKind::tangent)
     return "the ends prescribe no direction by itself: expected [ends] kind \"tangent\"";
@@ -244,7 +245,7 @@ void NumbersPanel::edit(const Panel& panel, const Row& row) {
   ImGui::TextUnformatted(row.label.c_str());
   ImGui::SameLine(std::max(panel.px(118), ImGui::CalcTextSize(row.label.c_str()).x + panel.px(16)));
   ImGui::SetNextItemWidth(-back);
-  // a default is pale
+  // default values are pale
   if (!changed_before)
     ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetColorU32(ImGuiCol_TextDisabled));
   const bool changed = std::visit(Control{panel.viewer, field, id.c_str()}, field.in(edited_, -1));
@@ -271,7 +272,7 @@ void NumbersPanel::edit(const Panel& panel, const Row& row) {
   panel.named("default_" + field.table + "." + field.key, "back to the default, " + row.standard);
 }
 
-/// A change may take a number away or bring one.
+/// Makes the list of rows; a change may add or remove rows.
 void NumbersPanel::list_rows() {
   static const preset::Preset defaults;
   if (std::exchange(listed_, true)) return;
@@ -291,14 +292,15 @@ void NumbersPanel::find_idle() {
   idle_.clear();
   for (const auto& key : preset::unused_keys(edited_))
     if (key.item < 0) idle_.insert(key.table + "." + key.key);
-  // the second family has numbers of its own once it differs
+  // the second family has its own numbers only if it differs
   if (edited_.rod_v.differs) return;
   for (const Field& field : preset::field_table())
     if (field.table == "rod_v" && field.key != "differs")
       idle_.insert(field.table + "." + field.key);
 }
 
-/// While a number is being changed, the engine's answer may be older than its command.
+/// Takes the preset of the shell, except while a number is being changed: the shell may be older
+/// than the last command.
 void NumbersPanel::look(const ViewerState& viewer) {
   if (!active_.empty() || seen_ == viewer.shell) return;
   seen_ = viewer.shell;
@@ -346,13 +348,13 @@ void NumbersPanel::draw(const Panel& panel, const render::Box& box) {
     panel.named("all numbers", "also those that this scene does not use");
     if (other || sought != sought_) listed_ = false;
     list_rows();
-    // what is called so comes before what is explained so
+    // first the rows whose name was found, then those whose meaning was
     for (const bool by_name : {true, false}) list_tables(panel, by_name);
   }
   ImGui::End();
 }
 
-// Inverse design: what may change so that the shell meets its surface, and how far it has come.
+// The panel of inverse design: what may change, and the progress.
 
 void design_panel(const Panel& panel, const render::Box& box) {
   const ShellView& shell = *panel.viewer.shell;

@@ -1,4 +1,4 @@
-// The interface in a window of the desktop, played from a recording, and dragged by a bench.
+// Runs the interface: in a window of the desktop, from a recording, or in a bench.
 
 #include <imgui_internal.h>
 
@@ -18,13 +18,14 @@
 namespace gridshell::window {
 namespace {
 
-// time without motion before full resolution; the longest one while an equilibrium is computed
+// time without motion before the view is drawn at full resolution: if the engine is idle, and if it
+// is busy and such a picture takes less than the third time
 constexpr double sharp_after_s = 0.15, sharp_while_busy_s = 0.6, longest_while_busy_s = 0.05;
-// if a moving picture takes longer, a still would delay the pointer
+// if a picture at half resolution takes longer, one at full resolution is drawn on another thread
 constexpr double longest_moving_s = 0.003;
 
 constexpr double frame_s = 1.0 / 60;
-constexpr double still_wait_s = 0.05;  // for something to happen, where nothing moves
+constexpr double still_wait_s = 0.05;  // time of waiting for events if nothing moves
 
 std::string utf8(unsigned code) {
   const auto byte = [](unsigned value) { return char((unsigned char)value); };
@@ -34,7 +35,7 @@ std::string utf8(unsigned code) {
           byte(0x80 | (code & 0x3f))};
 }
 
-/// From what happens to the window to events.
+/// A listener that turns what happens to the window into events.
 render::WindowListener listener_to(const std::function<void(const InputEvent&)>& take) {
   render::WindowListener listener;
   listener.mouse = [take](double x, double y) {
@@ -57,12 +58,12 @@ render::WindowListener listener_to(const std::function<void(const InputEvent&)>&
   return listener;
 }
 
-constexpr int most_frames = 2000;  // until nothing moves any more
+constexpr int most_frames = 2000;  // of rest()
 constexpr int frames_to_sharpen = 30;
-constexpr double turn_deg = 0.2;            // a frame of a bench
+constexpr double turn_deg = 0.2;            // per frame of a bench
 constexpr double longest_to_sharpen_s = 5;  // of a bench
 
-/// Draws frames until all events are taken, the engine waits and the view shows its result.
+/// Draws frames until all events are taken, the engine is idle and the view shows its result.
 Result<void> rest(Interface& interface, ViewerState& viewer) {
   for (int k = 0; k < most_frames; ++k) {
     viewer.engine.wait();
@@ -84,7 +85,7 @@ Result<void> wait_for(Interface& interface, ViewerState& viewer, double seconds)
   return {};
 }
 
-/// A frame as the window shows it; what is left until the next is `due` is the engine's. Seconds
+/// Draws a frame, then sleeps until the next one is `due`, as the window does. Returns the seconds
 /// that the frame itself took.
 Result<double> paced_frame(Interface& interface, double& due) {
   const double begin = seconds_now();
@@ -97,7 +98,7 @@ Result<double> paced_frame(Interface& interface, double& due) {
 
 }  // namespace
 
-/// Draws the shell again only if something shown is new, and sharp only without motion.
+/// Draws the shell again if something that it shows is new; at full resolution only without motion.
 Result<void> Interface::draw_shell() {
   if (!viewer_.shell->any() || viewer_.view.width < 16) return {};
   const ShownShell shown{viewer_.camera, viewer_.view, viewer_.show};
@@ -115,7 +116,8 @@ Result<void> Interface::draw_shell() {
   return picture_.draw(viewer_.picture_request(), sharp ? Resolution::still : Resolution::moving);
 }
 
-/// Whether the still is drawn on another thread; it is shown once it is there.
+/// Has the picture at full resolution drawn on another thread, and shows it when it is ready.
+/// Returns false if this thread shall draw it.
 bool Interface::take_still(const PictureRequest& shown) {
   const auto& draw = viewer_.library.draw_still;
   if (!draw || picture_.took_s(Resolution::moving) < longest_moving_s) return false;
@@ -134,7 +136,7 @@ bool Interface::take_still(const PictureRequest& shown) {
   return true;
 }
 
-/// Small pictures of the states that were found, each once, from where the camera looks then.
+/// Draws small pictures of the states that were found, each once, with the current camera.
 Result<void> Interface::draw_states() {
   const auto& found = viewer_.shell->found;
   if (!found) return states_.clear(), Result<void>();
@@ -154,7 +156,7 @@ Result<void> Interface::draw_states() {
   return {};
 }
 
-/// Whether a frame made from these lists would look other than the last one.
+/// Whether the current draw lists differ from those of the last frame.
 bool Interface::is_new() {
   std::vector<char> now;
   const auto put = [&now](const auto& list) {
@@ -174,7 +176,7 @@ bool Interface::is_new() {
   return !same;
 }
 
-/// Everything up to the drawing of the lists; whether that would show anything new.
+/// Does everything for a frame except drawing the lists; returns whether they show anything new.
 Result<bool> Interface::compose(double seconds) {
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = {float(width_), float(height_)};
@@ -184,7 +186,7 @@ Result<bool> Interface::compose(double seconds) {
   if (dark_ != viewer_.show.dark) choose_colours(dark_ = viewer_.show.dark, density_);
   feed();
   TRY_DO(draw_states());
-  // the mouse shows itself what it is at
+  // the control that has the keyboard is marked only if the keyboard is used
   if (!is_popup_open()) ImGui::GetCurrentContext()->NavDisableHighlight = !keyboard_;
   ImGui::NewFrame();
   lay_out();
@@ -216,7 +218,7 @@ Result<void> Interface::frame_aside(double seconds) {
   if (!*again) return {};
   TRY_DO(target_.bind(width_, height_, GL_RGBA8));
   paint(false);
-  // as a window waits for what it shows
+  // waits until it is drawn, as a window does
   gl_.Finish();
   return {};
 }
@@ -297,7 +299,7 @@ Result<BenchFigures> bench(Interface& interface, ViewerState& viewer, double sec
   int frames = 0;
   double due = begin;
   for (double now = begin; now < begin + seconds; now = seconds_now()) {
-    // there and back in four seconds, between half the path and its end, seen from all sides
+    // between half the path and its end, forward and back in four seconds
     const double phase = std::abs(std::remainder(now - begin, 4.0)) / 2;
     viewer.post(Move{1 - 0.5 * phase}, true);
     viewer.camera.azimuth_deg += turn_deg;
@@ -313,13 +315,13 @@ Result<BenchFigures> bench(Interface& interface, ViewerState& viewer, double sec
   figures.frame_cpu_ms = 1e3 * own / frames;
   viewer.engine.cancel();
   viewer.engine.wait();
-  // the pointer is still, and the view becomes sharp
+  // without input the view becomes sharp
   for (const double until = seconds_now() + longest_to_sharpen_s;
        interface.busy() && seconds_now() < until;) {
     TRY(frame, paced_frame(interface, due));
     figures.worst_frame_ms = std::max(figures.worst_frame_ms, 1e3 * *frame);
   }
-  // the whole path and back, stopped soon after it began
+  // time of a cancel: a long motion is stopped soon after its start
   viewer.post(Move{0.01}, true);
   viewer.send_command(Move{1.0});
   std::this_thread::sleep_for(std::chrono::milliseconds(15));

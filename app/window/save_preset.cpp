@@ -1,4 +1,4 @@
-// What the window keeps of a shell: presets, pictures, movies.
+// Saves presets, pictures, movies, plots and exports of the shell; compares it with others.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,11 +17,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int least_px = 16, most_px = 16384;
-constexpr double shift_seen_px = 2;  // of the view, that the user gave it
+constexpr double shift_seen_px = 2;  // a smaller shift of the camera is not saved
 
 double rounded(double value, double step) { return step * std::round(value / step); }
 
-/// What of a shell its preset may not bring back; empty: nothing.
+/// What a saved preset may not reproduce; empty: nothing.
 std::string left_out(const ShellView& shell) {
   std::string text;
   if (shell.rods_changed_late) text += "; numbers that were changed later apply from its start";
@@ -34,7 +34,7 @@ Result<void> make_folder_of(const fs::path& file) {
   return file.has_parent_path() ? make_folder(file.parent_path()) : Result<void>();
 }
 
-/// Usual ending of a file that is written.
+/// Default ending of a file that is written.
 const char* ending_of(FileUse use) {
   switch (use) {
     case FileUse::save_preset:
@@ -50,11 +50,11 @@ const char* ending_of(FileUse use) {
   return "";
 }
 
-/// Why no file of that name is written; empty: it is.
+/// Why a file cannot be written under this name; empty if it can.
 std::string error_of(FileUse use, const fs::path& file,
                      const std::vector<app::ExportFormat>& formats) {
   std::error_code error;
-  // one new folder is made
+  // the file's folder may be new, but not the folder that contains it
   const fs::path folder = fs::absolute(file, error).parent_path();
   if (!fs::is_directory(folder, error) && !fs::is_directory(folder.parent_path(), error))
     return "there is no folder '" + folder.string() + "'";
@@ -79,7 +79,7 @@ Result<void> check_picture(int width, int height) {
                  least_px, most_px);
 }
 
-/// The first path in the folder, numbered, of which no file has one of the endings.
+/// The first path PRESET_1, PRESET_2 ... in the folder for which no file has one of the endings.
 fs::path ViewerState::path_to_save(const std::vector<std::string>& endings) const {
   const std::string name = fs::path(shell->preset.name).filename().string();
   for (int k = 1;; ++k) {
@@ -92,7 +92,7 @@ fs::path ViewerState::path_to_save(const std::vector<std::string>& endings) cons
   }
 }
 
-/// The camera and the colours, as movies take them.
+/// Writes camera and colours into the keys of [movie] and [style].
 void ViewerState::put_view(preset::Preset& preset) const {
   preset::Movie& movie = preset.movie;
   movie.azimuth_deg = rounded(camera.azimuth_deg, 0.1);
@@ -116,14 +116,14 @@ preset::Preset ViewerState::preset_to_save() const {
   preset::Preset preset = shell->preset;
   put_view(preset);
   preset.indentation = {};
-  // a boundary that was moved and nothing else is a preset of that radius
+  // if only a circular boundary was moved, the preset with its radius gives the same shell
   const bool circle = preset.footprint.kind == preset::FootprintKind::circle;
   const bool moves = std::ranges::all_of(shell->steps, [](const auto& step) {
     return step->kind == preset::StepKind::move && step->edge_points.empty();
   });
   if (circle && moves && !shell->snapped) return preset;
   preset.step = steps_of(shell->steps);
-  // the state that a perturbed shell reaches depends on round-off, except on one mesh
+  // which state a perturbed shell reaches depends on round-off, but not on a given mesh
   const bool perturbed = std::ranges::any_of(
       preset.step, [](const auto& step) { return step.kind == preset::StepKind::jitter; });
   if (perturbed) preset.accuracy.edges_per_segment = shell->meshes.back();
@@ -174,7 +174,7 @@ void ViewerState::ask_file(FileUse use) {
   const auto there = [&](const fs::path& folder) {
     return !folder.empty() && fs::is_directory(folder, error);
   };
-  // files are looked for where the last one was; a desktop starts programs in the root's folder
+  // begins in the folder of the last file; a desktop may start programs in the root folder
   const fs::path here = fs::current_path(error), last = last_folders[is_read(use)];
   const char* home = std::getenv("HOME");
   const fs::path start = there(last)                                           ? last
@@ -232,13 +232,13 @@ void ViewerState::take_file() {
       export_as(file);
       break;
   }
-  // what did not go can be mended where it was typed
+  // after an error the prompt remains, so that the path can be corrected
   if (message_bad) return;
   last_folders[reads] = fs::absolute(file, error).lexically_normal().parent_path().string();
   file_request.reset();
 }
 
-/// Runs the program's own `run` and `export` on the current preset, in a process of its own.
+/// Exports the shell in the background.
 void ViewerState::export_as(const fs::path& file) {
   if (export_task.under_way()) return say("an export is running already", true);
   if (auto made = make_folder_of(file); !made) return say(made.error().message, true);
@@ -275,7 +275,7 @@ void ViewerState::compare_with_net() {
 void ViewerState::compare(std::shared_ptr<const OtherShell> other) {
   set_beside(show.beside && other);
   show.other = std::move(other);
-  // it may be what the colours show
+  // the colours may show the distance from it
   if (show.colour_by == ColourBy::displacement) show.scale = scale_of(*shell, show);
 }
 

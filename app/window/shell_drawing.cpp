@@ -13,14 +13,14 @@
 namespace gridshell::window {
 namespace {
 
-constexpr double paling = 0.2;  // of a map for rods, which are thin lines on white
+constexpr double paling = 0.2;  // start of the colour map of rods: thin pale lines cannot be seen
 
 struct ColourText {
   const char* label;
   const char* meaning;
-  const char *marked, *words;  // label and words of a picture's bar, as movies have them
+  const char *marked, *words;  // label and text of the colour bar of pictures, as in movies
 };
-/// In the order of the enum.
+/// The texts, in the order of ColourBy.
 constexpr ColourText colour_texts[] = {
     {"nothing", "rods and joints alone", "", ""},
     {"K□ (rad)", "integrated Gauss curvature of each cell", "*K*_{□} (rad)",
@@ -47,11 +47,12 @@ bool same_joints(const std::vector<record::Joint>& a, const std::vector<record::
   });
 }
 
-/// The nodes of both meshes are at different positions, but the joints come first in each.
+/// Displacements of the nodes from positions `then`, mm. If those are of another mesh, they are
+/// known at joints and edge points, which come first on every mesh, and interpolated between them.
 Eigen::VectorXd displacement(const ShellView& shell, const Eigen::Matrix3Xd& then) {
   const Eigen::Matrix3Xd& now = shell.frame.nodes;
   if (now.cols() == then.cols()) return (now - then).colwise().norm().transpose();
-  // by the joints, along the rods in between
+  // linearly along each rod
   const record::Layout& layout = *shell.layout;
   const auto joints = int(layout.joints.size());
   const auto known = [&](int node) { return node < joints + int(layout.edge_points.size()); };
@@ -71,7 +72,7 @@ Eigen::VectorXd displacement(const ShellView& shell, const Eigen::Matrix3Xd& the
   return moved;
 }
 
-/// Along a rod from one of its nodes to another, mm; none: it has not both.
+/// Length of a rod between two of its nodes, mm; nothing if it does not have both.
 std::optional<double> along_rod(const ShellView& shell, const std::vector<int>& rod, int from,
                                 int to) {
   auto first = std::ranges::find(rod, from), last = std::ranges::find(rod, to);
@@ -85,7 +86,7 @@ std::optional<double> along_rod(const ShellView& shell, const std::vector<int>& 
 
 using render::Colour;
 
-/// What is drawn on light paper, and on dark.
+/// Colours for a light and for a dark background.
 struct Palette {
   Colour paper, ground, rod, ring, joint, arrow;
 };
@@ -110,11 +111,11 @@ void put_colours(const ShellView& shell, const Show& show, render::Drawing& draw
     colours.push_back(show.scale(value));
   }
   if (drawing.node_colours.empty()) return;
-  // colours need some width to be seen
+  // thicker rods show their colours better
   drawing.rod_diameter_mm *= 1.8;
 }
 
-/// The reactions at joints, as arrows: the largest has a sixth of the shell's size.
+/// Draws the forces at constrained joints as arrows; the largest has 0.35 times the length scale.
 void put_forces(const ShellView& shell, const Show& show, double thin_mm,
                 render::Drawing& drawing) {
   double most = 0;
@@ -132,9 +133,9 @@ void put_forces(const ShellView& shell, const Show& show, double thin_mm,
 
 constexpr double degrees_a_pixel = 0.4, zoom_a_step = 0.88;
 constexpr double least_extent_mm = 0.1, most_extent_mm = 1e5;
-constexpr double steep_px = 0.15;  // of a pixel that an axis must move by a pixel of drag
+constexpr double steep_px = 0.15;  // a unit vector with a shorter picture is seen along itself
 
-/// Where a displacement's picture goes, pixels right and down a millimetre.
+/// The picture of a unit displacement at `place`, pixels to the right and down per millimetre.
 Eigen::Vector2d seen_px(const render::Camera& camera, const PictureSize& size,
                         const Eigen::Vector3d& place, const Eigen::Vector3d& unit) {
   const int w = int(size.width), h = int(size.height);
@@ -154,7 +155,7 @@ std::string label_of(const ShellView& shell, const Show& show) {
 render::ColourBar bar_of(const ShellView& shell, const Show& show) {
   const auto& text = colour_texts[std::size_t(show.colour_by)];
   const std::string label = label_of(shell, show);
-  const bool own = label == text.label;  // else it says itself what it is
+  const bool own = label == text.label;  // another label explains itself
   render::ColourBar bar{own ? text.marked : render::plain(label), show.scale};
   if (own) bar.words = text.words;
   bar.ends = true;
@@ -203,7 +204,7 @@ render::ColourScale scale_of(const ShellView& shell, const Show& show) {
   render::ColourScale scale =
       render::symmetric_scale(std::vector<double>(all.begin(), all.end()), 0.9);
   if (by == ColourBy::K || by == ColourBy::K_change || by == ColourBy::axial_force) {
-    // round-off has no colour, nor has a shell that nothing has changed yet a range
+    // so that round-off has no colour
     const double least = by == ColourBy::axial_force ? 1e-6 : 0.02;
     const bool changed = all.size() > 0 && all.cwiseAbs().maxCoeff() >= least;
     if (!changed || scale.high < least) scale.low = -least, scale.high = least;
@@ -216,7 +217,7 @@ render::ColourScale scale_of(const ShellView& shell, const Show& show) {
     return {render::sequential, low, std::max(high, low + 0.01), start};
   }
   const bool any = all.size() > 0 && all.maxCoeff() > 1e-9;
-  // the largest of these is requested
+  // of these, the largest value is in the range
   const bool whole = by == ColourBy::displacement || by == ColourBy::deviation;
   const double end = !any ? 1 : whole ? render::nice_ceiling(all.maxCoeff()) : scale.high;
   return {render::sequential, 0, end, start};
@@ -276,7 +277,7 @@ render::Drawing drawing_of(const ShellView& shell, const Show& show, double thin
   drawing.joint_colour = palette.joint;
   drawing.joint_diameter_mm = show.joints ? std::max(3.0, 1.5 * drawing.rod_diameter_mm) : 0;
   put_colours(shell, show, drawing);
-  // the line through fixed supports shows nothing
+  // not drawn if the supports do not move
   if (show.rings && layout.original_boundary != layout.actuated_boundary) {
     drawing.rings.push_back({layout.original_boundary, std::max(0.6, thin_mm), ghost_grey, false});
     drawing.rings.push_back({render::boundary_at(layout, shell.frame.actuation),
@@ -295,7 +296,7 @@ render::Drawing drawing_of(const ShellView& shell, const Show& show, double thin
   if (show.loads) render::put_loads(layout, shell.frame, show.largest_load_N, thin_mm, drawing);
   if (show.braces) render::put_braces(layout, shell.frame, thin_mm, drawing);
   render::put_contacts(layout, shell.frame, thin_mm, drawing);
-  // a shell that starts flat starts in its boundary's plane
+  // a shell that starts flat has its ground below the plane of the boundary
   const double lowest_mm = drawing.nodes.row(2).minCoeff();
   drawing.ground_z_mm = (layout.net_nodes.cols() > 0 ? lowest_mm : std::min(0.0, lowest_mm)) - 2.5;
   drawing.ground = show.ground;
@@ -345,7 +346,7 @@ void fit(render::Camera& camera, const PictureSize& size, const Eigen::Matrix3Xd
   const double half_width = 0.5 * (high.x() - low.x()), half_height = 0.5 * (high.y() - low.y());
   camera.half_extent_mm =
       std::max({half_height, half_width * size.height / size.width, least_extent_mm});
-  // what is nearer looks larger
+  // corrections for perspective
   for (int k = 0; k < 3; ++k) {
     double most = 0;
     for (const auto& point : points.colwise()) {
@@ -371,7 +372,7 @@ double dragged_along(const render::Camera& camera, const PictureSize& size,
                      double down_px) {
   const Eigen::Vector2d px = seen_px(camera, size, place, axis);
   const double scale = 1 / mm_per_pixel(camera, size);
-  // seen along itself it goes with the mouse up and down
+  // if the camera looks along the axis, the mouse moves the point by going up and down
   if (px.norm() < steep_px * scale) return -down_px / scale;
   return px.dot(Eigen::Vector2d(right_px, down_px)) / px.squaredNorm();
 }
@@ -381,7 +382,7 @@ double pushed_under(const render::Camera& camera, const PictureSize& size,
                     const Eigen::Vector3d& at, const Eigen::Vector2d& off_px) {
   const Eigen::Vector2d px = seen_px(camera, size, at, axis);
   const double depth = (at - from).dot(axis);
-  // seen along itself its picture does not say how far it is
+  // if the camera looks along the axis, the picture does not show the depth
   if (px.norm() < steep_px / mm_per_pixel(camera, size)) return depth;
   return depth + px.dot(off_px) / px.squaredNorm();
 }

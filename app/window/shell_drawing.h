@@ -1,5 +1,5 @@
-// What the mouse does to a camera (orbit, pan, zoom to the cursor, the standard views), by what the
-// shell is coloured, and its colours with the bar that explains them.
+// The camera of the view (orbit, pan, zoom to the cursor, standard views), the quantities that
+// colour the shell, their scale and colour bar, and the drawing of the shell.
 #pragma once
 
 #include <memory>
@@ -19,92 +19,96 @@ struct PictureSize {
   bool operator==(const PictureSize&) const = default;
 };
 
-/// Millimetres a pixel in the plane through the camera's target.
+/// Millimetres per pixel in the plane through the camera's target.
 double mm_per_pixel(const render::Camera& camera, const PictureSize& size);
 
-/// Turned by a drag of so many pixels; the elevation stays within straight down and straight up.
+/// Turns the camera around its target by a drag in pixels; the elevation is at most ±90 degrees.
 void orbit(render::Camera& camera, double right_px, double down_px);
-/// The picture moves along with the mouse.
+/// Shifts the camera so that the picture follows a drag in pixels.
 void pan(render::Camera& camera, const PictureSize& size, double right_px, double down_px);
-/// `steps` of the wheel closer; what lies under (x, y), pixels from the top left, stays there.
+/// Moves the camera `steps` of the wheel closer; the point of the picture at (x, y), pixels from
+/// the top left, does not move.
 void zoom(render::Camera& camera, const PictureSize& size, double steps, double x, double y);
 
+/// Turns the camera to a standard view.
 void look_from(render::Camera& camera, const render::ViewDirection& view);
 
-/// All points (3 x n, mm) within the picture, from where the camera looks.
+/// Moves the camera, without turning it, so that all points (3 x n, mm) are in the picture.
 void fit(render::Camera& camera, const PictureSize& size, const Eigen::Matrix3Xd& points);
 
-/// Millimetres that a point at `place` moves in the plane facing the camera for a drag in pixels.
+/// The displacement of a point at `place`, mm, in the plane facing the camera, for a drag in
+/// pixels.
 Eigen::Vector3d dragged_in_plane(const render::Camera& camera, const PictureSize& size,
                                  const Eigen::Vector3d& place, double right_px, double down_px);
-/// Displacement along the unit vector `axis` alone: as far as its picture follows the mouse.
+/// The displacement along the unit vector `axis` only, mm, that follows a drag in pixels best.
 double dragged_along(const render::Camera& camera, const PictureSize& size,
                      const Eigen::Vector3d& place, const Eigen::Vector3d& axis, double right_px,
                      double down_px);
-/// How far from `from` along the unit vector `axis` a point is to be pushed that is at `at` now, so
-/// that it comes under a cursor so many pixels off its picture; across the axis it moves by itself.
+/// The distance from `from` along the unit vector `axis` to which a point at `at` must be pushed,
+/// so that its picture, now `off_px` from the cursor, gets to the cursor. Perpendicular to the axis
+/// the point is free.
 double pushed_under(const render::Camera& camera, const PictureSize& size,
                     const Eigen::Vector3d& from, const Eigen::Vector3d& axis,
                     const Eigen::Vector3d& at, const Eigen::Vector2d& off_px);
-/// Displacement within the horizontal plane through the position; seen from the side, along the
-/// picture's right alone.
+/// The displacement in the horizontal plane through `place`; if the camera looks from the side,
+/// only to the right or left of the picture.
 Eigen::Vector3d dragged_level(const render::Camera& camera, const PictureSize& size,
                               const Eigen::Vector3d& place, double right_px, double down_px);
 
 using preset::ColourBy;
 
-/// What the colours' range is of: the state in sight, all since it was chosen, or as it was set by
-/// hand.
+/// The range of the colours: that of the current state, that of all states since this was chosen,
+/// or one that the user set.
 enum class RangeOf { state, run, hand };
 
-/// A state that the edited shell is compared with: the last of a run, an earlier one, the net, the
-/// joints of a scan.
+/// A state that the edited shell is compared with: the last state of a run, an earlier state, the
+/// net, or the joints of a scan.
 struct OtherShell {
   std::string name;
   std::shared_ptr<const ShellView> seen;  ///< not null, and has a layout
 };
 
-/// What is shown, and how.
+/// What is drawn, and how.
 struct Show {
   ColourBy colour_by = ColourBy::K;
   render::ColourScale scale;  ///< of the colours
   bool joints = true, rings = true, ground = true, net = false, footprint = false, dark = false,
        loads = true, braces = true;
-  double largest_load_N = 0;  ///< of the states since the shell was opened: the arrows' scale
+  double largest_load_N = 0;  ///< of all states since the shell was opened; it scales the arrows
   double mode_mm = 0;         ///< amplitude along the lowest mode
   std::shared_ptr<const OtherShell> other = {};  ///< drawn over it, or next to it; null: none
-  bool beside = false;
-  int shells() const { return beside && other ? 2 : 1; }  ///< side by side
+  bool beside = false;                           ///< `other` is drawn next to the shell
+  int shells() const { return beside && other ? 2 : 1; }  ///< that are drawn side by side
   bool operator==(const Show&) const = default;
 };
 
-/// For two joints their distance, straight and, if they have a common rod, along it; for three the
-/// angle at the second.
+/// A text with the distance of two joints, straight and, if they have a common rod, along it; for
+/// three joints the angle at the second.
 std::string text_of_measure(const ShellView& shell, const std::vector<int>& joints);
 
-/// As the interface names it of a shell, with its unit: "bending energy (mJ/m)".
+/// The name of the quantity that colours the shell, with its unit: "bending energy (mJ/m)".
 std::string label_of(const ShellView& shell, const Show& show);
-/// The bar of these colours, in the words of movies and figures.
+/// The colour bar, with the same text as in movies and figures.
 render::ColourBar bar_of(const ShellView& shell, const Show& show);
-/// What it is, in a sentence.
+/// A sentence that explains the quantity.
 const char* meaning_of(ColourBy by);
 
-/// The values that are coloured, of the cells or of the nodes; empty where the shell has none.
+/// The values of the quantity, one per cell or per node; empty if the shell has none.
 Eigen::VectorXd values_of(const ShellView& shell, const Show& show);
 
-/// The scale of these values, with nice ends.
+/// A scale for these values, with round numbers as ends.
 render::ColourScale scale_of(const ShellView& shell, const Show& show);
 
-/// The scale that follows `before`, as the range setting requires.
+/// The next scale: `now`, `before`, or the union of both, as `of` requires.
 render::ColourScale next_scale(const render::ColourScale& before, const render::ColourScale& now,
                                RangeOf of);
 
-// The shell in sight as the renderer of movies draws it.
+// The shell as the renderer of movies draws it.
 
-/// Drawing of a shell; `thin_mm`: the width of a pixel and a half.
+/// The drawing of a shell; `thin_mm`: width of 1.5 pixels, for thin lines.
 render::Drawing drawing_of(const ShellView& shell, const Show& show, double thin_mm);
 
-/// Where a node is drawn.
+/// Position in which a node is drawn, mm.
 Eigen::Vector3d place_of(const ShellView& shell, const Show& show, int node);
 
 }  // namespace gridshell::window

@@ -15,8 +15,8 @@ namespace gridshell::window {
 
 namespace {
 
-/// Whether the last control's new value is meant: while the mouse drags it, and once what was typed
-/// is entered.
+/// Whether the value of the last control shall be used: while the mouse drags it, and when a typed
+/// number was entered, which then is `value`.
 bool is_meant(const std::string& label, float& value, bool changed) {
   ImGuiStorage& kept = *ImGui::GetStateStorage();
   const ImGuiID number = ImGui::GetID((label + " typed").c_str()),
@@ -41,7 +41,7 @@ void slider(const Panel& panel, const char* name, float value, float low, float 
   const auto keeps_text = [&](const std::string& id) {
     return ImGui::TempInputIsActive(ImGui::GetID(id.c_str()));
   };
-  // its number is in the field next to it
+  // the slider's own number is hidden, since the field next to it shows it
   const bool hidden = !keeps_text(label);
   if (hidden) ImGui::PushStyleColor(ImGuiCol_Text, 0);
   ImGui::SetNextItemWidth(-field - ImGui::GetStyle().ItemSpacing.x);
@@ -64,7 +64,7 @@ void slider(const Panel& panel, const char* name, float value, float low, float 
 
 namespace {
 
-/// Marks on a slider ranges without a stable state (red) and events (amber); `share_of` takes a
+/// Marks ranges without a stable state (red) and events (amber) on a slider; `share_of` maps a
 /// progress to a fraction of the slider.
 template <class ShareOf>
 void mark_slider(const Panel& panel, const char* name, const ShareOf& share_of) {
@@ -84,7 +84,7 @@ void mark_slider(const Panel& panel, const char* name, const ShareOf& share_of) 
   }
 }
 
-/// What the marks are, one line each.
+/// The marks as text, one line each.
 std::string text_of_marks(const ShellView& shell) {
   std::string text;
   const bool circle = shell.preset.footprint.kind == preset::FootprintKind::circle;
@@ -121,7 +121,7 @@ void path(const Panel& panel) {
   }
   speed(panel, gap);
   float part = float(viewer.part());
-  // the correction of finer meshes before the push does not count as a push
+  // before the push, refinement moves the joint a little; that does not count
   if (std::abs(part) < 5e-4f || (push && viewer.shell->steps.empty())) part = 0;
   ImGui::TextUnformatted(push ? "Push, of the preset's depth" : "Progress");
   if (std::exchange(viewer.take_keyboard, false)) {
@@ -158,7 +158,7 @@ void boundary(const Panel& panel) {
   mark_slider(panel, "R_a", [&](double at) { return (shell.radius_at(at) - low) / (high - low); });
 }
 
-/// At the right end of a line, the small button that reverts what the line reports.
+/// A small button at the right end of a line; returns whether it was pressed.
 bool small_button(const Panel& panel, const char* label, const std::string& name, const char* help,
                   double width) {
   ImGui::SameLine(ImGui::GetContentRegionMax().x - panel.px(width));
@@ -167,7 +167,7 @@ bool small_button(const Panel& panel, const char* label, const std::string& name
   return pressed;
 }
 
-/// Names the first edge point that was moved off the boundary, and how many more there are.
+/// Lists the first edge points that were dragged off the boundary, with buttons to put them back.
 void dragged_edges(const Panel& panel) {
   constexpr std::size_t most = 3;
   const auto& dragged = panel.viewer.shell->edges_dragged;
@@ -259,7 +259,8 @@ void accuracy(const Panel& panel) {
   panel.named("model", "the model: auto takes the simplest model that is exact for the scene");
 }
 
-/// A list of the actions whose names begin so, one of which is on; its help.
+/// A list of the actions whose names begin with `begin`, of which exactly one is on. Returns the
+/// help of that one.
 const char* choose_action(const Panel& panel, const char* id, const std::string& begin) {
   std::vector<const Action*> all;
   std::vector<std::string> labels;
@@ -328,7 +329,7 @@ void shell_panel(const Panel& panel, const render::Box& box) {
   ImGui::TextWrapped("%s", viewer.shell->any()    ? viewer.shell->preset.title.c_str()
                            : viewer.engine.idle() ? "No shell yet: pick a preset."
                                                   : "The shell is being formed.");
-  // all four in one row, where a scroll bar leaves room for it
+  // in one row as far as there is space
   const float gap = 0.5f * ImGui::GetStyle().ItemSpacing.x;
   panel.button("pick_preset");
   const float right = ImGui::GetWindowPos().x + ImGui::GetContentRegionMax().x +

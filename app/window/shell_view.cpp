@@ -11,9 +11,9 @@ namespace gridshell::window {
 namespace {
 
 constexpr double same_shape = 2e-3;        // of the length scale
-constexpr double least_shortening = 1e-3;  // nearer to the flat no path is followed
+constexpr double least_shortening = 1e-3;  // nearer to the flat state no path is followed
 
-/// Where each of the motions' parameters is as near to the flat as a path goes, as a progress.
+/// The least progress of the boundary to which a path is followed.
 double least_progress_of(const Simulation& session) {
   if (session.scene().drawn_in_space) return 0;
   const NestedShell& shell = session.shell();
@@ -22,7 +22,7 @@ double least_progress_of(const Simulation& session) {
   return t ? std::min(1.0, progress_at(*t)) : 0;
 }
 
-/// Text for a group by Schoenflies name.
+/// Text for a symmetry group, by its Schoenflies name.
 std::string words_of_group(const std::string& group) {
   static const std::map<std::string, std::string> words{{"C1", "no symmetry"},
                                                         {"Cs_axis", "one axial mirror"},
@@ -36,7 +36,8 @@ std::string words_of_group(const std::string& group) {
   return found == words.end() ? "symmetry " + group : found->second;
 }
 
-/// Values that the colours show along the rods, and the cells' deviation from the net.
+/// Computes the values that colours show: axial force and bending at the nodes, and the deviation
+/// of the cells from the net.
 void put_values(ShellView& shell) {
   shell.axial_N = record::axial_force_of_nodes_N(*shell.layout, shell.frame);
   shell.bending_mJ_m = record::bending_of_nodes_mJ_per_m(*shell.layout, shell.frame);
@@ -117,7 +118,7 @@ void EditSession::update_view() {
     const Constraint& hold = session_->holds()[k];
     const Eigen::Vector3d from =
         origins.contains(hold.node) ? origins.at(hold.node) : s.frame.nodes.col(hold.node);
-    // what is free to move across the push is no part of its depth
+    // displacements in free directions are not part of the depth
     HeldJoint held{hold.node, hold.part(session_->force(k)),
                    hold.part(s.frame.nodes.col(hold.node) - from)};
     if (hold.directions.cols() == 1) held.along = hold.directions.col(0);
@@ -132,7 +133,7 @@ void EditSession::update_view() {
   ++s.equilibria;
 }
 
-/// The layout belongs to a scene and a mesh; both change seldom.
+/// Makes the layout again if the scene or the mesh changed.
 void EditSession::update_layout() {
   const RodMesh& mesh = session_->shell().finest();
   if (view_.layout && nodes_shown_ == mesh.rod_nodes()) return;
@@ -141,7 +142,7 @@ void EditSession::update_layout() {
     view_.error = layout.error().message;
     return;
   }
-  // a record has it only in addition to a net
+  // layout_of() gives flat nodes only for shells on nets
   if (layout->flat_nodes.cols() == 0)
     layout->flat_nodes = drawn_nodes(mesh, now_.scene->flat).leftCols(mesh.rod_nodes());
   view_.layout = std::make_shared<const record::Layout>(std::move(*layout));
@@ -151,14 +152,15 @@ void EditSession::update_layout() {
   if (net.cols() > 0) view_.net_K = cell_curvature(footprint, joint_tangents(footprint, mesh, net));
   view_.least_progress = least_progress_of(*session_);
   nodes_shown_ = mesh.rod_nodes();
-  // joints come first on every mesh, and the coarsest is the quickest to look at
+  // on the coarsest mesh, which is the fastest; joints come first on every mesh
   const NestedShell& shell = session_->shell();
   const RodMesh& coarsest = shell.mesh(0);
   symmetries_ = study::symmetries_of_shell(*now_.scene, coarsest,
                                            symmetries_of(coarsest, shell.motion(0).at(1)));
 }
 
-/// Symmetry of the shape, regardless of constraints. A footprint with the identity alone has none.
+/// Finds the symmetry of the shape, regardless of constraints. It is not named if the footprint has
+/// none.
 void EditSession::update_symmetry() {
   view_.symmetry.clear();
   if (!now_.refined || symmetries_.size() < 2) return;
@@ -168,7 +170,8 @@ void EditSession::update_symmetry() {
   view_.symmetry = words_of_group(name_of_group(group_of(symmetries_, joints, within_mm)));
 }
 
-/// Normals of the net if there is one, as for a preset's push; else of the current shell.
+/// Normals at the joints: those of the net if there is one, as for the push of a preset; else those
+/// of the current shell.
 void EditSession::update_normals() {
   const Footprint& footprint = now_.scene->footprint;
   Eigen::Matrix3Xd& normals = view_.normals;
@@ -183,7 +186,7 @@ void EditSession::update_normals() {
   }
 }
 
-/// What colours show: axial force and bending energy at the nodes, and the cells' deviation.
+/// Computes the values that colours show; the deviation of a designed shell is from its target.
 void EditSession::update_rods() {
   put_values(view_);
   if (!now_.design || !now_.target) return;
@@ -191,7 +194,7 @@ void EditSession::update_rods() {
   update_deviation(now_.target->distances(view_.frame.nodes.leftCols(joints)).size());
 }
 
-/// From what a design aims at.
+/// Deviation of the cells, from the distances of the joints to the target of a design.
 void EditSession::update_deviation(const Eigen::VectorXd& of_joints_mm) {
   const record::Layout& layout = *view_.layout;
   view_.deviation.resize(Eigen::Index(layout.cells.size()));
@@ -202,8 +205,8 @@ void EditSession::update_deviation(const Eigen::VectorXd& of_joints_mm) {
   }
 }
 
-/// How an unstable state would move: its lowest mode on the finest mesh, with a largest
-/// displacement of 1.
+/// Computes the lowest mode of an unstable state on the coarsest mesh, and interpolates it to the
+/// finest one, with a largest displacement of 1.
 void EditSession::update_soft_mode() {
   view_.soft_mode.resize(3, 0);
   if (view_.stable()) return;

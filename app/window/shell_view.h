@@ -1,7 +1,6 @@
-// What the engine's thread shows of the edited shell: a copy that the window draws. It includes
-// what is known of the paths of the shell: where it is unstable, and where events happened. A
-// branch may lose its stability and regain it before a step of the user ends; the pivots of the
-// load steps in between show this.
+// The copy of the edited shell that the engine's thread passes to the window. It includes marks on
+// the paths of the shell: intervals that are unstable, and events. A path may lose its stability
+// and regain it within one step of the user; the pivots of the load steps in between show this.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,27 +15,27 @@
 
 namespace gridshell::window {
 
-/// An interval of a path, or one position on it. On the path of the boundary positions are its
-/// progress, 0 at the original and 1 at the actuated boundary; on the push of a joint they are its
-/// distance from where its constraint was set, mm.
+/// An interval of a path, or one position on it. The position is, while the boundary moves, its
+/// progress, 0 at the original and 1 at the actuated boundary; while a joint is pushed, its
+/// distance in mm from where its constraint was set.
 struct PathMark {
   double from = 0, to = 0;  ///< from <= to
-  int joint = -1;           ///< that is pushed; -1: the boundary moves
-  bool unstable = false;    ///< no state between is stable; else something happened at `from`
+  int joint = -1;           ///< the joint that is pushed; -1: the boundary moves
+  bool unstable = false;    ///< states `from` to `to` are unstable; else an event is at `from`
   std::string what = {};
 };
 
-/// The marks of a path by the pivots of its load steps and by its events; `place` maps the path
-/// parameter to the position. Between a stable load step and an unstable one, stability ends where
-/// an event says so; else the interval ends at the unstable step, as far as it is known.
+/// The marks of a path, from the pivots of its load steps and from its events; `place` maps the
+/// path parameter to the position. An unstable interval ends at an event between the unstable and
+/// the stable load step; without such an event it ends at the last unstable step.
 std::vector<PathMark> marks_of(const PathRecord& path, const std::vector<Event>& events, int joint,
                                const std::function<double(double)>& place);
 
-/// Adds them. Intervals of the same kind and joint that touch or overlap are merged into one, from
-/// the first start to the last end: paths there and back are marked once.
+/// Adds marks. Intervals of the same kind and joint that touch or overlap are merged, so that a
+/// path that is followed forward and back is marked once.
 void add_marks(std::vector<PathMark>& marks, const std::vector<PathMark>& more);
 
-/// "the path lost its stability; came to rest in another state" of what a step came past.
+/// The events of a step as text: "stability lost; limit point: snapped to another state".
 std::string text_of_events(const std::vector<Event>& events);
 
 /// "124.2 to 122.9" for an interval, one number for a position; `shown` converts positions.
@@ -47,99 +46,99 @@ struct HeldJoint {
   int joint = 0;
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();   ///< its reaction
   Eigen::Vector3d moved_mm = Eigen::Vector3d::Zero();  ///< since its constraint was set
-  /// unit; zero: constrained in every direction
+  /// unit vector of the constrained direction; zero: every direction is constrained
   Eigen::Vector3d along = Eigen::Vector3d::Zero();
 };
 
 /// An edge point that was dragged off the boundary's motion.
 struct DraggedEdge {
   int edge_point = 0;
-  double off_mm = 0;
+  double off_mm = 0;  ///< distance from its position in that motion
 };
 
-/// The push of the preset itself: the joint, its start, and the complete displacement.
+/// The push of [indentation]: the joint, its start, and its complete displacement.
 struct PresetPush {
-  int joint = -1;  ///< none
+  int joint = -1;  ///< -1: none
   Eigen::Vector3d from = Eigen::Vector3d::Zero(), displacement = Eigen::Vector3d::Zero();
 };
 
-/// A step of a design that was certified; the first is the shell before.
+/// A certified step of a design; the first one is the shell before the design.
 struct DesignPoint {
   int iteration = 0;
   double max_mm = 0, mean_mm = 0;  ///< distances of the joints from the target
   double eigenvalue = 0;           ///< smallest on 32 edges per segment, N/mm^2
   double largest_move_mm = 0;
-  double thinnest_mm = 0, thickest_mm = 0;  ///< rods
+  double thinnest_mm = 0, thickest_mm = 0;  ///< of the rods
 };
 
-/// How a design goes, or went.
+/// Progress or result of a design.
 struct DesignProgress {
   preset::Inverse inverse;
   double length_scale_mm = 1;
   std::vector<DesignPoint> points;
-  int iterations = 0;  ///< refused ones too
+  int iterations = 0;  ///< including refused ones
   bool under_way = true, stopped = false, kept = false;
-  std::optional<double> rounded_max_mm;  ///< at its end, if the rounded shell is stable
+  std::optional<double> rounded_max_mm;  ///< of the rounded shell, if that is stable
 };
 
-/// What the plots show of an equilibrium.
+/// The values of an equilibrium that can be plotted.
 struct PlotPoint {
   double equilibrium = 0, radius_mm = 0, progress = 0, height_mm = 0, energy_mJ = 0, depth_mm = 0,
          force_N = 0, total_K = 0, residual_N = 0, error_mm = 0;
-  int joint = -1;  ///< the constrained joint that was moved last; none
-  int steps = 0;   ///< that were done
+  int joint = -1;  ///< the constrained joint that was moved last; -1: none
+  int steps = 0;   ///< number of steps that were done
   bool refined = true, stable = true;
-  bool coarse = false;  ///< of one mesh alone, in a drag
+  bool coarse = false;  ///< computed on the coarsest mesh only, during a drag
 };
 
-/// What commands change of a shell, in addition to the state of its rods.
+/// What a command can change, and a view shows, in addition to the state of the rods.
 struct ViewedState {
-  preset::Preset preset;  ///< in a view with the current radius of the boundary
+  preset::Preset preset;  ///< in a ShellView it has the current radius of the boundary
   PresetPush push;
-  std::shared_ptr<const record::Frame> first;  ///< where the shell began; null before
-  StepHistory steps;                           ///< that the user did since it was formed
+  std::shared_ptr<const record::Frame> first;  ///< first state; null before the shell is formed
+  StepHistory steps;                           ///< of the user, since the shell was formed
   std::vector<PathMark> marks;                 ///< of the paths that led to the current state
   bool refined = false;            ///< to the preset's tolerance; else coarse, as in a drag
   bool rods_changed_late = false;  ///< keys of its rods were changed after steps
   bool snapped = false;            ///< it snapped to another equilibrium
   std::string
-      path_left;  ///< event and position at which the known path was left; empty: it was not
-  std::shared_ptr<const DesignProgress> design;  ///< that the shell is of; null: none
+      path_left;  ///< event and position at which the shell left the marked path; empty: it did not
+  std::shared_ptr<const DesignProgress> design;  ///< the design that made the shell; null: none
 };
 
-/// One equilibrium of one shell, or none yet (no layout).
+/// An equilibrium of the shell; without a layout there is none yet.
 struct ShellView : ViewedState {
   std::shared_ptr<const record::Layout> layout;  ///< of the frame's nodes
   record::Frame frame;
   Certificate certificate;
   std::vector<int> meshes;       ///< edges per segment, coarse to fine
-  std::string accuracy_warning;  ///< of a refined state: what it lacks; empty: nothing
-  double progress = 0;           ///< of the boundary; above 1 further than in the preset
-  double least_progress = 0;     ///< to which it can be released
-  std::string symmetry;          ///< "two diagonal mirrors"; empty while a drag passes
+  std::string accuracy_warning;  ///< why a refined state misses the tolerance; empty: it does not
+  double progress = 0;           ///< of the boundary; above 1: moved further than in the preset
+  double least_progress = 0;     ///< the least one to which the boundary can be moved back
+  std::string symmetry;          ///< "two diagonal mirrors"; empty during a drag
   std::vector<HeldJoint> held;
-  double radius_end_mm = 0;  ///< of a circle's boundary where its motion ends
+  double radius_end_mm = 0;  ///< of a circular boundary at the end of its motion
   std::vector<DraggedEdge> edges_dragged;
   Eigen::Matrix3Xd normals;      ///< one per joint: t_u x t_v
   Eigen::VectorXd axial_N;       ///< one per node, the mean of its edges
   Eigen::VectorXd bending_mJ_m;  ///< one per node: energy over length, J/m / 1000
-  /// One a cell, mean of its joints, over rho: from the net, of a designed shell from what the
-  /// design aims at; empty without a net.
+  /// one per cell, mean over its joints: distance over rho from the net, for a designed shell from
+  /// the target of the design; empty without a net
   Eigen::VectorXd deviation;
-  Eigen::Matrix3Xd soft_mode;  ///< of a state that is not stable: unit moves of its nodes
-  std::string message;         ///< what was done, or happened on the path; empty: nothing
-  std::string event;           ///< what happened to the branch on the path; empty: nothing
-  std::string error;           ///< why the last command was not met; empty: it was
-  /// The nearest preset that works of one that was refused; null: none is known.
+  Eigen::Matrix3Xd soft_mode;  ///< of an unstable state: displacements of its nodes, largest 1
+  std::string message;         ///< what was done or happened on the path
+  std::string event;           ///< an event on the path; empty: none
+  std::string error;           ///< why the last command failed; empty: it did not
+  /// After a refused preset: the nearest one that works; null: none is known.
   std::shared_ptr<const preset::Preset> offer;
-  /// Equilibria on one boundary, if more than one was found; null: none.
+  /// The equilibria that were found on one boundary; null: fewer than two.
   std::shared_ptr<const std::vector<std::shared_ptr<const ShellView>>> found;
-  std::vector<PlotPoint> push_path;  ///< equilibria that the last push came past, but for this one
+  std::vector<PlotPoint> push_path;  ///< equilibria on the path of the last push, without its end
   int undo_steps = 0, redo_steps = 0;
   int equilibria = 0;  ///< found so far
-  double seconds = 0;  ///< the last one took
+  double seconds = 0;  ///< time of the last command or refinement
 
-  Eigen::VectorXd net_K;  ///< of the cells on the net that it was designed on; empty without one
+  Eigen::VectorXd net_K;  ///< K□ of the cells on the Chebyshev net, rad; empty without a net
 
   bool any() const { return layout != nullptr; }
   bool stable() const { return certificate.stable(); }
@@ -153,11 +152,11 @@ struct ShellView : ViewedState {
 
 PlotPoint plot_point_of(const ShellView& shell);
 
-/// A state of a record, seen against `first`.
+/// The view of a state of a run; `first`: the run's first state.
 std::shared_ptr<const ShellView> view_of(record::Layout layout, record::Frame frame,
                                          record::Frame first);
 
-/// Why the shell cannot be designed, a sentence; empty: it can.
+/// Why the shell cannot be designed; empty if it can.
 std::string why_not_designed(const ShellView& shell);
 
 }  // namespace gridshell::window

@@ -1,5 +1,5 @@
-// Along the bottom: what was done, step by step, to go back to; the state's certificate, and why it
-// is what it is.
+// The bottom of the window: the timeline of steps, the states that were found, the certificate of
+// the state, and messages.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -106,13 +106,14 @@ void ViewerState::note_step() {
 
 namespace {
 
-/// The states that were found as pictures at the right end of the strip; the room that is left.
+/// Draws pictures of the states that were found at the right end of the strip; returns the width
+/// that is left.
 double state_pictures(const Panel& panel, const render::Box& box) {
   ViewerState& viewer = panel.viewer;
   if (panel.states.empty()) return box.width;
   const float high = float(box.height) - panel.px(6), wide = 1.6f * high, gap = panel.px(4);
   const int count = int(panel.states.size()), now = viewer.state_in_sight();
-  // those next to the one in sight, where not all have room
+  // if not all have room, those next to the current one
   const int most = std::max(1, int(0.5f * float(box.width) / (wide + gap)));
   const int first = std::clamp(now - most / 2, 0, std::max(0, count - most));
   const int shown = std::min(most, count - first);
@@ -155,7 +156,7 @@ void step_point(const Panel& panel, int k, ImVec2 at) {
                        : !entry.event.empty() ? colours.warning
                                               : ImGui::GetColorU32(ImGuiCol_PlotLines);
   const float radius = panel.px(entry.event.empty() ? 4 : 6);
-  // what was undone is hollow
+  // undone steps are hollow
   if (k > now)
     list.AddCircle(at, radius, colour, 0, panel.px(1.4));
   else
@@ -172,7 +173,7 @@ std::string meshes_of(const std::vector<int>& meshes) {
   return text + " edges per segment";
 }
 
-/// In a narrow window the error alone.
+/// Text of the certificate; in a narrow window only the error.
 std::string certificate_of(const ShellView& shell, bool timed, bool narrow) {
   const Certificate& c = shell.certificate;
   const std::string error = std::isfinite(c.error_estimate_mm)
@@ -191,7 +192,7 @@ std::string standing_of(const DesignProgress& course) {
                      course.iterations, percent * now.max_mm, percent * now.mean_mm);
 }
 
-/// Progress of the movie that is made in the background, over the last message.
+/// Writes the progress of the movie over the last message.
 void movie_standing(const Panel& panel) {
   const std::string said = panel.viewer.movie_task.standing();
   const std::string line = "movie " + (said.empty() ? "0 %" : said);
@@ -232,7 +233,7 @@ void timeline_panel(const Panel& panel, const render::Box& box) {
     if (ImGui::InvisibleButton("step", {2 * half, float(box.height) - panel.px(4)}) &&
         viewer.engine.idle())
       viewer.go_to_step(k);
-    // pressed and drawn along the strip it goes along
+    // a drag along the strip goes to the step under the mouse
     const int under = int(std::lround((ImGui::GetIO().MousePos.x - left) / step));
     const int there = std::clamp(under, 0, count - 1);
     if (ImGui::IsItemActive() && there != k && there != viewer.shell->undo_steps &&
@@ -283,7 +284,7 @@ void why_popup(const Panel& panel) {
   ImGui::EndPopup();
 }
 
-/// A refusal in full, where the line has no room for it, and what would work instead.
+/// Shows an error that is too long for the line in full, and a button for a preset that works.
 void notice(const Panel& panel, const render::Box& line, float room) {
   ViewerState& viewer = panel.viewer;
   const auto& offer = viewer.shell->offer;
@@ -312,7 +313,7 @@ void notice(const Panel& panel, const render::Box& line, float room) {
   ImGui::End();
 }
 
-// The certificate of the state shown, what the engine is at, what was said last.
+// The status line: certificate of the state, and the progress of the engine or the last message.
 
 void status_line(const Panel& panel, const render::Box& box) {
   const ViewerState& viewer = panel.viewer;
@@ -346,7 +347,7 @@ void status_line(const Panel& panel, const render::Box& box) {
       busy > 0.3 ? fmt::format("solving for {:.1f} s (Esc stops)", busy) : viewer.message;
   if (shell.designing()) said = standing_of(*shell.design);
   const bool bad = busy <= 0.3 && viewer.message_bad && !shell.designing();
-  // one line, however much was said: the tooltip has all of it
+  // only the first line; the tooltip has the complete message
   coloured_text(bad ? colours.error : ImGui::GetColorU32(ImGuiCol_TextDisabled),
                 said.substr(0, said.find('\n')));
   panel.named("message", said);

@@ -1,4 +1,4 @@
-// The steps that can be undone: where their states are put, and how one goes back to them.
+// The steps that can be undone: storing their states in memory or in a file, and restoring them.
 #include <algorithm>
 #include <exception>
 #include <new>
@@ -47,7 +47,8 @@ std::int64_t bytes_of(const Checkpoint& kept) {
 
 }  // namespace
 
-/// Keeps the state before a command, but for one of the drag that the last step began.
+/// Stores the state before a command as a step to undo; not before further commands of a drag.
+/// Returns whether it was stored.
 bool EditSession::remember(const Command& command) {
   if (!session_ || (command.drag != 0 && command.drag == drag_)) return false;
   drag_ = command.drag;
@@ -57,14 +58,14 @@ bool EditSession::remember(const Command& command) {
   return true;
 }
 
-/// Older steps go to a file; where that has no room, they are forgotten.
+/// Moves older steps into a file; if that has no room, discards them.
 void EditSession::keep_within_memory(std::deque<UndoStep>& steps) {
   clear_scratch();
   std::int64_t bytes = 0;
   std::size_t kept = 0;
   while (kept < steps.size() && bytes <= most_bytes_)
     bytes += bytes_of(steps[steps.size() - 1 - kept++].checkpoint);
-  // those before are aside already but for the last few
+  // of the older ones, all but the last few are in the file already
   for (std::size_t k = steps.size() - kept; k-- > 0 && !steps[k].saved;)
     if (!save_to_scratch(steps[k])) {
       steps.erase(steps.begin(), steps.begin() + std::ptrdiff_t(k) + 1);
@@ -72,7 +73,7 @@ void EditSession::keep_within_memory(std::deque<UndoStep>& steps) {
     }
 }
 
-/// What nobody can go back to makes room.
+/// Empties the file if no step is in it.
 void EditSession::clear_scratch() {
   const auto saved = [](const UndoStep& step) { return step.saved.has_value(); };
   if (std::ranges::none_of(undo_, saved) && std::ranges::none_of(redo_, saved) &&
@@ -115,7 +116,7 @@ Result<void> EditSession::travel(std::deque<UndoStep>& from, std::deque<UndoStep
   if (from.empty()) return invalid(none);
   if (!load_from_scratch(from.back()))
     return fail(Fault::io, "the state was put aside into a file that cannot be read");
-  // a step that is repeated is known
+  // the current state, to which the opposite command returns
   UndoStep before{now_, session_->save(), from.back().before_design};
   try {
     TRY_DO(restore(from.back()));
@@ -144,7 +145,7 @@ std::string error_text(const std::exception& thrown) {
   return dynamic_cast<const std::bad_alloc*>(&thrown) ? "memory ran out" : thrown.what();
 }
 
-/// After an exception: back to the state before the command, or before the drag that it is of.
+/// After an exception: restores the state before the command, or before its drag.
 void EditSession::recover(const Command& command, const std::exception& thrown) {
   try {
     const std::string why = error_text(thrown);
@@ -159,12 +160,12 @@ void EditSession::recover(const Command& command, const std::exception& thrown) 
     }
     update_view();
   } catch (const std::exception&) {
-    // the view of before stays; an error that fits anywhere
+    // the last view remains; this text is short enough for any memory
     view_.error = "memory ran out";
   }
 }
 
-/// Forgets the step that the command at hand did not become; what was undone can be done again.
+/// Discards the step that was stored before the current command; Redo is possible again.
 void EditSession::take_back_step() {
   undo_.pop_back();
   redo_ = std::exchange(redo_aside_, {});

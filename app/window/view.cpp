@@ -43,13 +43,13 @@ bool is_off_screen(const ViewOptions& options) {
          options.bench > 0;
 }
 
-/// The first of several cases.
+/// The preset of a name, file or run; of several cases the first.
 Result<preset::Preset> first_preset_of(const std::string& name) {
   TRY(presets, load_preset_or_run(name));
   return presets->cases.empty() ? presets->base : presets->cases.front().preset;
 }
 
-/// In a process of its own that can be stopped.
+/// Runs this program in another process, which can be stopped.
 Result<void> run_this_program(std::vector<std::string> arguments, const Watch& watch,
                               const ProgressListener& listener) {
   std::error_code error;
@@ -64,8 +64,8 @@ Result<void> make_movie(const fs::path& preset, const fs::path& folder,
   return run_this_program({"movie", preset.string(), "-o", folder.string()}, watch, listener);
 }
 
-/// Forms and exports the shell by the program itself, in a temporary folder that is removed; except
-/// that an .xdmf reads its numbers from a folder FILE_run next to it.
+/// Forms and exports the shell with `run` and `export` of this program, in a temporary folder. For
+/// an .xdmf, which reads its numbers from the run, that folder is FILE_run and remains.
 Result<void> export_shell(const preset::Preset& preset, const fs::path& file,
                           const ProgressListener& listener, const Watch& watch) {
   TRY(scratch, ScratchFolder::make());
@@ -86,7 +86,7 @@ Result<void> export_shell(const preset::Preset& preset, const fs::path& file,
       });
 }
 
-/// The joints of a scan.csv, those that are missing left out; a line from each to its neighbours.
+/// The joints of a scan.csv, without missing ones, and lines between neighbours.
 Result<OtherShell> load_scan(const fs::path& file) {
   TRY(text, read_file(file));
   record::Layout scan;
@@ -123,7 +123,7 @@ Result<OtherShell> load_run(const fs::path& folder) {
                     view_of(run.layout, run.frames.back(), run.frames.front())};
 }
 
-/// As a page of its own in the folder of temporary files.
+/// Writes the manual into the folder of temporary files and opens it in a browser.
 Result<void> show_manual(const Watch& watch) {
   TRY(page, manual_html());
   const fs::path file =
@@ -146,7 +146,7 @@ Library library_of(const ViewOptions& options) {
   library.export_formats = usual_exports();
   library.load_run = load_run;
   library.show_manual = show_manual;
-  // in a separate context, which does not delay the window's
+  // in a separate context, so that the window need not wait
   library.draw_picture = [context = options.context](const PictureRequest& order,
                                                      const fs::path& file) -> Result<void> {
     TRY(maker, PictureMaker::create(context));
@@ -163,8 +163,8 @@ Library library_of(const ViewOptions& options) {
   return library;
 }
 
-/// The software rasteriser leaves a processor to the engine and one to the window, which draws by
-/// itself where there are but two.
+/// Leaves one core to the engine and one to the window, and the others to the threads of the
+/// software rasteriser; if there are only two, it has no threads.
 void share_processors() {
   const unsigned cores = std::max(2u, std::thread::hardware_concurrency());
   setenv("LP_NUM_THREADS", std::to_string(cores - 2).c_str(), 0);
@@ -179,7 +179,7 @@ void print_bench(const BenchFigures& figures) {
                               {"cancel_ms", rounded(figures.cancel_ms)}}));
 }
 
-/// The engine's final state, as a line of JSON: the same for the same recording on every machine.
+/// Prints the final state as a line of JSON, the same for the same recording on every machine.
 void print_state(const ViewerState& viewer) {
   const ShellView& sight = *viewer.shell;
   const auto* held = sight.held.empty() ? nullptr : &sight.held.back();
@@ -209,7 +209,8 @@ void print_state(const ViewerState& viewer) {
   fmt::print("{}\n", line_of(line));
 }
 
-/// The shell alone, as the view has it; of a preset that nobody turned all of it.
+/// Draws the shell without the interface, with the camera of the view; without a recording the
+/// camera is fitted to the requested size.
 Result<void> draw_alone(const ViewOptions& options, ViewerState& viewer) {
   if (!viewer.shell->any()) return fail(Fault::no_equilibrium, viewer.message);
   if (options.play.empty() && viewer.picture.width > 0) {
@@ -221,7 +222,7 @@ Result<void> draw_alone(const ViewOptions& options, ViewerState& viewer) {
 
 Result<int> play_aside(const ViewOptions& options, ViewerState& viewer) {
   std::vector<InputEvent> events;
-  // a picture of a preset is of its end, pushed as far as it pushes
+  // the picture of a preset shows the end of its path or push
   if (!options.picture.empty() && options.play.empty())
     events.push_back({.kind = InputKind::act, .text = "to_end"});
   if (!options.play.empty()) {
@@ -253,7 +254,7 @@ Result<void> size_picture(const ViewOptions& options, PictureFormat& picture) {
   return check_picture(picture.width, picture.height);
 }
 
-/// The workspace of the last visit; one that cannot be read is none.
+/// Restores the workspace; errors in it are only reported.
 void restore(const ViewOptions& options, ViewerState& viewer) {
   if (options.workspace.empty()) return;
   if (const auto text = read_file(options.workspace, largest_text))
@@ -261,7 +262,7 @@ void restore(const ViewOptions& options, ViewerState& viewer) {
       fmt::print(stderr, "{}: {}\n", options.workspace.string(), taken.error().message);
 }
 
-/// Kept for the next visit.
+/// Saves the workspace.
 void keep(const ViewOptions& options, const ViewerState& viewer) {
   if (options.workspace.empty() || !viewer.shell->any()) return;
   const auto kept = write_with_folder(options.workspace, workspace_text(viewer));
@@ -293,13 +294,13 @@ Result<int> view(ViewOptions options) {
   if (is_off_screen(options) && options.play.empty() && options.input.empty())
     return invalid("view --shot PNG and --picture PNG take a preset or --play FILE");
   const bool off_screen = is_off_screen(options);
-  // what is played is the same everywhere
+  // no workspace off-screen or for a recording, so that it plays the same on every machine
   if (options.workspace.empty() && !off_screen && options.record.empty())
     options.workspace = workspace_file();
   share_processors();
   ViewerState viewer(library_of(options));
   viewer.timed = !off_screen;
-  // what is played is drawn in turn
+  // without another thread, so that frames are the same on every machine
   if (off_screen && options.bench == 0) viewer.library.draw_still = nullptr;
   TRY_DO(size_picture(options, viewer.picture));
   restore(options, viewer);

@@ -1,4 +1,4 @@
-// What is written and drawn over the picture of the shell.
+// Marks, texts, scale bar, axes and the legend of colours over the picture of the shell.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace {
 
 constexpr ImU32 mark_colour = IM_COL32(50, 140, 240, 255);
 
-/// What is drawn over one view.
+/// Draws over one view.
 class Overlay {
  public:
   Overlay(const Panel& panel, const render::Box& view)
@@ -63,8 +63,7 @@ class Overlay {
   float wide_;
 };
 
-/// What the panel shows the figures of: a ring on a joint, a rod and the point on it, a cell's
-/// edge.
+/// Marks what was picked: a ring on a joint, a rod and the point on it, the edges of a cell.
 void Overlay::mark_picked() {
   const record::Layout& layout = *shell_.layout;
   if (viewer_.picked_joint >= 0 && viewer_.picked_joint < int(layout.joints.size()))
@@ -80,7 +79,7 @@ void Overlay::mark_picked() {
   }
 }
 
-/// A ring around the joint or edge point that the mouse would take.
+/// A ring around the joint or edge point under the mouse.
 void Overlay::mark_under() {
   const record::Layout& layout = *shell_.layout;
   const int joint = viewer_.joint_under, edge = viewer_.edge_under;
@@ -93,8 +92,8 @@ void Overlay::mark_under() {
     ring(layout.edge_points[std::size_t(edge)], 7);
 }
 
-/// A text on a background of its own next to a point; to its left where the legend is, and in lines
-/// where the view is narrow.
+/// A text on a background next to a point; to its left if the legend is at its right, wrapped if
+/// the view is narrow.
 void Overlay::label(const std::string& text, ImVec2 at) {
   const float beside = panel_.px(12), room = panel_.px(3),
               legend = float(view_.right()) - panel_.px(110);
@@ -116,7 +115,7 @@ void Overlay::write_forces() {
           point_of(held.joint));
 }
 
-/// Between two joints their distance, at the second of three the angle.
+/// Writes the measured distance of two joints, or the angle at the second of three.
 void Overlay::write_measure() {
   const std::vector<int>& joints = viewer_.measured;
   if (viewer_.measuring && joints.size() < 2)
@@ -131,7 +130,7 @@ void Overlay::write_measure() {
   if (joints.size() > 1) label(text_of_measure(shell_, joints), point_of(right));
 }
 
-/// What the green rods are, or the shell at the right, and how far the joints are from theirs.
+/// Writes the name of the other shell (green, or at the right), and the distances of joints.
 void Overlay::tell_other() {
   if (!viewer_.show.other) return;
   const bool beside = viewer_.show.shells() > 1;
@@ -148,8 +147,8 @@ void Overlay::tell_other() {
   label("current", {float(view_.x), top});
 }
 
-/// A length along the view's lower edge with its meaning above it; returns where the next may
-/// start.
+/// Draws a length at the lower edge of the view, with a text above it; returns the position of the
+/// next one.
 float Overlay::draw_length(float x, float wide, const std::string& text, ImU32 colour, bool arrow) {
   const float y = float(view_.bottom()) - panel_.px(16), tall = panel_.px(4);
   const float written = ImGui::CalcTextSize(text.c_str()).x, room = std::max(wide, written);
@@ -165,8 +164,8 @@ float Overlay::draw_length(float x, float wide, const std::string& text, ImU32 c
   return x + 0.5f * (wide + room) + panel_.px(24);
 }
 
-/// A round length of some hundred pixels, and the meaning of the arrows of loads and the bars of
-/// braces; in a perspective picture lengths apply in the plane that the camera looks at.
+/// Draws a scale bar of round length, and keys for the arrows of loads and the bars of braces. In a
+/// perspective picture the lengths apply in the plane through the camera's target.
 void Overlay::draw_scale() {
   const double per_px = mm_per_pixel(viewer_.camera, viewer_.view);
   const double length_mm = render::nice_ceiling(per_px * panel_.px(80));
@@ -188,7 +187,7 @@ void Overlay::draw_scale() {
                   ImGui::GetColorU32(ImGuiCol_Text), sums.c_str());
 }
 
-/// x, y and z from where the camera looks; a click on an end looks along it.
+/// Draws the axes x, y and z; a click on an end turns the camera to look along it.
 void Overlay::draw_axes() {
   struct AxisEnd {
     const char *name, *action;
@@ -220,7 +219,7 @@ void Overlay::draw_axes() {
   panel_.named("projection", help_of(*find_action("orthographic")));
 }
 
-/// Texts that end at given positions, over a pale background of their size.
+/// Right-aligned texts over a pale background, which is drawn last in the size of all of them.
 class Ground {
  public:
   Ground(const Panel& panel, ImDrawList& list, ImVec2 corner)
@@ -281,10 +280,10 @@ void view_overlay(const Panel& panel, const render::Box& view) {
   overlay.draw_axes();
 }
 
-// What the colours of the view mean, over its right edge.
+// The legend of the colours, at the right edge of the view.
 
-/// An end of the colours' range next to the bar, where it can be dragged or typed; returns its
-/// width.
+/// An end of the range of colours, next to the bar, which can be dragged or typed; returns the
+/// width of the control.
 float range_end(const Panel& panel, const char* name, float left, float top) {
   ViewerState& viewer = panel.viewer;
   const bool is_high = std::string(name) == "range_high";
@@ -310,7 +309,7 @@ void colour_legend(const Panel& panel, const render::Box& view) {
   ViewerState& viewer = panel.viewer;
   if (!viewer.shell->any() || viewer.show.colour_by == ColourBy::none) return;
   const float line = ImGui::GetTextLineHeight(), width = panel.px(14);
-  // in a low view the bar leaves room for the notes below it
+  // in a low view the bar is shorter, so that the texts below it have room
   const float height = std::min(panel.px(170), std::max(2 * line, float(view.height) - 8 * line));
   const float right = float(view.right()) - panel.px(14), top = float(view.y) + panel.px(14);
   Ground ground(panel, *ImGui::GetWindowDrawList(), {right, top});
@@ -321,7 +320,7 @@ void colour_legend(const Panel& panel, const render::Box& view) {
   const float low = top + 1.6f * line, left = right - width;
   bar(scale, {left, low}, {right, low + height});
   ground.reach(low + height);
-  const float apart = 1.2f * line / height;  // of the range, between two texts
+  const float apart = 1.2f * line / height;  // least distance of two texts, over that of the bar
   for (const render::Tick& tick : render::linear_ticks(scale.low, scale.high, 4)) {
     const auto down = float((scale.high - tick.value) / (scale.high - scale.low));
     if (tick.major && down > apart && down < 1 - apart)

@@ -14,12 +14,12 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_points = 4000;
 constexpr std::size_t most_recent = 8;
-constexpr double look_every_s = 0.5;  // at the preset's file
-constexpr double most_number = 1e9;   // in a workspace
-constexpr double other_size = 0.02;   // of a shell that does not fill the view as before
+constexpr double look_every_s = 0.5;  // interval of checking the preset's file
+constexpr double most_number = 1e9;   // largest number that is read from a workspace
+constexpr double other_size = 0.02;   // relative change of size that fits the camera again
 constexpr double earth_m_s2 = 9.81, nitinol_kg_m3 = 6450;
 
-/// Calls visit(key, value) for what is on or off.
+/// Calls visit(key, value) for each flag of the workspace.
 template <class AnyViewer, class Visit>
 void each_switch(AnyViewer& viewer, const Visit& visit) {
   visit("joints", viewer.show.joints);
@@ -35,7 +35,7 @@ void each_switch(AnyViewer& viewer, const Visit& visit) {
   visit("design", viewer.design_panel);
 }
 
-/// Visits the camera's numbers.
+/// Calls visit(key, value) for each number of the camera.
 template <class AnyCamera, class Visit>
 void each_number(AnyCamera& camera, const Visit& visit) {
   visit("azimuth_deg", camera.azimuth_deg);
@@ -47,7 +47,7 @@ void each_number(AnyCamera& camera, const Visit& visit) {
   visit("target_z_mm", camera.target.z());
 }
 
-/// Takes a member of an object where it has one that such a value can be.
+/// Reads a member of an object; returns false, and leaves `value`, if it is missing or no Value.
 template <class Value>
 bool take(const Json& object, const char* key, Value& value) {
   if (!object.is_object() || !object.contains(key)) return false;
@@ -168,7 +168,7 @@ void ViewerState::start_design() {
     return say("nothing may change: tick pins, legs, directions or diameters", true);
   design_panel = true;
   play(false);
-  // of all steps, so that the remaining one is compared with the initial one
+  // the range of all steps, so that they can be compared with the first one
   show.colour_by = ColourBy::deviation;
   show.scale = scale_of(*shell, show);
   range_of = RangeOf::run;
@@ -191,7 +191,7 @@ void ViewerState::play(bool on) {
 
 // ---- the camera ----
 
-/// From where the camera looks, all in sight.
+/// The camera, not turned, moved so that the complete shell is in the view.
 render::Camera ViewerState::fitted_view() const {
   render::Camera fitted = camera;
   // rods and both boundaries
@@ -202,7 +202,7 @@ render::Camera ViewerState::fitted_view() const {
     fit(fitted, view, points);
     return fitted;
   }
-  // side by side they leave the right one's edge to the colours' legend
+  // two shells leave space at the right for the legend of colours
   const double legend_px = 0.18 * view.width;
   fit(fitted, {view.width - legend_px, view.height}, points);
   pan(fitted, view, -0.5 * legend_px, 0);
@@ -271,14 +271,14 @@ void ViewerState::take(std::shared_ptr<const ShellView> next) {
   note_step();
 }
 
-/// Another shell: as its preset would have it seen, or as it was seen last.
+/// Sets camera and colours for another shell: those of its preset, or those of the workspace.
 void ViewerState::reset_view() {
   fresh_ = false;
   const preset::Movie& movie = shell->preset.movie;
   show.footprint = show.net = false;
   show.largest_load_N = 0;
   design = {shell->preset.inverse};
-  // one that says what may change asks for it
+  // a preset that is to be designed opens the panel
   if (!design.inverse.vary.empty()) design_panel = true;
   if (design.inverse.vary.empty()) design.inverse.vary = {preset::Vary::pins};
   show.colour_by = movie.colour_by;
@@ -288,18 +288,18 @@ void ViewerState::reset_view() {
     camera = saved_camera->camera;
     show.colour_by = saved_camera->colour_by;
   } else if (saved_camera && range_of == RangeOf::hand) {
-    range_of = RangeOf::run;  // that was of another quantity
+    range_of = RangeOf::run;  // the saved range is that of another quantity
   }
   saved_camera.reset();
-  // it has a range of its own
+  // the range of another shell does not apply
   if (range_of == RangeOf::run) show.scale = scale_of(*shell, show);
 }
 
 void ViewerState::add_plot_point() {
   const PlotPoint now = plot_point_of(*shell);
-  // what was undone is not shown
+  // removes the points of undone steps
   while (!plot_points.empty() && plot_points.back().steps > now.steps) plot_points.pop_back();
-  // the finer meshes of a drag's end replace its coarse one
+  // the refined state replaces the coarse one at the end of a drag
   if (now.refined && !plot_points.empty() && !plot_points.back().refined &&
       plot_points.back().steps == now.steps)
     plot_points.pop_back();
@@ -311,8 +311,7 @@ void ViewerState::add_plot_point() {
     plot_points.erase(plot_points.begin(), plot_points.begin() + most_points / 4);
 }
 
-/// Reads a preset again after its file changed; a file with errors is reported, and the last valid
-/// preset remains.
+/// Reads the preset again if its file changed; if that has errors, the last valid preset remains.
 void ViewerState::watch_file(double seconds) {
   since_look_ += seconds;
   if (file_.empty() || since_look_ < look_every_s) return;

@@ -1,5 +1,5 @@
-// Everything that the window knows: the shell, how it is shown, what is picked, what
-// plays. It has no OpenGL and no interface library; panels show it, actions and the view change it.
+// The state of the window: the shell, how it is shown, what is picked, what plays. It uses neither
+// OpenGL nor the interface library; panels show it, actions and the view change it.
 #pragma once
 
 #include <array>
@@ -23,33 +23,33 @@ struct PresetCard {
   std::string_view picture;  ///< a PNG of its shell; empty: none
 };
 
-/// How pictures are kept.
+/// The format of saved pictures.
 struct PictureFormat {
   int width = 0, height = 0;  ///< pixels; 0: twice the view's
   render::Quality quality = render::Quality::movie;
-  bool legend = true;  ///< of the colours
-  double dpi = 0;      ///< that the file says; 0: none
+  bool legend = true;  ///< with a legend of the colours
+  double dpi = 0;      ///< resolution in the file; 0: none
 };
 
-/// Errors (bad_input): pixels that no picture can have.
+/// Checks the size of a picture, pixels. Errors (bad_input): too small or too large.
 Result<void> check_picture(int width, int height);
 
-/// All that a picture depends on.
+/// Everything that a picture depends on.
 struct PictureRequest {
   std::shared_ptr<const ShellView> shell;
   render::Camera camera;
-  PictureSize view;  ///< that the camera looks into
+  PictureSize view;  ///< size of the picture that the camera sees
   Show show;
   PictureFormat kept;
 };
 
-/// A finished step, and its events.
+/// A point of the timeline: the state after a step, and the events of the step.
 struct TimelineEntry {
   std::string text, event;
   bool stable = true;
-  std::shared_ptr<const preset::Step> event_at = {};  ///< the step in which it happened
+  std::shared_ptr<const preset::Step> event_at = {};  ///< the step that had the event
 };
-/// What led to the state that is shown: "pushed (0, 0): 8.16 mm, 0.0342 N".
+/// The last step, as text: "pushed (0, 0): 8.16 mm, 0.0342 N".
 std::string text_of_step(const ShellView& shell);
 
 /// Purpose of a file prompt.
@@ -61,23 +61,24 @@ constexpr bool is_read(FileUse use) { return use == FileUse::open || use == File
 struct FileRequest {
   FileUse use = FileUse::open;
   std::string path;                 ///< as typed so far
-  std::string folder;               ///< that is shown, which a bare name is of
-  double width_mm = 85, dpi = 300;  ///< of a picture
-  std::string replaced = {};        ///< a file that is there and was confirmed to go
+  std::string folder;               ///< the folder that is shown; a name without a folder is in it
+  double width_mm = 85, dpi = 300;  ///< size and resolution of a picture in print
+  std::string replaced = {};        ///< an existing file that the user agreed to replace
 };
 
-/// Where presets come from, what makes pictures and movies, and where all that is kept goes.
+/// Functions that load presets and runs and make files, and the folder for saved files.
 struct Library {
   std::vector<PresetCard> cards;
   std::function<Result<preset::Preset>(const std::string& name)> load;
   std::function<Result<void>(const PictureRequest& request, const std::filesystem::path& file)>
       draw_picture;
-  /// The view at full resolution on any thread, for shells that take long; none: in the window's.
+  /// Draws the view at full resolution on any thread, for shells that take long; empty: the thread
+  /// of the window draws.
   std::function<Result<render::Image>(const PictureRequest& request)> draw_still;
-  /// Writes a preset as a file, with its tables in separate files of the same name's start.
+  /// Writes a preset; its tables are in separate files whose names begin with that of the preset.
   std::function<Result<void>(const preset::Preset& preset, const std::filesystem::path& file)>
       write_preset;
-  /// The movie of a preset's file in a folder.
+  /// Makes the movie of a preset's file, in a folder.
   std::function<Result<void>(const std::filesystem::path& preset,
                              const std::filesystem::path& folder, const ProgressListener&,
                              const Watch&)>
@@ -87,20 +88,20 @@ struct Library {
                              const ProgressListener&, const Watch&)>
       export_shell;
   std::vector<app::ExportFormat> export_formats;
-  /// What a run ended in, or the joints of a scan.
+  /// Loads the last state of a run, or the joints of a scan.
   std::function<Result<OtherShell>(const std::filesystem::path& run)> load_run;
-  /// Shows the manual in a browser. Errors: io where there is none, saying where the manual is.
+  /// Shows the manual in a browser. Errors: io if there is none, with the path of the manual.
   std::function<Result<void>(const Watch& watch)> show_manual;
   std::filesystem::path save_to = "out";
 };
 
-/// A rod, and which of its nodes.
+/// A node of a rod.
 struct PointOnRod {
-  int rod = -1;  ///< none
-  int point = 0;
+  int rod = -1;   ///< -1: none
+  int point = 0;  ///< index of the node in the rod
 };
 
-/// What can be plotted over what; named as columns of frames.csv.
+/// A quantity of the plots, named like the columns of frames.csv.
 struct Quantity {
   const char *name, *label;
   double PlotPoint::*value;
@@ -116,40 +117,42 @@ inline constexpr Quantity quantities[] = {
     {"total_K", "ΣK□ (rad)", &PlotPoint::total_K},
     {"residual_N", "residual (N)", &PlotPoint::residual_N},
     {"error_estimate_mm", "error estimate (mm)", &PlotPoint::error_mm}};
+/// The index of a quantity; -1 if there is none with this name.
 constexpr int quantity_called(std::string_view name) {
   for (std::size_t k = 0; k < std::size(quantities); ++k)
     if (quantities[k].name == name) return int(k);
   return -1;
 }
 
-/// The quantities of a plot; x below 0: what was moved last.
+/// The quantities of a plot, as indices; x below 0: that which was moved last.
 struct PlotAxes {
   int x = -1, y = 0;
 };
 
-/// A plot as it is kept.
+/// A plot to be saved.
 struct PlottedCurve {
   std::string x_label, y_label;
   std::vector<double> x, y;
 };
 
-/// How a shell was looked at last.
+/// The camera and the colours with which a shell was last shown.
 struct SavedCamera {
   std::string preset;  ///< its name
   render::Camera camera;
   ColourBy colour_by = ColourBy::K;
 };
 
-/// What the next design may change, and how far it goes.
+/// What the next design may change, and its number of iterations.
 struct DesignOptions {
   preset::Inverse inverse;
   int most_iterations = 25;
 };
 
-/// Drawn as the camera moves: at half the resolution, rods and cells in few pieces; still: at all
-/// of it.
+/// The resolution of the view. `moving`: half of it, rods and cells with few triangles, for a
+/// camera that moves; `still`: full.
 enum class Resolution { moving, still };
 
+/// The state of the window.
 class ViewerState {
  public:
   explicit ViewerState(Library library) : library(std::move(library)) {}
@@ -160,81 +163,82 @@ class ViewerState {
   EngineThread engine;
   std::shared_ptr<const ShellView> shell = std::make_shared<ShellView>();
   render::Camera camera;
-  PictureSize view;  ///< of the shell's picture, pixels; of two side by side of each
+  PictureSize view;  ///< size of the shell's picture, pixels; if two are side by side, of each
   Show show;
-  std::optional<SavedCamera> saved_camera;  ///< for when that preset's shell comes
+  std::optional<SavedCamera> saved_camera;  ///< used when a shell of that preset is shown
   RangeOf range_of = RangeOf::run;          ///< of the colours
   bool numbers = false, plots = true, help = false, terms = false, picking = true,
        design_panel = false;
   bool small_window = false;      ///< one column has space next to the view
-  bool plots_when_small = false;  ///< and it shows the plots
-  bool find_number = false;       ///< the search over the numbers is to be typed into
-  bool take_keyboard = false;     ///< the first control of the panels is to be typed into
-  bool new_shell = false;         ///< the form of a shell of one's own is shown
-  std::string menu_to_open;       ///< by the keyboard
+  bool plots_when_small = false;  ///< whether that column shows the plots
+  bool find_number = false;       ///< gives the keyboard to the search over the numbers
+  bool take_keyboard = false;     ///< gives the keyboard to the first control of the panels
+  bool new_shell = false;         ///< the form of a new shell is shown
+  std::string menu_to_open;       ///< menu that the keyboard opens in the next frame
   DesignOptions design;
   std::vector<PlotPoint> plot_points;
-  std::vector<TimelineEntry> timeline;  ///< by the number of steps that can be undone
+  std::vector<TimelineEntry> timeline;  ///< indexed by the number of steps that can be undone
   std::array<PlotAxes, 3> plot_axes{PlotAxes{-1, quantity_called("height_mm")},
                                     PlotAxes{-1, quantity_called("energy_mJ")},
                                     PlotAxes{-1, quantity_called("force_N")}};
-  std::string message;  ///< what was done last
+  std::string message;  ///< the last message or error
   bool message_bad = false;
-  int picked_joint = -1, picked_cell = -1;  ///< whose figures are shown
+  int picked_joint = -1, picked_cell = -1;  ///< the panel shows their values
   PointOnRod picked_rod;
   bool measuring = false;                 ///< a click on a joint measures
   std::vector<int> measured;              ///< joints, at most three
-  int joint_under = -1, edge_under = -1;  ///< marked: what the cursor is at
-  bool push_freely = false;  ///< a joint goes with the mouse instead of along its normal
+  int joint_under = -1, edge_under = -1;  ///< under the cursor, marked
+  bool push_freely = false;  ///< a joint follows the mouse instead of moving along its normal
   bool animate_mode = false;
   double mode_phase = 0;
   bool playing = false;
-  double play_head = 1, play_speed = 0.25;  ///< of the path a second
+  double play_head = 1, play_speed = 0.25;  ///< play_speed: fraction of the path per second
   PictureFormat picture;
   BackgroundTask picture_task, movie_task, export_task, manual_task;
   std::array<BackgroundTask*, 4> tasks() {
     return {&picture_task, &movie_task, &export_task, &manual_task};
   }
   std::optional<FileRequest> file_request;
-  std::string last_folders[2];      ///< of a file that was saved, and of one that was opened
-  std::vector<std::string> recent;  ///< what was opened, the last first
+  std::string last_folders[2];      ///< of the last saved file, and of the last opened one
+  std::vector<std::string> recent;  ///< presets and runs that were opened, the last first
   std::string copied;               ///< text for the clipboard
-  bool timed = true;                ///< whether what took how long is shown
-  bool over = false;                ///< the window is to close
+  bool timed = true;                ///< whether times are shown
+  bool over = false;                ///< whether the window shall close
 
   // ---- what is done ----
 
-  /// A preset by its name or file, or a run by its folder.
+  /// Opens a preset by its name or file, or a run by its folder.
   void open(const std::string& name);
-  /// A preset that has no file.
+  /// Opens a preset that has no file.
   void open(preset::Preset preset);
   /// Adds a joint to the measurement; after three it starts again.
   void measure(int joint);
-  /// A command of a drag while it is `passing`; a running design refuses it.
+  /// Posts a command of the current drag, which ends with the first command that is not `passing`.
+  /// It is refused while a design is running.
   void post(Edit edit, bool passing);
-  /// A command of its own, which ends a running design.
+  /// Posts a command that belongs to no drag; it stops a running design.
   void send_command(Edit edit);
-  /// The drag is over: the shell goes onto finer meshes.
+  /// Ends the drag, after which the shell is computed on finer meshes.
   void end_drag();
-  /// The boundary to a progress; of a preset with a push, the push to a fraction of its depth.
+  /// Moves the boundary to a progress; for a preset with a push, pushes to a fraction of its depth.
   void go(double part, bool passing);
   void play(bool on);
-  /// Goes back or forward to a number of steps to undo; if it is the current one and has an event,
-  /// to before that.
+  /// Undoes or repeats steps until `step` of them can be undone. If that is the current number and
+  /// the last step had an event, undoes that step.
   void go_to_step(int step);
-  /// To one of the states that were found, which follow one another round.
+  /// Restores one of the states that were found; the last one is followed by the first.
   void recall(int state);
-  /// Which of them is in sight; none: -1.
+  /// The index of the found state that is shown; -1: none is.
   int state_in_sight() const;
-  /// Moves the boundary to the next unstable position on the path that led to the current state.
+  /// Moves the boundary to the middle of the next unstable interval on its path.
   void go_to_loss();
-  /// Stops what the engine is at; of a design the last step stays.
+  /// Stops the engine; the last step of a design remains.
   void stop();
-  /// Designs the shell by what was chosen, coloured by its deviation.
+  /// Starts a design with the chosen options, and colours the shell by its deviation.
   void start_design();
-  /// Where on its path the shell is, 0 to 1.
+  /// Fraction of the path, 0 to 1, at which the shell is.
   double part() const;
-  /// The colours' ends by hand; ends that are none change nothing.
+  /// Sets the range of the colours; does nothing unless low < high.
   void set_range(double low, double high);
   void toggle_gravity();
   bool gravity() const { return shell->preset.loads.gravity_m_s2 != 0; }
@@ -242,39 +246,40 @@ class ViewerState {
   void look(const render::ViewDirection& from);
   void say(const std::string& text, bool bad = false);
 
-  // ---- what is kept ----
+  // ---- what is saved ----
 
-  /// The preset of the current shell: radius, or the steps that were done; camera, colours.
+  /// The preset of the current shell, with its radius or its steps, camera and colours.
   preset::Preset preset_to_save() const;
   void save_preset();
   void save_picture();
-  /// Asks for a file, with a path to begin with.
+  /// Opens the file prompt, with a path to begin with.
   void ask_file(FileUse use);
-  /// Uses the file that was chosen; a path that is not valid is requested again.
+  /// Uses the chosen file and closes the prompt; if the path is not valid, the prompt remains open.
   void take_file();
-  /// Shows a run's last state next to the shell, the current state, or (null) none.
+  /// Compares the shell with the last state of a run or with a scan; with its current state; with
+  /// the net that it was designed on; or with any other state (null: with none).
   void compare_with(const std::filesystem::path& run);
   void compare_with_this();
-  /// The net that it was designed on.
   void compare_with_net();
   void compare(std::shared_ptr<const OtherShell> other);
   /// Shows the other state next to the shell instead of over it.
   void set_beside(bool on);
-  /// How far the joints are from those of the same name in the other shell: "largest 3.2 mm at
-  /// (0, 1), mean 1.1 mm".
+  /// The distances of the joints from those with the same indices in the other shell: "largest
+  /// distance 3.2 mm at joint (0, 1), mean 1.1 mm".
   std::string difference_text() const;
   PictureRequest picture_request() const { return {shell, camera, view, show, picture}; }
-  /// The size of kept pictures, pixels; of no pixels twice the view's. One that cannot be says so.
+  /// Sets the size of saved pictures, pixels; 0 x 0: twice the view's. A size that is not possible
+  /// is reported.
   void size_picture(int width, int height);
-  /// Makes a movie of the steps, or without steps of the preset, in the background.
+  /// Makes a movie in the background: of the steps, or, if there are none, of the preset.
   void save_movie();
-  /// A plot as PDF, SVG, PNG and a table.
+  /// Saves a plot as PDF, SVG, PNG and a table.
   void save_plot(const PlottedCurve& curve);
-  /// All that have anything to show.
+  /// Saves all plots that are not empty.
   void save_plots();
-  /// The camera as keys of [movie].
+  /// Copies the camera, as keys of [movie].
   void copy_camera();
-  /// The manual's page in a browser.
+  /// Shows the manual in a browser.
   void show_manual();
 
   /// Once per frame: takes the latest view, plays, checks the preset's file. Returns whether
@@ -298,27 +303,27 @@ class ViewerState {
   void report_finished_tasks();
 
   int drag_ = 1;
-  double size_mm_ = 0;       // length scale of the shell in sight
-  bool run_opened_ = false;  // the next view continues at the run's end
-  bool fresh_ = true;        // the next sight is of another shell: the camera goes round it
+  double size_mm_ = 0;       // length scale of the shell that is shown
+  bool run_opened_ = false;  // a run was opened: its path is followed to the end once it is formed
+  bool fresh_ = true;        // the next view is of another shell, so the camera is set again
   std::filesystem::path file_;
   std::filesystem::file_time_type written_{};
   double since_look_ = 0;
 };
 
-// How somebody likes the window: camera, colours, what is shown and which panels, from one visit to
-// the next.
+// The workspace: camera, colours, what is shown and which panels, saved when the window closes and
+// restored when it opens.
 
-/// As JSON.
+/// The workspace as JSON.
 std::string workspace_text(const ViewerState& viewer);
 
-/// Lays what such a text says over the viewer; what it does not say, or says wrongly, stays as it
-/// is. The camera is taken once the shell of the same preset comes. Errors: bad_input for what is
+/// Applies a workspace to the viewer; members that are missing or have a wrong type change nothing.
+/// The camera is applied when a shell of the same preset is shown. Errors: bad_input if the text is
 /// no JSON object.
 Result<void> take_workspace(ViewerState& viewer, const std::string& text);
 
-/// Where the window keeps it: $XDG_STATE_HOME/gridshell/workspace.json, or below ~/.local/state;
-/// empty where neither is known.
+/// The file of the workspace: $XDG_STATE_HOME/gridshell/workspace.json, or below ~/.local/state;
+/// empty if neither folder is known.
 std::filesystem::path workspace_file();
 
 }  // namespace gridshell::window

@@ -104,8 +104,7 @@ void EngineThread::wait() {
   rested_.wait(lock, [this] { return commands_.empty() && !working_ && !unrefined_; });
 }
 
-/// What there is to see after it; null, and the view before stays, where no memory is left for
-/// that.
+/// The view of the shell after `act`; null, so that the last view remains, if memory runs out.
 template <class Act>
 std::shared_ptr<const ShellView> EngineThread::view_after(const Act& act) {
   try {
@@ -116,7 +115,8 @@ std::shared_ptr<const ShellView> EngineThread::view_after(const Act& act) {
   }
 }
 
-/// One command, or the refinement after the last of a drag, at a time.
+/// Executes commands one after the other; refines the meshes after one that is not `passing`, when
+/// no other waits.
 void EngineThread::work() {
   std::unique_lock lock(mutex_);
   for (;;) {
@@ -133,7 +133,7 @@ void EngineThread::work() {
       auto seen = view_after([&] { session_.execute(command, *watch); });
       lock.lock();
       if (seen) shell_ = std::move(seen);
-      // after a cancel the design's last step remains, and is certified as any other
+      // no refinement after a cancel, except of a design, whose last step remains and is certified
       if (watch->cancelled()) unrefined_ = std::holds_alternative<Design>(command.edit);
     } else {
       refining_ = true;

@@ -1,4 +1,5 @@
-// Work in the background, on a thread of its own: the shell and its picture stay responsive.
+// Work on other threads, so that the window remains responsive: tasks in the background, the
+// engine.
 #pragma once
 
 #include <condition_variable>
@@ -18,14 +19,14 @@
 
 namespace gridshell::window {
 
-/// Takes each line of progress: "40 %  rendering, 0:12 left".
+/// Called with each line of progress: "40 %  rendering, 0:12 left".
 using ProgressListener = std::function<void(const std::string& line)>;
 
-/// A movie or a picture in the making; one at a time.
+/// A task that runs in the background, such as making a movie; one at a time.
 class BackgroundTask {
  public:
   using Work = std::function<Result<void>(const ProgressListener& listener, const Watch& watch)>;
-  /// How it ended: what it made, and the last that was said.
+  /// How a task ended: the file or folder it made or an error, and its last line of progress.
   struct End {
     std::filesystem::path target;
     Result<void> made;
@@ -37,15 +38,17 @@ class BackgroundTask {
   BackgroundTask(const BackgroundTask&) = delete;
   BackgroundTask& operator=(const BackgroundTask&) = delete;
 
-  /// Starts a task if none is running.
+  /// Starts a task. If one is running, waits for its end first.
   void begin(Work work, const std::filesystem::path& target);
+  /// Cancels the task; does not wait.
   void stop();
+  /// Whether a task is running.
   bool under_way() const;
   /// Whether none is running and the end of the last one was taken.
   bool idle() const { return !ended_.valid(); }
-  /// The last that was said.
+  /// The last line of progress.
   std::string standing() const;
-  /// The end of the last one, once.
+  /// The end of the last task, once; nothing while it runs or after it was taken.
   std::optional<End> take_end();
   /// Waits until none is running.
   void wait() const {
@@ -53,15 +56,15 @@ class BackgroundTask {
   }
 
  private:
-  mutable std::mutex mutex_;    // of what was said
+  mutable std::mutex mutex_;    // guards said_
   std::optional<Watch> watch_;  // of the current task or the last one
   std::filesystem::path target_;
   std::string said_;
-  std::future<Result<void>> ended_;  // goes first: its end waits for the work
+  // last, so that its destructor, which waits for the task, runs first
+  std::future<Result<void>> ended_;
 };
 
-// The engine on a thread of its own: it takes commands and returns views, and can be stopped.
-
+/// The engine on a thread of its own: takes commands and returns views of the shell.
 class EngineThread {
  public:
   EngineThread();
@@ -69,19 +72,19 @@ class EngineThread {
   EngineThread(const EngineThread&) = delete;
   EngineThread& operator=(const EngineThread&) = delete;
 
-  /// Queues a command, but replaces a waiting `passing` one of the same drag, and stops a
-  /// refinement.
+  /// Queues a command; it replaces the last waiting one if that is a `passing` one of the same drag
+  /// and kind. Stops a refinement.
   void post(Command command);
   /// Stops the current command and discards waiting ones; the last certified state remains.
   void cancel();
 
-  /// The latest; never null.
+  /// The latest view of the shell; never null.
   std::shared_ptr<const ShellView> shell() const;
-  /// Whether there is nothing to do.
+  /// Whether no command runs or waits, and no refinement is due.
   bool idle() const;
-  /// Seconds since it was idle; 0 while it is.
+  /// Seconds since the first of the current commands was posted; 0 if there is none.
   double busy_seconds() const;
-  /// Waits until it is idle.
+  /// Waits until the engine is idle.
   void wait();
 
  private:
@@ -96,7 +99,7 @@ class EngineThread {
   std::shared_ptr<const ShellView> shell_;
   bool working_ = false, refining_ = false, unrefined_ = false, over_ = false;
   double busy_since_ = 0;
-  EditSession session_;  // the thread's alone
+  EditSession session_;  // used by thread_ only
   std::thread thread_;
 };
 

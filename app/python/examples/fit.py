@@ -1,7 +1,7 @@
 """Fits the radius of the actuated boundary to measured joints, by Gauss-Newton.
 
-Derivatives are central differences: a state depends smoothly on a number of its preset, and its
-own error is much the same on both sides, so that a step of 0.01 mm leaves five digits or more.
+Derivatives are central differences: a state depends smoothly on the numbers of its preset, and its
+error is nearly equal on both sides, so that a step of 0.01 mm gives five digits or more.
 """
 import numpy as np
 
@@ -9,7 +9,7 @@ import gridshell as gs
 
 
 def joints(radius_mm):
-    """Where the joints of the formed shell are, mm."""
+    """Coordinates of the joints of the formed shell, as one vector, mm."""
     shell = gs.Session("s1_actuation", {
         "footprint": {"rods": 8, "radius_mm": 82.0},  # tables in tables, or "footprint.rods": 8
         "actuation.radius_mm": radius_mm,
@@ -20,7 +20,7 @@ def joints(radius_mm):
 
 
 def fit(measured, radius_mm, step_mm=0.01):
-    """The radius at which the joints lie nearest to the measured ones, by least squares."""
+    """The radius at which the joints are nearest to the measured ones, by least squares."""
     for _ in range(8):
         slope = (joints(radius_mm + step_mm) - joints(radius_mm - step_mm)) / (2 * step_mm)
         change = slope @ (measured - joints(radius_mm)) / (slope @ slope)

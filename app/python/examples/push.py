@@ -1,4 +1,4 @@
-"""A shell formed from the flat, pushed at a joint and drawn: python3 push.py [picture.png]"""
+"""Forms a shell from the flat state, pushes a joint and draws it: python3 push.py [picture.png]"""
 import sys
 
 import gridshell as gs

@@ -1,7 +1,7 @@
-"""A tour of the module in cells, as a notebook: python3 tour.py, or open it in an editor that knows # %%.
+"""A tour of the module in cells, like a notebook: python3 tour.py, or open it in an editor that supports # %%.
 
-It forms a shell, looks at its numbers, pushes it there and back, looks for another state, and compares
-meshes. All of it takes some seconds.
+It forms a shell, prints its numbers, pushes it forward and back, searches for another state, and compares
+meshes. This takes some seconds.
 """
 # %% Form a shell: eight rods per direction, drawn in to three quarters of its radius
 import numpy as np
@@ -14,7 +14,7 @@ shell = gs.Session("s1_actuation", preset)
 shell.actuate()
 print(f"{shell.height_mm:.2f} mm high, {shell.energy_mJ:.2f} mJ, {shell.certificate}")
 
-# %% What it is made of: joints by their indices, cells by their joints
+# %% The layout of the shell: joints by their indices, cells by their joints
 layout = shell.layout
 index = {tuple(joint): k for k, joint in enumerate(layout.joints)}
 print(f"{len(index)} joints, {len(layout.cells)} complete cells, {len(layout.rods)} rods")
@@ -30,7 +30,7 @@ for progress in np.linspace(0.2, 1, 5):
 for state in states:
     print(f"R_a = {state.boundary_radius_mm:6.2f} mm: {state.height_mm:6.2f} mm high, {state.energies['bend']:6.2f} mJ")
 
-# %% Push a joint 6 mm inward and back, along one direction: the force and its error
+# %% Push a joint 6 mm inward and back, along a fixed direction, and print the force and its error
 shell.push((0, 0), depth_mm=2)
 along = np.array(shell.directions[0])
 start = shell.nodes[index[0, 0]] - 2 * along
@@ -39,8 +39,8 @@ for depth in (2, 4, 6, 4, 2):
     print(f"{shell.depth_mm:.1f} mm: {shell.force_N:.5f} ± {shell.state.push_error_N:.0e} N")
 shell.release((0, 0))
 
-# %% Another state? Random forces come and go; a checkpoint leads back. A step that fails raises, and the
-# shell remains in its last certified state.
+# %% Search for another state: apply random forces and remove them, then return to a checkpoint. A step that
+# fails raises an exception, and the shell remains in its last certified state.
 saved = shell.save()
 before = shell.energy_mJ
 for seed in range(1, 4):
@@ -51,7 +51,7 @@ for seed in range(1, 4):
     print(f"seed {seed}: {shell.energy_mJ - before:+.3f} mJ, {shell.height_mm:.2f} mm high")
     shell.restore(saved)
 
-# %% How exact is it? One mesh alone, then twice the edges: the difference falls to a quarter
+# %% Check the accuracy: with twice the edges on a single mesh, the difference falls to a quarter
 heights = []
 for edges in (4, 8, 16):
     one = gs.Session("s1_actuation", preset | {"accuracy": {"edges_per_segment": edges}})
