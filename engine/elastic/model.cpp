@@ -369,6 +369,7 @@ void finish(Model& model) {
   std::apply(
       [&](auto&... lists) {
         const auto place = [&](auto& list) {
+          list.shrink_to_fit();  // most of a model's memory
           for (auto& pair : list) place_pair(model, pair);
         };
         (place(lists), ...);

@@ -65,6 +65,14 @@ const LoadStep& load_step_before(const PathSegment& segment, double t) {
   return *before;
 }
 
+void PathSegment::free_states() {
+  for (LoadStep& step : load_steps) {
+    const double t = step.point.t;
+    step.point = {};
+    step.point.t = t;
+  }
+}
+
 bool EquilibriumPath::too_coarse() const {
   const auto ended_so = [](const PathSegment& segment) {
     return segment.report.end == Outcome::too_coarse;

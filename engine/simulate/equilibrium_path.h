@@ -29,6 +29,9 @@ struct PathSegment : PathRecord {
   double sign() const { return to < from ? -1 : 1; }
   /// Path parameter of the last certified state.
   double end() const { return load_steps.back().point.t; }
+  /// Frees the states of the load steps, nearly all memory of a path; its events, certificates and
+  /// parameters remain.
+  void free_states();
 };
 
 /// A position on the path at which parts of one kind begin to touch or separate.

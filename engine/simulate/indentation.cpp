@@ -241,6 +241,7 @@ Result<HeldShell> hold_to_push(const std::shared_ptr<const Scene>& scene,
   Eigen::Matrix3Xd before = simulation.nodes().leftCols(joints);
   HeldShell held{std::move(*actuated), *push, std::move(before)};
   held.earlier = std::exchange(held.segments, {});
+  for (PathSegment& segment : held.earlier) segment.free_states();
   Constraint hold{push->joint};
   if (requested.lateral == preset::Lateral::free) hold.directions = push->displacement.normalized();
   const Report taken = held.simulation.begin_joint_push({hold}, {push->displacement}, watch);

@@ -182,8 +182,12 @@ Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follo
       return last;
     }
     if (!too_coarse) ++doublings;
+    // only the events and the end of a coarser path are compared
     found.simulation.shell().free_memory();
-    coarse = std::move(*path);
+    for (auto* segments : {&found.earlier, &found.segments})
+      for (PathSegment& segment : *segments) segment.free_states();
+    // of a longer type what is compared
+    coarse = std::make_shared<EquilibriumPath>(std::move(found));
     plan = *next;
     plan.allowed_mm = allowed;
   }

@@ -90,6 +90,7 @@ Result<Work> do_steps(const std::shared_ptr<const Scene>& scene,
   Work work{std::move(*actuated), std::move(begin)};
   if (work.too_coarse()) return work;
   work.earlier = std::exchange(work.segments, {});
+  for (PathSegment& segment : work.earlier) segment.free_states();
   work.single_motion = false;
   Simulation& simulation = work.simulation;
   for (std::size_t k = 0; k < steps.size(); ++k) {
