@@ -24,7 +24,7 @@ struct ExperimentResult {
   record::Summary summary;
 };
 
-/// What would run, without running it (`gridshell check`).
+/// Description of a run before it is started (`gridshell check`).
 struct Plan {
   std::string model;          ///< the rod model chosen
   std::string model_reason;   ///< one sentence
@@ -42,7 +42,7 @@ struct Plan {
   /// effects that the model neglects and that matter here: one sentence each
   std::vector<std::string> left_out;
   std::string footprint;               ///< "12 + 12 rods, longest leg 0.80 d, corner leg -0.15 d"
-  std::shared_ptr<const Scene> scene;  ///< what was built for it, and a run takes
+  std::shared_ptr<const Scene> scene;  ///< the scene of the preset, which run() takes
 };
 
 /// Builds the scene of a preset and describes the run. Errors: Fault::bad_input with the reason.
