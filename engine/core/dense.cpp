@@ -53,7 +53,7 @@ Eigen::Matrix3d best_turn(const Eigen::Matrix3Xd& x, const Eigen::Matrix3Xd& y, 
 Eigen::Quaterniond turn_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   const Eigen::Vector3d a = from.normalized(), b = to.normalized();
   const double c = a.dot(b);
-  // half a turn about any axis across
+  // half a turn about any perpendicular axis
   if (c < -1 + 1e-12) return Eigen::Quaterniond(Eigen::AngleAxisd(M_PI, a.unitOrthogonal()));
   Eigen::Quaterniond turn;
   const double s = std::sqrt(2 * (1 + c));

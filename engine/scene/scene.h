@@ -1,5 +1,5 @@
-// From a preset's values to what will be formed: footprint, rods, ends and the motion of the
-// boundary. Knows no solver.
+// The shell of a preset before it is computed: footprint, rods, ends and the motion of the
+// boundary.
 #pragma once
 
 #include <limits>
@@ -45,7 +45,7 @@ struct Scene {
   std::shared_ptr<const Assemblage> blocks;  ///< building blocks of the net, if any
   std::shared_ptr<const MeshNetReport> mesh_net;  ///< report of a net on a mesh
   bool from_net = false;               ///< whether the path starts at the net, at progress 1
-  bool drawn_in_space = false;         ///< whether it starts at the drawn shape, at progress 0
+  bool drawn_in_space = false;         ///< whether the path starts at the drawn shape, progress 0
   Eigen::Matrix3Xd original_boundary;  ///< closed polylines in correspondence, for pictures
   Eigen::Matrix3Xd actuated_boundary;
   /// radius of a circular boundary
@@ -78,7 +78,7 @@ struct Scene {
   double radius_at(double progress) const {
     return radius_begin_mm + progress * (radius_end_mm - radius_begin_mm);
   }
-  /// Where a circular boundary has a radius; 1 where it stays as it is.
+  /// Progress at which a circular boundary has a radius; 1 if the boundary does not move.
   double progress_of_radius(double radius_mm) const {
     if (radius_begin_mm == radius_end_mm) return 1;
     return (radius_begin_mm - radius_mm) / (radius_begin_mm - radius_end_mm);
@@ -92,8 +92,8 @@ int joint_at(const Footprint& footprint, int i, int j);
 /// not define a footprint.
 Result<Scene> scene_of(const preset::Preset& preset);
 
-/// The rods on the net that a scene was designed on, as points at most `step_mm` apart; none
-/// without a net.
+/// The rods on the net that a scene was designed on, as points at distances of at most `step_mm`;
+/// empty without a net.
 Result<std::vector<Eigen::Matrix3Xd>> rods_on_net(const Scene& scene, double step_mm);
 
 /// Builds the scene of a preset for shared ownership.
