@@ -78,7 +78,7 @@ Eigen::MatrixX2d slope_weights(const std::vector<double>& known, double t) {
   Eigen::MatrixX2d all(Eigen::Index(known.size()), 2);
   const Eigen::VectorXd basis = polynomial_weights(known, t);
   for (std::size_t k = 0; k < known.size(); ++k) {
-    double slope = 0;  // of the basis where it is one
+    double slope = 0;  // of the Lagrange polynomial at its own point
     for (std::size_t j = 0; j < known.size(); ++j)
       if (j != k) slope += 1 / (known[k] - known[j]);
     const double square = std::pow(basis[Eigen::Index(k)], 2), offset = t - known[k];

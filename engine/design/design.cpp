@@ -14,7 +14,7 @@
 namespace gridshell {
 namespace {
 
-constexpr double same_place = 1e-4;  // of d: what counts as symmetric
+constexpr double same_place = 1e-4;  // in d: largest distance of symmetric positions
 
 Eigen::Matrix2Xd uv_of_joints(const Scene& scene) {
   Eigen::Matrix2Xd uv(2, Eigen::Index(scene.footprint.joints.size()));
@@ -78,7 +78,7 @@ ShellEnds rounded(ShellEnds ends, double to_mm) {
 Result<DesignProblem> begin_design(const preset::Preset& preset, const Scene& scene,
                                    std::unique_ptr<DesignShell> coarse, const Watch& watch) {
   TRY(target, design_target(scene, preset.inverse.target));
-  // the same shell on the mesh that certifies
+  // the shell on the mesh that certifies
   TRY(fine, DesignShell::make(scene, certified_on, coarse->mesh(), coarse->model(), coarse->state(),
                               watch));
   const double spacing = scene.footprint.spacing;

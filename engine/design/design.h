@@ -54,11 +54,11 @@ struct DesignResult {
   int symmetries = 1, free_variables = 0;
   double largest_move_mm = 0, largest_turn_deg = 0;
   double largest_thickening = 0;            ///< change of a diameter over the one before
-  double thinnest_mm = 0, thickest_mm = 0;  ///< of the designed rods
+  double thinnest_mm = 0, thickest_mm = 0;  ///< diameters of the designed rods
   double cpu_s = 0;
-  preset::Points table, rounded_table;    ///< of `[ends] table`
+  preset::Points table, rounded_table;    ///< rows for `[ends] table`
   std::vector<int> row_of_end;            ///< row of each end in both tables; -1: a free end
-  preset::Points rods_before, rod_table;  ///< of `[rod] table`
+  preset::Points rods_before, rod_table;  ///< rows for `[rod] table`
 };
 
 /// Designs the shell of a preset as its [inverse] table says: on meshes of 16 edges per segment,
@@ -87,7 +87,7 @@ struct CertifiedStep {
   const Assembly& forces;
   const ShellEnds& shell_ends;
   double residual_N = 0;
-  const Eigen::VectorXd& distances_mm;  ///< of the joints from the target
+  const Eigen::VectorXd& distances_mm;  ///< distances of the joints from the target
   double eigenvalue = 0;                ///< smallest on 32 edges, N/mm^2
   preset::Points ends, rods;            ///< `[ends] table`, `[rod] table`
 };

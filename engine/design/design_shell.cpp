@@ -215,7 +215,7 @@ void DesignShell::add_diameter_gradient(std::size_t rod, double change,
                                         Eigen::Matrix3Xd& minus_dg) const {
   for (const int k : model_.rods[rod].edges) {
     const ModelEdge& edge = model_.edges[std::size_t(k)];
-    if (edge.EA == 0) continue;  // of a ghost
+    if (edge.EA == 0) continue;  // a ghost edge
     const EdgeGeometry g = geometry_of(state_.x, edge);
     const Eigen::Vector3d pull =
         2 * change * edge.EA * (g.length / edge.rest_length - 1) * g.tangent;

@@ -106,7 +106,7 @@ class DesignShell {
     }
   };
   std::vector<Leg> legs_;                ///< one per end
-  std::vector<std::vector<int>> bends_;  ///< of each rod
+  std::vector<std::vector<int>> bends_;  ///< bends of each rod
   Eigen::VectorXd diameter_;             ///< current diameters of the model, one per rod, mm
 };
 

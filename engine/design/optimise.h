@@ -43,8 +43,8 @@ class DesignTarget {
  private:
   std::shared_ptr<const ChebyshevNet> net_;
   preset::Target kind_ = preset::Target::surface;
-  Eigen::Matrix2Xd uv_;      // of the nearest points
-  Eigen::Matrix3Xd places_;  // of the joints on the net
+  Eigen::Matrix2Xd uv_;      // (u, v) of the nearest points
+  Eigen::Matrix3Xd places_;  // positions of the joints on the net, mm
 };
 
 // The objective of a design, with gradient and curvature.
@@ -54,8 +54,8 @@ class DesignTarget {
 struct ObjectiveWeights {
   double moves = 0.03;   ///< mu
   double forces = 0.01;  ///< eta
-  double scale = 1;      ///< of a variable: mm, rad
-  double force_N = 0.1;  ///< of a leg
+  double scale = 1;      ///< unit of a variable: mm, rad
+  double force_N = 0.1;  ///< unit of the force of a leg
 };
 
 /// The objective 1/2 (mean |r|^p)^(2/p) + 1/2 mu mean((q/scale)^2) + 1/2 eta mean((N_leg/force)^2)
@@ -81,7 +81,7 @@ Objective objective(const Distances& distances, const Eigen::VectorXd& q,
 
 struct OptimiseOptions {
   double norm = 8;             ///< p of the last stage; the first is 2
-  double move_limit_mm = 5;    ///< of a pin or a leg
+  double move_limit_mm = 5;    ///< largest change of a pin or a leg
   double min_stability = 0.5;  ///< least ratio of the smallest eigenvalue to the initial one
   double max_leg_force_N = 0;  ///< 0: any
   int most_iterations = 25;

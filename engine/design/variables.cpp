@@ -54,7 +54,7 @@ std::optional<Eigen::Matrix3d> motion_between(const Eigen::Matrix3Xd& from,
 
 using preset::Vary;
 
-constexpr double per_unit = 0.1;  // of a diameter's logarithm: a tenth weighs as a millimetre does
+constexpr double per_unit = 0.1;  // change of a diameter's logarithm that counts as a millimetre
 
 bool is_pin(Vary kind) {
   switch (kind) {

@@ -47,7 +47,7 @@ struct ContactEdge {
     int node = 0;
     double at = 0, near = 0;
   };
-  int edge = 0;  ///< of the model
+  int edge = 0;  ///< index in the model
   int rod = 0;
   double begin = 0, end = 0;  ///< natural arc length along the rod, mm
   std::array<End, 2> ends = {};
@@ -62,8 +62,8 @@ struct ContactEdge {
 struct ContactPairs {
   ContactBarrier barrier;
   std::vector<ContactEdge> edges;
-  std::vector<double> radius_mm;         ///< of each rod
-  std::vector<double> closed_length_mm;  ///< of each rod that is a ring, else 0
+  std::vector<double> radius_mm;         ///< one per rod
+  std::vector<double> closed_length_mm;  ///< one per rod: length of a ring, else 0
   double joint_mm = 0;                   ///< diameter of the joints' cylinders
 
   bool any() const { return !edges.empty(); }

@@ -78,7 +78,7 @@ struct EdgeGeometry {
 struct PairGeometry {
   EdgeGeometry e, f;
   double angle_e = 0, angle_f = 0;         ///< theta of each edge, rad
-  Eigen::Vector3d director_e, director_f;  ///< of their reference frames
+  Eigen::Vector3d director_e, director_f;  ///< first directors of their reference frames
   double reference_twist = 0;              ///< m_ref from e to f, if they are consecutive
   double opening = 0;  ///< factor of the joint actuation, times JointAngle::opening
 

@@ -90,7 +90,7 @@ void reduce(const ModelHinge& hinge, const Model& model, const State& state, boo
   const PairEnergy phi = JointSpin::slopes(pair_geometry(model, state, pair), with_hessian);
   const int place = model.spin[std::size_t(pair.e)], row = place % 3;
   const double length = model.spin_length, moment = out.gradient.data()[place];
-  std::array<Eigen::Vector3d, 4> by{};  // of the angle's unknown, by every node
+  std::array<Eigen::Vector3d, 4> by{};  // derivatives of the angle's unknown by each node
   for (std::size_t k = 0; k < blocks.leading.size(); ++k) {
     by[k].setZero();
     for (const auto& [edge, at] : {std::pair(pair.e, 0), std::pair(pair.f, 3)}) {
@@ -212,7 +212,7 @@ PairEnergy JointSpin::slopes(const PairGeometry& at, bool with_hessian) {
   const Complex gp = -c * z, gq = Q * z;
   const Eigen::Vector3d zi = z.imag(), qzi = gq.imag(), ps = P * s, qt = Q * t;
 
-  PairVector slope = PairVector::Zero();  // of phi
+  PairVector slope = PairVector::Zero();  // gradient of phi
   slope.head<3>() = -gp.imag();
   slope.segment<3>(3) = -gq.imag();
   slope[6] = 1;
@@ -221,7 +221,7 @@ PairEnergy JointSpin::slopes(const PairGeometry& at, bool with_hessian) {
     scale_to_edges(at.e.length, at.f.length, phi);
     return phi;
   }
-  Eigen::Matrix<double, 8, 8> curvature = PairMatrix::Zero();  // of alpha
+  Eigen::Matrix<double, 8, 8> curvature = PairMatrix::Zero();  // Hessian of alpha
   const auto squares = [](const Complex& a, const Complex& b) -> Eigen::Matrix3d {
     return (a * b.transpose()).imag();
   };

@@ -105,7 +105,7 @@ struct ModelFollower {
 /// infinite).
 struct ModelHinge {
   Pair<JointSpin> pair;
-  int other_half = -1;   ///< of edge e; -1: the rod ends there
+  int other_half = -1;   ///< other half of edge e; -1: the rod ends there
   double stiffness = 0;  ///< k, N mm/rad; 0: fixed
   FollowerBlocks blocks = {};
 };
@@ -150,7 +150,7 @@ struct Model {
   std::vector<ModelBend> bends;  ///< in the order of their edges, those that close a ring last
   std::vector<ModelSpring> springs;
   std::vector<ModelBar> bars;    ///< braces
-  std::vector<ModelLink> links;  ///< of eccentric joints
+  std::vector<ModelLink> links;  ///< bolts of eccentric joints
   PairLists pairs;
   double mean_stiffness = 0;  ///< K of the mean of joints' angles (JointAngle::weight), N mm/rad
   std::vector<ModelFollower> followers;

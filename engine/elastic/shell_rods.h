@@ -21,7 +21,7 @@ struct State;
 
 /// A dead force on a joint or an end, N.
 struct PointLoad {
-  int joint = 0;  ///< its node
+  int joint = 0;  ///< node of the joint or end
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
 };
 
@@ -66,7 +66,7 @@ struct ShellRods {
   JointLaw joints;                      ///< twist model; in the bend model rods have common nodes
   std::map<int, JointLaw> own_joints;   ///< laws of single joints that differ from `joints`
   std::vector<double> weight_N_per_mm;  ///< one per rod, downwards; empty: none
-  double joint_weight_N = 0;            ///< of every joint, downwards
+  double joint_weight_N = 0;            ///< weight of each joint, downwards
   std::vector<PointLoad> points;
   ContactLaw contact;
   std::shared_ptr<const Bolts> bolts;  ///< null: none

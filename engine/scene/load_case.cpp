@@ -17,7 +17,7 @@ namespace {
 
 /// The net as a planar graph.
 struct Graph {
-  Eigen::Matrix3Xd place;                // of nodes in the flat
+  Eigen::Matrix3Xd place;                // positions of nodes in the flat, mm
   std::vector<std::vector<int>> beside;  // the nodes around each, anticlockwise
 
   explicit Graph(const Footprint& footprint) {

@@ -51,7 +51,7 @@ Result<NetStart> given_start(const preset::Net& requested, const ShapedSurface& 
 }  // namespace
 
 Result<NetDesign> mesh_design(const preset::Net& requested, double spacing_mm) {
-  constexpr double apex_off = 0.01;  // of the spacing
+  constexpr double apex_off = 0.01;  // largest distance of the apex, over the spacing
   const auto about_file = [](const Error& error) {
     return Error{error.fault, "[net] file: " + error.message};
   };

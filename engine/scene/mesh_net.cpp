@@ -74,7 +74,7 @@ struct Trial {
 /// The quality of a start: larger is better.
 struct Ranking {
   bool by_angle = false;
-  double enough = 0;  ///< of the area: from there on only the angle counts
+  double enough = 0;  ///< fraction of the area from which only the angle counts
 
   static double area_of(const NetStart& start) { return start.reached - 0.5 * start.seams; }
   double operator()(const NetStart& start) const {
@@ -232,7 +232,7 @@ Result<std::vector<NetStart>> best_starts(const Surface& surface, const Triangle
   }
   std::ranges::stable_sort(kinds, better);
   // evaluates each on the grid of the net itself, which decides if the coarse grid was wrong
-  constexpr double mistaken = 0.05;  // of the area
+  constexpr double mistaken = 0.05;  // fraction of the area
   const Trial last = trial_on(net_chord(mesh, spacing_mm));
   const auto fine = area_samples(mesh, last.chord);
   const double promised = Ranking::area_of(kinds.front());

@@ -78,7 +78,7 @@ Result<std::vector<preset::Rod>> rods_of(const preset::Preset& preset, const Foo
       return wrong(fmt::format(
           "got a diameter of {:g} mm, expected above 0 and less than [footprint] spacing_mm = {:g}",
           row[2], preset.footprint.spacing_mm));
-    // of several rods on one line the first row belongs to the first rod
+    // if there are several rods on one line, the first row belongs to the first rod
     std::size_t at = 0;
     while (at < rods.size() &&
            (named[at] || footprint.rods[at].family != family || footprint.rods[at].index != row[1]))

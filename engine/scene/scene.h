@@ -32,7 +32,7 @@ struct Scene {
   RodModel rod_model = RodModel::bend;     ///< rod model chosen: net, bend or twist
   std::vector<double> mass_t_per_mm;       ///< one per rod; 0: not known
   std::vector<double> strength_MPa;        ///< one per rod; empty: not known
-  double joint_mass_t = 0;                 ///< of each joint, in addition to its rods
+  double joint_mass_t = 0;                 ///< mass of each joint, in addition to its rods
   double rod_diameter_mm = 0;              ///< diameter in pictures
   std::vector<double> drawn_diameters_mm;  ///< one per rod, for round sections of the rods' areas
   std::vector<double> laths_mm;            ///< as in record::Layout
@@ -56,11 +56,11 @@ struct Scene {
   int base_edges = 4;  ///< edges per segment of the chosen meshes are this times a power of two
   int edges_per_segment = 0;  ///< the requested mesh; 0: chosen from the tolerance
   double load_step = 1;       ///< largest load step, as a factor of the usual one
-  double tolerance = 1e-3;    ///< of the joints, over length_scale_mm
+  double tolerance = 1e-3;    ///< largest error of the joints, over length_scale_mm
   double memory_GB = 0;       ///< limit of the meshes' memory; 0: half of the machine's
   double max_strain = 1e-3;
   double max_bending_strain = 0, max_utilisation = 0;  ///< limits; 0: none
-  double joint_diameter_mm = 0, joint_height_mm = 0;   ///< of the joints' cylinders
+  double joint_diameter_mm = 0, joint_height_mm = 0;   ///< size of the joints' cylinders
   bool stops_at_contact = false;
   bool table = false;  ///< whether rods must not pass the plane of the flat footprint
   SnapDynamics snap;

@@ -73,7 +73,7 @@ Result<NetPlace> place_of(const preset::Net& requested, const Surface& surface,
   Eigen::Vector3d along = bent.axes.col(0);
   if (requested.axis == preset::NetAxis::x || bent.umbilic)
     along = (Eigen::Vector3d::UnitX() - up.x() * up).normalized();
-  // of two opposite directions the one towards +x
+  // the direction towards +x of the two opposite ones
   if (along.x() < 0) along = -along;
   const double turned = requested.axis_deg * std::numbers::pi / 180;
   return NetPlace{apex, Eigen::AngleAxisd(turned, up) * along, up, {}};

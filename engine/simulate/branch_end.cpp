@@ -78,7 +78,7 @@ void Simulation::Walk::confirm(Event& event) {
   keep_companion();
   event.confirmed = false;
   if (!companion_) return;
-  constexpr double found_to = 5e-5;  // in the path parameter
+  constexpr double found_to = 5e-5;  // accuracy in the path parameter
   PathOptions options;
   options.spacing_mm = scene_.footprint.spacing;
   // the last step that was too long may be nearly twice the smallest
@@ -128,7 +128,7 @@ bool Simulation::Walk::leave_to(double there, const PathPoint& last, Event& even
 /// Whether the current state, past a loss of stability, is on the branch that lost it and has
 /// regained it. Between the two the shell is on another branch.
 bool Simulation::Walk::skipped_a_branch(const PathPoint& last) {
-  constexpr double same_state = 1e-3;  // of d
+  constexpr double same_state = 1e-3;  // in units of d
   PathOptions options;
   options.spacing_mm = scene_.footprint.spacing;
   options.allow_unstable = true;
@@ -149,7 +149,7 @@ bool Simulation::Walk::leave(Event& event, std::vector<TimedState>& moments) {
     const double there = last.t + sign * scales * parameter_scale(last.t);
     return sign * (there - to_) > 0 ? to_ : there;
   };
-  constexpr double nearest = 1e-3, farthest = 0.1, nearest_by_far = 1e-5;  // of the scale
+  constexpr double nearest = 1e-3, farthest = 0.1, nearest_by_far = 1e-5;  // in scales
   bool found = false;
   for (double beyond = nearest; !found && beyond < farthest && !watch_.cancelled(); beyond *= 2) {
     found = leave_to(at(beyond), last, event, moments);

@@ -31,7 +31,7 @@ bool on_one_branch(const PathSegment& segment, const LoadStep& a, const LoadStep
 }  // namespace
 
 bool at_event(const PathSegment& segment, double t) {
-  constexpr double times = 2;  // of an estimated error
+  constexpr double times = 2;  // estimated errors
   return std::ranges::any_of(segment.report.events, [t](const Event& event) {
     return !event.is_limit() && std::abs(t - event.t) <= times * event.error.value_or(0);
   });

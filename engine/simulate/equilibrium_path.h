@@ -46,7 +46,7 @@ struct EquilibriumPath {
   Simulation simulation;
   /// The segments in the order in which they were followed.
   std::vector<PathSegment> segments = {};
-  std::vector<PathSegment> earlier = {};  ///< of a push: the segments of the actuation before it
+  std::vector<PathSegment> earlier = {};  ///< for a push: segments of the actuation before it
   LevelPlan meshes = {};                  ///< mesh levels on which the path was followed
   bool single_motion = true;  ///< whether all segments belong to the current motion of `simulation`
   /// Time to build the meshes and the first state, s.
@@ -96,11 +96,11 @@ PathSegment& follow_segment(EquilibriumPath& path, double to, const BifurcationP
 
 /// A requested sample of the path.
 struct PathSample {
-  int index = 0;  ///< of the frame, from 0
+  int index = 0;  ///< index of the frame, from 0
   /// Index in EquilibriumPath::segments.
   std::size_t segment = 0;
   double t = 0;         ///< path parameter
-  double progress = 0;  ///< of the experiment, from 0 to 1
+  double progress = 0;  ///< progress of the experiment, from 0 to 1
 };
 
 /// Whether t is between the two branches of a snap, where neither may have a state.

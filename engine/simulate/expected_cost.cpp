@@ -152,7 +152,7 @@ double expected_seconds(const Scene& scene, const preset::Preset& preset) {
       tellings * finest * unit.assembly + corrections * (unit.assembly + unit.factorisation);
   // a chosen branch is confirmed on meshes of twice the edges; bolts and braces are added in
   // equilibrium, on new meshes
-  constexpr double build = 15;  // as many factorisations
+  constexpr double build = 15;  // takes as long as so many factorisations
   using Do = preset::StepKind;
   const auto builds = std::ranges::count_if(preset.step, [](const preset::Step& step) {
     return step.kind == Do::tighten || step.kind == Do::brace;
@@ -186,7 +186,7 @@ namespace {
 /// Largest curvature of an elastica of this length with hinges at distance `chord`: its modulus m
 /// by 2 E(m)/K(m) - 1 = chord/length, then 4 sqrt(m) K(m)/length.
 double elastica_curvature(double length, double chord) {
-  double low = 0, high = 0.999999;  // of the modulus' root
+  double low = 0, high = 0.999999;  // square root of the modulus
   for (int round = 0; round < 60; ++round) {
     const double k = 0.5 * (low + high);
     (2 * std::comp_ellint_2(k) / std::comp_ellint_1(k) - 1 > chord / length ? low : high) = k;

@@ -19,7 +19,7 @@ namespace gridshell::simulate {
 namespace {
 
 constexpr int most_frames_in_motion = 24;
-constexpr double still_move = 0.01;  // of d: nearer to the equilibrium no motion is seen
+constexpr double still_move = 0.01;  // in d: motion nearer to the equilibrium is not visible
 
 Eigen::VectorXd curvature(const Simulation& simulation, int level) {
   const NestedShell& shell = simulation.shell();

@@ -120,7 +120,7 @@ Result<void> PathSampler::motions(const PathSample& sample, double past) {
     const PathRecord::Snap& snap = segment.snaps[next_snap_];
     const double landed = segment.load_steps[snap.before + 1].point.t;
     if (segment.sign() * (past - landed) < 0) break;
-    // these frames move the simulation
+    // frames_in_motion() assembles other states in the simulation
     if (!here) here = path_.simulation.save();
     PathSample there = sample;
     there.t = landed;

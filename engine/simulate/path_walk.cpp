@@ -9,8 +9,8 @@
 namespace gridshell {
 namespace {
 
-constexpr double push_step = 0.02;       // of the length scale: the largest load step
-constexpr double actuation_step = 0.05;  // in the path parameter
+constexpr double push_step = 0.02;       // largest load step of a push, over the length scale
+constexpr double actuation_step = 0.05;  // largest load step of an actuation, in t
 // branches left on one path; rods in contact slip past each other repeatedly
 constexpr std::size_t most_events = 8, most_events_in_contact = 64;
 
@@ -23,7 +23,7 @@ void StabilityStepControl::take(const NestedState& state) {
 }
 
 bool StabilityStepControl::near_zero() const {
-  constexpr double low = 0.25;  // of the largest of the branch
+  constexpr double low = 0.25;  // over the largest stiffness of the branch
   return !known_.empty() && known_.back().stiffness < low * largest_;
 }
 

@@ -159,7 +159,7 @@ std::string near_image(const EquilibriumPath& path) {
   const Simulation& simulation = path.simulation;
   const Scene& scene = simulation.scene();
   if (!path.single_motion || !simulation.holds().empty()) return "";
-  constexpr double not_told_apart = 0.02;  // of d
+  constexpr double not_told_apart = 0.02;  // in units of d
   double least = scene.tolerance * scene.length_scale_mm / 4;
   if (const double error = simulation.certificate().error_estimate_mm; 2 * error > least)
     least = 2 * error;

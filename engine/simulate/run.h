@@ -28,14 +28,14 @@ struct ExperimentResult {
 struct Plan {
   std::string model;          ///< the rod model chosen
   std::string model_reason;   ///< one sentence
-  int edges_per_segment = 0;  ///< of the finest mesh
+  int edges_per_segment = 0;  ///< edges per segment of the finest mesh
   std::vector<int> levels;    ///< edges per segment of every mesh solved
   bool extrapolated = false;  ///< Richardson over the last levels
   int rods = 0, joints = 0, cells = 0, dof = 0;
   double expected_error_mm = record::unknown;
   double expected_seconds = record::unknown;
-  double memory_GB = record::unknown;  ///< of the whole program
-  std::vector<std::string> seams;      ///< of building blocks, one sentence each
+  double memory_GB = record::unknown;  ///< memory of the program
+  std::vector<std::string> seams;      ///< seams of building blocks, one sentence each
   /// on a mesh: the parts that it reaches and those that it does not, one sentence each
   std::vector<std::string> net;
   std::string bending;  ///< expected bending of the rods; empty: not known

@@ -23,7 +23,7 @@ namespace gridshell {
 /// The figures that certify a state. Simulation::certificate() computes them from the finest mesh.
 struct Certificate {
   double residual_N = 0;         ///< largest unbalanced force on an unconstrained node
-  int negative_pivots = 0;       ///< of the Hessian on the unconstrained unknowns; 0: stable
+  int negative_pivots = 0;       ///< of the Hessian by the free unknowns; 0: stable
   double error_estimate_mm = 0;  ///< largest error of a node's position; NaN on a single mesh
   /// axial strain of largest magnitude, with its sign; below 0 in compression
   double largest_strain = 0;
@@ -36,7 +36,7 @@ struct Event {
   enum class Kind { stability_lost, turned_back, locked, overbent, contact };
   Kind kind = Kind::stability_lost;
   double t = 0;                 ///< path parameter, extrapolated if two meshes have the event
-  std::optional<double> error;  ///< of t; empty if only one mesh has the event
+  std::optional<double> error;  ///< error of t; empty if only one mesh has the event
   std::optional<double> to;     ///< path parameter of the next equilibrium; empty if none was found
   /// whether the path continues by a snap; else along a branch that bifurcates there
   bool jump = true;
@@ -81,8 +81,8 @@ struct [[nodiscard]] Report {
   /// Why it ended: reached, or the reason that it stopped before.
   Outcome end = Outcome::reached;
   double t = 0;               ///< path parameter reached
-  Certificate certificate;    ///< of the current state
-  std::vector<Event> events;  ///< that the command passed, in order
+  Certificate certificate;    ///< certificate of the current state
+  std::vector<Event> events;  ///< events on the path of the command, in order
   /// Factorisations, iterations and solves of this command.
   Effort effort;
   /// Wall time, s.
@@ -352,7 +352,7 @@ class Simulation {
   std::vector<NodeAction> field_;  // the applied load
   double load_scale_ = 1;          // factor of the scene's dead loads
   double progress_ = 0;
-  double first_stiffness_ = 0;  // of the last push, at its start, N/mm
+  double first_stiffness_ = 0;  // stiffness at the start of the last push, N/mm
   Eigen::VectorXd along_;       // direction of its displacements, in the constrained directions
   bool actuating_ = true;       // the path parameter is that of the scene's motion, not of a drive
   Effort spent_;                // on meshes that finer ones replaced

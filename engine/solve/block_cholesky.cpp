@@ -253,7 +253,7 @@ class BlockCholesky final : public LinearSolver {
   std::vector<Move> straight_, turned_, partly_straight_, partly_turned_;
   std::vector<Range> empty_;  // blocks below the diagonal that begin at zero
   BlockFactor factor_;
-  mutable std::vector<Entry> work_;  // of solve()
+  mutable std::vector<Entry> work_;  // right-hand side of solve(), in elimination order
 };
 
 }  // namespace

@@ -327,7 +327,7 @@ std::vector<int> branches_of(const BlockFactor& f) {
   const auto up = [&](int k) {
     return rows(k) > 0 ? f.row[std::size_t(f.first[std::size_t(k)])] : -1;
   };
-  std::vector<double> work(std::size_t(f.columns), 0);  // of a column and all below it in the tree
+  std::vector<double> work(std::size_t(f.columns), 0);  // work of a column and of its subtree
   double total = 0;
   for (int k = 0; k < f.columns; ++k) {
     const double own = 0.5 * (rows(k) + 1) * (rows(k) + 2);

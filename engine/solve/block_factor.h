@@ -22,7 +22,7 @@ constexpr int widest_panel = 8;  // columns; wider panels would not stay in the 
 /// The numbers of the last factor of one or several solvers that use this memory in turn.
 struct FactorNumbers {
   std::vector<Block3> diagonal, below;
-  std::vector<Entry> inverse;  ///< of the pivots
+  std::vector<Entry> inverse;  ///< inverses of the pivots
   const void* of = nullptr;    ///< the solver that computed them
 };
 
@@ -31,8 +31,8 @@ struct FactorNumbers {
 struct BlockFactor {
   int columns = 0;
   std::vector<int> first;  // columns + 1: first off-diagonal block of each column
-  std::vector<int> row;    // its row (in elimination order)
-  std::vector<int> panel;  // first column of each, and columns
+  std::vector<int> row;    // row of each off-diagonal block (in elimination order)
+  std::vector<int> panel;  // first column of each panel, and columns
   // per pair (a <= b) of the rows below a panel: the block that it updates, or ~block if it is the
   // first to write it
   std::vector<int> target;

@@ -10,7 +10,8 @@
 namespace gridshell {
 namespace {
 
-constexpr double tilt = 0.8;  // of the dome towards a diagonal; small ones are lost to round-off
+constexpr double tilt =
+    0.8;  // tilt of the dome towards a diagonal; a small one is lost to round-off
 
 /// Distance between two nodes of a rod in the flat, mm; where the rod is straight its length
 /// between them, which has no round-off.

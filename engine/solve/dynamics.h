@@ -25,7 +25,7 @@ double round_mass_t_per_mm(double density_kg_m3, double diameter_mm);
 
 struct MovingState {
   State state;
-  Eigen::Matrix3Xd velocity;  ///< of every column, mm/s
+  Eigen::Matrix3Xd velocity;  ///< velocity of every column, mm/s
   double time = 0;            ///< s
 
   static MovingState at_rest(State state);
@@ -34,7 +34,7 @@ struct MovingState {
 struct DynamicsOptions {
   double step_s = 1e-3;
   double damping_per_s = 0;    ///< mass-proportional: force -damping * mass * velocity
-  double tolerance_mm = 1e-9;  ///< of Newton's corrections in a step
+  double tolerance_mm = 1e-9;  ///< largest move in the last correction of a step
   int most_iterations = 30;
 };
 

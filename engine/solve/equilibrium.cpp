@@ -148,7 +148,7 @@ class Descent {
   }
 
  private:
-  static constexpr double least_weakening = 0.015, least_shift = 1e-4;  // of 1, N/mm
+  static constexpr double least_weakening = 0.015, least_shift = 1e-4;  // fraction, N/mm
 
   /// Every step tries no shift and a quarter of the last weakening first, then more weakening, then
   /// a shift.

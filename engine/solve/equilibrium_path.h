@@ -45,7 +45,7 @@ struct PathReport {
   Outcome end = Outcome::reached;  ///< reached, unstable, folded, lost, not_finite or cancelled
   double t = 0;                    ///< path parameter up to which the path is certified
   int steps = 0, halvings = 0;
-  NewtonReport last;  ///< of the last converged point
+  NewtonReport last;  ///< Newton's report of the last converged point
 };
 
 /// Follows one model along one motion of its pinned nodes, forwards or backwards. It stores the
@@ -73,7 +73,7 @@ class PathFollower {
 
   void allow_unstable(bool allow) { options_.allow_unstable = allow; }
   const PathPoint& point() const { return now_; }
-  const NewtonReport& last() const { return last_; }  ///< of the current point
+  const NewtonReport& last() const { return last_; }  ///< report of the current point
   const PinnedMotion& motion() const { return motion_; }
 
  private:
@@ -86,7 +86,7 @@ class PathFollower {
   PathPoint now_, before_;
   NewtonReport last_;
   bool has_before_ = false;
-  const PathPoint* across_ = nullptr;  // of resume(), until the first step
+  const PathPoint* across_ = nullptr;  // argument of resume(), until the first step
 };
 
 }  // namespace gridshell

@@ -134,7 +134,7 @@ Result<State> leave_saddle(Linearisation& system, const State& unstable,
       return fail(Fault::cancelled, "stopped while searching for an equilibrium");
     if (!state) continue;
     if (one) return *state;
-    // of two mirror images always the same one is chosen, independent of round-off
+    // the choice between two mirror images must not depend on round-off
     const double found = system.energy_at(*state);
     if (best && found > lowest - 1e-6 * std::abs(lowest)) continue;
     lowest = found;

@@ -24,7 +24,7 @@ struct MountainPass {
   State saddle;
   double energy_mJ = 0;
   double residual_N = 0;
-  Eigen::Matrix3Xd towards_b;     ///< its lowest mode, a unit vector, in the direction of b
+  Eigen::Matrix3Xd towards_b;     ///< lowest mode of the saddle, a unit vector, towards b
   std::vector<double> string_mJ;  ///< energies of the string, from a to b
 };
 

@@ -126,7 +126,7 @@ NestedReport NestedShell::certify(const PathFollower& path, const Watch& watch,
 /// its size) or if axial forces and strains disagree by more than `misfit`. The assembly is then
 /// that of the state found.
 void NestedShell::polish(Level& finest, State& found, const NewtonReport& last) {
-  constexpr double misfit = 1e-5;  // of the largest axial force
+  constexpr double misfit = 1e-5;  // fraction of the largest axial force
   Linearisation& system = *finest.system;
   system.gradient_at(found);
   const bool to_the_end = state_.t >= 1 || !system.holds().empty(),
@@ -157,7 +157,7 @@ void NestedShell::polish(Level& finest, State& found, const NewtonReport& last) 
 /// that of the factorisation, one correction before the state. The states before and after,
 /// predicted by that velocity, are corrected once. The assembly is then that of the state.
 void NestedShell::refine_velocity(Level& finest, const State& found) {
-  constexpr double offset = 2e-4;  // of t
+  constexpr double offset = 2e-4;  // step of the difference, in t
   Linearisation& system = *finest.system;
   const State velocity = state_.velocity;
   state_.velocity.x.setZero();
@@ -181,7 +181,7 @@ void NestedShell::refine_velocity(Level& finest, const State& found) {
 /// Whether the factorisation of the last correction, one correction before the state, is near
 /// enough to it to decide whether it is stable.
 bool NestedShell::vouches(const NewtonReport& report) const {
-  constexpr double same_state = 1e-3;  // of d
+  constexpr double same_state = 1e-3;  // in units of d
   return report.factored_move_mm <= same_state * options_.spacing_mm &&
          report.inertia.positive_definite();
 }

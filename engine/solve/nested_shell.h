@@ -79,7 +79,7 @@ struct MeshDifference {
 struct NestedPathPoint : PathPoint {
   /// One per coarser level.
   std::vector<MeshDifference> companions = {};
-  Inertia inertia = {};  ///< of the finest level's Hessian; not usable if not known
+  Inertia inertia = {};  ///< inertia of the finest level's Hessian; not usable if unknown
 };
 
 /// Parameter that the path reached and why it ended there: reached, unstable, folded, lost,

@@ -135,7 +135,7 @@ class Linearisation {
   bool forces_agree(const State& state, double fraction) const;
 
   const Model& model() const { return model_; }
-  const Assembly& assembly() const { return assembly_; }  ///< of the last assembly
+  const Assembly& assembly() const { return assembly_; }  ///< result of the last assembly
   double residual() const;  ///< largest force on an unconstrained component of a free column, N
   const Effort& effort() const { return effort_; }
   Effort& effort() { return effort_; }
@@ -153,7 +153,7 @@ class Linearisation {
   Eigen::Matrix3Xd tangents_;             // unit tangent of each edge at the linearisation point
   double EA_scale_ = 1;
   double neutral_shift_ = 0;  // N/mm
-  double shift_ = 0;          // of the last factorisation
+  double shift_ = 0;          // shift of the last factorisation
   mutable Effort effort_;     // solves may factorise again
 };
 
@@ -207,7 +207,7 @@ struct NewtonReport {
   double last_move_mm = 0;
   double factored_move_mm =
       0;            ///< sum since the last factorisation, including the first correction with it
-  Inertia inertia;  ///< of the last factorisation (mixed form), the one given included
+  Inertia inertia;  ///< of the last factorisation (mixed form), or `factored`
 };
 
 /// Full mixed Newton steps from `state` with the constraints; a factorisation is reused as long as

@@ -181,7 +181,7 @@ class Dissection {
   const Model& model_;
   std::vector<std::vector<int>> graph_;  // neighbours among nodes that are not eliminated yet
   std::vector<std::array<double, 2>> flat_;
-  std::vector<int> around_;  // of the node that is eliminated
+  std::vector<int> around_;  // neighbours of the node that is eliminated
   std::vector<int> piece_;   // which piece a node is in; -1 once eliminated
   int pieces_ = 0;
   std::vector<int> order_;

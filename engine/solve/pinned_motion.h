@@ -55,13 +55,13 @@ struct PinnedMotion {
   PathLaw law = PathLaw::square;
   LoadFactor load{0, 1};
   LoadFactor field{0, 0};
-  LoadFactor opening{0, 0};             ///< of the joint actuation
+  LoadFactor opening{0, 0};             ///< factor of the joint actuation
   std::vector<EndRotation> turns = {};  ///< nodes that move on circles instead of lines
 
   double progress(double t) const { return law == PathLaw::square ? progress_at(t) : t; }
   double speed(double t) const { return law == PathLaw::square ? 2 * t : 1.0; }
   Eigen::Matrix3Xd at(double t) const;
-  Eigen::Matrix3Xd rate(double t) const;  ///< by t
+  Eigen::Matrix3Xd rate(double t) const;  ///< derivative by t
   double factor_at(const LoadFactor& growth, double t) const {
     return growth.begin + progress(t) * growth.change;
   }

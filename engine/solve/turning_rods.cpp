@@ -15,7 +15,7 @@ namespace {
 /// Whether the boundary keeps what fixes a rod, its hinges and prescribed directions, on one line.
 bool stays_on_line(const Footprint& footprint, std::size_t r, const std::vector<int>& hinges,
                    const BoundaryMotion& motion) {
-  constexpr double on_line = 1e-9;  // of the line's length; sine of a direction's angle
+  constexpr double on_line = 1e-9;  // deviation over the line's length; sine of a direction's angle
   const FootprintRod& rod = footprint.rods[r];
   std::vector<Eigen::Vector3d> points, directions;
   for (const auto& [hold, end] : {std::pair(rod.begin, 2 * r), {rod.end, 2 * r + 1}}) {
