@@ -42,7 +42,8 @@ struct Bolts {
   std::vector<double> opened{};
   std::vector<double> opening{};  ///< target of a joint actuation in addition, rad; empty: none
   std::set<int> closed{};         ///< joints whose hinged rods had passed one another
-  /// Whether the bolts resist only changes of the mean angle, by one torque that is equal at all.
+  /// Whether the bolts resist only changes of the mean angle, by one torque that is equal at all
+  /// joints.
   bool mean = false;
 
   /// The angle between the first two rods of a joint at tightening, rad; negative if they had

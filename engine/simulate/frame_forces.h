@@ -24,9 +24,9 @@ std::vector<int> supports_of(const RodMesh& mesh);
 Eigen::Matrix3Xd reactions_of(const RodMesh& mesh, const Model& model, const Assembly& at,
                               const std::vector<Constraint>& holds);
 
-/// External forces in a state at `x`, N, on the supports_of() a mesh: forces between two of them
-/// are distributed to both as by a beam, so that the sum is that of all forces. Empty: there are
-/// none. Rods that close without a joint are left out.
+/// External forces in a state at `x`, N, on the nodes that supports_of() lists: forces between two
+/// of them are distributed to both as by a beam, so that the sum is that of all forces. Empty:
+/// there are none. Rods that close without a joint are left out.
 Eigen::Matrix3Xd loads_on(const RodMesh& mesh, const Model& model, const Eigen::Matrix3Xd& x,
                           const ExternalLoads& outside);
 

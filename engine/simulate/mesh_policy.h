@@ -1,8 +1,7 @@
 // Choice of the mesh on which a path is followed, and when it is fine enough. It is made only here.
 //
-//   1. The tolerance gives the number k of edges per segment. The path is followed on this mesh;
-//   the
-//      coarser meshes, k/2 and k/4, give the error estimate (solve/nested_shell.h).
+//   1. The tolerance gives the number k of edges per segment. The path is followed on this mesh.
+//      The meshes of k/2 and k/4 edges give the error estimate (solve/nested_shell.h).
 //   2. The edges are doubled if an error estimate is above the tolerance, if an event is missing on
 //      the coarser mesh, or if the coarser mesh has no state near the fine one.
 //   3. The mesh is fine enough if none of this applies, or if two consecutive meshes agree; else

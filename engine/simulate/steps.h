@@ -40,9 +40,9 @@ Result<Report> apply_step(Simulation& simulation, const preset::Step& step, cons
 
 // A run of a preset with steps: the shell is actuated, then the steps are applied in order.
 
-/// Distributes `frames` over the steps; the first frame is the shell before them. Each step has
-/// one; the remaining ones are distributed evenly over steps with a sampled path, moves of the
-/// whole boundary and pushes.
+/// Distributes `frames` over the steps; the first frame is the shell before them. Each step has at
+/// least one; the others are distributed evenly over the steps with a sampled path: pushes, joint
+/// actuations and moves of the whole boundary.
 std::vector<int> frames_of_steps(const std::vector<preset::Step>& steps, int frames);
 
 /// How the steps ended.

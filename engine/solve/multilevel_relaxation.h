@@ -25,8 +25,8 @@ class MultilevelRelaxation {
                                            RodModel rod_model, const BoundaryMotion& motion,
                                            const FlatFrame& flat, int edges);
 
-  /// The nodes of the coarsest mesh in the flat footprint, under the affine map that takes the ends
-  /// nearest to their positions at t.
+  /// Nodes of the coarsest mesh (3 x n, mm): the flat footprint under the affine map that brings
+  /// the ends closest to their positions at t.
   Eigen::Matrix3Xd stretched_flat(double t) const;
   /// Relaxes positions of the coarsest mesh's nodes, with prescribed positions at t, to a stable
   /// equilibrium on the finest mesh. Errors: no_equilibrium, cancelled.

@@ -24,7 +24,7 @@ struct NestedState {
   /// States of the levels, coarse to fine. A coarser level without an equilibrium near the finer
   /// state has the finer state restricted to its mesh.
   std::vector<State> levels;
-  int measured = 0;    ///< the coarsest level of those, down from the finest, in equilibrium
+  int measured = 0;    ///< the coarsest level in equilibrium whose finer levels all are, too
   Eigen::Matrix3Xd x;  ///< 3 x nodes of the finest mesh, mm, extrapolated where planned
   double error_estimate_mm = 0;  ///< largest error of all columns of x; NaN without a coarser state
   double residual_N = 0;         ///< largest unbalanced force on the finest level

@@ -148,7 +148,7 @@ class Linearisation {
   std::unique_ptr<LinearSolver> solver_;
   Assembly assembly_;
   std::vector<Constraint> holds_;
-  std::vector<Eigen::Matrix3Xd> border_;  // (K + g B B^T)^-1 B, a matrix a column of B
+  std::vector<Eigen::Matrix3Xd> border_;  // (K + g B B^T)^-1 B, one matrix per column of B
   Eigen::MatrixXd compliance_;            // B^T (K + g B B^T)^-1 B
   Eigen::Matrix3Xd tangents_;             // unit tangent of each edge at the linearisation point
   double EA_scale_ = 1;
