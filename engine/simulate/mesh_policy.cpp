@@ -12,7 +12,7 @@ namespace {
 
 int edges_of(const EquilibriumPath& path) { return path.meshes.edges_per_segment.back(); }
 
-/// Whether an event of a segment lies near a path parameter: meshes may differ there.
+/// Whether an event of a segment is near a path parameter: meshes may differ there.
 bool near_event(const PathSegment& segment, double t) {
   return std::ranges::any_of(segment.report.events, [&](const Event& event) {
     const auto [from, to] = std::minmax({event.placed.t, event.t, event.to.value_or(event.t)});
@@ -148,7 +148,7 @@ Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follo
       if (missing) found.mesh_disagreement = *missing;
       return path;
     }
-    // two meshes that follow one another agree
+    // two consecutive meshes agree
     if (missing && coarse && !coarse->too_coarse() && !mesh_disagreement(*coarse, found)) {
       extrapolate_events(coarse->segments, found.segments);
       extrapolate_events(coarse->earlier, found.earlier);
@@ -161,7 +161,7 @@ Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follo
       return path;
     }
     if (too_coarse && (!next || !fits)) {
-      // what can be had is kept, and what is missed is said
+      // the path is followed on the finest possible mesh, with a report of what it misses
       plan.allowed_mm = std::numeric_limits<double>::infinity();
       coarse = nullptr;
       auto last = follow(plan, watch);

@@ -9,8 +9,8 @@
 namespace gridshell {
 namespace {
 
-constexpr double push_step = 0.02;       // of the length scale: the largest load step
-constexpr double actuation_step = 0.05;  // in the path parameter
+constexpr double push_step = 0.02;       // largest load step of a push, over the length scale
+constexpr double actuation_step = 0.05;  // largest load step of an actuation, in t
 // branches left on one path; rods in contact slip past each other repeatedly
 constexpr std::size_t most_events = 8, most_events_in_contact = 64;
 
@@ -23,7 +23,7 @@ void StabilityStepControl::take(const NestedState& state) {
 }
 
 bool StabilityStepControl::near_zero() const {
-  constexpr double low = 0.25;  // of the largest of the branch
+  constexpr double low = 0.25;  // over the largest stiffness of the branch
   return !known_.empty() && known_.back().stiffness < low * largest_;
 }
 
@@ -84,7 +84,7 @@ void Simulation::Walk::tell() const {
   if (&watch_ != &unwatched) watch_.stand_at(now(), shell_.plan().edges_per_segment.back());
 }
 
-/// Notes a load step from which the path continues.
+/// Records the current state as a load step from which the path continues.
 void Simulation::Walk::keep() {
   note();
   tell();
@@ -95,7 +95,7 @@ void Simulation::Walk::keep() {
     record_->load_steps.back().stability_confirmed = shell_.stability_confirmed(watch_);
 }
 
-// ---- what an earlier run kept of it ----
+// ---- segments saved by an earlier run ----
 
 /// Whether an earlier run saved this segment or its start; the shell then has the state saved
 /// there.
@@ -130,18 +130,18 @@ void Simulation::Walk::keep_segment(std::optional<Outcome> end) {
   segment_.events = events_;
   segment_.effort = of_.effort() - effort_before_;
   segment_.softening = softening_.known();
-  // lent, as it may be large
+  // moved there and back, not copied, as it may be large
   std::swap<PathRecord>(segment_.record, *record_);
   kept_->keep(segment_);
   std::swap<PathRecord>(segment_.record, *record_);
 }
 
-// ---- how it steps ----
+// ---- load steps ----
 
 Outcome Simulation::Walk::step() {
   if (watch_.cancelled()) return Outcome::cancelled;
   const double left = to_ - now(), longest = softening_.shortened(of_.load_step());
-  // where the path itself needs short steps, its load steps are no much longer ones
+  // where the path follower needs short steps, load steps are at most eight times shorter, too
   const double step = std::clamp(shell_.state().step, longest / 8, longest);
   const int steps = std::max(1, int(std::ceil(std::abs(left) / step - 1e-9)));
   const double next = steps == 1 ? to_ : now() + left / steps;

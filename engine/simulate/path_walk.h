@@ -10,12 +10,12 @@
 
 namespace gridshell {
 
-/// Follows the stiffness of the lowest mode from load step to load step. A
-/// branch may lose its stability and regain it within one step, and the shell would have left it
-/// in between: where the stiffness heads for zero, steps become short enough to see that.
+/// Shortens load steps where the stiffness of the lowest mode decreases towards zero. A branch may
+/// lose its stability and regain it within one step, while the shell would have left it in between:
+/// the steps become short enough to detect that.
 class StabilityStepControl {
  public:
-  /// After a load step that was certified.
+  /// Adds a load step that was certified.
   void take(const NestedState& state);
   /// Clears the history of the path, which continues from another state.
   void forget() { known_.clear(), largest_ = 0; }
@@ -32,7 +32,7 @@ class StabilityStepControl {
   double largest_ = 0;                     // stiffness of this branch
 };
 
-/// One segment of the path: how it steps, what it leaves, what ends it.
+/// Follows one segment of the path: its load steps, its events, and the limit that ends it.
 class Simulation::Walk {
  public:
   Walk(Simulation& of, double to, const BifurcationPolicy& leaving, PathRecord* record,
@@ -74,14 +74,14 @@ class Simulation::Walk {
   BifurcationPolicy leaving_;
   PathRecord* record_;
   const Watch& watch_;
-  // a state that starts past a limit may return, and goes no further past it
+  // a path that starts past a limit may return, but must not exceed it further
   Limits limits_ = of_.limits_here();
   bool from_beyond_ = of_.beyond_limits().has_value();
   StabilityStepControl softening_;
   std::vector<Event> events_;
   std::optional<double> unmeasured_since_;  // path parameter: no companion has a state since
   std::optional<TimedState> companion_;     // its last state on this branch; time: path parameter
-  // of a saved segment, as it was after the last step
+  // the segment that is saved, as it was after the last step
   simulate::KeptSegments* kept_ = record_ ? of_.context_.segments.get() : nullptr;
   simulate::KeptSegment segment_;
   Effort effort_before_;

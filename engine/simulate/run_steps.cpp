@@ -24,7 +24,7 @@ struct Done {
   std::string reported = {};  ///< sentence about it in addition to its certificate
 };
 
-/// A hand's whole work on one plan of meshes.
+/// All steps on the meshes of one plan.
 struct Work : EquilibriumPath {
   Checkpoint begin;
   std::vector<Done> done = {};
@@ -46,7 +46,7 @@ bool snapped(const PathSegment& segment) {
                              [](const Event& one) { return one.to && one.jump; });
 }
 
-/// A step without a sampled path is a segment of its start and end alone.
+/// Completes the segment of a step. Without a path it has only the state at its end.
 void close(PathSegment& segment, const Simulation& simulation) {
   if (!segment.load_steps.empty()) {
     segment.from = segment.load_steps.front().point.t;
@@ -120,7 +120,7 @@ std::string at_fraction(double t, std::optional<double> error) {
   return text + " of its path";
 }
 
-/// Hands the frames of one work to a sink.
+/// Passes the frames of all steps to a sink.
 class Show {
  public:
   Show(Work& work, const std::vector<preset::Step>& steps, int frames, record::Sink& sink,
@@ -134,7 +134,7 @@ class Show {
     Simulation& simulation = work_.simulation;
     simulation.restore(work_.begin);
     boundary_ = {1, 1};
-    // belongs to no step
+    // the first frame belongs to no step
     if (auto first = sampler_->take_current({0, steps_.size(), 1, 0}, "", 1); !first) return first;
     for (step_ = 0; step_ < work_.done.size(); ++step_)
       if (auto shown = one(); !shown) return shown;
@@ -161,7 +161,7 @@ class Show {
     return sampler_->take_current(last, event(last), last.t);
   }
 
-  /// A sample of the path of a step; what has no state is left out.
+  /// Takes the frame at a sample of the path of a step, if there is a state.
   Result<void> between(const Done& done, const PathSample& sample) {
     Simulation& simulation = work_.simulation;
     simulation.restore(done.path_end);
@@ -176,7 +176,7 @@ class Show {
     return {index_, step_, t, double(index_) / count_};
   }
 
-  /// What the end of a step says.
+  /// Text of the frame at the end of a step.
   std::string event(const PathSample& sample) const {
     const PathSegment& segment = work_.segments[step_];
     if (at_limit(segment.report.end)) return limit_event(work_.simulation, segment.report.end);
@@ -226,7 +226,7 @@ std::string message_of(std::size_t k, const preset::Step& step, const PathSegmen
   return text;
 }
 
-/// Which step the limit belongs to, in front of its reason.
+/// Sets the limit of the path and names its step in front of the reason.
 void name_step_of_limit(Work& work, const std::vector<preset::Step>& steps) {
   set_limit(work, at_fraction);
   if (work.limit == record::Limit::none) return;

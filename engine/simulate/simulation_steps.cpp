@@ -33,8 +33,8 @@ void Simulation::apply_field(std::vector<NodeAction> field) {
   shell_->set_fields(field_, {});
 }
 
-/// Certifies the current state as the start of a motion that was just prescribed; else everything
-/// is as it was `before`.
+/// Certifies the current state as the start of a motion that was just prescribed. If that fails, it
+/// restores `before`.
 Outcome Simulation::start_here(double t, const Checkpoint& before, const Watch& watch) {
   const Outcome end = shell_->start(t, shell_->state().levels.back(), watch).end;
   if (end != Outcome::reached) restore(before);
@@ -109,7 +109,7 @@ Report Simulation::push(int joint, const Eigen::Vector3d& displacement, Across a
   Constraint hold{joint};
   if (across == Across::free) hold.directions = displacement.normalized();
   holds.push_back(hold);
-  // a continued push is measured by the stiffness at its start
+  // a push that continues the last one is compared with the stiffness at the start of that one
   const bool goes_on = !holds_.empty() && holds_.back().node == joint &&
                        holds_.back().directions.cols() == hold.directions.cols() &&
                        holds_.back().part(displacement).isApprox(displacement, 1e-6);
