@@ -69,8 +69,7 @@ struct PhasePoint {
   double shortest_leg = 0;  ///< l_d
   int seed = 0;        ///< seed of the sweep: several searches of one footprint are several points
   bool found = false;  ///< whether the search found any state; if not, all below is 0
-  int states = 0;      ///< number of states
-  int at_rest = 0;     ///< number of trials that reached equilibrium
+  int states = 0, at_rest = 0;        ///< numbers of states, and of trials that reached equilibrium
   std::array<StateCount, 5> classes;  ///< counts of each StateClass
   StateCount first_order;             ///< counts of first-mode buckling, in any class
 
