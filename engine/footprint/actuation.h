@@ -5,9 +5,8 @@
 
 namespace gridshell {
 
-/// Motion of the edge points, straight and linear in the progress. Column 2r is the start, column
-/// 2r
-/// + 1 the end of rod r. `begin`: original, `end`: actuated boundary.
+/// Motion of the edge points, straight and linear in the progress. Column 2r is the start of rod r,
+/// column 2r + 1 its end. `begin`: original, `end`: actuated boundary.
 struct BoundaryMotion {
   Eigen::Matrix3Xd begin, end;  ///< positions, 3 x edge points, mm
   /// Unit tangents at the edge points, in the direction in which positions along the rod grow;
