@@ -37,15 +37,13 @@ struct NetworkOptions {
 };
 
 /// Reads a file in the format of its name's ending:
-///   .json: an object with the lists "points_mm" [[x, y], ...], "rods", "joints" and "supports",
-///   and
+///   .json: an object with the lists "points_mm" [[x, y], ...], "rods", "joints", "supports", and
 ///     the "law" of all joints without one:
 ///     - A rod is a list of indices of points (from 0) or of positions [x, y], or an object
 ///       {"points": list, "diameter_mm": d, "begin": END, "end": END, other keys of [rod]}, END
 ///       being "pinned", "tangent" or "clamped".
-///     - A support is {"point": index or position, "to_mm": [x, y, z]}. "to_mm" may be "free" for
-///     an
-///       end that nothing fixes; without it the preset decides. "spring_N_per_mm": k, or
+///     - A support is {"point": index or position, "to_mm": [x, y, z]}. "to_mm" may be "free", for
+///       an end that nothing fixes; without it the preset decides. "spring_N_per_mm": k, or
 ///       [kx, ky, kz], puts the support on a spring.
 ///     - A joint is a list of points that become one joint although their positions differ, or
 ///       {"point": index or position, "law": LAW, "eccentricity_mm": e}, or with "points": list.
