@@ -76,7 +76,7 @@ std::optional<Number> number_type(std::string_view word) {
 
 struct Property {
   std::string name;
-  std::optional<Number> count;  ///< of a list: the type of its length
+  std::optional<Number> count;  ///< type of the length of a list; empty: the property is no list
   Number value = Number::float32;
 };
 

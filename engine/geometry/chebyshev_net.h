@@ -66,8 +66,8 @@ class TranslationNet final : public ChebyshevNet {
   /// become parallel.
   static Result<TranslationNet> make(const Eigen::Matrix3Xd& x, const Eigen::Matrix3Xd& y);
 
-  double half_u() const { return x_.half_length(); }  ///< the net exists for |u| <= half_u
-  double half_v() const { return y_.half_length(); }  ///< and |v| <= half_v
+  double half_u() const { return x_.half_length(); }  ///< the net exists for |u| <= half_u ...
+  double half_v() const { return y_.half_length(); }  ///< ... and |v| <= half_v
   Result<NetPoint> at(double u, double v) const override;
 
  private:

@@ -59,7 +59,7 @@ std::vector<std::string> doubtful_values(const Preset& preset);
 // Choice of the rod model: the simplest one that the preset's scene allows.
 
 /// The rod model of a preset: the requested one, else the simplest that is exact; `net` only for a
-/// cap of a sphere with a tolerance of 0.05 or more, since such shells are known to lie within 0.03
+/// cap of a sphere with a tolerance of 0.05 or more, since such shells are known to be within 0.03
 /// of their net.
 RodModel rod_model_of(const Preset& preset);
 

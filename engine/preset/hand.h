@@ -19,16 +19,18 @@ enum class StepKind { move, push, hold, release, load, rest, jitter, tighten, br
 enum class IndentationPlace { pole, highest };
 enum class Direction { inward, outward };
 enum class Lateral { free, held };
+/// A push at one joint of the actuated shell.
 struct Indentation {
   IndentationPlace at = IndentationPlace::pole;
-  double latitude_deg = 90, longitude_deg = 0;
-  std::vector<int> joint;  ///< (i, j), or empty
+  double latitude_deg = 90, longitude_deg = 0;  ///< joint nearest to them; 90: `at` is used
+  std::vector<int> joint;  ///< indices (i, j) of the joint; empty: the joint is given otherwise
   Direction direction = Direction::inward;
   double depth = 0;     ///< depth of the push over rho of a net or R_o of a circle; 0: none
   double depth_mm = 0;  ///< depth of the push, instead of `depth`; 0: none
   Lateral lateral = Lateral::free;
-  bool unload = false;
+  bool unload = false;  ///< whether the push is removed again
 
+  /// Whether a push is requested.
   bool requested() const { return depth > 0 || depth_mm > 0; }
 };
 
@@ -70,6 +72,7 @@ struct Step {
 /// Direction of a load on the edge: downwards; against the shell's normal; inward in the surface,
 /// across the edge; in plan across the edge, turning with it.
 enum class EdgeDirection { down, normal, inward, pressure };
+/// Loads on the shell, in addition to its boundary.
 struct Loads {
   double gravity_m_s2 = 0;    ///< downwards
   double field_N_per_mm = 0;  ///< downward force per length of rod

@@ -25,6 +25,7 @@ enum class ColourBy {
 };
 enum class View { free, front, side, top, corner, push };
 enum class Pace { even, eased, height };
+/// Frames and camera of a movie.
 struct Movie {
   int frames = 240;
   std::array<int, 2> size{1280, 720};
@@ -75,7 +76,7 @@ struct Style {
              rings = Visibility::automatic, floor = Visibility::automatic,
              shadow = Visibility::automatic, loads = Visibility::automatic,
              braces = Visibility::automatic, ghost = Visibility::automatic;
-  double far_fade = 0.25;  ///< by how much the far side pales
+  double far_fade = 0.25;  ///< fraction by which the far side fades into the background
   bool letters = true;     ///< whether the panels of a figure have letters
   std::string font;        ///< font family of all text; empty: DejaVu Sans
   double font_size = 1;    ///< size of all text over its usual size
@@ -90,6 +91,7 @@ struct Page {
   bool drawn = false;  ///< whether the page is also made with rendered pictures of the shells
 };
 
+/// Stills, figures and cut lists.
 struct Figure {
   Quality quality = Quality::figure;
   double width_mm = 0;  ///< printed width; 0: the pixels of movie.size

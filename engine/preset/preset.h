@@ -51,6 +51,7 @@ struct RodV : Rod {
 };
 
 enum class JointKind { shared, spring };
+/// Connections of the rods at their crossings.
 struct Joints {
   JointKind kind = JointKind::shared;
   double stiffness_N_per_mm = 0;  ///< stiffness of the spring between the two rods of a joint
@@ -65,6 +66,7 @@ struct Joints {
 };
 
 enum class Rings { pinned, free };
+/// Constraints of the rods' ends at the boundary.
 struct Ends {
   EndKind kind = EndKind::pinned;
   Rings rings = Rings::pinned;
@@ -90,12 +92,13 @@ inline double millimetres(FileUnit unit) {
 }
 
 enum class FootprintKind { circle, net, curve, blocks, network };
+/// The flat, unloaded grid.
 struct Footprint {
   FootprintKind kind = FootprintKind::circle;
   Curve boundary;
   int rods = 12;             ///< number of rods per direction
   double radius_mm = 126.0;  ///< R_o
-  double longest_leg = 0;    ///< L_d, in units of d; 0: `radius_mm` gives the size of a circle
+  double longest_leg = 0;    ///< L_d in units of d, instead of `radius_mm`; 0: not given
   double spacing_mm = 20.0;  ///< d
   Placement placement = Placement::half;
   NetworkData file;  ///< the network, or the boundary "file" of a curve as one closed rod
@@ -113,6 +116,7 @@ enum class NetAxis { principal, x };
 /// Whether apex_mm gives the starting point, or the point and direction are searched for from which
 /// a net reaches the largest area, or almost that with the largest least angle.
 enum class NetApex { given, best, best_angle };
+/// The Chebyshev net that a footprint is designed on.
 struct Net {
   NetKind kind = NetKind::sphere;
   double radius_mm = 120.0;  ///< rho, the scale of the deviation
@@ -149,34 +153,37 @@ struct Join {
   std::string first, second;
 };
 
+/// Limits for the seams of building blocks.
 struct Blocks {
-  double max_gap_mm = 10;
+  double max_gap_mm = 10;  ///< largest distance between two nets at a joint of their seam
 };
 
 enum class Start { flat, net };
 enum class Seed { up, down };
+/// Diagonal at whose two corners the joints of a buckled shell are lower.
 enum class SeedDiagonal { y_eq_x, y_eq_minus_x };
 constexpr auto words(SeedDiagonal) {
   return names_except<SeedDiagonal>(
       {{SeedDiagonal::y_eq_x, "y=x"}, {SeedDiagonal::y_eq_minus_x, "y=-x"}});
 }
+/// Motion of the boundary from its original to its actuated position.
 struct Actuation {
   double radius_mm = 94.5;  ///< R_a
   double ratio = 0;         ///< R_a/R_o of a circle; 0: `radius_mm` is used
   double scale = 0;         ///< factor of the original boundary; 0: `boundary` is used
   Curve boundary;
-  NetworkData file;  ///< of a boundary "file": one closed rod
+  NetworkData file;  ///< the boundary "file" as one closed rod
   Correspondence correspondence = Correspondence::arc_length;
   Start start = Start::flat;
   Seed seed = Seed::up;
   SeedDiagonal seed_diagonal = SeedDiagonal::y_eq_x;
 };
 
-/// A snap computed in time.
+/// Settings of a snap that is computed in time.
 struct Dynamics {
-  bool snap = false;
-  double step_s = 0.002;
-  double damping_per_s = 20;
+  bool snap = false;          ///< whether a loss of stability is followed in time
+  double step_s = 0.002;      ///< time step
+  double damping_per_s = 20;  ///< damping in proportion to the mass
 };
 
 /// Imperfection that selects the branch where a path loses its stability.
@@ -203,12 +210,13 @@ struct Inverse {
 };
 
 enum class OnContact { tell, stop };
+/// Limits at which a run stops.
 struct Limits {
-  double max_strain = 1e-3;
+  double max_strain = 1e-3;       ///< axial strain of an edge (locking)
   double max_bending_strain = 0;  ///< 0: no limit, the strain is only reported
   double max_utilisation = 0;     ///< stress over strength; 0: no limit, it is only reported
   OnContact contact = OnContact::tell;
-  /// whether the plane of the boundary is a table that rods must not penetrate
+  /// Whether the plane of the boundary is a table that rods must not penetrate.
   bool table = false;
 };
 
@@ -216,8 +224,8 @@ struct Limits {
 enum class ContactModel { none, barrier };
 struct Contact {
   ContactModel model = ContactModel::none;
-  double gap_mm = 0.1;
-  double stiffness_N_per_mm = 1;
+  double gap_mm = 0.1;            ///< gap between surfaces below which rods repel each other
+  double stiffness_N_per_mm = 1;  ///< stiffness of the barrier
 };
 
 /// How the search perturbs a shell in equilibrium.
@@ -241,8 +249,9 @@ struct SearchSettings {
   bool requested() const { return trials > 0 || confined > 0; }
 };
 
+/// Accuracy of the result: meshes and rod model.
 struct Accuracy {
-  double tolerance = 1e-3;
+  double tolerance = 1e-3;    ///< largest joint error over R_o of a circle or rho of a net
   int edges_per_segment = 0;  ///< 0: chosen from the tolerance
   int leading_edges = 0;      ///< a key of version 0.2, without effect
   RodModel model = RodModel::automatic;
@@ -252,7 +261,7 @@ struct Accuracy {
 /// One key that a sweep changes, and the values that it takes.
 struct SweepAxis {
   std::string key;                  ///< "rod.diameter_mm"
-  std::vector<std::string> values;  ///< as TOML
+  std::vector<std::string> values;  ///< values as TOML
 };
 /// A sweep: runs of one preset for all combinations of values, each repeated with several seeds.
 struct Sweep {
@@ -267,6 +276,7 @@ struct Sweep {
   bool requested() const { return !over.empty() || seeds > 1; }
 };
 
+/// All values of an experiment; each member is a table of the TOML file.
 struct Preset {
   // defined in preset.cpp: compiling a copy in each file takes much longer
   Preset();
@@ -276,7 +286,7 @@ struct Preset {
   Preset& operator=(const Preset&);
   Preset& operator=(Preset&&) noexcept;
 
-  std::string name;  ///< of the file, without ".toml"
+  std::string name;  ///< name of the file without ".toml"
   std::string title, description, source;
   bool allow_unstable = false;
   Rod rod;

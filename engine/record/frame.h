@@ -90,9 +90,9 @@ struct Frame {
   /// (rad), number of cells.
   Eigen::MatrixX3d K_bins;
 
-  /// Fraction of the actuation (not of an indentation). Boundary points move on straight lines,
-  /// linearly in it.
-  double actuation = 0;  ///< in [0, 1]
+  /// Progress of the actuation (not of an indentation), 0 to 1. Boundary points move on straight
+  /// lines, linearly in it.
+  double actuation = 0;
 };
 
 /// Calls visit("energy_bend_mJ", energy) for every term, energy in mJ.
