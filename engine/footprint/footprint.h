@@ -119,8 +119,8 @@ struct FootprintRod {
   int number = -1;              ///< number of the rod in a network's file; -1: no network
   bool reversed = false;        ///< whether it runs against the order of its points in the file
   RodEnd begin = RodEnd::pinned, end = RodEnd::pinned;
-  double tail_begin = 0,
-         tail_end = 0;  ///< lengths from the edge points to second pins, mm; 0: none
+  /// Lengths from the edge points to second pins, mm; 0: none.
+  double tail_begin = 0, tail_end = 0;
   /// Lengths by which the legs of a designed shell exceed those to the net's boundary, mm.
   double longer_begin = 0, longer_end = 0;
 
@@ -159,10 +159,10 @@ struct Footprint {
   std::vector<FootprintCell> cells;  ///< complete cells; empty if this is no square grid
   std::vector<int> fixed_joints{};   ///< joints that the boundary fixes, as it fixes edge points
   std::vector<SupportSpring> springs{};  ///< springs of those supports that are not rigid
-  std::vector<int>
-      end_points{};  ///< a network's point at each end; rod r starts at 2 r; else empty
-  int lone_lines =
-      0;  ///< number of pieces of grid lines left out, since no other line crosses them
+  /// The network's point at each end, rod r starts at 2 r; empty without a network.
+  std::vector<int> end_points{};
+  /// Number of pieces of grid lines left out, since no other line crosses them.
+  int lone_lines = 0;
 
   bool is_sprung(int joint) const;  ///< whether a fixed joint is on a spring
   bool in_space() const;            ///< whether a joint or a rod is outside the plane

@@ -17,7 +17,7 @@ struct FlatFrame {
 
   /// Position in space of a point.
   Eigen::Vector3d at(const Eigen::Vector2d& uv) const;
-  /// Positions in space of points, 2 x n to 3 x n.
+  /// 3 x n positions in space of 2 x n points in the plane.
   Eigen::Matrix3Xd all(const Eigen::Matrix2Xd& uv) const;
 };
 
@@ -63,9 +63,8 @@ struct RodMesh {
   Eigen::RowVectorXd height{};                ///< height above the plane, mm; empty: all 0
 
   int nodes() const { return int(flat.cols()); }
-  int beside_rods() const {
-    return ghosts + int(springs.size());
-  }  ///< number of ghosts and supports
+  /// Number of ghosts and supports.
+  int beside_rods() const { return ghosts + int(springs.size()); }
   int rod_nodes() const { return nodes() - beside_rods(); }
   /// The joint at a node, for an eccentric joint at both its nodes; -1: there is none.
   int joint_of(int node) const;

@@ -37,8 +37,7 @@ struct NetworkFootprint {
 ///   - inner point of a rod, also on another rod or supported: a joint, fixed if supported;
 ///   - inner point of one rod that is not straight there: a joint of this rod alone;
 ///   - end of rods only: an edge point for each of them, fixed as `hold` or `holds` says;
-///   - end of rods only, free or on a spring: the end of one rod, or a joint of the ends of
-///   several;
+///   - end of rods only, free or on a spring: the end of a rod, or a joint of several ends;
 ///   - end of several rods, listed in `joined`: a joint of their ends, fixed if supported;
 ///   - end of a rod at an inner point of another: the rod is joined to that joint.
 /// Rods are naturally straight and as long as their polyline. Rods that cross without a common

@@ -10,9 +10,8 @@
 namespace gridshell {
 namespace {
 
-constexpr double straight = 1e-9;  // allowed deviation of a rod's direction from u or v
-constexpr double of_a_grid =
-    1e-6;  // allowed deviation of a line from its position in the grid, over d
+constexpr double straight = 1e-9;   // allowed deviation of a rod's direction from u or v
+constexpr double of_a_grid = 1e-6;  // allowed distance of a line from its grid line, over d
 
 /// Index of a line in the grid; empty: it is not on the grid.
 std::optional<int> line_number(Placement placement, double line, double spacing) {

@@ -25,8 +25,8 @@ struct SplineData {
   std::vector<double> knots, weights;     ///< weights may be empty: all are 1
   std::vector<Eigen::Vector3d> controls;  ///< control points; empty: the spline goes through `fits`
   std::vector<Eigen::Vector3d> fits;      ///< points that it goes through
-  std::vector<Eigen::Vector3d>
-      tangents;  ///< tangents at its first and last fit point; may be empty
+  /// Tangents at its first and last fit point; may be empty.
+  std::vector<Eigen::Vector3d> tangents;
 };
 
 /// Points of a spline; its direction changes by at most one degree between two points. Fit points

@@ -13,9 +13,8 @@ namespace gridshell {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
-constexpr double sharp = 40 * degree,
-                 bent = 20 * degree;  // least angle of a crease: once, everywhere
-constexpr double over_others = 3;     // least ratio of its angle to the median of those around
+constexpr double sharp = 40 * degree, bent = 20 * degree;  // least crease angle: once, everywhere
+constexpr double over_others = 3;  // least ratio of its angle to the median of those around
 
 using Next = std::map<int, std::vector<int>>;
 

@@ -64,8 +64,8 @@ class HeightGrid {
 
  private:
   std::vector<double> x_, y_;
-  Eigen::MatrixXd z_, z_xx_, z_yy_,
-      z_xxyy_;  ///< values and second derivatives at the grid's points
+  /// Values and second derivatives at the grid's points.
+  Eigen::MatrixXd z_, z_xx_, z_yy_, z_xxyy_;
 };
 
 }  // namespace gridshell

@@ -224,8 +224,8 @@ void needs_mass(FieldList<Struct>& list, const char* what, bool (*asks)(const St
 void add_rod_fields(std::vector<Field>& all);    ///< [rod], [rod_v], [joints], [ends]
 void add_shape_fields(std::vector<Field>& all);  ///< [footprint], [actuation]
 void add_net_fields(std::vector<Field>& all);    ///< [net], [blocks], [[block]], [[join]]
-void add_experiment_fields(
-    std::vector<Field>& all);                      ///< [imperfection] to [sweep], [[step]], [loads]
+/// [imperfection] to [sweep], [[step]], [loads].
+void add_experiment_fields(std::vector<Field>& all);
 void add_hand_fields(std::vector<Field>& all);     ///< [[step]], [loads]
 void add_picture_fields(std::vector<Field>& all);  ///< [movie], [style], [figure], [page]
 

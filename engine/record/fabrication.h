@@ -23,8 +23,8 @@ struct CutRod {
   std::vector<double> joint_marks_mm;  ///< positions of its joints
   std::vector<double> pin_marks_mm;    ///< positions of its edge points that are not its ends
   Eigen::Vector2d begin, end;          ///< ends of the rod with its tails in the flat grid
-  std::vector<Eigen::Vector2d>
-      corners{};  ///< points between them, if it is not straight in the flat
+  /// Points between them, if the rod is not straight in the flat.
+  std::vector<Eigen::Vector2d> corners{};
   /// lengths from the edge points to the joints next to them; NaN: the rod ends at a joint
   double leg_begin_mm = 0, leg_end_mm = 0;
   std::vector<double> splices_mm{};           ///< positions where pieces of stock length meet

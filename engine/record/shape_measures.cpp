@@ -170,8 +170,8 @@ JointTangents joint_tangents(const Footprint& footprint, const RodMesh& mesh,
                              const Eigen::Matrix3Xd& x) {
   JointTangents tangents{Eigen::Matrix3Xd::Zero(3, mesh.joints),
                          Eigen::Matrix3Xd::Zero(3, mesh.joints)};
-  std::vector<Eigen::Vector2d>
-      first;  // direction in the flat of the first rod at each joint of a network
+  // Direction in the flat of the first rod at each joint of a network.
+  std::vector<Eigen::Vector2d> first;
   for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
     const std::vector<int>& node = mesh.rods[r];
     const Family family = footprint.rods[r].family;
