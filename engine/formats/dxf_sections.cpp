@@ -29,12 +29,12 @@ Result<std::vector<DxfGroup>> groups_of(std::string_view bytes, const std::strin
   return groups;
 }
 
-/// Whether a code has a number as its value: coordinates, lengths, angles.
+/// Whether the value of a code is a number: a coordinate, a length, an angle.
 bool is_number(int code) {
   return (code >= 10 && code < 60) || (code >= 70 && code < 80) || (code >= 210 && code < 240);
 }
 
-/// Puts the groups of a file into sections and entities.
+/// Sorts the groups of a file into sections and entities.
 class Sections {
  public:
   explicit Sections(const std::string& name) : name_(name) {}

@@ -18,7 +18,7 @@ namespace {
 
 using Line = std::vector<Eigen::Vector2d>;
 
-/// The enclosed area of a closed line by the shoelace formula, without its sign.
+/// Area inside a closed line, by the shoelace formula.
 double area_of(const Line& line) {
   double twice = 0;
   for (std::size_t k = 0; k < line.size(); ++k) {
@@ -36,7 +36,8 @@ Line without_repeats(const Line& line, double near) {
   return points;
 }
 
-/// The open line that has an end nearest to the end of `chain`, and whether it is its last point.
+/// The open line with the end that is nearest to the end of a chain; `reversed`: that end is its
+/// last point.
 struct Next {
   std::size_t line = 0;
   bool reversed = false;
@@ -52,10 +53,11 @@ Next next_of(const Line& chain, const std::vector<Line>& open) {
   return next;
 }
 
+/// The closed lines of a drawing.
 struct Loops {
   std::vector<Line> closed;
-  std::size_t open = 0;   ///< chains that do not close
-  double gap = INFINITY;  ///< the smallest gap between their ends
+  std::size_t open = 0;   ///< number of chains that do not close
+  double gap = INFINITY;  ///< the smallest gap between ends of these chains
 };
 
 Loops loops_of(const PlanDrawing& drawing, double near) {
@@ -140,7 +142,7 @@ Result<PlanDrawing> read_obj_outline(std::string_view bytes, const std::string& 
 
 Result<NetworkData> largest_loop(const PlanDrawing& drawing, const std::string& name,
                                  double join_mm, FileReport& report) {
-  constexpr double touching = 1e-6;  // of the drawing's size
+  constexpr double touching = 1e-6;  // distance of ends that meet, over the drawing's size
   Eigen::AlignedBox2d box;
   for (const PlanLine& line : drawing.lines)
     for (const Eigen::Vector2d& point : line.points) box.extend(point);

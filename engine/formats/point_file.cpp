@@ -13,7 +13,7 @@
 namespace gridshell::preset {
 namespace {
 
-/// Points as they come.
+/// Collects the points of a cloud.
 class CloudBuilder {
  public:
   Result<void> add(const Eigen::Vector3d& p, const std::string& name, auto place_of) {

@@ -23,7 +23,7 @@ Result<void> MeshBuilder::add_vertex(std::vector<double> xyz, const std::string&
                      std::isfinite(value) ? "too large" : "not a number");
   }
   const auto [found, fresh] = at_.try_emplace(xyz, int(mesh_.vertices.size()));
-  // a separate triangle adds three vertices
+  // in a file of separate triangles each has three vertices
   if (mesh_.vertices.size() == most_vertices || number_.size() == 3 * most_triangles)
     return invalid("{}: got more than {} vertices, expected fewer", place, most_vertices);
   number_.push_back(found->second);
@@ -61,14 +61,14 @@ static_assert(std::endian::native == std::endian::little, "numbers are read as t
 
 constexpr std::size_t header = 84, triangle = 50;
 
-/// The number of triangles that a binary file says it has.
+/// The number of triangles in the header of a binary file.
 std::size_t count_in(std::string_view bytes) {
   std::uint32_t count = 0;
   if (bytes.size() >= header) std::memcpy(&count, bytes.data() + 80, sizeof(count));
   return count;
 }
 
-/// A corner; the third ends its triangle.
+/// Adds a corner; every third one completes a triangle.
 Result<void> add_corner(MeshBuilder& builder, const std::vector<double>& xyz,
                         const std::string& place) {
   if (auto added = builder.add_vertex(xyz, place); !added) return added;
@@ -116,7 +116,7 @@ Result<SurfaceData> read_text(std::string_view bytes, const std::string& name, d
 
 constexpr std::size_t most_heights = 100000, least_side = 4;
 
-/// The values that a coordinate takes, rising; what differs by round-off is one.
+/// The different values of a coordinate, rising; values that differ by round-off are merged.
 std::vector<double> values_of(const Points& points, std::size_t coordinate) {
   std::vector<double> values;
   for (const auto& point : points) values.push_back(point[coordinate]);
@@ -135,7 +135,7 @@ std::size_t nearest(const std::vector<double>& values, double value) {
   return k == values.size() || value - values[k - 1] < values[k] - value ? k - 1 : k;
 }
 
-/// What programs write where there is no height.
+/// Whether programs write this number for a missing height.
 bool marks_a_hole(double z) {
   for (const double mark : {-9999.0, -99999.0, -999999.0, -32767.0, -32768.0})
     if (z == mark) return true;
@@ -203,8 +203,9 @@ std::string mesh_error(const SurfaceData& mesh) {
   return "";
 }
 
-/// Each function reads a complete file; `name` is its name in messages. Errors (bad_input): text
-/// that is not of the format, with its line or the number of its vertex or triangle.
+// Each of the following functions reads a complete file; `name` is its name in messages. Errors
+// (bad_input): text that is not of the format, with its line or the number of its vertex or
+// triangle.
 Result<SurfaceData> read_obj(std::string_view bytes, const std::string& name, double unit_mm) {
   MeshBuilder builder(unit_mm);
   return read_obj_lines(
@@ -231,7 +232,7 @@ Result<SurfaceData> read_ply(std::string_view bytes, const std::string& name, do
 }
 
 Result<SurfaceData> read_stl(std::string_view bytes, const std::string& name, double unit_mm) {
-  // a binary file may start with "solid" too; its size distinguishes it
+  // a binary file may start with "solid", too, but has a size that fits its number of triangles
   if (bytes.size() >= header && bytes.size() == header + triangle * count_in(bytes))
     return read_binary(bytes, name, unit_mm);
   std::string storage;

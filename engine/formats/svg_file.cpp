@@ -21,14 +21,14 @@ namespace {
 
 using Point = Eigen::Vector2d;
 
-/// Numbers and commands of an attribute, one after the other.
+/// Reads numbers and commands of an attribute, one after the other.
 class Words {
  public:
   explicit Words(std::string text) : text_(std::move(text)), rest_(text_) {}
   Words(const Words&) = delete;
 
   bool at_end() { return skip(), rest_.empty(); }
-  /// The command that is next, if it is no number.
+  /// The next command; empty: a number is next.
   std::optional<char> command() {
     skip();
     if (rest_.empty() || !std::isalpha((unsigned char)rest_.front())) return std::nullopt;
@@ -66,10 +66,10 @@ class Words {
 
 constexpr int samples_of_a_curve = 64;
 
-/// The lines of a path while it is read.
+/// Reads the lines of a path.
 class PathReader {
  public:
-  /// What is wrong; empty: nothing.
+  /// Reads the text of a path. Returns the error, or an empty text.
   std::string read(const std::string& text) {
     Words words(text);
     char command = 0;
@@ -119,7 +119,8 @@ class PathReader {
     last_ = kind;
     return "";
   }
-  /// The last control point mirrored at the current point, if the last piece was such a curve.
+  /// The last control point mirrored at the current point if the last command is one of `curves`,
+  /// else the current point.
   Point mirrored(std::string_view curves) const {
     return curves.find(last_) == curves.npos ? at_ : Point(2 * at_ - control_);
   }
@@ -136,7 +137,7 @@ class PathReader {
     cubic(at_ + 2.0 / 3 * (a - at_), to + 2.0 / 3 * (a - to), to);
     control_ = a;
   }
-  /// From end points to centre and angles, as SVG 1.1, appendix F.6.5, says.
+  /// An arc from its end points to centre and angles, by SVG 1.1, appendix F.6.5.
   void arc(double rx, double ry, double turned_deg, bool large, bool sweep, const Point& to) {
     const Point from = at_;
     if (from == to) return;
@@ -170,7 +171,7 @@ class PathReader {
   char last_ = 0;
 };
 
-/// "translate(3 4) rotate(30)"; nothing where it is not understood.
+/// The transform of a text such as "translate(3 4) rotate(30)"; empty: it is not supported.
 std::optional<Eigen::Affine2d> transform_of(std::string_view text) {
   Eigen::Affine2d whole = Eigen::Affine2d::Identity();
   while (text.find('(') != text.npos) {
@@ -214,7 +215,7 @@ std::optional<Eigen::Affine2d> transform_of(std::string_view text) {
 struct Tag {
   std::string name;
   std::map<std::string, std::string> attributes;
-  bool ends = false, alone = false;  ///< </g>, <path/>
+  bool ends = false, alone = false;  ///< an end tag </g>; an empty element <path/>
 
   std::string get(const std::string& key) const {
     const auto found = attributes.find(key);
@@ -248,7 +249,7 @@ Tag tag_of(std::string_view text) {
   return tag;
 }
 
-/// Size of a unit in mm; 0: it is none of a length.
+/// Size of a unit in mm; 0: it is no unit of length.
 double unit_of(std::string_view unit) {
   if (unit == "pt") return 25.4 / 72;
   if (unit == "pc") return 25.4 / 6;
@@ -270,7 +271,8 @@ void take_unit(const Tag& svg, PlanDrawing& drawing) {
   drawing.unit = fmt::format("{} wide as it says", svg.get("width"));
 }
 
-/// The lines of a shape; nothing where the tag is none. `wrong`: a path that is none.
+/// The lines of a shape; empty if the tag is no shape. `wrong` receives the error of an invalid
+/// shape.
 std::optional<std::vector<PlanLine>> lines_of(const Tag& tag, std::string& wrong) {
   if (tag.name == "path") {
     PathReader path;
@@ -303,14 +305,14 @@ std::optional<std::vector<PlanLine>> lines_of(const Tag& tag, std::string& wrong
   return std::vector<PlanLine>{std::move(line)};
 }
 
-/// A tag that is open: its transform, and whether what is in it is drawn.
+/// The transform of an open element, and whether its contents are drawn.
 struct Level {
   Eigen::Affine2d transform = Eigen::Affine2d::Identity();
   bool drawn = true;
 };
 
-/// The position after a comment, declaration or CDATA that begins at `at`; nothing where a tag
-/// does.
+/// The position after a comment, declaration or CDATA that starts at `at`; empty: a tag starts
+/// there.
 std::optional<std::size_t> skipped(std::string_view text, std::size_t at) {
   for (const auto& [begin, end] :
        {std::pair{"<!--", "-->"}, {"<![CDATA[", "]]>"}, {"<?", "?>"}, {"<!", ">"}})

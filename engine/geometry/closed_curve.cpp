@@ -16,7 +16,7 @@ using Eigen::Vector2d;
 
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// root of g = {value, slope} in [low, high], where it changes sign
+/// Root in [low, high] of g = {value, slope}, which has opposite signs at the two ends.
 double root(const std::function<Vector2d(double)>& g, double low, double high) {
   const double sign = g(low)[0] < 0 ? 1 : -1;
   const auto rising = [&](double t) -> Vector2d { return sign * g(t); };
@@ -50,9 +50,9 @@ bool segments_meet(const Vector2d& a, const Vector2d& b, const Vector2d& c, cons
   return side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b);
 }
 
-/// t where the ray from the origin at `angle` meets the curve; all of them
+/// All t at which the ray from the origin at `angle` meets the curve.
 std::vector<double> on_ray(const ClosedCurve& curve, double angle) {
-  // turned so that the ray is the positive x-axis
+  // axes along and across the ray
   const Vector2d along(std::cos(angle), std::sin(angle)), across(-along.y(), along.x());
   std::vector<double> found;
   std::vector<double> t;
@@ -81,7 +81,7 @@ Result<void> check_star(const ClosedCurve& curve, const char* name, Corresponden
         "the positive x-axis meets the {} boundary more than once: arc lengths need one "
         "position to start",
         name);
-  // seen from the origin a star turns in one direction only
+  // each ray meets the curve once if its polar angle always grows
   constexpr int samples = 2048;
   for (int k = 0; how == Correspondence::angle && k < samples; ++k) {
     const ClosedCurve::Point p = curve.at(curve.last() * (k + 0.5) / samples);
@@ -148,7 +148,8 @@ Result<ClosedCurve> ClosedCurve::polygon(const Eigen::Matrix2Xd& given) {
 
 Result<ClosedCurve> ClosedCurve::spline(const Eigen::Matrix2Xd& given) {
   TRY(points, cleaned(given));
-  // an end of a spline is forgotten by a factor 0.27 a knot: after 40 it is periodic to round-off
+  // the influence of a spline's end falls by a factor 0.27 per knot: 40 knots away the spline
+  // through the points repeated around is periodic to round-off
   constexpr Eigen::Index around = 40;
   const Eigen::Index n = points->cols();
   Eigen::Matrix2Xd wound(2, n + 2 * around + 1);
@@ -191,7 +192,7 @@ std::vector<double> ClosedCurve::crossings(int axis, double c) const {
   const std::vector<double> t = samples();
   std::vector<double> found;
   for (std::size_t k = 0; k + 1 < t.size(); ++k) {
-    // the end of the last piece is the start of the first, exactly
+    // the last piece ends exactly at the start of the first
     const bool first = above(t[k]), last = above(k + 2 == t.size() ? t[0] : t[k + 1]);
     double low = t[k], high = t[k + 1];
     if (first != last) {
@@ -199,7 +200,7 @@ std::vector<double> ClosedCurve::crossings(int axis, double c) const {
       continue;
     }
     if (!(g(low)[1] * g(high)[1] < 0)) continue;
-    // a turn in between: the curve may cross the line and come back
+    // the slope changes sign in between: the curve may cross the line twice
     const bool falling = g(low)[1] < 0;
     for (int halving = 0; halving < 60; ++halving) {
       const double middle = (low + high) / 2;
@@ -285,13 +286,13 @@ std::vector<int> hull_of(const Eigen::Matrix2Xd& points) {
 }
 
 std::vector<int> rim_of(const Eigen::Matrix2Xd& points) {
-  constexpr double on_an_edge = 1e-6;  // of its length
+  constexpr double on_an_edge = 1e-6;  // distance from an edge, over its length
   const std::vector<int> corners = hull_of(points);
   std::vector<int> rim;
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const Eigen::Vector2d first = points.col(corners[k]),
                           edge = points.col(corners[(k + 1) % corners.size()]) - first;
-    std::map<double, int> on_edge;  // by how far along it
+    std::map<double, int> on_edge;  // points by their position along the edge
     for (int point = 0; point < int(points.cols()); ++point) {
       const Eigen::Vector2d at = points.col(point) - first;
       const double along = at.dot(edge) / edge.squaredNorm();

@@ -14,9 +14,9 @@ tl::unexpected<Error> not_positive(const char* what, double value) {
   return invalid("{}: got {:g}, expected above 0", what, value);
 }
 
-// how near 1 - (c r)^2 and c r are to the folds at 0: rods around the axis, or along it
+// smallest allowed 1 - (c r)^2 and c r; at 0 the net folds, with rods around the axis or along it
 constexpr double least_regular = 1e-6;
-// what a sum of lengths may lose to round-off, relative to the net's extent
+// round-off of sums of lengths, relative to the net's extent
 constexpr double round_off = 1e-12;
 
 bool exists(const Profile& profile, double c, double t) {
@@ -24,9 +24,9 @@ bool exists(const Profile& profile, double c, double t) {
   return cr > least_regular && (1 - cr) * (1 + cr) > least_regular;
 }
 
-/// the piece of the profile around its middle on which the net exists, with the breaks inside
+/// The range of t around the profile's middle in which the net exists, with the breaks inside.
 std::vector<double> unfolded(const Profile& profile, double c) {
-  // between breaks, to find the first fold
+  // samples between two breaks to find the first fold
   const int samples = std::clamp(256 / static_cast<int>(profile.breaks.size()), 4, 64);
   std::vector<double> range{profile.origin};
   const auto walk = [&](std::vector<double> breaks) {
@@ -89,7 +89,7 @@ Result<Profile> spool_profile(double radius, double waist) {
     const double ddz = (-2 * sine * cosine - dz * dr) / r;
     return ProfilePoint{radius * r, radius * dr, radius * ddr, radius * dz, radius * ddz};
   };
-  // at the rim itself the profile does not move
+  // at the rim itself the speed ds/dt is 0
   const double rim = M_PI_2 - 1e-6;
   return Profile{
       fmt::format("spool of radius {:g} mm and waist {:g}", radius, waist), at, {-rim, rim}};
@@ -174,7 +174,7 @@ Result<NetPoint> RevolutionNet::at(double u, double v) const {
   const double t = x_->inverse(x);
   const ProfilePoint p = profile_.at(t);
   const double sine = c_ * p.r, cosine = std::sqrt((1 - sine) * (1 + sine));
-  // down the side that phi turns to, and around
+  // unit vectors away from the axis and around it
   const Eigen::Vector3d radial(0, -std::sin(phi), std::cos(phi));
   const Eigen::Vector3d around(0, -std::cos(phi), -std::sin(phi));
   const double speed = p.speed();
@@ -195,7 +195,7 @@ Result<double> RevolutionNet::x_at_axial(double z) const {
   if (!(z >= first - slack && z <= last + slack))
     return invalid("{}; {:g} mm is past it", why_it_ends(!(z < 0)), profile_.axial_origin + z);
   double low = z_->begin(), high = z_->end();
-  // bisection: heights along a profile may grow unevenly
+  // bisection, since dz/dt may be 0
   for (int halving = 0; halving < 200; ++halving) {
     const double middle = (low + high) / 2;
     if (middle == low || middle == high) break;

@@ -15,13 +15,13 @@ namespace gridshell::preset {
 namespace {
 
 std::span<const RodValue> own_of(const NetworkData& network, int number) {
-  // not by equal_range, which clang 14 does not take
+  // not by equal_range, which clang 14 does not compile
   const auto first = std::ranges::lower_bound(network.own, number, {}, &RodValue::rod),
              last = std::ranges::upper_bound(network.own, number, {}, &RodValue::rod);
   return {first, last};
 }
 
-/// Sets a key of [rod], or says what is wrong with it.
+/// Sets a key of [rod] to a value of a network file. Returns the error, or an empty text.
 std::string put_own(const RodValue& own, Preset& preset) {
   const Field* field = own.key == "diameter_mm" ? nullptr : find_field("rod", own.key);
   if (!field || field->as<Points>(preset))
@@ -38,7 +38,8 @@ std::string put_own(const RodValue& own, Preset& preset) {
   return "";
 }
 
-/// [rod] of every rod of a network that is another than those before it, with one such rod.
+/// The different [rod] of a network's rods with values of their own, each with the index of the
+/// first such rod.
 std::vector<std::pair<int, Rod>> rods_of_their_own(const Preset& preset) {
   std::vector<std::pair<int, Rod>> found;
   if (preset.footprint.kind != FootprintKind::network) return found;
@@ -52,7 +53,7 @@ std::vector<std::pair<int, Rod>> rods_of_their_own(const Preset& preset) {
   return found;
 }
 
-/// The rules of [rod] for such rods.
+/// Adds errors of the rules of [rod] for the rods of a network with values of their own.
 void look_at_own_rods(const Preset& preset, RuleKind kind, std::vector<KeyError>& found) {
   const auto rods = rods_of_their_own(preset);
   if (rods.empty() || kind == RuleKind::unused) return;
@@ -80,7 +81,8 @@ std::string list_of(const std::vector<KeyError>& needs) {
   return fmt::format("{}", fmt::join(all, ", and "));
 }
 
-/// Keys that the requested rod model does not support, and rods whose stiffness it lacks.
+/// Keys that the requested rod model does not support, and rods without the torsional stiffness
+/// that it needs.
 std::vector<KeyError> model_conflicts(const Preset& preset) {
   std::vector<KeyError> found;
   const RodModel requested = preset.accuracy.model;
@@ -190,7 +192,7 @@ std::vector<std::string> doubtful_values(const Preset& preset) {
   if (preset.rod_v.differs) look(preset.rod_v, "[rod_v]");
   const bool network = preset.footprint.kind == FootprintKind::network;
   const double spacing = network ? spacing_of(preset.footprint.file) : preset.footprint.spacing_mm;
-  // 3 mm is the least that joints without a diameter have
+  // joints without a given diameter have at least 3 mm
   if (const double across = preset.joints.diameter_mm.value_or(3); spacing > 0 && across > spacing)
     found.push_back(fmt::format(
         "[joints] diameter_mm = {:g}: joints are larger than their usual distance of {:.3g} mm",
@@ -232,7 +234,7 @@ std::string model_reason(const Preset& preset) {
                  : fmt::format("twist: {}; nothing is left out, the torsion of every rod is in it",
                                list_of(needs));
     }
-    case RodModel::automatic:  // the rod model is chosen before
+    case RodModel::automatic:  // rod_model_of() never returns it
     case RodModel::bend:
       break;
   }

@@ -254,7 +254,7 @@ void add_jitter(FieldList<SearchSettings> list) {
 }
 
 void add_sweep(FieldList<Sweep> list) {
-  // a preset that sweeps nothing needs no line about it
+  // a preset without a sweep is written without [sweep]
   list.unused({"over", "seeds"}, "nothing is swept: [sweep] over is empty and seeds is 1",
               [](const Sweep& of) { return !of.requested(); });
   list.add<&Sweep::over>(

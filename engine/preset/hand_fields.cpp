@@ -1,10 +1,10 @@
-// Keys of what a user does to a formed shell, and of its loads.
+// Keys of [[step]], [loads] and [[loads.case]].
 #include "engine/preset/field_list.h"
 
 namespace gridshell::preset {
 namespace {
 
-/// Conflicts of the steps with other keys, reported for the first step.
+/// Adds the conflicts of steps with other keys, which are reported for the first step.
 void step_rules(FieldList<Step>& list) {
   const auto first = [](const Preset& preset, const Step& of) { return &of == preset.step.data(); };
   list.refused({"[indentation] depth", "[indentation] depth_mm"},
@@ -21,7 +21,7 @@ void step_rules(FieldList<Step>& list) {
       .needs_equilibrium("a net does not answer a hand", first);
 }
 
-/// What makes a formed shell stiff, and takes it away again.
+/// Adds the keys of the steps that change joints and braces: tighten, open, brace, release.
 void add_stiffening(FieldList<Step>& list) {
   using K = StepKind;
   list.add<&Step::stiffness_Nmm>(at_least(0),

@@ -7,7 +7,7 @@ namespace {
 
 using Kinds = FootprintKind;
 
-/// A list of points that a kind of net is made of.
+/// Adds the rules of a list of points that only one kind of net uses: at least four points.
 void made_of(FieldList<Net>& net, NetKind kind, Points Net::*points) {
   net.used_by(&Net::kind, {kind}).refused({"kind"}, [=](const Net& of) {
     return of.kind == kind && (of.*points).size() < 4
@@ -60,7 +60,7 @@ FieldList<Net> add_net(FieldList<Net> net, bool block) {
   return net;
 }
 
-/// Keys of a net on any surface.
+/// Adds the keys of a net on a surface that an expression or a file gives.
 void add_surface(FieldList<Net> net) {
   const auto given = [](const Net& of) {
     return of.kind != NetKind::surface
@@ -147,7 +147,7 @@ void name_rule(FieldList<Block>& list) {
   });
 }
 
-/// A side of a block in a join.
+/// Adds the rule that a join must name a side of a block.
 void side_rule(FieldList<Join>& list, std::string Join::*side) {
   list.refused({}, [=](const Preset& preset, const Join& join) -> std::string {
     if (side_named(preset, join.*side)) return "";

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t longest_name = 100;
 
-// the name of a case, or empty with an error
+// the name of a case; empty if there was an error, which is added
 std::string case_name(const toml::table& table, const std::set<std::string>& taken,
                       TomlReader& reading) {
   const auto* node = table.get("name");
@@ -48,7 +48,7 @@ Presets read_presets(const toml::table& root, const std::string& name,
                      const std::vector<Override>& overrides, TomlReader& reading) {
   PresetBuilder base;
   base.preset.name = name;
-  reading.apply(root, "case", base);  // and with it the lists of tables
+  reading.apply(root, "case", base);  // all but the cases
   const auto finish = [&](PresetBuilder builder) {
     for (const auto& change : overrides) reading.apply_override(change, builder);
     reading.read_files(builder);
@@ -104,7 +104,7 @@ std::string cell(std::string text) {
   return text;
 }
 
-// names of the keys that count for something, or do not
+// whether a key has an effect in a preset
 class Used {
  public:
   explicit Used(const Preset& preset) {
@@ -119,7 +119,7 @@ class Used {
   std::set<std::tuple<std::string, std::string, int>> idle_;
 };
 
-// one item of a list of tables; if most keys are unused, those with their default are left out
+// one item of a list of tables; steps and load cases are written without the keys at their default
 std::string item_text(const std::string& table, const Preset& preset, const Used& used, int item,
                       const char* in) {
   static const Preset defaults = default_items();
@@ -134,7 +134,7 @@ std::string item_text(const std::string& table, const Preset& preset, const Used
   return text;
 }
 
-// all items of one; `in`: "", or "case." of a case
+// all items of a list of tables; `in` is "", or "case." for the list of a case
 std::string list_text(const std::string& table, const Preset& preset, const Used& used,
                       const char* in) {
   std::string text;
@@ -227,7 +227,7 @@ std::string to_toml(const Presets& presets) {
     for (const auto& field : field_table()) {
       if (is_list_name(field.table) || !in_case(field)) continue;
       const auto value = value_text(field, one.preset);
-      // the value written before, or else the default
+      // what a reader of the text knows without this line: the value of the base, or the default
       if (value == value_text(field, in_base(field) ? presets.base : defaults)) continue;
       text += fmt::format("{}{}{} = {}\n", field.table, field.table.empty() ? "" : ".", field.key,
                           value);

@@ -14,7 +14,7 @@ namespace gridshell::preset {
 namespace {
 
 constexpr double most_runs = 100000;
-constexpr int largest_seed = 1 << 30;  // of [jitter]
+constexpr int largest_seed = 1 << 30;  // the largest allowed [jitter] seed
 
 const Field& field_of(const std::string& key) {
   const auto dot = key.find('.');
@@ -31,7 +31,7 @@ bool sweeps(const Sweep& sweep, const char* key) {
   return std::ranges::find(sweep.over, key, &SweepAxis::key) != sweep.over.end();
 }
 
-/// "rod.diameter_mm = 0.2, actuation.radius_mm = 90.0"
+/// The values of a point: "rod.diameter_mm = 0.2, actuation.radius_mm = 90.0".
 std::string setting(const Sweep& sweep, const SweepPoint& point) {
   std::string text;
   for (std::size_t k = 0; k < sweep.over.size(); ++k)
@@ -67,7 +67,7 @@ class SweepCheck {
                     fmt::format("[sweep] over: at {}: {} = {}: {}", setting(sweep_, point),
                                 conflict.label(), value_text(field, point.preset, conflict.item),
                                 conflict.what));
-        return;  // the first says enough
+        return;  // one conflict is enough: other points often have the same
       }
       forget_used(point, idle);
     }
@@ -79,7 +79,7 @@ class SweepCheck {
     return at == builder_.set_at.end() ? SourceLocation{} : at->second;
   }
 
-  /// Removes those keys without effect that have an effect in this run.
+  /// Removes from `idle` the keys that have an effect in this run.
   static void forget_used(const SweepPoint& point, std::map<std::string, std::string>& idle) {
     if (idle.empty()) return;
     std::map<std::string, std::string> still;
@@ -118,9 +118,9 @@ SweepPoint SweepGrid::at(std::size_t point) const {
     const auto value = toml::parse("x = " + found.values[k]);
     assign(field_of(axis.key), *value.get("x"), found.preset, {});
   }
-  // stills of the base are not on every path
+  // the radii of the stills may be outside the path of this point
   found.preset.figure.radii_mm.clear();
-  // searches shake otherwise from point to point, and a point by itself can be made again
+  // every point searches with random numbers of its own, which do not depend on the other points
   if (found.preset.jitter.requested() && !sweeps(sweep, "jitter.seed")) {
     int& seed = found.preset.jitter.seed;
     seed = int((std::size_t(seed) + point) % (std::size_t(largest_seed) + 1));
@@ -140,7 +140,7 @@ void check_sweep(const std::vector<PresetBuilder>& runs, LocatedErrors& errors) 
   if (const double count = combinations(sweep) * double(runs.size()); count > most_runs)
     return errors.add(over, fmt::format("[sweep] over: got {:.0f} runs, expected at most {:.0f}",
                                         count, most_runs));
-  std::map<std::string, std::string> idle;  // until a point uses them
+  std::map<std::string, std::string> idle;  // swept keys that no point has used yet, and why
   for (const SweepAxis& axis : sweep.over) idle[name_of(field_of(axis.key))] = "";
   const char* drawn = "[imperfection] seed";
   if (sweep.seeds > 1 && idle.contains(drawn))

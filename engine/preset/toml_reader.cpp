@@ -40,8 +40,8 @@ toml::table override_value(const std::string& value) {
   return toml::table{{"x", value}};
 }
 
-// what a mistyped key may have been: a near one of its table, the same one of another table, or
-// else the list of what there is
+// hint for an unknown key: a similar key of its table, the same key of another table, or else all
+// keys of its table
 std::string hint(const std::string& table, const std::string& name) {
   const auto here = keys_of(table);
   for (const Table& whole : tables())
@@ -67,7 +67,7 @@ struct Entry {
   std::string name() const { return table.empty() ? key : table + "." + key; }
 };
 
-/// The entries in the order of the file, which a table forgets.
+/// The entries in the order of the file; a toml::table sorts them by name.
 std::vector<Entry> entries_of(const toml::table& over) {
   std::vector<Entry> entries;
   for (const auto& [key, node] : over) {
@@ -85,7 +85,7 @@ std::vector<Entry> entries_of(const toml::table& over) {
   return entries;
 }
 
-/// Whether a name is a list of tables, or lies in one: "step", "step.2.depth_mm".
+/// Whether a name is that of a list of tables or of a key in one: "step", "step.2.depth_mm".
 bool in_list(const std::string& name) {
   return std::ranges::any_of(tables(), [&](const Table& table) {
     return table.list && (name == table.name || name.starts_with(table.name + "."));
@@ -94,18 +94,18 @@ bool in_list(const std::string& name) {
 
 /// Whether a key may name a file instead of its contents.
 bool takes_file(const Field& field) {
-  Preset any = default_items();  // only the type of its member counts
+  Preset any = default_items();  // only the type of the member matters
   return field.as<Points>(any) || field.as<SurfaceData>(any) || field.as<NetworkData>(any);
 }
 
-/// Whether a table of keys can change a number of a run: those of pictures and of the sweep itself
-/// cannot.
+/// Whether keys of a table can change the results of a run: those of pictures and of the sweep
+/// itself cannot.
 bool affects_results(const std::string& table) {
   static const std::vector<std::string> others{"", "sweep", "movie", "style", "figure", "page"};
   return std::ranges::find(others, table) == others.end();
 }
 
-/// Reads one entry; errors have its name.
+/// Reads one entry as an axis of a sweep.
 class AxisReader {
  public:
   AxisReader(const Entry& entry, std::vector<AxisError>& errors) : entry_(entry), errors_(errors) {}
@@ -177,7 +177,7 @@ class AxisReader {
   }
 
   void take_number(double value, const toml::table& range) {
-    // steps of 0.1 shall read 0.3, not 0.30000000000000004
+    // 12 digits: three steps of 0.1 give 0.3, not 0.30000000000000004
     value = std::stod(fmt::format("{:.12g}", value));
     Preset any = default_items();
     if (!field_->as<int>(any)) return take(toml::value<double>(value));
@@ -244,7 +244,8 @@ void TomlReader::apply_override(const Override& change, PresetBuilder& builder) 
   override_.clear();
 }
 
-/// Sets a key of an item of a list of tables by its number, as in messages: step.2.depth_mm.
+/// Sets a key of an item of a list of tables, which is named by its number from 1:
+/// step.2.depth_mm.
 void TomlReader::override_item(const std::string& list, const Override& change,
                                PresetBuilder& builder) {
   const std::string rest = change.key.substr(list.size() + 1);
@@ -261,7 +262,7 @@ void TomlReader::override_item(const std::string& list, const Override& change,
              builder, item - 1);
 }
 
-// the items of a list of tables, each with its own defaults; those of a case replace the file's
+// reads a list of tables; the items of a case replace those of the file
 void TomlReader::read_items(const std::string& name, const toml::key& key, const toml::node& value,
                             PresetBuilder& builder) {
   if (!value.is_array_of_tables()) {
@@ -338,7 +339,7 @@ void TomlReader::assign_key(const std::string& table, const toml::key& key, cons
   const auto wrong = assign(*field, value, builder.preset, context, item);
   if (wrong.empty()) {
     builder.faulty.erase(full);
-    // the strength by yield_strain may come after that of the material
+    // yield_strain may be set after material, and replaces its strength
     if (table.starts_with("rod") && (name == "material" || name == "yield_strain"))
       builder.take_material(table);
   } else {
@@ -359,7 +360,8 @@ void TomlReader::read_files(PresetBuilder& builder) {
     builder.faulty.insert(full);
     errors_.add(builder.set_at.at(full), full + ": " + wrong);  // names the file
   }
-  // values that were read are stored in the preset in mm
+  // the contents of the files are now in the preset, in mm and joined: the options must not be
+  // applied again when the preset is written and read
   if (builder.files.contains(key_label("footprint", "file")) ||
       builder.files.contains(key_label("actuation", "file"))) {
     builder.preset.footprint.file_unit = FileUnit::file;

@@ -1,6 +1,6 @@
-// The scalar quantities of a frame, once: the columns of frames.csv and of /frames in
-// trajectory.h5, in order: numbers first, text last, so that readers of plain tables find every
-// number.
+// The list of a frame's scalar quantities: the columns of frames.csv and the datasets of /frames in
+// trajectory.h5, in this order. Text comes last, so that readers that only know numbers find all of
+// them.
 #pragma once
 
 #include <string>
@@ -15,7 +15,8 @@ namespace gridshell::record {
 struct FrameColumn {
   std::string name;
   const char* unit;
-  /// A function computes what a Frame does not store: it is written, and dropped when read back.
+  /// A member, an energy term, or a function that computes a quantity which Frame does not store:
+  /// that is written, and dropped when read back.
   std::variant<int Frame::*, double Frame::*, std::string Frame::*, Term, double (*)(const Frame&)>
       field;
 };
@@ -94,7 +95,8 @@ inline const FrameColumn actuation_column{"actuation", "1", &Frame::actuation};
 
 using SizeOf = Eigen::Index (*)(const Layout&);
 
-/// What a frame may lack: visit(name, unit, size by the layout, meaning, field).
+/// Calls visit(name, unit, size_of, meaning, field) for every array that a frame may lack;
+/// size_of(layout) is its length.
 template <class Visit>
 void each_rod_field(const Visit& visit) {
   visit("/axial_force_N", "N", edges_of_rods,

@@ -6,7 +6,7 @@
 namespace gridshell::record {
 namespace {
 
-constexpr const char* first_order = "first_order";  // the kind of states of first-mode buckling
+constexpr const char* first_order = "first_order";  // name of first-mode buckling in figures
 
 void add(StateCount& count, const StateRow& row) {
   ++count.states;

@@ -49,8 +49,8 @@ std::string seams_csv(const Layout& layout) {
   return std::move(csv).text();
 }
 
-/// A count that is not known (below zero) is empty. Text has no comma, so that a reader that knows
-/// no quotes counts the columns right.
+/// Writes a cell. A count below zero is not known and gives an empty cell. Commas of a text become
+/// semicolons, so that readers that do not know quotes find the right columns.
 void put(CsvWriter& csv, int value) { value < 0 ? csv.cell("") : csv.cell(value); }
 void put(CsvWriter& csv, double value) { csv.cell(value); }
 void put(CsvWriter& csv, std::string text) {
@@ -134,7 +134,7 @@ Result<void> FolderSink::take(Frame frame) {
 
 Result<Trajectory> FolderSink::finish(const Summary& summary) {
   journal_.reset();
-  // what this program has just written needs no trial
+  // this program has just written the journal, so it is read without a trial in another process
   TRY(journal, read_journal(folder_ / journal_name, false));
   journal->trajectory.origin = {name_.title, name_.preset, std::string("gridshell ") + version()};
   TRY_DO(write_run(folder_, journal->trajectory, summary));

@@ -100,7 +100,7 @@ void put_vertex(const Eigen::Vector3d& at, std::string& text) {
   fmt::format_to(into(text), "v {:.9f} {:.9f} {:.9f}\n", at.x(), at.y(), at.z());
 }
 
-/// A <DataArray>: numbers, or vectors.
+/// Appends a <DataArray> of numbers or vectors.
 void put_array(std::string& text, const char* type, const char* name, int components,
                const std::string& values) {
   fmt::format_to(into(text),
@@ -121,7 +121,7 @@ void put_array(std::string& text, const char* name, const Eigen::Matrix3Xd& valu
   put_array(text, "Float64", name, 3, vectors);
 }
 
-/// Values at the points of rods; the cells' corners have none.
+/// Values at all points of a VTK file: those of the rods, then NaN for the cells' corners.
 std::vector<double> along_rods(const Shape& shape, auto values_of) {
   std::vector<double> all;
   for (std::size_t rod = 0; rod < shape.layout.rods.size(); ++rod) {
@@ -132,7 +132,8 @@ std::vector<double> along_rods(const Shape& shape, auto values_of) {
   return all;
 }
 
-/// One frame of a dataset of trajectory.h5 with all of its `values`, of `components` each (0: one).
+/// The XDMF item for one frame of a dataset of trajectory.h5: `values` entries of `components`
+/// numbers each; 0: of one number, in a dataset with two dimensions.
 std::string hyperslab(const std::string& dataset, long index, std::size_t frames, long values,
                       long components) {
   const auto dims = [&](long first) {
@@ -149,7 +150,7 @@ std::string hyperslab(const std::string& dataset, long index, std::size_t frames
       dims(long(frames)), dataset);
 }
 
-/// A topology that the file has once; later frames refer to the first one's.
+/// The XDMF topology of a frame: written for the first frame, to which the others refer.
 std::string topology(const std::string& grid, long index, const char* type, int nodes,
                      long elements, const std::string& numbers) {
   if (index > 0)
@@ -167,7 +168,7 @@ std::string to_obj(const Shape& shape) {
   std::string text = "# " + shape.title + ", mm, z up\no gridshell\n";
   for (Eigen::Index k = 0; k < shape.frame.nodes.cols(); ++k)
     put_vertex(shape.frame.nodes.col(k), text);
-  // joints once more, in their order: faces name them
+  // joints again, in their order: points and faces refer to these
   for (const int node : nodes_of_joints(shape.layout))
     put_vertex(shape.frame.nodes.col(node), text);
   text += "g rods\n";
