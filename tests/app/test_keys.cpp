@@ -86,10 +86,14 @@ bool same(const render::MovieStyle& a, const render::MovieStyle& b) {
     return std::tuple(s.legends, s.heading, s.scale_bar_mm, s.title, s.source, s.print, s.vector,
                       s.font_scale);
   };
-  const auto look = [](const render::Appearance& l) {
-    return std::tuple(l.rod_mm, l.joint_mm, l.ring_mm, l.rod, l.joint, l.ring, l.background, l.map,
-                      l.range, l.cells, l.rings, l.floor, l.shadow, l.loads, l.braces, l.ghost,
-                      l.sheen, l.far_fade, l.letters);
+  // a binding of all members does not compile when one is added
+  const auto look = [](const render::Appearance& all) {
+    const auto& [rod_mm, joint_mm, ring_mm, rod, joint, ring, background, map, range, cells, rings,
+                 floor, shadow, loads, braces, ghost, supports, clamped, lath_width_mm,
+                 lath_thickness_mm, sheen, far_fade, letters] = all;
+    return std::tie(rod_mm, joint_mm, ring_mm, rod, joint, ring, background, map, range, cells,
+                    rings, floor, shadow, loads, braces, ghost, supports, clamped, lath_width_mm,
+                    lath_thickness_mm, sheen, far_fade, letters);
   };
   // to_toml writes bins_range only if there are bins
   return movie(a) == movie(b) && a.bins_range == b.bins_range && beside(a) == beside(b) &&
