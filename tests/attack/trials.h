@@ -2,12 +2,13 @@
 #pragma once
 
 #include <cstdio>
-#include <cstdlib>
 #include <functional>
 #include <map>
 #include <random>
 #include <string>
 #include <vector>
+
+#include "tests/environment.h"
 
 /// The parts of the text between " | ".
 inline std::vector<std::string> listed(const std::string& text) {
@@ -20,18 +21,14 @@ inline std::vector<std::string> listed(const std::string& text) {
 }
 
 /// GRIDSHELL_TRIALS, or `few`.
-inline int trials(int few) {
-  const char* requested = std::getenv("GRIDSHELL_TRIALS");
-  return requested ? std::atoi(requested) : few;
-}
+inline int trials(int few) { return number_from("GRIDSHELL_TRIALS", few); }
 
 /// Random numbers that depend only on the seed (GRIDSHELL_SEED, or 1) and the number of the trial,
 /// so that a trial that fails can be repeated alone.
 class Draw {
  public:
   explicit Draw(int trial) {
-    const char* seed = std::getenv("GRIDSHELL_SEED");
-    std::seed_seq all{seed ? std::atoi(seed) : 1, trial};
+    std::seed_seq all{number_from("GRIDSHELL_SEED", 1), trial};
     random_.seed(all);
   }
 
