@@ -88,16 +88,37 @@ TEST_CASE("background, ground and cells show the colours they were given", "[dra
   CHECK(off(with_ground, {160, 172}, drawing.ground_colour) <= 2);
 }
 
-TEST_CASE("translucent ghosts lie behind nothing but what is nearer", "[draw]") {
+TEST_CASE("a translucent ghost is drawn over what is behind it and hidden by what is in front",
+          "[draw]") {
   auto [studio, run, drawing] = Dome(4);
-  const Image without = drawn(studio, drawing);
-  drawing.ghosts.push_back({run.frames[0].nodes, run.layout.rods, 0.8, {0.2f, 0.4f, 0.9f, 0.4f}});
-  const Image with = drawn(studio, drawing);
-  CHECK(changed(with, without) > 500);
-  CHECK(changed(with, without) < 320 * 180 / 4);
+  drawing.cell_colours.assign(run.layout.cells.size(), {0.25f, 0.45f, 0.8f, 1});
+  Camera above;
+  above.elevation_deg = 90;
+  const Image without = drawn(studio, drawing, above);
+  // the shell itself, moved so that a joint is above or below the middle of a cell
+  const auto& cell = run.layout.cells[run.layout.cells.size() / 2];
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (int joint : cell.joints) middle += 0.25 * drawing.nodes.col(run.layout.joints[joint].node);
+  const Eigen::Vector3d aside = middle - drawing.nodes.col(run.layout.joints[cell.joints[0]].node);
+  const Eigen::Vector2d at = to_pixel(above, 320, 180, middle);
+  for (const double higher_mm : {10.0, -10.0}) {
+    CAPTURE(higher_mm);
+    const Eigen::Vector3d moved = aside + higher_mm * Eigen::Vector3d::UnitZ();
+    drawing.ghosts = {
+        {drawing.nodes.colwise() + moved, run.layout.rods, 3, {0.9f, 0.4f, 0.2f, 0.4f}}};
+    const Image with = drawn(studio, drawing, above);
+    const std::uint8_t *now = with.pixel(int(at.x()), int(at.y())),
+                       *before = without.pixel(int(at.x()), int(at.y()));
+    if (higher_mm > 0) {
+      CHECK(now[0] > before[0] + 30);
+      CHECK(now[0] < 255 * 0.9 - 30);
+    } else {
+      CHECK(std::equal(now, now + 4, before));
+    }
+  }
 }
 
-TEST_CASE("odd sizes, a pixel and many passes are drawn", "[draw][draw][standard]") {
+TEST_CASE("odd sizes, a pixel and many passes are drawn", "[draw][standard]") {
   auto [studio, run, drawing] = Dome(2);
   for (const auto& [width, height] : {std::pair{1, 1}, {7, 3}, {333, 211}, {64, 640}}) {
     const Image image = drawn(studio, drawing, {}, {3, true, 1}, width, height);
@@ -127,7 +148,7 @@ TEST_CASE("a picture in tiles is the picture in one piece", "[draw]") {
   CHECK(worst < 24);
 }
 
-TEST_CASE("a still of 3840 x 2160 pixels", "[draw][draw][standard]") {
+TEST_CASE("a still of 3840 x 2160 pixels", "[draw][standard]") {
   auto [studio, run, drawing] = Dome(4);
   const Image large = drawn(studio, drawing, {}, {2, true, 1}, 3840, 2160);
   const Image small = drawn(studio, drawing, {}, {8, true, 1}, 960, 540);
