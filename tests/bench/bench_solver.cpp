@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <stdexcept>
 
 #include "engine/core/algorithms.h"
 #include "engine/elastic/model.h"
@@ -68,6 +69,14 @@ State begun(NestedShell& shell) {
       .value();
 }
 
+/// Follows the path up to t.
+void follow_to(NestedShell& shell, double t) {
+  const Outcome end = shell.advance(t, unwatched).end;
+  if (end != Outcome::reached)
+    throw std::runtime_error(
+        fmt::format("the path ends before t = {:g}: {}", t, words_of(end).name));
+}
+
 double largest_joint_error(const NestedShell& shell, const NestedShell& reference) {
   const int joints = shell.finest().joints;
   return max_column_norm(shell.state().x.leftCols(joints) - reference.state().x.leftCols(joints));
@@ -79,7 +88,7 @@ void paper_shell(int runs, Figures& figures) {
   NestedShell reference = shell_of(c, fine, 1e-9);
   const State first = begun(reference);
   reference.place(parameter(0.98), first);
-  reference.advance(1, unwatched);
+  follow_to(reference, 1);
 
   // F, on the Hessian of a state of the path
   Linearisation system(reference.model());
@@ -131,7 +140,7 @@ void paper_shell(int runs, Figures& figures) {
   const double all = median(runs, [&] {
     const State state = begun(coarse);
     coarse.place(parameter(0.98), state);
-    coarse.advance(1, unwatched);
+    follow_to(coarse, 1);
   });
   figures.tell("flat -> 0.75 in all, 1e-3, F", all / F, "goal 40");
 }
@@ -222,7 +231,7 @@ void drag(Figures& figures) {
         },
         [&] {
           shell.place(parameter(0.98), first);
-          shell.advance(parameter(0.95), unwatched);
+          follow_to(shell, parameter(0.95));
         });
     figures.tell(fmt::format("radius less by 1 %, {} rods, ms", n), 1e3 * seconds / moves,
                  reached ? "meshes 4, 8, 16" : "NOT REACHED");
