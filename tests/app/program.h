@@ -81,7 +81,7 @@ class Running {
   }
 
   /// Stops the process (SIGSTOP); returns whether it still exists.
-  bool hold() const {
+  bool pause() const {
     signal(SIGSTOP);
     siginfo_t about{};
     waitid(P_PID, id_t(pid_), &about, WEXITED | WSTOPPED | WNOWAIT);

@@ -197,7 +197,7 @@ TEST_CASE("a monkey at mouse and keys breaks nothing, and all it did can be undo
   // more events by GRIDSHELL_TRIALS, others by GRIDSHELL_SEED
   std::mt19937 random{unsigned(number_from("GRIDSHELL_SEED", 7))};
   const auto draw = [&](unsigned below) { return unsigned(random()) % below; };
-  const auto deeds = words_in(
+  const auto commands = words_in(
       "do step_back,do gravity,do rest,do release,do numbers,do view_iso,do undo,do redo,"
       "do soft_mode,do colour_energy,do range_run,do push_freely,do dark,do orthographic,"
       "wheel 1,wheel -1,do copy_camera,do save_preset,do jitter,do pick_preset,do design,"
@@ -219,7 +219,7 @@ TEST_CASE("a monkey at mouse and keys breaks nothing, and all it did can be undo
     else if (what < 6)
       input += (std::exchange(down, !down) ? "release left\n" : "press left\n");
     else
-      input += std::string(deeds[draw(unsigned(deeds.size()))]) + "\n";
+      input += std::string(commands[draw(unsigned(commands.size()))]) + "\n";
   }
   if (down) input += "release left\n";
   const TemporaryFolder folder;

@@ -36,7 +36,7 @@ class Draw {
   std::size_t below(std::size_t n) { return std::size_t(random_() % n); }
   bool one_in(std::size_t n) { return below(n) == 0; }
   /// From 0 to 1.
-  double share() { return double(random_()) / double(std::mt19937_64::max()); }
+  double fraction() { return double(random_()) / double(std::mt19937_64::max()); }
   char byte() { return char(below(256)); }
 
   template <class T>
@@ -53,7 +53,7 @@ class Draw {
 };
 
 /// Prints exit codes and their counts, if GRIDSHELL_TRIALS is set.
-inline void tell(const std::map<int, int>& codes, const std::string& whose) {
+inline void print_codes(const std::map<int, int>& codes, const std::string& whose) {
   if (!std::getenv("GRIDSHELL_TRIALS")) return;
   std::printf("%s:", whose.c_str());
   for (const auto& [code, count] : codes) std::printf(" %d x %d", count, code);

@@ -16,7 +16,7 @@ test::Studio open_studio() { return value_of(test::studio()); }
 
 /// The made-up shell at the end of its path, with so many edges per segment.
 struct Dome {
-  explicit Dome(int frames) : run(synthetic::dome(2, frames)) {}
+  explicit Dome(int edges) : run(synthetic::dome(2, edges)) {}
 
   test::Studio studio = open_studio();
   record::Trajectory run;
