@@ -134,17 +134,17 @@ endif()
 
 # The program on processors older and newer than this one, by qemu-user where it is installed.
 if(GRIDSHELL_PICTURES)
-  add_test(NAME "old and new processors run the program and come to the same states"
+  add_test(NAME "old and new processors run the program and give the same states"
     COMMAND ${PROJECT_SOURCE_DIR}/tests/processors.sh $<TARGET_FILE:gridshell>)
-  set_tests_properties("old and new processors run the program and come to the same states"
+  set_tests_properties("old and new processors run the program and give the same states"
     PROPERTIES LABELS full TIMEOUT 600 SKIP_RETURN_CODE 77)
 endif()
 
 # Shells against CalculiX where it is installed.
 if(GRIDSHELL_PICTURES)
-  add_test(NAME "CalculiX forms the same shells, which go as far and sway as fast"
+  add_test(NAME "CalculiX gives the same shells, displacements and frequencies"
     COMMAND python3 ${PROJECT_SOURCE_DIR}/tests/calculix.py $<TARGET_FILE:gridshell>)
-  set_tests_properties("CalculiX forms the same shells, which go as far and sway as fast"
+  set_tests_properties("CalculiX gives the same shells, displacements and frequencies"
     PROPERTIES LABELS full TIMEOUT 900 SKIP_RETURN_CODE 77)
 endif()
 

@@ -294,7 +294,7 @@ double ink_around(const render::Image& picture, const render::Box& box) {
 
 }  // namespace
 
-TEST_CASE("on a page no words lie over others, nor over what is drawn", "[shared]") {
+TEST_CASE("on a page texts overlap neither one another nor what is drawn", "[shared]") {
   auto maker = value_of(app::PictureMaker::create("auto", ""));
   for (int k = 1; k <= 5; ++k) {
     const TemporaryFolder folder;

@@ -174,7 +174,7 @@ TEST_CASE("GNU parallel spreads a sweep over shards") {
   CHECK(products(folder / "out") == products(folder / "whole"));
 }
 
-TEST_CASE("two sweeps into one folder do not meet, another preset is refused") {
+TEST_CASE("a second sweep into a folder is refused, at the same time or of another preset") {
   const TemporaryFolder folder;
   write_sweep(folder, 200);
   const Running first({"sweep", "small.toml", "-o", "out", "--jobs", "1", "--quiet"}, folder);

@@ -242,9 +242,9 @@ void drag(Figures& figures) {
 /// edges.
 void rests(Figures& figures) {
   std::setvbuf(figures.lines(), nullptr, _IOLBF, 0);
-  figures.print("\n{:>4} {:>12} {:>8}  (random throws of one spacing)\n", "n", "s per 1000",
+  figures.print("\n{:>4} {:>12} {:>8}  (random displacements of one spacing)\n", "n", "s per 1000",
                 "at rest");
-  for (const auto& [n, throws] : {std::pair{8, 400}, {12, 200}, {20, 60}}) {
+  for (const auto& [n, starts] : {std::pair{8, 400}, {12, 200}, {20, 60}}) {
     const Case c = circle(n);
     MultilevelRelaxation cascade =
         MultilevelRelaxation::make(c.footprint, {circular_section(0.254, 83)}, RodModel::bend,
@@ -253,12 +253,12 @@ void rests(Figures& figures) {
     std::mt19937 random{1};
     int reached = 0;
     const double begin = cpu_now();
-    for (int k = 0; k < throws; ++k) {
+    for (int k = 0; k < starts; ++k) {
       Eigen::Matrix3Xd nodes = cascade.stretched_flat(1);
       for (double& x : nodes.reshaped()) x += c.footprint.spacing * symmetric_uniform(random);
       reached += cascade.rest(1, nodes, unwatched).has_value();
     }
-    const double seconds = 1000 * (cpu_now() - begin) / throws, fraction = double(reached) / throws;
+    const double seconds = 1000 * (cpu_now() - begin) / starts, fraction = double(reached) / starts;
     figures.print("{:4} {:12.1f} {:7.1f} %\n", n, seconds, 100 * fraction);
     figures.add(fmt::format("{} rods, 1000 rests, s", n), seconds);
     figures.add(fmt::format("{} rods, at rest", n), fraction);

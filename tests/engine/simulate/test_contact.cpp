@@ -136,7 +136,7 @@ TEST_CASE("a shell that begins in contact goes no deeper into it, and may leave 
   CHECK(shell.move_to(0.5 * begun, unwatched).end == Outcome::reached);
 }
 
-TEST_CASE("shells of the paper do not touch themselves: a rod near its joint is none") {
+TEST_CASE("a small shell has no contact: rods that meet in a joint are none") {
   auto preset = small_shell();
   const auto outcome = run(preset);
   for (const record::Frame& frame : outcome.trajectory.frames) {

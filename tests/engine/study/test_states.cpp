@@ -55,7 +55,7 @@ TEST_CASE("states: the same whatever the threads, each once, in the order of ene
   CHECK(one.search.at_rest >= 14);
 }
 
-TEST_CASE("states: other seeds shake otherwise, gravity and pokes end in states too") {
+TEST_CASE("states: gravity and pokes end in stable states, too") {
   preset::Preset p = shell(6);
   p.jitter.trials = 6;
   for (const auto mode : {preset::SearchMode::gravity, preset::SearchMode::poke}) {
