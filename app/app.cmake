@@ -1,5 +1,5 @@
-# The programs: gridshell_app holds the commands (testable), gridshell is main.cpp over it;
-# gridshell_view holds the window, gridshell_window is both. `gridshell view` starts that one, so that
+# The programs: gridshell_app has the commands (testable), gridshell is main.cpp over it;
+# gridshell_view has the window, gridshell_window is both. `gridshell view` starts that one, so that
 # whoever makes movies need not wait for the window to be compiled.
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)

@@ -93,11 +93,11 @@ if(TARGET test_bench)
 endif()
 if(GRIDSHELL_PICTURES)
   gridshell_tests(render gridshell_render gridshell_engine)
-  # every call of the system fails once: tests/faults -> test_faults
+  # every call of the system fails once: `tests/faults` -> `test_faults`
   gridshell_tests(faults gridshell_view gridshell_app gridshell_render gridshell_engine ${CMAKE_DL_LIBS})
   if(TARGET test_faults)
     target_sources(test_faults PRIVATE tests/faults/faults.cpp)
-    # solves fail as well: faults.cpp is between the engine and its linear solver
+    # solves fail as well: `faults.cpp` is between the engine and its linear solver
     target_link_options(test_faults PRIVATE
       "LINKER:--wrap=_ZN9gridshell18make_linear_solverERKNS_5ModelE")
   endif()

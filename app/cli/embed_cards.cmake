@@ -1,4 +1,4 @@
-# Writes a .cpp that holds every presets/pictures/cards/*.png, so that the window can show presets as
+# Writes a .cpp that contains every presets/pictures/cards/*.png, so that the window can show presets as
 # pictures. Arguments: CARDS (a list of files), OUTPUT.
 set(text "// Generated from presets/pictures/cards/*.png.\n#include \"app/cli/preset_library.h\"\n\n")
 string(APPEND text "namespace gridshell::app {\n\n")

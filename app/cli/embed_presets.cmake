@@ -1,5 +1,5 @@
-# Writes a .cpp that holds every presets/*.toml as text, so that the program stands alone, and the
-# files that they name. Arguments: PRESETS and FILES (lists of files), OUTPUT.
+# Writes a .cpp that contains every presets/*.toml and the files that they name as text, so that the program
+# needs none of them. Arguments: PRESETS and FILES (lists of files), OUTPUT.
 set(text "// Generated from presets/*.toml.\n#include \"app/cli/preset_library.h\"\n\n")
 string(APPEND text "namespace gridshell::app {\n\n")
 

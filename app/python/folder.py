@@ -4,7 +4,7 @@ import site
 import sys
 
 prefix = os.path.abspath(sys.argv[1])
-# of the places where this Python looks the one in the prefix, as dist-packages of Debian
+# of the folders where this Python looks the one in the prefix, as dist-packages of Debian
 inside = [place for place in site.getsitepackages() if place.startswith(os.path.join(prefix, "lib") + os.sep)]
 version = f"python{sys.version_info.major}.{sys.version_info.minor}"
 print(os.path.relpath(inside[0], prefix) if inside else f"lib/{version}/site-packages")

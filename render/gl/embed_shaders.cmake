@@ -1,4 +1,4 @@
-# Writes OUTPUT, a C++ file that holds every shader of FOLDER by name (render/gl/opengl.h).
+# Writes OUTPUT, a C++ file that contains every shader of FOLDER by name (render/gl/opengl.h).
 file(GLOB FILES ${FOLDER}/*.vert ${FOLDER}/*.frag ${FOLDER}/*.glsl)
 list(SORT FILES)
 set(ENTRIES "")
