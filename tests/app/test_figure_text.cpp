@@ -10,6 +10,7 @@
 #include "render/gl/image.h"
 #include "render/movie/run_figures.h"
 #include "tests/app/bench.h"
+#include "tests/number_after.h"
 #include "tests/render/canvas/ink.h"
 #include "tests/results.h"
 
@@ -27,11 +28,6 @@ struct TextLine {
   double x = 0, y = 0;  ///< where the text starts
   bool raised = false;  ///< whether it has a superscript or a subscript
 };
-
-double number_after(const std::string& text, const std::string& before) {
-  const std::size_t at = text.find(before);
-  return at == text.npos ? 0 : std::strtod(text.c_str() + at + before.size(), nullptr);
-}
 
 std::string unescaped(std::string text) {
   for (const auto& [code, sign] :

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "tests/engine/simulate/run.h"
+#include "tests/number_after.h"
 
 using namespace gridshell;
 
@@ -20,12 +21,6 @@ preset::Preset with_two_mirrors() {
   preset.imperfection.size = 0;
   preset.accuracy.edges_per_segment = 4;
   return preset;
-}
-
-double number_after(const std::string& text, const std::string& words) {
-  const auto at = text.find(words);
-  REQUIRE(at != std::string::npos);
-  return std::stod(text.substr(at + words.size()));
 }
 
 }  // namespace

@@ -279,7 +279,7 @@ TEST_CASE("the curve of a push lies within its error, and its stiffness is its s
 
 TEST_CASE(
     "bending strain and utilisation end a path, and of two limits the first met is reported") {
-  const Elastica exact = elastica(0.46400983), limit = elastica(0.24165275);
+  const ExactRod exact(0.46400983), limit(0.24165275);
   const auto ended = [&](double most_bending, double most_utilisation, const char* why) {
     preset::Preset p = crossed_rods(exact.shortening);
     p.movie.frames = 4;
@@ -362,7 +362,7 @@ TEST_CASE("stress of a fibre: axial force over area, and E r times the curvature
 
 TEST_CASE("a shell bent further than is allowed is not pushed") {
   preset::Preset p = crossed_rods(0.25);
-  p.limits.max_bending_strain = 0.5 * elastica(0.24165275).strain;
+  p.limits.max_bending_strain = 0.5 * ExactRod(0.24165275).strain;
   p.indentation.at = preset::IndentationPlace::highest;
   p.indentation.depth_mm = 5;
   CHECK_THAT(refused_run(p, Fault::no_equilibrium), Catch::Contains("[limits] max_bending_strain"));

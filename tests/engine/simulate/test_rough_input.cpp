@@ -79,7 +79,7 @@ TEST_CASE("EA from a hundredth to ten thousand times: the same state, or a reaso
     CHECK(outcome->trajectory.frames.back().energies[Term::bend] ==
           Approx(reference).epsilon(softness));
   }
-  CHECK(certified >= 4);
+  CHECK(certified == 5);
 }
 
 TEST_CASE("legs down to a ten-thousandth of a cell: certified, or a reason") {

@@ -35,15 +35,6 @@ double off(const Image& image, const Eigen::Vector2d& at, const Colour& colour) 
                    std::abs(p[2] - 255 * colour.b)});
 }
 
-/// Pixels that differ in any channel.
-int changed(const Image& a, const Image& b) {
-  int count = 0;
-  for (int y = 0; y < a.height; ++y)
-    for (int x = 0; x < a.width; ++x)
-      count += !std::equal(a.pixel(x, y), a.pixel(x, y) + 4, b.pixel(x, y));
-  return count;
-}
-
 }  // namespace
 
 TEST_CASE("background, ground and cells show the colours they were given", "[draw]") {
