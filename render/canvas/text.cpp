@@ -72,7 +72,7 @@ struct Step {
   int parts;  // minor intervals within it
 };
 
-// the least of 1, 2 or 5 times a power of ten that is at least the wished size
+// the least of 1, 2 or 5 times a power of ten that is at least the requested size
 Step nice_step(double wished) {
   const double power = std::pow(10.0, std::floor(std::log10(wished)));
   const double ratio = wished / power;

@@ -14,7 +14,7 @@ TEST_CASE("a click on a number types it, and its digits never turn the view") {
   CHECK(text_of(folder / "before.png") == text_of(folder / "after.png"));
 }
 
-TEST_CASE("the keyboard alone reaches numbers and menus") {
+TEST_CASE("the keyboard alone reaches numbers, and an entry of a menu changes the picture") {
   const TemporaryFolder folder;
   const auto press = [](const std::string& key) { return "down " + key + "\nup " + key + "\n"; };
   // the first Tab goes to the slider of the path, whose number is then typed

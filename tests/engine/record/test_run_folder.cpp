@@ -218,12 +218,13 @@ TEST_CASE("a rod above its strength breaks in plain words") {
   CHECK(summary.breaking().empty());
 }
 
-TEST_CASE("numbers do not follow the locale") {
-  const std::string before = frames_csv(sample_trajectory()).substr(0, 200);
+TEST_CASE("numbers in frames.csv and summary.json do not follow the locale") {
+  const std::string before = frames_csv(sample_trajectory());
   const std::string json = to_json(sample_summary());
   const char* locale = std::setlocale(LC_ALL, "de_DE.UTF-8");
   if (!locale) locale = std::setlocale(LC_ALL, "fr_FR.UTF-8");
-  CHECK(frames_csv(sample_trajectory()).substr(0, 200) == before);
+  if (!locale) WARN("no locale with a decimal comma is installed");
+  CHECK(frames_csv(sample_trajectory()) == before);
   CHECK(to_json(sample_summary()) == json);
   std::setlocale(LC_ALL, "C");
 }

@@ -99,7 +99,7 @@ TEST_CASE("a line that was changed is not believed") {
   CHECK_FALSE(log.found().contains(7));
 }
 
-TEST_CASE("a log is of one sweep and in one hand") {
+TEST_CASE("a log belongs to one sweep and is written by one process") {
   const TemporaryFolder folder;
   const auto file = folder / "sweep.jsonl";
   {

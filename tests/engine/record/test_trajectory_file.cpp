@@ -1,5 +1,6 @@
 #include <hdf5.h>
 
+#include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <thread>
@@ -22,7 +23,7 @@ std::string bytes_of(const Trajectory& run) {
   return read_file(folder / "a.h5").value();
 }
 
-/// Checks that two layouts are equal bit for bit in the members that sample_trajectory() sets.
+/// Checks that two layouts are equal bit for bit, but for `extrapolated`, which is not read.
 void check_same(const Layout& a, const Layout& b) {
   const auto numbers = [](const Layout& of) {
     Eigen::VectorXd all(6);
@@ -31,14 +32,17 @@ void check_same(const Layout& a, const Layout& b) {
     return all;
   };
   const auto lists = [](const Layout& of) {
-    return std::tie(of.diameters_mm, of.strength_MPa, of.rods, of.families, of.supports, of.sprung,
-                    of.edge_points, of.joints, of.cells, of.seam_rods);
+    return std::tie(of.diameters_mm, of.laths_mm, of.strength_MPa, of.rods, of.families,
+                    of.supports, of.sprung, of.edge_points, of.joints, of.above, of.cells,
+                    of.seam_rods);
   };
   CHECK(same_bits(numbers(a), numbers(b)));
   CHECK((lists(a) == lists(b)));
   CHECK(same_bits(a.spring_N_per_mm, b.spring_N_per_mm));
   CHECK(same_bits(a.original_boundary, b.original_boundary));
   CHECK(same_bits(a.actuated_boundary, b.actuated_boundary));
+  CHECK(same_bits(a.net_nodes, b.net_nodes));
+  CHECK(same_bits(a.flat_nodes, b.flat_nodes));
   REQUIRE(a.parts.size() == b.parts.size());
   for (std::size_t k = 0; k < a.parts.size(); ++k) {
     CHECK((a.parts[k].name == b.parts[k].name && a.parts[k].rods == b.parts[k].rods));
@@ -58,7 +62,11 @@ void check_same(const Layout& a, const Layout& b) {
 TEST_CASE("a trajectory comes back bit for bit") {
   TemporaryFolder folder;
   const fs::path path = folder / "trajectory.h5";
-  const Trajectory run = sample_trajectory();
+  Trajectory run = sample_trajectory();
+  run.layout.laths_mm = {0, 0, 1.0 / 3, 0.1, 0, 0, 2, 1};
+  run.layout.above = {0, 1, 7, 3};
+  run.layout.net_nodes = Eigen::Matrix3Xd::Random(3, 12);
+  run.layout.flat_nodes = Eigen::Matrix3Xd::Random(3, 12);
   REQUIRE(write_trajectory(path, run));
   CHECK(folder.entries() == std::vector<std::string>{"trajectory.h5"});
   const auto back = value_of(read_trajectory(path));
@@ -231,13 +239,15 @@ TEST_CASE("a trajectory that cannot be written says why and leaves the old one")
 
 TEST_CASE("threads write their trajectories at a time") {
   TemporaryFolder folder;
+  std::atomic<int> written = 0;
   std::vector<std::thread> threads;
   for (int k = 0; k < 4; ++k)
     threads.emplace_back([&, k] {
       for (int again = 0; again < 20; ++again)
-        (void)write_trajectory(folder / std::to_string(k), sample_trajectory());
+        written += write_trajectory(folder / std::to_string(k), sample_trajectory()).has_value();
     });
   for (std::thread& thread : threads) thread.join();
+  CHECK(written == 80);
   CHECK(folder.entries() == std::vector<std::string>{"0", "1", "2", "3"});
   for (const std::string& name : folder.entries()) CHECK(read_trajectory(folder / name));
 }
