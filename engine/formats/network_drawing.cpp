@@ -52,8 +52,9 @@ class Marks {
 
   bool holds(const DrawnEntity& circle) const {
     constexpr double small = 0.1;
+    if (circle.kind != "CIRCLE" || circle.points.empty()) return false;
     const double radius = (circle.points.front() - circle.centre).norm();
-    if (circle.kind != "CIRCLE" || radius > small * box_.sizes().maxCoeff()) return false;
+    if (radius > small * box_.sizes().maxCoeff()) return false;
     return std::ranges::any_of(drawn_, [&](const DrawnEntity* one) {
       if (one->kind == "CIRCLE") return false;
       for (std::size_t k = 1; k < one->points.size(); ++k)
