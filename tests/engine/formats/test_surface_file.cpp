@@ -134,6 +134,12 @@ TEST_CASE("heights come in any order, and a position without one is reported") {
   wrong(heights() + "3,2.1,nan\n", "h.csv", "h.csv:22: got 'nan'");
   wrong(heights() + "3,2.1,-9999\n", "h.csv",
         "h.csv:22: got a height of -9999, which marks a hole");
+  // the number as it is written, whatever the unit of its column
+  for (const char* unit : {" [m]", "_mm", " [in]"}) {
+    std::string units = heights() + "3,2.1,-32767\n";
+    units.replace(0, 5, fmt::format("x{0},y{0},z{0}", unit));
+    wrong(units, "h.csv", "h.csv:22: got a height of -32767, which marks a hole");
+  }
   wrong("0 0 1\n1 1 1\n2 2 1\n", "h.txt", "at least 4 x 4");
   std::string scattered;
   for (int k = 0; k < 40; ++k)
@@ -144,6 +150,7 @@ TEST_CASE("heights come in any order, and a position without one is reported") {
 TEST_CASE("what is no mesh is refused with its position") {
   wrong(obj, "a.step", "ends in .csv or .txt");
   wrong("", "a.obj", "got no triangle");
+  wrong("OFF\n9223372036854775807 9223372036854775807 0\n0 0 0\n", "a.off", "got no OFF");
   wrong("v 1 2\n", "a.obj", "a.obj:1: expected a vertex of three numbers");
   wrong("v 1 2 nan\n", "a.obj", "a.obj:1: expected a vertex of three numbers");
   wrong("v 1 2 1e300\n", "a.obj", "too large");
