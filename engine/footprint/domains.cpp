@@ -138,8 +138,8 @@ class Rectangle final : public Domain {
     for (int k = 0; k < 4; ++k) perimeter += (corners[(k + 1) % 4] - corners[k]).norm();
     for (int k = 0; k < 4; ++k) {
       so_far += (corners[(k + 1) % 4] - corners[k]).norm();
-      first[k + 1] =
-          std::max(first[k] + 1, static_cast<int>(std::lround(points * so_far / perimeter)));
+      first[k + 1] = std::clamp(static_cast<int>(std::lround(points * so_far / perimeter)),
+                                first[k] + 1, std::max(first[k] + 1, points - 3 + k));
     }
     first[4] = points;
     Eigen::Matrix2Xd ring(2, points);
