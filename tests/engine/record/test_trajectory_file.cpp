@@ -150,6 +150,9 @@ TEST_CASE("parts that do not fit each other are neither written nor read") {
   };
   CHECK(refused([](Trajectory& run) { run.layout.rods[3][1] = 99; }) ==
         "rod 3 names node 99 of 12");
+  for (const std::vector<int>& rod : {std::vector<int>{}, {3}})
+    CHECK(refused([&](Trajectory& run) { run.layout.rods[1] = rod; }) ==
+          fmt::format("rod 1: got {} nodes, expected at least 2", rod.size()));
   CHECK(refused([](Trajectory& run) { run.frames.edit()[2].nodes.conservativeResize(3, 11); }) ==
         "frame 2: got 11 nodes, expected 12 as in the first one");
   CHECK(refused([](Trajectory& run) { run.layout.cells[0].joints[3] = -1; }) ==
