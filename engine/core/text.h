@@ -71,6 +71,8 @@ inline std::string escape_xml(std::string_view letters) {
       xml += "&lt;";
     else if (c == '>')
       xml += "&gt;";
+    else if (c == '"')
+      xml += "&quot;";
     else if (!control)
       xml += c;
   }
