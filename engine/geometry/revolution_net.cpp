@@ -112,6 +112,8 @@ Result<Profile> beltrami_profile(double radius, double waist) {
 
 Result<Profile> tabulated_profile(const Eigen::Matrix2Xd& r_z) {
   TRY(spline, SplineCurve::through(r_z));
+  // the net's coordinates grow along the axis
+  if (r_z(1, r_z.cols() - 1) < r_z(1, 0)) *spline = *SplineCurve::through(r_z.rowwise().reverse());
   const auto curve = std::make_shared<const SplineCurve>(*spline);
   const std::vector<double>& knots = curve->knots();
   for (std::size_t k = 0; k < knots.size(); ++k)

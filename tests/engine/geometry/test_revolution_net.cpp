@@ -154,6 +154,17 @@ TEST_CASE("surfaces of revolution: folds and ends are named with their position"
   CHECK_FALSE(cylinder.x_at_axial(100.1));
 }
 
+TEST_CASE("a profile may be listed upwards or downwards") {
+  Eigen::Matrix2Xd r_z(2, 9);
+  for (int k = 0; k < 9; ++k) r_z.col(k) << 50 + 0.1 * k * k, 10.0 * k;
+  const auto net = [](const Eigen::Matrix2Xd& points) {
+    return value_of(RevolutionNet::make(value_of(tabulated_profile(points)), 0.01));
+  };
+  const RevolutionNet up = net(r_z), down = net(r_z.rowwise().reverse());
+  CHECK(value_of(up.x_at_axial(20)) > 0);
+  CHECK(value_of(down.x_at_axial(20)) == Approx(value_of(up.x_at_axial(20))));
+}
+
 TEST_CASE("profiles: what is no surface is refused") {
   CHECK(refusal(cylinder_profile(0, 1)) == "the cylinder's radius: got 0, expected above 0");
   CHECK(refusal(cylinder_profile(1, -2)) == "the cylinder's length: got -4, expected above 0");
