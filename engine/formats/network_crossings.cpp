@@ -163,7 +163,7 @@ Result<void> NetworkBuilder::join_crossings(const std::string& name) {
       const Stretch &a = all[k], &b = all[m];
       if (!a.near(b, 1, near_mm_) || !a.near(b, 2, near_mm_)) continue;
       if (const double length = overlap(a, b); length > near_mm_)
-        return invalid("{}: lies on what is drawn at {} over {:.4g} mm, expected one of them",
+        return invalid("{}: got a rod on the rod at {}, over {:.4g} mm, expected one of them",
                        places_[std::max(a.rod, b.rod)], places_[std::min(a.rod, b.rod)], length);
       if (a.from == b.from || a.from == b.to || a.to == b.from || a.to == b.to) continue;
       const auto met = meeting(a, b, near_mm_);

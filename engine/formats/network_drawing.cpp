@@ -154,7 +154,8 @@ double unit_of(const DxfDrawing& drawing, const std::vector<const DrawnEntity*>&
     report.notes.push_back(fmt::format(
         "the drawing says that it is in {} ($INSUNITS): {:.4g} mm long, its rods of {:g} mm would "
         "be "
-        "{:.2g} times as long as thick; it is read in mm, file_unit = \"{}\" takes it at its word",
+        "{:.2g} times as long as thick; it is read in mm; file_unit = \"{}\" reads it in its own "
+        "unit",
         drawing.unit, length * drawing.unit_mm, rod, length * drawing.unit_mm / rod, drawing.unit));
     return 1;
   }

@@ -37,7 +37,8 @@ Result<void> MeshBuilder::add_polygon(const std::vector<long>& corners, const st
   std::vector<int> ring;
   for (const long corner : corners) {
     if (corner < 0 || corner >= long(number_.size()))
-      return invalid("{}: got a vertex that is none of the {} before it", place, number_.size());
+      return invalid("{}: got the number of no vertex, expected one of the {} before it", place,
+                     number_.size());
     ring.push_back(number_[std::size_t(corner)]);
   }
   if (mesh_.triangles.size() + ring.size() - 2 > most_triangles)

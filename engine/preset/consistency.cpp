@@ -33,7 +33,8 @@ std::string put_own(const RodValue& own, Preset& preset) {
     for (const Field& one : field_table())
       if (is_own(one)) known.push_back(one.key);
     return fmt::format(
-        "got an unknown key '{}', expected points, diameter_mm or another key of [rod] that is a number "
+        "got an unknown key '{}', expected points, diameter_mm or another key of [rod] that is a "
+        "number "
         "or "
         "true or false{}",
         own.key, did_you_mean(own.key, known));
@@ -235,7 +236,7 @@ std::string model_reason(const Preset& preset) {
       return fmt::format(
           "net: the tolerance of {:g} allows the smooth net itself, and nothing is requested that "
           "needs "
-          "an equilibrium; none is solved for, so there is no residual and no word on stability",
+          "an equilibrium; none is solved for, so there is no residual, and stability is not known",
           preset.accuracy.tolerance);
     case RodModel::twist: {
       const auto needs = key_errors(preset, RuleKind::needs_twist);

@@ -43,7 +43,7 @@ void step_rules(FieldList<Step>& list) {
                [=](const Preset& preset, const Step& of) {
                  return first(preset, of) && preset.jitter.requested();
                })
-      .needs_equilibrium("a net does not answer a hand", first);
+      .needs_equilibrium("the shape of a net does not change with a step", first);
 }
 
 /// Adds the keys of the steps that change joints and braces: tighten, open, brace, release.
@@ -160,8 +160,9 @@ void add_steps(FieldList<Step> list) {
                });
   list.add<&Step::lateral>("whether the joint pushed may move across the push");
   only({K::push});
-  list.add<&Step::factor>(between(-1000, 1000),
-                          "multiple of [loads], or of the named case, from then on; 0: none");
+  list.add<&Step::factor>(
+      between(-1000, 1000),
+      "multiple of [loads], or of the named case, that acts after the step; 0: none");
   only({K::load});
   list.add<&Step::load_case>(
           "load: name of a [[loads.case]], evaluated on the shape at which it is applied; empty: "

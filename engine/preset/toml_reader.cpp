@@ -170,7 +170,8 @@ class AxisReader {
       return refuse(range, fmt::format("count: expected 2 to {}", most_values));
     if (range.contains("log") && !range["log"].is_boolean())
       return refuse(range, "log: expected true or false");
-    if (log && !(*from > 0 && *to > 0)) return refuse(range, "even factors need numbers > 0");
+    if (log && !(*from > 0 && *to > 0))
+      return refuse(range, "log = true: expected from and to above 0");
     for (std::int64_t k = 0; k < count->get(); ++k) {
       const double part = double(k) / double(count->get() - 1);
       const double value = log ? *from * std::pow(*to / *from, part) : *from + part * (*to - *from);

@@ -28,7 +28,7 @@ Result<void> check_indices(const Layout& layout, Eigen::Index nodes) {
     for (std::size_t k = 0; k < owners.size(); ++k)
       for (const int index : named(owners[k]))
         if (index < 0 || index >= count)
-          return invalid("{} {} names {} {} of {}", owner, k, kind, index, count);
+          return invalid("{} {}: got {} {}, expected 0 to {}", owner, k, kind, index, count - 1);
     return {};
   };
   const auto node = [](const Joint& joint) { return std::array{joint.node}; };

@@ -283,6 +283,6 @@ TEST_CASE("half of a surface of revolution: too long says where the net ends") {
   const RevolutionNet net = right_angled(spool);
   CHECK_THAT(refusal(half_of(net, 1000)),
              Catch::Contains("folds (shear angle 180 degrees) where u + v = -18") &&
-                 Catch::Contains("-500 mm is past it"));
+                 Catch::Contains("-500 mm is past its end"));
   CHECK_FALSE(half_of(net, 0));
 }

@@ -121,7 +121,7 @@ TEST_CASE("layers, sheets and marks are left out by rules that are reported") {
   CHECK(refused(grid() + entity("MLINE", "8 0")) ==
         "d.dxf:78: MLINE is not read, expected lines and polylines: explode it");
   CHECK_THAT(refused(grid() + line(-30, 0, 25, 0)),
-             Catch::Contains("lies on what is drawn at d.dxf:"));
+             Catch::Contains("got a rod on the rod at d.dxf:"));
 }
 
 TEST_CASE("the unit is that of the key, else that of the drawing, else mm") {

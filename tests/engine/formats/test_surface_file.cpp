@@ -154,7 +154,7 @@ TEST_CASE("what is no mesh is refused with its position") {
   wrong("v 1 2\n", "a.obj", "a.obj:1: expected a vertex of three numbers");
   wrong("v 1 2 nan\n", "a.obj", "a.obj:1: expected a vertex of three numbers");
   wrong("v 1 2 1e300\n", "a.obj", "too large");
-  wrong(obj + "f 1 2 7\n", "a.obj", "a.obj:8: got a vertex that is none of the 4");
+  wrong(obj + "f 1 2 7\n", "a.obj", "a.obj:8: got the number of no vertex, expected one of the 4");
   wrong(obj + "f 1 2 x\n", "a.obj", "a.obj:8: got 'x', expected the number");
   wrong(obj + "f 1 2\n", "a.obj", "a polygon of 2 corners");
   wrong("a mesh", "a.stl", "no STL");
@@ -199,6 +199,7 @@ TEST_CASE("a preset contains the surface of its file, and its text reads back as
   refused("{x_mm = [1, 2, 3, 4]}", "(no list y_mm)");
   refused("{x_mm = [1, 2, 4, 3], y_mm = [1, 2, 3, 4], z_mm = []}", "expected rising numbers");
   refused("{x_mm = [1, 2, 3, 4], y_mm = [1, 2, 3, 4], z_mm = [[1]]}", "z_mm: got 1 rows");
-  refused("{vertices_mm = [[0, 0, 0]], triangles = [[0, 1, 2]]}", "none of the 1 before it");
+  refused("{vertices_mm = [[0, 0, 0]], triangles = [[0, 1, 2]]}",
+          "expected one of the 1 before it");
   refused("{vertices_mm = [[0, 0]], triangles = [[0, 0, 0]]}", "expected points [x, y, z]");
 }

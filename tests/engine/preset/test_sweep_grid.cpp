@@ -170,7 +170,7 @@ TEST_CASE("hostile sweeps are reported with file, line and key") {
   CHECK_THAT(errors_of(over("rod.diameter_mm = {from = 1, to = 2, cuont = 3}")),
              Contains("unknown 'cuont'; did you mean 'count'?"));
   CHECK_THAT(errors_of(over("rod.diameter_mm = {from = -1, to = 2, count = 3, log = true}")),
-             Contains("even factors need numbers > 0"));
+             Contains("log = true: expected from and to above 0"));
   CHECK_THAT(errors_of(over("rod.diameter_mm = {from = 1e-320, to = 1, count = 3}")),
              Contains("(too small to compute with)"));
   CHECK_THAT(errors_of(over("footprint.rods = {from = 4, to = 9, count = 3}")),
