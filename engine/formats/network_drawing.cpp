@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "engine/core/text.h"
 #include "engine/core/try.h"
 #include "engine/formats/dxf_file.h"
 #include "engine/formats/network_file.h"
@@ -20,10 +21,6 @@
 
 namespace gridshell::preset {
 namespace {
-
-std::string counted(std::size_t count, const std::string& what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
 
 /// Makes the network from the lines of a drawing that are in the builder.
 Result<NetworkData> finish(NetworkBuilder& builder, const std::string& name, std::size_t lines,

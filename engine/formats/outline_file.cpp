@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/core/point_grid.h"
+#include "engine/core/text.h"
 #include "engine/core/try.h"
 #include "engine/formats/obj_ply.h"
 #include "engine/formats/plain_text.h"
@@ -144,10 +145,6 @@ Loops loops_of(const PlanDrawing& drawing, const Eigen::Vector2d& low, double ne
   loops.open = chains.size();
   loops.gap = smallest_gap(chains);
   return loops;
-}
-
-std::string counted(std::size_t count, const char* what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
 Result<PlanDrawing> read_obj_outline(std::string_view bytes, const std::string& name) {
