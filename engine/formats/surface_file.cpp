@@ -11,6 +11,7 @@
 #include "engine/core/try.h"
 #include "engine/formats/obj_ply.h"
 #include "engine/formats/plain_text.h"
+#include "engine/formats/table_file.h"
 
 namespace gridshell::preset {
 
@@ -144,7 +145,8 @@ bool marks_a_hole(double z, double scale) {
 }
 
 Result<SurfaceData> read_heights(std::string_view bytes, const std::string& name, double unit_mm) {
-  TRY(table, read_table(bytes, name, {{"x"}, {"y"}, {"z"}}, {.unit_mm = unit_mm}));
+  const std::vector<TableColumn> xyz{{"x"}, {"y"}, {"z"}};
+  TRY(table, read_table(bytes, name, xyz, {.unit_mm = unit_mm}));
   const std::size_t points = table->rows();
   for (std::size_t k = 0; k < points; ++k)
     if (const double z = table->at(k, 2), scale = table->scale[2]; marks_a_hole(z, scale))

@@ -230,7 +230,7 @@ TEST_CASE("a polyline without points is no mark of a point, and no crash") {
     CHECK_THAT(refusal(read_outline(drawn_dxf(empty + line(0, 0, 30, 0)), "d.dxf", {}, nullptr)),
                Catch::Contains("got no closed outline: 1 open line"));
   }
-  // numbers that no integer holds
+  // numbers outside the range of integers
   CHECK(read(entity("SPLINE", "8 0 71 1e300 10 0 20 0 10 9 20 0") + grid(), {},
              section("HEADER", "9\n$INSUNITS\n70\n1e300\n"))
             .network.rods.size() == 6);
