@@ -32,6 +32,11 @@ inline std::vector<std::string_view> words_in(std::string_view line,
   return words;
 }
 
+/// "1 rod", "2 rods".
+inline std::string counted(std::size_t count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
 /// Removes the next line from the front of a text and returns it without its end.
 inline std::string_view next_line(std::string_view& text) {
   const std::size_t end = std::min(text.find('\n'), text.size());
@@ -71,6 +76,8 @@ inline std::string escape_xml(std::string_view letters) {
       xml += "&lt;";
     else if (c == '>')
       xml += "&gt;";
+    else if (c == '"')
+      xml += "&quot;";
     else if (!control)
       xml += c;
   }

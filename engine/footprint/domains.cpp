@@ -138,8 +138,8 @@ class Rectangle final : public Domain {
     for (int k = 0; k < 4; ++k) perimeter += (corners[(k + 1) % 4] - corners[k]).norm();
     for (int k = 0; k < 4; ++k) {
       so_far += (corners[(k + 1) % 4] - corners[k]).norm();
-      first[k + 1] =
-          std::max(first[k] + 1, static_cast<int>(std::lround(points * so_far / perimeter)));
+      first[k + 1] = std::clamp(static_cast<int>(std::lround(points * so_far / perimeter)),
+                                first[k] + 1, std::max(first[k] + 1, points - 3 + k));
     }
     first[4] = points;
     Eigen::Matrix2Xd ring(2, points);
@@ -306,11 +306,11 @@ Result<std::unique_ptr<Domain>> part_of(std::shared_ptr<const SurfaceNet> net,
   constexpr int rays = 360;
   auto part = std::make_unique<Part>(std::move(net), std::move(outside));
   for (int k = 0; k < rays; ++k)
-    if (part->exits(2 * M_PI * k / rays) != 1)
+    if (const int exits = part->exits(2 * M_PI * k / rays); exits != 1)
       return invalid(
-          "the boundary: got two crossings of the ray from the apex at {} degrees from the first "
+          "the boundary: got {} crossings of the ray from the apex at {} degrees from the first "
           "rod, expected one: all of the boundary is visible from the apex",
-          k);
+          exits, k);
   return part;
 }
 

@@ -237,8 +237,12 @@ class Gathering {
   }
 
   static void draw_spline(const RawEntity& raw, DrawnEntity& entity) {
-    SplineData spline{int(raw.number(71, 3)), raw.numbers(40), raw.numbers(41),
-                      raw.points(10),         raw.points(11),  {}};
+    SplineData spline{int(std::clamp(raw.number(71, 3), 0.0, 1000.0)),
+                      raw.numbers(40),
+                      raw.numbers(41),
+                      raw.points(10),
+                      raw.points(11),
+                      {}};
     if (!raw.text(12).empty() && !raw.text(13).empty())
       spline.tangents = {raw.point(12), raw.point(13)};
     append(entity, spline_points(spline), true);

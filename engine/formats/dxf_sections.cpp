@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -51,7 +52,7 @@ class Sections {
         open_ = nullptr;
       } else if (section_ == "HEADER") {
         if (group.value == "$INSUNITS" && k + 1 < groups.size())
-          drawing_.unit = int(number_of(groups[k + 1].value).value_or(0));
+          drawing_.unit = int(std::clamp(number_of(groups[k + 1].value).value_or(0), 0.0, 1000.0));
       } else if (group.code == 0) {
         begin(group);
       } else if (open_) {

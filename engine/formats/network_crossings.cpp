@@ -17,10 +17,6 @@ namespace {
 
 constexpr std::size_t most_stretches = 40000;  // every two may be compared
 
-Eigen::Vector3d place_of(const std::vector<double>& point) {
-  return {point[0], point[1], point[2]};
-}
-
 /// The straight segment between two neighbouring points of a rod.
 struct Stretch {
   std::size_t rod, first;  ///< the rod, and the position of the first point in it
@@ -70,8 +66,7 @@ std::vector<Stretch> stretches_of(const NetworkData& network) {
   for (std::size_t r = 0; r < network.rods.size(); ++r)
     for (std::size_t k = 1; k < network.rods[r].size(); ++k) {
       const int from = network.rods[r][k - 1], to = network.rods[r][k];
-      all.push_back({r, k - 1, from, to, place_of(network.points[std::size_t(from)]),
-                     place_of(network.points[std::size_t(to)])});
+      all.push_back({r, k - 1, from, to, place_of(network, from), place_of(network, to)});
     }
   std::ranges::sort(all, {}, &Stretch::low);
   return all;
@@ -133,7 +128,7 @@ Result<void> NetworkBuilder::join_ends(const std::string& name) {
     for (const int end : {network_.rods[r].front(), network_.rods[r].back()}) {
       if (rods[std::size_t(end)] != 1) continue;
       std::vector<double>& place = network_.points[std::size_t(end)];
-      const Eigen::Vector3d at = place_of(place);
+      const Eigen::Vector3d at = place_of(network_, end);
       const Stretch* nearest = nullptr;
       double least = near_mm_;
       for (const Stretch& one : all) {
@@ -163,7 +158,7 @@ Result<void> NetworkBuilder::join_crossings(const std::string& name) {
       const Stretch &a = all[k], &b = all[m];
       if (!a.near(b, 1, near_mm_) || !a.near(b, 2, near_mm_)) continue;
       if (const double length = overlap(a, b); length > near_mm_)
-        return invalid("{}: lies on what is drawn at {} over {:.4g} mm, expected one of them",
+        return invalid("{}: got a rod on the rod at {}, over {:.4g} mm, expected one of them",
                        places_[std::max(a.rod, b.rod)], places_[std::min(a.rod, b.rod)], length);
       if (a.from == b.from || a.from == b.to || a.to == b.from || a.to == b.to) continue;
       const auto met = meeting(a, b, near_mm_);

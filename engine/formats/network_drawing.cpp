@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "engine/core/text.h"
 #include "engine/core/try.h"
 #include "engine/formats/dxf_file.h"
 #include "engine/formats/network_file.h"
@@ -20,10 +21,6 @@
 
 namespace gridshell::preset {
 namespace {
-
-std::string counted(std::size_t count, const std::string& what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
 
 /// Makes the network from the lines of a drawing that are in the builder.
 Result<NetworkData> finish(NetworkBuilder& builder, const std::string& name, std::size_t lines,
@@ -52,8 +49,9 @@ class Marks {
 
   bool holds(const DrawnEntity& circle) const {
     constexpr double small = 0.1;
+    if (circle.kind != "CIRCLE" || circle.points.empty()) return false;
     const double radius = (circle.points.front() - circle.centre).norm();
-    if (circle.kind != "CIRCLE" || radius > small * box_.sizes().maxCoeff()) return false;
+    if (radius > small * box_.sizes().maxCoeff()) return false;
     return std::ranges::any_of(drawn_, [&](const DrawnEntity* one) {
       if (one->kind == "CIRCLE") return false;
       for (std::size_t k = 1; k < one->points.size(); ++k)
@@ -153,7 +151,8 @@ double unit_of(const DxfDrawing& drawing, const std::vector<const DrawnEntity*>&
     report.notes.push_back(fmt::format(
         "the drawing says that it is in {} ($INSUNITS): {:.4g} mm long, its rods of {:g} mm would "
         "be "
-        "{:.2g} times as long as thick; it is read in mm, file_unit = \"{}\" takes it at its word",
+        "{:.2g} times as long as thick; it is read in mm; file_unit = \"{}\" reads it in its own "
+        "unit",
         drawing.unit, length * drawing.unit_mm, rod, length * drawing.unit_mm / rod, drawing.unit));
     return 1;
   }

@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 
+#include "engine/core/text.h"
 #include "engine/formats/network_file.h"
 
 namespace gridshell::preset {
@@ -162,10 +163,6 @@ class NearPoints {
   std::map<Cell, std::vector<int>> cells_;
   std::vector<std::vector<int>> rods_, beside_;  // rods through each point; its neighbours on them
 };
-
-std::string counted(std::size_t count, const char* what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
 
 }  // namespace
 

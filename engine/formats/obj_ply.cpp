@@ -318,7 +318,8 @@ Result<void> read_off_lines(std::string_view bytes, const std::string& name,
   if (words.empty()) words = next_words();
   const auto count = [&](std::size_t k) {
     const auto value = k < words.size() ? parse_number<long>(words[k]) : std::nullopt;
-    return value && *value >= 0 ? *value : -1;
+    constexpr long most = 1'000'000'000;  // vertices, faces, and corners of a face
+    return value && *value >= 0 && *value <= most ? *value : -1;
   };
   const long vertices = count(0), faces = count(1);
   if (vertices < 0 || faces < 0)

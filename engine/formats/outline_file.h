@@ -29,8 +29,8 @@ struct PlanDrawing {
 
 /// Joins lines whose ends meet, and returns the closed one with the largest area as a network of
 /// one closed rod, mm. Gaps of at most a millionth of the drawing's size, or of `join_mm`, are
-/// closed. `report` receives a sentence on the outline and on other lines. Errors (bad_input): no
-/// line is closed, with the smallest gap between ends.
+/// closed. `report` receives a sentence on the outline and on other lines. Errors (bad_input): a
+/// coordinate above 1e9 mm, no line is closed, with the smallest gap between ends.
 Result<NetworkData> largest_loop(const PlanDrawing& drawing, const std::string& name,
                                  double join_mm, FileReport& report);
 

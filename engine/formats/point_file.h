@@ -19,19 +19,12 @@ std::optional<double> number_of(std::string_view word);
 /// The ending of a file's name in lower case: ".csv" of "Points.CSV".
 std::string ending_of(const std::string& name);
 
-/// Reads a table (table_file.h) with the columns `coordinates`. A column with `words` contains
-/// names, which are returned as their indices. Errors (bad_input): those of read_table(); a file
-/// that cannot be read.
-Result<Points> read_points(const std::filesystem::path& file,
-                           const std::vector<std::string>& coordinates,
-                           const std::vector<std::vector<std::string>>& words = {});
-
-/// Reads points from a text; `name` is its name in messages. `lines`, if given, receives the line
-/// of each point. `unit_mm` is the unit of lengths whose column names none.
+/// Reads a table (table_file.h) with the columns `coordinates`; `name` is its name in messages. A
+/// column with `words` contains names, which are returned as their indices. Errors (bad_input):
+/// those of read_table().
 Result<Points> points_in(std::string_view text, const std::string& name,
                          const std::vector<std::string>& coordinates,
-                         const std::vector<std::vector<std::string>>& words = {},
-                         std::vector<int>* lines = nullptr, double unit_mm = 1);
+                         const std::vector<std::vector<std::string>>& words = {});
 
 // Clouds of points in files of 3D scanners.
 

@@ -11,6 +11,7 @@
 #include "engine/core/try.h"
 #include "engine/formats/obj_ply.h"
 #include "engine/formats/plain_text.h"
+#include "engine/formats/table_file.h"
 
 namespace gridshell::preset {
 
@@ -37,7 +38,8 @@ Result<void> MeshBuilder::add_polygon(const std::vector<long>& corners, const st
   std::vector<int> ring;
   for (const long corner : corners) {
     if (corner < 0 || corner >= long(number_.size()))
-      return invalid("{}: got a vertex that is none of the {} before it", place, number_.size());
+      return invalid("{}: got the number of no vertex, expected one of the {} before it", place,
+                     number_.size());
     ring.push_back(number_[std::size_t(corner)]);
   }
   if (mesh_.triangles.size() + ring.size() - 2 > most_triangles)
@@ -117,9 +119,9 @@ Result<SurfaceData> read_text(std::string_view bytes, const std::string& name, d
 constexpr std::size_t most_heights = 100000, least_side = 4;
 
 /// The different values of a coordinate, rising; values that differ by round-off are merged.
-std::vector<double> values_of(const Points& points, std::size_t coordinate) {
+std::vector<double> values_of(const NumberTable& table, std::size_t column) {
   std::vector<double> values;
-  for (const auto& point : points) values.push_back(point[coordinate]);
+  for (std::size_t row = 0; row < table.rows(); ++row) values.push_back(table.at(row, column));
   std::ranges::sort(values);
   const double alike = 1e-6 * (values.back() - values.front());
   values.erase(
@@ -135,41 +137,42 @@ std::size_t nearest(const std::vector<double>& values, double value) {
   return k == values.size() || value - values[k - 1] < values[k] - value ? k - 1 : k;
 }
 
-/// Whether programs write this number for a missing height.
-bool marks_a_hole(double z) {
+/// Whether programs write this number, here times `scale`, for a missing height.
+bool marks_a_hole(double z, double scale) {
   for (const double mark : {-9999.0, -99999.0, -999999.0, -32767.0, -32768.0})
-    if (z == mark) return true;
-  return std::abs(z) > 1e30;
+    if (z == mark * scale) return true;
+  return std::abs(z) > 1e30 * scale;
 }
 
 Result<SurfaceData> read_heights(std::string_view bytes, const std::string& name, double unit_mm) {
-  std::vector<int> lines;
-  TRY(points, points_in(bytes, name, {"x", "y", "z"}, {}, &lines, unit_mm));
-  for (std::size_t k = 0; k < points->size(); ++k)
-    if (const double z = (*points)[k][2] / unit_mm; marks_a_hole(z))
+  const std::vector<TableColumn> xyz{{"x"}, {"y"}, {"z"}};
+  TRY(table, read_table(bytes, name, xyz, {.unit_mm = unit_mm}));
+  const std::size_t points = table->rows();
+  for (std::size_t k = 0; k < points; ++k)
+    if (const double z = table->at(k, 2), scale = table->scale[2]; marks_a_hole(z, scale))
       return invalid(
           "{}:{}: got a height of {:g}, which marks a hole, expected a complete rectangle", name,
-          lines[k], z);
-  if (points->size() > most_heights)
-    return invalid("{}: got {} points, expected at most {}", name, points->size(), most_heights);
-  SurfaceData grid{values_of(*points, 0), values_of(*points, 1), {}, {}, {}};
+          table->lines[k], z / scale);
+  if (points > most_heights)
+    return invalid("{}: got {} points, expected at most {}", name, points, most_heights);
+  SurfaceData grid{values_of(*table, 0), values_of(*table, 1), {}, {}, {}};
   const std::size_t columns = grid.x.size(), rows = grid.y.size();
   if (columns < least_side || rows < least_side)
     return invalid(
         "{}: got {} different x and {} different y, expected a grid of at least 4 x 4 points", name,
         columns, rows);
-  const auto holds = fmt::format("{} points on a grid of {} x {}", points->size(), columns, rows);
+  const auto holds = fmt::format("{} points on a grid of {} x {}", points, columns, rows);
   // scattered points form a grid with as many nodes as the square of their number
-  if (columns * rows > 4 * points->size())
+  if (columns * rows > 4 * points)
     return invalid("{}: got {}, expected a complete rectangle", name, holds);
   grid.z.assign(rows, std::vector<double>(columns, std::nan("")));
-  for (std::size_t k = 0; k < points->size(); ++k) {
-    const auto& point = (*points)[k];
-    double& z = grid.z[nearest(grid.y, point[1])][nearest(grid.x, point[0])];
+  for (std::size_t k = 0; k < points; ++k) {
+    const double x = table->at(k, 0), y = table->at(k, 1);
+    double& z = grid.z[nearest(grid.y, y)][nearest(grid.x, x)];
     if (!std::isnan(z))
-      return invalid("{}:{}: got a second point at ({:g}, {:g}), expected one", name, lines[k],
-                     point[0], point[1]);
-    z = point[2];
+      return invalid("{}:{}: got a second point at ({:g}, {:g}), expected one", name,
+                     table->lines[k], x, y);
+    z = table->at(k, 2);
   }
   for (std::size_t j = 0; j < rows; ++j)
     for (std::size_t i = 0; i < columns; ++i)

@@ -156,6 +156,7 @@ class PathReader {
     double swept = angle(-half) - begin;
     if (sweep && swept < 0) swept += 2 * M_PI;
     if (!sweep && swept > 0) swept -= 2 * M_PI;
+    if (!std::isfinite(swept)) return line(to);
     const Point centre = turn * middle + 0.5 * (from + to);
     const int steps = std::max(1, int(std::ceil(std::abs(swept) * 180 / M_PI)));
     for (int k = 1; k < steps; ++k) {
@@ -265,7 +266,7 @@ void take_unit(const Tag& svg, PlanDrawing& drawing) {
   std::vector<double> sides;
   while (const auto value = box.number()) sides.push_back(*value);
   const double unit = unit_of(width.rest());
-  if (!wide || unit <= 0 || width.rest().empty()) return;
+  if (!wide || *wide <= 0 || unit <= 0 || width.rest().empty()) return;
   const double over = sides.size() == 4 && sides[2] > 0 ? sides[2] : *wide;
   drawing.unit_mm = *wide * unit / over;
   drawing.unit = fmt::format("{} wide as it says", svg.get("width"));
@@ -325,18 +326,22 @@ std::optional<std::size_t> skipped(std::string_view text, std::size_t at) {
 
 }  // namespace
 
-Result<PlanDrawing> read_svg(std::string_view text, const std::string& name) {
+Result<PlanDrawing> read_svg(std::string_view bytes, const std::string& name) {
   static const std::set<std::string> hidden{"defs",   "symbol",  "clipPath", "mask",
                                             "marker", "pattern", "metadata"};
   static const std::set<std::string> reported{"text", "image", "use"};
+  std::string storage;
+  const std::string_view text = plain_text(bytes, storage);
   PlanDrawing drawing;
   std::map<std::string, int> others;
   std::vector<Level> levels{{}};
   bool is_svg = false;
+  std::size_t counted = 0;  // the lines of the text before this position were counted
+  long number = 1;
   for (std::size_t at = text.find('<'); at < text.size(); at = text.find('<', at)) {
-    const auto place = [&, at] {
-      return fmt::format("{}:{}", name, 1 + std::ranges::count(text.substr(0, at), '\n'));
-    };
+    number += std::ranges::count(text.substr(counted, at - counted), '\n');
+    counted = at;
+    const auto place = [&] { return fmt::format("{}:{}", name, number); };
     if (const auto next = skipped(text, at)) {
       at = *next;
       continue;
@@ -344,7 +349,6 @@ Result<PlanDrawing> read_svg(std::string_view text, const std::string& name) {
     const auto end = text.find('>', at);
     if (end == text.npos) return invalid("{}: a tag does not end", place());
     const Tag tag = tag_of(text.substr(at + 1, end - at - 1));
-    const std::string where = place();
     at = end + 1;
     if (tag.ends) {
       if (levels.size() > 1) levels.pop_back();
@@ -353,7 +357,7 @@ Result<PlanDrawing> read_svg(std::string_view text, const std::string& name) {
     if (tag.name == "svg" && !std::exchange(is_svg, true)) take_unit(tag, drawing);
     const auto transform = transform_of(tag.get("transform"));
     if (!transform)
-      return invalid("{}: transform = \"{}\" is not understood", where, tag.get("transform"));
+      return invalid("{}: transform = \"{}\" is not understood", place(), tag.get("transform"));
     std::string style = tag.get("style") + ";display:" + tag.get("display");
     std::erase(style, ' ');
     const Level level{levels.back().transform * *transform,
@@ -363,7 +367,7 @@ Result<PlanDrawing> read_svg(std::string_view text, const std::string& name) {
     if (!level.drawn) continue;
     std::string wrong;
     const auto lines = lines_of(tag, wrong);
-    if (!wrong.empty()) return invalid("{}: <{}> has {}", where, tag.name, wrong);
+    if (!wrong.empty()) return invalid("{}: <{}> has {}", place(), tag.name, wrong);
     if (reported.contains(tag.name)) ++others[tag.name];
     if (!lines) continue;
     for (PlanLine line : *lines) {

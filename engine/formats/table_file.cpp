@@ -40,6 +40,7 @@ class TableReader {
           "{}:{}: the first column counts the rows: which columns are {}? Expected a first line "
           "that names them",
           name_, table_.lines.front(), names_text());
+    table_.scale = scale_;
     return std::move(table_);
   }
 

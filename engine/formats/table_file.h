@@ -26,6 +26,7 @@ struct TableOptions {
 struct NumberTable {
   std::size_t columns = 0;
   std::vector<double> values;  ///< row after row
+  std::vector<double> scale;   ///< unit of each column, in which its numbers were given
   std::vector<int> lines;      ///< line of each row in the file
   std::size_t empty_rows = 0;  ///< number of rows left out
   bool by_name = false;        ///< whether the columns were found by a header

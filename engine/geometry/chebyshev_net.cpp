@@ -120,8 +120,9 @@ Rod follow(double u, double v) {
 constexpr double least_sine = 1e-6;
 
 tl::unexpected<Error> beyond(const char* curve, char name, double at, double half) {
-  return invalid("curve_{} of the translation net ends at {} = {:.7g} mm; {} = {:g} mm is past it",
-                 curve, name, at < 0 ? -half : half, name, at);
+  return invalid(
+      "curve_{} of the translation net ends at {} = {:.7g} mm; {} = {:g} mm is past its end", curve,
+      name, at < 0 ? -half : half, name, at);
 }
 
 tl::unexpected<Error> folds(double u, double v, double cosine) {
@@ -151,7 +152,7 @@ Result<NetPoint> SphereNet::at(double u, double v) const {
   if (!(a * b < fold))
     return invalid(
         "the net on the sphere of radius {:g} mm folds (shear angle {}) where u v = {:.7g} "
-        "mm^2; (u, v) = ({:g}, {:g}) mm is past it",
+        "mm^2; (u, v) = ({:g}, {:g}) mm is past its end",
         radius_, (u < 0) == (v < 0) ? "0" : "180 degrees",
         ((u < 0) == (v < 0) ? fold : -fold) * radius_ * radius_, u, v);
   const Rod rod = follow(a, b);

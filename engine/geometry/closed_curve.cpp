@@ -120,11 +120,16 @@ Result<ClosedCurve> ClosedCurve::superellipse(double a, double b, double exponen
     return invalid("half axes: got {:g} and {:g} mm, expected above 0", a, b);
   if (!(exponent >= 1 && exponent <= 100))
     return invalid("the superellipse's exponent: got {:g}, expected 1 to 100", exponent);
-  const auto at = [a, b, n = exponent](double t) {
+  // powers of half axes that are far from 1 mm are not numbers
+  constexpr double largest_power = 100;
+  const double power = exponent * std::max(std::abs(std::log10(a)), std::abs(std::log10(b)));
+  const auto at = [a, b, n = exponent, scaled = power > largest_power](double t) {
     const double cosine = std::cos(t), sine = std::sin(t);
-    const double p = std::pow(std::abs(cosine / a), n), q = std::pow(std::abs(sine / b), n);
-    // r = (p + q)^(-1/n), and dp/dt = -n p tan t, dq/dt = n q cot t
-    const double r = std::pow(p + q, -1 / n);
+    const double u = std::abs(cosine / a), v = std::abs(sine / b);
+    const double size = scaled ? std::max(u, v) : 1;
+    const double p = std::pow(u / size, n), q = std::pow(v / size, n);
+    // r = (p + q)^(-1/n) / size, and dp/dt = -n p tan t, dq/dt = n q cot t
+    const double r = std::pow(p + q, -1 / n) / size;
     const double dp = p == 0 ? 0 : -p * sine / cosine, dq = q == 0 ? 0 : q * cosine / sine;
     const double dr = -r * (dp + dq) / (p + q);
     return Point{Vector2d(r * cosine, r * sine),

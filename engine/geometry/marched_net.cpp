@@ -34,7 +34,7 @@ double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 std::string text_of(RodStop stop) {
   switch (stop) {
     case RodStop::none:
-      return "no rod comes there";
+      return "a region that no rod reaches";
     case RodStop::rim:
       return "the surface's rim";
     case RodStop::hole:

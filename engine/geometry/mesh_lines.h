@@ -49,7 +49,6 @@ class Barriers {
   bool crosses_crease(const Eigen::Vector3d& p, const Eigen::Vector3d& q) const {
     return has_creases_ && crossing(p, q, true).has_value();
   }
-  bool has_creases() const { return has_creases_; }
   /// Positions where creases end inside the surface.
   const std::vector<Eigen::Vector3d>& tips() const { return tips_; }
 

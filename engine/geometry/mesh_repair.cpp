@@ -138,8 +138,7 @@ double turn_between(const Eigen::Matrix3Xd& x, const Triangles& triangles,
 
 struct Sides {
   std::vector<Link> links;
-  // numbers of edges with more than two triangles, with two folded ones, with one triangle
-  std::size_t of_several = 0, folded = 0, open = 0;
+  std::size_t of_several = 0, open = 0;  // numbers of edges with more than two triangles, with one
 };
 
 /// Finds the triangles that are connected at their sides.
@@ -161,7 +160,6 @@ Sides joined_sides(const Eigen::Matrix3Xd& x, const Triangles& triangles) {
         best = Link{at[n][0], at[n][1], at[m][0], at[m][1]};
       }
     if (best) all.links.push_back(*best);
-    if (at.size() == 2 && !best) ++all.folded;
   }
   return all;
 }

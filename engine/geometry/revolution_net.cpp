@@ -112,6 +112,8 @@ Result<Profile> beltrami_profile(double radius, double waist) {
 
 Result<Profile> tabulated_profile(const Eigen::Matrix2Xd& r_z) {
   TRY(spline, SplineCurve::through(r_z));
+  // the net's coordinates grow along the axis
+  if (r_z(1, r_z.cols() - 1) < r_z(1, 0)) *spline = *SplineCurve::through(r_z.rowwise().reverse());
   const auto curve = std::make_shared<const SplineCurve>(*spline);
   const std::vector<double>& knots = curve->knots();
   for (std::size_t k = 0; k < knots.size(); ++k)
@@ -169,7 +171,7 @@ Result<NetPoint> RevolutionNet::at(double u, double v) const {
   double x = u + v;
   const double phi = c_ * (u - v);
   if (!(x >= first - slack && x <= last + slack))
-    return invalid("{}; (u, v) = ({:g}, {:g}) mm is past it", why_it_ends(!(x < 0)), u, v);
+    return invalid("{}; (u, v) = ({:g}, {:g}) mm is past its end", why_it_ends(!(x < 0)), u, v);
   x = std::clamp(x, first, last);
   const double t = x_->inverse(x);
   const ProfilePoint p = profile_.at(t);
@@ -193,7 +195,7 @@ Result<double> RevolutionNet::x_at_axial(double z) const {
   const double first = (*z_)(z_->begin()), last = (*z_)(z_->end());
   const double slack = round_off * (last - first);
   if (!(z >= first - slack && z <= last + slack))
-    return invalid("{}; {:g} mm is past it", why_it_ends(!(z < 0)), profile_.axial_origin + z);
+    return invalid("{}; {:g} mm is past its end", why_it_ends(!(z < 0)), profile_.axial_origin + z);
   double low = z_->begin(), high = z_->end();
   // bisection, since dz/dt may be 0
   for (int halving = 0; halving < 200; ++halving) {

@@ -23,14 +23,27 @@ std::span<const RodValue> own_of(const NetworkData& network, int number) {
 
 /// Sets a key of [rod] to a value of a network file. Returns the error, or an empty text.
 std::string put_own(const RodValue& own, Preset& preset) {
-  const Field* field = own.key == "diameter_mm" ? nullptr : find_field("rod", own.key);
-  if (!field || field->as<Points>(preset))
+  const auto is_own = [&](const Field& field) {
+    return field.table == "rod" && field.key != "diameter_mm" &&
+           (field.as<bool>(preset) || field.as<double>(preset));
+  };
+  const Field* field = find_field("rod", own.key);
+  if (!field || !is_own(*field)) {
+    std::vector<std::string> known{"points", "diameter_mm"};
+    for (const Field& one : field_table())
+      if (is_own(one)) known.push_back(one.key);
     return fmt::format(
-        "got an unknown key '{}', expected points, diameter_mm or another key of [rod]{}", own.key,
-        did_you_mean(own.key, keys_of("rod")));
+        "got an unknown key '{}', expected points, diameter_mm or another key of [rod] that is a "
+        "number "
+        "or "
+        "true or false{}",
+        own.key, did_you_mean(own.key, known));
+  }
   bool* flag = field->as<bool>(preset);
   const bool fits = flag ? own.value == 0 || own.value == 1 : field->range.holds(own.value);
   if (!fits) return fmt::format("{}: got {:g}, expected {}", own.key, own.value, allowed(*field));
+  if (const auto wrong = magnitude_error(own.value); !wrong.empty())
+    return got_text(own.key, fmt::format("{:g}", own.value), wrong);
   if (flag)
     *flag = own.value == 1;
   else
@@ -112,7 +125,7 @@ std::vector<KeyError> model_conflicts(const Preset& preset) {
   };
   check(preset.rod, "[rod]");
   if (preset.rod_v.differs) check(preset.rod_v, "[rod_v]");
-  if (preset.rod.shear_GPa > 0)
+  if (preset.rod.shear_GPa > 0 || preset.rod.GJ_Nmm2 > 0)
     for (const auto& [number, rod] : rods_of_their_own(preset))
       check(rod, fmt::format("rods[{}]", number));
   return found;
@@ -223,7 +236,7 @@ std::string model_reason(const Preset& preset) {
       return fmt::format(
           "net: the tolerance of {:g} allows the smooth net itself, and nothing is requested that "
           "needs "
-          "an equilibrium; none is solved for, so there is no residual and no word on stability",
+          "an equilibrium; none is solved for, so there is no residual, and stability is not known",
           preset.accuracy.tolerance);
     case RodModel::twist: {
       const auto needs = key_errors(preset, RuleKind::needs_twist);

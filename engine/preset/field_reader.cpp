@@ -29,17 +29,6 @@ std::optional<double> real_of(const toml::node& value) {
   return std::nullopt;
 }
 
-// products of values in the energies must stay within the range of double
-constexpr double least_magnitude = 1e-9, largest_magnitude = 1e9;
-
-// the error of a number that is too large or too small to compute with; empty: none
-std::string magnitude_error(double value) {
-  const double size = std::abs(value);
-  if (size == 0 || (size >= least_magnitude && size <= largest_magnitude)) return "";
-  return std::string(size > 1 ? "too large" : "too small") +
-         " to compute with, expected 0, or a magnitude of 1e-9 to 1e9";
-}
-
 // only the magnitude of coordinates is limited: a value meant as zero is often slightly off zero
 std::string points_error(const Points& points) {
   constexpr std::size_t most_places = 100000;

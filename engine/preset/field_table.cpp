@@ -3,10 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/preset/field_list.h"
 
 namespace gridshell::preset {
+
+std::string magnitude_error(double value) {
+  const double size = std::abs(value);
+  if (size == 0 || (size >= least_magnitude && size <= largest_magnitude)) return "";
+  return std::string(size > 1 ? "too large" : "too small") +
+         " to compute with, expected 0, or a magnitude of 1e-9 to 1e9";
+}
 
 std::string key_label(const std::string& table, const std::string& key, int item) {
   if (item >= 0) return fmt::format("[[{}]] {} {}", table, item + 1, key);

@@ -26,6 +26,12 @@ struct Range {
   }
 };
 
+// products of values in the energies must stay within the range of double
+inline constexpr double least_magnitude = 1e-9, largest_magnitude = 1e9;
+
+/// The error of a number that is too large or too small to compute with; empty: none.
+std::string magnitude_error(double value);
+
 inline Range above(double low) { return {.low = low, .low_open = true}; }
 inline Range at_least(double low) { return {.low = low}; }
 inline Range between(double low, double high) { return {.low = low, .high = high}; }

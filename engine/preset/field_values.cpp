@@ -150,7 +150,7 @@ struct Describer {
   }
   std::string operator()(const NetworkData*) const {
     return "the name of a file, a table {points_mm, rods, diameters_mm, supports_mm, "
-           "springs_N_per_mm, free, joint_laws, holds}, or \"\"";
+           "springs_N_per_mm, own, free, joint_laws, holds}, or \"\"";
   }
 };
 

@@ -108,7 +108,7 @@ void add_surface(FieldList<Net> net) {
                     "the search is for a mesh of triangles, expected \"given\" for other surfaces",
                     [=](const Net& of) { return of.apex != NetApex::given && !mesh(of); });
   const auto searched = [](const Net& of) { return of.apex != NetApex::given; };
-  const char* found = "apex = \"best\" finds it";
+  const char* found = "the search for the apex finds it, as `apex` requests";
   net.add<&Net::apex_mm>(
       "[x, y, z], a point of the surface where the net's axes cross at right angles; of a height "
       "or a file [x, y]");
@@ -124,8 +124,9 @@ void add_surface(FieldList<Net> net) {
       "direction of the u-axis at the apex: that of the largest curvature (x, if all are equal), "
       "or x");
   surface().unused({"apex"}, found, searched);
-  net.add<&Net::axis_deg>(between(-180, 180),
-                          "how far it is turned from there, to the left as seen from above");
+  net.add<&Net::axis_deg>(
+      between(-180, 180),
+      "rotation of the u-axis from the direction of `axis`, to the left as seen from above");
   surface().unused({"apex"}, found, searched);
   net.add<&Net::cut_mm>(
       "height of the plane that cuts the surface, whose upper part remains; \"none\": a mesh ends "

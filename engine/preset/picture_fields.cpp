@@ -107,7 +107,9 @@ void add_style(FieldList<Style> list) {
   list.add<&S::background>("colour behind the shell; \"transparent\" leaves it out of the PNG")
       .colour();
   list.add<&S::colour_map>(
-      "auto: sequential of sizes, diverging about zero of what has a sign; print: diverging, and "
+      "auto: sequential for quantities without a sign, else diverging about zero; print: "
+      "diverging, "
+      "and "
       "negative values darker in grey too");
   list.add<&S::range>(
       "range of the colours, in the unit of the colour bar; empty: nine tenths of the values of "

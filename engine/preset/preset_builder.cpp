@@ -45,25 +45,15 @@ void PresetBuilder::forget_items(const std::string& table) {
 }
 
 void PresetBuilder::take_material(const std::string& table) {
-  Rod& rod = table == "rod_v" ? preset.rod_v : preset.rod;
+  const bool second = table == "rod_v";
   const auto named = set_at.find(key_label(table, "material"));
-  if (rod.material == Material::none || named == set_at.end()) return;
+  if (named == set_at.end()) return;
   const ValueLayer layer = named->second.layer;
-  const Rod made = rod_of(rod.material);
-  const auto is_set = [&](const char* key) {
-    const auto set = set_at.find(key_label(table, key));
-    return set != set_at.end() && set->second.layer >= layer;
-  };
-  for (const auto& [key, member] : {std::pair("young_GPa", &Rod::young_GPa),
-                                    {"shear_GPa", &Rod::shear_GPa},
-                                    {"density_kg_m3", &Rod::density_kg_m3},
-                                    {"strength_MPa", &Rod::strength_MPa}})
-    if (!is_set(key)) rod.*member = made.*member;
-  if (is_set("strength_MPa")) return;
-  if (is_set("yield_strain"))
-    rod.strength_MPa = 0;
-  else
-    rod.yield_strain = 0;
+  preset::take_material(second ? preset.rod_v : preset.rod, second ? given.rod_v : given.rod,
+                        [&](const char* key) {
+                          const auto set = set_at.find(key_label(table, key));
+                          return set != set_at.end() && set->second.layer >= layer;
+                        });
 }
 
 namespace {

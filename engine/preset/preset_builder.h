@@ -62,8 +62,9 @@ struct NamedFile {
 /// A preset that is being read, and the source of each of its keys.
 struct PresetBuilder {
   Preset preset;
+  Preset given;  ///< only `rod` and `rod_v`, without the values that their materials give
   /// Sets the rod's values of the table ("rod" or "rod_v") to those of its material, except for
-  /// those that the layer of the material or a later one sets.
+  /// those that the layer of the material or a later one sets; to those of `given` without one.
   void take_material(const std::string& table);
 
   std::map<std::string, SourceLocation> set_at;  ///< source of each key, by key_label()

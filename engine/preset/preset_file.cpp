@@ -154,8 +154,9 @@ std::string case_name_error(const std::string& name) {
   if (name.size() > longest_name)
     return fmt::format("{} letters, expected at most {}", name.size(), longest_name);
   const auto kind = std::filesystem::path(name).extension().string();
-  for (const char* taken : {".csv", ".gif", ".h5", ".journal", ".json", ".mp4", ".pdf", ".png",
-                            ".svg", ".toml", ".webm"})
+  for (const char* taken : {".csv",   ".dxf", ".gif",  ".glb", ".h5",  ".html", ".journal", ".json",
+                            ".jsonl", ".md",  ".mp4",  ".obj", ".pdf", ".ply",  ".png",     ".pvd",
+                            ".stl",   ".svg", ".toml", ".txt", ".vtp", ".xdmf", ".webm"})
     if (kind == taken)
       return fmt::format("a name of a file of a run, expected another ending than {}", kind);
   if (name == "frames") return "the folder of a movie's pictures, expected another name";
@@ -232,10 +233,17 @@ std::string to_toml(const Presets& presets) {
       text += fmt::format("{}{}{} = {}\n", field.table, field.table.empty() ? "" : ".", field.key,
                           value);
     }
+    std::string items;
     each_list([&](const char* name, auto) {
-      const auto items = list_text(name, one.preset, in_case, "case.");
-      if (items != list_text(name, presets.base, in_base, "case.")) text += items;
+      const auto own = list_text(name, one.preset, in_case, "case.");
+      if (own == list_text(name, presets.base, in_base, "case.")) return;
+      // tables are written after all keys
+      if (own.empty())
+        text += fmt::format("{} = []\n", name);
+      else
+        items += own;
     });
+    text += items;
   }
   return text;
 }

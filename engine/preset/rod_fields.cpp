@@ -76,7 +76,7 @@ void add_rods(FieldList<Rod> rods, const std::string& table) {
       .unit("mm³")
       .refused({"width_mm"}, round,
                [](const Rod& rod) { return rod.modulus_mm3 > 0 && rod.rectangular(); });
-  const char* curved = "rods with natural curvature twist to keep their curve";
+  const char* curved = "rods with natural curvature twist as they bend";
   rods.add<&Rod::curvature_per_mm>("natural curvature in the vertical plane; above 0 arches up")
       .needs_twist(curved, [](const Rod& rod) { return rod.curvature_per_mm != 0; });
   rods.add<&Rod::curvature_sideways_per_mm>(

@@ -224,8 +224,9 @@ void add_actuation(std::vector<Field>& all) {
       [=](const Preset& preset) { return is_curve(preset) && preset.actuation.scale == 0; });
   add_curve(boundary, "actuated boundary of a footprint of kind \"curve\"");
   list.add<&Actuation::correspondence>(
-          "which point of it an edge point moves to: the one at the same fraction of the length "
-          "from +x, or at the same polar angle")
+          "point of the actuated boundary to which an edge point moves: at the same fraction of "
+          "the "
+          "length from the positive x-axis, or at the same polar angle")
       .used_by_footprint({Kinds::curve});
 }
 

@@ -8,6 +8,7 @@
 
 #include "engine/preset/consistency.h"
 #include "engine/preset/field_table.h"
+#include "engine/preset/materials.h"
 #include "engine/preset/toml_reader.h"
 
 namespace gridshell::preset {
@@ -27,7 +28,7 @@ double combinations(const Sweep& sweep) {
   return count;
 }
 
-bool sweeps(const Sweep& sweep, const char* key) {
+bool sweeps(const Sweep& sweep, const std::string& key) {
   return std::ranges::find(sweep.over, key, &SweepAxis::key) != sweep.over.end();
 }
 
@@ -47,13 +48,22 @@ class SweepCheck {
 
   void keys_set_elsewhere() {
     for (const SweepAxis& axis : sweep_.over) {
-      const auto set = builder_.set_at.find(name_of(field_of(axis.key)));
-      if (set == builder_.set_at.end() || set->second.layer == ValueLayer::file) continue;
-      errors_.add(set->second,
-                  fmt::format("{}: is set {} and swept by [sweep] over, expected one of the two",
-                              name_of(field_of(axis.key)),
-                              set->second.layer == ValueLayer::one_case ? "by a case"
-                                                                        : "by the command line"));
+      const Field& field = field_of(axis.key);
+      set_elsewhere(axis, name_of(field));
+      if (field.key == "file")
+        for (const char* key : {"kind", "file_unit", "join_mm", "linkage"})
+          set_elsewhere(axis, key_label(field.table == "net" ? "net" : "footprint", key));
+      if (field.key != "material") continue;
+      for (const char* key : keys_of_material)
+        if (!sweeps(sweep_, field.table + "." + key))
+          set_elsewhere(axis, key_label(field.table, key));
+      const Preset& preset = builder_.preset;
+      const Rod& rod = field.table == "rod" ? preset.rod : preset.rod_v;
+      if (rod.material != Material::none && std::ranges::count(axis.values, "\"none\"") > 0)
+        errors_.add(location("over"),
+                    fmt::format("[sweep] over: {}: got \"none\" and {} = \"{}\", expected one of "
+                                "the two",
+                                axis.key, name_of(field), word_of(rod.material)));
     }
   }
 
@@ -74,6 +84,17 @@ class SweepCheck {
   }
 
  private:
+  /// Refuses a key that the axis sets or uses, if a case or the command line set it.
+  void set_elsewhere(const SweepAxis& axis, const std::string& key) {
+    const auto set = builder_.set_at.find(key);
+    if (set == builder_.set_at.end() || set->second.layer == ValueLayer::file) return;
+    errors_.add(
+        set->second,
+        fmt::format(
+            "{}: got a value from {}, but [sweep] over {} decides it, expected one of the two", key,
+            set->second.layer == ValueLayer::one_case ? "a case" : "the command line", axis.key));
+  }
+
   SourceLocation location(const char* key) const {
     const auto at = builder_.set_at.find(fmt::format("[sweep] {}", key));
     return at == builder_.set_at.end() ? SourceLocation{} : at->second;
@@ -116,8 +137,13 @@ SweepPoint SweepGrid::at(std::size_t point) const {
     found.values[k] = axis.values[rest % axis.values.size()];
     rest /= axis.values.size();
     const auto value = toml::parse("x = " + found.values[k]);
-    assign(field_of(axis.key), *value.get("x"), found.preset, {});
+    const Field& field = field_of(axis.key);
+    assign(field, *value.get("x"), found.preset, {});
+    forget_file_options(name_of(field), found.preset);
   }
+  for (auto [table, rod] : {std::pair("rod.", &found.preset.rod), {"rod_v.", &found.preset.rod_v}})
+    if (const std::string keys(table); sweeps(sweep, keys + "material"))
+      take_material(*rod, Rod(*rod), [&](const char* key) { return sweeps(sweep, keys + key); });
   // the radii of the stills may be outside the path of this point
   found.preset.figure.radii_mm.clear();
   // every point searches with random numbers of its own, which do not depend on the other points

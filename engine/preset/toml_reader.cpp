@@ -108,7 +108,10 @@ bool affects_results(const std::string& table) {
 /// Reads one entry as an axis of a sweep.
 class AxisReader {
  public:
-  AxisReader(const Entry& entry, std::vector<AxisError>& errors) : entry_(entry), errors_(errors) {}
+  /// Files are read by the other keys of `preset`, and searched for as `context` says.
+  AxisReader(const Entry& entry, const Preset& preset, const FileContext& context,
+             std::vector<AxisError>& errors)
+      : entry_(entry), preset_(preset), context_(context), errors_(errors) {}
 
   std::optional<SweepAxis> read() {
     const std::size_t before = errors_.size();
@@ -144,10 +147,9 @@ class AxisReader {
   }
 
   void take(const toml::node& value) {
-    Preset preset;
-    if (const auto wrong = assign(*field_, value, preset, {}); !wrong.empty())
+    if (const auto wrong = assign(*field_, value, preset_, context_); !wrong.empty())
       return refuse(value, wrong);
-    auto text = value_text(*field_, preset);
+    auto text = value_text(*field_, preset_);
     if (!taken_.insert(text).second)
       return refuse(value, "in the list twice, expected another value");
     values_.push_back(std::move(text));
@@ -168,7 +170,8 @@ class AxisReader {
       return refuse(range, fmt::format("count: expected 2 to {}", most_values));
     if (range.contains("log") && !range["log"].is_boolean())
       return refuse(range, "log: expected true or false");
-    if (log && !(*from > 0 && *to > 0)) return refuse(range, "even factors need numbers > 0");
+    if (log && !(*from > 0 && *to > 0))
+      return refuse(range, "log = true: expected from and to above 0");
     for (std::int64_t k = 0; k < count->get(); ++k) {
       const double part = double(k) / double(count->get() - 1);
       const double value = log ? *from * std::pow(*to / *from, part) : *from + part * (*to - *from);
@@ -178,7 +181,7 @@ class AxisReader {
 
   void take_number(double value, const toml::table& range) {
     // 12 digits: three steps of 0.1 give 0.3, not 0.30000000000000004
-    value = std::stod(fmt::format("{:.12g}", value));
+    value = parse_number<double>(fmt::format("{:.12g}", value)).value_or(value);
     Preset any = default_items();
     if (!field_->as<int>(any)) return take(toml::value<double>(value));
     if (value != std::round(value) || std::abs(value) > 1e9)
@@ -187,6 +190,8 @@ class AxisReader {
   }
 
   const Entry& entry_;
+  Preset preset_;
+  const FileContext& context_;
   std::vector<AxisError>& errors_;
   const Field* field_ = nullptr;
   std::vector<std::string> values_;
@@ -195,10 +200,12 @@ class AxisReader {
 
 /// The axes in the order of the file. Errors are added to `errors`, and an axis with an error is
 /// left out. Each value was assigned to its key once and is in range.
-std::vector<SweepAxis> read_axes(const toml::table& over, std::vector<AxisError>& errors) {
+std::vector<SweepAxis> read_axes(const toml::table& over, const Preset& preset,
+                                 const FileContext& context, std::vector<AxisError>& errors) {
   std::vector<SweepAxis> axes;
   for (const Entry& entry : entries_of(over))
-    if (auto axis = AxisReader(entry, errors).read()) axes.push_back(std::move(*axis));
+    if (auto axis = AxisReader(entry, preset, context, errors).read())
+      axes.push_back(std::move(*axis));
   return axes;
 }
 
@@ -262,10 +269,11 @@ void TomlReader::override_item(const std::string& list, const Override& change,
              builder, item - 1);
 }
 
-// reads a list of tables; the items of a case replace those of the file
+// reads a list of tables; the items of a case replace those of the file, an empty list removes them
 void TomlReader::read_items(const std::string& name, const toml::key& key, const toml::node& value,
                             PresetBuilder& builder) {
-  if (!value.is_array_of_tables()) {
+  const bool none = value.is_array() && value.as_array()->empty();
+  if (!value.is_array_of_tables() && !none) {
     errors_.add(location_of(key.source()),
                 fmt::format("{}: expected tables, each [[{}{}]]", name,
                             layer_ == ValueLayer::one_case ? "case." : "", name));
@@ -299,9 +307,11 @@ void TomlReader::read_table(const toml::key& key, const toml::node& value, Prese
   }
 }
 
+FileContext TomlReader::context() const { return override_.empty() ? context_ : FileContext{}; }
+
 void TomlReader::read_sweep_axes(const toml::table& over, PresetBuilder& builder) {
   std::vector<AxisError> wrong;
-  builder.preset.sweep.over = read_axes(over, wrong);
+  builder.preset.sweep.over = read_axes(over, builder.preset, context(), wrong);
   for (auto& fault : wrong) errors_.add(location_of(fault.location), std::move(fault.text));
   if (!wrong.empty()) builder.faulty.insert("[sweep] over");
 }
@@ -329,7 +339,7 @@ void TomlReader::assign_key(const std::string& table, const toml::key& key, cons
     return;
   }
   builder.set_at[full] = location;
-  const FileContext context = override_.empty() ? context_ : FileContext{};
+  const FileContext context = this->context();
   builder.files.erase(full);
   if (const auto* file = value.as_string(); file && !file->get().empty() && takes_file(*field)) {
     builder.faulty.erase(full);
@@ -339,6 +349,7 @@ void TomlReader::assign_key(const std::string& table, const toml::key& key, cons
   const auto wrong = assign(*field, value, builder.preset, context, item);
   if (wrong.empty()) {
     builder.faulty.erase(full);
+    if (table.starts_with("rod")) assign(*field, value, builder.given, context);
     // yield_strain may be set after material, and replaces its strength
     if (table.starts_with("rod") && (name == "material" || name == "yield_strain"))
       builder.take_material(table);
@@ -360,16 +371,16 @@ void TomlReader::read_files(PresetBuilder& builder) {
     builder.faulty.insert(full);
     errors_.add(builder.set_at.at(full), full + ": " + wrong);  // names the file
   }
-  // the contents of the files are now in the preset, in mm and joined: the options must not be
-  // applied again when the preset is written and read
-  if (builder.files.contains(key_label("footprint", "file")) ||
-      builder.files.contains(key_label("actuation", "file"))) {
-    builder.preset.footprint.file_unit = FileUnit::file;
-    builder.preset.footprint.join_mm = 0;
-    builder.preset.footprint.linkage = false;
+  for (const auto& [full, file] : builder.files) forget_file_options(full, builder.preset);
+}
+
+void forget_file_options(const std::string& key, Preset& preset) {
+  if (key == "[footprint] file" || key == "[actuation] file") {
+    preset.footprint.file_unit = FileUnit::file;
+    preset.footprint.join_mm = 0;
+    preset.footprint.linkage = false;
   }
-  if (builder.files.contains(key_label("net", "file")))
-    builder.preset.net.file_unit = FileUnit::file;
+  if (key == "[net] file") preset.net.file_unit = FileUnit::file;
 }
 
 }  // namespace gridshell::preset

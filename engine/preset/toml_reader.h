@@ -21,6 +21,11 @@ namespace gridshell::preset {
 std::string assign(const Field& field, const toml::node& value, Preset& preset,
                    const FileContext& context, int item = -1, FileReport* report = nullptr);
 
+/// Sets the options by which the file of a key, "[footprint] file", is read to their defaults: its
+/// contents are in the preset, in mm and joined, and the options must not be applied again when the
+/// preset is written and read.
+void forget_file_options(const std::string& key, Preset& preset);
+
 /// The value as a message shows it: TOML on one line, shortened if long.
 std::string toml_text(const toml::node& value);
 
@@ -65,6 +70,8 @@ class TomlReader {
                   PresetBuilder& builder, int item = -1);
 
   void read_sweep_axes(const toml::table& over, PresetBuilder& builder);
+  FileContext context()
+      const;  // where the files of the part that is being applied are searched for
 
   std::string source_;
   FileContext context_;                  // where the file's preset searches for files

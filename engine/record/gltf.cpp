@@ -310,6 +310,7 @@ std::vector<std::array<float, 4>> colours_of(const Eigen::VectorXd& K) {
 
 Result<std::string> to_glb(const record::Trajectory& run, const std::string& title,
                            double seconds) {
+  if (run.frames.empty()) return invalid("got no frame, expected at least one");
   TRY(fine, model_detail(run));
   const record::Layout& layout = run.layout;
   Gltf gltf(layout, title);
@@ -317,10 +318,12 @@ Result<std::string> to_glb(const record::Trajectory& run, const std::string& tit
   const auto keys = even_frames(run.frames.size(), fine->shapes);
   const std::vector<int> joints = nodes_of_joints(layout);
   const record::Frame& start = run.frames[keys.front()];
+  if (run.frames.fault()) return tl::unexpected(*run.frames.fault());
   MorphingMesh rods("rods", tubes(layout, start, fine->sides), 0, gltf.buffer()),
       skin("cells", cells(layout, start), 2, gltf.buffer());
   for (const std::size_t key : keys) {
     const record::Frame& frame = run.frames[key];
+    if (run.frames.fault()) return tl::unexpected(*run.frames.fault());
     places.push_back(frame.nodes(Eigen::all, joints));
     if (key == keys.front()) continue;
     rods.add(tubes(layout, frame, fine->sides));

@@ -173,8 +173,15 @@ Json layout_json(const record::Layout& layout) {
 }  // namespace
 
 Result<std::string> to_page(const record::Trajectory& run, const std::string& title) {
-  const auto nodes = std::size_t(run.frames.front().nodes.cols());
-  const std::size_t a_frame = 8 * nodes + 8 * run.layout.cells.size() + 400;
+  if (run.frames.empty()) return invalid("got no frame, expected at least one");
+  const record::Frame& end = run.frames.back();
+  if (run.frames.fault()) return tl::unexpected(*run.frames.fault());
+  const auto nodes = std::size_t(end.nodes.cols());
+  // bytes of a node, a K, a brace, a load and a support, and of the figures
+  const std::size_t braces = braces_json(run.layout, end).size(),
+                    loads = end.loads_N.size() > 0 ? run.layout.supports.size() : 0,
+                    a_frame = 8 * nodes + 8 * run.layout.cells.size() + 16 * braces + 48 * loads +
+                              8 * run.layout.supports.size() + 400;
   if (a_frame > most_page_bytes)
     return invalid("one frame of {} nodes takes more than {} MB in a page", nodes,
                    most_page_bytes / 1'000'000);

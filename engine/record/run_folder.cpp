@@ -1,6 +1,7 @@
 #include "engine/record/run_folder.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/core/file_io.h"
 #include "engine/core/system_info.h"
@@ -64,10 +65,12 @@ std::string bins_csv(const Trajectory& trajectory) {
   for (std::size_t f = 0; f < trajectory.frames.size(); ++f) {
     const Frame& frame = trajectory.frames.head(f);
     const Eigen::Index bins = frame.K_bins.rows();
+    // a frame whose bins are not known has no row
     for (Eigen::Index k = 0; k < bins; ++k)
-      csv.line(frame.index, -1 + 2.0 * double(k) / double(bins),
-               -1 + 2.0 * double(k + 1) / double(bins), frame.K_bins(k, 0), frame.K_bins(k, 1),
-               int(frame.K_bins(k, 2)));
+      if (const double cells = frame.K_bins(k, 2); !std::isnan(cells))
+        csv.line(frame.index, -1 + 2.0 * double(k) / double(bins),
+                 -1 + 2.0 * double(k + 1) / double(bins), frame.K_bins(k, 0), frame.K_bins(k, 1),
+                 int(cells));
   }
   return std::move(csv).text();
 }

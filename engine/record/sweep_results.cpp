@@ -62,6 +62,8 @@ bool take_key(const std::string& name, const std::string& cell, SweepTable::Row&
     row.result.outcome = *word;
   } else {
     row.keys.values.push_back(cell);
+    if (name == leg_key) return parse_number<double>(cell).has_value();
+    if (name == rods_key) return parse_number<int>(cell).has_value();
   }
   return true;
 }
@@ -216,13 +218,18 @@ Result<SweepTable> read_sweep_csv(std::string_view text) {
   for (std::size_t line = 1; line < rows.size(); ++line) {
     const auto& cells = rows[line];
     SweepTable::Row& row = table.rows.emplace_back();
-    bool good = cells.size() == names.size() && figures < names.size();
-    for (std::size_t k = 0; good && k < figures; ++k) good = take_key(names[k], cells[k], row);
-    if (!good) return invalid("line {} is no point of a sweep", line + 1);
+    if (cells.size() != names.size() || figures >= names.size())
+      return invalid("line {}: got {} cells, expected {} of a point of a sweep", line + 1,
+                     cells.size(), names.size());
+    for (std::size_t k = 0; k < figures; ++k)
+      if (!take_key(names[k], cells[k], row))
+        return invalid("line {}: {}: got '{}', expected a value of a sweep", line + 1, names[k],
+                       cells[k]);
     for (std::size_t k = figures; k + 1 < names.size(); ++k)
       row.result.figures.emplace_back(names[k], figure_in(cells[k]));
     row.result.reason = cells.back();
   }
+  if (table.rows.empty()) return invalid("got no point of a sweep, expected at least one");
   return table;
 }
 

@@ -53,6 +53,9 @@ struct PointKeys {
   int seed = 0;                     ///< 0 if the sweep has only one
 };
 
+/// The swept keys of a phase diagram: a number, and an integer.
+inline constexpr const char *leg_key = "footprint.longest_leg", *rods_key = "footprint.rods";
+
 /// A finished sweep: one row per point, in order.
 struct SweepTable {
   std::vector<std::string> axes;  ///< swept keys: "rod.diameter_mm"
@@ -69,7 +72,7 @@ struct SweepTable {
 std::string sweep_csv(const SweepTable& table);
 
 /// Reads the text of a sweep.csv; its values are texts without the quotes of TOML. Errors
-/// (bad_input), naming the line: it is no such text.
+/// (bad_input), naming the line: it is no such text, a value of leg_key or rods_key is no number.
 Result<SweepTable> read_sweep_csv(std::string_view text);
 
 // Power laws of figures over the swept keys: laws.csv has one row per key.

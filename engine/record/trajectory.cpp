@@ -28,7 +28,7 @@ Result<void> check_indices(const Layout& layout, Eigen::Index nodes) {
     for (std::size_t k = 0; k < owners.size(); ++k)
       for (const int index : named(owners[k]))
         if (index < 0 || index >= count)
-          return invalid("{} {} names {} {} of {}", owner, k, kind, index, count);
+          return invalid("{} {}: got {} {}, expected 0 to {}", owner, k, kind, index, count - 1);
     return {};
   };
   const auto node = [](const Joint& joint) { return std::array{joint.node}; };
@@ -87,7 +87,9 @@ Result<void> check_numbers(const Layout& layout) {
 // rods are paths over the nodes, and most nodes are on one or two rods: longer lists are refused
 Result<void> check_sizes(const Layout& layout, Eigen::Index nodes) {
   Eigen::Index named = 0, most = 0;
-  for (const auto& rod : layout.rods) {
+  for (std::size_t k = 0; k < layout.rods.size(); ++k) {
+    const std::vector<int>& rod = layout.rods[k];
+    if (rod.size() < 2) return invalid("rod {}: got {} nodes, expected at least 2", k, rod.size());
     named += Eigen::Index(rod.size());
     for (const int node : rod) most = std::max<Eigen::Index>(most, node + 1);
   }

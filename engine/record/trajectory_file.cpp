@@ -121,7 +121,7 @@ Result<Trajectory> read_checked(const std::filesystem::path& path) {
     return refuse(open ? "it is open in this process (by h5py?): close it there first"
                        : "it is cut short or damaged");
   if (file->text_attribute("/", "format") != trajectory_format)
-    return refuse(fmt::format("it does not say \"{}\"", trajectory_format));
+    return refuse(fmt::format("it is not of the format \"{}\"", trajectory_format));
   Trajectory trajectory;
   trajectory.layout = read_layout(*file);
   trajectory.origin = read_origin(*file);

@@ -279,6 +279,11 @@ Result<void> check_steps(const std::vector<preset::Step>& steps, const Footprint
           }))
         return invalid("[[step]] {} cells: got [{:g}, {:g}], expected a cell of the footprint",
                        k + 1, cell[0], cell[1]);
+    const auto edge_points = double(2 * footprint.rods.size());
+    for (const auto& row : step.edge_points)
+      if (row[0] >= edge_points)
+        return invalid("[[step]] {} edge_points: got {:g}, expected 0 to {:g}", k + 1, row[0],
+                       edge_points - 1);
     if (step.kind == preset::StepKind::brace && footprint.cells.empty())
       return invalid("[[step]] {}: the footprint has no cells to brace", k + 1);
     if (step.kind == preset::StepKind::tighten || step.kind == preset::StepKind::open)

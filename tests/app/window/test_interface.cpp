@@ -66,3 +66,16 @@ TEST_CASE("a shell of one's own is formed from the form") {
                                          click("@new_fit 0.5 0.5") + click("@new_form 0.5 0.5"));
   CHECK(number(fitted, "boundary_radius_mm") == Approx(0.8 * 86));
 }
+
+TEST_CASE("a material that is chosen gives its values to the rods") {
+  const TemporaryFolder folder;
+  const std::string press = "down Down\nup Down\n";
+  played(folder,
+         "do find_number\nwait 0.1\ntype material\nwait 0.1\n" + click("@rod.material 0.5 0.5") +
+             "wait 0.1\n" + press + press + "down Space\nup Space\n" + "wait 0.1\ndo save_preset\n",
+         {"-o", "kept"});
+  const std::string text = text_of(folder / "kept/small_1.toml");
+  CAPTURE(text);
+  CHECK_THAT(text, Contains("material = \"gfrp\""));
+  CHECK_THAT(text, Contains("young_GPa = 25.0"));
+}

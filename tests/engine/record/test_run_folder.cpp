@@ -183,6 +183,14 @@ TEST_CASE("CSV lines contain the last frame, shortest numbers, and nothing for w
       "\"snap; \"\"fast\"\" \xC3\xA9\"\n"));
 }
 
+TEST_CASE("a frame whose bins are not known has none in bins.csv") {
+  Trajectory run = sample_trajectory();
+  run.frames.edit()[1].K_bins.setConstant(unknown);
+  const std::string bins = bins_csv(run);
+  CHECK(cut(bins, '\n').size() == 1 + 2 * 5 + 1);
+  CHECK_THAT(bins, !Catch::Contains("\n1,"));
+}
+
 TEST_CASE("every line of frames.csv splits at its commas into as many cells, numbers first") {
   std::vector<std::string> lines;
   for (const std::string& line : cut(frames_csv(sample_trajectory()), '\n'))

@@ -157,11 +157,14 @@ TEST_CASE("parts that do not fit each other are neither written nor read") {
     return written ? std::string("none") : written.error().message;
   };
   CHECK(refused([](Trajectory& run) { run.layout.rods[3][1] = 99; }) ==
-        "rod 3 names node 99 of 12");
+        "rod 3: got node 99, expected 0 to 11");
+  for (const std::vector<int>& rod : {std::vector<int>{}, {3}})
+    CHECK(refused([&](Trajectory& run) { run.layout.rods[1] = rod; }) ==
+          fmt::format("rod 1: got {} nodes, expected at least 2", rod.size()));
   CHECK(refused([](Trajectory& run) { run.frames.edit()[2].nodes.conservativeResize(3, 11); }) ==
         "frame 2: got 11 nodes, expected 12 as in the first one");
   CHECK(refused([](Trajectory& run) { run.layout.cells[0].joints[3] = -1; }) ==
-        "cell 0 names joint -1 of 4");
+        "cell 0: got joint -1, expected 0 to 3");
   CHECK(refused([](Trajectory& run) { run.frames.edit()[0].cell_K.resize(0); }) ==
         "frame 0: got 0 values of cell_K, expected 1");
   CHECK(refused([](Trajectory& run) { run.frames.edit()[2].axial_force_N.resize(11); }) ==
@@ -179,7 +182,7 @@ TEST_CASE("parts that do not fit each other are neither written nor read") {
     H5Dwrite(set, H5T_NATIVE_INT, H5S_ALL, H5S_ALL, H5P_DEFAULT, nodes);
     H5Dclose(set);
   };
-  CHECK(refusal(changed(wrong_index), true) == "edge point 7 names node 1234 of 12");
+  CHECK(refusal(changed(wrong_index), true) == "edge point 7: got node 1234, expected 0 to 11");
 }
 
 TEST_CASE("a column that an older version did not write is unknown") {
