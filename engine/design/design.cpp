@@ -162,7 +162,8 @@ Result<std::size_t> certify(DesignShell& coarse, DesignShell& fine,
     const auto on_fine = fine.move_in_steps(ends, jump_mm);
     if (on_fine && fine.smallest_eigenvalue() >= allowed && coarse.move_in_steps(ends, jump_mm))
       return k;
-    why = on_fine ? "it is too soft" : on_fine.error().message;
+    why = on_fine ? "its lowest eigenvalue is below the limit of min_stability"
+                  : on_fine.error().message;
   }
   return fail(Fault::no_equilibrium, "with {} edges per segment the designed shell is lost: {}",
               certified_on, why);
@@ -268,6 +269,8 @@ Result<LiveDesignResult> design_live(const preset::Preset& preset, const DesignS
   DesignStep begin;
   begin.eigenvalue = work.coarse->smallest_eigenvalue(watch);
   if (watch.cancelled()) return stopped();
+  if (std::isnan(softest))
+    return fail(Fault::no_equilibrium, "the lowest eigenvalue of the shell did not converge");
   const Eigen::VectorXd distances = work.target.distances(work.coarse->joints()).size();
   begin.max_mm = distances.maxCoeff();
   begin.mean_mm = distances.mean();

@@ -318,8 +318,7 @@ double DesignShell::smallest_eigenvalue(const Watch& watch) {
   Eigen::Matrix3Xd weight = Eigen::Matrix3Xd::Zero(3, model_.columns());
   weight.leftCols(length.size()).rowwise() = length.transpose();
   const auto softest = softest_modes(*system_, weight, 1, 0, watch);
-  // after a cancel the value is not used
-  return softest ? softest->values[0] : 0;
+  return softest ? softest->values[0] : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace gridshell

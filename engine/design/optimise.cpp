@@ -205,7 +205,7 @@ class Optimiser {
       return fmt::format("a leg's force of {:.3g} N is above its limit", largest_force());
     const double eigenvalue = shell_.smallest_eigenvalue(watch_);
     if (watch_.cancelled()) return "it was stopped";
-    if (eigenvalue < allowed_)
+    if (!(eigenvalue >= allowed_))
       return fmt::format("the smallest eigenvalue of {:.3g} N/mm^2 is below its limit of {:.3g}",
                          eigenvalue, allowed_);
     eigenvalue_ = eigenvalue;

@@ -205,7 +205,11 @@ State StateTransfer::carry(const State& state) const {
   State carried = start_state(to_, columns_of(to_mesh_, to_, nodes));
   Eigen::VectorXd axial;
   meshes_.edges(state.force, axial);
-  carried.force << axial, state.force.tail(to_.forces() - axial.size());
+  // torques belong to the springs of joints: another number of them are other springs
+  const Eigen::Index torques = to_.forces() - axial.size();
+  carried.force.head(axial.size()) = axial;
+  if (from_.forces() - Eigen::Index(from_.edges.size()) == torques)
+    carried.force.tail(torques) = state.force.tail(torques);
   if (!to_.has_spins()) return carried;
   for (std::size_t k = 0; k < std::min(from_.hinges.size(), to_.hinges.size()); ++k) {
     if (!is_closed(from_, state, from_.hinges[k])) continue;

@@ -123,7 +123,7 @@ Result<void> check_pressure(const LoadCase& load, const std::string& key,
       const std::string place =
           node < joints ? fmt::format("joint [{}, {}]", footprint.joints[std::size_t(node)].i,
                                       footprint.joints[std::size_t(node)].j)
-                        : fmt::format("an end of rod {}", (node - joints) / 2);
+                        : fmt::format("end of rod {}", (node - joints) / 2);
       return invalid(
           "{} pressure: got a free {} at the edge of the faces, expected a fixed edge: such a "
           "load has no energy; one on the edge has, edge_direction = \"pressure\"",

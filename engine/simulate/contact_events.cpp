@@ -20,14 +20,14 @@ using record::Contacts;
 constexpr int halvings = 5;  // of the interval between two load steps
 constexpr ContactKind kinds[] = {ContactKind::rods, ContactKind::joints, ContactKind::table};
 
-const char* words_of(ContactKind kind) {
+const char* end_text(ContactKind kind) {
   switch (kind) {
     case ContactKind::rods:
-      return "no rods";
+      return "rods no longer touch";
     case ContactKind::joints:
-      return "no joints";
+      return "joints no longer touch";
     case ContactKind::table:
-      return "no rod and the table";
+      return "no rod touches the table any longer";
   }
   return "";
 }
@@ -61,7 +61,7 @@ class Bracket {
     const record::Contact* first = after_.contacts.deepest(kind_);
     return {segment, t, error,
             first ? fmt::format("{} touch {}", text_of(*first, footprint), at(t, error))
-                  : fmt::format("{} touch any more {}", words_of(kind_), at(t, error))};
+                  : fmt::format("{} {}", end_text(kind_), at(t, error))};
   }
 
  private:

@@ -45,6 +45,7 @@ Eigen::MatrixX3d bins_of(const Scene& scene, const Eigen::Matrix3Xd& x, const Ei
   if (K.size() == 0) return {};
   const auto ends = scene.actuated_boundary.row(0);
   const double middle = 0.5 * (ends.minCoeff() + ends.maxCoeff()), L = ends.maxCoeff() - middle;
+  if (!(L > 0)) return {};
   Eigen::VectorXd along(K.size());
   for (Eigen::Index k = 0; k < K.size(); ++k) {
     const auto& joints = scene.footprint.cells[std::size_t(k)].joints;
@@ -347,21 +348,19 @@ std::vector<const TimedState*> shown(const std::vector<TimedState>& all, double 
 
 }  // namespace
 
-std::vector<record::Frame> frames_in_motion(Simulation& simulation,
+std::vector<record::Frame> frames_in_motion(Simulation& simulation, double t,
                                             const std::vector<TimedState>& moments) {
   std::vector<record::Frame> frames;
   if (moments.empty()) return frames;
   const Scene& scene = simulation.scene();
   NestedShell& shell = simulation.shell();
   const RodMesh& mesh = shell.finest();
-  const MeshTransfer to_finest(mesh, shell.finest());
   Linearisation& system = shell.system();
+  shell.motion().apply_loads(system, t);
   for (const TimedState* moment : shown(moments, scene.footprint.spacing)) {
     const Eigen::Matrix3Xd nodes = nodes_of(mesh, shell.model(), moment->state.x);
-    Eigen::Matrix3Xd x;
-    to_finest.nodes(nodes, x);
     record::Frame frame;
-    fill_shape(scene, shell.finest(), x,
+    fill_shape(scene, mesh, nodes,
                cell_curvature(scene.footprint, joint_tangents(scene.footprint, mesh, nodes)),
                frame);
     system.gradient_at(moment->state);

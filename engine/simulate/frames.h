@@ -62,9 +62,10 @@ record::Frame frame_of(const Scene& scene, const RodMesh& mesh, const Model& mod
 /// The flat footprint as a frame at progress 0; straight rods are exact on any mesh.
 record::Frame flat_frame(Simulation& simulation);
 
-/// Frames of a snap in time, at most 24, evenly distributed until no motion is visible: positions,
-/// energies, K and the unbalanced force. Pivots and error are not known; `event` is "in motion".
-std::vector<record::Frame> frames_in_motion(Simulation& simulation,
+/// Frames of a snap in time under the loads at path parameter t, at most 24, evenly distributed
+/// until no motion is visible: positions, energies, K and the unbalanced force. Pivots and error
+/// are not known; `event` is "in motion".
+std::vector<record::Frame> frames_in_motion(Simulation& simulation, double t,
                                             const std::vector<TimedState>& moments);
 
 }  // namespace gridshell::simulate

@@ -209,7 +209,13 @@ std::optional<record::Frame> FramesBetween::between(double t, const Knots& knots
     return {};
   frame.nodes += nodes->leftCols(frame.nodes.cols());
   frame.cell_K = curvature(*nodes) + sum(weights.all, &Frame::cell_K);
-  frame.loads_N = sum(weights.all, &Frame::loads_N);
+  // a load step without a load has no column
+  for (std::size_t k = 0; k < knots.size(); ++k) {
+    const Eigen::Matrix3Xd& at_knot = knots[k]->frame.loads_N;
+    if (at_knot.cols() == 0) continue;
+    if (frame.loads_N.cols() == 0) frame.loads_N.setZero(3, at_knot.cols());
+    frame.loads_N += weights.all[Eigen::Index(k)] * at_knot;
+  }
   frame.axial_force_N = sum(weights.all, &Frame::axial_force_N);
   frame.brace_force_N = sum(weights.all, &Frame::brace_force_N);
   frame.bending_mJ_per_m = sum(weights.all, &Frame::bending_mJ_per_m).cwiseMax(0);

@@ -35,6 +35,10 @@ struct KeptSegment {
   std::vector<Event> events;
   Effort effort;
   std::vector<Softness> softening;
+  /// Path parameter since which no coarser mesh has a state; empty: one has.
+  std::optional<double> unmeasured_since;
+  /// Last state of the next coarser mesh on this branch; time: its path parameter.
+  std::optional<TimedState> companion;
 };
 
 /// The files of a folder, `segment_0001` and following. A segment is followed again if its file

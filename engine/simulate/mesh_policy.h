@@ -68,10 +68,9 @@ auto converged_path(const Scene& scene, const FollowPath& follow, const Watch& w
 /// A sentence on what a path's finest mesh and the next coarser one disagree on; empty: they agree.
 std::optional<std::string> not_confirmed(const EquilibriumPath& path);
 
-/// Compares two paths on different meshes: empty if they have the same segments with the same
-/// events, near each other, to the same end; else a sentence on the difference.
-std::optional<std::string> mesh_disagreement(const EquilibriumPath& coarse,
-                                             const EquilibriumPath& fine);
+/// Whether two paths on different meshes have the same segments with the same events, near each
+/// other, to the same end.
+bool meshes_agree(const EquilibriumPath& coarse, const EquilibriumPath& fine);
 
 /// Why a path is on finer meshes than its tolerance needs; empty: it is not.
 std::string why_so_fine(const EquilibriumPath& path);

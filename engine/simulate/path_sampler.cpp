@@ -124,7 +124,7 @@ Result<void> PathSampler::motions(const PathSample& sample, double past) {
     if (!here) here = path_.simulation.save();
     PathSample there = sample;
     there.t = landed;
-    for (record::Frame& frame : frames_in_motion(path_.simulation, snap.moments))
+    for (record::Frame& frame : frames_in_motion(path_.simulation, landed, snap.moments))
       if (auto taken = take(std::move(frame), there); !taken) return taken;
   }
   if (here) path_.simulation.restore(*here);

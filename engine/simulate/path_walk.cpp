@@ -17,19 +17,19 @@ constexpr std::size_t most_events = 8, most_events_in_contact = 64;
 }  // namespace
 
 void StabilityStepControl::take(const NestedState& state) {
-  if (known_.size() > 1) known_.erase(known_.begin());
   known_.push_back({state.t, state.lowest_eigenvalue});
-  largest_ = std::fmax(largest_, state.lowest_eigenvalue);
 }
 
 bool StabilityStepControl::near_zero() const {
   constexpr double low = 0.25;  // over the largest stiffness of the branch
-  return !known_.empty() && known_.back().stiffness < low * largest_;
+  double largest = 0;
+  for (const simulate::Softness& one : known_) largest = std::fmax(largest, one.stiffness);
+  return !known_.empty() && known_.back().stiffness < low * largest;
 }
 
 double StabilityStepControl::shortened(double step) const {
   if (known_.size() < 2) return step;
-  const auto &before = known_[0], &now = known_[1];
+  const auto &before = known_.end()[-2], &now = known_.back();
   const double fall = (before.stiffness - now.stiffness) / std::abs(now.t - before.t);
   // also where a stiffness is not known
   if (!(fall > 0)) return step;
@@ -112,11 +112,14 @@ bool Simulation::Walk::goes_on() {
   static_cast<PathRecord&>(*record_) = std::move(segment_.record);
   events_ = segment_.events;
   softening_.know(segment_.softening);
+  unmeasured_since_ = segment_.unmeasured_since;
+  companion_ = segment_.companion;
   const bool stays = std::ranges::any_of(events_, [](const Event& event) {
     return event.kind == Event::Kind::stability_lost && !event.to;
   });
   shell_.allow_unstable(leaving_.through_unstable || stays);
   shell_.back_to(segment_.state);
+  note_return();
   tell();
   return true;
 }
@@ -130,6 +133,8 @@ void Simulation::Walk::keep_segment(std::optional<Outcome> end) {
   segment_.events = events_;
   segment_.effort = of_.effort() - effort_before_;
   segment_.softening = softening_.known();
+  segment_.unmeasured_since = unmeasured_since_;
+  segment_.companion = companion_;
   // moved there and back, not copied, as it may be large
   std::swap<PathRecord>(segment_.record, *record_);
   kept_->keep(segment_);
@@ -156,12 +161,16 @@ Outcome Simulation::Walk::step() {
 
 Outcome Simulation::Walk::step_came(double next, const NestedState& good) {
   if (auto limit = of_.beyond(limits_)) return end_before(std::move(*limit), next, good);
-  if (from_beyond_ && !of_.beyond_limits()) {
-    limits_ = of_.limits();
-    from_beyond_ = false;
-  }
+  note_return();
   keep();
   return too_coarse() ? Outcome::too_coarse : Outcome::reached;
+}
+
+/// Whether a path that started past a limit has returned: the limit then applies as usual.
+void Simulation::Walk::note_return() {
+  if (!from_beyond_ || of_.beyond_limits()) return;
+  limits_ = of_.limits();
+  from_beyond_ = false;
 }
 
 /// Whether the path need not be followed further on this mesh: its error estimate is above the

@@ -18,7 +18,7 @@ class StabilityStepControl {
   /// Adds a load step that was certified.
   void take(const NestedState& state);
   /// Clears the history of the path, which continues from another state.
-  void forget() { known_.clear(), largest_ = 0; }
+  void forget() { known_.clear(); }
   /// The load step to take instead of `step`, at least an eighth of it.
   double shortened(double step) const;
   /// Whether the last stiffness is low enough for its error by the mesh to matter.
@@ -28,8 +28,7 @@ class StabilityStepControl {
   void know(std::vector<simulate::Softness> known) { known_ = std::move(known); }
 
  private:
-  std::vector<simulate::Softness> known_;  // at the last two load steps
-  double largest_ = 0;                     // stiffness of this branch
+  std::vector<simulate::Softness> known_;  // at the load steps of this branch
 };
 
 /// Follows one segment of the path: its load steps, its events, and the limit that ends it.
@@ -56,6 +55,7 @@ class Simulation::Walk {
   Outcome branch_ended(Outcome how, double next, const NestedState& good);
   Outcome end_at(Event limit);
   Outcome end_before(Event limit, double bad, const NestedState& good);
+  void note_return();
   bool too_coarse();
   double located_to() const;
   double parameter_scale(double t) const;

@@ -167,8 +167,8 @@ std::string near_image(const EquilibriumPath& path) {
   if (!(off < not_told_apart * scene.footprint.spacing)) return "";
   return fmt::format(
       "the state lies {:.2g} mm from its own image under a symmetry of the shell, "
-      "further than its error: it is one of several that nearly coincide, found by "
-      "chance, or finer meshes (a smaller [accuracy] tolerance) have it symmetric",
+      "more than its error: either several states nearly coincide and it is one of them by chance, "
+      "or on finer meshes (a smaller [accuracy] tolerance) it is symmetric",
       off);
 }
 
@@ -180,8 +180,11 @@ std::string late_on_branch(const EquilibriumPath& path) {
     for (const Event& event : segment.report.events)
       if (path.single_motion && !event.jump && event.to && std::abs(*event.to - event.t) > late)
         return fmt::format(
-            "of the branch that leaves the path at progress {:.4f} no state was found before "
-            "progress {:.4f}: which of several it is may depend on the mesh",
+            "a branch bifurcates from the path at progress {:.4f}, and its first state was found "
+            "at "
+            "progress {:.4f}: if several branches bifurcate there, which one it is may depend on "
+            "the "
+            "mesh",
             progress_at(event.t), progress_at(*event.to));
   return "";
 }
@@ -278,9 +281,8 @@ Result<EquilibriumPath> path_for(const preset::Preset& preset,
 std::string not_in_the_flat(const EquilibriumPath& path) {
   const Scene& scene = path.simulation.scene();
   std::string text =
-      "rods with natural curvature have no equilibrium in the flat, where all frames were "
-      "requested "
-      "for: ask for one nearer to the actuated boundary";
+      "rods with natural curvature have no equilibrium in the flat, for which all frames were "
+      "requested: request one nearer to the actuated boundary";
   if (path.segments.empty()) return text;
   double nearest = 1;  // to the flat
   for (const PathSegment& segment : path.segments)

@@ -201,6 +201,7 @@ Report Simulation::begin_flat() {
     flat.x = nodes_of(shell_->mesh(k), shell_->model(k), flat.levels.back().x);
   }
   shell_->restore(flat, shell_->motions(), {});
+  holds_.clear();
   actuating_ = true;
   set_progress(0);
   return report(Outcome::reached, 0, begin);

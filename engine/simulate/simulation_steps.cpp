@@ -24,9 +24,7 @@ std::vector<NodeAction> times(std::vector<NodeAction> actions, double factor) {
 
 }  // namespace
 
-LoadFactor Simulation::steady_load() const {
-  return {actuating_ ? load_scale_ * progress_ : load_scale_, 0};
-}
+LoadFactor Simulation::steady_load() const { return {load_scale_ * progress_, 0}; }
 
 void Simulation::apply_field(std::vector<NodeAction> field) {
   field_ = std::move(field);
@@ -147,17 +145,18 @@ Report Simulation::release(int joint, const Watch& watch) {
 }
 
 Report Simulation::load(double factor, const Watch& watch) {
-  const LoadFactor now = steady_load();
-  Report done = drive({.holds = holds_, .load = {now.begin, factor - now.begin}}, {}, watch);
-  load_scale_ = now.begin + done.t * (factor - now.begin);
+  const double change = factor - load_scale_;
+  const LoadFactor load{steady_load().begin, change * progress_};
+  Report done = drive({.holds = holds_, .load = load}, {}, watch);
+  load_scale_ += done.t * change;
   return done;
 }
 
 Report Simulation::set_field(std::vector<NodeAction> field, const Watch& watch, double dead) {
-  const LoadFactor load{steady_load().begin, dead};
+  const LoadFactor load{steady_load().begin, dead * progress_};
   const std::vector<NodeAction> coming = difference(field, field_);
   Report done = drive({.holds = holds_, .load = load, .field = {0, 1}}, coming, watch);
-  if (dead != 0) load_scale_ = load.begin + done.t * dead;
+  load_scale_ += done.t * dead;
   if (done.end == Outcome::reached) apply_field(std::move(field));
   return done;
 }

@@ -50,7 +50,9 @@ double mean_shortening(const RodMesh& mesh, const PinnedMotion& motion, double t
     }
   }
   // if no rod is constrained at two points: the contraction of all constrained points
-  return lengths > 0 ? 1 - chords / lengths : 1 - spread(mesh, x) / spread(mesh, motion.at(0));
+  if (lengths > 0) return 1 - chords / lengths;
+  const double before = spread(mesh, motion.at(0));
+  return before > 0 ? 1 - spread(mesh, x) / before : 0;
 }
 
 Result<double> parameter_of_shortening(const RodMesh& mesh, const PinnedMotion& motion,

@@ -142,6 +142,10 @@ class Descent {
       system_.restore_lengths(force + step * change, trial_);
       if (falls(step) && clear()) break;
     }
+    if (!(step > 1e-10)) {  // none: the trial may have passed rods through one another
+      trial_ = state_;
+      move_to(system_.model(), state_.x + step * dx, trial_);
+    }
     std::swap(state_, trial_);
     state_.force = force + step * change;
     return true;
@@ -275,17 +279,17 @@ Result<State> minimise_from(Linearisation& system, State state, const Watch& wat
   if (watch.cancelled()) return fail(Fault::cancelled, "stopped while looking for an equilibrium");
   if (down.outcome == Outcome::lost)
     return fail(Fault::no_equilibrium,
-                "rods that press on one another, or cross without a joint, leave no path to an "
-                "equilibrium");
+                "no equilibrium can be reached without rods passing through each other");
   // the corrections have converged, but not to a minimum: the state is a saddle
   if (down.outcome == Outcome::not_converged && down.last_move_mm < 1e-3) {
     system.at(state, false);
     return leave_saddle(system, state, softest_mode(system, departure.start, watch), departure,
                         watch);
   }
-  return fail(Fault::no_equilibrium,
-              fmt::format("no equilibrium after {} iterations; the last moved a node by {:.2g} mm",
-                          down.iterations, down.last_move_mm));
+  return fail(
+      Fault::no_equilibrium,
+      fmt::format("no equilibrium after {} iterations; the last moved a node by {:.2g} mm",
+                  std::min(down.iterations, MinimiseOptions{}.most_iterations), down.last_move_mm));
 }
 
 Result<State> find_equilibrium(Linearisation& system, const State& state, double farthest_mm,

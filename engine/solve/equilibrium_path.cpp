@@ -23,6 +23,7 @@ PathFollower::PathFollower(Linearisation& system, const PinnedMotion& motion,
 void PathFollower::resume(const PathPoint& point, const PathPoint* across) {
   motion_.apply_loads(system_, point.t);
   now_ = point;
+  last_ = {};
   has_before_ = false;
   across_ = nullptr;
   if (!across || across->velocity.x.size() == 0 || point.velocity.x.size() == 0) return;
@@ -170,7 +171,6 @@ PathReport PathFollower::advance(double t, const Watch& watch) {
     if (h < std::abs(left) && 2 * h > std::abs(left)) h = std::abs(left) / 2;
     const double target = h == std::abs(left) ? t : now_.t + std::copysign(h, left);
     const Outcome outcome = step(target, exact || target == t, report.last, watch);
-    ++report.steps;
     if (outcome == Outcome::reached) {
       report.t = now_.t;
       // the error of the prediction is of third order in h
@@ -179,7 +179,6 @@ PathReport PathFollower::advance(double t, const Watch& watch) {
       now_.step = std::max(h * std::clamp(grow, 0.4, 2.5), options_.smallest_step);
       continue;
     }
-    ++report.halvings;
     now_.step = h / 2;
     if (now_.step >= options_.smallest_step) continue;
     // points that are corrected only once may be past the end of the path: follow it again exactly

@@ -44,8 +44,7 @@ struct PathOptions {
 struct PathReport {
   Outcome end = Outcome::reached;  ///< reached, unstable, folded, lost, not_finite or cancelled
   double t = 0;                    ///< path parameter up to which the path is certified
-  int steps = 0, halvings = 0;
-  NewtonReport last;  ///< Newton's report of the last converged point
+  NewtonReport last;               ///< Newton's report of the last converged point
 };
 
 /// Follows one model along one motion of its pinned nodes, forwards or backwards. It stores the

@@ -41,10 +41,6 @@ double left_by_order(const Eigen::Matrix3Xd& step, const Eigen::Matrix3Xd& befor
   return std::min(std::abs(1 / (ratio - 1) - 1.0 / 3), 1.0) * max_column_norm(step);
 }
 
-}  // namespace
-
-namespace {
-
 constexpr double roughly = 0.02;  // relative accuracy of the lowest eigenvalue: its trend is used
 
 /// Length of rod lumped at each node, mm.

@@ -282,7 +282,7 @@ double lowest_eigenvalue(Linearisation& system, const Eigen::VectorXd& length, E
     v = next / next.norm();
     if (k >= least_iterations && std::abs(before - lambda) <= converged * lambda) break;
   }
-  return lambda;
+  return watch.cancelled() ? std::numeric_limits<double>::quiet_NaN() : lambda;
 }
 
 namespace {
@@ -318,14 +318,12 @@ NewtonReport newton(Linearisation& system, State& state, const NewtonOptions& op
     return report;
   };
   const NextCorrection next_move(system.model());
-  bool borrowed = options.factored.has_value(), factor = !borrowed;
-  if (borrowed) report.inertia = *options.factored;
-  double before = borrowed ? std::numeric_limits<double>::infinity() : 0;
+  bool factor = true;
+  double before = 0;
   for (report.iterations = 1; report.iterations <= options.most_iterations; ++report.iterations) {
     if (watch.cancelled()) return end(Outcome::cancelled);
     if (factor) {
       report.inertia = system.at(state);
-      borrowed = false;
     } else {
       system.residual_at(state);
     }
@@ -354,10 +352,7 @@ NewtonReport newton(Linearisation& system, State& state, const NewtonOptions& op
     const auto forces_agree = [&] {
       return !options.trusted_misfit || system.forces_agree(state, *options.trusted_misfit);
     };
-    // with a factor of another state, the first correction alone does not show convergence
-    const bool doubtful = borrowed && (report.iterations == 1 || move > 0.1 * before);
-    if (move <= options.tolerance_mm && !doubtful && (!borrowed || forces_agree()))
-      return end(Outcome::reached);
+    if (move <= options.tolerance_mm) return end(Outcome::reached);
     if (factor && next_move.after(move) <= options.trusted_mm && forces_agree())
       return end(Outcome::reached);
     // an old factorisation is used near the end only, and while corrections decrease tenfold

@@ -194,9 +194,6 @@ struct NewtonOptions {
   std::optional<double> trusted_misfit = {};
   double farthest_mm = 1e300;  ///< a correction that moves a node further is refused: lost
   double widest_turn = -0.5;   ///< adjacent edges with a smaller cosine of their angle have folded
-  /// Inertia of an existing factorisation of a state nearby, with which the first two corrections
-  /// are computed; they show whether it converges. Empty: there is none.
-  std::optional<Inertia> factored = {};
 };
 
 struct NewtonReport {
@@ -207,7 +204,7 @@ struct NewtonReport {
   double last_move_mm = 0;
   double factored_move_mm =
       0;            ///< sum since the last factorisation, including the first correction with it
-  Inertia inertia;  ///< of the last factorisation (mixed form), or `factored`
+  Inertia inertia;  ///< of the last factorisation (mixed form)
 };
 
 /// Full mixed Newton steps from `state` with the constraints; a factorisation is reused as long as

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "engine/core/file_io.h"
+#include "engine/simulate/path_walk.h"
 #include "tests/engine/simulate/run.h"
 #include "tests/temporary_folder.h"
 
@@ -111,4 +112,18 @@ TEST_CASE("a segment that begins elsewhere is none of the run") {
   CHECK(KeptSegments(folder).next(segment.begin)->end == Outcome::reached);
   CHECK_FALSE(KeptSegments(folder).next({8, 0, 1, {4, 8}}));
   CHECK_FALSE(KeptSegments(folder).next({7, 0, 1, {4, 8, 16}}));
+}
+
+TEST_CASE("the history of the lowest stiffness is complete after a restart") {
+  StabilityStepControl whole, restarted;
+  for (const double stiffness : {10.0, 6.0, 3.0, 2.0}) {
+    NestedState state;
+    state.t = 1 / stiffness;
+    state.lowest_eigenvalue = stiffness;
+    whole.take(state);
+  }
+  CHECK(whole.near_zero());
+  restarted.know(whole.known());
+  CHECK(restarted.near_zero());
+  CHECK(restarted.shortened(1) == whole.shortened(1));
 }

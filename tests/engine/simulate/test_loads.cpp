@@ -303,3 +303,20 @@ TEST_CASE("a cable net hangs as its lengths allow") {
       zero_of([&](double of) { return 4 * EA * (1 / std::cos(of) - 1) * std::sin(of) - P; }, 0, 1);
   CHECK(-last_frame(outcome).nodes(2, 0) == Approx(100 * std::tan(angle)).epsilon(1e-3));
 }
+
+TEST_CASE("frames next to an unloaded start have their loads") {
+  preset::NetworkData file;
+  file.points = {{0, 0, 0}, {50, 0, 0}, {100, 0, 0}, {50, -40, 0}, {50, 40, 0}};
+  file.rods = {{0, 1, 2}, {3, 1, 4}};
+  file.supports = {{0}, {2}, {3}, {4}};
+  preset::Preset p = network(file);
+  p.loads.points = {{1, 0, 0, 0, -0.05}};
+  p.movie.frames = 60;
+  const auto frames = run_to_end(p).trajectory.frames;
+  REQUIRE(frames.size() == 60);
+  CHECK(frames[1].kind == "interpolated");
+  for (std::size_t k = 1; k < frames.size(); ++k) {
+    REQUIRE(frames[k].loads_N.cols() > 0);
+    CHECK(frames[k].loads_N.row(2).sum() == Approx(-0.05 * frames[k].progress).epsilon(1e-6));
+  }
+}
