@@ -261,7 +261,7 @@ TEST_CASE("dead loads stay as they are while joints are pushed at half the actua
   CHECK(session.shell().outside(session.shell().last()).load == Approx(load));
   certified(session, session.release(7, unwatched));
   certified(session, session.release(12, unwatched));
-  // a factor counts for the rest of the actuation as well
+  // a factor counts for all of the actuation
   certified(session, session.load(2, unwatched));
   CHECK(session.steady_load().begin == Approx(2 * load));
   const double before = session.energies()[Term::load];
