@@ -183,12 +183,12 @@ Result<PlanDrawing> read_obj_outline(std::string_view bytes, const std::string& 
 Result<NetworkData> largest_loop(const PlanDrawing& drawing, const std::string& name,
                                  double join_mm, FileReport& report) {
   constexpr double touching = 1e-6;  // distance of ends that meet, over the drawing's size
-  constexpr double largest = 1e9;    // coordinate, in the drawing's unit and in mm
+  constexpr double farthest = 1e9;   // coordinate, in the drawing's unit and in mm
   Eigen::AlignedBox2d box;
   for (const PlanLine& line : drawing.lines)
     for (const Eigen::Vector2d& point : line.points) {
       const double far = point.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
-      if (!(far <= largest && drawing.unit_mm * far <= largest))
+      if (!(far <= farthest && drawing.unit_mm * far <= farthest))
         return invalid("{}: got a coordinate that is too large, expected at most 1e9 mm", name);
       box.extend(point);
     }

@@ -50,6 +50,26 @@ bool segments_meet(const Vector2d& a, const Vector2d& b, const Vector2d& c, cons
   return side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b);
 }
 
+/// Index of the first segment of a closed polyline that meets another one, which is no neighbour;
+/// the number of points if there is none.
+std::size_t first_crossing(const std::vector<Vector2d>& p) {
+  const std::size_t n = p.size() - 1;
+  const auto low = [&](std::size_t k) { return std::min(p[k].x(), p[k + 1].x()); };
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::sort(order, {}, low);
+  std::size_t first = p.size();
+  for (std::size_t a = 0; a < n; ++a) {
+    const double high = std::max(p[order[a]].x(), p[order[a] + 1].x());
+    for (std::size_t b = a + 1; b < n && low(order[b]) <= high; ++b) {
+      const auto [i, j] = std::minmax(order[a], order[b]);
+      if (j >= i + 2 && j < n + i - 1 && i < first && segments_meet(p[i], p[i + 1], p[j], p[j + 1]))
+        first = i;
+    }
+  }
+  return first;
+}
+
 /// All t at which the ray from the origin at `angle` meets the curve.
 std::vector<double> on_ray(const ClosedCurve& curve, double angle) {
   // axes along and across the ray
@@ -102,12 +122,9 @@ Result<ClosedCurve> ClosedCurve::make(std::function<Point(double)> at, std::vect
   curve.breaks_ = std::move(breaks);
   std::vector<Vector2d> p;
   for (const double t : curve.samples()) p.push_back(curve.at_(t).position);
-  const std::size_t n = p.size() - 1;
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = i + 2; j < n && j < n + i - 1; ++j)
-      if (segments_meet(p[i], p[i + 1], p[j], p[j + 1]))
-        return invalid("the closed curve crosses itself near ({:.6g}, {:.6g}) mm", p[i].x(),
-                       p[i].y());
+  if (const auto at = first_crossing(p); at < p.size())
+    return invalid("the closed curve crosses itself near ({:.6g}, {:.6g}) mm", p[at].x(),
+                   p[at].y());
   const auto speed = [at = curve.at_](double s) { return at(s).first.norm(); };
   curve.length_ = std::make_shared<const Antiderivative>(speed, curve.breaks_, 0);
   return curve;

@@ -32,6 +32,7 @@ std::string put_own(const RodValue& own, Preset& preset) {
     std::vector<std::string> known{"points", "diameter_mm"};
     for (const Field& one : field_table())
       if (is_own(one)) known.push_back(one.key);
+    std::erase(known, own.key);
     return fmt::format(
         "got an unknown key '{}', expected points, diameter_mm or another key of [rod] that is a "
         "number "

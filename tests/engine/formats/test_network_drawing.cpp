@@ -231,7 +231,10 @@ TEST_CASE("a polyline without points is no mark of a point, and no crash") {
                Catch::Contains("got no closed outline: 1 open line"));
   }
   // numbers outside the range of integers
-  CHECK(read(entity("SPLINE", "8 0 71 1e300 10 0 20 0 10 9 20 0") + grid(), {},
-             section("HEADER", "9\n$INSUNITS\n70\n1e300\n"))
-            .network.rods.size() == 6);
+  CHECK(read(grid(), {}, section("HEADER", "9\n$INSUNITS\n70\n1e300\n")).network.rods.size() == 6);
+  CHECK_THAT(refused(entity("SPLINE", "8 0 71 1e300 10 0 20 0 10 9 20 0") + grid()),
+             Catch::Contains("numbers of knots and points"));
+  CHECK_THAT(
+      refusal(read_network("OFF\n9223372036854775807 9223372036854775807 0\n0 0 0\n", "a.off")),
+      Catch::Contains("a.off:2: got no OFF"));
 }

@@ -78,10 +78,10 @@ TEST_CASE("a swept file is next to the preset, and read by its other keys") {
   };
   REQUIRE(write_file(folder / "a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nl 1 2 3 4 1\n"));
   const std::string text =
-      "[footprint]\nkind = \"curve\"\nboundary = \"file\"\nfile_unit = \"m\"\n" +
+      "[footprint]\nkind = \"curve\"\nboundary = \"file\"\nfile = \"a.obj\"\nfile_unit = \"m\"\n" +
       over("footprint.file = [\"a.obj\"]");
   const SweepGrid grid(value_of(read(text)));
-  const Footprint& found = grid.at(0).preset.footprint;
+  const auto found = grid.at(0).preset.footprint;
   REQUIRE(found.file.points.size() == 4);
   CHECK(found.file.points[2] == std::vector<double>{1000, 1000, 0});
   CHECK(found.file_unit == FileUnit::file);
