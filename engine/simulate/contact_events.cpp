@@ -72,6 +72,7 @@ class Bracket {
 /// Writhe of a closed polygon, one column per corner: the sum of the signed solid angles of all
 /// pairs of edges, over 2 pi [Klenin, Langowski 2000, method 1a].
 double writhe_of(const Eigen::Matrix3Xd& corners) {
+  constexpr double flat = 1e-12;  // relative volume that rounding leaves
   const Eigen::Index count = corners.cols();
   double sum = 0;
   for (Eigen::Index i = 0; i < count; ++i)
@@ -79,13 +80,16 @@ double writhe_of(const Eigen::Matrix3Xd& corners) {
       if (i == 0 && j + 1 == count) continue;  // adjacent edges contribute nothing
       const Eigen::Vector3d a = corners.col(i), b = corners.col(i + 1), c = corners.col(j),
                             d = corners.col((j + 1) % count);
+      const double volume = (d - c).cross(b - a).dot(c - a);
+      // in one plane they see nothing of one another either; on one line rounding gives the normals
+      if (std::abs(volume) < flat * (d - c).norm() * (b - a).norm() * (c - a).norm()) continue;
       const std::array<Eigen::Vector3d, 4> sides{
           (c - a).cross(d - a).stableNormalized(), (d - a).cross(d - b).stableNormalized(),
           (d - b).cross(c - b).stableNormalized(), (c - b).cross(c - a).stableNormalized()};
       double angle = 0;
       for (std::size_t k = 0; k < 4; ++k)
         angle += std::asin(std::clamp(sides[k].dot(sides[(k + 1) % 4]), -1.0, 1.0));
-      sum += std::copysign(angle, (d - c).cross(b - a).dot(c - a));
+      sum += std::copysign(angle, volume);
     }
   return sum / (2 * std::numbers::pi);
 }

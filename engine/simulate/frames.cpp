@@ -95,7 +95,8 @@ void put_forces(const Simulation& simulation, record::Frame& frame) {
   }
   const bool extrapolate = shell.extrapolates_forces();
   const bool no_order = order_unknown(by_term.back());
-  CertifiedVectors force = certify_vectors(reactions, extrapolate, no_order);
+  CertifiedVectors force =
+      certify_reactions(reactions, extrapolate, shell.model(last), by_term.back());
   put_reactions(std::move(force.value), frame);
   frame.force_error_N = force.error;
   frame.loads_N = loads_on(shell.finest(), shell.model(last), shell.state().levels.back().x,

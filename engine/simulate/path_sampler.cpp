@@ -54,7 +54,9 @@ Result<void> PathSampler::all(const std::vector<PathSample>& samples) {
 
 Result<bool> PathSampler::at(const PathSample& sample) {
   if (!between_) between_ = std::make_shared<FramesBetween>(path_, caption_.measure, watch_);
-  if (auto frame = between_->at(sample)) {
+  // the final state is solved: its residual and stability are those of the result
+  auto frame = sample.progress < 1 ? between_->at(sample) : std::nullopt;
+  if (frame) {
     TRY_DO(motions(sample, sample.t));
     return take_at(std::move(*frame), sample, events(sample, sample.t), sample.t).map([] {
       return true;

@@ -268,6 +268,16 @@ CertifiedVectors certify_vectors(const std::vector<Eigen::Matrix3Xd>& levels, bo
   return found;
 }
 
+CertifiedVectors certify_reactions(const std::vector<Eigen::Matrix3Xd>& levels, bool extrapolate,
+                                   const Model& model, const Energies& energies) {
+  CertifiedVectors found = certify_vectors(levels, extrapolate, order_unknown(energies));
+  const bool moments =
+      !model.hinges.empty() || !std::get<std::vector<Pair<JointSpin>>>(model.pairs).empty();
+  if (moments && levels.size() == 2)
+    found.error = std::max(found.error, max_column_norm(levels[1] - levels[0]));
+  return found;
+}
+
 /// Forces at the prescribed joints of a level, and their stiffness by its last factorisation, which
 /// is one correction before the state.
 NestedShell::HeldForces NestedShell::held_forces(Level& level, const State& state) const {
@@ -291,9 +301,9 @@ void NestedShell::take_reactions(const std::vector<HeldForces>& levels) {
   }
   const Level& finest = *levels_.back();
   const bool extrapolate = extrapolates_forces();
-  const bool no_order = order_unknown(finest.system->assembly().energies);
-  const CertifiedVectors force = certify_vectors(forces, extrapolate, no_order),
-                         tangent = certify_vectors(stiffness, extrapolate, no_order);
+  const Energies& energies = finest.system->assembly().energies;
+  const CertifiedVectors force = certify_reactions(forces, extrapolate, finest.model, energies),
+                         tangent = certify_vectors(stiffness, extrapolate, order_unknown(energies));
   state_.reactions.clear();
   for (const auto& reaction : force.value.colwise()) state_.reactions.emplace_back(reaction);
   state_.reaction_error_N = force.error;

@@ -119,6 +119,8 @@ bool NestedShell::measure_on(std::size_t k, const State& base, const NestedState
           correct(level, base, turned, report, watch))
         trial = std::move(turned);
     }
+    // its remaining residual would be a part of the differences between the meshes
+    polish(level, trial, report);
     state_.levels[k] = std::move(trial);
     return true;
   }

@@ -63,6 +63,12 @@ bool order_unknown(const Energies& energies);
 CertifiedVectors certify_vectors(const std::vector<Eigen::Matrix3Xd>& levels, bool extrapolate,
                                  bool no_order);
 
+/// Reactions of constrained nodes from `levels`, N. On two meshes of a model whose joints pass
+/// moments the error is the complete difference: the moment at a joint bends the legs next to it,
+/// and at four edges per segment errors of second and of fourth order may cancel there.
+CertifiedVectors certify_reactions(const std::vector<Eigen::Matrix3Xd>& levels, bool extrapolate,
+                                   const Model& model, const Energies& energies);
+
 /// Difference between a coarser level's state and the finer state restricted to its mesh. It
 /// predicts the coarser level's next state, so single precision is enough.
 struct MeshDifference {

@@ -169,3 +169,9 @@ TEST_CASE("a rod that is closed keeps the twist of its natural shape") {
           Approx(0.5 * GJ * twist * twist * L).epsilon(1e-6));
   }
 }
+
+TEST_CASE("a plane ring of many edges on straight lines does not pass through itself") {
+  preset::Preset p = drawn(ring(50, 48), 8);
+  p.rod.twist_rad_per_mm = 0.9 * std::sqrt(3.0) * EI / GJ / 50;
+  CHECK(run(p).summary.contact == "");
+}

@@ -77,6 +77,22 @@ TEST_CASE("curvature gives the bending energy, stretch the axial force, as one m
   }
 }
 
+TEST_CASE("where joints pass moments, reactions on two meshes are within twice their errors") {
+  preset::Preset p = circle(4, 94.56, 65.82, 5);
+  p.rod.shear_GPa = 31;
+  p.joints.twist_Nmm = 3.278;
+  p.accuracy.tolerance = 3.4e-3;
+  const auto coarse = run(p);
+  p.accuracy.tolerance /= 64;
+  const auto fine = run(p);
+  for (std::size_t k = 0; k < coarse.trajectory.frames.size(); ++k) {
+    const record::Frame &frame = coarse.trajectory.frames[k], &exact = fine.trajectory.frames[k];
+    INFO("progress " << frame.progress);
+    CHECK(max_column_norm(frame.reactions_N - exact.reactions_N) <=
+          2 * frame.force_error_N + exact.force_error_N);
+  }
+}
+
 TEST_CASE("bending over length adds up to the bending energy, of any section and end") {
   preset::Preset p = four_rods();
   p.accuracy.edges_per_segment = 8;

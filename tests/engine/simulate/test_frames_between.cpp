@@ -92,6 +92,19 @@ TEST_CASE("frames of a push, with its force, are interpolated between load steps
   CHECK(interpolated_frames(path, closely, 40) > 25);
 }
 
+TEST_CASE("the final frame is solved, also where load steps lie on both sides of it") {
+  preset::NetworkData file;
+  file.points = {{-100, 0, 0}, {0, 0, 0}, {100, 0, 0}, {0, -100, 0}, {0, 100, 0}};
+  file.rods = {{0, 1, 2}, {3, 1, 4}};
+  file.supports = {{0, -99, 0, 0}, {2, 99, 0, 0}, {3}, {4}};
+  preset::Preset p = network(file);
+  p.limits.max_strain = 0.1;
+  p.accuracy.tolerance = 1e-4;
+  const auto outcome = run_to_end(p);
+  CHECK(last_frame(outcome).kind == "solved");
+  CHECK(outcome.summary.residual_N < 1e-8);
+}
+
 TEST_CASE("no frame is interpolated over a bifurcation", "[standard]") {
   EquilibriumPath path = actuated(circle(12, 126, 94.5, 5));
   const PathSegment& segment = path.segments[0];
