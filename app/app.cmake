@@ -36,7 +36,7 @@ target_include_directories(gridshell_app SYSTEM PUBLIC ${GL_CORE_INCLUDE_DIR})
 gridshell_position_independent(gridshell_app)
 gridshell_compile_lightly(gridshell_app)
 # headers that most of its files include
-gridshell_read_once(gridshell_app ${read_by_all} ${PROJECT_SOURCE_DIR}/engine/gridshell.h
+gridshell_read_once(gridshell_app ${PROJECT_SOURCE_DIR}/engine/gridshell.h
   ${PROJECT_SOURCE_DIR}/engine/core/json.h)
 gridshell_in_batches(gridshell_app 8)
 

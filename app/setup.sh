@@ -34,7 +34,7 @@ apt_install() {
 install_packages() {
   later=""
   if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
-    echo "This is no Debian: make sure that the counterparts of these are installed:" \
+    echo "This is not Debian: install the packages of this system that contain the same as these:" \
       $build_packages $run_packages $test_build_packages $test_run_packages >&2
     return 0
   fi
@@ -60,7 +60,7 @@ install_packages() {
     if apt-cache show "$package" >/dev/null 2>&1; then
       runs="$runs $package"
     else
-      echo "This system has no package $package: the test that takes it is skipped" >&2
+      echo "This system has no package $package: the test that needs it is skipped" >&2
     fi
   done
   [ -z "$missing" ] || apt_install "$missing" || return 1

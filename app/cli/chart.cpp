@@ -38,14 +38,14 @@ struct ChartReport {
   Json summary = Json::object();
 };
 
-std::string place_of(const BranchPoint& point, double original_radius_mm) {
+std::string position_text(const BranchPoint& point, double original_radius_mm) {
   if (!std::isfinite(point.boundary_radius_mm))
     return fmt::format("progress {:.4f}", point.progress);
   return fmt::format("R_a = {:.4f} R_o", point.boundary_radius_mm / original_radius_mm);
 }
 
 /// Appends a line for each branch: "branch 1: 88 points, 80 of them stable; bifurcation at ...".
-void tell(const study::BranchDiagram& diagram, ChartReport& findings) {
+void append_branches(const study::BranchDiagram& diagram, ChartReport& findings) {
   const auto& points = diagram.points;
   const int last = points.empty() ? -1 : points.back().branch;
   for (int branch = 0; branch <= last; ++branch) {
@@ -57,7 +57,7 @@ void tell(const study::BranchDiagram& diagram, ChartReport& findings) {
       stable += point.stable();
       if (point.event != BranchEvent::none)
         events += fmt::format("; {} at {}", word_of(point.event),
-                              place_of(point, diagram.original_radius_mm));
+                              position_text(point, diagram.original_radius_mm));
     }
     findings.text += fmt::format("{}: {} points, {} of them stable{}\n",
                                  branch == 0 ? "the path" : fmt::format("branch {}", branch), count,
@@ -77,10 +77,10 @@ Result<ChartReport> draw_branches(const preset::Preset& preset, const fs::path& 
                       {"symmetry_order", found->symmetry_order},
                       {"all_followed", found->all_followed}};
   findings.text = fmt::format(
-      "on {} edges per segment; the amplitude is of what breaks {} of the "
-      "symmetries of the square\n",
+      "on {} edges per segment; the path has {} of the 8 symmetries of the square, and the "
+      "amplitude is of the displacement that breaks them\n",
       found->edges_per_segment, found->symmetry_order);
-  tell(*found, findings);
+  append_branches(*found, findings);
   if (!found->all_followed) findings.text += "there are more branches than were followed\n";
   return findings;
 }
@@ -106,6 +106,7 @@ Result<std::vector<int>> sizes_in(const std::string& text) {
       return invalid("--sizes {}: '{}' is no number of rods from 4 to 400", text, word);
     sizes.push_back(*rods);
   }
+  if (sizes.empty()) return invalid("--sizes {}: expected at least one number of rods", text);
   return sizes;
 }
 
@@ -150,8 +151,8 @@ Result<ChartReport> draw_accuracy(const preset::Preset& preset, const ChartOptio
   findings.summary["reference_error"] = found->reference_error;
   for (const auto& at : found->standings) {
     findings.text += fmt::format(
-        "auto at {:.0e}: error {:.1e} in {:.3f} s, {:.2f} of the fastest as accurate, {:.2f} of "
-        "the fastest within the tolerance\n",
+        "auto at {:.0e}: error {:.1e} in {:.3f} s, {:.2f} times as long as the fastest method that "
+        "is as accurate, {:.2f} times as long as the fastest within the tolerance\n",
         at.tolerance, at.error, at.cpu_s, at.cpu_s / at.front_s, at.cpu_s / at.asked_s);
     findings.summary["auto"].push_back({{"tolerance", at.tolerance},
                                         {"error", at.error},
@@ -204,13 +205,11 @@ Result<void> draw(const preset::Case& run, const ChartOptions& options, const fs
   Watch& watch = progress.next_phase();
   TRY_DO(make_folder(folder));
   TRY_DO(write_file(folder / "preset.toml", saved_preset(preset::to_toml(run.preset))));
-  auto findings = options.kind == "accuracy"   ? draw_accuracy(run.preset, options, folder, watch)
-                  : options.kind == "branches" ? draw_branches(run.preset, folder, watch)
-                                               : draw_stability(run.preset, options, folder, watch);
-  if (!findings) {
-    findings.error().message = run.preset.name + ": " + findings.error().message;
-    return tl::unexpected(findings.error());
-  }
+  TRY(findings, with_name_of(run.preset, options.kind == "accuracy"
+                                             ? draw_accuracy(run.preset, options, folder, watch)
+                                         : options.kind == "branches"
+                                             ? draw_branches(run.preset, folder, watch)
+                                             : draw_stability(run.preset, options, folder, watch)));
   summary = {{"preset", run.preset.name}, {"chart", options.kind}};
   summary.update(findings->summary);
   text += (run.name.empty() ? "" : run.name + ":\n") + findings->text;

@@ -7,7 +7,9 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/console.h"
+#include "app/cli/delivery.h"
 #include "app/cli/figures.h"
+#include "app/cli/paper_page.h"
 #include "app/cli/pictures.h"
 #include "app/cli/preset_library.h"
 #include "app/cli/staged_folder.h"
@@ -17,8 +19,15 @@
 namespace gridshell::app {
 namespace {
 
-std::string or_unknown(double value, const char* unit) {
-  return std::isnan(value) ? "unknown" : fmt::format("{:.2g} {}", value, unit);
+std::string length_or_unknown(double mm) {
+  return std::isnan(mm) ? "unknown" : fmt::format("{:.2g} mm", mm);
+}
+
+/// "6 s", "5:10 min", "1:05:10 h".
+std::string time_or_unknown(double seconds) {
+  if (std::isnan(seconds)) return "unknown";
+  if (seconds < 59.5) return fmt::format("{:.2g} s", seconds);
+  return time_text(seconds) + (seconds <= 3599 ? " min" : " h");
 }
 
 /// The joint that [indentation] pushes, as far as it is known before the shell is formed.
@@ -86,7 +95,7 @@ std::string sweep_text(const preset::Presets& presets, const preset::SweepGrid& 
   if (cases > 1) text += fmt::format(", {} cases", cases);
   if (std::isfinite(seconds))
     text += fmt::format("; {} one after the other, if all take as long as this one",
-                        or_unknown(seconds / double(cases) * double(grid.size()), "s"));
+                        time_or_unknown(seconds / double(cases) * double(grid.size())));
   return text + " ('gridshell sweep')";
 }
 
@@ -112,13 +121,13 @@ void print_plan(const preset::Preset& preset, const simulate::Plan& plan) {
                preset.jitter.trials, word_of(preset.jitter.mode), preset.jitter.confined);
   for (const std::string& line : what_is_done(preset, *plan.scene)) fmt::print("  {}\n", line);
   fmt::print("  memory          about {:.1g} GB\n", plan.memory_GB);
-  fmt::print("  expected error  {}\n", or_unknown(plan.expected_error_mm, "mm"));
+  fmt::print("  expected error  {}\n", length_or_unknown(plan.expected_error_mm));
   if (!plan.bending.empty()) fmt::print("  bending         {}\n", plan.bending);
   for (const auto& sentence : plan.left_out) fmt::print("  left out        {}\n", sentence);
   fmt::print("  expected time   {} to simulate, {} to draw the movie, {} the figure\n",
-             or_unknown(plan.expected_seconds, "s"),
-             or_unknown(expected_seconds(Pictures::movie, preset), "s"),
-             or_unknown(expected_seconds(Pictures::stills, preset), "s"));
+             time_or_unknown(plan.expected_seconds),
+             time_or_unknown(expected_seconds(Pictures::movie, preset)),
+             time_or_unknown(expected_seconds(Pictures::stills, preset)));
 }
 
 }  // namespace
@@ -134,6 +143,7 @@ Result<int> check(const Options& options) {
     return invalid("cannot write the folder '{}': {}", folder.string(), because);
   const preset::SweepGrid grid(*presets);
   if (grid.size() > 0) TRY_DO(check_sweep(*presets));
+  TRY_DO(check_page(runs_of(*presets)));
   double seconds = 0;
   std::vector<std::string> drawn;
   for (const auto& run : runs_of(*presets)) {
@@ -141,7 +151,7 @@ Result<int> check(const Options& options) {
     if (!plan) {
       Error error = plan.error();
       if (refused_net(run.preset))
-        error.message += "\n'gridshell figure' draws the net as far as it comes";
+        error.message += "\n'gridshell figure' draws the net up to the position where it ends";
       for (const std::string& note : presets->notes) error.message += "\nnote: " + note;
       return tl::unexpected(error);
     }

@@ -77,10 +77,10 @@ Result<void> update_baselines(const fs::path& before, const std::vector<render::
   }
   if (changed.empty()) return {};
   std::error_code missing;
-  std::string text = "# Why the kept pictures changed\n\n";
+  std::string text = "# Why the saved pictures changed\n\n";
   if (fs::exists(before / "WHY.md", missing)) {
-    TRY(kept, read_file(before / "WHY.md"));
-    text = std::move(*kept);
+    TRY(earlier, read_file(before / "WHY.md"));
+    text = std::move(*earlier);
   }
   std::vector<std::string> names;
   for (const auto& [name, count] : changed)
@@ -98,6 +98,12 @@ struct CompareOptions {
   double threshold = render::default_difference_threshold;
 };
 
+Result<void> write_difference(const render::Image& picture, const CompareOptions& options) {
+  const fs::path file = options.difference;
+  if (file.has_parent_path()) TRY_DO(make_folder(file.parent_path()));
+  return render::write_png(picture, file);
+}
+
 Result<bool> compare_pictures(const CompareOptions& options) {
   TRY(a, as_input(render::read_png(options.a)));
   TRY(b, as_input(render::read_png(options.b)));
@@ -107,7 +113,7 @@ Result<bool> compare_pictures(const CompareOptions& options) {
              same ? "same" : "different", worst->width, worst->height, worst->x, worst->y,
              worst->difference, options.threshold);
   if (!options.difference.empty())
-    TRY_DO(render::write_png(render::difference_picture(*a, *b, *worst), options.difference));
+    TRY_DO(write_difference(render::difference_picture(*a, *b, *worst), options));
   return same;
 }
 
@@ -123,8 +129,7 @@ Result<bool> compare_folders(const CompareOptions& options) {
   fmt::print("{} of {} pictures differ, threshold {}\n", different.size(), pairs->size(),
              options.threshold);
   if (!options.difference.empty() && !different.empty())
-    TRY_DO(
-        render::write_png(render::contact_sheet(different, options.threshold), options.difference));
+    TRY_DO(write_difference(render::contact_sheet(different, options.threshold), options));
   if (!options.update) return different.empty();
   TRY_DO(update_baselines(options.a, *pairs, options.threshold, options.why));
   return true;
@@ -137,7 +142,7 @@ Result<int> compare(const CompareOptions& options) {
                    a ? options.a : options.b, a ? options.b : options.a);
   if (options.update && (!a || options.why.empty()))
     return invalid(a ? "--update needs --why \"...\": the reason is saved with the pictures"
-                     : "--update is of folders of kept pictures");
+                     : "--update is for folders of saved pictures");
   TRY(same, a ? compare_folders(options) : compare_pictures(options));
   return *same ? ExitCode::done : ExitCode::different;
 }
@@ -147,7 +152,7 @@ Result<int> compare(const CompareOptions& options) {
 void add_compare(CommandLine& program) {
   auto [command, options] = program.add<CompareOptions>(
       "compare", "whether two pictures, or folders of them, are the same to the eye", compare);
-  command.option("A", options.a, "a PNG, or a folder of kept ones").required();
+  command.option("A", options.a, "a PNG, or a folder of saved ones").required();
   command.option("B", options.b, "another of the same size, or a folder").required();
   command
       .option("--threshold", options.threshold, "largest mean difference of an 8 x 8 block, of 255")
@@ -158,7 +163,7 @@ void add_compare(CommandLine& program) {
   command.flag("--selected", options.selected,
                "of folders only the pictures in A: B may have more");
   command.flag("--update", options.update, "replace A's pictures by B's");
-  command.option("--why", options.why, "with --update: the reason, kept in A/WHY.md");
+  command.option("--why", options.why, "with --update: the reason, saved in A/WHY.md");
 }
 
 }  // namespace gridshell::app

@@ -16,13 +16,14 @@
 
 namespace gridshell::app {
 namespace fs = std::filesystem;
-namespace {
 
 std::string time_text(double seconds) {
   const auto whole = static_cast<long>(std::ceil(seconds));
   if (whole < 3600) return fmt::format("{}:{:02}", whole / 60, whole % 60);
   return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
 }
+
+namespace {
 
 std::string left_text(const ProgressState& at) {
   return std::isnan(at.seconds_left) || at.fraction >= 1
@@ -35,7 +36,7 @@ constexpr double place_every_s = 5, first_place_s = 1;
 
 /// Text with the parameter of the path that is being followed, and the time left on these meshes;
 /// empty if none is followed.
-std::string place_text(const Watch& watch, PathPace& pace) {
+std::string path_text(const Watch& watch, PathPace& pace) {
   const Watch::Place place = watch.place();
   if (place.edges == 0 || watch.progress() >= 0.5) return "";
   const double left = pace.seconds_left(place, seconds_now());
@@ -49,7 +50,7 @@ struct Left {
   bool path = false;                               // whether segments of a path were saved
 };
 
-constexpr const char* goes_on = "the same command with --resume continues from there";
+constexpr const char* continue_text = "the same command with --resume continues from there";
 
 Left left_in(const fs::path& folder) {
   Left left;
@@ -80,7 +81,7 @@ void report_left_behind(const fs::path& final_folder) {
     std::string draws;
     if (!old && left.runs + left.frames > 0)
       draws = fmt::format("\n  {}    draws it", render::shell_line({"gridshell", "render", name}));
-    if (!old && left.path) draws += fmt::format("\n  {}", goes_on);
+    if (!old && left.path) draws += fmt::format("\n  {}", continue_text);
     std::fprintf(
         stderr, "'%s' is %s:%s\n  %s    removes it\n", name.c_str(),
         old ? "what is left of a run that was replaced" : "left of a run that was not finished",
@@ -109,14 +110,14 @@ std::string whole_files(const Left& left, const std::string& name) {
 
 /// Cleans a folder that will not be finished: removes half-written files, and the folder itself if
 /// it has no complete picture, run, frame or segment of a path. Returns a text about what is left.
-std::string keep_finished_files(const fs::path& partial) {
+std::string remove_unfinished_files(const fs::path& partial) {
   remove_unfinished(partial);
   const auto left = left_in(partial);
   const auto name = near_name(partial);
   std::string text = left.pictures + left.runs + left.frames > 0 ? whole_files(left, name) : "";
   if (left.path) {
     text += text.empty() ? fmt::format("its path so far is in '{}'; ", name) : "\n";
-    return text + goes_on;
+    return text + continue_text;
   }
   if (!text.empty()) return text;
   std::error_code error;
@@ -170,7 +171,7 @@ Progress::Show Progress::show_for(bool quiet) {
 }
 
 Progress::Progress(std::vector<Phase> phases, Show show, std::function<void()> on_forced_exit)
-    : phases_(std::move(phases)), show_(show), last_words_(std::move(on_forced_exit)) {
+    : phases_(std::move(phases)), show_(show), on_forced_exit_(std::move(on_forced_exit)) {
   thread_ = std::thread([this] { loop(); });
 }
 
@@ -200,7 +201,7 @@ Watch& Progress::next_phase() {
 void Progress::loop() {
   std::unique_lock lock(mutex_);
   while (!finished_) {
-    stop_if_asked();
+    stop_if_interrupted();
     try {
       if (!watches_.empty() && !interrupted_) show_now();
     } catch (const std::exception&) {
@@ -210,7 +211,7 @@ void Progress::loop() {
   }
 }
 
-void Progress::stop_if_asked() {
+void Progress::stop_if_interrupted() {
   if (!interrupted_ && interrupted_by_signal()) {
     interrupted_ = true;
     interrupted_at_ = seconds_now();
@@ -221,7 +222,7 @@ void Progress::stop_if_asked() {
   if (interrupted_ && draws && seconds_now() - interrupted_at_ > 0.5) {
     if (bar_open_) std::fputs("\r\033[K", stderr);
     try {
-      last_words_();
+      on_forced_exit_();
     } catch (const std::exception&) {
       // no memory for the message: the folder shows what is left
     }
@@ -233,7 +234,7 @@ void Progress::show_now() {
   const auto current = watches_.size() - 1;
   const auto at =
       standing(phases_, current, watches_.back()->progress(), seconds_now() - phase_began_);
-  const std::string label = phases_[current].label + place_text(*watches_.back(), pace_);
+  const std::string label = phases_[current].label + path_text(*watches_.back(), pace_);
   if (show_ == Show::bar) {
     std::fprintf(stderr, "\r%s\033[K", bar_text(at, label, 40).c_str());
     bar_open_ = true;
@@ -256,7 +257,7 @@ Result<void> deliver(const Delivery& made, const std::vector<Phase>& phases, boo
                                  : StagedFolder::resume(made.folder, made.command, left_there));
   if (!quiet) report_left_behind(made.folder);
   const auto on_forced_exit = [&] {
-    std::fprintf(stderr, "stopped\n%s\n", keep_finished_files(staged->path()).c_str());
+    std::fprintf(stderr, "stopped\n%s\n", remove_unfinished_files(staged->path()).c_str());
   };
   Result<void> outcome;
   {
@@ -268,7 +269,7 @@ Result<void> deliver(const Delivery& made, const std::vector<Phase>& phases, boo
       if (!stayed.empty()) std::fprintf(stderr, "%s\n", stayed.c_str());
     });
   if (outcome) return {};
-  const auto left = keep_finished_files(staged->path());
+  const auto left = remove_unfinished_files(staged->path());
   // an empty staged folder was removed above; without keep() its new parents are removed, too
   if (fs::exists(staged->path())) staged->keep();
   Error& error = outcome.error();

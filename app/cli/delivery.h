@@ -50,6 +50,9 @@ class PathPace {
   double begun_at_ = 0;
 };
 
+/// Minutes and seconds, "0:31", from an hour on with hours, "1:05:10"; rounded up.
+std::string time_text(double seconds);
+
 /// "[======>     ]  52 %  rendering, 0:31 left"
 std::string bar_text(const ProgressState& standing, const std::string& label, int width);
 
@@ -75,11 +78,11 @@ class Progress {
  private:
   void loop();
   void show_now();
-  void stop_if_asked();
+  void stop_if_interrupted();
 
   std::vector<Phase> phases_;
   Show show_;
-  std::function<void()> last_words_;
+  std::function<void()> on_forced_exit_;
   std::mutex mutex_;
   std::condition_variable wake_;
   bool finished_ = false;

@@ -20,8 +20,7 @@ namespace {
 /// Whether the path from the flat state ends in the designed shell, too.
 struct FlatStartCheck {
   bool reached = false;
-  double off_mm = 0;  ///< largest distance of joints between that end and the designed shell
-  std::string why;    ///< why it was not reached
+  std::string why;  ///< why it was not reached
 };
 
 Json json_of(const DesignedState& state, double scale) {
@@ -293,10 +292,10 @@ FlatStartCheck from_flat(preset::Preset preset, const record::Trajectory& design
   const auto joints = long(designed.layout.joints.size());
   const Eigen::Matrix3Xd there = outcome->trajectory.frames.back().nodes.leftCols(joints),
                          here = designed.frames.back().nodes.leftCols(joints);
-  found.off_mm = (there - here).colwise().norm().maxCoeff();
+  const double distance_mm = (there - here).colwise().norm().maxCoeff();
   found.reached =
-      found.off_mm < same_state * preset.accuracy.tolerance * designed.layout.length_scale_mm;
-  if (!found.reached) found.why = fmt::format("it ends {:.3g} mm away", found.off_mm);
+      distance_mm < same_state * preset.accuracy.tolerance * designed.layout.length_scale_mm;
+  if (!found.reached) found.why = fmt::format("it ends {:.3g} mm away", distance_mm);
   return found;
 }
 

@@ -65,7 +65,8 @@ Result<std::string> xdmf_of(const Source& source, const ExportOptions& options) 
   const fs::path trajectory =
       fs::relative(source.folder / "trajectory.h5", fs::absolute(options.to).parent_path(), error);
   if (error || !fs::exists(source.folder / "trajectory.h5", error))
-    return invalid("'{}' has no trajectory.h5, which .xdmf speaks of", source.folder.string());
+    return invalid("'{}' has no trajectory.h5, to which an .xdmf file refers",
+                   source.folder.string());
   return exports::to_xdmf(source.run.trajectory.layout, source.run.trajectory.frames,
                           trajectory.string());
 }
@@ -143,8 +144,8 @@ TextOf of_flat(auto text) {
   return of_plan([text](const exports::FabricationPlan& plan) -> Result<std::string> {
     if (plan.in_space)
       return invalid(
-          "a network that is drawn in space has no flat footprint to be cut from; its cut "
-          "list and the pins of its plate are there: --what cutlist, plate");
+          "a network that is drawn in space has no flat footprint; what can be exported is its cut "
+          "list and its plate: --what cutlist, plate");
     return text(plan);
   });
 }
@@ -238,7 +239,7 @@ Result<std::string> text_of(const ExportOptions& options) {
 
 /// Writes the file, complete or not at all, and prints its size.
 Result<int> export_file(const ExportOptions& options) {
-  TRY_DO(check_beside_runs(options.to));
+  TRY_DO(check_output_file(options.to));
   TRY(text, text_of(options));
   TRY_DO(write_with_folder(options.to, *text));
   fmt::print("{}: {} bytes\n", options.to.string(), text->size());

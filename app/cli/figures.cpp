@@ -83,7 +83,7 @@ std::string title_alone(const Run& run, const std::string& of_all) {
 
 bool is_still(const Run& run) { return run.pictures == Pictures::stills; }
 /// Whether the run is shown in one movie together with the other cases.
-bool drawn_beside(const Run& run) {
+bool drawn_side_by_side(const Run& run) {
   return run.pictures == Pictures::movie && run.preset.movie.beside && !run.name.empty();
 }
 /// Whether the shell is drawn over its net; not if it is pushed, searched for states or has steps.
@@ -103,8 +103,8 @@ bool has_net(const Run& run) {
 }
 
 /// Writes folder/frames/frame_00000.png ... and, if ffmpeg is on the PATH, folder/movie.mp4.
-Result<void> draw_beside(const Runs& runs, const std::string& title, render::Renderer& renderer,
-                         const fs::path& folder, Watch& watch) {
+Result<void> draw_side_by_side(const Runs& runs, const std::string& title,
+                               render::Renderer& renderer, const fs::path& folder, Watch& watch) {
   auto style = style_of(runs.front()->preset, Pictures::movie);
   style.title = title;
   std::vector<render::NamedRun> compared;
@@ -176,8 +176,8 @@ Result<void> draw_together(const std::vector<Run>& runs, const std::string& titl
       if (requested(run)) found.push_back(&run);
     return found;
   };
-  if (const Runs beside = those(drawn_beside); !beside.empty())
-    return draw_beside(beside, title, renderer, stem.parent_path(), progress.next_phase());
+  if (const Runs beside = those(drawn_side_by_side); !beside.empty())
+    return draw_side_by_side(beside, title, renderer, stem.parent_path(), progress.next_phase());
   const Runs stills = those(is_still);
   if (stills.empty()) return {};
   if (stills.front()->preset.page.kind != preset::PageKind::none)
@@ -241,11 +241,11 @@ std::vector<Phase> drawing_phases(const std::vector<Run>& runs) {
   for (const Run& run : runs) {
     const double expected = expected_seconds(run.pictures, run.preset);
     seconds += expected;
-    if (run.pictures != Pictures::none && !drawn_beside(run))
+    if (run.pictures != Pictures::none && !drawn_side_by_side(run))
       phases.push_back(drawing("drawing" + (run.name.empty() ? "" : " " + run.name), expected));
   }
   const auto any = [&](auto requested) { return std::ranges::any_of(runs, requested); };
-  if (any(drawn_beside)) {
+  if (any(drawn_side_by_side)) {
     phases.push_back(drawing("drawing", seconds));
   } else if (any(is_still) && runs.front().preset.page.kind != preset::PageKind::none) {
     phases.push_back(drawing("drawing the page", seconds));
@@ -260,13 +260,13 @@ std::vector<Phase> drawing_phases(const std::vector<Run>& runs) {
 
 Result<void> draw_all(std::vector<Run>& runs, const std::string& title, const fs::path& stem,
                       render::Renderer& renderer, const fs::path& folder, Progress& progress) {
-  const bool all_beside = std::ranges::all_of(runs, drawn_beside);
+  const bool all_beside = std::ranges::all_of(runs, drawn_side_by_side);
   const auto bars = all_beside ? std::vector<SharedColourBar>(runs.size()) : shared_bars(runs);
   for (std::size_t k = 0; k < runs.size(); ++k) {
     Run& run = runs[k];
     const fs::path to = folder_of(folder, run.name);
     TRY_DO(make_folder(to));
-    if (drawn_beside(run)) continue;
+    if (drawn_side_by_side(run)) continue;
     const double start = seconds_now();
     Watch& watch = progress.next_phase();
     const std::string own = std::exchange(run.preset.title, title_alone(run, title));

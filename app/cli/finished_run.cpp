@@ -144,9 +144,11 @@ Result<void> check_memory(const fs::path& folder, const Run& run) {
       run.preset.accuracy.memory_GB > 0 ? run.preset.accuracy.memory_GB : default_memory_GB();
   if (given == 0 || requested <= given) return {};
   return invalid(
-      "'{}': drawing its {} nodes takes about {:.2g} GB, more than the {:.2g} GB of "
-      "[accuracy] memory_GB (by default half of the machine's)",
-      folder.string(), frames.front().nodes.cols(), requested, given);
+      "'{}': drawing its {} nodes takes about {:.2g} GB, more than the {:.2g} GB of [accuracy] "
+      "memory_GB in '{}' (by default half of the machine's); a larger value in that file permits "
+      "it",
+      folder.string(), frames.front().nodes.cols(), requested, given,
+      (folder / "preset.toml").string());
 }
 
 Result<record::StateTables> read_states_of(const fs::path& folder, const Run& run) {
@@ -312,9 +314,9 @@ Result<int> turntable(const Options& options) {
                                              : parse_number<int>(options.frames);
   if (!frames || *frames < 2 || *frames > 100000)
     return invalid("--frames: got {}, expected 2 to 100000", options.frames);
-  fs::path folder = fs::path(options.input).lexically_normal();
-  if (!folder.has_filename()) folder = folder.parent_path();
-  folder = options.output.empty() ? fs::path(folder.string() + "_turntable") : options.output;
+  const fs::path folder =
+      options.output.empty() ? next_to(options.input, "_turntable") : options.output;
+  TRY_DO(check_outside_runs(folder));
   std::vector<Phase> phases;
   for (Run& run : *runs) {
     run.preset.movie.frames = *frames;

@@ -72,11 +72,7 @@ Result<void> draw(preset::Preset preset, const FormedStudy& found, const std::st
 Result<void> study_one(const preset::Case& run, const FormedCommand& command,
                        const std::string& context, const fs::path& folder, Progress& progress,
                        std::string& text, std::string& fault) {
-  auto found = command.find(run.preset, progress.next_phase());
-  if (!found) {
-    found.error().message = run.preset.name + ": " + found.error().message;
-    return tl::unexpected(found.error());
-  }
+  TRY(found, with_name_of(run.preset, command.find(run.preset, progress.next_phase())));
   TRY_DO(make_folder(folder));
   TRY_DO(write_file(folder / "preset.toml", saved_preset(preset::to_toml(run.preset))));
   for (const auto& [name, content] : found->files) TRY_DO(write_file(folder / name, content));
@@ -130,7 +126,7 @@ struct LoadOptions {
 };
 
 /// "full snow: limit point at a factor of 3.42 ± 0.02 (linear 5.1 ± 0.1); a rod breaks at a factor
-/// of 1.2 ± 0.01; 20 that are not perfect: 0.84 of it (0.71 to 0.93)"
+/// of 1.2 ± 0.01; median of 20 imperfect shells: 0.84 of that factor (5 to 95 %: 0.71 to 0.93)"
 std::string sentence_of(const record::LoadRow& row) {
   std::string text = row.load_case + ": ";
   if (std::isfinite(row.critical_factor))
@@ -149,8 +145,9 @@ std::string sentence_of(const record::LoadRow& row) {
     text += "; a rod breaks at a factor of " +
             record::with_error(row.strength_factor, row.strength_error, "");
   if (row.imperfections > 0)
-    text += fmt::format("; {} that are not perfect: {:.3g} of it ({:.3g} to {:.3g})",
-                        row.imperfections, row.knock_down_50, row.knock_down_5, row.knock_down_95);
+    text += fmt::format(
+        "; median of {} imperfect shells: {:.3g} of that factor (5 to 95 %: {:.3g} to {:.3g})",
+        row.imperfections, row.knock_down_50, row.knock_down_5, row.knock_down_95);
   return text;
 }
 
@@ -214,8 +211,9 @@ struct ModesOptions {
 
 std::string frequency_text(const record::ModeRow& mode) {
   if (mode.frequency_Hz >= 0) return record::with_error(mode.frequency_Hz, mode.error_Hz, "Hz");
-  return fmt::format("no vibration: the state is not stable, it leaves as exp(t / {:.3g} s)",
-                     -1 / (2 * M_PI * mode.frequency_Hz));
+  return fmt::format(
+      "no vibration: the state is not stable, displacements grow as exp(t / {:.3g} s)",
+      -1 / (2 * M_PI * mode.frequency_Hz));
 }
 
 /// "mode 3: 12.35 ± 0.01 Hz"; for an unstable mode an imaginary frequency, "mode 1: 0.82*i* Hz".
@@ -241,7 +239,6 @@ std::string shapes_csv(const Vibrations& found) {
 Result<void> draw_movie(const preset::Preset& preset, const Vibrations& found, std::size_t k,
                         render::Renderer& renderer, const fs::path& folder, Watch& watch) {
   Run run{.preset = preset, .pictures = Pictures::movie};
-  run.preset.title = preset.title + ", " + render::plain(caption_of(found.modes[k]));
   run.preset.movie.hold_first_s = run.preset.movie.hold_s = run.preset.movie.title_s = 0;
   run.preset.movie.captions = false;
   run.preset.movie.colour_by = preset::ColourBy::displacement;
@@ -315,8 +312,8 @@ void add_modes(CommandLine& program) {
   add_preset_options(command, options.common);
   add_work_options(command, options.common, "folder to write, by default out/<preset>_modes");
   add_picture_options(command, options.common);
-  command.option("--count", options.count, "how many, from the lowest on").in_range(1, 200);
-  command.flag("--movies", options.movies, "a movie a mode too, in mode_01/movie.mp4 ...");
+  command.option("--count", options.count, "number of modes, the lowest ones").in_range(1, 200);
+  command.flag("--movies", options.movies, "also a movie of each mode, mode_01/movie.mp4 ...");
 }
 
 }  // namespace gridshell::app

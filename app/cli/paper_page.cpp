@@ -88,9 +88,9 @@ class PageMaker {
   }
 
   bool has_photo() const { return !records_.front()->preset.page.photo.empty(); }
-  Result<void> add_photo(Page& page, const Box& box_mm) {
+  Result<void> add_photo(Page& page, const std::string& letter, const Box& box_mm) {
     TRY(photo, as_input(render::read_png(records_.front()->preset.page.photo)));
-    page.add_image("A", "", box_mm, std::move(*photo));
+    page.add_image(letter, "", box_mm, std::move(*photo));
     return {};
   }
 
@@ -103,7 +103,7 @@ class PageMaker {
     constexpr double caption = 12 * 25.4 / 72;
     const double width = photo ? 62 : 154.0 / count, height = photo ? 116.0 / count : 34;
     Page page{178, photo ? 120.0 : 38.0, {}};
-    if (photo) TRY_DO(add_photo(page, {2, 2, 92, 116}));
+    if (photo) TRY_DO(add_photo(page, "A", {2, 2, 92, 116}));
     render::MovieStyle style = sized(style_, width, height - caption);
     style.captions = style.inset = style.legends = false;
     style.turn_deg = 0;
@@ -133,7 +133,7 @@ class PageMaker {
   Result<Page> fig3() {
     Page page{178, 134, {}};
     const double top = has_photo() ? 54 : 0;
-    if (has_photo()) TRY_DO(add_photo(page, {2, 2, 52, 50}));
+    if (has_photo()) TRY_DO(add_photo(page, "A", {2, 2, 52, 50}));
     page.height_mm += top;
     const auto strainer = std::ranges::find(records_, "strainer", &Run::name) - records_.begin();
     const std::size_t caps = std::min(shells_.size(), std::size_t(strainer));
@@ -288,7 +288,7 @@ class PageMaker {
       style.turn_deg = 0;
       const render::Stage stage(last, style);
       TRY(picture, stage.draw_views(renderer_, {last.frames.front(), 0}));
-      render::Panel panel{std::move(*picture), std::string(1, char('A' + k)), ""};
+      render::Panel panel{std::move(*picture), panel_letter(k), ""};
       panel.lines = render::shell_lines(stage.drawing(last.frames.front()), stage.camera(0));
       const Box box{2 + k % columns * (width + 1.5), 3 + k / columns * pitch, width, high};
       page.add_panel("", box, std::move(panel));
@@ -320,10 +320,7 @@ class PageMaker {
     const auto measured =
         std::ranges::find_if(shells_, [](const auto& one) { return one.scanned.cols() > 0; });
     const Box left{2, 109, 86, 50}, right{90, 109, 86, 50};
-    if (has_photo()) {
-      TRY(photo, as_input(render::read_png(records_.front()->preset.page.photo)));
-      page.add_image("D", "", left, std::move(*photo));
-    }
+    if (has_photo()) TRY_DO(add_photo(page, "D", left));
     if (measured != shells_.end()) {
       record::Trajectory alone;
       alone.layout = measured->run->layout;
@@ -349,10 +346,45 @@ class PageMaker {
 
 }  // namespace
 
+Result<void> check_page(const std::vector<const preset::Preset*>& cases) {
+  using preset::PageKind;
+  const auto pushed = [](const preset::Preset* one) { return one->indentation.requested(); };
+  const auto pushes = std::size_t(std::ranges::count_if(cases, pushed));
+  const bool formed = pushes < cases.size(),
+             on_nets = formed && std::ranges::all_of(cases, [&](const preset::Preset*one) {
+                         return pushed(one) || one->on_net();
+                       });
+  const PageKind kind = cases.front()->page.kind;
+  const auto check = [&](bool fits, const char* expected) -> Result<void> {
+    if (fits) return {};
+    return invalid("[page] kind: got \"{}\", expected {}", word_of(kind), expected);
+  };
+  switch (kind) {
+    case PageKind::none:
+    case PageKind::fig1:
+    case PageKind::literature:
+      return {};
+    case PageKind::fig2:
+      return check(cases.front()->jitter.requested(),
+                   "a search for states: [jitter] trials or confined above 0");
+    case PageKind::fig3:
+      return check(on_nets, "a case without [indentation], and all such cases on nets");
+    case PageKind::fig4:
+      return check(on_nets && pushes > 0,
+                   "cases with [indentation] and cases without, the latter on nets");
+    case PageKind::fig5:
+      return check(formed, "a case without [indentation]");
+  }
+  return {};
+}
+
 Result<void> draw_page(const Runs& records, render::Renderer& renderer, const fs::path& stem,
                        Watch& watch) {
   const preset::Preset& preset = records.front()->preset;
   if (preset.page.kind == preset::PageKind::none) return {};
+  std::vector<const preset::Preset*> cases;
+  for (const Run* one : records) cases.push_back(&one->preset);
+  TRY_DO(check_page(cases));
   TRY(page, PageMaker(records, renderer, watch).make(preset.page.kind));
   const render::Print print{preset.figure.width_mm, preset.figure.dpi,
                             style_of(preset, Pictures::stills).look.background};

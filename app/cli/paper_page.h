@@ -123,16 +123,30 @@ struct Page {
 /// Panels A: the states ii, iii and iv of the first record, and a dome (state i), which the paper
 /// shows within B. B: the phase diagram of the sweep that the preset names, or an empty frame. C: a
 /// state of each class, or an empty frame. A state is the one of lowest energy of its class in the
-/// first record that has any. Errors: bad_input if the first record is no search or the sweep
-/// cannot be read; those of the renderer; cancelled.
+/// first record that has any. Errors: bad_input if the sweep cannot be read; those of the renderer;
+/// cancelled.
 Result<Page> states_page(const Runs& records, const render::MovieStyle& style,
                          render::Renderer& renderer, Watch& watch);
 
 // The figures of the paper, each on one page.
 
+/// The letter of panel k >= 0: A to Z, then AA, AB ...
+inline std::string panel_letter(int k) {
+  return (k < 26 ? "" : panel_letter(k / 26 - 1)) + char('A' + k % 26);
+}
+
+/// Checks that the cases of a preset are what its [page] kind shows. Errors (bad_input): they are
+/// not.
+Result<void> check_page(const std::vector<const preset::Preset*>& cases);
+inline Result<void> check_page(const std::vector<preset::Case>& cases) {
+  std::vector<const preset::Preset*> presets;
+  for (const preset::Case& one : cases) presets.push_back(&one.preset);
+  return check_page(presets);
+}
+
 /// Writes `<stem>_page.png`, `.svg` and `.pdf` of the preset's [page] kind, from its finished
 /// cases; none if the kind is "none". Errors: io, cancelled, bad_input for a photograph that cannot
-/// be read or for more cases than the page has boxes.
+/// be read, and those of check_page().
 Result<void> draw_page(const Runs& records, render::Renderer& renderer,
                        const std::filesystem::path& stem, Watch& watch);
 

@@ -93,10 +93,7 @@ std::vector<preset::Case> runs_of(const preset::Presets& presets) {
 }
 
 Result<simulate::Plan> plan_of(const preset::Preset& preset) {
-  return simulate::plan(preset).map_error([&](Error error) {
-    error.message = preset.name + ": " + error.message;
-    return error;
-  });
+  return with_name_of(preset, simulate::plan(preset));
 }
 
 }  // namespace gridshell::app

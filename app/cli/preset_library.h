@@ -54,6 +54,15 @@ std::string without_version(const std::string& saved);
 /// The cases of a preset, or the preset itself as one run without a name.
 std::vector<preset::Case> runs_of(const preset::Presets& presets);
 
+/// The result, with the name of the preset before the message of an error.
+template <class T>
+Result<T> with_name_of(const preset::Preset& preset, Result<T> result) {
+  return std::move(result).map_error([&](Error error) {
+    error.message = preset.name + ": " + error.message;
+    return error;
+  });
+}
+
 /// simulate::plan(), with the name of the preset in errors.
 Result<simulate::Plan> plan_of(const preset::Preset& preset);
 

@@ -10,6 +10,7 @@
 #include "app/cli/console.h"
 #include "app/cli/delivery.h"
 #include "app/cli/figures.h"
+#include "app/cli/paper_page.h"
 #include "app/cli/preset_library.h"
 #include "app/cli/staged_folder.h"
 #include "engine/core/file_io.h"
@@ -25,6 +26,7 @@ namespace {
 Result<std::vector<Run>> planned(const preset::Presets& presets, Pictures pictures,
                                  std::vector<Phase>& phases) {
   std::vector<Run> runs;
+  if (pictures == Pictures::stills) TRY_DO(check_page(runs_of(presets)));
   for (const preset::Case& one : runs_of(presets)) {
     const preset::Preset& preset = one.preset;
     if (preset.jitter.requested() && pictures == Pictures::movie)

@@ -31,9 +31,8 @@ using render::TableRow;
 struct ReportOptions {
   std::string input;
   fs::path to;
-  std::string context = "auto";
   int modes = 6, imperfections = 0;
-  bool quiet = false, no_checksum = false;
+  bool no_checksum = false;
 };
 
 /// A number with four digits; from 1000 to 1e9 with all digits before the decimal point.
@@ -162,7 +161,7 @@ std::string support_name(const record::Layout& layout, const exports::Fabricatio
 void add_reactions(Sheets& sheets, const record::Layout& layout, const record::Frame& frame,
                    const exports::FabricationPlan& plan) {
   sheets.heading("Reactions");
-  if (frame.reactions_N.cols() == 0) return sheets.text("They are not known of this state.");
+  if (frame.reactions_N.cols() == 0) return sheets.text("They are not known for this state.");
   std::vector<Eigen::Index> order;
   for (Eigen::Index k = 0; k < frame.reactions_N.cols(); ++k)
     if (!frame.reactions_N.col(k).isZero(0)) order.push_back(k);
@@ -240,9 +239,10 @@ Result<void> add_loads(Sheets& sheets, study::FormedShell& shell, const ReportOp
           !lost ? "stability is not lost on the path followed"
                 : (row.event == record::BranchEvent::turn ? "limit point" : "bifurcation") +
                       (row.imperfections > 0
-                           ? fmt::format("; {} shells off shape: {:.3g} of it ({:.3g} to {:.3g})",
-                                         row.imperfections, row.knock_down_50, row.knock_down_5,
-                                         row.knock_down_95)
+                           ? fmt::format(
+                                 "; median of {} imperfect shells: {:.3g} of it ({:.3g} to {:.3g})",
+                                 row.imperfections, row.knock_down_50, row.knock_down_5,
+                                 row.knock_down_95)
                            : std::string())},
          row.critical_factor < 1 || row.strength_factor < 1});
   }
@@ -367,15 +367,12 @@ double study_seconds(const preset::Preset& preset) {
 }
 
 Result<int> make_report(ReportOptions options) {
-  const fs::path run_folder = fs::path(options.input).lexically_normal();
-  if (options.to.empty())
-    options.to = (run_folder.has_filename() ? run_folder : run_folder.parent_path()).string() +
-                 "_report.pdf";
+  if (options.to.empty()) options.to = next_to(options.input, "_report.pdf");
   if (options.to.extension() != ".pdf")
     return invalid("--to {}: expected a name that ends in .pdf", options.to.string());
-  TRY_DO(check_beside_runs(options.to));
+  TRY_DO(check_output_file(options.to));
   TRY(runs, read_runs(options.input, {}, options.no_checksum));
-  TRY(maker, PictureMaker::create(options.context, runs->front().preset.style.font));
+  TRY(maker, PictureMaker::create("auto", runs->front().preset.style.font));
   std::vector<Phase> phases;
   for (const Run& run : *runs) {
     const double seconds = study_seconds(run.preset);
@@ -384,7 +381,7 @@ Result<int> make_report(ReportOptions options) {
   }
   Sheets sheets(preset::title_or_name(runs->front().preset));
   {
-    Progress progress(phases, Progress::show_for(options.quiet), [] {});
+    Progress progress(phases, Progress::show_for(false), [] {});
     std::string cut_list;
     for (std::size_t k = 0; k < runs->size(); ++k) {
       if (k > 0) sheets.next_sheet();
@@ -392,7 +389,7 @@ Result<int> make_report(ReportOptions options) {
     }
   }
   TRY_DO(write_with_folder(options.to, sheets.pdf()));
-  if (!options.quiet) fmt::print("{}\n", options.to.string());
+  fmt::print("{}\n", options.to.string());
   return ExitCode::done;
 }
 

@@ -128,27 +128,25 @@ std::string scan_text(const ComparedScan& scan) {
   if (!best.shown && scan.states.size() > 1)
     text = fmt::format("shows none of {} states; nearest: {}", scan.states.size(), best.name);
   text += fmt::format(
-      "\n  {} of {} joints found, {} outliers, {} specks{}; off by {:.3f} mm rms, {:.3f} mm at "
+      "\n  {} of {} joints found, {} outliers, {} specks{}; distances {:.3f} mm rms, {:.3f} mm at "
       "most; {} within two radii ({:g} mm)\n",
       laid.found, laid.joints.cols(), laid.outliers.cols(), scan.clusters.specks,
       laid.mirrored ? ", mirrored" : "", laid.rms_mm, laid.max_mm, laid.within_bar,
       scan.cylinder.diameter_mm);
   if (std::isfinite(scan.clusters.noise_mm))
+    text += fmt::format("  noise of the points {:.3f} mm rms, tolerance of the joints {:.3f} mm\n",
+                        scan.clusters.noise_mm, scan.tolerance_mm);
+  if (!best.shown && study::scan_matches(laid, scan.cylinder.diameter_mm / 2))
     text += fmt::format(
-        "  the points of a top lie {:.3f} mm off its plane: joints may lie off by {:.3f} mm rms\n",
-        scan.clusters.noise_mm, scan.tolerance_mm);
-  const double radius = scan.cylinder.diameter_mm / 2;
-  if (!best.shown && study::scan_matches(laid, radius))
-    text += fmt::format(
-        "  its joints lie like those of {}, but {:.2g} times as far off as the scan is noisy: it "
-        "is "
-        "pushed, loaded or built otherwise; --tolerance {:.2g} takes it for that state\n",
-        best.name, laid.rms_mm / scan.clusters.noise_mm, 1.01 * laid.rms_mm);
+        "  its joints are near those of {}, but their distance of {:.3g} mm rms exceeds the "
+        "tolerance of {:.3g} mm: the shell is pushed, loaded or built otherwise; with --tolerance "
+        "{:.3g} it shows that state\n",
+        best.name, laid.rms_mm, scan.tolerance_mm, 1.01 * laid.rms_mm);
   if (scan.with_height) {
     const auto& [fits_mm, name] = *scan.with_height;
     const double assumed_mm = scan.cylinder.height_mm;
     text += fmt::format(
-        "  all tops lie {:.2f} mm further {} along the normals than [joints] height_mm = {:g} "
+        "  all tops are {:.2f} mm further {} along the normals than [joints] height_mm = {:g} "
         "assumes: with {} it shows {}\n",
         std::abs(fits_mm - assumed_mm), fits_mm > assumed_mm ? "out" : "in", assumed_mm,
         fits_mm > 0 ? fmt::format("--set joints.height_mm={:.3g}", fits_mm) : "--centres", name);
@@ -383,8 +381,8 @@ void add_scan(CommandLine& program) {
                "the points are the joints themselves, not tops of cylinders");
   command
       .option("--tolerance", options.tolerance_mm,
-              "how far off the joints may lie, mm rms; by default five times the scan's noise")
-      .in_range(0, 1000);
+              "largest distance of the joints, mm rms; by default five times the scan's noise")
+      .in_range(0.0, 1000.0);
   command.footer(
       "The exit code is 3 where the scan shows none of the states. Joints are cylinders of\n"
       "[joints] diameter_mm and height_mm, of which the scan sees the tops.");

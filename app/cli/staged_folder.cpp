@@ -54,6 +54,15 @@ std::string refusal(const fs::path& folder, const std::string& command) {
       maker, command);
 }
 
+tl::unexpected<Error> cannot_write(const fs::path& folder, const std::string& because) {
+  return invalid("cannot write the folder '{}': {}", folder.string(), because);
+}
+
+Result<void> check_writable(const fs::path& folder, const std::string& command) {
+  const auto because = refusal(target_of(folder), command);
+  return because.empty() ? Result<void>() : cannot_write(folder, because);
+}
+
 long lines_of(const fs::path& file) {
   std::ifstream text(file);
   return std::count(std::istreambuf_iterator<char>(text), {}, '\n');
@@ -147,10 +156,22 @@ std::string refusal_to_write(const fs::path& folder, const std::string& command)
   return refusal(target_of(folder), command);
 }
 
-Result<void> check_beside_runs(const fs::path& to) {
+fs::path next_to(const fs::path& folder, const std::string& suffix) {
+  fs::path normal = folder.lexically_normal();
+  if (!normal.has_filename()) normal = normal.parent_path();
+  if (normal == "." || normal.filename() == "..") normal = target_of(normal);
+  return normal += suffix;
+}
+
+Result<void> check_output_file(const fs::path& to) {
   std::error_code error;
   if (fs::exists(to, error) && !fs::is_regular_file(to, error))
     return invalid("'{}' is no file that could be written", to.string());
+  return check_outside_runs(to);
+}
+
+Result<void> check_outside_runs(const fs::path& to) {
+  std::error_code error;
   for (fs::path folder = fs::absolute(to, error).parent_path(); folder != folder.root_path();
        folder = folder.parent_path())
     if (fs::exists(folder / manifest_name, error))
@@ -161,11 +182,11 @@ Result<void> check_beside_runs(const fs::path& to) {
 
 Result<StagedFolder> StagedFolder::create(const fs::path& final_folder,
                                           const std::string& command) {
+  TRY_DO(check_writable(final_folder, command));
   const auto refuse = [&](const std::string& because) {
-    return invalid("cannot write the folder '{}': {}", final_folder.string(), because);
+    return cannot_write(final_folder, because);
   };
   const auto target = target_of(final_folder);
-  if (const auto because = refusal(target, command); !because.empty()) return refuse(because);
   const auto parent = target.parent_path(), first_made = outermost_missing(parent);
   std::error_code error;
   fs::create_directories(parent, error);
@@ -194,6 +215,7 @@ Result<StagedFolder> StagedFolder::create(const fs::path& final_folder,
 
 Result<StagedFolder> StagedFolder::resume(const fs::path& final_folder, const std::string& command,
                                           const fs::path& partial) {
+  TRY_DO(check_writable(final_folder, command));
   const Lock lock = lock_of(partial);
   if (lock.failure)
     return fail(Fault::io, "cannot continue in '{}': {}", partial.string(), reason(lock.failure));

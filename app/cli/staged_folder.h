@@ -27,9 +27,15 @@ std::string maker_of(const std::filesystem::path& folder);
 /// foreign.
 std::string why_not_a_run(const std::filesystem::path& folder);
 
-/// Checks that the file `to` may be written: it must not be in the folder of a run, which could
-/// then no longer be replaced. Errors: bad_input.
-Result<void> check_beside_runs(const std::filesystem::path& to);
+/// `folder` with `suffix` appended to its name, "out/run_report.pdf"; the name of "." is that of
+/// the current folder.
+std::filesystem::path next_to(const std::filesystem::path& folder, const std::string& suffix);
+
+/// Checks that the file or folder `to` is not in the folder of a run, which could then no longer be
+/// replaced. Errors: bad_input.
+Result<void> check_outside_runs(const std::filesystem::path& to);
+/// check_outside_runs() for a file, whose name nothing but a file may have. Errors: bad_input.
+Result<void> check_output_file(const std::filesystem::path& to);
 
 // A run's folder while it is written: under a temporary name, exchanged with the final one only
 // when it is complete, so that a run that is stopped, killed or out of disk leaves the old folder
@@ -45,7 +51,8 @@ class StagedFolder {
   static Result<StagedFolder> create(const std::filesystem::path& final_folder,
                                      const std::string& command);
 
-  /// Continues in `partial`, one of left_behind(). Errors: io if another program uses it now.
+  /// Continues in `partial`, one of left_behind(). Errors: bad_input if `command` may not replace
+  /// DIR; io if another program uses `partial` now.
   static Result<StagedFolder> resume(const std::filesystem::path& final_folder,
                                      const std::string& command,
                                      const std::filesystem::path& partial);

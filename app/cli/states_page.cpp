@@ -63,7 +63,7 @@ std::optional<Found> lowest_of(StateClass kind, const Runs& records) {
 }
 
 /// Longest leg and number of rods of a circle, "(*L̄*_{d}, *n*) = (0.8, 12)"; else empty.
-std::string place_of(const preset::Preset& preset) {
+std::string position_text(const preset::Preset& preset) {
   if (preset.footprint.kind != preset::FootprintKind::circle) return "";
   const double radius = preset.original_radius_mm() / preset.footprint.spacing_mm;
   return fmt::format("(*L̄*_{{d}}, *n*) = ({:.3g}, {})",
@@ -180,7 +180,7 @@ Result<void> add_diagram(Page& page, const std::string& named) {
 void add_foot(Page& page, const preset::Preset& preset, const std::string& dome) {
   if (preset.footprint.kind != preset::FootprintKind::circle) return;
   page.add_note(foot, fmt::format("A1–A3 at {}{}; *d* = {:g} mm, *R*_{{a}} = {:.3g} *R*_{{o}}",
-                                  place_of(preset), dome.empty() ? "" : ", A4 at " + dome,
+                                  position_text(preset), dome.empty() ? "" : ", A4 at " + dome,
                                   preset.footprint.spacing_mm,
                                   preset.actuated_radius_mm() / preset.original_radius_mm()));
   page.add_note({foot.x, foot.y + 4, foot.width, foot.height},
@@ -201,8 +201,8 @@ void add_maps(Page& page, const Runs& records) {
       continue;
     }
     page.add(letter, page_name_of(found->row()), box,
-             [found = *found, where = place_of(found->record->preset)](Canvas& canvas,
-                                                                       const Box& inside) {
+             [found = *found, where = position_text(found->record->preset)](Canvas& canvas,
+                                                                            const Box& inside) {
                const record::Layout& layout = found.record->trajectory.layout;
                const Box map{inside.x, inside.y, inside.width, inside.height - caption};
                render::draw_state_map(canvas, map, render::state_map_scale(map, layout), layout,
@@ -225,17 +225,12 @@ void add_maps(Page& page, const Runs& records) {
 Result<Page> states_page(const Runs& records, const render::MovieStyle& style,
                          render::Renderer& renderer, Watch& watch) {
   const Run& first = *records.front();
-  if (first.states.rows.empty())
-    return invalid(
-        "{}: [page] kind = \"fig2\" shows states: expected [jitter] trials or "
-        "confined above 0",
-        first.preset.name);
   Page page{page_width, page_height};
   TRY_DO(add_states(page, records, style, renderer, watch));
   TRY_DO(add_diagram(page, first.preset.page.sweep));
   add_maps(page, records);
   const auto dome = lowest_of(StateClass::i, records);
-  add_foot(page, first.preset, dome ? place_of(dome->record->preset) : "");
+  add_foot(page, first.preset, dome ? position_text(dome->record->preset) : "");
   return page;
 }
 

@@ -36,6 +36,7 @@ struct SweepOptions {
 
 constexpr double chart_width_mm = 130, chart_height = 0.62;  // height over width
 constexpr const char* classes = "classes";  // the picture of the classes of states that were found
+constexpr const char* laws_name = "laws.csv";
 
 /// A sweep that is running.
 struct SweepJob {
@@ -70,7 +71,7 @@ std::vector<std::string> drawable(const preset::Presets& presets, const preset::
 }
 
 /// Checks that there is something to sweep and that the requested figures exist. Errors: bad_input.
-Result<void> check_asked(const preset::Presets& presets, const preset::SweepGrid& grid) {
+Result<void> check_request(const preset::Presets& presets, const preset::SweepGrid& grid) {
   if (grid.size() == 0)
     return invalid(
         "{}: sweeps nothing: expected [sweep] over or seeds, for example --set "
@@ -89,13 +90,27 @@ Result<void> check_asked(const preset::Presets& presets, const preset::SweepGrid
   return {};
 }
 
-/// Removes pictures of figures that an earlier call drew and that are no longer requested.
-void remove_other_pictures(const SweepJob& work, const std::vector<std::string>& drawn) {
+/// The picture of the classes of a case, without its extension.
+fs::path classes_stem(const SweepJob& work, const preset::Case& run) {
+  return work.folder / (run.name.empty() ? classes : run.name + "_" + classes);
+}
+
+/// Removes what an earlier call drew and this one does not request, and all power laws, which are
+/// written again.
+void remove_other_pictures(const SweepJob& work) {
   std::error_code error;
+  const auto remove = [&](const fs::path& stem, std::initializer_list<const char*> ends) {
+    for (const char* end : ends) fs::remove(fs::path(stem) += end, error);
+  };
+  const auto drawn = plots_of(work.grid);
+  fs::remove(work.folder / laws_name, error);
   for (const auto& name : drawable(work.presets, work.grid)) {
+    remove(work.folder / name, {"_law.png", "_law.svg", "_law.pdf"});
     if (std::ranges::find(drawn, name) != drawn.end()) continue;
-    for (const char* kind : {".png", ".svg", ".pdf", "_law.png", "_law.svg", "_law.pdf"})
-      fs::remove(work.folder / (name + kind), error);
+    remove(work.folder / name, {".png", ".svg", ".pdf"});
+    if (name != classes) continue;
+    for (const auto& run : runs_of(work.presets))
+      remove(classes_stem(work, run), {".png", ".svg", ".pdf", "_by_leg.csv"});
   }
 }
 
@@ -103,7 +118,7 @@ void remove_other_pictures(const SweepJob& work, const std::vector<std::string>&
 Result<void> draw_classes(const SweepJob& work, const record::SweepTable& table,
                           const render::Print& print) {
   for (const auto& run : runs_of(work.presets)) {
-    const auto stem = work.folder / (run.name.empty() ? classes : run.name + "_" + classes);
+    const auto stem = classes_stem(work, run);
     const auto diagram = record::phase_diagram_of(table, run.name);
     TRY_DO(render::write_phase_chart(stem, diagram, run.preset.title, print));
     TRY_DO(write_file(fs::path(stem) += "_by_leg.csv",
@@ -114,9 +129,7 @@ Result<void> draw_classes(const SweepJob& work, const record::SweepTable& table,
 
 Result<void> draw(const SweepJob& work, const record::SweepTable& table) {
   const preset::Preset& base = work.presets.base;
-  const auto plots = plots_of(work.grid);
-  remove_other_pictures(work, plots);
-  for (const auto& name : plots) {
+  for (const auto& name : plots_of(work.grid)) {
     const render::SweepView view{name, base.sweep.x, base.sweep.departure, base.title};
     const auto stem = work.folder / name;
     const render::Print print{base.figure.width_mm > 0 ? base.figure.width_mm : chart_width_mm,
@@ -133,7 +146,7 @@ Result<void> draw(const SweepJob& work, const record::SweepTable& table) {
 
 /// Writes the power laws of the figures that are drawn, as laws.csv and pictures; returns them as
 /// lines of text.
-Result<std::string> tell_laws(const SweepJob& work, const record::SweepTable& table) {
+Result<std::string> write_laws(const SweepJob& work, const record::SweepTable& table) {
   std::string text;
   std::vector<record::LawRow> rows;
   for (const auto& name : plots_of(work.grid)) {
@@ -155,7 +168,7 @@ Result<std::string> tell_laws(const SweepJob& work, const record::SweepTable& ta
                               render::law_plot(laws, {name, "", 0, work.presets.base.title}),
                               {.width_mm = chart_width_mm}, chart_height));
   }
-  if (!rows.empty()) TRY_DO(write_file(work.folder / "laws.csv", record::csv_table(rows)));
+  if (!rows.empty()) TRY_DO(write_file(work.folder / laws_name, record::csv_table(rows)));
   return text;
 }
 
@@ -196,8 +209,9 @@ std::string regions_text(const SweepJob& work, const record::SweepTable& table) 
       if (region.points == 0) continue;
       const auto with = [&](StateClass kind) { return region.with[std::size_t(kind)]; };
       text += fmt::format(
-          "\n  {}{}{}: {} points; domes of the first order alone at {}, and {} of {} trials end in "
-          "them; several states at {}, broken symmetry at {}; i at {}, ii at {}, iii at {}, iv at "
+          "\n  {}{}{}: {} points; domes of first-mode buckling alone at {}, in which {} of {} "
+          "trials "
+          "end; several states at {}, broken symmetry at {}; i at {}, ii at {}, iii at {}, iv at "
           "{}; more states than the paper drew at {} ({})",
           run.name, run.name.empty() ? "" : ", ", record::name_of(region), region.points,
           region.dome_alone, region.met_first_order, region.at_rest, region.several, region.broken,
@@ -211,12 +225,13 @@ Result<std::string> finish(const SweepJob& work, const record::SweepLog& log) {
   const auto table = table_of(work.grid, work.points(), log.found());
   TRY_DO(write_file(work.folder / sweep_table_name, record::sweep_csv(table)));
   TRY_DO(write_file(work.folder / "preset.toml", saved_preset(preset::to_toml(work.presets))));
-  // a shard has too few points for a picture
-  if (!work.shard && table.axes.size() <= 2) TRY_DO(draw(work, table));
   std::string laws;
+  // a shard has too few points for a picture
   if (!work.shard) {
-    TRY(told_of_them, tell_laws(work, table));
-    laws = std::move(*told_of_them);
+    remove_other_pictures(work);
+    if (table.axes.size() <= 2) TRY_DO(draw(work, table));
+    TRY(text, write_laws(work, table));
+    laws = std::move(*text);
   }
   TRY_DO(write_manifest(work.folder, "sweep"));
   const bool any = std::ranges::any_of(
@@ -244,7 +259,7 @@ std::vector<std::size_t> missing(const SweepJob& work, const record::SweepLog& l
   return points;
 }
 
-std::string standing_of(const SweepJob& work, const record::SweepLog& log) {
+std::string progress_of(const SweepJob& work, const record::SweepLog& log) {
   const auto all = work.points().size();
   return fmt::format("{} of {} points are in '{}'", all - missing(work, log).size(), all,
                      work.folder.string());
@@ -255,7 +270,7 @@ Result<void> compute(const SweepJob& work, record::SweepLog& log) {
   const auto todo = missing(work, log);
   if (todo.empty()) return {};
   if (!work.quiet() && todo.size() < work.points().size())
-    std::fprintf(stderr, "continuing: %s\n", standing_of(work, log).c_str());
+    std::fprintf(stderr, "continuing: %s\n", progress_of(work, log).c_str());
   const int jobs = thread_count(work.options.jobs);
   Result<void> done;
   {
@@ -269,7 +284,7 @@ Result<void> compute(const SweepJob& work, record::SweepLog& log) {
         progress.next_phase());
   }
   if (!done && done.error().fault == Fault::cancelled)
-    done.error().message = "stopped: " + standing_of(work, log) + "; the same command continues it";
+    done.error().message = "stopped: " + progress_of(work, log) + "; the same command continues it";
   return done;
 }
 
@@ -282,7 +297,7 @@ Result<std::string> carry_out(const SweepJob& work) {
       return fail(Fault::no_equilibrium,
                   "{}; shards continue where they stopped, and without --merge the remaining runs "
                   "are computed here",
-                  standing_of(work, *log));
+                  progress_of(work, *log));
   } else {
     TRY_DO(compute(work, *log));
   }
@@ -293,7 +308,7 @@ Result<int> sweep(const SweepOptions& options) {
   TRY(presets, load(options.common));
   if (options.common.print_config) return print_config(*presets);
   const preset::SweepGrid grid(*presets);
-  TRY_DO(check_asked(*presets, grid));
+  TRY_DO(check_request(*presets, grid));
   SweepJob work{options, *presets, grid, output_of(options.common, presets->base), std::nullopt};
   if (!options.shard.empty()) {
     TRY(shard, parse_shard(options.shard));
@@ -309,7 +324,7 @@ Result<int> sweep(const SweepOptions& options) {
 }  // namespace
 
 Result<void> check_sweep(const preset::Presets& presets) {
-  return check_asked(presets, preset::SweepGrid(presets));
+  return check_request(presets, preset::SweepGrid(presets));
 }
 
 // `gridshell sweep PRESET`: many runs of one preset, resumable, on several cores or machines.

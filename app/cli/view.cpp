@@ -36,22 +36,23 @@ void add_view(CommandLine& program, Result<int> (*view)(ViewOptions)) {
                  "folder that pictures and presets are saved to, by default out");
   command.option(
       "--workspace", options.workspace,
-      "file that keeps camera, colours and panels from one visit to the next, by "
+      "file in which camera, colours and panels are saved for the next start, by "
       "default ~/.local/state/gridshell/workspace.json; off-screen and with --record none");
-  command.option("--record", options.record, "keeps the input as text, a line an event");
+  command.option("--record", options.record,
+                 "file in which the input is saved as text, one line per event");
   command.option("--play", options.play,
-                 "plays recorded input off-screen, each event's equilibrium awaited");
+                 "plays recorded input off-screen, and waits for the equilibrium after each event");
   command.option("--shot", options.shot, "with it, the last frame as a PNG");
   command.option("--picture", options.picture,
                  "draws the shell alone, off-screen, as 'Save picture' does");
   command.option("--size", options.size,
-                 "width and height of kept pictures: WxH; by default twice the view's");
-  command.option("--quality", options.quality, "of kept pictures: draft, movie or figure")
+                 "width and height of saved pictures: WxH; by default twice the view's");
+  command.option("--quality", options.quality, "of saved pictures: draft, movie or figure")
       .one_of(all_words<render::Quality>());
-  command.flag("--bare", options.bare, "no legend in kept pictures");
+  command.flag("--bare", options.bare, "no legend in saved pictures");
   command
       .option("--bench", options.bench,
-              "drags the radius to and fro for so many seconds, off-screen, and prints a "
+              "drags the radius forward and back for so many seconds, off-screen, and prints a "
               "line of JSON")
       .in_range(0.1, 600.0);
   command.option("--context", options.context, "off-screen OpenGL: auto, osmesa or egl")

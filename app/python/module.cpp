@@ -1,6 +1,7 @@
 #include "app/python/module.h"
 
 #include <pybind11/stl.h>
+#include <regex>
 
 #include "app/cli/preset_library.h"
 #include "render/gl/context.h"
@@ -107,8 +108,12 @@ preset::Step step_of(const preset::Preset& preset, const char* kind, const py::d
   alone.indentation = {};
   alone.jitter = {};
   text.append("}]\n").append(preset::to_toml(alone));
-  auto read = value_of(preset::read_preset_text(text, std::string(kind) + "()", preset.name));
-  return std::move(read.base.step.at(0));
+  // errors name the method; their lines and columns are those of a text that its user does not see
+  const std::string method = kind == std::string("move") ? "actuate()" : std::string(kind) + "()";
+  auto read = preset::read_preset_text(text, method, preset.name);
+  static const std::regex position("\\(\\):\\d+:\\d+:( \\[\\[step\\]\\] 1)?");
+  if (!read) read.error().message = std::regex_replace(read.error().message, position, "():");
+  return std::move(value_of(std::move(read)).base.step.at(0));
 }
 
 }  // namespace gridshell::python

@@ -37,7 +37,7 @@ class Session {
   /// Calls work(shell, watch), which Ctrl-C stops, and updates the state, also after an error.
   template <class Work>
   auto at_work(const Work& work) {
-    const Turn turn(*this);
+    const InUse in_use(*this);
     auto done = [&] {
       try {
         return interruptible([&](const Watch& watch) { return work(*shell_, watch); });
@@ -52,21 +52,21 @@ class Session {
 
   /// Calls work(shell), which takes no time.
   template <class Work>
-  auto in_hand(const Work& work) {
-    const Turn turn(*this);
+  auto with_shell(const Work& work) {
+    const InUse in_use(*this);
     return work(*shell_);
   }
 
   Done step(const char* kind, const py::dict& keys) {
-    const auto step = in_hand([&](Shell& shell) { return step_of(shell.preset(), kind, keys); });
+    const auto step = with_shell([&](Shell& shell) { return step_of(shell.preset(), kind, keys); });
     return at_work([&](Shell& shell, const Watch& watch) {
       return step.kind == preset::StepKind::move ? shell.move(step, watch)
                                                  : shell.take(step, watch);
     });
   }
 
-  void restore(const Kept& kept) {
-    in_hand([&](Shell& shell) { value_of(shell.restore(kept)); });
+  void restore(const Saved& saved) {
+    with_shell([&](Shell& shell) { value_of(shell.restore(saved)); });
     look();
   }
 
@@ -75,16 +75,16 @@ class Session {
  private:
   /// The use of the session by one thread: another thread that calls in between gets an exception.
   /// Made and destroyed under the GIL.
-  class Turn {
+  class InUse {
    public:
-    explicit Turn(Session& of) : of_(of) {
+    explicit InUse(Session& of) : of_(of) {
       if (of_.busy_)
         throw std::runtime_error("the session is at work already: one thread at a time");
       of_.busy_ = true;
     }
-    ~Turn() { of_.busy_ = false; }
-    Turn(const Turn&) = delete;
-    Turn& operator=(const Turn&) = delete;
+    ~InUse() { of_.busy_ = false; }
+    InUse(const InUse&) = delete;
+    InUse& operator=(const InUse&) = delete;
 
    private:
     Session& of_;
@@ -183,16 +183,18 @@ void add_looks(const py::module_& module, py::class_<Session>& type) {
       .def_property_readonly(
           "preset",
           [](Session& self) {
-            return self.in_hand([](Shell& shell) { return preset::to_toml(shell.preset()); });
+            return self.with_shell([](Shell& shell) { return preset::to_toml(shell.preset()); });
           },
           "The preset as TOML, with changes and defaults.")
       .def_property_readonly(
           "edges_per_segment",
-          [](Session& self) { return self.in_hand([](Shell& shell) { return shell.meshes(); }); },
+          [](Session& self) {
+            return self.with_shell([](Shell& shell) { return shell.meshes(); });
+          },
           "Edges per segment of the meshes, coarse to fine.")
       .def(
           "save",
-          [](Session& self) { return self.in_hand([](Shell& shell) { return shell.save(); }); },
+          [](Session& self) { return self.with_shell([](Shell& shell) { return shell.save(); }); },
           "A state to return to with restore().")
       .def("restore", &Session::restore, "kept"_a, "Returns to a state that this session saved.")
       .def("__repr__",
@@ -223,7 +225,7 @@ void add_looks(const py::module_& module, py::class_<Session>& type) {
 }  // namespace
 
 void add_session(py::module_& module) {
-  py::class_<Kept>(module, "Checkpoint", "A state to which Session.restore() returns.");
+  py::class_<Saved>(module, "Checkpoint", "A state to which Session.restore() returns.");
   py::class_<Session> type(
       module, "Session",
       "A shell that you command: flat at first, then actuated, pushed, loaded, released. Every "

@@ -118,13 +118,13 @@ Result<Done> Shell::refine(double tolerance_mm, const Watch& watch) {
   return done;
 }
 
-Kept Shell::save() const { return {scene_, session_->save(), formed_}; }
+Saved Shell::save() const { return {scene_, session_->save(), formed_, as_drawn_}; }
 
-Result<void> Shell::restore(const Kept& kept) {
-  if (kept.scene != scene_) return invalid("the state was kept by another session");
-  session_->restore(kept.checkpoint);
-  formed_ = kept.formed;
-  as_drawn_ = false;
+Result<void> Shell::restore(const Saved& saved) {
+  if (saved.scene != scene_) return invalid("the state was saved by another session");
+  session_->restore(saved.checkpoint);
+  formed_ = saved.formed;
+  as_drawn_ = saved.as_drawn;
   return {};
 }
 

@@ -31,10 +31,10 @@ struct Done {
 };
 
 /// A saved state of a shell, to return to.
-struct Kept {
+struct Saved {
   std::shared_ptr<const Scene> scene;
   Checkpoint checkpoint;
-  bool formed = false;
+  bool formed = false, as_drawn = false;
 };
 
 /// A shell that is moved step by step.
@@ -56,9 +56,9 @@ class Shell {
   Result<Done> refine(double tolerance_mm, const Watch& watch);
 
   /// The current state, to return to.
-  Kept save() const;
+  Saved save() const;
   /// Returns to a saved state. Errors (bad_input): it is of another shell.
-  Result<void> restore(const Kept& kept);
+  Result<void> restore(const Saved& saved);
 
   const preset::Preset& preset() const { return *preset_; }
   const std::vector<int>& meshes() const { return session_->shell().plan().edges_per_segment; }

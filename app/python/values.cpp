@@ -93,8 +93,9 @@ void add_report(py::module_& module) {
       .def_property_readonly(
           "seconds", [](const Done& of) { return of.report.seconds; }, "Time of the step, s.")
       .def_readonly(
-          "told", &Done::reported,
+          "limit_reason", &Done::reported,
           "For the first actuation: what a run would report as limit_reason; empty: nothing.")
+      .def_readonly("told", &Done::reported, "Earlier name of limit_reason.")
       .def("__repr__", [](const Done& of) {
         return fmt::format("Report({}, {} events, {:.2f} s)",
                            py::str(py::repr(py::cast(of.report.certificate))).cast<std::string>(),

@@ -31,3 +31,9 @@ TEST_CASE("check says how many runs a sweep has, and refuses what it would refus
                 Contains("is no figure of a run") && Contains("height_mm") &&
                     Contains("; there are ") && Contains("energy_mJ"));
 }
+
+TEST_CASE("check writes a time of minutes as minutes and seconds") {
+  const TemporaryFolder at;
+  CHECK_THAT(good("check fig3_hemisphere", at).out,
+             Contains(" min to draw the movie") && !Contains("e+0"));
+}

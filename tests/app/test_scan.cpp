@@ -104,3 +104,24 @@ TEST_CASE("clouds and runs that are none leave a sentence and no folder") {
   CHECK_THAT(gridshell_program("scan a.xyz run --set rod.young_GPa=70", at).err,
              Contains("cannot change once a run is finished"));
 }
+
+TEST_CASE("a tolerance of any size is taken, also for joints that were measured themselves") {
+  const TemporaryFolder at;
+  form("48", "run", at);
+  const auto run = record::read_trajectory(at / "run" / "trajectory.h5");
+  REQUIRE(run);
+  Eigen::Matrix3Xd joints = form_of(run->layout, run->frames.back()).joints;
+  // each is displaced by 0.4 mm, up or down
+  for (Eigen::Index k = 0; k < joints.cols(); ++k) joints(2, k) += k % 2 == 0 ? 0.4 : -0.4;
+  write_cloud(joints, at / "joints.csv");
+  const auto scan = [&](const std::string& tolerance, const std::string& folder) {
+    return gridshell_program({"scan", "joints.csv", "run", "--centres", "--size", "320x240",
+                              "--tolerance", tolerance, "-o", folder},
+                             at);
+  };
+  const auto far = scan("0.05", "far");
+  INFO(far.out << far.err);
+  CHECK(far.code == 3);
+  CHECK_THAT(far.out, Contains("exceeds the tolerance of 0.05 mm") && !Contains("nan"));
+  CHECK(scan("0.5", "near").code == 0);
+}

@@ -213,3 +213,19 @@ TEST_CASE("a sweep's requests that cannot be met are reported") {
   REQUIRE(write_file(folder / "bad.toml", "[sweep.over]\nrod.diameter_mm = []\n"));
   check_refused("sweep bad.toml", folder, Contains("bad.toml:2:") && Contains("rod.diameter_mm"));
 }
+
+TEST_CASE("what an earlier call drew and this one does not request is removed") {
+  const Bench bench(small_preset({}) +
+                    "[sweep]\nplot = [\"energy_mJ\"]\n[sweep.over]\n"
+                    "rod.diameter_mm = {from = 0.1, to = 0.3, count = 4}\n");
+  bench.good("sweep small.toml --quiet");
+  const fs::path folder = bench.at / "out/small";
+  for (const char* name : {"energy_mJ.png", "energy_mJ_law.png", "laws.csv"})
+    REQUIRE(fs::exists(folder / name));
+  bench.good("sweep small.toml --quiet --set sweep.plot=[\"negative_pivots\"]");
+  for (const char* name : {"energy_mJ.png", "energy_mJ_law.png", "laws.csv"}) {
+    INFO(name);
+    CHECK_FALSE(fs::exists(folder / name));
+    CHECK_THAT(text_of(folder / "manifest.txt"), !Contains(name));
+  }
+}

@@ -48,6 +48,24 @@ def test_is_flat_until_it_is_actuated():
     assert session.boundary_radius_mm == pytest.approx(56)
 
 
+def test_errors_name_the_method_and_no_line(formed):
+    with pytest.raises(gs.BadInput) as error:
+        formed.actuate(-1)
+    assert str(error.value).startswith("actuate(): progress: got -1")
+
+
+def test_a_network_that_is_restored_as_drawn_follows_the_same_path():
+    session = gs.Session("network_space")
+    drawn = session.save()
+    first = session.actuate()
+    nodes = session.nodes.copy()
+    session.restore(drawn)
+    again = session.actuate()
+    np.testing.assert_allclose(session.nodes, nodes, rtol=0, atol=1e-9)
+    assert again.limit_reason == again.told == first.limit_reason
+    assert again.newton_iterations == first.newton_iterations
+
+
 def test_a_network_in_space_begins_at_rest_as_it_is_drawn():
     session = gs.Session("network_space")
     assert session.progress == 0 and session.certificate.stable
