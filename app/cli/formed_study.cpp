@@ -151,6 +151,8 @@ std::string sentence_of(const record::LoadRow& row) {
   if (row.imperfections > 0)
     text += fmt::format("; {} that are not perfect: {:.3g} of it ({:.3g} to {:.3g})",
                         row.imperfections, row.knock_down_50, row.knock_down_5, row.knock_down_95);
+  if (row.imperfections_failed > 0)
+    text += fmt::format(", of which {} have no equilibrium", row.imperfections_failed);
   return text;
 }
 
