@@ -148,6 +148,8 @@ std::string sentence_of(const record::LoadRow& row) {
     text += fmt::format(
         "; median of {} imperfect shells: {:.3g} of that factor (5 to 95 %: {:.3g} to {:.3g})",
         row.imperfections, row.knock_down_50, row.knock_down_5, row.knock_down_95);
+  if (row.imperfections_failed > 0)
+    text += fmt::format(", of which {} have no equilibrium", row.imperfections_failed);
   return text;
 }
 

@@ -166,8 +166,9 @@ struct LoadRow {
   double strength_factor = unknown;
   double strength_error = unknown;
   double load_x_N = 0, load_y_N = 0, load_z_N = 0;  ///< sum of the loads at a factor of 1
-  int imperfections = 0;  ///< number of imperfect shells that lost their stability
-  /// quantiles (5, 50, 95 %) of their critical factors over that of the perfect shell
+  int imperfections = 0;                            ///< number of imperfect shells
+  int imperfections_failed = 0;  ///< those without an equilibrium or a path under the case
+  /// quantiles (5, 50, 95 %) of their critical factors (0 if failed) over that of the perfect shell
   double knock_down_5 = unknown, knock_down_50 = unknown, knock_down_95 = unknown;
 };
 template <RecordOf<LoadRow> Row, class Visit>
@@ -176,8 +177,9 @@ void fields(Row& row, const Visit& visit) {
              row.error, "event", row.event, "linear_factor", row.linear_factor, "linear_error",
              row.linear_error, "strength_factor", row.strength_factor, "strength_error",
              row.strength_error, "load_x_N", row.load_x_N, "load_y_N", row.load_y_N, "load_z_N",
-             row.load_z_N, "imperfections", row.imperfections, "knock_down_5", row.knock_down_5,
-             "knock_down_50", row.knock_down_50, "knock_down_95", row.knock_down_95);
+             row.load_z_N, "imperfections", row.imperfections, "imperfections_failed",
+             row.imperfections_failed, "knock_down_5", row.knock_down_5, "knock_down_50",
+             row.knock_down_50, "knock_down_95", row.knock_down_95);
 }
 
 }  // namespace gridshell::record

@@ -75,7 +75,7 @@ bool ArcFollower::corrected(ArcPoint& next, int& iterations, const Watch& watch)
 }
 
 Outcome ArcFollower::step(const Watch& watch) {
-  for (; step_mm_ >= options_.smallest_mm; step_mm_ /= 2) {
+  for (; step_mm_ > 0 && step_mm_ >= options_.smallest_mm; step_mm_ /= 2) {
     ArcPoint next;
     next.point.t = now_.point.t + step_mm_ * turn_t_;
     next.point.state = now_.point.state;

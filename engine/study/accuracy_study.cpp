@@ -17,8 +17,8 @@ using record::AccuracyRow;
 using record::RunOutcome;
 
 /// A method on meshes from coarse to fine; finer meshes than one that is too slow are not run.
-struct Ladder {
-  std::vector<Method> rod_models;
+struct MethodSeries {
+  std::vector<Method> methods;
   double allowed = INFINITY;  // error promised if one mesh gives no estimate
 };
 
@@ -60,18 +60,19 @@ Row row_of(const Method& method, const Measured& measured) {
 }
 
 template <class Make>
-Ladder ladder(Make make, int most_edges) {
-  Ladder ladder;
-  for (int k = 1; k <= most_edges; k *= 2) ladder.rod_models.push_back(make(k));
-  return ladder;
+MethodSeries method_series(Make make, int most_edges) {
+  MethodSeries series;
+  for (int k = 1; k <= most_edges; k *= 2) series.methods.push_back(make(k));
+  return series;
 }
 
 Method bend_method(int edges) { return plan_method("bend", {{edges}, false}); }
 Method twist_method(int edges) { return plan_method("twist", {{edges}, false}, {RodModel::twist}); }
 
 /// The engine's own methods, which take fractions of a second each.
-std::vector<Ladder> own_ladders(const AccuracyOptions& options) {
-  std::vector<Ladder> all{{{net_method()}, 1}, ladder(bend_method, options.most_edges)};
+std::vector<MethodSeries> own_series(const AccuracyOptions& options) {
+  std::vector<MethodSeries> all{{{net_method()}, 1},
+                                method_series(bend_method, options.most_edges)};
   std::vector<int> edges{4};
   while (2 * edges.back() <= options.most_edges) {
     edges.push_back(2 * edges.back());
@@ -82,36 +83,37 @@ std::vector<Ladder> own_ladders(const AccuracyOptions& options) {
 }
 
 /// Methods of other programs and textbooks.
-std::vector<Ladder> other_ladders(const AccuracyOptions& options) {
-  const auto climb_to = [&](int edges, auto make) {
-    return ladder(make, std::min(edges, options.most_edges));
+std::vector<MethodSeries> other_series(const AccuracyOptions& options) {
+  const auto up_to = [&](int edges, auto make) {
+    return method_series(make, std::min(edges, options.most_edges));
   };
   const auto relaxed = [](Relaxation kind) {
     return [kind](int edges) { return relaxed_method(kind, edges); };
   };
-  std::vector<Ladder> all{climb_to(8, relaxed(Relaxation::explicit_damped)),
-                          climb_to(8, relaxed(Relaxation::kinetic)), climb_to(8, textbook_method),
-                          climb_to(8, twist_method),
-                          climb_to(8, relaxed(Relaxation::implicit_euler))};
+  std::vector<MethodSeries> all{up_to(8, relaxed(Relaxation::explicit_damped)),
+                                up_to(8, relaxed(Relaxation::kinetic)), up_to(8, textbook_method),
+                                up_to(8, twist_method),
+                                up_to(8, relaxed(Relaxation::implicit_euler))};
   for (double stiffness : {1.0, 10.0, 100.0})
-    all.push_back(climb_to(4, [stiffness](int edges) {
+    all.push_back(up_to(4, [stiffness](int edges) {
       return plan_method(fmt::format("springs {:g} N/mm", stiffness), {{edges}, false},
                          {RodModel::twist, stiffness});
     }));
   return all;
 }
 
-/// Runs the methods of each sequence from coarse to fine meshes, the sequences on several threads.
-/// Rows are in the order of `ladders`; progress is reported from `from` to `to`.
-Result<std::vector<AccuracyRow>> climb(BenchmarkProblem& study, const std::vector<Ladder>& ladders,
-                                       int threads, const AccuracyOptions& options, Watch& watch,
-                                       double from, double to) {
-  std::vector<std::vector<AccuracyRow>> rows(ladders.size());
-  const auto climb_one = [&](int k) {
-    const Ladder& ladder = ladders[std::size_t(k)];
-    for (const Method& method : ladder.rod_models) {
+/// Runs the methods of each series from coarse to fine meshes, the series on several threads.
+/// Rows are in the order of `series`; progress is reported from `from` to `to`.
+Result<std::vector<AccuracyRow>> run_series(BenchmarkProblem& study,
+                                            const std::vector<MethodSeries>& series, int threads,
+                                            const AccuracyOptions& options, Watch& watch,
+                                            double from, double to) {
+  std::vector<std::vector<AccuracyRow>> rows(series.size());
+  const auto run_one = [&](int k) {
+    const MethodSeries& one = series[std::size_t(k)];
+    for (const Method& method : one.methods) {
       if (watch.cancelled()) return;
-      const Measured measured = measure(study, method, ladder.allowed, options, watch);
+      const Measured measured = measure(study, method, one.allowed, options, watch);
       auto& row = rows[std::size_t(k)].emplace_back(row_of<AccuracyRow>(method, measured));
       if (measured.result.claim == RunOutcome::right) row.error = study.error_of(measured.result.x);
       if (measured.outcome == RunOutcome::too_slow) break;
@@ -122,7 +124,7 @@ Result<std::vector<AccuracyRow>> climb(BenchmarkProblem& study, const std::vecto
     for (const auto& some : rows) all.insert(all.end(), some.begin(), some.end());
     return all;
   };
-  return parallel_for(int(ladders.size()), threads, watch, climb_one, reporting(watch, from, to))
+  return parallel_for(int(series.size()), threads, watch, run_one, reporting(watch, from, to))
       .map(gathered);
 }
 
@@ -137,7 +139,7 @@ double fastest(const std::vector<AccuracyRow>& rows, double error) {
   return best;
 }
 
-std::vector<AutoOutcome> standings_of(const std::vector<AccuracyRow>& rows) {
+std::vector<AutoOutcome> auto_outcomes(const std::vector<AccuracyRow>& rows) {
   std::vector<AutoOutcome> standings;
   for (const AccuracyRow& row : rows)
     if (is_auto(row)) {
@@ -216,12 +218,12 @@ Result<AccuracyStudy> accuracy_study(const preset::Preset& preset, const Accurac
     (void)study.problem(k, watch);  // a method refuses a mesh without a problem
   AccuracyStudy result;
   result.reference_error = study.reference_error();
-  TRY(own, climb(study, own_ladders(options), 1, options, watch, 0.02, 0.05));
+  TRY(own, run_series(study, own_series(options), 1, options, watch, 0.02, 0.05));
   result.rows = std::move(*own);
-  TRY(others, climb(study, other_ladders(options), std::max(1, options.threads), options, watch,
-                    0.05, options.scaling ? 0.75 : 1));
+  TRY(others, run_series(study, other_series(options), std::max(1, options.threads), options, watch,
+                         0.05, options.scaling ? 0.75 : 1));
   result.rows.insert(result.rows.end(), others->begin(), others->end());
-  result.standings = standings_of(result.rows);
+  result.standings = auto_outcomes(result.rows);
   if (options.scaling) result.scaling = scaling_of(preset, options, watch);
   if (watch.cancelled()) return stopped();
   return result;

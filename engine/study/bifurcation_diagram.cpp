@@ -62,8 +62,7 @@ Result<BranchStart> begin_actuation(std::shared_ptr<const Scene> scene, const Le
                                     simulate::flat_shortening));
   if (*from >= 1)
     return invalid(
-        "the boundary moves too little for a path: the rods come less than 0.1 % shorter "
-        "than flat");
+        "the boundary moves too little for a path: it shortens the rods by less than 0.1 %");
   return BranchStart{std::move(*session), *from};
 }
 
@@ -189,6 +188,8 @@ class Diagram {
       if (watch_.cancelled() ||
           follower.leave(crossing.at, side * mode, step, watch_) != Outcome::reached)
         continue;
+      const double t = follower.at().point.t;
+      if (t < course_.from || t > course_.to) return;
       const Eigen::Matrix3Xd& found = follower.at().point.state.x;
       if (distance(found, branches_[parent].points, joints_) < 0.2 * step) continue;
       for (std::size_t k = 0; k < branches_.size(); ++k)
@@ -229,7 +230,7 @@ class Diagram {
     made.all_followed = all_followed_;
     for (std::size_t k = 0; k < branches_.size(); ++k)
       for (const TracedPoint& point : branches_[k].points)
-        if (point.at.t <= course_.to + 1e-12) made.points.push_back(point_of(int(k), point));
+        made.points.push_back(point_of(int(k), point));
     return made;
   }
 

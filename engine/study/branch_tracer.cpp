@@ -48,12 +48,14 @@ class Tracer {
         !bifurcations(before))
       return false;
     const double t = path_.at().point.t;
-    if (t >= options_.to || t <= options_.from) return arrive(t >= options_.to);
+    if (outside(t)) return arrive(t >= options_.to);
     points_.push_back(traced(path_.at()));
     if (std::abs(system_.assembly().largest_strain) > options_.max_strain)
       return end(BranchEvent::locking);
     return path_.at().inertia.negative_pivots <= most_pivots || end(BranchEvent::lost);
   }
+
+  bool outside(double t) const { return t >= options_.to || t <= options_.from; }
 
   bool end(BranchEvent event) {
     if (!watch_.cancelled()) points_.back().event = event;
@@ -68,6 +70,11 @@ class Tracer {
     for (int k = 0; k < 2 * parts; ++k) {
       slow.set_step(step);
       if (slow.step(watch_) != Outcome::reached) return end(BranchEvent::lost);
+      const double t = slow.at().point.t;
+      if (outside(t)) {
+        path_ = slow;
+        return arrive(t >= options_.to);
+      }
       const bool past = slow.turn() * before.turn() < 0;
       points_.push_back(traced(slow.at()));
       if (past) break;
@@ -79,8 +86,8 @@ class Tracer {
     return true;
   }
 
-  /// Locates every change of the number of negative pivots between `before` and the path's point.
-  /// Returns false if the branch met another one.
+  /// Locates every change of the number of negative pivots between `before` and the path's point,
+  /// inside the range. Returns false if the branch met another one.
   bool bifurcations(const ArcFollower& before) {
     constexpr int most = 4;
     ArcFollower low = before;
@@ -102,6 +109,8 @@ class Tracer {
           high = middle;
         }
       }
+      const double t = low.at().point.t;
+      if (t > options_.to || t < options_.from) return true;
       TracedPoint found = traced(low.at(), BranchEvent::bifurcation);
       found.beyond = high.at().inertia.negative_pivots;
       if (met_(found)) found.event = BranchEvent::joins;

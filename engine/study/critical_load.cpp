@@ -160,6 +160,7 @@ CriticalLoad critical_load(Linearisation& system, const PinnedMotion& motion, co
     return found;
   }
   const double rate = rate_of(system, motion, begin, nullptr);
+  if (!(rate > 0)) return found;
   const double ahead = std::isfinite(found.linear) ? found.linear : 1;
   TraceOptions how;
   how.arc.parameter_mm = rate;

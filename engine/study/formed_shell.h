@@ -16,6 +16,21 @@
 
 namespace gridshell::study {
 
+/// Retains the last frame of a run alone.
+class LastFrameSink final : public record::Sink {
+ public:
+  Result<void> begin(record::Layout layout) override {
+    state = {std::move(layout), {}};
+    return {};
+  }
+  Result<void> take(record::Frame frame) override {
+    if (state.frames.empty() || frame.index >= state.frames.back().index)
+      state.frames = {std::move(frame)};
+    return {};
+  }
+  record::Trajectory state;
+};
+
 /// A shell at the end of its preset's path.
 struct FormedShell {
   simulate::EquilibriumPath path;  ///< its simulation is in the last certified state
@@ -80,7 +95,8 @@ double linear_critical_factor(Linearisation& system, const PinnedMotion& motion,
 
 /// Follows the equilibrium `begin` under the loads that `motion` applies, whose factor is its
 /// parameter. A limit point is the top of the parabola through the three points around it;
-/// bifurcations are located by bisection.
+/// bifurcations are located by bisection. Loads that move no node have no path: the event is then
+/// none, and there are no points.
 CriticalLoad critical_load(Linearisation& system, const PinnedMotion& motion, const State& begin,
                            const CriticalOptions& options, const Watch& watch);
 
@@ -105,9 +121,9 @@ struct LoadStudy {
 /// reported. For each case `imperfections` imperfect shells are loaded too, on the coarser of these
 /// meshes. Their shape is displaced by a random mixture of the lowest modes, at most
 /// `loads.imperfection` of the length scale, which dead forces produce (to first order). Errors:
-/// bad_input (no case, or the net model), no_equilibrium, cancelled.
+/// bad_input (no case, a case that moves no joint, or the net model), no_equilibrium, cancelled.
 Result<LoadStudy> load_study(const preset::Preset& preset, int imperfections, Watch& watch);
-/// Load study of a formed shell, whose state does not change.
+/// Load study of a formed shell, whose state does not change, also after an error.
 Result<LoadStudy> load_study(FormedShell& shell, int imperfections, Watch& watch);
 
 }  // namespace gridshell::study

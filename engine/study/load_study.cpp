@@ -154,7 +154,8 @@ double quantile(std::vector<double> values, double fraction) {
 }
 
 /// Writes quantiles of the critical factors of imperfect shells, over `perfect`, that of the
-/// perfect shell on the same mesh, to the row. Shells without a critical factor are left out.
+/// perfect shell on the same mesh, to the row. A shell that stays stable counts with the factor at
+/// which its path ends; one whose path is not found or lost counts with 0.
 Result<void> put_imperfections(Loading& loading, Simulation& simulation, int level, int count,
                                double perfect, record::LoadRow& row, const Watch& watch) {
   constexpr int soft_modes = 6;
@@ -171,7 +172,11 @@ Result<void> put_imperfections(Loading& loading, Simulation& simulation, int lev
   for (int k = 0; k < count && !watch.cancelled(); ++k) {
     const auto found =
         loading.imperfect(level, *soft, scene.imperfection.seed + k, scene.load_imperfection_mm);
-    if (found && std::isfinite(found->factor)) factors.push_back(found->factor / perfect);
+    const bool failed = !found || found->points.empty() || found->event == BranchEvent::lost;
+    row.imperfections_failed += failed;
+    factors.push_back(failed                         ? 0
+                      : std::isfinite(found->factor) ? found->factor / perfect
+                                                     : found->points.back().at.t / perfect);
   }
   row.imperfections = int(factors.size());
   row.knock_down_5 = quantile(factors, 0.05);
@@ -207,9 +212,15 @@ Result<void> put_case(Simulation& simulation, const LoadCase& load, int imperfec
   CriticalLoad found;
   for (int level = first; level <= last; ++level) {
     found = loading.on(level);
+    if (watch.cancelled()) return stopped();
+    if (found.points.empty() && found.event == BranchEvent::none)
+      return invalid(
+          "[[loads.case]] name: \"{}\" moves no joint, expected a load on one that is "
+          "not fixed",
+          load.name);
     if (found.points.empty())
-      return fail(Fault::no_equilibrium,
-                  "case \"" + load.name + "\": the path of its loads could not be begun");
+      return fail(Fault::no_equilibrium, "case \"{}\": no equilibrium at the start of its path",
+                  load.name);
     critical.push_back(found.factor);
     linear.push_back(found.linear);
     events.push_back(found.event);
@@ -265,8 +276,9 @@ Result<LoadStudy> load_study(FormedShell& shell, int imperfections, Watch& watch
   study.summary = shell.summary;
   const Checkpoint formed = simulation.save();
   for (std::size_t k = 0; k < cases.size(); ++k) {
-    TRY_DO(put_case(simulation, cases[k], imperfections, study, watch));
+    const auto ended = put_case(simulation, cases[k], imperfections, study, watch);
     simulation.restore(formed);
+    TRY_DO(ended);
     watch.report(0.5 + 0.5 * double(k + 1) / double(cases.size()));
   }
   return study;

@@ -90,21 +90,6 @@ std::vector<std::vector<Eigen::Matrix3Xd>> lambdas_of(const std::vector<MeshMode
   return of_mode;
 }
 
-/// Retains the last frame alone.
-class LastAlone final : public record::Sink {
- public:
-  Result<void> begin(record::Layout layout) override {
-    state = {std::move(layout), {}};
-    return {};
-  }
-  Result<void> take(record::Frame frame) override {
-    if (state.frames.empty() || frame.index >= state.frames.back().index)
-      state.frames = {std::move(frame)};
-    return {};
-  }
-  record::Trajectory state;
-};
-
 Result<void> check_masses(const Scene& scene) {
   if (std::ranges::none_of(scene.mass_t_per_mm, [](double mass) { return !(mass > 0); })) return {};
   return invalid(
@@ -116,12 +101,11 @@ Result<FormedShell> form(const preset::Preset& preset, const std::shared_ptr<con
                          Watch& watch) {
   if (scene->rod_model == RodModel::net)
     return invalid(
-        "a net that nothing is solved for neither vibrates nor carries: [accuracy] model "
-        "expected another model, or tolerance below 0.05");
+        "[accuracy] model: got \"net\", expected bend or twist (or a tolerance below 0.05)");
   // sampling does not change the path
   preset::Preset once = preset;
   once.movie.frames = 1;
-  LastAlone sink;
+  LastFrameSink sink;
   record::Summary summary;
   TRY(path, simulate::follow(once, scene, false, sink, watch, summary));
   return FormedShell{std::move(*path), std::move(sink.state), std::move(summary)};

@@ -6,6 +6,7 @@
 #include "engine/elastic/model.h"
 #include "engine/solve/newton.h"
 #include "engine/study/benchmark_methods.h"
+#include "engine/study/bifurcation_diagram.h"
 
 namespace gridshell::study {
 namespace {
@@ -93,7 +94,8 @@ RunOutcome claim_of(const BaselineReport& report) {
 double slowest_frequency(const Problem& problem, const Eigen::Matrix3Xd& mass) {
   Linearisation system(problem.model);
   system.at(problem.end, false);
-  Eigen::Matrix3Xd mode = Eigen::Matrix3Xd::Random(3, problem.model.nodes);
+  Eigen::Matrix3Xd mode =
+      generic_vectors(3 * problem.model.nodes, 1).reshaped(3, problem.model.nodes);
   double frequency2 = 0;
   for (int k = 0; k < 30; ++k) {
     mode = mode.cwiseProduct(mass).eval();

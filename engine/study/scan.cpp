@@ -34,8 +34,8 @@ Result<Cells> cells_of(const Eigen::Matrix3Xd& cloud, double size) {
   const double extent = (cloud.rowwise().maxCoeff() - low).maxCoeff();
   if (!(extent / size < most_cells))
     return invalid(
-        "the points reach over {:.3g} mm, joints of {:.3g} mm are not to be found among them",
-        extent, size * cells_a_diameter);
+        "the points extend over {:.3g} mm, too far for joints of {:.3g} mm: check --unit", extent,
+        size * cells_a_diameter);
   Cells cells;
   std::vector<Cell> own;
   for (const auto& p : cloud.colwise()) {
@@ -142,17 +142,24 @@ constexpr double same_place = 1e-3;  // times d: tolerance of a mirror image
 constexpr double reach = 0.4;        // times d: largest distance of a measured joint
 constexpr double least_found_within = 0.9, least_within = 0.6;
 
-/// Tangent at the middle of three points of a quadratic through them, a unit vector.
-Eigen::Vector3d tangent_at(const Eigen::Vector3d& before, const Eigen::Vector3d& at,
-                           const Eigen::Vector3d& after) {
-  const Eigen::Vector3d a = at - before, b = after - at;
+/// Tangent of a rod at its k-th node, a unit vector: inside that of a quadratic through three
+/// nodes.
+Eigen::Vector3d tangent_at(const std::vector<int>& rod, std::size_t k,
+                           const Eigen::Matrix3Xd& nodes) {
+  const std::size_t last = rod.size() - 1, from = k > 0 ? k - 1 : 0, to = std::min(k + 1, last);
+  if (k == 0 || k == last) return (nodes.col(rod[to]) - nodes.col(rod[from])).normalized();
+  const Eigen::Vector3d a = nodes.col(rod[k]) - nodes.col(rod[from]),
+                        b = nodes.col(rod[to]) - nodes.col(rod[k]);
   return (a.normalized() * b.norm() + b.normalized() * a.norm()).normalized();
 }
 
 /// Whether a rod runs along u; empty if the run does not determine it.
 std::optional<bool> runs_along_u(const record::Layout& layout, std::size_t rod,
                                  const std::vector<int>& joint_of) {
-  if (!layout.families.empty()) return layout.families[rod] == "u";
+  if (!layout.families.empty()) {
+    const std::string& family = layout.families[rod];
+    return family == "u" || family == "v" ? std::optional(family == "u") : std::nullopt;
+  }
   std::optional<int> first;
   for (const int node : layout.rods[rod]) {
     const int joint = joint_of[std::size_t(node)];
@@ -265,17 +272,17 @@ ScanTarget form_of(const record::Layout& layout, const record::Frame& frame) {
   for (std::size_t k = 0; k < layout.above.size(); ++k)
     joint_of[std::size_t(layout.above[k])] = int(k);
   Eigen::Matrix3Xd u = Eigen::Matrix3Xd::Zero(3, joints), v = u;
+  std::vector<char> of_grid(std::size_t(joints), 1);
   for (std::size_t r = 0; r < layout.rods.size(); ++r) {
     const auto& rod = layout.rods[r];
     const auto along_u = runs_along_u(layout, r, joint_of);
-    for (std::size_t k = 1; k + 1 < rod.size(); ++k) {
+    for (std::size_t k = 0; k < rod.size(); ++k) {
       const int joint = joint_of[std::size_t(rod[k])];
       if (joint < 0) continue;
-      const Eigen::Vector3d t = tangent_at(frame.nodes.col(rod[k - 1]), frame.nodes.col(rod[k]),
-                                           frame.nodes.col(rod[k + 1]));
+      of_grid[std::size_t(joint)] &= along_u.has_value();
       // a rod of unknown direction is of the family that the joint has no tangent of yet
       const bool to_u = along_u ? *along_u : u.col(joint).isZero(0);
-      (to_u ? u : v).col(joint) = t;
+      (to_u ? u : v).col(joint) = tangent_at(rod, k, frame.nodes);
     }
   }
   ScanTarget form;
@@ -285,6 +292,8 @@ ScanTarget form_of(const record::Layout& layout, const record::Frame& frame) {
   for (Eigen::Index k = 0; k < joints; ++k) {
     form.joints.col(k) = frame.nodes.col(layout.joints[std::size_t(k)].node);
     form.normals.col(k) = Eigen::Vector3d(u.col(k)).cross(Eigen::Vector3d(v.col(k))).normalized();
+    // only the two families of a grid have an order, which gives the normal its side
+    if (!of_grid[std::size_t(k)] && form.normals(2, k) < 0) form.normals.col(k) *= -1;
   }
   form.mirror = mirror_of(layout, frame);
   return form;

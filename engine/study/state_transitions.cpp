@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <set>
@@ -199,6 +200,8 @@ Result<std::vector<record::Transition>> transitions_between(
   const auto follow = [&](Explorer& explorer, int k) {
     const ShellState& from = states[std::size_t(k / paths)];
     const int path = k % paths;
+    // the range of a state whose equilibrium was not found again is unknown
+    if (path == 0 && !std::isfinite(from.row.lives_to)) return;
     StateSearcher& hand = explorer.hand;
     const auto rest = path == 0
                           ? hand.release_boundary(from.rest, beyond * from.row.lives_to, watch)

@@ -12,6 +12,7 @@
 #include "engine/record/phase_diagram.h"
 #include "engine/record/summary.h"
 #include "engine/simulate/run.h"
+#include "engine/study/formed_shell.h"
 #include "engine/study/state_library.h"
 
 namespace gridshell::study {
@@ -21,23 +22,6 @@ using namespace simulate;
 namespace {
 
 constexpr int samples = 41;  // of a path from the flat
-
-/// Keeps the last frame alone.
-class LastFrameSink final : public record::Sink {
- public:
-  Result<void> begin(record::Layout) override {
-    last_ = {};
-    return {};
-  }
-  Result<void> take(record::Frame frame) override {
-    if (frame.index >= last_.index) last_ = record::without_nodes(frame);
-    return {};
-  }
-  const record::Frame& last() const { return last_; }
-
- private:
-  record::Frame last_;
-};
 
 record::Figure known(double value) {
   if (std::isfinite(value)) return value;
@@ -121,7 +105,8 @@ Result<record::Figures> figures_of(const preset::Preset& requested, Watch& watch
   LastFrameSink sink;
   TRY(summary, run(preset, scene, end_alone, sink, watch));
   auto figures = record::figures_of(*summary);
-  append(figures, more_of(scene.get(), sink.last()));
+  const record::FrameList& frames = sink.state.frames;
+  append(figures, more_of(scene.get(), frames.empty() ? record::Frame{} : frames.back()));
   append(figures, legs_of(&preset));
   return figures;
 }

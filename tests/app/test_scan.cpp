@@ -98,7 +98,7 @@ TEST_CASE("clouds and runs that are none leave a sentence and no folder") {
   CHECK_THAT(refused("a.xyz", "1 2 nan\n"), Contains("a.xyz:1: got 'nan', which is no number"));
   CHECK_THAT(refused("a.obj", "1 2 3\n"), Contains("a name that ends in"));
   CHECK_THAT(refused("a.xyz", "1 2 3\n9 5 6\n"), Contains("no given shell has its joints there"));
-  CHECK_THAT(refused("a.xyz", "1 2 3\n1e9 5 6\n"), Contains("the points reach over 1e+09 mm"));
+  CHECK_THAT(refused("a.xyz", "1 2 3\n1e9 5 6\n"), Contains("the points extend over 1e+09 mm"));
   CHECK_THAT(gridshell_program("scan none.xyz run", at).err, Contains("none.xyz"));
   CHECK_THAT(gridshell_program("scan a.xyz .", at).err, Contains("is no run"));
   CHECK_THAT(gridshell_program("scan a.xyz run --set rod.young_GPa=70", at).err,

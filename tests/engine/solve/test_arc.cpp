@@ -76,3 +76,13 @@ TEST_CASE("by arc length an arch is followed over the limit of its load and back
   CHECK(rest.x(2, 0) < 0);
   CHECK_FALSE(system.at(rest, false).positive_definite());
 }
+
+TEST_CASE("a step without length is lost, not endless") {
+  const Model model = build_model(crossing_rods(2), circular_section(0.254, 83)).value();
+  Linearisation system(model);
+  const State arch = crossing_arch(model);
+  const PinnedMotion motion{arch.x, Eigen::Matrix3Xd::Zero(3, model.nodes), PathLaw::even};
+  ArcFollower path(system, motion, {.step_mm = 0, .smallest_mm = 0});
+  REQUIRE(path.start(0, arch) == Outcome::reached);
+  CHECK(path.step() == Outcome::lost);
+}

@@ -1,6 +1,7 @@
 // The study of speed and accuracy on a small shell: its methods agree, and its errors fall.
 #include "engine/study/method_studies.h"
 
+#include <cstdlib>
 #include <set>
 
 #include "engine/core/team.h"
@@ -87,4 +88,16 @@ TEST_CASE("a study of what has no path to compare with is refused with the reaso
   const auto preset = paper_circle(4, 0.99);
   CHECK(refusal(BenchmarkProblem::create(preset, 16, watch)) ==
         "the boundary shortens the rods by less than 2 %: too little for a study");
+}
+
+TEST_CASE("a relaxation does not depend on the random numbers of its process") {
+  Watch watch;
+  auto made = value_of(BenchmarkProblem::create(paper_circle(4, 0.85), 16, watch));
+  std::srand(5);
+  const int first = std::rand();
+  std::srand(5);
+  const TimeLimit limit(0.02, watch);
+  (void)relax(*made->problem(1, watch).value(), {.kind = Relaxation::explicit_damped},
+              limit.watch());
+  CHECK(std::rand() == first);
 }

@@ -13,11 +13,10 @@ namespace {
 constexpr double L = 1000, EA = 1e4, rise = 2, gyration = rise / 3.5;
 constexpr double EI = EA * gyration * gyration, k = M_PI / L;
 
-CriticalLoad loaded(Model model, const State& begin) {
+CriticalLoad loaded(Model model, const State& begin, CriticalOptions options = {}) {
   finish(model);
   Linearisation system(model);
   const PinnedMotion motion{begin.x, Eigen::Matrix3Xd::Zero(3, begin.x.cols()), PathLaw::even};
-  CriticalOptions options;
   options.max_strain = 1e-2;
   return critical_load(system, motion, begin, options, unwatched);
 }
@@ -47,7 +46,7 @@ CriticalLoad shallow_arch(int edges) {
 }
 
 /// Euler's column, whose load at a factor of 1 is its critical one.
-CriticalLoad column(int edges) {
+CriticalLoad column(int edges, const CriticalOptions& options = {}) {
   constexpr double stiff = 1e7;
   const SingleRod single(edges, L, {stiff, EI, EI, EI, {0, 0}, 0}, RodEnd::pinned, RodEnd::free);
   Model model = single.model();
@@ -55,7 +54,7 @@ CriticalLoad column(int edges) {
   for (int node = 0; node <= edges; ++node) model.hold(node, 1);
   model.loads.push_back({edges, {-EI * k * k, 0, 0}});
   finish(model);
-  return loaded(model, start_state(model, single.line()));
+  return loaded(model, start_state(model, single.line()), options);
 }
 
 /// A rod that buckled to a half wave of amplitude a between its hinges, under a half wave of load.
@@ -274,4 +273,43 @@ TEST_CASE("a shell that has no case to carry is refused by the key") {
   p.load_case.clear();
   Watch watch;
   CHECK_THAT(refusal(load_study(p, 0, watch), Fault::bad_input), Catch::Contains("[[loads.case]]"));
+}
+
+TEST_CASE("a load case that moves no joint is refused by its name") {
+  preset::Preset p = network(cross(100, 100), 4);
+  p.footprint.file.supports = {{0}, {1}, {2}, {3}};
+  p.load_case = {{.name = "some", .points = {{4, 0, 0, 0, -1e-3}}},
+                 {.name = "nothing", .points = {}}};
+  Watch watch;
+  auto shell = value_of(form_shell(p, watch));
+  Simulation& simulation = shell.path.simulation;
+  CHECK_THAT(refusal(load_study(shell, 0, watch), Fault::bad_input),
+             Catch::Contains("[[loads.case]] name: \"nothing\""));
+  // the shell is as before, also after an error
+  CHECK(simulation.shell().motion().field.change == 0);
+  p.footprint.file.supports.push_back({4});
+  p.load_case = {{.name = "fixed joint", .points = {{4, 0, 0, 0, -1}}}};
+  CHECK_THAT(refusal(load_study(p, 0, watch), Fault::bad_input),
+             Catch::Contains("[[loads.case]] name: \"fixed joint\""));
+}
+
+TEST_CASE("no imperfect shell is left out of the knock-down factors") {
+  preset::Preset p = snowed_on();
+  p.accuracy.edges_per_segment = 2;
+  p.loads.imperfection = 20;
+  const record::LoadRow row = studied(p, 4).cases.at(0);
+  CAPTURE(row.imperfections_failed, row.knock_down_5, row.knock_down_50);
+  CHECK(row.imperfections == 4);
+  // one that stays stable counts with the factor at which its path ends
+  CHECK(row.knock_down_95 * row.critical_factor == Approx(CriticalOptions{}.most_factor));
+}
+
+TEST_CASE("a bifurcation past the end of the range is none") {
+  constexpr double most = 0.9;
+  const CriticalLoad found =
+      column(16, {.most_factor = most, .largest_mm = 0, .steps_to_linear = 1.5});
+  CHECK(found.event == BranchEvent::none);
+  CHECK(std::isnan(found.factor));
+  for (const TracedPoint& point : found.points) CHECK(point.at.t <= most);
+  CHECK(found.points.back().at.t == most);
 }

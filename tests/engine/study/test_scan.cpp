@@ -229,7 +229,7 @@ TEST_CASE("points that no shell of such joints could have are refused") {
   Eigen::Matrix3Xd far(3, 2);
   far << 0, 1e9, 0, 0, 0, 0;
   CHECK(refusal(cluster_joint_tops(far, 3)) ==
-        "the points reach over 1e+09 mm, joints of 3 mm are not to be found among them");
+        "the points extend over 1e+09 mm, too far for joints of 3 mm: check --unit");
 }
 
 namespace {
@@ -283,4 +283,16 @@ TEST_CASE("a mirror image is another shape, and too few points give no pose") {
   CHECK(found.pose.turn.determinant() == Approx(1));
   CHECK_FALSE(register_points(places.leftCols(3), places, {}));
   CHECK_FALSE(register_points(Eigen::Matrix3Xd::Zero(3, 10), places, {}));
+}
+
+TEST_CASE("normals of a network's joints are those of the same grid, upwards") {
+  preset::Preset p = small_shell();
+  p.accuracy.edges_per_segment = 2;
+  auto outcome = run(p);
+  const record::Frame& frame = last_frame(outcome);
+  const ScanTarget grid = form_of(outcome.trajectory.layout, frame);
+  REQUIRE(grid.normals.row(2).minCoeff() > 0);
+  for (std::string& family : outcome.trajectory.layout.families) family = "other";
+  const ScanTarget network = form_of(outcome.trajectory.layout, frame);
+  CHECK((network.normals - grid.normals).norm() < 1e-12);
 }

@@ -148,3 +148,16 @@ TEST_CASE("barriers: passes lie above the states that their two sides lead to") 
   const auto same = value_of(study::barriers_between(again, scene, p.jitter, 2, 0, 1, watch));
   CHECK(record::csv_table(same) == record::csv_table(found));
 }
+
+TEST_CASE("transitions: a state whose range is not known is pushed, but not released") {
+  preset::Preset p = shell(4);
+  p.jitter.trials = 2;
+  p.jitter.transitions = 1;
+  const auto scene = std::make_shared<const Scene>(scene_of(p).value());
+  Watch watch;
+  const auto library =
+      value_of(find_states(scene, p.jitter, {.threads = 1, .lives = false}, watch));
+  REQUIRE(std::isnan(library.states.front().row.lives_to));
+  const auto found = value_of(study::transitions_between(library, scene, p.jitter, 1, 0, 1, watch));
+  for (const record::Transition& one : found) CHECK(one.by == record::Disturbance::pushed);
+}
