@@ -129,7 +129,7 @@ TEST_CASE("nothing to show next to one another is refused, a stopped movie keeps
   CHECK(value_of(read_png(folder / frame_name(2))).width == 480);
   CHECK(renderer.outside == 0);
   watch.cancel();
-  CHECK(beside({{&run, "a"}}, Fault::cancelled) == "stopped");
+  CHECK(beside({{&run, "a"}}, Fault::cancelled) == "stopped after 0 of 3 frames");
 }
 
 TEST_CASE("a worker does its jobs on one thread of its own and says how each ended") {
