@@ -66,3 +66,10 @@ TEST_CASE("a shell of one's own is formed from the form") {
                                          click("@new_fit 0.5 0.5") + click("@new_form 0.5 0.5"));
   CHECK(number(fitted, "boundary_radius_mm") == Approx(0.8 * 86));
 }
+
+TEST_CASE("a window without room for the shell saves a picture, as small as pictures are") {
+  const TemporaryFolder folder;
+  const json after = played(folder, "size 320 240 4\ndo save_picture\n", {"-o", "kept"});
+  INFO(message_of(after));
+  CHECK(fs::exists(folder / "kept/small_1.png"));
+}
